@@ -1,0 +1,80 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace quadloop {
+
+/// A group of ranks that work together; the only place where MPI is called. Every member function but rank() and size() is
+/// *collective* (all ranks enter it, in the same order) unless it says otherwise. Data are trivially copyable values.
+/// There is no floating-point sum: its result would depend on the number of ranks.
+class Communicator {
+ public:
+  explicit Communicator(MPI_Comm to_duplicate);
+  ~Communicator();
+  Communicator(const Communicator&) = delete;
+  Communicator& operator=(const Communicator&) = delete;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool is_root() const { return rank_ == 0; }
+  MPI_Comm raw() const { return comm_; }
+
+  std::int64_t sum(std::int64_t value) const;
+  std::int64_t minimum(std::int64_t value) const;
+  std::int64_t maximum(std::int64_t value) const;
+  double minimum(double value) const;
+  double maximum(double value) const;
+  bool any(bool value) const { return maximum(std::int64_t{value}) != 0; }
+  /// The sum of the values of all lower ranks.
+  std::int64_t exclusive_sum(std::int64_t value) const;
+  void barrier() const;
+
+  /// One value from every rank, in the order of ranks, on every rank.
+  template <class T>
+  std::vector<T> all_gather(const T& value) const;
+
+  /// All ranks' values one after another, on every rank.
+  template <class T>
+  std::vector<T> all_gather_values(std::span<const T> values) const;
+
+  /// The root's values on every rank.
+  template <class T>
+  void broadcast(std::vector<T>& values) const;
+
+  /// `to_rank[r]` goes to rank r; the result's entry r came from rank r.
+  template <class T>
+  std::vector<std::vector<T>> exchange(const std::vector<std::vector<T>>& to_rank) const;
+
+  /// Point to point, not collective: sends to, receives from one rank. Any length.
+  void send_bytes(std::span<const std::byte> bytes, int to) const;
+  std::vector<std::byte> receive_bytes(int from) const;
+
+  /// Runs `local` on every rank; if it throws on any, the lowest such rank's Error is thrown on all.
+  void together(const std::function<void()>& local) const;
+
+ private:
+  std::vector<std::byte> all_gather_bytes(std::span<const std::byte> bytes) const;
+  void broadcast_bytes(std::vector<std::byte>& bytes) const;
+  std::vector<std::vector<std::byte>> exchange_bytes(const std::vector<std::span<const std::byte>>& to_rank) const;
+
+  MPI_Comm comm_ = MPI_COMM_NULL;
+  int rank_ = 0;
+  int size_ = 1;
+};
+
+namespace detail {
+
+template <class T>
+std::vector<T> from_bytes(std::span<const std::byte> bytes);
+
+}  // namespace detail
+
+}  // namespace quadloop
+
+#include "mesher/base/communicator.ipp"

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstring>
+
+namespace quadloop {
+
+namespace detail {
+
+template <class T>
+std::vector<T> from_bytes(std::span<const std::byte> bytes) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<T> values(bytes.size() / sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  return values;
+}
+
+}  // namespace detail
+
+template <class T>
+std::vector<T> Communicator::all_gather(const T& value) const {
+  return all_gather_values(std::span<const T>(&value, 1));
+}
+
+template <class T>
+std::vector<T> Communicator::all_gather_values(std::span<const T> values) const {
+  return detail::from_bytes<T>(all_gather_bytes(std::as_bytes(values)));
+}
+
+template <class T>
+void Communicator::broadcast(std::vector<T>& values) const {
+  const auto view = std::as_bytes(std::span<const T>(values));
+  std::vector<std::byte> bytes(view.begin(), view.end());
+  broadcast_bytes(bytes);
+  values = detail::from_bytes<T>(bytes);
+}
+
+template <class T>
+std::vector<std::vector<T>> Communicator::exchange(const std::vector<std::vector<T>>& to_rank) const {
+  std::vector<std::span<const std::byte>> views;
+  for (const auto& values : to_rank) views.push_back(std::as_bytes(std::span<const T>(values)));
+  std::vector<std::vector<T>> received;
+  for (const auto& bytes : exchange_bytes(views)) received.push_back(detail::from_bytes<T>(bytes));
+  return received;
+}
+
+}  // namespace quadloop

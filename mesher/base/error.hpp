@@ -1,0 +1,50 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace quadloop {
+
+/// How the program ends; the numbers are part of its outer face.
+enum class ExitStatus : int { done = 0, bad_input = 1, wrong_usage = 2, solver_failed = 3, output_failed = 4, fault = 70 };
+
+/// A refusal that reaches the user as one line: where, what is wrong, what to do. Throw one of the derived types.
+class Error : public std::runtime_error {
+ public:
+  Error(ExitStatus status, const std::string& message) : std::runtime_error(message), status_{status} {}
+  ExitStatus status() const { return status_; }
+
+ private:
+  ExitStatus status_;
+};
+
+/// The user's case, geometry or mesh is wrong or cannot be meshed (exit status 1).
+class InputError : public Error {
+ public:
+  explicit InputError(const std::string& message) : Error(ExitStatus::bad_input, message) {}
+};
+
+/// The command line is wrong (exit status 2).
+class UsageError : public Error {
+ public:
+  explicit UsageError(const std::string& message) : Error(ExitStatus::wrong_usage, message) {}
+};
+
+/// An output could not be written (exit status 4).
+class OutputError : public Error {
+ public:
+  explicit OutputError(const std::string& message) : Error(ExitStatus::output_failed, message) {}
+};
+
+/// The program itself is wrong (exit status 70).
+class Fault : public Error {
+ public:
+  explicit Fault(const std::string& message) : Error(ExitStatus::fault, message) {}
+};
+
+/// Throws a Fault with the place where `condition` does not hold. For what only a mistake of ours can break.
+void require(bool condition, const char* message, const char* file, int line);
+
+#define QUADLOOP_REQUIRE(condition, message) ::quadloop::require((condition), (message), __FILE__, __LINE__)
+
+}  // namespace quadloop

@@ -1,0 +1,85 @@
+#include "mesher/geometry/geometry.hpp"
+
+#include <bit>
+#include <numbers>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// FNV-1a over the bytes of what is added.
+class Digest {
+ public:
+  void add(std::uint64_t word) {
+    for (int byte = 0; byte < 8; ++byte) hash_ = (hash_ ^ ((word >> (8 * byte)) & 0xff)) * 0x100000001b3ULL;
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(const std::string& text) {
+    add(static_cast<std::uint64_t>(text.size()));
+    for (const char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
+}  // namespace
+
+Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
+                   std::vector<BoundaryId> segment_boundary)
+    : boundaries_{std::move(boundaries)},
+      points_{std::move(points)},
+      loop_starts_{std::move(loop_starts)},
+      segment_boundary_{std::move(segment_boundary)} {
+  QUADLOOP_REQUIRE(segment_boundary_.size() == points_.size(), "a geometry has one segment for each vertex");
+  loop_of_.resize(points_.size());
+  next_.resize(points_.size());
+  previous_.resize(points_.size());
+  for (std::int32_t loop = 0; loop < loop_count(); ++loop) {
+    const std::int32_t begin = loop_start(loop), end = loop_start(loop + 1);
+    for (std::int32_t v = begin; v < end; ++v) {
+      const auto at = static_cast<std::size_t>(v);
+      loop_of_[at] = loop;
+      next_[at] = v + 1 < end ? v + 1 : begin;
+      previous_[at] = v > begin ? v - 1 : end - 1;
+    }
+  }
+  for (const Point p : points_) box_.include(p);
+  kept_.resize(points_.size());
+  for (std::int32_t v = 0; v < size(); ++v) {
+    const BoundaryId before = boundary_of(previous(v)), after = boundary_of(v);
+    kept_[static_cast<std::size_t>(v)] = before != after || turn_degrees(v) > boundary(after).corner_degrees;
+  }
+}
+
+double Geometry::turn_degrees(std::int32_t v) const {
+  const Point in = point(v) - point(previous(v)), out = point(next(v)) - point(v);
+  return std::abs(std::atan2(cross(in, out), dot(in, out))) * (180 / std::numbers::pi);
+}
+
+double Geometry::spacing_of(std::int32_t segment) const {
+  const double wanted = boundary(boundary_of(segment)).spacing;
+  return wanted > 0 ? wanted : length(point(next(segment)) - point(segment));
+}
+
+std::uint64_t Geometry::digest() const {
+  Digest digest;
+  for (const Boundary& b : boundaries_) {
+    digest.add(b.name);
+    digest.add(b.condition);
+    digest.add(b.spacing);
+    digest.add(b.corner_degrees);
+  }
+  for (const Point p : points_) {
+    digest.add(p.x);
+    digest.add(p.y);
+  }
+  for (const std::int32_t start : loop_starts_) digest.add(static_cast<std::uint64_t>(start));
+  for (const BoundaryId b : segment_boundary_) digest.add(static_cast<std::uint64_t>(b.value()));
+  return digest.value();
+}
+
+}  // namespace quadloop

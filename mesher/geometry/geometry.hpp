@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesher/base/ids.hpp"
+#include "mesher/geometry/point.hpp"
+
+namespace quadloop {
+
+/// One polyline as a file gives it: a closed loop (the first point is not repeated) or an open chain. The domain lies to its left.
+struct Chain {
+  std::string name;
+  bool open = false;
+  std::vector<Point> points;
+  std::string source;  ///< "file:line" of its header, for messages
+};
+
+/// What a boundary asks of the mesh, and what a solver is told of it.
+struct Boundary {
+  std::string name;
+  double spacing = 0;         ///< length wanted along it; 0: the geometry's own point spacing
+  double corner_degrees = 30; ///< a point that turns by more is kept as a node; 180 keeps none
+  std::string condition = "none";  ///< wall | farfield | inflow | outflow | symmetry | interface | none
+};
+
+/// The outline of the domain: simple closed loops that do not meet, each walked with the domain to its left, made of named
+/// boundaries. Replicated on all ranks. Vertex v is where segment v starts; it ends at next(v).
+class Geometry {
+ public:
+  /// `loop_starts` has one entry more than there are loops; loop l owns vertices loop_starts[l] .. loop_starts[l+1]-1.
+  /// `segment_boundary[v]` is the boundary of the segment from vertex v to the next one.
+  Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
+           std::vector<BoundaryId> segment_boundary);
+
+  std::int32_t size() const { return static_cast<std::int32_t>(points_.size()); }  ///< number of vertices, and of segments
+  std::int32_t loop_count() const { return static_cast<std::int32_t>(loop_starts_.size()) - 1; }
+  std::int32_t loop_start(std::int32_t loop) const { return loop_starts_[static_cast<std::size_t>(loop)]; }
+  std::int32_t loop_of(std::int32_t v) const { return loop_of_[static_cast<std::size_t>(v)]; }
+
+  Point point(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
+  std::int32_t next(std::int32_t v) const { return next_[static_cast<std::size_t>(v)]; }
+  std::int32_t previous(std::int32_t v) const { return previous_[static_cast<std::size_t>(v)]; }
+  BoundaryId boundary_of(std::int32_t segment) const { return segment_boundary_[static_cast<std::size_t>(segment)]; }
+
+  std::span<const Boundary> boundaries() const { return boundaries_; }
+  const Boundary& boundary(BoundaryId b) const { return boundaries_[static_cast<std::size_t>(b.value())]; }
+  std::span<const Point> points() const { return points_; }
+  const Box& box() const { return box_; }
+
+  /// Whether the vertex must become a mesh node: it turns by more than its boundary's corner, or two boundaries meet there.
+  bool kept(std::int32_t v) const { return kept_[static_cast<std::size_t>(v)] != 0; }
+  /// By how much the outline turns at the vertex, in degrees, 0 to 180.
+  double turn_degrees(std::int32_t v) const;
+  /// The length that the segment asks of the leaves which hold it: its boundary's spacing, else its own length.
+  double spacing_of(std::int32_t segment) const;
+
+  /// A number that changes with any coordinate, name or setting of the geometry.
+  std::uint64_t digest() const;
+
+ private:
+  std::vector<Boundary> boundaries_;
+  std::vector<Point> points_;
+  std::vector<std::int32_t> loop_starts_, loop_of_, next_, previous_;
+  std::vector<BoundaryId> segment_boundary_;
+  std::vector<char> kept_;
+  Box box_;
+};
+
+}  // namespace quadloop

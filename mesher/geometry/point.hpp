@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace quadloop {
+
+/// A position or a vector in the plane, in the geometry's unit of length.
+struct Point {
+  double x = 0, y = 0;
+
+  friend constexpr bool operator==(const Point&, const Point&) = default;
+  friend constexpr auto operator<=>(const Point&, const Point&) = default;  ///< by x, then by y
+  friend constexpr Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
+  friend constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+  friend constexpr Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
+};
+
+constexpr double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+/// The z component of the vector product; rounded, so nothing of the topology may hang on its sign (see predicates.hpp).
+constexpr double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+inline double length(Point a) { return std::sqrt(dot(a, a)); }
+
+/// A closed rectangle, parallel to the axes. A default-constructed box is empty.
+struct Box {
+  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  constexpr void include(Point p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  constexpr double width() const { return high.x - low.x; }
+  constexpr double height() const { return high.y - low.y; }
+  constexpr Point centre() const { return {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)}; }
+  constexpr bool contains(Point p) const { return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y; }
+  constexpr bool meets(const Box& b) const {
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y;
+  }
+};
+
+}  // namespace quadloop

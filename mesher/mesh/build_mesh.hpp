@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/base/timer.hpp"
+#include "mesher/forest/size_options.hpp"
+#include "mesher/forest/tree_record.hpp"
+#include "mesher/geometry/geometry.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// How a mesh is made from a geometry.
+struct MeshOptions {
+  SizeOptions size;
+  double snap = 0.4;  ///< a lattice corner nearer to a crossing than this share of the local edge moves onto the boundary; 0 <= snap < 0.5
+};
+
+/// What a user is told of a mesh's making. The numbers are over all ranks, the same on each.
+struct MeshReport {
+  std::int64_t leaves = 0, cut_leaves = 0, islands_dropped = 0;
+  int coarsest_level = 0, finest_level = 0;
+  double imbalance = 1;                ///< the heaviest rank's work over the mean, as the partition weighs it
+  std::vector<std::string> warnings;   ///< one line each: what was dropped or coarsened, and where
+  StageTimes times;                    ///< of this rank
+};
+
+struct MeshResult {
+  Mesh mesh;
+  TreeRecord tree;  ///< its digests of case and coordinates are left to the caller
+  MeshReport report;
+};
+
+/// Meshes the domain of `geometry`. *Collective.* Throws InputError where the geometry cannot be meshed with these options.
+MeshResult build_mesh(const Communicator& comm, const Geometry& geometry, const MeshOptions& options);
+
+}  // namespace quadloop

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesher/base/ids.hpp"
+#include "mesher/geometry/point.hpp"
+
+namespace quadloop {
+
+/// The edges of one named boundary on this rank, each walked with the domain to its left.
+struct BoundaryEdges {
+  std::string name;
+  std::string condition;  ///< as Boundary::condition
+  std::vector<std::array<NodeId, 2>> edges;
+};
+
+/// One rank's part of a mesh of triangles and quadrilaterals. Cells are counter-clockwise. Nodes are owned by one rank each and
+/// numbered over all ranks in the order of ranks: this rank's owned nodes come first, in global order, then copies of other
+/// ranks' nodes that its cells touch. The global order of cells is the order of ranks, then the order here. `boundaries` has
+/// the same entries in the same order on every rank (also where this rank has no edge of it).
+struct Mesh {
+  std::vector<Point> points;           ///< owned nodes, then copies
+  std::int64_t first_node = 0;         ///< global number of points[0]
+  std::int32_t owned_nodes = 0;
+  std::vector<GlobalNodeId> copies;    ///< global numbers of points[owned_nodes ...]
+  std::vector<std::array<NodeId, 3>> triangles;
+  std::vector<std::array<NodeId, 4>> quads;
+  std::vector<BoundaryEdges> boundaries;
+
+  const Point& point(NodeId node) const { return points[static_cast<std::size_t>(node.value())]; }
+  GlobalNodeId global(NodeId node) const {
+    return node.value() < owned_nodes ? GlobalNodeId{first_node + node.value()}
+                                      : copies[static_cast<std::size_t>(node.value() - owned_nodes)];
+  }
+};
+
+/// Numbers of nodes and cells over all ranks.
+struct MeshCounts {
+  std::int64_t nodes = 0, triangles = 0, quads = 0, boundary_edges = 0;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,26 @@
+# Every library the program stands on, each as one imported target.
+find_package(MPI REQUIRED COMPONENTS C CXX)
+find_package(Boost REQUIRED)
+find_package(CGAL REQUIRED)
+find_package(Eigen3 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
+pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+find_package(GDAL REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+
+# Debian's p4est and cgns carry neither CMake packages nor pkg-config files.
+function(quadloop_find_library target header library)
+  find_path(${target}_INCLUDE_DIR ${header} REQUIRED)
+  find_library(${target}_LIBRARY ${library} REQUIRED)
+  add_library(${target} UNKNOWN IMPORTED)
+  set_target_properties(${target} PROPERTIES IMPORTED_LOCATION "${${target}_LIBRARY}"
+                        INTERFACE_INCLUDE_DIRECTORIES "${${target}_INCLUDE_DIR}")
+endfunction()
+quadloop_find_library(sc sc.h sc)
+quadloop_find_library(p4est p4est.h p4est)
+target_link_libraries(p4est INTERFACE sc MPI::MPI_C)
+quadloop_find_library(cgns cgnslib.h cgns)
