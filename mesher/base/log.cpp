@@ -1,0 +1,41 @@
+#include "mesher/base/log.hpp"
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+
+namespace quadloop::log {
+
+namespace {
+
+/// The program's one logger, on stderr, without spdlog's registry, so that a library user's own loggers stay apart.
+spdlog::logger& logger() {
+  static const auto instance = [] {
+    auto made = std::make_shared<spdlog::logger>("quadloop", std::make_shared<spdlog::sinks::stderr_sink_st>());
+    made->set_pattern("quadloop: %l: %v");
+    return made;
+  }();
+  return *instance;
+}
+
+}  // namespace
+
+void configure(const Options& options) {
+  const bool names_rank = options.verbose && options.ranks > 1;
+  logger().set_pattern(names_rank ? "quadloop[" + std::to_string(options.rank) + "]: %l: %v" : std::string("quadloop: %l: %v"));
+  if (options.verbose) {
+    logger().set_level(spdlog::level::debug);
+  } else if (options.rank != 0) {
+    logger().set_level(spdlog::level::off);
+  } else {
+    logger().set_level(options.quiet ? spdlog::level::warn : spdlog::level::info);
+  }
+}
+
+// The message is an argument, not the format: a file name may hold braces.
+void warning(const std::string& message) { logger().warn("{}", message); }
+void information(const std::string& message) { logger().info("{}", message); }
+void detail(const std::string& message) { logger().debug("{}", message); }
+
+}  // namespace quadloop::log
