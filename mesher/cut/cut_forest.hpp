@@ -1,0 +1,51 @@
+#pragma once
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/cut/leaf_cells.hpp"
+#include "mesher/forest/leaf_graph.hpp"
+#include "mesher/forest/size_tree.hpp"
+
+namespace quadloop {
+
+/// What the outline makes of this rank's leaves: each lies outside the domain, inside it whole, or is cut.
+struct CutForest {
+  enum class State : char { outside, inside, cut };
+
+  /// The part of the lists below that belongs to one cut leaf.
+  struct Entry {
+    std::int32_t nodes = 0, triangles = 0, quads = 0, outline = 0;  ///< where each begins; it ends where the next entry's begins
+  };
+
+  std::vector<State> states;             ///< of each local leaf
+  std::vector<std::int32_t> entry_of;    ///< of each local leaf; -1 where it is not cut
+  std::vector<Entry> entries;            ///< one more than there are cut leaves
+  std::vector<CutLeaf::Node> nodes;
+  std::vector<LocalTriangle> triangles;  ///< numbers count from the leaf's first node
+  std::vector<LocalQuad> quads;
+  std::vector<CutLeaf::Edge> outline;
+  std::int64_t followed = 0;             ///< cut leaves in which points beside the corners were kept
+
+  template <class T>
+  static std::span<const T> part(const std::vector<T>& all, std::int32_t begin, std::int32_t end) {
+    return std::span(all).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+  }
+};
+
+/// Cuts the local leaves and tells inside from outside. No rank waits for another: an uncut leaf takes its state from a local neighbour, or from an
+/// exact count of crossings. *Collective* only in its refusal: throws InputError on all ranks where boundaries come nearer to each other than
+/// double precision can resolve.
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline, const InsideTest& inside);
+
+/// Whether a leaf of this place needs to be refined to be cut: a whole loop inside it, chords that would cross, or that would stray too far
+/// from the outline.
+class ResolutionTest {
+ public:
+  ResolutionTest(const Lattice& lattice, const ShiftedOutline& outline, const InsideTest& inside) : lattice_{&lattice}, cutter_{outline, inside} {}
+  bool unresolved(const Quadrant& q, std::span<const std::int32_t> segments);
+
+ private:
+  const Lattice* lattice_;
+  LeafCutter cutter_;
+};
+
+}  // namespace quadloop

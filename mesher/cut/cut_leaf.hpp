@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/cut/leaf_trace.hpp"
+#include "mesher/geometry/inside_test.hpp"
+
+namespace quadloop {
+
+/// What is left of a leaf inside the domain: closed loops over nodes on its sides and in its inside.
+struct CutLeaf {
+  /// Where a node sits: 0 to 3 the corners from the lower left one counter-clockwise, 4 to 7 the hanging nodes of the sides,
+  /// 8 to 11 a crossing on a side, 12 a point of the geometry inside.
+  struct Node {
+    Point position;
+    int place = 12;
+    bool on_side() const { return place < 12; }
+  };
+  /// A directed edge with the domain to its left.
+  struct Edge {
+    std::int32_t from = 0, to = 0;
+    std::int32_t segment = -1;  ///< a segment of the outline that it stands for; -1: part of a side of the leaf
+  };
+
+  std::vector<Node> nodes;    ///< round the sides first, counter-clockwise from the lower left corner; then those inside, by position
+  std::vector<Edge> outline;  ///< the chords that stand for the outline, also those that only bound a neighbour's cells
+  std::vector<std::int32_t> loop_nodes;   ///< the loops one after another
+  std::vector<std::int32_t> loop_starts;  ///< one more than there are loops
+  std::int32_t side_nodes = 0;            ///< how many nodes lie on the sides
+  std::uint8_t half_inside = 0;  ///< bit 2s+h: the first (h=0) or second half of side s, counter-clockwise, lies in the domain, where no crossing parts it
+  bool simple = false;           ///< one piece of outline was merged into one chord: convex loops, nothing can be wrong
+  bool refined = false;          ///< more points of the geometry were kept than its corners, to follow it closely enough
+
+  std::size_t loop_count() const { return loop_starts.size() - 1; }
+  std::span<const std::int32_t> loop(std::size_t i) const {
+    return std::span(loop_nodes).subspan(static_cast<std::size_t>(loop_starts[i]), static_cast<std::size_t>(loop_starts[i + 1] - loop_starts[i]));
+  }
+};
+
+/// How closely chords follow the outline inside a leaf.
+enum class Detail {
+  merged,  ///< kept points, and those without which a chord would stray too far (thesis Fig. 3.12)
+  full     ///< every point of the geometry
+};
+
+/// Cuts leaves; keeps its working memory from one to the next.
+class LeafCutter {
+ public:
+  LeafCutter(const ShiftedOutline& outline, const InsideTest& inside) : outline_{&outline}, inside_{&inside} {}
+
+  /// Cuts a leaf that holds these segments and has hanging nodes on the sides of `hanging` (bit s: side s) at `centre`'s coordinates. Returns
+  /// whether the loops are sound: simple, nested as outlines and holes, none overlapping another (always so with full detail, but
+  /// for boundaries that double precision cannot part). The result is valid until the next call.
+  bool cut(const Box& box, Point centre, unsigned hanging, std::span<const std::int32_t> segments, Detail detail);
+
+  const CutLeaf& result() const { return leaf_; }
+  const LeafTrace& trace() const { return trace_; }
+
+ private:
+  struct Stop {
+    int side = 0;
+    double along = 0;  ///< ascending counter-clockwise
+    Point position;
+    int place = 8;
+    std::int32_t crossing = -1;
+  };
+
+  void gather_stops(Point centre, unsigned hanging);
+  void add_stop(int side, Point position, int place, std::int32_t crossing);
+  void name_stops();
+  bool walk_sides(Point centre);
+  bool status_at_start(const std::vector<int>& change, bool& inside) const;
+  void add_chords(Detail detail);
+  void add_chord_run(const Piece& piece, std::span<const std::int32_t> vertices, Detail detail);
+  void keep_strays(std::span<const Point> points, std::size_t from, std::size_t to, std::vector<char>& keep);
+  std::int32_t node_at(Point position);
+  void sort_inner_nodes();
+  bool cancel_opposites();
+
+  const ShiftedOutline* outline_;
+  const InsideTest* inside_;
+  LeafTrace trace_;
+  CutLeaf leaf_;
+  std::vector<Stop> stops_;
+  std::vector<std::int32_t> stop_node_;
+  std::vector<CutLeaf::Edge> edges_;  ///< of the loops: chords and sides
+  double largest_stray_ = 0;
+};
+
+/// Strings the edges into loops, each split where it touches itself. False where they do not close.
+bool trace_loops(std::span<const CutLeaf::Edge> edges, CutLeaf& leaf);
+
+/// Whether no two edges meet but at their ends and the loops are nested as outlines (counter-clockwise) and holes in them. Exact.
+bool loops_are_sound(std::span<const CutLeaf::Edge> edges, const CutLeaf& leaf);
+
+/// +1 for a counter-clockwise simple loop, -1 for a clockwise one. Exact.
+int winding_of(const CutLeaf& leaf, std::span<const std::int32_t> loop);
+
+}  // namespace quadloop

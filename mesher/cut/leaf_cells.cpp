@@ -1,0 +1,92 @@
+#include "mesher/cut/leaf_cells.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Trailing zeros of a lattice coordinate, at most those of a tree's edge: the sides of the root rank alike.
+std::int8_t rank_of(std::int64_t coordinate) {
+  return static_cast<std::int8_t>(coordinate == 0 ? Quadrant::unit_level
+                                                  : std::min(Quadrant::unit_level, std::countr_zero(static_cast<std::uint64_t>(coordinate))));
+}
+
+TieKey key_of_lattice_node(std::int64_t x, std::int64_t y) {
+  const auto [low, high] = std::minmax(rank_of(x), rank_of(y));
+  return {low, high, 0, 0};
+}
+
+bool is_whole(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
+  return loop.size() == 4 && std::all_of(loop.begin(), loop.end(), [&](std::int32_t n) { return leaf.nodes[static_cast<std::size_t>(n)].place < 4; });
+}
+
+using Template = std::array<LocalTriangle, 5>;
+
+/// A hanging node on side s, or on s and s+1: the templates of the bottom side, turned.
+Template turned(const Template& bottom, int s) {
+  Template result = bottom;
+  for (auto& triangle : result) {
+    for (auto& n : triangle) n = n < 4 ? (n + s) % 4 : 4 + (n - 4 + s) % 4;
+  }
+  return result;
+}
+
+constexpr Template one_hanging{{{0, 4, 3}, {4, 1, 2}, {4, 2, 3}, {}, {}}};
+constexpr Template two_hanging{{{0, 4, 3}, {4, 5, 3}, {4, 1, 5}, {5, 2, 3}, {}}};
+
+}  // namespace
+
+void LeafCellMaker::set_keys(const Quadrant& q, const Box& box, const CutLeaf& leaf) {
+  const std::int64_t s = q.size(), half = s / 2;
+  const std::array<std::array<std::int64_t, 2>, 8> offset{{{0, 0}, {s, 0}, {s, s}, {0, s}, {half, 0}, {s, half}, {half, s}, {0, half}}};
+  const std::array<Point, 4> corner{box.low, Point{box.high.x, box.low.y}, box.high, Point{box.low.x, box.high.y}};
+  std::array<TieKey, 8> lattice;
+  for (std::size_t i = 0; i < 8; ++i) lattice[i] = key_of_lattice_node(q.x + offset[i][0], q.y + offset[i][1]);
+  const auto origin = corner[static_cast<std::size_t>(std::max_element(lattice.begin(), lattice.begin() + 4) - lattice.begin())];
+  keys_.clear();
+  for (const CutLeaf::Node& node : leaf.nodes) {
+    TieKey key = node.place < 8 ? lattice[static_cast<std::size_t>(node.place)] : TieKey{};
+    const auto [near, far] = std::minmax(std::abs(node.position.x - origin.x), std::abs(node.position.y - origin.y));
+    key.farther = far;
+    key.nearer = near;
+    keys_.push_back(key);
+  }
+}
+
+bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf, LeafCells& cells) {
+  cells.triangles.clear();
+  cells.quads.clear();
+  points_.clear();
+  for (const CutLeaf::Node& node : leaf.nodes) points_.push_back(node.position);
+  set_keys(q, box, leaf);
+  std::vector<std::span<const std::int32_t>> loops;
+  bool holes = false;
+  for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
+    loops.push_back(leaf.loop(i));
+    holes = holes || winding_of(leaf, leaf.loop(i)) < 0;
+  }
+  if (holes) return triangulator_.triangulate(points_, keys_, loops, cells.triangles);
+  for (const auto& loop : loops) {
+    if (is_whole(leaf, loop)) {
+      cells.quads.push_back({loop[0], loop[1], loop[2], loop[3]});
+    } else if (!triangulator_.triangulate(points_, keys_, std::span(&loop, 1), cells.triangles)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::span<const LocalTriangle> hanging_template(unsigned finer) {
+  static const std::array<Template, 4> one{one_hanging, turned(one_hanging, 1), turned(one_hanging, 2), turned(one_hanging, 3)};
+  static const std::array<Template, 4> two{two_hanging, turned(two_hanging, 1), turned(two_hanging, 2), turned(two_hanging, 3)};
+  if (std::has_single_bit(finer)) return std::span(one[static_cast<std::size_t>(std::countr_zero(finer))]).first(3);
+  const int side = finer == 0b1001 ? 3 : std::countr_zero(finer);
+  QUADLOOP_REQUIRE(finer == 0b1001 || finer == 0b11U << side, "a leaf has hanging nodes on opposite sides");
+  return std::span(two[static_cast<std::size_t>(side)]).first(4);
+}
+
+}  // namespace quadloop

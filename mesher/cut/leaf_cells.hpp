@@ -1,0 +1,35 @@
+#pragma once
+
+#include "mesher/cut/cut_leaf.hpp"
+#include "mesher/cut/triangulate.hpp"
+#include "mesher/forest/lattice.hpp"
+
+namespace quadloop {
+
+using LocalQuad = std::array<std::int32_t, 4>;
+
+/// The cells of one leaf; numbers are places in its list of nodes.
+struct LeafCells {
+  std::vector<LocalTriangle> triangles;
+  std::vector<LocalQuad> quads;
+};
+
+/// Makes the cells of cut leaves: a leaf that is whole stays a quadrilateral, anything else is triangulated.
+class LeafCellMaker {
+ public:
+  /// Replaces `cells`. False where double precision leaves no room for cells of positive area.
+  bool make(const Quadrant& q, const Box& box, const CutLeaf& leaf, LeafCells& cells);
+
+ private:
+  void set_keys(const Quadrant& q, const Box& box, const CutLeaf& leaf);
+
+  Triangulator triangulator_;
+  std::vector<Point> points_;
+  std::vector<TieKey> keys_;
+};
+
+/// The closed templates for an uncut leaf (thesis 3.6.2). Nodes are named as CutLeaf::Node::place: 0 to 3 corners, 4 to 7 hanging nodes.
+/// `finer` has bit s set where side s has a hanging node: none, one, or two on adjacent sides.
+std::span<const LocalTriangle> hanging_template(unsigned finer);
+
+}  // namespace quadloop

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/forest/lattice.hpp"
+
+namespace quadloop {
+
+/// The quadtrees over the root, their leaves distributed over the ranks in the order of the space-filling curve. The only owner
+/// of the p4est structures. Every member function but the plain reads is *collective*.
+class Forest {
+ public:
+  /// A uniform forest of level 1.
+  Forest(const Communicator& comm, const Lattice& lattice);
+  ~Forest();
+  Forest(Forest&&) noexcept;
+  Forest& operator=(Forest&&) = delete;
+
+  /// Splits the leaves for which `split` says so, and then theirs, down to `deepest_level` at most. `split` is asked in the order of
+  /// the curve.
+  void refine(const std::function<bool(const Quadrant&)>& split, int deepest_level);
+  /// Splits once the local leaves whose flag is set (one flag a leaf, in order).
+  void split_marked(const std::vector<char>& marked);
+
+  /// Moves leaves between ranks so that the weights are shared out evenly. `weights`: one for each local leaf, or none for equal ones.
+  void partition(const std::vector<int>& weights = {});
+
+  std::int32_t local_leaves() const;
+  std::int64_t global_leaves() const;
+  /// This rank's leaves in the order of the curve.
+  std::vector<Quadrant> leaves() const;
+
+  /// A leaf of another rank that touches one of this rank's, by an edge or a corner.
+  struct Ghost {
+    Quadrant place;
+    int owner = 0;
+    std::int32_t index = 0;  ///< its number on its owner
+  };
+  /// All of them, in the order of the curve.
+  std::vector<Ghost> ghosts() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,101 @@
+#include "mesher/forest/leaf_graph.hpp"
+
+#include <bit>
+
+namespace quadloop {
+
+LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest) : rank_{comm.rank()} {
+  const std::vector<Forest::Ghost> ghosts = forest.ghosts();
+  std::vector<Quadrant> local = forest.leaves();
+  for (const auto& ghost : ghosts) local_begin_ += ghost.owner < rank_ ? 1 : 0;
+  local_count_ = static_cast<std::int32_t>(local.size());
+  leaves_.reserve(local.size() + ghosts.size());
+  for (const auto& ghost : ghosts) {
+    if (ghost.owner < rank_) leaves_.push_back(ghost.place);
+    ghost_places_.push_back({ghost.owner, ghost.index});
+  }
+  leaves_.insert(leaves_.end(), local.begin(), local.end());
+  for (const auto& ghost : ghosts) {
+    if (ghost.owner > rank_) leaves_.push_back(ghost.place);
+  }
+  build_trees(lattice);
+  around_.resize(leaves_.size());
+  const int nx = lattice.trees_x(), ny = lattice.trees_y();
+  const auto root = [&](int x, int y) { return x < 0 || y < 0 || x >= nx || y >= ny ? none : roots_[static_cast<std::size_t>(y * nx + x)]; };
+  for (int y = 0; y < ny; ++y) {
+    for (int x = 0; x < nx; ++x) {
+      visit(root(x, y), {root(x - 1, y), root(x, y - 1), root(x + 1, y), root(x, y + 1), root(x - 1, y - 1)});
+    }
+  }
+  inner_ = {};
+}
+
+LeafGraph::Place LeafGraph::place_of(std::int32_t leaf) const {
+  if (is_local(leaf)) return {rank_, leaf - local_begin_};
+  return ghost_places_[static_cast<std::size_t>(leaf < local_begin_ ? leaf : leaf - local_count_)];
+}
+
+LeafGraph::Ref LeafGraph::new_inner() {
+  inner_.push_back({none, none, none, none});
+  return static_cast<Ref>(-1 - static_cast<std::int64_t>(inner_.size()));
+}
+
+/// Hangs each leaf into its tree; the path down to the leaf before it saves the way from the root.
+void LeafGraph::build_trees(const Lattice& lattice) {
+  roots_.assign(static_cast<std::size_t>(lattice.trees_x() * lattice.trees_y()), none);
+  inner_.reserve(leaves_.size() / 3 + leaves_.size() / 16 + 64);
+  std::array<Ref, Quadrant::unit_level + 1> path{};
+  std::int64_t last_tree = -1;
+  Quadrant last;
+  for (std::int32_t i = 0; i < size(); ++i) {
+    const Quadrant& q = leaf(i);
+    const std::int64_t tree = (q.y >> Quadrant::unit_level) * lattice.trees_x() + (q.x >> Quadrant::unit_level);
+    int common = 0;  // the level of the deepest inner node on both paths
+    if (tree == last_tree) {
+      const auto differing = static_cast<std::uint64_t>((q.x ^ last.x) | (q.y ^ last.y));
+      common = Quadrant::unit_level - static_cast<int>(std::bit_width(differing));
+    } else {
+      path[0] = roots_[static_cast<std::size_t>(tree)] = new_inner();
+    }
+    for (int level = common; level < q.level; ++level) {
+      const int shift = Quadrant::unit_level - 1 - level;
+      const int k = static_cast<int>((q.x >> shift) & 1) + 2 * static_cast<int>((q.y >> shift) & 1);
+      const Ref below = level + 1 == q.level ? i : new_inner();
+      child(path[static_cast<std::size_t>(level)], k) = below;
+      path[static_cast<std::size_t>(level) + 1] = below;
+    }
+    last = q;
+    last_tree = tree;
+  }
+}
+
+/// Hands each child its neighbours: its siblings, and the children of its parent's neighbours (or those themselves where they are leaves).
+void LeafGraph::visit(Ref ref, const Neighbours& n) {
+  if (ref == none) return;
+  if (!is_inner(ref)) {
+    visit_leaf(ref, n);
+    return;
+  }
+  const Ref sw = down(ref, 0), se = down(ref, 1), nw = down(ref, 2), ne = down(ref, 3);
+  visit(sw, {down(n.west, 1), down(n.south, 2), se, nw, down(n.south_west, 3)});
+  visit(se, {sw, down(n.south, 3), down(n.east, 0), ne, down(n.south, 2)});
+  visit(nw, {down(n.west, 3), sw, ne, down(n.north, 0), down(n.west, 1)});
+  visit(ne, {nw, se, down(n.east, 2), down(n.north, 1), sw});
+}
+
+void LeafGraph::visit_leaf(std::int32_t leaf, const Neighbours& n) {
+  const auto deepest = [&](Ref ref, int k) {
+    while (is_inner(ref)) ref = down(ref, k);
+    return ref;
+  };
+  Around& around = around_[static_cast<std::size_t>(leaf)];
+  around.south_west = deepest(n.south_west, 3);
+  around.south = deepest(n.south, 3);
+  around.west = deepest(n.west, 3);
+  if (is_inner(n.south)) around.south_half = deepest(down(n.south, 2), 3);
+  if (is_inner(n.west)) around.west_half = deepest(down(n.west, 1), 3);
+  around.finer = static_cast<std::uint8_t>((is_inner(n.south) << bottom) | (is_inner(n.east) << right) | (is_inner(n.north) << top) |
+                                           (is_inner(n.west) << left));
+}
+
+}  // namespace quadloop

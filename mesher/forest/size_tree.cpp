@@ -1,0 +1,153 @@
+#include "mesher/forest/size_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace quadloop {
+
+namespace {
+
+constexpr int slope_bits = 20;
+constexpr double turning_unit = 0x1p-20;  // degrees; integers, so that a sum does not depend on its order
+
+bool meets(const Source& source, const Box& box) {
+  if (const auto* area = std::get_if<Box>(&source.shape)) return area->meets(box);
+  if (const auto* disc = std::get_if<Source::Disc>(&source.shape)) {
+    const Point nearest{std::clamp(disc->centre.x, box.low.x, box.high.x), std::clamp(disc->centre.y, box.low.y, box.high.y)};
+    return length(nearest - disc->centre) <= disc->radius;
+  }
+  const auto& line = std::get<Source::Line>(source.shape);
+  Box extent;
+  extent.include(line.from);
+  extent.include(line.to);
+  if (!extent.meets(box)) return false;
+  const auto side = [&](Point p) { return cross(line.to - line.from, p - line.from); };
+  const double a = side(box.low), b = side({box.high.x, box.low.y}), c = side(box.high), d = side({box.low.x, box.high.y});
+  return std::min({a, b, c, d}) <= 0 && std::max({a, b, c, d}) >= 0;
+}
+
+}  // namespace
+
+SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options, Unresolved unresolved)
+    : outline_{&outline},
+      lattice_{&lattice},
+      options_{&options},
+      unresolved_{std::move(unresolved)},
+      finest_{lattice.finest_level(options.min)},
+      slope_{std::llround((options.gradation - 1) / 2 * static_cast<double>(1 << slope_bits))} {
+  const Geometry& g = outline.geometry();
+  for (std::int32_t s = 0; s < g.size(); ++s) {
+    spacing_.push_back(g.spacing_of(s));
+    turning_.push_back(g.kept(s) ? 0 : std::llround(g.turn_degrees(s) / turning_unit));
+  }
+  for (int ty = 0; ty < lattice.trees_y(); ++ty) {
+    for (int tx = 0; tx < lattice.trees_x(); ++tx) {
+      Node root;
+      root.place = {std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0};
+      root.segments_begin = static_cast<std::int32_t>(segments_.size());
+      const Box box = lattice.box_of(root.place);
+      for (std::int32_t s = 0; s < g.size(); ++s) {
+        if (outline.meets(s, box)) segments_.push_back(s);
+      }
+      root.segments_end = static_cast<std::int32_t>(segments_.size());
+      roots_.push_back(static_cast<std::int32_t>(nodes_.size()));
+      nodes_.push_back(root);
+    }
+  }
+}
+
+std::int32_t SizeTree::root_of(const Quadrant& q) const {
+  const auto tx = q.x >> Quadrant::unit_level, ty = q.y >> Quadrant::unit_level;
+  return roots_[static_cast<std::size_t>(ty * lattice_->trees_x() + tx)];
+}
+
+bool SizeTree::is_split(std::int32_t node) {
+  if (nodes_[static_cast<std::size_t>(node)].children == Node::unknown) grow(node);
+  return nodes_[static_cast<std::size_t>(node)].children >= 0;
+}
+
+void SizeTree::grow(std::int32_t node) {
+  const Node parent = nodes_[static_cast<std::size_t>(node)];
+  if (!wants_split(parent)) {
+    nodes_[static_cast<std::size_t>(node)].children = Node::leaf;
+    return;
+  }
+  nodes_[static_cast<std::size_t>(node)].children = static_cast<std::int32_t>(nodes_.size());
+  for (int k = 0; k < 4; ++k) {
+    Node child;
+    child.place = parent.place.child(k);
+    child.parent = node;
+    child.segments_begin = static_cast<std::int32_t>(segments_.size());
+    const Box box = lattice_->box_of(child.place);
+    for (std::int32_t i = parent.segments_begin; i < parent.segments_end; ++i) {
+      const std::int32_t s = segments_[static_cast<std::size_t>(i)];
+      if (outline_->meets(s, box)) segments_.push_back(s);
+    }
+    child.segments_end = static_cast<std::int32_t>(segments_.size());
+    nodes_.push_back(child);
+  }
+  for (std::int32_t n = node; n >= 0 && nodes_[static_cast<std::size_t>(n)].deepest_split < parent.place.level;
+       n = nodes_[static_cast<std::size_t>(n)].parent) {
+    nodes_[static_cast<std::size_t>(n)].deepest_split = parent.place.level;
+  }
+}
+
+bool SizeTree::wants_split(const Node& node) const {
+  const Quadrant& q = node.place;
+  if (q.level >= finest_) return false;
+  if (q.level < 1) return true;
+  const double size = lattice_->edge(q.level);
+  if (size > options_->max) return true;
+  const Box box = lattice_->box_of(q);
+  for (const Source& source : options_->sources) {
+    if (size > source.spacing && meets(source, box)) return true;
+  }
+  const std::span<const std::int32_t> inside(segments_.data() + node.segments_begin,
+                                             static_cast<std::size_t>(node.segments_end - node.segments_begin));
+  if (inside.empty()) return false;
+  for (const std::int32_t s : inside) {
+    if (size > spacing_[static_cast<std::size_t>(s)]) return true;
+  }
+  return (options_->curvature && turns_too_far(inside, box)) || unresolved_(q, inside);
+}
+
+bool SizeTree::turns_too_far(std::span<const std::int32_t> segments, const Box& box) const {
+  const Geometry& g = outline_->geometry();
+  std::map<BoundaryId, std::int64_t> turned;
+  for (const std::int32_t v : segments) {
+    const bool inside = outline_->beyond_x(v, box.low.x) && !outline_->beyond_x(v, box.high.x) &&
+                        outline_->beyond_y(v, box.low.y) && !outline_->beyond_y(v, box.high.y);
+    if (inside) turned[g.boundary_of(v)] += turning_[static_cast<std::size_t>(v)];
+  }
+  const auto allowed = std::llround(*options_->curvature / turning_unit);
+  return std::any_of(turned.begin(), turned.end(), [&](const auto& entry) { return entry.second > allowed; });
+}
+
+std::int32_t SizeTree::deepest_node_at(const Quadrant& q) {
+  std::int32_t node = root_of(q);
+  while (nodes_[static_cast<std::size_t>(node)].place.level < q.level && is_split(node)) {
+    const Node& at = nodes_[static_cast<std::size_t>(node)];
+    const std::int64_t half = at.place.size() / 2;
+    const int k = (q.x >= at.place.x + half ? 1 : 0) + (q.y >= at.place.y + half ? 2 : 0);
+    node = at.children + k;
+  }
+  return node;
+}
+
+std::span<const std::int32_t> SizeTree::segments_in(const Quadrant& q) {
+  const Node& node = nodes_[static_cast<std::size_t>(deepest_node_at(q))];
+  const std::span<const std::int32_t> inside(segments_.data() + node.segments_begin,
+                                             static_cast<std::size_t>(node.segments_end - node.segments_begin));
+  if (inside.empty() || node.place == q) return inside;
+  found_.clear();
+  const Box box = lattice_->box_of(q);
+  for (const std::int32_t s : inside) {
+    if (outline_->meets(s, box)) found_.push_back(s);
+  }
+  return found_;
+}
+
+int SizeTree::wanted_level(const Quadrant& leaf) { return nodes_[static_cast<std::size_t>(deepest_node_at(leaf))].place.level; }
+
+}  // namespace quadloop

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "mesher/forest/lattice.hpp"
+#include "mesher/forest/size_options.hpp"
+#include "mesher/geometry/shifted_outline.hpp"
+
+namespace quadloop {
+
+/// Which quadrants must be split: those that the case and the geometry inside them ask to (the *wanted* tree), and those that
+/// gradation then forbids to be so large. The answer depends on geometry and options alone, so that every rank can give it for
+/// every quadrant without asking another one. The wanted tree grows as it is asked for, and it is the index of the segments too.
+///
+/// Gradation: a leaf of size h at Chebyshev gap d from a leaf of the wanted tree of size h' has h <= h' + (g-1)/2 d. The result
+/// is the smallest such tree. It follows that two leaves of the final tree which touch differ by at most one level.
+class SizeTree {
+ public:
+  /// Tells whether a leaf of this place, holding these segments, cannot be cut as it is.
+  using Unresolved = std::function<bool(const Quadrant&, std::span<const std::int32_t>)>;
+
+  /// All arguments must outlive the tree.
+  SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options, Unresolved unresolved);
+
+  const Lattice& lattice() const { return *lattice_; }
+  int finest_level() const { return finest_; }
+
+  /// Whether the quadrant must be split. Constant time on average where the quadrants come in the order of the curve.
+  bool must_split(const Quadrant& q);
+  /// The segments that meet the inside of the quadrant, in ascending order; valid until the next call.
+  std::span<const std::int32_t> segments_in(const Quadrant& q);
+  /// The level at which case and geometry alone would have stopped at this leaf's place.
+  int wanted_level(const Quadrant& leaf);
+
+ private:
+  struct Node {
+    Quadrant place;
+    std::int32_t parent = -1;
+    std::int32_t children = unknown;  ///< index of the first of four, or one of the two below
+    std::int32_t segments_begin = 0, segments_end = 0;
+    std::int32_t deepest_split = -1;  ///< level of the deepest split node known at or below this one
+    static constexpr std::int32_t unknown = -2, leaf = -1;
+  };
+  /// One step of the path from the root to the quadrant last asked for.
+  struct Step {
+    Quadrant place;
+    std::vector<std::int32_t> near;  ///< split nodes of half this size that may force a child of it to split
+    bool has_near = false;
+  };
+
+  std::int32_t root_of(const Quadrant& q) const;
+  bool is_split(std::int32_t node);
+  void grow(std::int32_t node);
+  bool wants_split(const Node& node) const;
+  bool turns_too_far(std::span<const std::int32_t> segments, const Box& box) const;
+  std::int32_t deepest_node_at(const Quadrant& q);
+
+  Step& step_above(const Quadrant& q);
+  void fill_near(Step& step, const std::vector<std::int32_t>& parents);
+  bool forced(const Quadrant& q, const std::vector<std::int32_t>& near);
+  bool forced_by(const Quadrant& q, std::int32_t node);
+
+  const ShiftedOutline* outline_;
+  const Lattice* lattice_;
+  const SizeOptions* options_;
+  Unresolved unresolved_;
+  std::vector<double> spacing_;        ///< of each segment
+  std::vector<std::int64_t> turning_;  ///< of each vertex, in 2^-20 degrees, 0 where it is kept as a corner
+  int finest_;
+  std::int64_t slope_;                 ///< (g-1)/2 in units of 2^-20
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> segments_;
+  std::vector<std::int32_t> found_;
+  std::vector<Step> path_;
+  std::vector<std::int32_t> roots_;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,84 @@
+#include "mesher/mesh/build_mesh.hpp"
+
+#include <algorithm>
+
+#include "mesher/base/error.hpp"
+#include "mesher/forest/refine_forest.hpp"
+#include "mesher/mesh/assemble_mesh.hpp"
+#include "mesher/mesh/islands.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// The work of a leaf in the partition's units: a cut leaf takes about this many times an uncut one.
+constexpr int weight_uncut = 1, weight_cut = 16;
+
+std::vector<int> weights_of(const Forest& forest, SizeTree& sizes) {
+  std::vector<int> weights;
+  for (const Quadrant& q : forest.leaves()) weights.push_back(sizes.segments_in(q).empty() ? weight_uncut : weight_cut);
+  return weights;
+}
+
+void report_tree(const Communicator& comm, const LeafGraph& graph, const CutForest& cut, MeshReport& report) {
+  std::int64_t coarsest = Quadrant::unit_level, finest = 0;
+  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+    coarsest = std::min<std::int64_t>(coarsest, graph.leaf(leaf).level);
+    finest = std::max<std::int64_t>(finest, graph.leaf(leaf).level);
+  }
+  const auto leaves = static_cast<std::int64_t>(cut.states.size());
+  const auto cut_leaves = static_cast<std::int64_t>(cut.entries.size()) - 1;
+  report.leaves = comm.sum(leaves);
+  report.cut_leaves = comm.sum(cut_leaves);
+  report.coarsest_level = static_cast<int>(comm.minimum(coarsest));
+  report.finest_level = static_cast<int>(comm.maximum(finest));
+  const std::int64_t work = weight_uncut * leaves + (weight_cut - weight_uncut) * cut_leaves;
+  report.imbalance = static_cast<double>(comm.maximum(work)) * comm.size() / static_cast<double>(comm.sum(work));
+}
+
+void describe_tree(const Communicator& comm, const Geometry& geometry, const Lattice& lattice, const MeshOptions& options, MeshResult& result) {
+  TreeAttributes& a = result.tree.attributes;
+  a.root_x = lattice.box().low.x;
+  a.root_y = lattice.box().low.y;
+  a.tree_edge = lattice.tree_edge();
+  a.trees_x = lattice.trees_x();
+  a.trees_y = lattice.trees_y();
+  a.gradation = options.size.gradation;
+  a.geometry_digest = geometry.digest();
+  a.nodes = comm.sum(result.mesh.owned_nodes);
+  a.triangles = comm.sum(static_cast<std::int64_t>(result.mesh.triangles.size()));
+  a.quads = comm.sum(static_cast<std::int64_t>(result.mesh.quads.size()));
+}
+
+}  // namespace
+
+MeshResult build_mesh(const Communicator& comm, const Geometry& given, const MeshOptions& options) {
+  MeshResult result;
+  StageTimes& times = result.report.times;
+  times.begin("geometry");
+  const Geometry geometry = without_small_islands(given, options.size.min, result.report);
+  const Lattice lattice = choose_root(geometry, options.size.root);
+  const ShiftedOutline outline(geometry);
+  const InsideTest inside(outline);
+  ResolutionTest resolution(lattice, outline, inside);
+  SizeTree sizes(outline, lattice, options.size,
+                 [&](const Quadrant& q, std::span<const std::int32_t> segments) { return resolution.unresolved(q, segments); });
+
+  times.begin("refinement");
+  Forest forest = refine_forest(comm, sizes);
+  forest.partition(weights_of(forest, sizes));
+  const LeafGraph graph(comm, lattice, forest);
+
+  times.begin("cutting");
+  const CutForest cut = cut_forest(comm, graph, sizes, outline, inside);
+
+  times.begin("mesh");
+  assemble_mesh(comm, geometry, sizes, graph, cut, result);
+  times.end();
+
+  report_tree(comm, graph, cut, result.report);
+  describe_tree(comm, geometry, lattice, options, result);
+  return result;
+}
+
+}  // namespace quadloop

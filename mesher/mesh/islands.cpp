@@ -1,0 +1,55 @@
+#include "mesher/mesh/islands.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+Box box_of_loop(const Geometry& g, std::int32_t loop) {
+  Box box;
+  for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) box.include(g.point(v));
+  return box;
+}
+
+Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
+  std::vector<Point> points;
+  std::vector<std::int32_t> starts{0};
+  std::vector<BoundaryId> segment_boundary;
+  for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
+    if (keep[static_cast<std::size_t>(loop)] == 0) continue;
+    for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
+      points.push_back(g.point(v));
+      segment_boundary.push_back(g.boundary_of(v));
+    }
+    starts.push_back(static_cast<std::int32_t>(points.size()));
+  }
+  return {{g.boundaries().begin(), g.boundaries().end()}, std::move(points), std::move(starts), std::move(segment_boundary)};
+}
+
+}  // namespace
+
+Geometry without_small_islands(const Geometry& g, double min, MeshReport& report) {
+  std::vector<char> keep(static_cast<std::size_t>(g.loop_count()), 1);
+  for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
+    const Box box = box_of_loop(g, loop);
+    if (box.width() >= min || box.height() >= min) continue;
+    keep[static_cast<std::size_t>(loop)] = 0;  // loops nested in it are smaller still, so they go by the same rule
+    ++report.islands_dropped;
+    std::ostringstream line;
+    line.precision(12);
+    line << "boundary " << g.boundary(g.boundary_of(g.loop_start(loop))).name << ": a loop near (" << box.centre().x << ", " << box.centre().y
+         << ") is smaller than spacing.min = " << min << " both ways and was dropped";
+    report.warnings.push_back(line.str());
+  }
+  if (report.islands_dropped == 0) return g;
+  if (std::find(keep.begin(), keep.end(), 1) == keep.end()) {
+    throw InputError("every loop of the geometry is smaller than spacing.min; make spacing.min smaller");
+  }
+  return with_loops(g, keep);
+}
+
+}  // namespace quadloop
