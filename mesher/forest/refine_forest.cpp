@@ -1,5 +1,7 @@
 #include "mesher/forest/refine_forest.hpp"
 
+#include <algorithm>
+
 namespace quadloop {
 
 namespace {
@@ -16,24 +18,30 @@ std::vector<char> squeezed_leaves(const LeafGraph& graph) {
   return marked;
 }
 
+std::vector<int> weights_of(const Forest& forest, SizeTree& sizes) {
+  std::vector<int> weights;
+  weights.reserve(static_cast<std::size_t>(forest.local_leaves()));
+  for (const Quadrant& q : forest.leaves()) weights.push_back(sizes.segments_in(q).empty() ? weight_uncut : weight_cut);
+  return weights;
+}
+
 }  // namespace
 
-Forest refine_forest(const Communicator& comm, SizeTree& sizes) {
+LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes) {
   Forest forest(comm, sizes.lattice());
-  const auto split = [&](const Quadrant& q) { return sizes.must_split(q); };
+  const int finest = sizes.finest_level();
   // A few levels at a time, so that no rank makes a branch alone.
-  const int step = comm.size() == 1 ? sizes.finest_level() : levels_between_partitions;
-  for (int level = 1; level < sizes.finest_level(); level += step) {
-    forest.refine(split, std::min(level + step, sizes.finest_level()));
-    forest.partition();
+  const int step = comm.size() == 1 ? finest : levels_between_partitions;
+  for (int level = 1; level < finest; level += step) {
+    forest.refine([&](const Quadrant& q) { return q.level >= level && sizes.must_split(q); }, std::min(level + step, finest));
+    if (comm.size() > 1) forest.partition(level + step >= finest ? weights_of(forest, sizes) : std::vector<int>{});
   }
   while (true) {
-    const std::vector<char> marked = squeezed_leaves(LeafGraph(comm, sizes.lattice(), forest));
-    const bool any = std::find(marked.begin(), marked.end(), 1) != marked.end();
-    if (!comm.any(any)) break;
+    LeafGraph graph(comm, sizes.lattice(), forest);
+    const std::vector<char> marked = squeezed_leaves(graph);
+    if (!comm.any(std::find(marked.begin(), marked.end(), 1) != marked.end())) return graph;
     forest.split_marked(marked);
   }
-  return forest;
 }
 
 }  // namespace quadloop

@@ -124,15 +124,18 @@ bool SizeTree::turns_too_far(std::span<const std::int32_t> segments, const Box& 
   return std::any_of(turned.begin(), turned.end(), [&](const auto& entry) { return entry.second > allowed; });
 }
 
+/// From the node last asked for up to one that holds q, and down again: few steps along the curve.
 std::int32_t SizeTree::deepest_node_at(const Quadrant& q) {
-  std::int32_t node = root_of(q);
+  std::int32_t node = cursor_;
+  while (node >= 0 && !nodes_[static_cast<std::size_t>(node)].place.contains(q)) node = nodes_[static_cast<std::size_t>(node)].parent;
+  if (node < 0) node = root_of(q);
   while (nodes_[static_cast<std::size_t>(node)].place.level < q.level && is_split(node)) {
     const Node& at = nodes_[static_cast<std::size_t>(node)];
     const std::int64_t half = at.place.size() / 2;
     const int k = (q.x >= at.place.x + half ? 1 : 0) + (q.y >= at.place.y + half ? 2 : 0);
     node = at.children + k;
   }
-  return node;
+  return cursor_ = node;
 }
 
 std::span<const std::int32_t> SizeTree::segments_in(const Quadrant& q) {

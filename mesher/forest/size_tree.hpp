@@ -74,6 +74,7 @@ class SizeTree {
   std::vector<Node> nodes_;
   std::vector<std::int32_t> segments_;
   std::vector<std::int32_t> found_;
+  std::int32_t cursor_ = -1;  ///< node last asked for
   std::vector<Step> path_;
   std::vector<std::int32_t> roots_;
 };

@@ -11,15 +11,6 @@ namespace quadloop {
 
 namespace {
 
-/// The work of a leaf in the partition's units: a cut leaf takes about this many times an uncut one.
-constexpr int weight_uncut = 1, weight_cut = 16;
-
-std::vector<int> weights_of(const Forest& forest, SizeTree& sizes) {
-  std::vector<int> weights;
-  for (const Quadrant& q : forest.leaves()) weights.push_back(sizes.segments_in(q).empty() ? weight_uncut : weight_cut);
-  return weights;
-}
-
 void report_tree(const Communicator& comm, const LeafGraph& graph, const CutForest& cut, MeshReport& report) {
   std::int64_t coarsest = Quadrant::unit_level, finest = 0;
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
@@ -65,9 +56,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
                  [&](const Quadrant& q, std::span<const std::int32_t> segments) { return resolution.unresolved(q, segments); });
 
   times.begin("refinement");
-  Forest forest = refine_forest(comm, sizes);
-  forest.partition(weights_of(forest, sizes));
-  const LeafGraph graph(comm, lattice, forest);
+  const LeafGraph graph = refine_forest(comm, sizes);
 
   times.begin("cutting");
   const CutForest cut = cut_forest(comm, graph, sizes, outline, inside);
