@@ -1,0 +1,154 @@
+#include "mesher/geometry/validate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "mesher/base/error.hpp"
+#include "mesher/geometry/meeting_pairs.hpp"
+#include "mesher/geometry/predicates.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Sweeps a line over the plane from left to right (points ordered by x, then y: it leans a little, so that no segment is
+/// parallel to it) and keeps the segments that it crosses in their order along it (Shamos and Hoey 1976). If two segments meet, two
+/// neighbours in that order do. The segment below a loop's first point says what the loop lies in.
+class Sweep {
+ public:
+  explicit Sweep(const FlatOutline& flat)
+      : flat_{flat},
+        status_{Below{this}},
+        place_(flat.points.size()),
+        below_(flat.loop_count(), none),
+        begun_(flat.loop_count()) {}
+
+  /// Whether no two segments meet. Stops at the first sign that some do.
+  bool run() {
+    std::vector<std::int32_t> order(flat_.points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return flat_.point(a) < flat_.point(b); });
+    for (std::size_t i = 0; i < order.size() && !met_; ++i) {
+      if (i > 0 && flat_.point(order[i]) == flat_.point(order[i - 1])) return false;
+      visit(order[i]);
+    }
+    return !met_;
+  }
+
+  /// After a run that found nothing: the place of each loop.
+  std::vector<LoopPlace> places() const;
+
+ private:
+  static constexpr std::int32_t none = -1;
+
+  struct Below {
+    Sweep* sweep;
+    bool operator()(std::int32_t s, std::int32_t t) const { return sweep->is_below(s, t); }
+  };
+  using Status = std::set<std::int32_t, Below>;
+
+  Point left(std::int32_t s) const { return std::min(flat_.point(s), flat_.point(flat_.next(s))); }
+  Point right(std::int32_t s) const { return std::max(flat_.point(s), flat_.point(flat_.next(s))); }
+
+  /// Of two segments that the line crosses at once. Where they turn out to touch, notes it.
+  bool is_below(std::int32_t s, std::int32_t t) {
+    if (s == t) return false;
+    const Point s_left = left(s), t_left = left(t);
+    if (s_left < t_left) return side(s, s_left, t_left) > 0;
+    if (t_left < s_left) return side(t, t_left, s_left) < 0;
+    return side(s, s_left, right(t)) > 0;  // neighbours that begin at one point
+  }
+  int side(std::int32_t s, Point s_left, Point p) {
+    const int turn = orientation(s_left, right(s), p);
+    if (turn == 0) met_ = true;
+    return turn;
+  }
+
+  void visit(std::int32_t v) {
+    const std::int32_t before = flat_.previous(v), after = v;  // a segment has the number of its first point
+    const bool first_ends = flat_.point(before) < flat_.point(v), second_ends = flat_.point(flat_.next(v)) < flat_.point(v);
+    if (first_ends) leave(before);
+    if (second_ends) leave(after);
+    if (!first_ends) enter(before);
+    if (!second_ends) enter(after);
+    if (!begun_[flat_.loop(v)]) note_below(v, before, after);
+  }
+
+  void enter(std::int32_t s) {
+    const auto at = status_.insert(s).first;
+    place_[static_cast<std::size_t>(s)] = at;
+    if (at != status_.begin()) check(*std::prev(at), s);
+    if (std::next(at) != status_.end()) check(s, *std::next(at));
+  }
+
+  void leave(std::int32_t s) {
+    const auto after = status_.erase(place_[static_cast<std::size_t>(s)]);
+    if (after != status_.begin() && after != status_.end()) check(*std::prev(after), *after);
+  }
+
+  void check(std::int32_t s, std::int32_t t) { met_ = met_ || flat_.faulty(s, t); }
+
+  /// At the first point of a loop, where both of its segments were just entered.
+  void note_below(std::int32_t v, std::int32_t s, std::int32_t t) {
+    begun_[flat_.loop(v)] = 1;
+    first_points_.push_back(v);
+    const auto lower = place_[static_cast<std::size_t>(is_below(s, t) ? s : t)];
+    if (lower != status_.begin()) below_[flat_.loop(v)] = *std::prev(lower);
+  }
+
+  const FlatOutline& flat_;
+  Status status_;
+  std::vector<Status::iterator> place_;
+  std::vector<std::int32_t> below_;         ///< by loop: the segment below its first point
+  std::vector<char> begun_;                 ///< by loop
+  std::vector<std::int32_t> first_points_;  ///< of the loops, from left to right
+  bool met_ = false;
+};
+
+std::vector<LoopPlace> Sweep::places() const {
+  std::vector<LoopPlace> places(flat_.loop_count());
+  for (const std::int32_t v : first_points_) {
+    LoopPlace& place = places[flat_.loop(v)];
+    place.counter_clockwise = orientation(flat_.point(flat_.previous(v)), flat_.point(v), flat_.point(flat_.next(v))) > 0;
+    const std::int32_t below = below_[flat_.loop(v)];
+    if (below == none) continue;
+    const LoopPlace& other = places[flat_.loop(below)];  // begun before: its first point lies further left
+    const bool rightwards = flat_.point(below) < flat_.point(flat_.next(below));
+    place.depth = other.depth + (rightwards == other.counter_clockwise ? 1 : 0);
+  }
+  return places;
+}
+
+std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::int32_t s) {
+  const std::int32_t loop_begin = flat.loop_starts[flat.loop(s)];
+  const OutlineLoop& loop = outline.loops[flat.loop(s)];
+  const Point a = flat.point(s), b = flat.point(flat.next(s));
+  const BoundaryId boundary = loop.boundary[static_cast<std::size_t>(s - loop_begin)];
+  return fmt::format("'{}' between ({}, {}) and ({}, {})", outline.names[static_cast<std::size_t>(boundary.value())], a.x, a.y, b.x, b.y);
+}
+
+[[noreturn]] void refuse(const Outline& outline, const FlatOutline& flat) {
+  const MeetingPairs pairs = meeting_pairs(flat);
+  QUADLOOP_REQUIRE(pairs.count > 0, "the sweep found segments that meet, the search did not");
+  const Point at = flat.meeting_point(pairs.first, pairs.second);
+  const std::string others =
+      pairs.count == 1 ? "" : fmt::format(", and {}{} more", pairs.complete ? "" : "at least ", pairs.count - 1);
+  throw InputError(fmt::format("{}: boundary {} meets boundary {} at ({}, {}){}; boundaries must neither cross nor touch: move or remove the points "
+                               "there",
+                               outline.loops[flat.loop(pairs.first)].source, boundary_text(outline, flat, pairs.first),
+                               boundary_text(outline, flat, pairs.second), at.x, at.y, others));
+}
+
+}  // namespace
+
+std::vector<LoopPlace> validate(const Outline& outline) {
+  const FlatOutline flat(outline);
+  Sweep sweep(flat);
+  if (!sweep.run()) refuse(outline, flat);
+  return sweep.places();
+}
+
+}  // namespace quadloop

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesher/geometry/outline.hpp"
+
+namespace quadloop {
+
+/// How one loop lies among the others.
+struct LoopPlace {
+  std::int32_t depth = 0;          ///< number of loops around it
+  bool counter_clockwise = false;  ///< as it is given
+};
+
+/// Checks that no two segments of the outline meet but neighbours at their common point: no crossing, no touching, no spike of
+/// zero width. Exact, O(n log n). Returns how the loops are nested. Throws InputError that names the first pair that
+/// meets, in the order of input, and says how many others there are. Loops have three points or more, none repeated in a row.
+std::vector<LoopPlace> validate(const Outline& outline);
+
+}  // namespace quadloop
