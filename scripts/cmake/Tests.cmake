@@ -1,0 +1,54 @@
+# How tests are registered. `quick` tests make up the core that runs in a few minutes, `full` ones run with everything else.
+include_guard(GLOBAL)
+
+# The environment of every test: the same settings that scripts/mpirun gives its users, for programs that run alone too.
+set(QUADLOOP_TEST_ENVIRONMENT
+    OMPI_ALLOW_RUN_AS_ROOT=1
+    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    OMPI_MCA_rmaps_base_oversubscribe=1
+    OMPI_MCA_btl_base_warn_component_unused=0
+    OMPI_MCA_btl_vader_single_copy_mechanism=none
+    UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+    ASAN_OPTIONS=detect_leaks=0) # Open MPI keeps memory of its own to the end
+set(QUADLOOP_MPIRUN "${PROJECT_SOURCE_DIR}/scripts/mpirun")
+
+# quadloop_label_test(NAME LABEL quick|full TIMEOUT seconds RANKS n): what every ctest of ours carries.
+function(quadloop_label_test name)
+  cmake_parse_arguments(TEST "" "LABEL;TIMEOUT;RANKS" "" ${ARGN})
+  if(NOT TEST_LABEL)
+    set(TEST_LABEL quick)
+  endif()
+  if(NOT TEST_TIMEOUT)
+    set(TEST_TIMEOUT 120)
+  endif()
+  if(NOT TEST_RANKS)
+    set(TEST_RANKS 1)
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABEL}" TIMEOUT ${TEST_TIMEOUT} PROCESSORS ${TEST_RANKS}
+                                          ENVIRONMENT "${QUADLOOP_TEST_ENVIRONMENT}")
+endfunction()
+
+function(quadloop_test_program name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${TEST_SOURCES})
+  target_link_libraries(${name} PRIVATE quadloop_test_support ${TEST_LIBRARIES})
+endfunction()
+
+# quadloop_test(NAME SOURCES ... LIBRARIES ... [LABEL full] [TIMEOUT seconds]): a GoogleTest program on one rank.
+function(quadloop_test name)
+  cmake_parse_arguments(TEST "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  quadloop_test_program(${name} SOURCES ${TEST_SOURCES} LIBRARIES ${TEST_LIBRARIES})
+  add_test(NAME ${name} COMMAND ${name})
+  quadloop_label_test(${name} LABEL "${TEST_LABEL}" TIMEOUT "${TEST_TIMEOUT}")
+endfunction()
+
+# quadloop_mpi_test(NAME RANKS 1 2 3 ... SOURCES ... LIBRARIES ... [LABEL full] [TIMEOUT seconds]): one ctest NAME.RANKS for
+# each number of ranks; the timeout makes a deadlock a failure.
+function(quadloop_mpi_test name)
+  cmake_parse_arguments(TEST "" "LABEL;TIMEOUT" "RANKS;SOURCES;LIBRARIES" ${ARGN})
+  quadloop_test_program(${name} SOURCES ${TEST_SOURCES} LIBRARIES ${TEST_LIBRARIES})
+  foreach(ranks IN LISTS TEST_RANKS)
+    add_test(NAME ${name}.${ranks} COMMAND "${QUADLOOP_MPIRUN}" -n ${ranks} $<TARGET_FILE:${name}>)
+    quadloop_label_test(${name}.${ranks} LABEL "${TEST_LABEL}" TIMEOUT "${TEST_TIMEOUT}" RANKS ${ranks})
+  endforeach()
+endfunction()
