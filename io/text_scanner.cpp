@@ -1,0 +1,120 @@
+#include "io/text_scanner.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::size_t longest_quote = 40;  // of a wrong token, in a message
+
+bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+std::string whole_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) throw InputError(path + ": cannot be read: " + std::strerror(errno));
+  const std::streamoff size = file.tellg();
+  if (size < 0) throw InputError(path + ": cannot be read: not a regular file");
+  std::string text(static_cast<std::size_t>(size), '\0');
+  file.seekg(0);
+  if (!file.read(text.data(), size)) throw InputError(path + ": cannot be read to its end");
+  return text;
+}
+
+/// Fortran writes 1.0D-03; the text is changed in a copy, of this one token.
+std::string with_c_exponent(std::string_view token) {
+  std::string copy(token);
+  for (char& c : copy) {
+    if (c == 'd' || c == 'D') c = 'e';
+  }
+  return copy;
+}
+
+/// from_chars, but values that underflow are taken as the nearest number, as other programs do.
+bool parse_real(std::string_view token, double& value) {
+  if (!token.empty() && token.front() == '+') token.remove_prefix(1);
+  const char* const end = token.data() + token.size();
+  const auto [stopped, error] = std::from_chars(token.data(), end, value);
+  if (stopped != end) return false;
+  if (error == std::errc::result_out_of_range) value = std::strtod(std::string(token).c_str(), nullptr);
+  return error != std::errc::invalid_argument;
+}
+
+}  // namespace
+
+TextScanner::TextScanner(std::string path) : path_{std::move(path)}, text_{whole_file(path_)} {
+  at_ = token_ = comments_begin_ = text_.data();
+  end_ = at_ + text_.size();
+}
+
+void TextScanner::skip() {
+  while (at_ != end_) {
+    if (*at_ == '#') {
+      const void* const line_end = std::memchr(at_, '\n', bytes_left());
+      at_ = line_end == nullptr ? end_ : static_cast<const char*>(line_end);
+    } else if (is_blank(*at_)) {
+      ++at_;
+    } else {
+      return;
+    }
+  }
+}
+
+bool TextScanner::at_end() {
+  skip();
+  return at_ == end_;
+}
+
+std::string_view TextScanner::token(std::string_view expected) {
+  skip();
+  token_ = at_;
+  while (at_ != end_ && !is_blank(*at_)) ++at_;
+  if (token_ == at_) refuse("the file ends where " + std::string(expected) + " should follow");
+  return {token_, static_cast<std::size_t>(at_ - token_)};
+}
+
+std::int64_t TextScanner::integer(std::string_view expected) {
+  const std::string_view text = token(expected);
+  std::int64_t value = 0;
+  const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || stopped != text.data() + text.size()) {
+    refuse("expected " + std::string(expected) + ", found \"" + std::string(text.substr(0, longest_quote)) + "\"");
+  }
+  return value;
+}
+
+double TextScanner::real(std::string_view expected) {
+  const std::string_view text = token(expected);
+  double value = 0;
+  if (!parse_real(text, value) && !parse_real(with_c_exponent(text), value)) {
+    refuse("expected " + std::string(expected) + ", found \"" + std::string(text.substr(0, longest_quote)) + "\"");
+  }
+  if (!std::isfinite(value)) refuse(std::string(expected) + " is not finite: " + std::string(text.substr(0, longest_quote)));
+  return value;
+}
+
+std::string_view TextScanner::last_comment_with(std::string_view text) const {
+  const std::string_view passed(comments_begin_, static_cast<std::size_t>(at_ - comments_begin_));
+  for (std::size_t hash = passed.rfind('#'); hash != std::string_view::npos; hash = passed.rfind('#', hash - 1)) {
+    const std::string_view comment = passed.substr(hash, passed.find_first_of("\r\n", hash) - hash);
+    if (comment.find(text) != std::string_view::npos) return comment;
+    if (hash == 0) break;
+  }
+  return {};
+}
+
+void TextScanner::refuse(const std::string& message) const {
+  const auto line = 1 + std::count(text_.data(), token_, '\n');
+  throw InputError(path_ + ":" + std::to_string(line) + ": " + message);
+}
+
+}  // namespace quadloop

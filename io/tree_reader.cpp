@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <vector>
+
+#include "io/hdf5_handle.hpp"
+#include "io/tree_file.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// One rank's view of a tree file.
+class TreeSource {
+ public:
+  explicit TreeSource(const std::string& path) : path_{path} {
+    file_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    if (!file_.valid()) refuse("cannot be opened, or is no HDF5 file");
+  }
+
+  TreeAttributes attributes() const {
+    if (H5Aexists(file_.id(), "format") <= 0) refuse("is no tree file: it has no attribute \"format\"");
+    std::int32_t version = 0;
+    read_number("format_version", version);
+    if (version != tree_format_version) {
+      refuse("has format version " + std::to_string(version) + "; this program reads version " + std::to_string(tree_format_version));
+    }
+    TreeAttributes result;
+    for_each_attribute(result, [&](const char* name, auto& value) { read_number(name, value); });
+    return result;
+  }
+
+  std::int64_t leaves() const { return rows_of(open("x")); }
+
+  std::vector<LeafRecord> read(std::int64_t begin, std::int64_t end) const {
+    const std::int64_t all = leaves();
+    std::vector<LeafRecord> result(static_cast<std::size_t>(end - begin));
+    for_each_tree_dataset([&](const char* name, const auto& members) {
+      const Hdf5Handle dataset = open(name);
+      if (rows_of(dataset) != all) refuse(std::string("its dataset \"") + name + "\" has another length than \"x\"");
+      if (begin < end) read_column(dataset, name, members, begin, result);
+    });
+    for (const LeafRecord& leaf : result) refuse_impossible(leaf);
+    return result;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(path_ + ": " + what); }
+
+  template <class T>
+  void read_number(const char* name, T& value) const {
+    const Hdf5Handle attribute(H5Aopen(file_.id(), name, H5P_DEFAULT), H5Aclose);
+    if (!attribute.valid() || H5Aread(attribute.id(), memory_type<T>(), &value) < 0) {
+      refuse(std::string("is no tree file, or damaged: it has no number \"") + name + "\"");
+    }
+  }
+
+  Hdf5Handle open(const char* name) const {
+    Hdf5Handle dataset(H5Dopen2(file_.id(), name, H5P_DEFAULT), H5Dclose);
+    if (!dataset.valid()) refuse(std::string("is no tree file, or damaged: it has no dataset \"") + name + "\"");
+    return dataset;
+  }
+
+  static std::int64_t rows_of(const Hdf5Handle& dataset) {
+    const Hdf5Handle space(H5Dget_space(dataset.id()), H5Sclose);
+    std::array<hsize_t, 32> size{};
+    return H5Sget_simple_extent_dims(space.id(), size.data(), nullptr) < 1 ? 0 : static_cast<std::int64_t>(size[0]);
+  }
+
+  template <class T, std::size_t width>
+  void read_column(const Hdf5Handle& dataset, const char* name, const std::array<T LeafRecord::*, width>& members, std::int64_t first,
+                   std::vector<LeafRecord>& leaves) const {
+    std::vector<T> column(leaves.size() * width);
+    const std::array<hsize_t, 2> begin{static_cast<hsize_t>(first), 0}, count{leaves.size(), width};
+    const Hdf5Handle memory(H5Screate_simple(width == 1 ? 1 : 2, count.data(), nullptr), H5Sclose);
+    const Hdf5Handle file(H5Dget_space(dataset.id()), H5Sclose);
+    const bool shaped = H5Sget_simple_extent_ndims(file.id()) == (width == 1 ? 1 : 2) &&
+                        H5Sselect_hyperslab(file.id(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr) >= 0 &&
+                        H5Sselect_valid(file.id()) > 0;
+    if (!shaped || H5Dread(dataset.id(), memory_type<T>(), memory.id(), file.id(), H5P_DEFAULT, column.data()) < 0) {
+      refuse(std::string("its dataset \"") + name + "\" cannot be read; the file is cut short or damaged");
+    }
+    auto value = column.begin();
+    for (LeafRecord& leaf : leaves) {
+      for (const auto member : members) leaf.*member = *value++;
+    }
+  }
+
+  void refuse_impossible(const LeafRecord& leaf) const {
+    const auto on_lattice = [](std::int32_t at) { return at >= 0 && at < tree_lattice_edge; };
+    const bool good = leaf.tree_x >= 0 && leaf.tree_y >= 0 && on_lattice(leaf.x) && on_lattice(leaf.y) && leaf.level >= 0 &&
+                      leaf.level <= deepest_tree_level && leaf.triangles >= 0 && leaf.quads >= 0;
+    if (!good) {
+      refuse("holds an impossible leaf: tree (" + std::to_string(leaf.tree_x) + ", " + std::to_string(leaf.tree_y) + "), corner (" +
+             std::to_string(leaf.x) + ", " + std::to_string(leaf.y) + "), level " + std::to_string(leaf.level));
+    }
+  }
+
+  QuietHdf5 quiet_;
+  std::string path_;
+  Hdf5Handle file_;
+};
+
+}  // namespace
+
+TreeRecord read_tree(const Communicator& comm, const std::string& path) {
+  TreeRecord tree;
+  comm.together([&] {
+    const TreeSource source(path);
+    tree.attributes = source.attributes();
+    const std::int64_t all = source.leaves(), rank = comm.rank(), ranks = comm.size();
+    tree.leaves = source.read(all / ranks * rank + std::min(all % ranks, rank), all / ranks * (rank + 1) + std::min(all % ranks, rank + 1));
+  });
+  return tree;
+}
+
+}  // namespace quadloop
