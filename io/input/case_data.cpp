@@ -1,0 +1,112 @@
+#include "io/input/case_data.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Splits a dotted key; a part may stand in quotes and then hold dots: boundary."a.b".spacing.
+std::vector<std::string> split_key(const std::string& key, const std::string& place) {
+  std::vector<std::string> parts(1);
+  char quote = 0;
+  for (const char c : key) {
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+      else parts.back() += c;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '.') {
+      parts.emplace_back();
+    } else if (c != ' ') {
+      parts.back() += c;
+    }
+  }
+  for (const std::string& part : parts) {
+    if (part.empty() || quote != 0) throw InputError(place + ": '" + key + "' is not a key; write as in spacing.min=0.1");
+  }
+  return parts;
+}
+
+/// The value as TOML, or as the plain text that it is.
+toml::table parse_value(const std::string& text) {
+  try {
+    toml::table parsed = toml::parse("value = " + text + "\n");
+    if (parsed.size() == 1) return parsed;
+  } catch (const toml::parse_error&) {  // a text without quotes: the shell has eaten them, or nobody wrote any
+  }
+  toml::table plain;
+  plain.insert("value", text);
+  return plain;
+}
+
+/// The table or list one step down, made where it is missing.
+toml::node* step_down(toml::node& node, const std::string& part, const std::string& place) {
+  if (toml::array* list = node.as_array()) {
+    std::size_t index = 0;
+    const auto [stop, fault] = std::from_chars(part.data(), part.data() + part.size(), index);
+    if (fault == std::errc{} && stop == part.data() + part.size() && index < list->size()) return list->get(index);
+    throw InputError(fmt::format("{}: '{}' is not a number from 0 to {}, which is what picks one of a list", place, part,
+                                 static_cast<std::int64_t>(list->size()) - 1));
+  }
+  toml::table* table = node.as_table();
+  if (table == nullptr) throw InputError(fmt::format("{}: there is no table to hold '{}'; its parent is a single value", place, part));
+  if (table->get(part) == nullptr) table->insert(part, toml::table{});
+  return table->get(part);
+}
+
+}  // namespace
+
+std::string CaseTable::Data::place(const std::string& path, const toml::node* node) const {
+  for (std::string prefix = path; !prefix.empty();) {
+    const auto found = assigned.find(prefix);
+    if (found != assigned.end()) return "--set " + found->second;
+    const auto dot = prefix.rfind('.');
+    prefix.resize(dot == std::string::npos ? 0 : dot);
+  }
+  const auto below = assigned.lower_bound(path + ".");  // a table that exists through an assignment alone
+  const auto line = node == nullptr ? 0 : node->source().begin.line;
+  if (line == 0 && below != assigned.end() && below->first.starts_with(path + ".")) return "--set " + below->second;
+  return line == 0 ? file : fmt::format("{}:{}", file, line);
+}
+
+void parse_case(CaseTable::Data& data, const std::string& path) {
+  data.file = path;
+  if (std::filesystem::is_directory(path)) throw InputError(path + ": is a folder; name the case file in it");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(fmt::format("{}: cannot be opened ({}); check the name and its folder", path, std::strerror(errno)));
+  std::ostringstream text;
+  text << file.rdbuf();
+  try {
+    data.root = toml::parse(text.str());
+  } catch (const toml::parse_error& error) {
+    std::string what(error.description());
+    for (char& c : what) c = c == '\n' ? ' ' : c;
+    throw InputError(fmt::format("{}:{}: {}; correct this line (column {})", path, error.source().begin.line, what, error.source().begin.column));
+  }
+}
+
+void assign(CaseTable::Data& data, const std::string& assignment) {
+  const std::string place = "--set " + assignment;
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos) throw InputError(place + ": has no '='; write as in spacing.min=0.1");
+  const std::vector<std::string> parts = split_key(assignment.substr(0, equals), place);
+  toml::node* node = &data.root;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) node = step_down(*node, parts[i], place);
+  const toml::table parsed = parse_value(assignment.substr(equals + 1));
+  toml::table* table = node->as_table();
+  if (table == nullptr) throw InputError(fmt::format("{}: there is no table to hold '{}'; its parent is not one", place, parts.back()));
+  parsed.get("value")->visit([&](const auto& value) { table->insert_or_assign(parts.back(), value); });
+  data.assigned[fmt::format("{}", fmt::join(parts, "."))] = assignment;
+}
+
+}  // namespace quadloop

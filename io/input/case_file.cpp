@@ -1,0 +1,209 @@
+#include "io/input/case_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/input/case_data.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+const toml::table& as_table(const void* table) { return *static_cast<const toml::table*>(table); }
+
+/// What the user wrote, in words.
+std::string kind_of(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table: return "a table";
+    case toml::node_type::array: return "a list";
+    case toml::node_type::string: return "a text";
+    case toml::node_type::integer: return "a whole number";
+    case toml::node_type::floating_point: return "a number";
+    case toml::node_type::boolean: return "true or false";
+    default: return "a date or time";
+  }
+}
+
+std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  return std::isfinite(value) && (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+}
+
+std::string Range::text() const {
+  std::string text;
+  if (std::isfinite(low)) text = fmt::format("{} {}", low_open ? "above" : "at least", low);
+  if (std::isfinite(high)) text += fmt::format("{}{} {}", text.empty() ? "" : " and ", high_open ? "below" : "at most", high);
+  return text.empty() ? "finite" : text;
+}
+
+/// Lookups of one table with the refusals that they share.
+class Lookup {
+ public:
+  Lookup(const CaseTable& table, const std::string& key, const Range& range = {}) : table_{table}, key_{key}, range_{range} {}
+
+  double number(const toml::node& node) const {
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value) refuse("a number", node);
+    if (!range_.contains(*value)) table_.refuse(key_, fmt::format("is {}, but must be {}", *value, range_.text()));
+    return *value;
+  }
+  std::string text(const toml::node& node) const {
+    if (!node.is_string()) refuse("a text in quotes", node);
+    return *node.value<std::string>();
+  }
+  const toml::array& list(const toml::node& node, const std::string& of_what) const {
+    if (!node.is_array()) refuse(of_what, node);
+    return *node.as_array();
+  }
+  std::vector<double> numbers(const toml::node& node, std::size_t count) const {
+    const std::string wanted = fmt::format("a list of {} numbers", count);
+    const toml::array& values = list(node, wanted);
+    if (values.size() != count) table_.refuse(key_, fmt::format("is a list of {}, but must be {}", values.size(), wanted));
+    std::vector<double> result;
+    for (const toml::node& value : values) result.push_back(number(value));
+    return result;
+  }
+  [[noreturn]] void refuse(const std::string& wanted, const toml::node& node) const {
+    table_.refuse(key_, fmt::format("must be {}, not {}", wanted, kind_of(node)));
+  }
+
+ private:
+  const CaseTable& table_;
+  const std::string& key_;
+  Range range_;
+};
+
+CaseTable::CaseTable(std::shared_ptr<Data> data, const void* table, std::string path)
+    : data_{std::move(data)}, table_{table}, path_{std::move(path)}, known_{std::make_shared<std::vector<std::string>>()} {}
+
+bool CaseTable::has(const std::string& key) const {
+  if (std::find(known_->begin(), known_->end(), key) == known_->end()) known_->push_back(key);
+  return as_table(table_).contains(key);
+}
+
+std::optional<double> CaseTable::number(const std::string& key, const Range& range) const {
+  if (!has(key)) return std::nullopt;
+  return Lookup(*this, key, range).number(*as_table(table_).get(key));
+}
+
+std::optional<std::string> CaseTable::text(const std::string& key) const {
+  if (!has(key)) return std::nullopt;
+  return Lookup(*this, key).text(*as_table(table_).get(key));
+}
+
+std::optional<std::string> CaseTable::choice(const std::string& key, const std::vector<std::string>& words) const {
+  const auto word = text(key);
+  if (word && std::find(words.begin(), words.end(), *word) == words.end()) {
+    refuse(key, fmt::format("is '{}', but must be one of: {}", *word, join(words)));
+  }
+  return word;
+}
+
+std::optional<std::vector<double>> CaseTable::numbers(const std::string& key, std::size_t count, const Range& range) const {
+  if (!has(key)) return std::nullopt;
+  return Lookup(*this, key, range).numbers(*as_table(table_).get(key), count);
+}
+
+std::vector<std::string> CaseTable::texts(const std::string& key) const {
+  if (!has(key)) return {};
+  const Lookup lookup(*this, key);
+  const toml::node& node = *as_table(table_).get(key);
+  if (node.is_string()) return {lookup.text(node)};
+  std::vector<std::string> result;
+  for (const toml::node& value : lookup.list(node, "a text in quotes or a list of them")) result.push_back(lookup.text(value));
+  return result;
+}
+
+std::vector<double> CaseTable::numbers_or_one(const std::string& key, const Range& range) const {
+  if (!has(key)) return {};
+  const Lookup lookup(*this, key, range);
+  const toml::node& node = *as_table(table_).get(key);
+  if (node.is_number()) return {lookup.number(node)};
+  std::vector<double> result;
+  for (const toml::node& value : lookup.list(node, "a number or a list of them")) result.push_back(lookup.number(value));
+  return result;
+}
+
+std::vector<std::vector<double>> CaseTable::pairs(const std::string& key) const {
+  if (!has(key)) return {};
+  const Lookup lookup(*this, key);
+  const toml::node& node = *as_table(table_).get(key);
+  const toml::array& values = lookup.list(node, "a pair [x, y] or a list of them");
+  if (values.empty() || !values.get(0)->is_array()) return {lookup.numbers(node, 2)};
+  std::vector<std::vector<double>> result;
+  for (const toml::node& value : values) result.push_back(lookup.numbers(value, 2));
+  return result;
+}
+
+std::optional<CaseTable> CaseTable::table(const std::string& key) const {
+  if (!has(key)) return std::nullopt;
+  const toml::node& node = *as_table(table_).get(key);
+  if (!node.is_table()) Lookup(*this, key).refuse("a table [" + full_name(key) + "]", node);
+  return CaseTable(data_, node.as_table(), full_name(key));
+}
+
+std::vector<CaseTable> CaseTable::tables(const std::string& key) const {
+  if (!has(key)) return {};
+  const Lookup lookup(*this, key);
+  std::vector<CaseTable> result;
+  const std::string wanted = "a list of tables, each begun by [[" + full_name(key) + "]]";
+  for (const toml::node& value : lookup.list(*as_table(table_).get(key), wanted)) {
+    if (!value.is_table()) lookup.refuse(wanted, value);
+    result.emplace_back(data_, value.as_table(), fmt::format("{}.{}", full_name(key), result.size()));
+  }
+  return result;
+}
+
+std::vector<std::string> CaseTable::table_names() const {
+  std::vector<std::pair<std::uint64_t, std::string>> by_line;  // toml++ keeps keys in alphabetical order
+  for (const auto& [key, node] : as_table(table_)) {
+    const auto line = node.source().begin.line;
+    by_line.emplace_back(line == 0 ? std::numeric_limits<std::uint64_t>::max() : line, std::string(key.str()));
+  }
+  std::stable_sort(by_line.begin(), by_line.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> names;
+  for (auto& entry : by_line) names.push_back(std::move(entry.second));
+  return names;
+}
+
+void CaseTable::finish() const {
+  const toml::node* first = nullptr;
+  std::string first_key;
+  for (const auto& [key, node] : as_table(table_)) {
+    if (std::find(known_->begin(), known_->end(), key.str()) != known_->end()) continue;
+    if (first != nullptr && first->source().begin.line <= node.source().begin.line) continue;
+    first = &node;
+    first_key = key.str();
+  }
+  if (first == nullptr) return;
+  throw InputError(fmt::format("{}: unknown key '{}'; known here: {}", place(first_key), full_name(first_key), join(*known_)));
+}
+
+std::string CaseTable::place(const std::string& key) const {
+  const toml::node* node = as_table(table_).get(key);
+  return node == nullptr ? place() : data_->place(full_name(key), node);
+}
+
+std::string CaseTable::place() const { return data_->place(path_, &as_table(table_)); }
+
+std::string CaseTable::full_name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+
+void CaseTable::refuse(const std::string& key, const std::string& message) const {
+  throw InputError(fmt::format("{}: '{}' {}", place(key), full_name(key), message));
+}
+
+CaseTable read_case(const std::string& path, const std::vector<std::string>& assignments) {
+  auto data = std::make_shared<CaseTable::Data>();
+  parse_case(*data, path);
+  for (const std::string& assignment : assignments) assign(*data, assignment);
+  const toml::table* root = &data->root;
+  return CaseTable(std::move(data), root, "");
+}
+
+}  // namespace quadloop

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadloop {
+
+/// Which numbers a key may take. Values that are not finite are never in range.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;   ///< low itself is out
+  bool high_open = false;  ///< high itself is out
+
+  static Range positive() { return {0, std::numeric_limits<double>::infinity(), true, false}; }
+  bool contains(double value) const;
+  std::string text() const;
+};
+
+/// One table of a case file. Each lookup makes its key known; finish() then refuses every key that nobody asked for, so that a
+/// mistyped key cannot pass. Refusals are InputErrors that begin with the place: "case.toml:12: " or, for what came from the
+/// command line, "--set spacing.min=x: ". A view: cheap to copy, and it keeps the file's data alive.
+class CaseTable {
+ public:
+  struct Data;  ///< of the whole file; toml++ stays behind it
+  CaseTable(std::shared_ptr<Data> data, const void* table, std::string path);
+
+  bool has(const std::string& key) const;
+  std::optional<double> number(const std::string& key, const Range& range = {}) const;
+  std::optional<std::string> text(const std::string& key) const;
+  /// One of the given words.
+  std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& words) const;
+  std::optional<std::vector<double>> numbers(const std::string& key, std::size_t count, const Range& range = {}) const;
+  /// Both "a" and ["a", "b"] are lists of texts, both 1 and [1, 2] lists of numbers.
+  std::vector<std::string> texts(const std::string& key) const;
+  std::vector<double> numbers_or_one(const std::string& key, const Range& range = {}) const;
+  /// A list of points, [x, y] or [[x, y], ...].
+  std::vector<std::vector<double>> pairs(const std::string& key) const;
+
+  std::optional<CaseTable> table(const std::string& key) const;
+  /// Every [[key]], in the order of the file.
+  std::vector<CaseTable> tables(const std::string& key) const;
+  /// Keys of this table in the order of the file, each a table (all of them count as known).
+  std::vector<std::string> table_names() const;
+
+  /// Refuses the first key of this table that no lookup has asked for. Tables below it check themselves.
+  void finish() const;
+
+  /// Where the key stands (this table, if it is absent), for messages of the caller's own.
+  std::string place(const std::string& key) const;
+  std::string place() const;
+  /// The dotted name of a key.
+  std::string full_name(const std::string& key) const;
+  [[noreturn]] void refuse(const std::string& key, const std::string& message) const;
+
+ private:
+  std::shared_ptr<Data> data_;
+  const void* table_;
+  std::string path_;
+  std::shared_ptr<std::vector<std::string>> known_;
+};
+
+/// Reads a case file (TOML) and lays `assignments` ("spacing.min=0.1", as --set has them) over it, in their order. A value is
+/// TOML, or a plain text where it is not. Throws InputError "file:line: ...". On the calling rank alone.
+CaseTable read_case(const std::string& path, const std::vector<std::string>& assignments = {});
+
+}  // namespace quadloop

@@ -1,0 +1,95 @@
+#include "io/input/line_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == ','; }
+
+std::string read_whole(const std::string& path) {
+  if (std::filesystem::is_directory(path)) throw InputError(path + ": is a folder; name a file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(fmt::format("{}: cannot be opened ({}); check the name and its folder", path, std::strerror(errno)));
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file.bad()) throw InputError(path + ": cannot be read to its end");
+  return std::move(text).str();
+}
+
+/// The number that is the whole word; infinite where it is too large for a double; nothing where it is no number.
+std::optional<double> number_of(std::string_view word) {
+  std::string text(word);
+  for (char& c : text) c = c == 'd' || c == 'D' ? 'e' : c;
+  const char* begin = text.data();
+  const char* end = begin + text.size();
+  if (begin != end && *begin == '+') ++begin;
+  if (begin != end && *begin == '-' && text.front() == '+') return std::nullopt;
+  double value = 0;
+  const auto [stop, fault] = std::from_chars(begin, end, value);
+  if (stop != end || fault == std::errc::invalid_argument) return std::nullopt;
+  if (fault != std::errc::result_out_of_range) return value;
+  return text.find("e-") != std::string::npos ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+LineReader::LineReader(const std::string& path) : path_{path}, text_{read_whole(path)} {}
+
+bool LineReader::next() {
+  while (at_ < text_.size()) {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    row_ = std::string_view(text_).substr(at_, end - at_);
+    at_ = end + 1;
+    ++line_;
+    row_ = row_.substr(0, row_.find('#'));
+    words_.clear();
+    for (std::size_t i = 0; i < row_.size();) {
+      while (i < row_.size() && is_blank(row_[i])) ++i;
+      const std::size_t begin = i;
+      while (i < row_.size() && !is_blank(row_[i])) ++i;
+      if (i > begin) words_.push_back(row_.substr(begin, i - begin));
+    }
+    if (!words_.empty()) return true;
+  }
+  return false;
+}
+
+void LineReader::require_next(const std::string& expected) {
+  if (!next()) refuse(fmt::format("the file ends here, but {} is missing; it may have been cut off", expected));
+}
+
+double LineReader::real(std::size_t word) const {
+  const auto value = number_of(words_[word]);
+  if (!value) refuse(fmt::format("'{}' is not a number", words_[word]));
+  if (!std::isfinite(*value)) refuse(fmt::format("'{}' is not a finite number", words_[word]));
+  return *value;
+}
+
+std::int64_t LineReader::count(std::size_t word, const std::string& of_what) const {
+  const std::string_view text = words_[word];
+  std::int64_t value = 0;
+  const auto [stop, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (fault != std::errc{} || stop != text.data() + text.size() || value < 1) {
+    refuse(fmt::format("'{}' is not a number of {}; it must be a whole number from 1 on", text, of_what));
+  }
+  return value;
+}
+
+bool LineReader::is_number(std::size_t word) const { return number_of(words_[word]).has_value(); }
+
+void LineReader::refuse(const std::string& message) const { throw InputError(place() + ": " + message); }
+
+}  // namespace quadloop

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quadloop {
+
+/// Reads a text file row by row: comments (from a '#' to the end of its line) and blank lines are passed over, CRLF is a line end.
+/// Every refusal is an InputError "file:line: what, what to do".
+class LineReader {
+ public:
+  /// Reads the file whole; InputError where it cannot be read.
+  explicit LineReader(const std::string& path);
+
+  /// Goes to the next row; false at the end of the file.
+  bool next();
+  /// The same, but the file may not end here: `expected` says what is missing.
+  void require_next(const std::string& expected);
+
+  /// The row's words, split at blanks. Valid until the next row is read.
+  const std::vector<std::string_view>& words() const { return words_; }
+  /// The row as it stands, without comment.
+  std::string_view row() const { return row_; }
+  std::string place() const { return path_ + ":" + std::to_string(line_); }
+
+  /// A word of the row as a finite number, with or without a Fortran exponent (1.0D-3), the same in every locale.
+  double real(std::size_t word) const;
+  std::int64_t count(std::size_t word, const std::string& of_what) const;
+  /// Whether the word is a number of any kind.
+  bool is_number(std::size_t word) const;
+
+  [[noreturn]] void refuse(const std::string& message) const;
+
+ private:
+  std::string path_, text_;
+  std::size_t at_ = 0;
+  std::int64_t line_ = 0;
+  std::string_view row_;
+  std::vector<std::string_view> words_;
+};
+
+}  // namespace quadloop
