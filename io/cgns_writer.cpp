@@ -24,6 +24,8 @@ class CgnsSink {
   void begin_zone(std::int64_t nodes, std::int64_t cells) {
     const std::array<cgsize_t, 3> size{static_cast<cgsize_t>(nodes), static_cast<cgsize_t>(cells), 0};
     file_->check(cg_base_write(id(), "Base", 2, 2, &base_));
+    file_->check(cg_goto(id(), base_, "end"));
+    file_->check(cg_dataclass_write(NormalizedByUnknownDimensional));  // the unit of length is the user's own
     file_->check(cg_zone_write(id(), base_, "domain", size.data(), Unstructured, &zone_));
   }
 
@@ -35,7 +37,11 @@ class CgnsSink {
     put_coordinate("CoordinateY", points, &Point::y, first, last);
   }
 
-  void begin_solution() { file_->check(cg_sol_write(id(), base_, zone_, "FlowSolution", Vertex, &solution_)); }
+  void begin_solution() {
+    file_->check(cg_sol_write(id(), base_, zone_, "FlowSolution", Vertex, &solution_));
+    file_->check(cg_goto(id(), base_, "Zone_t", zone_, "FlowSolution_t", solution_, "end"));
+    file_->check(cg_dataclass_write(NondimensionalParameter));
+  }
 
   void put_solution(std::span<const double> rows, const std::vector<std::string>& names) {
     const std::size_t width = names.size(), count = rows.size() / width;
@@ -95,6 +101,14 @@ class CgnsSink {
     for (std::size_t i = 0; i < points.size(); ++i) column_[i] = points[i].*member;
     int coordinate = 0;
     file_->check(cg_coord_partial_write(id(), base_, zone_, RealDouble, name, &first, &last, column_.data(), &coordinate));
+    if (first == 1) put_length_dimension(coordinate);
+  }
+
+  /// Mass, length, time, temperature, angle: the coordinates are lengths.
+  void put_length_dimension(int coordinate) {
+    const std::array<float, 5> exponents{0, 1, 0, 0, 0};
+    file_->check(cg_goto(id(), base_, "Zone_t", zone_, "GridCoordinates_t", 1, "DataArray_t", coordinate, "end"));
+    file_->check(cg_exponents_write(RealSingle, exponents.data()));
   }
 
   std::unique_ptr<File> file_;
