@@ -1,8 +1,10 @@
 #include "mesher/cut/cut_forest.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "mesher/base/error.hpp"
+#include "mesher/cut/opposed_chords.hpp"
 
 namespace quadloop {
 
@@ -10,110 +12,194 @@ namespace {
 
 Point centre_of(const Lattice& lattice, const Quadrant& q) { return lattice.corner(q.x + q.size() / 2, q.y + q.size() / 2); }
 
+/// A corner whose snap is taken back.
+struct Veto {
+  std::int64_t x = 0, y = 0;
+  friend auto operator<=>(const Veto&, const Veto&) = default;
+};
+
+TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline) {
+  TracedForest traced;
+  traced.trace_of.assign(static_cast<std::size_t>(graph.size()), -1);
+  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    const auto segments = sizes.segments_in(graph.leaf(leaf));
+    if (!segments.empty()) traced.trace_of[static_cast<std::size_t>(leaf)] = traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
+  }
+  return traced;
+}
+
 class ForestCutter {
  public:
-  ForestCutter(const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline, const InsideTest& inside)
-      : graph_{graph}, sizes_{sizes}, outline_{outline}, inside_{inside}, cutter_{outline, inside} {}
-
-  CutForest run() {
-    const auto count = static_cast<std::size_t>(graph_.local_end() - graph_.local_begin());
+  ForestCutter(const LeafGraph& graph, const Lattice& lattice, const ShiftedOutline& outline, const InsideTest& inside, const TracedForest& traced)
+      : graph_{graph}, lattice_{lattice}, outline_{outline}, inside_{inside}, traced_{traced}, cutter_{outline, inside} {
+    const auto count = static_cast<std::size_t>(graph.local_end() - graph.local_begin());
     result_.states.resize(count);
     result_.entry_of.assign(count, -1);
+  }
+
+  /// Cuts all local leaves.
+  void cut_all(const std::vector<LeafSnap>& snaps) {
+    auto next = snaps.begin();
     for (std::int32_t leaf = graph_.local_begin(); leaf < graph_.local_end(); ++leaf) {
-      const auto segments = sizes_.segments_in(graph_.leaf(leaf));
-      if (segments.empty()) {
-        state(leaf) = lies_inside(leaf) ? CutForest::State::inside : CutForest::State::outside;
-      } else {
-        cut(leaf, segments);
+      const auto first = next;
+      while (next != snaps.end() && next->leaf == leaf) ++next;
+      const std::span<const LeafSnap> own(first, next);
+      const bool holds_geometry = trace_of(leaf) >= 0;
+      if (!holds_geometry) state(leaf) = lies_inside(leaf) ? CutForest::State::inside : CutForest::State::outside;
+      if (holds_geometry || !own.empty()) cut(leaf, own);
+    }
+  }
+
+  /// Cuts again the leaves around the corners whose snaps were taken back.
+  void cut_again(const std::vector<LeafSnap>& snaps, const std::vector<Veto>& vetoes) {
+    std::vector<std::int32_t> leaves;
+    for (const Veto& v : vetoes) {
+      for (const auto& [dx, dy] : {std::pair{-1, -1}, {0, -1}, {-1, 0}, {0, 0}}) leaves.push_back(graph_.leaf_at(v.x + dx, v.y + dy));
+    }
+    std::sort(leaves.begin(), leaves.end());
+    leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+    for (const std::int32_t leaf : leaves) {
+      if (!graph_.is_local(leaf)) continue;
+      const auto [first, last] = std::equal_range(snaps.begin(), snaps.end(), LeafSnap{leaf, 0, nullptr},
+                                                  [](const LeafSnap& a, const LeafSnap& b) { return a.leaf < b.leaf; });
+      if (trace_of(leaf) < 0 && entry_of(leaf) >= 0) state(leaf) = CutForest::State::inside;
+      cut(leaf, std::span<const LeafSnap>(first, last));
+    }
+  }
+
+  /// A chord along a side that meets one against it in the leaf across the side would swallow what lies between: the snaps at its ends are to be
+  /// taken back. *Collective.*
+  void veto_opposed_chords(const Communicator& comm, const std::vector<Snap>& snaps) {
+    const OpposedChords opposed(comm, graph_, result_);
+    for (const Point p : opposed.ends()) {
+      for (const Snap& s : snaps) {
+        if (s.position == p) vetoes_.push_back({s.x, s.y});
       }
     }
-    begin_entry();
-    return std::move(result_);
   }
+
+  std::vector<Veto> take_vetoes() { return std::exchange(vetoes_, {}); }
+  CutForest take_result() { return std::move(result_); }
 
  private:
-  CutForest::State& state(std::int32_t leaf) { return result_.states[static_cast<std::size_t>(leaf - graph_.local_begin())]; }
+  std::size_t local(std::int32_t leaf) const { return static_cast<std::size_t>(leaf - graph_.local_begin()); }
+  CutForest::State& state(std::int32_t leaf) { return result_.states[local(leaf)]; }
+  std::int32_t& entry_of(std::int32_t leaf) { return result_.entry_of[local(leaf)]; }
+  std::int32_t trace_of(std::int32_t leaf) const { return traced_.trace_of[static_cast<std::size_t>(leaf)]; }
 
-  void begin_entry() {
-    result_.entries.push_back({static_cast<std::int32_t>(result_.nodes.size()), static_cast<std::int32_t>(result_.triangles.size()),
-                               static_cast<std::int32_t>(result_.quads.size()), static_cast<std::int32_t>(result_.outline.size())});
+  void cut(std::int32_t leaf, std::span<const LeafSnap> snaps) {
+    const Quadrant& q = graph_.leaf(leaf);
+    const Box box = lattice_.box_of(q);
+    LeafCutter::Input input{{box, {}, {}, {}}, centre_of(lattice_, q), graph_.around(leaf).finer, snaps, {}};
+    if (trace_of(leaf) >= 0) {
+      input.trace = traced_.traces[trace_of(leaf)];
+    } else {
+      input.inside = state(leaf) == CutForest::State::inside;
+    }
+    const auto done = [&](Detail detail) { return cutter_.cut(input, detail) && maker_.make(q, box, cutter_.result(), cells_); };
+    if (!done(Detail::merged)) {
+      if (!snaps.empty()) {
+        for (const LeafSnap& s : snaps) vetoes_.push_back({s.snap->x, s.snap->y});
+        return;
+      }
+      if (!done(Detail::full)) refuse(input.trace);
+    }
+    if (state(leaf) != CutForest::State::outside || trace_of(leaf) >= 0) store(leaf);
   }
 
-  void cut(std::int32_t leaf, std::span<const std::int32_t> segments) {
-    const Quadrant& q = graph_.leaf(leaf);
-    const Box box = sizes_.lattice().box_of(q);
-    const Point centre = centre_of(sizes_.lattice(), q);
-    const unsigned hanging = graph_.around(leaf).finer;
-    const auto done = [&](Detail detail) {
-      return cutter_.cut(box, centre, hanging, segments, detail) && maker_.make(q, box, cutter_.result(), cells_);
-    };
-    if (!done(Detail::merged) && !done(Detail::full)) refuse(box, segments);
-    state(leaf) = CutForest::State::cut;
-    result_.entry_of[static_cast<std::size_t>(leaf - graph_.local_begin())] = static_cast<std::int32_t>(result_.entries.size());
-    begin_entry();
+  CutForest::Mark mark() const {
+    return {static_cast<std::int32_t>(result_.nodes.size()), static_cast<std::int32_t>(result_.triangles.size()),
+            static_cast<std::int32_t>(result_.quads.size()), static_cast<std::int32_t>(result_.outline.size())};
+  }
+
+  void store(std::int32_t leaf) {
     const CutLeaf& made = cutter_.result();
+    CutForest::Entry entry{mark(), {}, made.half_inside};
     result_.nodes.insert(result_.nodes.end(), made.nodes.begin(), made.nodes.end());
     result_.triangles.insert(result_.triangles.end(), cells_.triangles.begin(), cells_.triangles.end());
     result_.quads.insert(result_.quads.end(), cells_.quads.begin(), cells_.quads.end());
     result_.outline.insert(result_.outline.end(), made.outline.begin(), made.outline.end());
-    half_inside_.push_back(made.half_inside);
-    result_.followed += made.refined ? 1 : 0;
+    entry.end = mark();
+    state(leaf) = CutForest::State::cut;
+    entry_of(leaf) = static_cast<std::int32_t>(result_.entries.size());
+    result_.entries.push_back(entry);
   }
 
   /// From the leaf to its left or below, which comes earlier along the curve; from a count of crossings where neither is at hand.
   bool lies_inside(std::int32_t leaf) {
     const Quadrant& q = graph_.leaf(leaf);
     const LeafGraph::Around& around = graph_.around(leaf);
-    if (graph_.is_local(around.west) && around.west < leaf) {
+    const auto known = [&](std::int32_t other) { return graph_.is_local(other) && other < leaf && (trace_of(other) < 0 || entry_of(other) >= 0); };
+    if (known(around.west)) {
       const Quadrant& west = graph_.leaf(around.west);
       return side_inside(around.west, LeafGraph::right, west.level < q.level && q.y != west.y);
     }
-    if (graph_.is_local(around.south) && around.south < leaf) {
+    if (known(around.south)) {
       const Quadrant& south = graph_.leaf(around.south);
       return side_inside(around.south, LeafGraph::top, south.level < q.level && q.x == south.x);
     }
-    return inside_.contains(sizes_.lattice().corner(q.x, q.y));
+    return inside_.contains(lattice_.corner(q.x, q.y));
   }
 
   /// Whether a half of a side, counter-clockwise, of a leaf that was dealt with lies inside.
   bool side_inside(std::int32_t leaf, int side, bool second_half) {
     if (state(leaf) != CutForest::State::cut) return state(leaf) == CutForest::State::inside;
-    const auto entry = static_cast<std::size_t>(result_.entry_of[static_cast<std::size_t>(leaf - graph_.local_begin())]);
-    return ((half_inside_[entry] >> (2 * side + (second_half ? 1 : 0))) & 1) != 0;
+    const std::uint8_t halves = result_.entries[static_cast<std::size_t>(entry_of(leaf))].half_inside;
+    return ((halves >> (2 * side + (second_half ? 1 : 0))) & 1) != 0;
   }
 
-  [[noreturn]] void refuse(const Box& box, std::span<const std::int32_t> segments) const {
+  [[noreturn]] void refuse(const LeafTrace& trace) const {
     const Geometry& g = outline_.geometry();
-    const std::string& first = g.boundary(g.boundary_of(segments.front())).name;
-    const std::string& last = g.boundary(g.boundary_of(segments.back())).name;
+    const auto name = [&](const Piece& piece) { return g.boundary(g.boundary_of(piece.first_segment)).name; };
+    const std::string first = name(trace.pieces.front()), last = name(trace.pieces.back());
     std::ostringstream message;
     message.precision(17);
-    message << "boundary " << first << (first == last ? "" : " and boundary " + last) << " near (" << box.centre().x << ", " << box.centre().y
+    message << "boundary " << first << (first == last ? "" : " and boundary " + last) << " near (" << trace.box.centre().x << ", " << trace.box.centre().y
             << "): the outline comes so near to itself that double precision cannot part the two sides; move or remove points there";
     throw InputError(message.str());
   }
 
   const LeafGraph& graph_;
-  SizeTree& sizes_;
+  const Lattice& lattice_;
   const ShiftedOutline& outline_;
   const InsideTest& inside_;
+  const TracedForest& traced_;
   LeafCutter cutter_;
   LeafCellMaker maker_;
   LeafCells cells_;
   CutForest result_;
-  std::vector<std::uint8_t> half_inside_;
+  std::vector<Veto> vetoes_;
 };
 
 }  // namespace
 
-CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline, const InsideTest& inside) {
-  CutForest result;
-  comm.together([&] { result = ForestCutter(graph, sizes, outline, inside).run(); });
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline, const InsideTest& inside,
+                     double snap) {
+  const TracedForest traced = trace_forest(graph, sizes, outline);
+  std::vector<Snap> snaps = choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap);
+  std::vector<LeafSnap> leaf_snaps = snaps_of_leaves(graph, snaps);
+  ForestCutter cutter(graph, sizes.lattice(), outline, inside, traced);
+  comm.together([&] { cutter.cut_all(leaf_snaps); });
+  while (true) {
+    cutter.veto_opposed_chords(comm, snaps);
+    const std::vector<Veto> own = cutter.take_vetoes();
+    std::vector<Veto> vetoes = comm.all_gather_values(std::span<const Veto>(own));
+    if (vetoes.empty()) break;
+    std::sort(vetoes.begin(), vetoes.end());
+    vetoes.erase(std::unique(vetoes.begin(), vetoes.end()), vetoes.end());
+    std::erase_if(snaps, [&](const Snap& s) { return std::binary_search(vetoes.begin(), vetoes.end(), Veto{s.x, s.y}); });
+    leaf_snaps = snaps_of_leaves(graph, snaps);
+    comm.together([&] { cutter.cut_again(leaf_snaps, vetoes); });
+  }
+  CutForest result = cutter.take_result();
+  for (const Snap& s : snaps) result.moved.push_back({s.x, s.y, s.position});
   return result;
 }
 
 bool ResolutionTest::unresolved(const Quadrant& q, std::span<const std::int32_t> segments) {
-  const bool sound = cutter_.cut(lattice_->box_of(q), centre_of(*lattice_, q), 0, segments, Detail::merged);
+  traces_.clear();
+  const LeafTrace trace = traces_[traces_.add(*outline_, lattice_->box_of(q), segments)];
+  const bool sound = cutter_.cut({trace, centre_of(*lattice_, q), 0, {}, {}}, Detail::merged);
   return !sound || cutter_.result().refined;
 }
 

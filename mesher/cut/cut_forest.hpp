@@ -11,18 +11,28 @@ namespace quadloop {
 struct CutForest {
   enum class State : char { outside, inside, cut };
 
-  /// The part of the lists below that belongs to one cut leaf.
+  /// Where the lists below begin for a cut leaf, or end.
+  struct Mark {
+    std::int32_t nodes = 0, triangles = 0, quads = 0, outline = 0;
+  };
   struct Entry {
-    std::int32_t nodes = 0, triangles = 0, quads = 0, outline = 0;  ///< where each begins; it ends where the next entry's begins
+    Mark begin, end;
+    std::uint8_t half_inside = 0;  ///< as CutLeaf::half_inside
   };
 
   std::vector<State> states;             ///< of each local leaf
   std::vector<std::int32_t> entry_of;    ///< of each local leaf; -1 where it is not cut
-  std::vector<Entry> entries;            ///< one more than there are cut leaves
+  std::vector<Entry> entries;            ///< of the cut leaves, and of uncut ones with a snapped corner
   std::vector<CutLeaf::Node> nodes;
   std::vector<LocalTriangle> triangles;  ///< numbers count from the leaf's first node
   std::vector<LocalQuad> quads;
   std::vector<CutLeaf::Edge> outline;
+  /// Lattice corners that are not where the lattice has them; all of those at local leaves, and some others.
+  struct Moved {
+    std::int64_t x = 0, y = 0;
+    Point position;
+  };
+  std::vector<Moved> moved;
   std::int64_t followed = 0;             ///< cut leaves in which points beside the corners were kept
 
   template <class T>
@@ -32,19 +42,24 @@ struct CutForest {
 };
 
 /// Cuts the local leaves and tells inside from outside. No rank waits for another: an uncut leaf takes its state from a local neighbour, or from an
-/// exact count of crossings. *Collective* only in its refusal: throws InputError on all ranks where boundaries come nearer to each other than
-/// double precision can resolve.
-CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline, const InsideTest& inside);
+/// exact count of crossings. A snap that leaves a leaf unsound is taken back. *Collective.* Throws InputError on all ranks where boundaries come
+/// nearer to each other than double precision can resolve.
+/// `snap`: how near a crossing takes a lattice corner along, as a share of the local edge.
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline, const InsideTest& inside,
+                     double snap);
 
 /// Whether a leaf of this place needs to be refined to be cut: a whole loop inside it, chords that would cross, or that would stray too far
 /// from the outline.
 class ResolutionTest {
  public:
-  ResolutionTest(const Lattice& lattice, const ShiftedOutline& outline, const InsideTest& inside) : lattice_{&lattice}, cutter_{outline, inside} {}
+  ResolutionTest(const Lattice& lattice, const ShiftedOutline& outline, const InsideTest& inside) 
+      : lattice_{&lattice}, outline_{&outline}, cutter_{outline, inside} {}
   bool unresolved(const Quadrant& q, std::span<const std::int32_t> segments);
 
  private:
   const Lattice* lattice_;
+  const ShiftedOutline* outline_;
+  LeafTraces traces_;
   LeafCutter cutter_;
 };
 

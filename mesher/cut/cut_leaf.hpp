@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "mesher/cut/leaf_trace.hpp"
+#include "mesher/cut/snap_corners.hpp"
 #include "mesher/geometry/inside_test.hpp"
 
 namespace quadloop {
@@ -51,42 +53,55 @@ class LeafCutter {
  public:
   LeafCutter(const ShiftedOutline& outline, const InsideTest& inside) : outline_{&outline}, inside_{&inside} {}
 
-  /// Cuts a leaf that holds these segments and has hanging nodes on the sides of `hanging` (bit s: side s) at `centre`'s coordinates. Returns
-  /// whether the loops are sound: simple, nested as outlines and holes, none overlapping another (always so with full detail, but
-  /// for boundaries that double precision cannot part). The result is valid until the next call.
-  bool cut(const Box& box, Point centre, unsigned hanging, std::span<const std::int32_t> segments, Detail detail);
+  /// One leaf as the cutter needs it.
+  struct Input {
+    LeafTrace trace;
+    Point centre;                       ///< where hanging nodes lie on the sides
+    unsigned hanging = 0;               ///< bit s: side s has one
+    std::span<const LeafSnap> snaps;    ///< of this leaf
+    std::optional<bool> inside;         ///< where the leaf holds no geometry: whether it lies in the domain
+  };
+
+  /// Cuts a leaf. Returns whether the loops are sound: simple, nested as outlines and holes, none overlapping another (always so with full detail
+  /// and no snaps, but for boundaries that double precision cannot part). The result is valid until the next call.
+  bool cut(const Input& input, Detail detail);
 
   const CutLeaf& result() const { return leaf_; }
-  const LeafTrace& trace() const { return trace_; }
 
  private:
   struct Stop {
     int side = 0;
     double along = 0;  ///< ascending counter-clockwise
-    Point position;
+    Point position;    ///< before any snap
     int place = 8;
     std::int32_t crossing = -1;
   };
 
-  void gather_stops(Point centre, unsigned hanging);
+  void gather_stops();
   void add_stop(int side, Point position, int place, std::int32_t crossing);
   void name_stops();
-  bool walk_sides(Point centre);
-  bool status_at_start(const std::vector<int>& change, bool& inside) const;
+  int absorbing_place(const Crossing& crossing) const;
+  bool walk_sides();
+  bool status_at_start(bool& inside) const;
+  void note_side(const Stop& from, const Stop& to);
   void add_chords(Detail detail);
-  void add_chord_run(const Piece& piece, std::span<const std::int32_t> vertices, Detail detail);
-  void keep_strays(std::span<const Point> points, std::size_t from, std::size_t to, std::vector<char>& keep);
+  void add_chord_run(const Piece& piece, Detail detail);
+  void choose_points(const Piece& piece, Detail detail);
+  void keep_strays(std::size_t from, std::size_t to);
   std::int32_t node_at(Point position);
   void sort_inner_nodes();
   bool cancel_opposites();
 
   const ShiftedOutline* outline_;
   const InsideTest* inside_;
-  LeafTrace trace_;
+  Input input_;
   CutLeaf leaf_;
   std::vector<Stop> stops_;
-  std::vector<std::int32_t> stop_node_;
+  std::vector<std::int32_t> stop_node_, crossing_node_;
   std::vector<CutLeaf::Edge> edges_;  ///< of the loops: chords and sides
+  std::vector<CutLeaf::Edge> bare_sides_;  ///< parts of sides outside the domain
+  std::vector<Point> run_points_;     ///< of one piece: entry, vertices, exit
+  std::vector<char> run_keep_;
   double largest_stray_ = 0;
 };
 
@@ -95,6 +110,10 @@ bool trace_loops(std::span<const CutLeaf::Edge> edges, CutLeaf& leaf);
 
 /// Whether no two edges meet but at their ends and the loops are nested as outlines (counter-clockwise) and holes in them. Exact.
 bool loops_are_sound(std::span<const CutLeaf::Edge> edges, const CutLeaf& leaf);
+
+/// Whether the sides of a leaf, after snaps, are still a simple counter-clockwise loop, which no chord crosses: then the leaf keeps clear of its
+/// neighbours, also where it lies outside the domain. Exact.
+bool sides_are_sound(std::span<const CutLeaf::Edge> edges, std::span<const CutLeaf::Edge> bare_sides, const CutLeaf& leaf);
 
 /// +1 for a counter-clockwise simple loop, -1 for a clockwise one. Exact.
 int winding_of(const CutLeaf& leaf, std::span<const std::int32_t> loop);

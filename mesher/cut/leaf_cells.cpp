@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
 
@@ -22,6 +23,15 @@ TieKey key_of_lattice_node(std::int64_t x, std::int64_t y) {
 
 bool is_whole(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
   return loop.size() == 4 && std::all_of(loop.begin(), loop.end(), [&](std::int32_t n) { return leaf.nodes[static_cast<std::size_t>(n)].place < 4; });
+}
+
+/// Strictly convex, in plain doubles as every reader of the mesh will compute it.
+bool is_convex(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
+  const auto at = [&](std::size_t i) { return leaf.nodes[static_cast<std::size_t>(loop[i % 4])].position; };
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (cross(at(i + 1) - at(i), at(i + 3) - at(i)) <= 0 || orientation(at(i + 3), at(i), at(i + 1)) <= 0) return false;
+  }
+  return true;
 }
 
 using Template = std::array<LocalTriangle, 5>;
@@ -71,7 +81,7 @@ bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf,
   }
   if (holes) return triangulator_.triangulate(points_, keys_, loops, cells.triangles);
   for (const auto& loop : loops) {
-    if (is_whole(leaf, loop)) {
+    if (is_whole(leaf, loop) && is_convex(leaf, loop)) {
       cells.quads.push_back({loop[0], loop[1], loop[2], loop[3]});
     } else if (!triangulator_.triangulate(points_, keys_, std::span(&loop, 1), cells.triangles)) {
       return false;

@@ -23,107 +23,132 @@ double distance_to_segment(Point p, Point a, Point b) {
 
 }  // namespace
 
-bool LeafCutter::cut(const Box& box, Point centre, unsigned hanging, std::span<const std::int32_t> segments, Detail detail) {
-  trace_leaf(*outline_, box, segments, trace_);
+bool LeafCutter::cut(const Input& input, Detail detail) {
+  input_ = input;
   leaf_.nodes.clear();
   leaf_.outline.clear();
   leaf_.loop_nodes.clear();
   leaf_.loop_starts.assign(1, 0);
   leaf_.refined = false;
   edges_.clear();
-  largest_stray_ = stray_of_leaf * box.width();
-  gather_stops(centre, hanging);
-  if (!walk_sides(centre)) return false;
+  bare_sides_.clear();
+  largest_stray_ = stray_of_leaf * input_.trace.box.width();
+  gather_stops();
+  if (!walk_sides()) return false;
   add_chords(detail);
   sort_inner_nodes();
-  leaf_.simple = trace_.pieces.size() == 1 && leaf_.outline.size() == 1 && trace_.crossings.size() == 2 &&
-                 trace_.crossings[0].side != trace_.crossings[1].side;
+  const auto& crossings = input_.trace.crossings;
+  const bool simple = input_.snaps.empty() && input_.trace.pieces.size() == 1 && leaf_.outline.size() == 1 && crossings.size() == 2 &&
+                      crossings[0].side != crossings[1].side;
   if (!cancel_opposites() || !trace_loops(edges_, leaf_)) return false;
-  return leaf_.simple || loops_are_sound(edges_, leaf_);
+  return simple || (loops_are_sound(edges_, leaf_) && (input_.snaps.empty() || sides_are_sound(edges_, bare_sides_, leaf_)));
 }
 
 void LeafCutter::add_stop(int side, Point position, int place, std::int32_t crossing) {
-  const std::array<Point, 4> corner = corners_of(trace_.box);
+  const std::array<Point, 4> corner = corners_of(input_.trace.box);
   const auto next = static_cast<std::size_t>((side + 1) % 4);
   if (position == corner[next]) side = static_cast<int>(next);
   const double along = side == 0 ? position.x : side == 1 ? position.y : side == 2 ? -position.x : -position.y;
   stops_.push_back({side, along, position, place, crossing});
 }
 
-/// Corners, hanging nodes and crossings in their order round the leaf.
-void LeafCutter::gather_stops(Point centre, unsigned hanging) {
+/// Corners, hanging nodes and crossings in their order round the leaf, before any snap.
+void LeafCutter::gather_stops() {
   stops_.clear();
-  const Box& box = trace_.box;
+  const Box& box = input_.trace.box;
+  const Point centre = input_.centre;
   const std::array<Point, 4> corner = corners_of(box);
   const std::array<Point, 4> middle{Point{centre.x, box.low.y}, {box.high.x, centre.y}, {centre.x, box.high.y}, {box.low.x, centre.y}};
   for (int side = 0; side < 4; ++side) {
     const auto s = static_cast<std::size_t>(side);
     add_stop(side, corner[s], side, -1);
-    if (((hanging >> side) & 1) != 0) add_stop(side, middle[s], 4 + side, -1);
+    if (((input_.hanging >> side) & 1) != 0) add_stop(side, middle[s], 4 + side, -1);
   }
-  for (std::size_t c = 0; c < trace_.crossings.size(); ++c) {
-    const Crossing& crossing = trace_.crossings[c];
-    add_stop(crossing.side, crossing.position, 8 + crossing.side, static_cast<std::int32_t>(c));
+  for (std::size_t c = 0; c < input_.trace.crossings.size(); ++c) {
+    const Crossing& crossing = input_.trace.crossings[c];
+    add_stop(crossing.side, crossing.position, 8, static_cast<std::int32_t>(c));
   }
-  std::stable_sort(stops_.begin(), stops_.end(), [](const Stop& a, const Stop& b) {
-    return a.side != b.side ? a.side < b.side : a.along != b.along ? a.along < b.along : a.place < b.place;
+  std::sort(stops_.begin(), stops_.end(), [](const Stop& a, const Stop& b) {
+    return a.side != b.side ? a.side < b.side : a.along != b.along ? a.along < b.along : a.place != b.place ? a.place < b.place : a.crossing < b.crossing;
   });
   name_stops();
 }
 
-/// One node for all stops at one position: crossings at a corner are the corner.
-void LeafCutter::name_stops() {
-  stop_node_.clear();
-  for (const Stop& stop : stops_) {
-    if (leaf_.nodes.empty() || leaf_.nodes.back().position != stop.position) {
-      int place = stop.place;
-      if (place >= 8) place = 8 + stop.side;
-      leaf_.nodes.push_back({stop.position, place});
-    }
-    stop_node_.push_back(static_cast<std::int32_t>(leaf_.nodes.size()) - 1);
+/// The corner or hanging node that a snap gives the crossing to; -1 for none.
+int LeafCutter::absorbing_place(const Crossing& crossing) const {
+  for (const LeafSnap& s : input_.snaps) {
+    const bool on_side = s.place == crossing.side || s.place == 4 + crossing.side || s.place == (crossing.side + 1) % 4;
+    if (!on_side) continue;
+    const auto& absorbed = s.snap->absorbed;
+    const Snap::Absorbed wanted{crossing.segment, crossing.side % 2 == 1};
+    if (std::find(absorbed.begin(), absorbed.end(), wanted) != absorbed.end()) return s.place;
   }
+  return -1;
+}
+
+/// One node for all stops at one position, and for a snapped corner with the crossings that it absorbs.
+void LeafCutter::name_stops() {
+  stop_node_.assign(stops_.size(), -1);
+  crossing_node_.assign(input_.trace.crossings.size(), -1);
+  std::array<std::int32_t, 8> place_node{};
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    const Stop& stop = stops_[i];
+    const bool absorbed = stop.crossing >= 0 && absorbing_place(input_.trace.crossing(stop.crossing)) >= 0;
+    if (absorbed) continue;
+    const bool at_last = i > 0 && stops_[i - 1].position == stop.position && stop_node_[i - 1] >= 0;
+    if (!at_last) leaf_.nodes.push_back({stop.position, stop.place < 8 ? stop.place : 8 + stop.side});
+    stop_node_[i] = static_cast<std::int32_t>(leaf_.nodes.size()) - 1;
+    if (stop.place < 8) place_node[static_cast<std::size_t>(stop.place)] = stop_node_[i];
+  }
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    const std::int32_t c = stops_[i].crossing;
+    if (c < 0) continue;
+    if (stop_node_[i] < 0) stop_node_[i] = place_node[static_cast<std::size_t>(absorbing_place(input_.trace.crossing(c)))];
+    crossing_node_[static_cast<std::size_t>(c)] = stop_node_[i];
+  }
+  for (const LeafSnap& s : input_.snaps) leaf_.nodes[static_cast<std::size_t>(place_node[static_cast<std::size_t>(s.place)])].position = s.snap->position;
   leaf_.side_nodes = static_cast<std::int32_t>(leaf_.nodes.size());
 }
 
 /// Adds the parts of the sides that lie in the domain. Walking round the leaf, an outline that leaves it has the domain after it, one that
 /// enters has it before. False where that does not come out even.
-bool LeafCutter::walk_sides(Point centre) {
-  std::vector<int> change(leaf_.nodes.size(), 0);
-  for (std::size_t i = 0; i < stops_.size(); ++i) {
-    const std::int32_t c = stops_[i].crossing;
-    if (c >= 0) change[static_cast<std::size_t>(stop_node_[i])] += trace_.crossings[static_cast<std::size_t>(c)].enters ? -1 : 1;
-  }
+bool LeafCutter::walk_sides() {
   bool inside = false;
-  if (!status_at_start(change, inside)) return false;
-  int status = inside ? 1 : 0;
+  if (!status_at_start(inside)) return false;
   leaf_.half_inside = 0;
-  int side = 0;
-  const std::int32_t count = leaf_.side_nodes;
-  for (std::int32_t node = 0; node < count; ++node) {
-    status += change[static_cast<std::size_t>(node)];
+  int status = inside ? 1 : 0;
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    const std::size_t next = (i + 1) % stops_.size();
+    const std::int32_t c = stops_[i].crossing;
+    if (c >= 0) status += input_.trace.crossing(c).enters ? -1 : 1;
+    if (stops_[i].position == stops_[next].position) continue;
     if (status != 0 && status != 1) return false;
-    const auto& at = leaf_.nodes[static_cast<std::size_t>(node)];
-    if (at.place < 4) side = at.place;
-    if (status == 0) continue;
-    const std::int32_t next = (node + 1) % count;
-    edges_.push_back({node, next, -1});
-    const Point b = leaf_.nodes[static_cast<std::size_t>(next)].position;
-    const bool by_x = side % 2 == 0, ascending = side < 2;
-    const double middle = by_x ? centre.x : centre.y, from = by_x ? at.position.x : at.position.y, to = by_x ? b.x : b.y;
-    const bool first = ascending ? from < middle : from > middle, second = ascending ? to > middle : to < middle;
-    leaf_.half_inside = static_cast<std::uint8_t>(leaf_.half_inside | (first << (2 * side)) | (second << (2 * side + 1)));
+    if (status == 1) note_side(stops_[i], stops_[next]);
+    if (stop_node_[i] != stop_node_[next]) (status == 1 ? edges_ : bare_sides_).push_back({stop_node_[i], stop_node_[next], -1});
   }
   return true;
 }
 
+/// A part of a side, from one stop to the next, lies in the domain.
+void LeafCutter::note_side(const Stop& from, const Stop& to) {
+  const double middle = from.side == 0 ? input_.centre.x : from.side == 1 ? input_.centre.y : from.side == 2 ? -input_.centre.x : -input_.centre.y;
+  const bool first = from.along < middle, second = to.side != from.side || to.along > middle;
+  leaf_.half_inside = static_cast<std::uint8_t>(leaf_.half_inside | (first << (2 * from.side)) | (second << (2 * from.side + 1)));
+}
+
 /// Whether the domain lies just before the first stop (counter-clockwise).
-bool LeafCutter::status_at_start(const std::vector<int>& change, bool& inside) const {
-  const auto first = std::find_if(change.begin(), change.end(), [](int c) { return c != 0; });
-  if (first != change.end()) {
-    inside = *first < 0;
-    return *first == 1 || *first == -1;
+bool LeafCutter::status_at_start(bool& inside) const {
+  for (std::size_t i = 0; i < stops_.size();) {
+    int change = 0;
+    const Point position = stops_[i].position;
+    for (; i < stops_.size() && stops_[i].position == position; ++i) {
+      if (stops_[i].crossing >= 0) change += input_.trace.crossing(stops_[i].crossing).enters ? -1 : 1;
+    }
+    if (change == 0) continue;
+    inside = change < 0;
+    return change == 1 || change == -1;
   }
-  inside = inside_->contains(trace_.box.low);
+  inside = input_.inside ? *input_.inside : inside_->contains(input_.trace.box.low);
   return true;
 }
 
@@ -136,64 +161,74 @@ std::int32_t LeafCutter::node_at(Point position) {
 }
 
 void LeafCutter::add_chords(Detail detail) {
-  for (const Piece& piece : trace_.pieces) add_chord_run(piece, trace_.vertices_of(piece), detail);
+  for (const Piece& piece : input_.trace.pieces) add_chord_run(piece, detail);
 }
 
-/// The chords for one piece: from its entry over the kept points to its exit, one boundary each.
-void LeafCutter::add_chord_run(const Piece& piece, std::span<const std::int32_t> vertices, Detail detail) {
-  const Geometry& g = outline_->geometry();
+/// The chords for one piece: from its entry over the kept points to its exit, one boundary each. A piece that a snapped corner swallowed has
+/// none.
+void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
   const bool closed = piece.entry < 0;
-  std::vector<Point> points;
-  std::vector<std::int32_t> segments;  // that begins at each point
   if (!closed) {
-    points.push_back(trace_.crossings[static_cast<std::size_t>(piece.entry)].position);
-    segments.push_back(piece.first_segment);
+    const std::int32_t entry = crossing_node_[static_cast<std::size_t>(piece.entry)];
+    const bool one_corner = entry == crossing_node_[static_cast<std::size_t>(piece.exit)] &&
+                            absorbing_place(input_.trace.crossing(piece.entry)) >= 0 && absorbing_place(input_.trace.crossing(piece.exit)) >= 0;
+    if (one_corner) return;
   }
-  for (const std::int32_t v : vertices) {
-    points.push_back(g.point(v));
-    segments.push_back(v);
-  }
-  points.push_back(closed ? points.front() : trace_.crossings[static_cast<std::size_t>(piece.exit)].position);
-  std::vector<char> keep(points.size(), closed || detail == Detail::full ? 1 : 0);
-  keep.front() = keep.back() = 1;
-  if (closed) leaf_.refined = true;
-  if (!closed && detail == Detail::merged) {
-    std::size_t from = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      if (i + 1 < points.size() && !g.kept(vertices[i - 1])) continue;
-      keep[i] = 1;
-      keep_strays(points, from, i, keep);
-      from = i;
-    }
-  }
+  choose_points(piece, detail);
+  const auto vertices = input_.trace.vertices_of(piece);
+  const auto segment_at = [&](std::size_t point) { return closed ? vertices[point] : point == 0 ? piece.first_segment : vertices[point - 1]; };
   std::size_t from = 0;
-  std::int32_t from_node = node_at(points[0]);
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (keep[i] == 0) continue;
-    const std::int32_t to_node = node_at(points[i]);
-    if (from_node != to_node) leaf_.outline.push_back({from_node, to_node, segments[from]});
+  std::int32_t from_node = closed ? node_at(run_points_[0]) : crossing_node_[static_cast<std::size_t>(piece.entry)];
+  for (std::size_t i = 1; i < run_points_.size(); ++i) {
+    if (run_keep_[i] == 0) continue;
+    const bool at_exit = !closed && i + 1 == run_points_.size();
+    const std::int32_t to_node = at_exit ? crossing_node_[static_cast<std::size_t>(piece.exit)] : node_at(run_points_[i]);
+    if (from_node != to_node) leaf_.outline.push_back({from_node, to_node, segment_at(from)});
     from = i;
     from_node = to_node;
   }
 }
 
+/// Lists a piece's points and marks those that the chords go through.
+void LeafCutter::choose_points(const Piece& piece, Detail detail) {
+  const Geometry& g = outline_->geometry();
+  const auto vertices = input_.trace.vertices_of(piece);
+  const bool closed = piece.entry < 0;
+  const auto node_position = [&](std::int32_t c) { return leaf_.nodes[static_cast<std::size_t>(crossing_node_[static_cast<std::size_t>(c)])].position; };
+  run_points_.clear();
+  if (!closed) run_points_.push_back(node_position(piece.entry));
+  for (const std::int32_t v : vertices) run_points_.push_back(g.point(v));
+  run_points_.push_back(closed ? run_points_.front() : node_position(piece.exit));
+  run_keep_.assign(run_points_.size(), closed || detail == Detail::full ? 1 : 0);
+  run_keep_.front() = run_keep_.back() = 1;
+  leaf_.refined = leaf_.refined || closed;
+  if (closed || detail == Detail::full) return;
+  std::size_t from = 0;
+  for (std::size_t i = 1; i < run_points_.size(); ++i) {
+    if (i + 1 < run_points_.size() && !g.kept(vertices[i - 1])) continue;
+    run_keep_[i] = 1;
+    keep_strays(from, i);
+    from = i;
+  }
+}
+
 /// Keeps the points between two kept ones from which the chord would stray too far (the rule of Douglas and Peucker 1973).
-void LeafCutter::keep_strays(std::span<const Point> points, std::size_t from, std::size_t to, std::vector<char>& keep) {
+void LeafCutter::keep_strays(std::size_t from, std::size_t to) {
   if (to - from < 2) return;
-  const Point a = points[from], b = points[to];
+  const Point a = run_points_[from], b = run_points_[to];
   std::size_t farthest = from;
-  double stray = std::min(largest_stray_, stray_of_chord * length(b - a));
+  double stray = a == b ? largest_stray_ / 2 : std::min(largest_stray_, stray_of_chord * length(b - a));
   for (std::size_t i = from + 1; i < to; ++i) {
-    const double distance = distance_to_segment(points[i], a, b);
+    const double distance = distance_to_segment(run_points_[i], a, b);
     if (distance <= stray) continue;
     stray = distance;
     farthest = i;
   }
   if (farthest == from) return;
-  keep[farthest] = 1;
+  run_keep_[farthest] = 1;
   leaf_.refined = true;
-  keep_strays(points, from, farthest, keep);
-  keep_strays(points, farthest, to, keep);
+  keep_strays(from, farthest);
+  keep_strays(farthest, to);
 }
 
 /// The order of the nodes inside must not depend on the order in which boundaries are listed.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 
 #include "mesher/cut/cut_leaf.hpp"
 #include "mesher/geometry/predicates.hpp"
@@ -143,6 +144,23 @@ bool loops_are_sound(Edges edges, const CutLeaf& leaf) {
     if (leaf.loop(i).size() < 3) return false;
   }
   return nesting_is_sound(leaf);
+}
+
+bool sides_are_sound(Edges edges, Edges bare_sides, const CutLeaf& leaf) {
+  const auto same_line = [](const CutLeaf::Edge& e, const CutLeaf::Edge& f) {
+    return (e.from == f.from && e.to == f.to) || (e.from == f.to && e.to == f.from);
+  };
+  for (std::size_t i = 0; i < bare_sides.size(); ++i) {
+    for (const CutLeaf::Edge& e : edges) {
+      if (!same_line(bare_sides[i], e) && edges_conflict(leaf, bare_sides[i], e)) return false;
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (edges_conflict(leaf, bare_sides[i], bare_sides[j])) return false;
+    }
+  }
+  std::vector<std::int32_t> round(static_cast<std::size_t>(leaf.side_nodes));
+  std::iota(round.begin(), round.end(), 0);
+  return winding_of(leaf, round) > 0;
 }
 
 }  // namespace quadloop

@@ -4,7 +4,7 @@
 
 namespace quadloop {
 
-LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest) : rank_{comm.rank()} {
+LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest) : rank_{comm.rank()}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()} {
   const std::vector<Forest::Ghost> ghosts = forest.ghosts();
   std::vector<Quadrant> local = forest.leaves();
   for (const auto& ghost : ghosts) local_begin_ += ghost.owner < rank_ ? 1 : 0;
@@ -27,12 +27,21 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
       visit(root(x, y), {root(x - 1, y), root(x, y - 1), root(x + 1, y), root(x, y + 1), root(x - 1, y - 1)});
     }
   }
-  inner_ = {};
 }
 
 LeafGraph::Place LeafGraph::place_of(std::int32_t leaf) const {
   if (is_local(leaf)) return {rank_, leaf - local_begin_};
   return ghost_places_[static_cast<std::size_t>(leaf < local_begin_ ? leaf : leaf - local_count_)];
+}
+
+std::int32_t LeafGraph::leaf_at(std::int64_t x, std::int64_t y) const {
+  const std::int64_t tx = x >> Quadrant::unit_level, ty = y >> Quadrant::unit_level;
+  if (x < 0 || y < 0 || tx >= trees_x_ || ty >= trees_y_) return none;
+  Ref ref = roots_[static_cast<std::size_t>(ty * trees_x_ + tx)];
+  for (int shift = Quadrant::unit_level - 1; is_inner(ref); --shift) {
+    ref = down(ref, static_cast<int>((x >> shift) & 1) + 2 * static_cast<int>((y >> shift) & 1));
+  }
+  return ref;
 }
 
 LeafGraph::Ref LeafGraph::new_inner() {

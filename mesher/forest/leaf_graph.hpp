@@ -35,6 +35,9 @@ class LeafGraph {
   /// The number here of a local leaf from its number counted from this rank's first leaf.
   std::int32_t from_local(std::int32_t index) const { return local_begin_ + index; }
 
+  /// The leaf that holds the unit square right above the lattice corner (x, y); none where there is none in sight.
+  std::int32_t leaf_at(std::int64_t x, std::int64_t y) const;
+
   /// The leaves around the lower left part of a leaf, each named by the point of it that they touch; such a leaf is the first along the
   /// curve of all that touch the point.
   struct Around {
@@ -70,6 +73,7 @@ class LeafGraph {
   std::vector<Around> around_;
   std::vector<std::array<Ref, 4>> inner_;
   std::vector<Ref> roots_;
+  int trees_x_ = 1, trees_y_ = 1;
 };
 
 }  // namespace quadloop

@@ -32,7 +32,7 @@ class Assembler {
   }
 
   void add_cut(std::int32_t leaf, std::size_t entry) {
-    const CutForest::Entry &begin = cut_.entries[entry], &end = cut_.entries[entry + 1];
+    const CutForest::Mark &begin = cut_.entries[entry].begin, &end = cut_.entries[entry].end;
     const auto node = [&](std::int32_t n) { return numbers_.of_cut(leaf, begin.nodes + n); };
     for (const auto& t : CutForest::part(cut_.triangles, begin.triangles, end.triangles)) {
       mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});

@@ -18,7 +18,7 @@ void report_tree(const Communicator& comm, const LeafGraph& graph, const CutFore
     finest = std::max<std::int64_t>(finest, graph.leaf(leaf).level);
   }
   const auto leaves = static_cast<std::int64_t>(cut.states.size());
-  const auto cut_leaves = static_cast<std::int64_t>(cut.entries.size()) - 1;
+  const auto cut_leaves = static_cast<std::int64_t>(std::count(cut.states.begin(), cut.states.end(), CutForest::State::cut));
   report.leaves = comm.sum(leaves);
   report.cut_leaves = comm.sum(cut_leaves);
   report.coarsest_level = static_cast<int>(comm.minimum(coarsest));
@@ -59,7 +59,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   const LeafGraph graph = refine_forest(comm, sizes);
 
   times.begin("cutting");
-  const CutForest cut = cut_forest(comm, graph, sizes, outline, inside);
+  const CutForest cut = cut_forest(comm, graph, sizes, outline, inside, options.snap);
 
   times.begin("mesh");
   assemble_mesh(comm, geometry, sizes, graph, cut, result);

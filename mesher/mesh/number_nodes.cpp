@@ -31,6 +31,7 @@ NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, c
   mark_used();
   exchange_marks(comm);
   number_owned();
+  place_moved();
   first_node_ = comm.exclusive_sum(owned_);
   exchange_numbers(comm);
 }
@@ -81,7 +82,8 @@ NodeNumbering::Home NodeNumbering::home_of_cut_node(std::int32_t leaf, const Cut
 std::int32_t NodeNumbering::listed_node(std::int32_t leaf, Point position) const {
   const std::int32_t entry = cut_->entry_of[static_cast<std::size_t>(leaf - graph_->local_begin())];
   QUADLOOP_REQUIRE(entry >= 0, "a leaf that is not cut owns a node of the outline");
-  for (std::int32_t n = cut_->entries[static_cast<std::size_t>(entry)].nodes; n < cut_->entries[static_cast<std::size_t>(entry) + 1].nodes; ++n) {
+  const CutForest::Entry& e = cut_->entries[static_cast<std::size_t>(entry)];
+  for (std::int32_t n = e.begin.nodes; n < e.end.nodes; ++n) {
     if (cut_->nodes[static_cast<std::size_t>(n)].position == position) return n;
   }
   throw Fault("two leaves disagree on a node of their common side");
@@ -115,7 +117,7 @@ void NodeNumbering::mark_used() {
       continue;
     }
     const auto entry = static_cast<std::size_t>(cut_->entry_of[local]);
-    const CutForest::Entry &begin = cut_->entries[entry], &end = cut_->entries[entry + 1];
+    const CutForest::Mark &begin = cut_->entries[entry].begin, &end = cut_->entries[entry].end;
     const auto mark_node = [&](std::int32_t n) { mark(home_of_cut_node(leaf, cut_->nodes[static_cast<std::size_t>(begin.nodes + n)])); };
     for (const auto& triangle : CutForest::part(cut_->triangles, begin.triangles, end.triangles)) std::for_each(triangle.begin(), triangle.end(), mark_node);
     for (const auto& quad : CutForest::part(cut_->quads, begin.quads, end.quads)) std::for_each(quad.begin(), quad.end(), mark_node);
@@ -159,9 +161,29 @@ void NodeNumbering::number_owned() {
     const std::int32_t entry = cut_->entry_of[local];
     if (entry < 0) continue;
     const auto e = static_cast<std::size_t>(entry);
-    for (auto n = static_cast<std::size_t>(cut_->entries[e].nodes); n < static_cast<std::size_t>(cut_->entries[e + 1].nodes); ++n) {
+    for (auto n = static_cast<std::size_t>(cut_->entries[e].begin.nodes); n < static_cast<std::size_t>(cut_->entries[e].end.nodes); ++n) {
       number_slot(listed_slots_[n], cut_->nodes[n].position);
     }
+  }
+}
+
+/// Snapped corners are not where the lattice has them.
+void NodeNumbering::place_moved() {
+  for (const CutForest::Moved& m : cut_->moved) {
+    const std::int32_t before = graph_->leaf_at(m.x - 1, m.y - 1), below = graph_->leaf_at(m.x, m.y - 1);
+    const std::int32_t left = graph_->leaf_at(m.x - 1, m.y), after = graph_->leaf_at(m.x, m.y);
+    Home home{after, south_west, {}};
+    if (m.x > 0 && m.y > 0) {
+      if (before == LeafGraph::none) continue;
+      home = corner_home(before, m.x, m.y);
+    } else if (m.x > 0) {
+      home = {left, south_east, {}};
+    } else if (m.y > 0) {
+      home = {below, north_west, {}};
+    }
+    if (!graph_->is_local(home.leaf)) continue;
+    const std::int32_t node = *local_slot(home);
+    if (node >= 0) points_[static_cast<std::size_t>(node)] = m.position;
   }
 }
 

@@ -48,6 +48,7 @@ class NodeNumbering {
   void mark_used();
   void exchange_marks(const Communicator& comm);
   void number_owned();
+  void place_moved();
   void number_slot(std::int32_t& slot, Point position);
   void exchange_numbers(const Communicator& comm);
   int rank_of(const Home& home) const { return graph_->place_of(home.leaf).rank; }

@@ -1,0 +1,276 @@
+#include "mesher/cut/snap_corners.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+
+namespace quadloop {
+
+namespace {
+
+constexpr double capture_share = 0.45;   ///< of the local edge: a kept point nearer than this takes the corner; two corners cannot claim it
+constexpr double swallow_share = 0.6;   ///< no vertex farther than this from the corner vanishes in it
+
+/// A crossing as one of the corners at the ends of its leaf edge sees it, through one of the two leaves at that edge.
+struct Sight {
+  std::int64_t x = 0, y = 0;    ///< the corner
+  int direction = 0;            ///< of the edge from the corner: 0 east, 1 north, 2 west, 3 south
+  double distance = 0;          ///< along the edge
+  double edge = 0;              ///< its length
+  std::int32_t segment = -1;
+  std::int32_t trace = -1, piece = -1;
+  bool vertical() const { return direction % 2 == 1; }
+};
+
+bool same_crossing(const Sight& a, const Sight& b) { return a.direction == b.direction && a.segment == b.segment; }
+
+/// Adds what the two ends of each crossing's leaf edge see of it.
+class SightCollector {
+ public:
+  SightCollector(const LeafGraph& graph, const Lattice& lattice, std::vector<Sight>& sights) : graph_{graph}, lattice_{lattice}, sights_{sights} {}
+
+  void add_leaf(std::int32_t leaf, std::int32_t trace, const LeafTrace& view) {
+    for (std::size_t p = 0; p < view.pieces.size(); ++p) {
+      const Piece& piece = view.pieces[p];
+      if (piece.entry < 0) continue;
+      add_crossing(leaf, trace, static_cast<std::int32_t>(p), view.crossing(piece.entry));
+      add_crossing(leaf, trace, static_cast<std::int32_t>(p), view.crossing(piece.exit));
+    }
+  }
+
+ private:
+  void add_crossing(std::int32_t leaf, std::int32_t trace, std::int32_t piece, const Crossing& c) {
+    const Quadrant& q = graph_.leaf(leaf);
+    const bool horizontal = c.side % 2 == 0;
+    const std::int64_t fixed = c.side == 0 ? q.y : c.side == 1 ? q.x + q.size() : c.side == 2 ? q.y + q.size() : q.x;
+    std::int64_t from = horizontal ? q.x : q.y, to = from + q.size();
+    const auto line = [&](std::int64_t i) { return horizontal ? lattice_.x(i) : lattice_.y(i); };
+    const double at = horizontal ? c.position.x : c.position.y;
+    if (graph_.has_hanging(leaf, static_cast<LeafGraph::Side>(c.side))) {
+      const std::int64_t middle = from + q.size() / 2;
+      (at < line(middle) ? to : from) = middle;
+    }
+    const double edge = line(to) - line(from);
+    const auto see = [&](std::int64_t end, int direction) {
+      sights_.push_back({horizontal ? end : fixed, horizontal ? fixed : end, direction, std::abs(at - line(end)), edge, c.segment, trace, piece});
+    };
+    see(from, horizontal ? 0 : 1);
+    see(to, horizontal ? 2 : 3);
+  }
+
+  const LeafGraph& graph_;
+  const Lattice& lattice_;
+  std::vector<Sight>& sights_;
+};
+
+/// The nearest point to p on the segment a-b, the same for the segment b-a; rounded once.
+Point nearest_on_segment(Point p, Point a, Point b) {
+  using Wide = __float128;
+  if (length(p - b) < length(p - a)) std::swap(a, b);
+  const Wide dx = Wide(b.x) - a.x, dy = Wide(b.y) - a.y;
+  const Wide along = (Wide(p.x) - a.x) * dx + (Wide(p.y) - a.y) * dy, square = dx * dx + dy * dy;
+  if (along <= 0) return a;
+  if (along >= square) return b;
+  const Wide t = along / square;
+  return {static_cast<double>(a.x + t * dx), static_cast<double>(a.y + t * dy)};
+}
+
+/// Decides one corner from all that it sees.
+class CornerDecision {
+ public:
+  CornerDecision(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, const LeafTraces& traces, double share)
+      : graph_{graph}, lattice_{lattice}, geometry_{geometry}, traces_{traces}, share_{share} {}
+
+  std::optional<Snap> decide(std::span<Sight> sights) {
+    double nearest = sights.front().distance;
+    for (const Sight& s : sights) nearest = std::min(nearest, s.distance);
+    if (nearest >= share_ * sights.front().edge * 2) return std::nullopt;  // edges at a corner differ by a factor of two at most
+    corner_ = lattice_.corner(sights.front().x, sights.front().y);
+    local_edge_ = shortest_edge(sights.front().x, sights.front().y);
+    if (nearest >= share_ * local_edge_) return std::nullopt;
+    find_runs(sights);
+    if (!choose_run(sights)) return std::nullopt;
+    if (!absorb(sights, true) && !absorb(sights, false)) return std::nullopt;
+    Snap snap{sights.front().x, sights.front().y, target_, {}};
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+      const Snap::Absorbed entry{sights[i].segment, sights[i].vertical()};
+      const bool known = std::find(snap.absorbed.begin(), snap.absorbed.end(), entry) != snap.absorbed.end();
+      if (absorbed_[i] != 0 && !known) snap.absorbed.push_back(entry);
+    }
+    return snap;
+  }
+
+ private:
+  double shortest_edge(std::int64_t x, std::int64_t y) const {
+    int finest = 0;
+    for (const std::int64_t dx : {-1, 0}) {
+      for (const std::int64_t dy : {-1, 0}) {
+        const std::int32_t leaf = graph_.leaf_at(x + dx, y + dy);
+        if (leaf != LeafGraph::none) finest = std::max(finest, graph_.leaf(leaf).level);
+      }
+    }
+    return lattice_.edge(finest);
+  }
+
+  std::size_t root(std::size_t i) const {
+    while (run_[i] != i) i = run_[i];
+    return i;
+  }
+
+  /// Crossings are of one run where they are the same, or the two ends of one piece.
+  void find_runs(std::span<const Sight> sights) {
+    run_.resize(sights.size());
+    std::iota(run_.begin(), run_.end(), std::size_t{0});
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const bool same_piece = sights[i].trace == sights[j].trace && sights[i].piece == sights[j].piece;
+        if (same_piece || same_crossing(sights[i], sights[j])) run_[root(i)] = root(j);
+      }
+    }
+  }
+
+  std::vector<std::int32_t> segments_of(const Sight& s) const {
+    const LeafTrace view = traces_[s.trace];
+    const Piece& piece = view.pieces[static_cast<std::size_t>(s.piece)];
+    std::vector<std::int32_t> segments{piece.first_segment};
+    const auto vertices = view.vertices_of(piece);
+    segments.insert(segments.end(), vertices.begin(), vertices.end());
+    return segments;
+  }
+
+  /// The nearest point to the corner on the pieces of outline that the sights of interest belong to.
+  template <class OfInterest>
+  Point nearest_point(std::span<const Sight> sights, const OfInterest& of_interest) const {
+    Point point;
+    double distance = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+      if (!of_interest(i)) continue;
+      for (const std::int32_t s : segments_of(sights[i])) {
+        const Point p = nearest_on_segment(corner_, geometry_.point(s), geometry_.point(geometry_.next(s)));
+        if (length(p - corner_) >= distance) continue;
+        distance = length(p - corner_);
+        point = p;
+      }
+    }
+    return point;
+  }
+
+  /// The run that claims the corner and comes nearest; none where two come equally near.
+  bool choose_run(std::span<const Sight> sights) {
+    std::vector<std::size_t> claimants;
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+      if (sights[i].distance < share_ * local_edge_) claimants.push_back(root(i));
+    }
+    std::sort(claimants.begin(), claimants.end());
+    claimants.erase(std::unique(claimants.begin(), claimants.end()), claimants.end());
+    double best = local_edge_;
+    bool tied = true;
+    for (const std::size_t run : claimants) {
+      const double distance = length(nearest_point(sights, [&](std::size_t i) { return root(i) == run; }) - corner_);
+      tied = distance == best ? true : distance < best ? false : tied;
+      if (distance >= best) continue;
+      best = distance;
+      chosen_ = run;
+    }
+    return !tied;
+  }
+
+  /// Marks what the corner takes: the chosen run's claims and, if asked, its other crossings that are nearer to this corner than to the far end of their edge. False
+  /// where that would not be a contraction, or swallow too much.
+  bool absorb(std::span<const Sight> sights, bool whole_run) {
+    absorbed_.assign(sights.size(), 0);
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+      const bool claims = sights[i].distance < share_ * local_edge_;
+      const bool free = 2 * sights[i].distance < sights[i].edge;  // the corner at the far end is farther, and never takes it
+      absorbed_[i] = root(i) == chosen_ && (claims || (whole_run && free));
+    }
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+      for (std::size_t j = 0; j < sights.size(); ++j) {
+        const bool passed_over = absorbed_[i] != 0 && absorbed_[j] == 0 && sights[j].direction == sights[i].direction && sights[j].distance <= sights[i].distance;
+        if (passed_over) return false;
+      }
+    }
+    return find_target(sights);
+  }
+
+  /// Sets the target: a kept point near the corner, else the nearest point of the run. False where a point that must stay, or lies too far
+  /// off, would vanish.
+  bool find_target(std::span<const Sight> sights) {
+    target_ = nearest_point(sights, [&](std::size_t i) { return absorbed_[i] != 0; });
+    double nearest_kept = capture_share * local_edge_;
+    std::vector<std::int32_t> swallowed;
+    bool goes_on = false;  // the outline leaves the corner again: not so for an island round it
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+      if (absorbed_[i] == 0) continue;
+      const LeafTrace view = traces_[sights[i].trace];
+      const Piece& piece = view.pieces[static_cast<std::size_t>(sights[i].piece)];
+      const bool vanishes = std::any_of(sights.begin(), sights.end(), [&](const Sight& other) {
+        const auto j = static_cast<std::size_t>(&other - sights.data());
+        return absorbed_[j] != 0 && other.trace == sights[i].trace && other.piece == sights[i].piece && !same_crossing(other, sights[i]);
+      });
+      goes_on = goes_on || !vanishes;
+      for (const std::int32_t v : view.vertices_of(piece)) {
+        const double distance = length(geometry_.point(v) - corner_);
+        if (vanishes) swallowed.push_back(v);
+        if (geometry_.kept(v) && distance < nearest_kept) {
+          nearest_kept = distance;
+          target_ = geometry_.point(v);
+        }
+      }
+    }
+    return goes_on && std::none_of(swallowed.begin(), swallowed.end(), [&](std::int32_t v) {
+      return length(geometry_.point(v) - corner_) > swallow_share * local_edge_ || (geometry_.kept(v) && geometry_.point(v) != target_);
+    });
+  }
+
+  const LeafGraph& graph_;
+  const Lattice& lattice_;
+  const Geometry& geometry_;
+  const LeafTraces& traces_;
+  double share_;
+  Point corner_, target_;
+  double local_edge_ = 0;
+  std::size_t chosen_ = 0;
+  std::vector<std::size_t> run_;
+  std::vector<char> absorbed_;
+};
+
+}  // namespace
+
+std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, const TracedForest& traced, double share) {
+  std::vector<Sight> sights;
+  SightCollector collector(graph, lattice, sights);
+  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    const std::int32_t trace = traced.trace_of[static_cast<std::size_t>(leaf)];
+    if (trace >= 0) collector.add_leaf(leaf, trace, traced.traces[trace]);
+  }
+  std::sort(sights.begin(), sights.end(), [](const Sight& a, const Sight& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<Snap> snaps;
+  CornerDecision decision(graph, lattice, geometry, traced.traces, share);
+  for (std::size_t begin = 0, end = 0; begin < sights.size(); begin = end) {
+    while (end < sights.size() && sights[end].x == sights[begin].x && sights[end].y == sights[begin].y) ++end;
+    if (auto snap = decision.decide(std::span(sights).subspan(begin, end - begin))) snaps.push_back(std::move(*snap));
+  }
+  return snaps;
+}
+
+std::vector<LeafSnap> snaps_of_leaves(const LeafGraph& graph, const std::vector<Snap>& snaps) {
+  std::vector<LeafSnap> result;
+  for (const Snap& snap : snaps) {
+    std::array<std::int32_t, 4> seen{LeafGraph::none, LeafGraph::none, LeafGraph::none, LeafGraph::none};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::int32_t leaf = graph.leaf_at(snap.x - 1 + static_cast<std::int64_t>(k & 1), snap.y - 1 + static_cast<std::int64_t>(k >> 1));
+      if (!graph.is_local(leaf) || std::find(seen.begin(), seen.end(), leaf) != seen.end()) continue;
+      seen[k] = leaf;
+      const Quadrant& q = graph.leaf(leaf);
+      const std::int64_t half = q.size() / 2;
+      constexpr std::array<std::array<int, 3>, 3> places{{{0, 4, 1}, {7, -1, 5}, {3, 6, 2}}};
+      result.push_back({leaf, places[static_cast<std::size_t>((snap.y - q.y) / half)][static_cast<std::size_t>((snap.x - q.x) / half)], &snap});
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const LeafSnap& a, const LeafSnap& b) { return a.leaf != b.leaf ? a.leaf < b.leaf : a.place < b.place; });
+  return result;
+}
+
+}  // namespace quadloop
