@@ -1,4 +1,5 @@
-# How tests are registered. `quick` tests make up the core that runs in a few minutes, `full` ones run with everything else.
+# How tests are registered. `quick` tests make up the core that runs in a few minutes, `normal` ones belong to every full check,
+# `full` ones take long.
 include_guard(GLOBAL)
 
 # The environment of every test: the same settings that scripts/mpirun gives its users, for programs that run alone too.
@@ -12,7 +13,7 @@ set(QUADLOOP_TEST_ENVIRONMENT
     ASAN_OPTIONS=detect_leaks=0) # Open MPI keeps memory of its own to the end
 set(QUADLOOP_MPIRUN "${PROJECT_SOURCE_DIR}/scripts/mpirun")
 
-# quadloop_label_test(NAME LABEL quick|full TIMEOUT seconds RANKS n): what every ctest of ours carries.
+# quadloop_label_test(NAME LABEL quick|normal|full TIMEOUT seconds RANKS n): what every ctest of ours carries.
 function(quadloop_label_test name)
   cmake_parse_arguments(TEST "" "LABEL;TIMEOUT;RANKS" "" ${ARGN})
   if(NOT TEST_LABEL)
@@ -34,7 +35,7 @@ function(quadloop_test_program name)
   target_link_libraries(${name} PRIVATE quadloop_test_support ${TEST_LIBRARIES})
 endfunction()
 
-# quadloop_test(NAME SOURCES ... LIBRARIES ... [LABEL full] [TIMEOUT seconds]): a GoogleTest program on one rank.
+# quadloop_test(NAME SOURCES ... LIBRARIES ... [LABEL normal|full] [TIMEOUT seconds]): a GoogleTest program on one rank.
 function(quadloop_test name)
   cmake_parse_arguments(TEST "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   quadloop_test_program(${name} SOURCES ${TEST_SOURCES} LIBRARIES ${TEST_LIBRARIES})
@@ -42,7 +43,7 @@ function(quadloop_test name)
   quadloop_label_test(${name} LABEL "${TEST_LABEL}" TIMEOUT "${TEST_TIMEOUT}")
 endfunction()
 
-# quadloop_mpi_test(NAME RANKS 1 2 3 ... SOURCES ... LIBRARIES ... [LABEL full] [TIMEOUT seconds]): one ctest NAME.RANKS for
+# quadloop_mpi_test(NAME RANKS 1 2 3 ... SOURCES ... LIBRARIES ... [LABEL normal|full] [TIMEOUT seconds]): one ctest NAME.RANKS for
 # each number of ranks; the timeout makes a deadlock a failure.
 function(quadloop_mpi_test name)
   cmake_parse_arguments(TEST "" "LABEL;TIMEOUT" "RANKS;SOURCES;LIBRARIES" ${ARGN})

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""One case from end to end: mesh it, let `quadloop check` and, where they are at hand, an independent judge and cgnscheck look at
+what came out, and compare with the case's expected values (expected.toml: nodes, triangles, quads, boundaries, area, digest).
+
+    run_case.py --quadloop PROGRAM --case CASE.toml [--keeps-corners] [--ranks N] [--borrow FILE.geom] [--write-expected]
+
+--borrow   the geometry is not the project's to ship: it is taken from outside, or the test is skipped
+"""
+import argparse
+import json
+import math
+import shutil
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+from quadloop_runs import NativeMesh, beside_the_checkout, digest, fail, mesh_case, run, skip
+
+AREA_TOLERANCE = 1e-12  # relative; the areas are sums of the same doubles, added up in the order of the file
+
+
+def borrowed_case(case, geometry_name, work):
+    source = beside_the_checkout("QUADLOOP_BORROWED_DATA", "data")
+    if source is None or not (source / geometry_name).exists():
+        skip(f"{geometry_name} is not part of the project and not at hand")
+    shutil.copy(source / geometry_name, work)
+    return Path(shutil.copy(case, work))
+
+
+def judge(prefix, geometry, keeps_corners):
+    script = beside_the_checkout("QUADLOOP_MESHCHECK", "tools/meshcheck.py")
+    if script is None:
+        print("no independent judge at hand: `quadloop check` alone has looked at the mesh")
+        return
+    said = json.loads(run([sys.executable, script, f"{prefix}.mesh", "--geometry", geometry, "--json"], accept=(0, 1)))
+    print({key: said[key] for key in sorted(said) if key not in ("valid", "broken")})
+    if not said["valid"]:
+        fail(f"the judge: {said['broken']}")
+    if said["boundaries_dropped"] != 0:
+        fail(f"{said['boundaries_dropped']} boundaries dropped")
+    if keeps_corners and said["sharp_corners_lost"] != 0:
+        fail(f"{said['sharp_corners_lost']} sharp corners lost")
+    run([sys.executable, script, f"{prefix}.mesh", "--same", f"{prefix}.cgns"])
+
+
+def check_cgns(prefix):
+    program = shutil.which("cgnscheck")
+    if program is None:
+        print("no cgnscheck at hand")
+        return
+    said = run([program, f"{prefix}.cgns"])
+    if "ERROR" in said:
+        fail(f"cgnscheck: {said}")
+
+
+def values_of(prefix):
+    mesh = NativeMesh(f"{prefix}.mesh")
+    return {"nodes": len(mesh.nodes), "triangles": mesh.triangles(), "quads": mesh.quads(), "boundaries": len(mesh.boundaries),
+            "area": mesh.area(), "digest": digest(f"{prefix}.mesh")}
+
+
+def compare(found, expected):
+    for key, value in expected.items():
+        same = math.isclose(found[key], value, rel_tol=AREA_TOLERANCE) if key == "area" else found[key] == value
+        if not same:
+            fail(f"{key} is {found[key]}, expected {value}")
+
+
+def write_expected(path, found):
+    rows = [f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value!r}" for key, value in found.items()]
+    path.write_text("# What this case gives on any number of ranks; digest: SHA-256 of the .mesh file.\n" + "\n".join(rows) + "\n")
+    print(f"wrote {path}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quadloop", required=True)
+    parser.add_argument("--case", required=True, type=Path)
+    parser.add_argument("--keeps-corners", action="store_true")
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--borrow")
+    parser.add_argument("--write-expected", action="store_true")
+    args = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="quadloop_case_") as folder:
+        work = Path(folder)
+        case = borrowed_case(args.case, args.borrow, work) if args.borrow else args.case
+        prefix, geometry = work / "out", work / "as_meshed.geom"
+        mesh_case(args.quadloop, case, prefix, args.ranks, ["--geometry-out", geometry])
+        run([args.quadloop, "check", f"{prefix}.mesh", "--geometry", geometry])
+        judge(prefix, geometry, args.keeps_corners)
+        check_cgns(prefix)
+        found = values_of(prefix)
+    # case.toml has its values in expected.toml, medium.toml in expected_medium.toml
+    stem = "expected" if args.case.stem == "case" else f"expected_{args.case.stem}"
+    expected = args.case.with_name(f"{stem}.toml")
+    if args.write_expected:
+        write_expected(expected, found)
+    elif expected.exists():
+        compare(found, tomllib.loads(expected.read_text()))
+    print("good")
+
+
+if __name__ == "__main__":
+    main()
