@@ -1,0 +1,92 @@
+#include "app/closing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+#include <vector>
+
+namespace quadloop {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int failure_note = 7;                            // the tag of "I have failed"
+constexpr auto patience = std::chrono::milliseconds(2000);  // how far apart ranks may come to the same error
+
+void say(const Outcome& outcome) {
+  std::string line = "quadloop: error: " + outcome.message;
+  for (char& c : line) c = c == '\n' || c == '\r' ? ' ' : c;
+  fmt::print(stderr, "{}\n", line);
+  std::fflush(stderr);
+}
+
+bool completes_within(MPI_Request& request, std::chrono::milliseconds time) {
+  const auto deadline = Clock::now() + time;
+  for (;;) {
+    int done = 0;
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done != 0) return true;
+    if (Clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+/// Tells all other ranks that this one failed. The notes are small enough to be on their way without anybody's help.
+void send_notes(MPI_Comm comm, int rank, int ranks, std::vector<MPI_Request>& notes) {
+  static const char note = 1;
+  for (int r = 0; r < ranks; ++r) {
+    if (r != rank) MPI_Isend(&note, 1, MPI_CHAR, r, failure_note, comm, &notes.emplace_back());
+  }
+}
+
+void receive_notes(MPI_Comm comm, int rank, const std::vector<int>& statuses) {
+  char note = 0;
+  for (int r = 0; r < static_cast<int>(statuses.size()); ++r) {
+    if (r != rank && statuses[static_cast<std::size_t>(r)] != 0) MPI_Recv(&note, 1, MPI_CHAR, r, failure_note, comm, MPI_STATUS_IGNORE);
+  }
+}
+
+bool lower_rank_failed(MPI_Comm comm, int rank) {
+  for (int r = 0; r < rank; ++r) {
+    int there = 0;
+    MPI_Iprobe(r, failure_note, comm, &there, MPI_STATUS_IGNORE);
+    if (there != 0) return true;
+  }
+  return false;
+}
+
+/// The others are waiting for this rank somewhere else. The lowest rank that failed speaks and ends them.
+[[noreturn]] void end_all(MPI_Comm comm, int rank, const Outcome& outcome) {
+  if (lower_rank_failed(comm, rank)) std::this_thread::sleep_for(std::chrono::seconds(20));  // ended by that rank before this is over
+  else say(outcome);
+  MPI_Abort(comm, static_cast<int>(outcome.status));
+  std::abort();
+}
+
+}  // namespace
+
+ExitStatus close_together(MPI_Comm comm, const Outcome& outcome) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  const int mine = static_cast<int>(outcome.status);
+  std::vector<MPI_Request> notes;
+  if (mine != 0) send_notes(comm, rank, ranks, notes);
+  std::vector<int> statuses(static_cast<std::size_t>(ranks));
+  MPI_Request agreed = MPI_REQUEST_NULL;
+  MPI_Iallgather(&mine, 1, MPI_INT, statuses.data(), 1, MPI_INT, comm, &agreed);
+  if (mine != 0 && !completes_within(agreed, patience)) end_all(comm, rank, outcome);
+  MPI_Wait(&agreed, MPI_STATUS_IGNORE);
+  receive_notes(comm, rank, statuses);
+  MPI_Waitall(static_cast<int>(notes.size()), notes.data(), MPI_STATUSES_IGNORE);
+  const auto first = std::find_if(statuses.begin(), statuses.end(), [](int status) { return status != 0; });
+  if (first == statuses.end()) return ExitStatus::done;
+  if (first - statuses.begin() == rank) say(outcome);
+  return static_cast<ExitStatus>(*first);
+}
+
+}  // namespace quadloop

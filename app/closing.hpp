@@ -1,0 +1,22 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <string>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+/// How one rank's work ended.
+struct Outcome {
+  ExitStatus status = ExitStatus::done;
+  std::string message;  ///< one line, where the status is not `done`
+};
+
+/// Ends the run on all ranks together. An error that every rank met is said once, by the lowest rank, and all return its status.
+/// An error of some ranks alone, while others wait for them in vain, is said once too and ends the whole run by MPI_Abort.
+/// *Collective* as far as ranks still can; `comm` is used for nothing else.
+ExitStatus close_together(MPI_Comm comm, const Outcome& outcome);
+
+}  // namespace quadloop

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/mesh/build_mesh.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// A number that changes with every setting that the mesh depends on, beside the geometry.
+std::uint64_t case_digest(const MeshOptions& options);
+
+/// A number that changes with any node's coordinates and does not depend on the number of ranks. *Collective.*
+std::uint64_t coordinate_digest(const Communicator& comm, const Mesh& mesh);
+
+}  // namespace quadloop

@@ -1,0 +1,180 @@
+#include "app/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/input/case_file.hpp"
+#include "io/input/geometry_file.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// One value for all files, or one for each.
+template <class Value>
+Value of_file(const CaseTable& table, const std::string& key, const std::vector<Value>& values, std::size_t file, std::size_t files, Value absent) {
+  if (values.empty()) return absent;
+  if (values.size() == 1) return values.front();
+  if (values.size() != files) {
+    table.refuse(key, fmt::format("is a list of {}, but there are {} files; give one value, or one for each file", values.size(), files));
+  }
+  return values[file];
+}
+
+void read_geometry_table(const CaseTable& root, const std::string& case_path, Settings& settings) {
+  const auto table = root.table("geometry");
+  if (!table) root.refuse("geometry", "is missing; name the outline, as in [geometry] file = \"outline.geom\"");
+  const std::vector<std::string> files = table->texts("file");
+  if (files.empty()) table->refuse("file", "is missing; name the outline, as in file = \"outline.geom\"");
+  const auto scales = table->numbers_or_one("scale", Range::positive());
+  const auto turns = table->numbers_or_one("rotate");
+  const auto moves = table->pairs("translate");
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto move = of_file(*table, "translate", moves, i, files.size(), {0, 0});
+    const double turn = of_file(*table, "rotate", turns, i, files.size(), 0.0);
+    const double scale = of_file(*table, "scale", scales, i, files.size(), 1.0);
+    settings.files.push_back({(std::filesystem::path(case_path).parent_path() / files[i]).string(), {scale, turn, {move[0], move[1]}}});
+  }
+  if (const auto width = table->number("far_field", Range::positive())) {
+    settings.far_field = FarField{*width, fmt::format("{}: 'geometry.far_field'", table->place("far_field"))};
+  }
+  table->finish();
+}
+
+void read_spacing_table(const CaseTable& root, Settings& settings) {
+  const auto table = root.table("spacing");
+  if (!table) return;
+  SizeOptions& size = settings.mesh.size;
+  settings.min = table->number("min", Range::positive());
+  settings.max = table->number("max", Range::positive());
+  size.gradation = table->number("gradation", {1, 2, true, false}).value_or(size.gradation);
+  size.curvature = table->number("curvature", {0, 180, true, false});
+  size.gap = table->number("gap", {0, 1000, true, false});
+  settings.outline.default_corner_degrees = table->number("corner", {0, 180}).value_or(settings.outline.default_corner_degrees);
+  table->finish();
+  if (settings.min && settings.max && *settings.min > *settings.max) {
+    table->refuse("min", fmt::format("is {}, but must not be above spacing.max, which is {}", *settings.min, *settings.max));
+  }
+}
+
+void read_boundary_tables(const CaseTable& root, Settings& settings) {
+  if (settings.far_field) {
+    settings.outline.rules.push_back({"farfield", {}, {}, "farfield", settings.far_field->where, false});  // unless the case says other
+  }
+  const auto tables = root.table("boundary");
+  if (!tables) return;
+  for (const std::string& name : tables->table_names()) {
+    const auto table = *tables->table(name);
+    BoundaryRule rule;
+    rule.pattern = name;
+    rule.where = fmt::format("{}: [{}]", table.place(), tables->full_name(name));
+    rule.spacing = table.number("spacing", Range::positive());
+    rule.corner_degrees = table.number("corner", {0, 180});
+    rule.condition = table.choice("bc", {"wall", "farfield", "inflow", "outflow", "symmetry", "interface", "none"});
+    table.finish();
+    settings.outline.rules.push_back(std::move(rule));
+  }
+}
+
+Source read_source(const CaseTable& table) {
+  Source source;
+  const auto box = table.numbers("box", 4);
+  const auto disc = table.numbers("disc", 3);
+  const auto line = table.numbers("line", 4);
+  if (int{box.has_value()} + int{disc.has_value()} + int{line.has_value()} != 1) {
+    throw InputError(table.place() + ": a [[source]] needs exactly one of box = [x0, x1, y0, y1], disc = [x, y, radius], line = [x0, y0, x1, y1]");
+  }
+  if (box) {
+    const auto& b = *box;
+    if (!(b[0] < b[1] && b[2] < b[3])) table.refuse("box", "must be [x0, x1, y0, y1] with x0 < x1 and y0 < y1");
+    source.shape = Box{{b[0], b[2]}, {b[1], b[3]}};
+  } else if (disc) {
+    if (!((*disc)[2] > 0)) table.refuse("disc", "must be [x, y, radius] with a radius above 0");
+    source.shape = Source::Disc{{(*disc)[0], (*disc)[1]}, (*disc)[2]};
+  } else {
+    source.shape = Source::Line{{(*line)[0], (*line)[1]}, {(*line)[2], (*line)[3]}};
+  }
+  const auto spacing = table.number("spacing", Range::positive());
+  if (!spacing) table.refuse("spacing", "is missing; a [[source]] needs the spacing that it asks for");
+  source.spacing = *spacing;
+  table.finish();
+  return source;
+}
+
+void read_mesh_table(const CaseTable& root, Settings& settings) {
+  const auto table = root.table("mesh");
+  if (!table) return;
+  const auto type = table->choice("type", {"hybrid", "delaunay"});
+  if (type == "delaunay") table->refuse("type", "is 'delaunay', which this version does not make; use \"hybrid\"");
+  settings.mesh.snap = table->number("snap", {0, 0.5, false, true}).value_or(settings.mesh.snap);
+  if (const auto root_values = table->numbers("root", 5)) {
+    const auto& r = *root_values;
+    const bool whole = r[3] == std::floor(r[3]) && r[4] == std::floor(r[4]) && r[3] >= 1 && r[4] >= 1 && r[3] <= 1024 && r[4] <= 1024;
+    if (!(r[2] > 0) || !whole) {
+      table->refuse("root", "must be [x0, y0, tree edge, trees along x, trees along y] with an edge above 0 and whole numbers of trees from 1 to 1024");
+    }
+    settings.mesh.size.root = RootOptions{{r[0], r[1]}, r[2], static_cast<int>(r[3]), static_cast<int>(r[4])};
+  }
+  table->finish();
+}
+
+void read_output_table(const CaseTable& root, const std::string& case_path, Settings& settings) {
+  settings.output_prefix = std::filesystem::path(case_path).stem().string();
+  const auto table = root.table("output");
+  if (!table) return;
+  settings.output_prefix = table->text("prefix").value_or(settings.output_prefix);
+  if (settings.output_prefix.empty()) table->refuse("prefix", "is empty; name what the output files begin with");
+  if (table->has("formats")) {
+    settings.formats.clear();
+    for (const std::string& format : table->texts("formats")) {
+      if (format != "mesh" && format != "cgns") table->refuse("formats", fmt::format("holds '{}', but this version writes: mesh, cgns", format));
+      if (std::find(settings.formats.begin(), settings.formats.end(), format) == settings.formats.end()) settings.formats.push_back(format);
+    }
+  }
+  table->finish();
+}
+
+}  // namespace
+
+Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments) {
+  const CaseTable root = read_case(case_path, assignments);
+  Settings settings;
+  settings.title = root.text("title").value_or("");
+  read_geometry_table(root, case_path, settings);
+  read_spacing_table(root, settings);
+  read_boundary_tables(root, settings);
+  for (const CaseTable& source : root.tables("source")) settings.mesh.size.sources.push_back(read_source(source));
+  read_mesh_table(root, settings);
+  read_output_table(root, case_path, settings);
+  root.finish();
+  return settings;
+}
+
+Geometry load_geometry(const Settings& settings, Warnings& warnings) {
+  std::vector<Chain> chains;
+  for (const GeometryInput& input : settings.files) {
+    std::vector<Chain> of_file = read_geometry(input.path, warnings);
+    apply(input.transform, of_file);
+    std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
+  }
+  if (settings.far_field) add_far_field(chains, settings.far_field->half_width, settings.far_field->where);
+  return assemble(std::move(chains), settings.outline, warnings);
+}
+
+MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
+  MeshOptions options = settings.mesh;
+  const double side = std::max(geometry.box().width(), geometry.box().height());
+  double smallest = side;
+  for (std::int32_t s = 0; s < geometry.size(); ++s) smallest = std::min(smallest, geometry.spacing_of(s));
+  const double wanted_min = std::max(smallest, std::ldexp(side, -20));
+  const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
+  options.size.max = max;
+  options.size.min = settings.min.value_or(std::min(wanted_min, max));
+  return options;
+}
+
+}  // namespace quadloop

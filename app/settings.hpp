@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/geometry/assemble.hpp"
+#include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/transform.hpp"
+#include "mesher/mesh/build_mesh.hpp"
+
+namespace quadloop {
+
+/// One geometry file and how its coordinates are placed.
+struct GeometryInput {
+  std::string path;
+  Transform transform;
+};
+
+/// The far field that the case asks for.
+struct FarField {
+  double half_width = 0;
+  std::string where;
+};
+
+/// A case file as each module wants it: the only place that knows the names of keys.
+struct Settings {
+  std::string title;
+  std::vector<GeometryInput> files;
+  std::optional<FarField> far_field;
+  AssembleOptions outline;
+  std::optional<double> min, max;  ///< spacing.min and spacing.max, where given
+  MeshOptions mesh;                ///< without the sizes min and max: those may follow from the geometry
+  std::string output_prefix;
+  std::vector<std::string> formats{"mesh", "cgns"};
+};
+
+/// Reads the case file with the command line's assignments over it. On the calling rank alone. Throws InputError that names key
+/// and line.
+Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments);
+
+/// Reads, places and assembles the geometry. On the calling rank alone.
+Geometry load_geometry(const Settings& settings, Warnings& warnings);
+
+/// The options with the sizes that the case leaves open taken from the geometry: max is 1/16 of the longer side of its box (or min
+/// if that is larger), min the smallest spacing that it asks for, but no less than 2^-20 of that side.
+MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
+
+}  // namespace quadloop
