@@ -80,13 +80,14 @@ class LeafCutter {
   void gather_stops();
   void add_stop(int side, Point position, int place, std::int32_t crossing);
   void name_stops();
-  int absorbing_place(const Crossing& crossing) const;
+  const LeafSnap* absorbing_snap(const Crossing& crossing) const;
+  std::span<const std::int32_t> trimmed_vertices(const Piece& piece) const;
   bool walk_sides();
   bool status_at_start(bool& inside) const;
   void note_side(const Stop& from, const Stop& to);
   void add_chords(Detail detail);
   void add_chord_run(const Piece& piece, Detail detail);
-  void choose_points(const Piece& piece, Detail detail);
+  void choose_points(const Piece& piece, std::span<const std::int32_t> vertices, Detail detail);
   void keep_strays(std::size_t from, std::size_t to);
   std::int32_t node_at(Point position);
   void sort_inner_nodes();

@@ -74,16 +74,16 @@ void LeafCutter::gather_stops() {
   name_stops();
 }
 
-/// The corner or hanging node that a snap gives the crossing to; -1 for none.
-int LeafCutter::absorbing_place(const Crossing& crossing) const {
+/// The snap that takes the crossing; null for none.
+const LeafSnap* LeafCutter::absorbing_snap(const Crossing& crossing) const {
   for (const LeafSnap& s : input_.snaps) {
     const bool on_side = s.place == crossing.side || s.place == 4 + crossing.side || s.place == (crossing.side + 1) % 4;
     if (!on_side) continue;
     const auto& absorbed = s.snap->absorbed;
     const Snap::Absorbed wanted{crossing.segment, crossing.side % 2 == 1};
-    if (std::find(absorbed.begin(), absorbed.end(), wanted) != absorbed.end()) return s.place;
+    if (std::find(absorbed.begin(), absorbed.end(), wanted) != absorbed.end()) return &s;
   }
-  return -1;
+  return nullptr;
 }
 
 /// One node for all stops at one position, and for a snapped corner with the crossings that it absorbs.
@@ -93,7 +93,7 @@ void LeafCutter::name_stops() {
   std::array<std::int32_t, 8> place_node{};
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const Stop& stop = stops_[i];
-    const bool absorbed = stop.crossing >= 0 && absorbing_place(input_.trace.crossing(stop.crossing)) >= 0;
+    const bool absorbed = stop.crossing >= 0 && absorbing_snap(input_.trace.crossing(stop.crossing)) != nullptr;
     if (absorbed) continue;
     const bool at_last = i > 0 && stops_[i - 1].position == stop.position && stop_node_[i - 1] >= 0;
     if (!at_last) leaf_.nodes.push_back({stop.position, stop.place < 8 ? stop.place : 8 + stop.side});
@@ -103,7 +103,7 @@ void LeafCutter::name_stops() {
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const std::int32_t c = stops_[i].crossing;
     if (c < 0) continue;
-    if (stop_node_[i] < 0) stop_node_[i] = place_node[static_cast<std::size_t>(absorbing_place(input_.trace.crossing(c)))];
+    if (stop_node_[i] < 0) stop_node_[i] = place_node[static_cast<std::size_t>(absorbing_snap(input_.trace.crossing(c))->place)];
     crossing_node_[static_cast<std::size_t>(c)] = stop_node_[i];
   }
   for (const LeafSnap& s : input_.snaps) leaf_.nodes[static_cast<std::size_t>(place_node[static_cast<std::size_t>(s.place)])].position = s.snap->position;
@@ -169,14 +169,15 @@ void LeafCutter::add_chords(Detail detail) {
 void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
   const bool closed = piece.entry < 0;
   if (!closed) {
-    const std::int32_t entry = crossing_node_[static_cast<std::size_t>(piece.entry)];
-    const bool one_corner = entry == crossing_node_[static_cast<std::size_t>(piece.exit)] &&
-                            absorbing_place(input_.trace.crossing(piece.entry)) >= 0 && absorbing_place(input_.trace.crossing(piece.exit)) >= 0;
-    if (one_corner) return;
+    const LeafSnap *entry = absorbing_snap(input_.trace.crossing(piece.entry)), *exit = absorbing_snap(input_.trace.crossing(piece.exit));
+    if (entry != nullptr && exit != nullptr && entry->place == exit->place) return;
   }
-  choose_points(piece, detail);
-  const auto vertices = input_.trace.vertices_of(piece);
-  const auto segment_at = [&](std::size_t point) { return closed ? vertices[point] : point == 0 ? piece.first_segment : vertices[point - 1]; };
+  const auto vertices = trimmed_vertices(piece);
+  choose_points(piece, vertices, detail);
+  const std::int32_t first = closed || vertices.empty() || vertices.data() == input_.trace.vertices_of(piece).data()
+                                 ? piece.first_segment
+                                 : *(vertices.data() - 1);
+  const auto segment_at = [&](std::size_t point) { return closed ? vertices[point] : point == 0 ? first : vertices[point - 1]; };
   std::size_t from = 0;
   std::int32_t from_node = closed ? node_at(run_points_[0]) : crossing_node_[static_cast<std::size_t>(piece.entry)];
   for (std::size_t i = 1; i < run_points_.size(); ++i) {
@@ -189,10 +190,23 @@ void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
   }
 }
 
+/// A piece's vertices without those next to its ends that vanish in snapped corners.
+std::span<const std::int32_t> LeafCutter::trimmed_vertices(const Piece& piece) const {
+  auto vertices = input_.trace.vertices_of(piece);
+  if (piece.entry < 0) return vertices;
+  const auto vanishes = [&](const LeafSnap& s, std::int32_t v) { return length(outline_->geometry().point(v) - s.snap->corner) < s.snap->radius; };
+  if (const LeafSnap* entry = absorbing_snap(input_.trace.crossing(piece.entry))) {
+    while (!vertices.empty() && vanishes(*entry, vertices.front())) vertices = vertices.subspan(1);
+  }
+  if (const LeafSnap* exit = absorbing_snap(input_.trace.crossing(piece.exit))) {
+    while (!vertices.empty() && vanishes(*exit, vertices.back())) vertices = vertices.first(vertices.size() - 1);
+  }
+  return vertices;
+}
+
 /// Lists a piece's points and marks those that the chords go through.
-void LeafCutter::choose_points(const Piece& piece, Detail detail) {
+void LeafCutter::choose_points(const Piece& piece, std::span<const std::int32_t> vertices, Detail detail) {
   const Geometry& g = outline_->geometry();
-  const auto vertices = input_.trace.vertices_of(piece);
   const bool closed = piece.entry < 0;
   const auto node_position = [&](std::int32_t c) { return leaf_.nodes[static_cast<std::size_t>(crossing_node_[static_cast<std::size_t>(c)])].position; };
   run_points_.clear();

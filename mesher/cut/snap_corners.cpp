@@ -20,6 +20,7 @@ struct Sight {
   double edge = 0;              ///< its length
   std::int32_t segment = -1;
   std::int32_t trace = -1, piece = -1;
+  bool at_entry = false;        ///< of the piece
   bool vertical() const { return direction % 2 == 1; }
 };
 
@@ -34,13 +35,13 @@ class SightCollector {
     for (std::size_t p = 0; p < view.pieces.size(); ++p) {
       const Piece& piece = view.pieces[p];
       if (piece.entry < 0) continue;
-      add_crossing(leaf, trace, static_cast<std::int32_t>(p), view.crossing(piece.entry));
-      add_crossing(leaf, trace, static_cast<std::int32_t>(p), view.crossing(piece.exit));
+      add_crossing(leaf, trace, static_cast<std::int32_t>(p), view.crossing(piece.entry), true);
+      add_crossing(leaf, trace, static_cast<std::int32_t>(p), view.crossing(piece.exit), false);
     }
   }
 
  private:
-  void add_crossing(std::int32_t leaf, std::int32_t trace, std::int32_t piece, const Crossing& c) {
+  void add_crossing(std::int32_t leaf, std::int32_t trace, std::int32_t piece, const Crossing& c, bool at_entry) {
     const Quadrant& q = graph_.leaf(leaf);
     const bool horizontal = c.side % 2 == 0;
     const std::int64_t fixed = c.side == 0 ? q.y : c.side == 1 ? q.x + q.size() : c.side == 2 ? q.y + q.size() : q.x;
@@ -53,7 +54,7 @@ class SightCollector {
     }
     const double edge = line(to) - line(from);
     const auto see = [&](std::int64_t end, int direction) {
-      sights_.push_back({horizontal ? end : fixed, horizontal ? fixed : end, direction, std::abs(at - line(end)), edge, c.segment, trace, piece});
+      sights_.push_back({horizontal ? end : fixed, horizontal ? fixed : end, direction, std::abs(at - line(end)), edge, c.segment, trace, piece, at_entry});
     };
     see(from, horizontal ? 0 : 1);
     see(to, horizontal ? 2 : 3);
@@ -92,7 +93,7 @@ class CornerDecision {
     find_runs(sights);
     if (!choose_run(sights)) return std::nullopt;
     if (!absorb(sights, true) && !absorb(sights, false)) return std::nullopt;
-    Snap snap{sights.front().x, sights.front().y, target_, {}};
+    Snap snap{sights.front().x, sights.front().y, target_, corner_, capture_share * local_edge_, {}};
     for (std::size_t i = 0; i < sights.size(); ++i) {
       const Snap::Absorbed entry{sights[i].segment, sights[i].vertical()};
       const bool known = std::find(snap.absorbed.begin(), snap.absorbed.end(), entry) != snap.absorbed.end();
@@ -130,28 +131,34 @@ class CornerDecision {
     }
   }
 
-  std::vector<std::int32_t> segments_of(const Sight& s) const {
+  /// The vertices of a sight's piece from its crossing on, as long as they stay near the corner.
+  std::vector<std::int32_t> near_vertices(const Sight& s) const {
     const LeafTrace view = traces_[s.trace];
-    const Piece& piece = view.pieces[static_cast<std::size_t>(s.piece)];
-    std::vector<std::int32_t> segments{piece.first_segment};
-    const auto vertices = view.vertices_of(piece);
-    segments.insert(segments.end(), vertices.begin(), vertices.end());
-    return segments;
+    const auto all = view.vertices_of(view.pieces[static_cast<std::size_t>(s.piece)]);
+    std::vector<std::int32_t> near;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::int32_t v = s.at_entry ? all[i] : all[all.size() - 1 - i];
+      if (length(geometry_.point(v) - corner_) >= capture_share * local_edge_) break;
+      near.push_back(v);
+    }
+    return near;
   }
 
-  /// The nearest point to the corner on the pieces of outline that the sights of interest belong to.
+  /// The nearest point to the corner on the outline from the crossings of interest on, as long as it stays near.
   template <class OfInterest>
   Point nearest_point(std::span<const Sight> sights, const OfInterest& of_interest) const {
     Point point;
     double distance = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < sights.size(); ++i) {
       if (!of_interest(i)) continue;
-      for (const std::int32_t s : segments_of(sights[i])) {
+      const auto try_segment = [&](std::int32_t s) {
         const Point p = nearest_on_segment(corner_, geometry_.point(s), geometry_.point(geometry_.next(s)));
-        if (length(p - corner_) >= distance) continue;
+        if (length(p - corner_) >= distance) return;
         distance = length(p - corner_);
         point = p;
-      }
+      };
+      try_segment(sights[i].segment);
+      for (const std::int32_t v : near_vertices(sights[i])) try_segment(sights[i].at_entry ? v : geometry_.previous(v));
     }
     return point;
   }
@@ -194,34 +201,39 @@ class CornerDecision {
     return find_target(sights);
   }
 
-  /// Sets the target: a kept point near the corner, else the nearest point of the run. False where a point that must stay, or lies too far
-  /// off, would vanish.
+  /// Whether both ends of the sight's piece are absorbed.
+  bool vanishes(std::span<const Sight> sights, const Sight& s) const {
+    for (std::size_t j = 0; j < sights.size(); ++j) {
+      if (absorbed_[j] != 0 && sights[j].trace == s.trace && sights[j].piece == s.piece && sights[j].at_entry != s.at_entry) return true;
+    }
+    return false;
+  }
+
+  /// Sets the target: a kept point that vanishes in the corner, else the nearest point of the outline. False where two kept points would vanish,
+  /// or what lies too far off, or a whole loop.
   bool find_target(std::span<const Sight> sights) {
-    target_ = nearest_point(sights, [&](std::size_t i) { return absorbed_[i] != 0; });
-    double nearest_kept = capture_share * local_edge_;
     std::vector<std::int32_t> swallowed;
     bool goes_on = false;  // the outline leaves the corner again: not so for an island round it
     for (std::size_t i = 0; i < sights.size(); ++i) {
       if (absorbed_[i] == 0) continue;
-      const LeafTrace view = traces_[sights[i].trace];
-      const Piece& piece = view.pieces[static_cast<std::size_t>(sights[i].piece)];
-      const bool vanishes = std::any_of(sights.begin(), sights.end(), [&](const Sight& other) {
-        const auto j = static_cast<std::size_t>(&other - sights.data());
-        return absorbed_[j] != 0 && other.trace == sights[i].trace && other.piece == sights[i].piece && !same_crossing(other, sights[i]);
-      });
-      goes_on = goes_on || !vanishes;
-      for (const std::int32_t v : view.vertices_of(piece)) {
-        const double distance = length(geometry_.point(v) - corner_);
-        if (vanishes) swallowed.push_back(v);
-        if (geometry_.kept(v) && distance < nearest_kept) {
-          nearest_kept = distance;
-          target_ = geometry_.point(v);
-        }
+      if (vanishes(sights, sights[i])) {
+        const LeafTrace view = traces_[sights[i].trace];
+        const auto all = view.vertices_of(view.pieces[static_cast<std::size_t>(sights[i].piece)]);
+        swallowed.insert(swallowed.end(), all.begin(), all.end());
+      } else {
+        goes_on = true;
+        const auto near = near_vertices(sights[i]);
+        swallowed.insert(swallowed.end(), near.begin(), near.end());
       }
     }
-    return goes_on && std::none_of(swallowed.begin(), swallowed.end(), [&](std::int32_t v) {
-      return length(geometry_.point(v) - corner_) > swallow_share * local_edge_ || (geometry_.kept(v) && geometry_.point(v) != target_);
-    });
+    target_ = nearest_point(sights, [&](std::size_t i) { return absorbed_[i] != 0; });
+    for (const std::int32_t v : swallowed) {
+      if (geometry_.kept(v)) target_ = geometry_.point(v);
+    }
+    return goes_on && length(target_ - corner_) < capture_share * local_edge_ &&
+           std::none_of(swallowed.begin(), swallowed.end(), [&](std::int32_t v) {
+             return length(geometry_.point(v) - corner_) > swallow_share * local_edge_ || (geometry_.kept(v) && geometry_.point(v) != target_);
+           });
   }
 
   const LeafGraph& graph_;

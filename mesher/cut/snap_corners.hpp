@@ -13,6 +13,8 @@ namespace quadloop {
 struct Snap {
   std::int64_t x = 0, y = 0;  ///< the corner, in lattice units
   Point position;             ///< where it goes: the nearest point of the outline's run past it, or a kept point of the geometry
+  Point corner;               ///< where the lattice has it
+  double radius = 0;          ///< vertices next to an absorbed crossing and nearer to the corner than this vanish in it
   struct Absorbed {
     std::int32_t segment = -1;
     bool vertical = false;    ///< whether the crossing lies on the vertical lattice line through the corner
