@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""How fast meshing is, and with how much memory: NACA 0012 to about 0.1, 1 and 4 million cells on one rank, 1 million on two, and the
+high-resolution Gulf of Mexico. Each run is repeated, the median counts. Standard library only.
+
+    bench.py --quadloop PROGRAM [--repeats N] [--update docs/performance.md] [--require]
+
+--update   puts the figures into the file, between its two markers
+--require  exit status 1 where a goal is missed
+"""
+import argparse
+import os
+import platform
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+AIRFOIL = ROOT / "cases" / "naca0012" / "case.toml"
+GULF = ROOT / "cases" / "gulf_of_mexico" / "high.toml"
+BEGIN, END = "<!-- figures: written by scripts/bench -->", "<!-- end of figures -->"
+
+
+@dataclass
+class Run:
+    cells: int
+    in_memory: float  # seconds of all stages but writing, each on its slowest rank
+    to_file: float    # seconds of all stages, the CGNS file written
+    peak: int         # bytes that the process held at most; of one rank
+
+
+def airfoil_options(finer):
+    """The airfoil's case with every spacing divided; its far field carries most of the cells."""
+    values = {"spacing.min": 0.002, "spacing.max": 0.08, "boundary.airfoil.spacing": 0.005}
+    return [f"{key}={value / finer!r}" for key, value in values.items()]
+
+
+def run_once(quadloop, case, assignments, ranks, folder):
+    launcher = [ROOT / "scripts" / "mpirun", "-n", str(ranks)] if ranks > 1 else []
+    sets = [word for text in [*assignments, 'output.formats=["cgns"]'] for word in ("--set", text)]
+    command = [*launcher, quadloop, "mesh", case, "-o", Path(folder) / "out", *sets]
+    child = subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    said, complaints = child.stdout.read(), child.stderr.read()
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\n{complaints}")
+    return understand(said, usage.ru_maxrss * 1024)
+
+
+def understand(table, peak):
+    counts = {name: int(value) for name, value in re.findall(r"^  (nodes|triangles|quads) +(\d+)$", table, re.M)}
+    stages = {name: float(slowest) for name, slowest in re.findall(r"^    (\w+) +([\d.]+) +[\d.]+$", table, re.M)}
+    total = sum(stages.values())
+    return Run(counts["triangles"] + counts["quads"], total - stages["write"], total, peak)
+
+
+def measure(quadloop, case, assignments, ranks, repeats):
+    with tempfile.TemporaryDirectory(prefix="quadloop_bench_") as folder:
+        runs = [run_once(quadloop, case, assignments, ranks, folder) for _ in range(repeats)]
+    median = lambda field: statistics.median(getattr(run, field) for run in runs)
+    return Run(runs[0].cells, median("in_memory"), median("to_file"), median("peak"))
+
+
+def machine():
+    model = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
+    memory = int(re.search(r"MemTotal: +(\d+)", Path("/proc/meminfo").read_text())[1]) / 2**20
+    return f"{model[1] if model else platform.machine()}, {os.cpu_count()} cores, {memory:.0f} GiB, {platform.system()} {platform.release()}"
+
+
+def table_row(name, ranks, run):
+    memory = f"{run.peak / run.cells:.0f}" if ranks == 1 else ""
+    return (f"| {name} | {ranks} | {run.cells} | {run.in_memory:.2f} | {run.cells / run.in_memory / 1e6:.2f} | "
+            f"{run.to_file:.2f} | {run.cells / run.to_file / 1e6:.2f} | {memory} |")
+
+
+def goals(runs):
+    """(what, figure, bound, whether it is met)"""
+    million = runs["naca0012 1M", 1]
+    per_cell = [runs[f"naca0012 {size}", 1].in_memory / runs[f"naca0012 {size}", 1].cells for size in ("0.1M", "1M", "4M")]
+    figures = [
+        ("million cells a second to the mesh in memory, 1M cells", million.cells / million.in_memory / 1e6, ">=", 1.5),
+        ("million cells a second to the CGNS file, 1M cells", million.cells / million.to_file / 1e6, ">=", 1.0),
+        ("bytes of peak memory a cell, 1M cells", million.peak / million.cells, "<=", 400),
+        ("time per cell, largest over smallest from 0.1M to 4M cells", max(per_cell) / min(per_cell), "<=", 1.2),
+        ("two ranks faster than one to the mesh in memory, 1M cells", million.in_memory / runs["naca0012 1M", 2].in_memory, ">=", 1.7),
+    ]
+    return [(what, figure, f"{sign} {bound}", figure >= bound if sign == ">=" else figure <= bound) for what, figure, sign, bound in figures]
+
+
+def report(runs, results, repeats):
+    lines = [f"{machine()}; {date.today()}; median of {repeats} runs of `scripts/bench`.", "",
+             "| mesh | ranks | cells | s in memory | M cells/s | s to CGNS | M cells/s | bytes/cell |", "|---|---|---|---|---|---|---|---|"]
+    lines += [table_row(name, ranks, run) for (name, ranks), run in runs.items()]
+    lines += ["", "| goal | figure | bound | |", "|---|---|---|---|"]
+    lines += [f"| {what} | {figure:.2f} | {bound} | {'met' if met else 'missed'} |" for what, figure, bound, met in results]
+    return "\n".join(lines)
+
+
+def put_between_markers(path, text):
+    before, rest = path.read_text().split(BEGIN)
+    path.write_text(f"{before}{BEGIN}\n{text}\n{END}{rest.split(END)[1]}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quadloop", required=True, type=Path)
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--update", type=Path)
+    parser.add_argument("--require", action="store_true")
+    args = parser.parse_args()
+    plan = [("naca0012 0.1M", 1, AIRFOIL, airfoil_options(1)), ("naca0012 1M", 1, AIRFOIL, airfoil_options(4)),
+            ("naca0012 4M", 1, AIRFOIL, airfoil_options(8)), ("naca0012 1M", 2, AIRFOIL, airfoil_options(4)), ("gulf high", 1, GULF, [])]
+    runs = {}
+    for name, ranks, case, assignments in plan:
+        runs[name, ranks] = measure(args.quadloop, case, assignments, ranks, args.repeats)
+        print(table_row(name, ranks, runs[name, ranks]), file=sys.stderr, flush=True)
+    results = goals(runs)
+    text = report(runs, results, args.repeats)
+    print(text)
+    if args.update:
+        put_between_markers(args.update, text)
+    return 1 if args.require and not all(met for *_, met in results) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

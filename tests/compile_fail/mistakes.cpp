@@ -1,0 +1,30 @@
+// Mistakes that the types forbid. Without a macro this file compiles; with any one of them it must not.
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/base/ids.hpp"
+
+namespace quadloop {
+
+constexpr NodeId node{3};
+constexpr GlobalNodeId global_node{3};
+
+static_assert(node == NodeId{3});
+static_assert(!NodeId{}.valid());
+
+#if defined(LOCAL_FOR_GLOBAL)
+constexpr GlobalNodeId mistake = node;
+#elif defined(NODE_FOR_LEAF)
+constexpr LeafId mistake = node;
+#elif defined(NUMBER_FOR_ID)
+constexpr NodeId mistake = 3;
+#elif defined(ID_FOR_NUMBER)
+constexpr int mistake = node;
+#elif defined(NODE_AGAINST_LEAF)
+constexpr bool mistake = node == LeafId{3};
+#elif defined(SUM_OF_IDS)
+constexpr auto mistake = node + node;
+#elif defined(COPIED_COMMUNICATOR)
+Communicator mistake(const Communicator& comm) { return comm; }
+#endif
+
+}  // namespace quadloop
