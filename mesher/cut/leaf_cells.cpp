@@ -17,7 +17,7 @@ std::int8_t rank_of(std::int64_t coordinate) {
 }
 
 TieKey key_of_lattice_node(std::int64_t x, std::int64_t y) {
-  const auto [low, high] = std::minmax(rank_of(x), rank_of(y));
+  const auto [low, high] = std::minmax({rank_of(x), rank_of(y)});  // a list: values, not references to temporaries
   return {low, high, 0, 0};
 }
 
