@@ -10,7 +10,7 @@ namespace quadloop {
 namespace {
 
 constexpr double capture_share = 0.45;   ///< of the local edge: a kept point nearer than this takes the corner; two corners cannot claim it
-constexpr double swallow_share = 0.6;   ///< no vertex farther than this from the corner vanishes in it
+constexpr double swallow_share = 0.25;  ///< of the local edge: no vertex vanishes that lies farther than this from the outline as it goes on from the corner
 
 /// A crossing as one of the corners at the ends of its leaf edge sees it, through one of the two leaves at that edge.
 struct Sight {
@@ -144,6 +144,15 @@ class CornerDecision {
     return near;
   }
 
+  /// The point of a sight's piece, from its crossing on, that follows so many vertices.
+  Point point_after(const Sight& s, std::size_t count) const {
+    const LeafTrace view = traces_[s.trace];
+    const Piece& piece = view.pieces[static_cast<std::size_t>(s.piece)];
+    const auto all = view.vertices_of(piece);
+    if (count == all.size()) return view.crossing(s.at_entry ? piece.exit : piece.entry).position;
+    return geometry_.point(s.at_entry ? all[count] : all[all.size() - 1 - count]);
+  }
+
   /// The nearest point to the corner on the outline from the crossings of interest on, as long as it stays near.
   template <class OfInterest>
   Point nearest_point(std::span<const Sight> sights, const OfInterest& of_interest) const {
@@ -213,7 +222,7 @@ class CornerDecision {
   /// or what lies too far off, or a whole loop.
   bool find_target(std::span<const Sight> sights) {
     std::vector<std::int32_t> swallowed;
-    bool goes_on = false;  // the outline leaves the corner again: not so for an island round it
+    std::vector<Point> stubs;  // where the outline goes on from the corner: nowhere for an island round it
     for (std::size_t i = 0; i < sights.size(); ++i) {
       if (absorbed_[i] == 0) continue;
       if (vanishes(sights, sights[i])) {
@@ -221,8 +230,8 @@ class CornerDecision {
         const auto all = view.vertices_of(view.pieces[static_cast<std::size_t>(sights[i].piece)]);
         swallowed.insert(swallowed.end(), all.begin(), all.end());
       } else {
-        goes_on = true;
         const auto near = near_vertices(sights[i]);
+        stubs.push_back(point_after(sights[i], near.size()));
         swallowed.insert(swallowed.end(), near.begin(), near.end());
       }
     }
@@ -230,10 +239,12 @@ class CornerDecision {
     for (const std::int32_t v : swallowed) {
       if (geometry_.kept(v)) target_ = geometry_.point(v);
     }
-    return goes_on && length(target_ - corner_) < capture_share * local_edge_ &&
-           std::none_of(swallowed.begin(), swallowed.end(), [&](std::int32_t v) {
-             return length(geometry_.point(v) - corner_) > swallow_share * local_edge_ || (geometry_.kept(v) && geometry_.point(v) != target_);
-           });
+    return !stubs.empty() && length(target_ - corner_) < capture_share * local_edge_ && std::none_of(swallowed.begin(), swallowed.end(), [&](std::int32_t v) {
+      const Point p = geometry_.point(v);
+      double stray = std::numeric_limits<double>::infinity();
+      for (const Point stub : stubs) stray = std::min(stray, length(p - nearest_on_segment(p, target_, stub)));
+      return stray > swallow_share * local_edge_ || (geometry_.kept(v) && p != target_);
+    });
   }
 
   const LeafGraph& graph_;
