@@ -14,7 +14,7 @@ namespace quadloop {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr int failure_note = 7;                            // the tag of "I have failed"
+constexpr int failure_note = 7;                             // the tag of "I have failed"
 constexpr auto patience = std::chrono::milliseconds(2000);  // how far apart ranks may come to the same error
 
 void say(const Outcome& outcome) {
@@ -61,8 +61,10 @@ bool lower_rank_failed(MPI_Comm comm, int rank) {
 
 /// The others are waiting for this rank somewhere else. The lowest rank that failed speaks and ends them.
 [[noreturn]] void end_all(MPI_Comm comm, int rank, const Outcome& outcome) {
-  if (lower_rank_failed(comm, rank)) std::this_thread::sleep_for(std::chrono::seconds(20));  // ended by that rank before this is over
-  else say(outcome);
+  if (lower_rank_failed(comm, rank))
+    std::this_thread::sleep_for(std::chrono::seconds(20));  // ended by that rank before this is over
+  else
+    say(outcome);
   MPI_Abort(comm, static_cast<int>(outcome.status));
   std::abort();
 }

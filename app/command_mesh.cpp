@@ -93,8 +93,10 @@ void warn(const CommandContext& context, const Warnings& warnings) {
 StageSeconds stages_of(const StageTimes& ours, const StageTimes& of_mesher) {
   StageSeconds seconds;
   for (const auto& stage : ours.stages()) {
-    if (stage.first != "mesh") seconds.push_back(stage);
-    else seconds.insert(seconds.end(), of_mesher.stages().begin(), of_mesher.stages().end());
+    if (stage.first != "mesh")
+      seconds.push_back(stage);
+    else
+      seconds.insert(seconds.end(), of_mesher.stages().begin(), of_mesher.stages().end());
   }
   return seconds;
 }

@@ -115,7 +115,8 @@ void read_mesh_table(const CaseTable& root, Settings& settings) {
     const auto& r = *root_values;
     const bool whole = r[3] == std::floor(r[3]) && r[4] == std::floor(r[4]) && r[3] >= 1 && r[4] >= 1 && r[3] <= 1024 && r[4] <= 1024;
     if (!(r[2] > 0) || !whole) {
-      table->refuse("root", "must be [x0, y0, tree edge, trees along x, trees along y] with an edge above 0 and whole numbers of trees from 1 to 1024");
+      table->refuse("root",
+                    "must be [x0, y0, tree edge, trees along x, trees along y] with an edge above 0 and whole numbers of trees from 1 to 1024");
     }
     settings.mesh.size.root = RootOptions{{r[0], r[1]}, r[2], static_cast<int>(r[3]), static_cast<int>(r[4])};
   }

@@ -21,8 +21,10 @@ std::vector<std::string> split_key(const std::string& key, const std::string& pl
   char quote = 0;
   for (const char c : key) {
     if (quote != 0) {
-      if (c == quote) quote = 0;
-      else parts.back() += c;
+      if (c == quote)
+        quote = 0;
+      else
+        parts.back() += c;
     } else if (c == '"' || c == '\'') {
       quote = c;
     } else if (c == '.') {

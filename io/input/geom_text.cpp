@@ -45,9 +45,7 @@ void append(std::string& text, Point p) {
   text += '\n';
 }
 
-const std::string& name_of(const Geometry& geometry, std::int32_t segment) {
-  return geometry.boundary(geometry.boundary_of(segment)).name;
-}
+const std::string& name_of(const Geometry& geometry, std::int32_t segment) { return geometry.boundary(geometry.boundary_of(segment)).name; }
 
 /// The first segment of a loop before which the boundary changes, or -1 where it never does.
 std::int32_t first_change(const Geometry& geometry, std::int32_t loop) {
@@ -93,8 +91,8 @@ std::vector<Chain> read_geom(const std::string& path) {
   std::vector<Chain> chains;
   for (std::int64_t i = 1; i <= total; ++i) chains.push_back(read_chain(lines, i, total));
   if (lines.next()) {
-    lines.refuse(fmt::format("more text after the last of {} boundaries; correct the number of boundaries in the first row or of points before this one",
-                             total));
+    lines.refuse(fmt::format(
+        "more text after the last of {} boundaries; correct the number of boundaries in the first row or of points before this one", total));
   }
   return chains;
 }

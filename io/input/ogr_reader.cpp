@@ -88,7 +88,8 @@ void read_layer(OGRLayer& layer, const std::string& path, Collector& collector) 
     const std::string source = fmt::format("{}: layer '{}', feature {}", path, layer.GetName(), feature->GetFID());
     collector.add(*straight, name_of(*feature, layer), source);
   }
-  if (CPLGetLastErrorType() >= CE_Failure) throw InputError(fmt::format("{}: {}; correct or export the file anew", path, one_line(CPLGetLastErrorMsg())));
+  if (CPLGetLastErrorType() >= CE_Failure)
+    throw InputError(fmt::format("{}: {}; correct or export the file anew", path, one_line(CPLGetLastErrorMsg())));
 }
 
 }  // namespace
@@ -99,8 +100,8 @@ std::vector<Chain> read_ogr(const std::string& path, std::vector<std::string>& w
   const QuietGdal quiet;
   const GDALDatasetUniquePtr data(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   if (!data) {
-    throw InputError(fmt::format("{}: cannot be read as the kind of file that its suffix says ({}); export it anew", path,
-                                 one_line(CPLGetLastErrorMsg())));
+    throw InputError(
+        fmt::format("{}: cannot be read as the kind of file that its suffix says ({}); export it anew", path, one_line(CPLGetLastErrorMsg())));
   }
   std::vector<Chain> chains;
   Collector collector(chains);

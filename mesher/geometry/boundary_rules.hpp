@@ -14,8 +14,8 @@ struct BoundaryRule {
   std::string pattern;  ///< a name, or one with * (any text) and ? (any character)
   std::optional<double> spacing, corner_degrees;
   std::optional<std::string> condition;
-  std::string where;            ///< where the rule stands, for messages
-  bool must_match = true;       ///< a rule of ours (not the user's) may find nothing
+  std::string where;       ///< where the rule stands, for messages
+  bool must_match = true;  ///< a rule of ours (not the user's) may find nothing
 };
 
 /// Whether the whole name matches the pattern.

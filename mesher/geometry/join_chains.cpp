@@ -18,8 +18,8 @@ std::string text(Point p) { return fmt::format("({}, {})", p.x, p.y); }
 void require_finite(const Chain& chain) {
   for (std::size_t i = 0; i < chain.points.size(); ++i) {
     if (std::isfinite(chain.points[i].x) && std::isfinite(chain.points[i].y)) continue;
-    throw InputError(fmt::format("{}: boundary '{}': point {} is {}, which is not finite; correct the coordinates or the transformation", chain.source,
-                                 chain.name, i + 1, text(chain.points[i])));
+    throw InputError(fmt::format("{}: boundary '{}': point {} is {}, which is not finite; correct the coordinates or the transformation",
+                                 chain.source, chain.name, i + 1, text(chain.points[i])));
   }
 }
 
@@ -88,9 +88,10 @@ class ChainEnds {
       distance = d;
       nearest = fmt::format("; the nearest other loose end is {} of boundary '{}', {} away", text(p), chains_[ends[0] / 2].name, d);
     }
-    throw InputError(fmt::format("{}: boundary '{}' is not watertight: its {} point {} joins no other chain{}; make the end points of the chains "
-                                 "identical, or give the chain as a closed loop",
-                                 chain.source, chain.name, end % 2 == 0 ? "first" : "last", text(point(end)), nearest));
+    throw InputError(
+        fmt::format("{}: boundary '{}' is not watertight: its {} point {} joins no other chain{}; make the end points of the chains "
+                    "identical, or give the chain as a closed loop",
+                    chain.source, chain.name, end % 2 == 0 ? "first" : "last", text(point(end)), nearest));
   }
 
   [[noreturn]] void refuse_fork(std::size_t end, const std::vector<std::size_t>& ends) const {

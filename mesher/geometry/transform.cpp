@@ -42,17 +42,17 @@ void add_far_field(std::vector<Chain>& chains, double half_width, const std::str
   Box box;
   for (const Chain& chain : chains) {
     if (chain.name == "farfield") {
-      throw InputError(fmt::format("{}: the geometry already has a boundary 'farfield' ({}); take the setting out, or rename the boundary",
-                                   where, chain.source));
+      throw InputError(
+          fmt::format("{}: the geometry already has a boundary 'farfield' ({}); take the setting out, or rename the boundary", where, chain.source));
     }
     for (const Point p : chain.points) box.include(p);
   }
   const Point low = box.centre() - Point{half_width, half_width}, high = box.centre() + Point{half_width, half_width};
   if (!(low.x < box.low.x && low.y < box.low.y && box.high.x < high.x && box.high.y < high.y)) {
-    throw InputError(fmt::format("{}: a far field of half width {} around ({}, {}) does not enclose the geometry, which reaches from ({}, {}) to "
-                                 "({}, {}); make it larger than {}",
-                                 where, half_width, box.centre().x, box.centre().y, box.low.x, box.low.y, box.high.x, box.high.y,
-                                 0.5 * std::max(box.width(), box.height())));
+    throw InputError(fmt::format(
+        "{}: a far field of half width {} around ({}, {}) does not enclose the geometry, which reaches from ({}, {}) to "
+        "({}, {}); make it larger than {}",
+        where, half_width, box.centre().x, box.centre().y, box.low.x, box.low.y, box.high.x, box.high.y, 0.5 * std::max(box.width(), box.height())));
   }
   chains.push_back({"farfield", false, {low, {high.x, low.y}, high, {low.x, high.y}}, where});
 }

@@ -20,11 +20,7 @@ namespace {
 class Sweep {
  public:
   explicit Sweep(const FlatOutline& flat)
-      : flat_{flat},
-        status_{Below{this}},
-        place_(flat.points.size()),
-        below_(flat.loop_count(), none),
-        begun_(flat.loop_count()) {}
+      : flat_{flat}, status_{Below{this}}, place_(flat.points.size()), below_(flat.loop_count(), none), begun_(flat.loop_count()) {}
 
   /// Whether no two segments meet. Stops at the first sign that some do.
   bool run() {
@@ -134,12 +130,12 @@ std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::
   const MeetingPairs pairs = meeting_pairs(flat);
   QUADLOOP_REQUIRE(pairs.count > 0, "the sweep found segments that meet, the search did not");
   const Point at = flat.meeting_point(pairs.first, pairs.second);
-  const std::string others =
-      pairs.count == 1 ? "" : fmt::format(", and {}{} more", pairs.complete ? "" : "at least ", pairs.count - 1);
-  throw InputError(fmt::format("{}: boundary {} meets boundary {} at ({}, {}){}; boundaries must neither cross nor touch: move or remove the points "
-                               "there",
-                               outline.loops[flat.loop(pairs.first)].source, boundary_text(outline, flat, pairs.first),
-                               boundary_text(outline, flat, pairs.second), at.x, at.y, others));
+  const std::string others = pairs.count == 1 ? "" : fmt::format(", and {}{} more", pairs.complete ? "" : "at least ", pairs.count - 1);
+  throw InputError(
+      fmt::format("{}: boundary {} meets boundary {} at ({}, {}){}; boundaries must neither cross nor touch: move or remove the points "
+                  "there",
+                  outline.loops[flat.loop(pairs.first)].source, boundary_text(outline, flat, pairs.first), boundary_text(outline, flat, pairs.second),
+                  at.x, at.y, others));
 }
 
 }  // namespace
