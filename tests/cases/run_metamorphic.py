@@ -30,6 +30,7 @@ class Subject:
     spacing: float  # of every boundary but the far field
     corner: float = 30
     more: dict = field(default_factory=dict)  # keys of [spacing] without a length
+    ties: bool = False  # distances on this lattice are equal but for rounding: shift and split, which round anew, may break them otherwise
 
     def write(self, folder):
         folder.mkdir()
@@ -54,17 +55,17 @@ def small():
 
 
 def snowflake():
-    return Subject([square("farfield", -2.0, -2.0, 4.0), koch("snow", (0.1, 0.05), 1.0, 3)], (-2.0, -2.0, 4.0, 1, 1), 1 / 128, 0.5, 1 / 16)
+    return Subject([square("farfield", -2.0, -2.0, 4.0), koch("snow", (0.1, 0.05), 1.0, 3)], (-2.0, -2.0, 4.0, 1, 1), 1 / 128, 0.5, 1 / 16, ties=True)
 
 
 def brick():
     """A domain that is not square, inside its root on no side."""
-    channel = Entry("channel", False, ((0.1, 0.1), (2.9, 0.3), (2.9, 0.9), (1.6, 0.7), (0.1, 0.9)))
+    channel = Entry("channel", False, ((0.11, 0.13), (2.87, 0.29), (2.87, 0.89), (1.61, 0.71), (0.11, 0.87)))
     return Subject([channel], (0.0, 0.0, 1.0, 3, 1), 1 / 256, 0.25, 1 / 32)
 
 
-def shipped(path, root, minimum, maximum, spacing, **more):
-    return Subject(read_outline(ROOT / "cases" / path), root, minimum, maximum, spacing, more.pop("corner", 30), more)
+def shipped(path, root, minimum, maximum, spacing, corner=30, ties=False, **more):
+    return Subject(read_outline(ROOT / "cases" / path), root, minimum, maximum, spacing, corner, more, ties)
 
 
 SUBJECTS = {
@@ -73,7 +74,8 @@ SUBJECTS = {
     "brick": brick,
     "naca0012": lambda: with_far_field(shipped("naca0012/naca0012.geom", (-9.5, -10.0, 20.0, 1, 1), 0.004, 1.0, 0.01, curvature=10.0)),
     "three_element": lambda: shipped("three_element/three_element.geom", (-9.5, -10.0, 20.0, 1, 1), 0.002, 1.0, 0.005, gap=2),
-    "catamaran": lambda: shipped("catamaran_x_coarse/catamaran_x_mid.geom", (-64.0, -40.0, 128.0, 1, 1), 0.125, 16.0, 0.25),
+    "catamaran": lambda: shipped("catamaran_x_coarse/catamaran_x_mid.geom", (-64.0, -40.0, 128.0, 1, 1), 0.125, 16.0, 0.25, ties=True),
+    "catamaran_askew": lambda: shipped("catamaran_x_coarse/catamaran_x_mid.geom", (-65.3125, -43.1875, 130.625, 1, 1), 0.125, 16.0, 0.25),
     "gulf": lambda: shipped("gulf_of_mexico/gulf_of_mexico_coarse.geom", (-1024.0, -1024.0, 2048.0, 1, 1), 2.0, 64.0, 4.0, corner=180),
 }
 
@@ -164,7 +166,7 @@ def main():
 
         before = mesh_of(subject, "before")
         for name, (after, compare) in map_table(subject).items():
-            if args.map and name not in args.map:
+            if (args.map and name not in args.map) or (subject.ties and name in ("shift", "split")):
                 continue
             print(f"{args.subject} under {name}")
             compare(before, mesh_of(after, name))
