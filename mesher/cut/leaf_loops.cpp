@@ -97,6 +97,13 @@ bool nesting_is_sound(const CutLeaf& leaf) {
   return true;
 }
 
+/// Whether a chord that ends at a node on the sides leaves it into the leaf, or along a side.
+bool starts_inwards(const CutLeaf& leaf, std::int32_t node, std::int32_t towards) {
+  const std::int32_t before = (node + leaf.side_nodes - 1) % leaf.side_nodes, after = (node + 1) % leaf.side_nodes;
+  if (towards == before || towards == after) return true;
+  return clockwise_before(at(leaf, node), at(leaf, before), at(leaf, towards), at(leaf, after));
+}
+
 }  // namespace
 
 bool trace_loops(Edges edges, CutLeaf& leaf) {
@@ -160,6 +167,13 @@ bool sides_are_sound(Edges edges, Edges bare_sides, const CutLeaf& leaf) {
   }
   std::vector<std::int32_t> round(static_cast<std::size_t>(leaf.side_nodes));
   std::iota(round.begin(), round.end(), 0);
+  for (const CutLeaf::Edge& e : leaf.outline) {
+    if (e.from < leaf.side_nodes && !starts_inwards(leaf, e.from, e.to)) return false;
+    if (e.to < leaf.side_nodes && !starts_inwards(leaf, e.to, e.from)) return false;
+  }
+  for (auto n = static_cast<std::size_t>(leaf.side_nodes); n < leaf.nodes.size(); ++n) {
+    if (times_round(leaf, round, leaf.nodes[n].position) != 1) return false;
+  }
   return winding_of(leaf, round) > 0;
 }
 
