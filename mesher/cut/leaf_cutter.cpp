@@ -6,8 +6,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double stray_of_leaf = 0.25;   ///< how far the outline may lie from its chord, as a share of the leaf's edge
-constexpr double stray_of_chord = 0.25;  ///< and as a share of the chord
+constexpr double stray_of_leaf = 0.15;   ///< how far the outline may lie from its chord, as a share of the leaf's edge
+constexpr double stray_of_chord = 0.2;  ///< and as a share of the chord
 
 std::array<Point, 4> corners_of(const Box& box) { return {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}}; }
 

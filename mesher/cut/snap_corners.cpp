@@ -10,7 +10,7 @@ namespace quadloop {
 namespace {
 
 constexpr double capture_share = 0.45;   ///< of the local edge: a kept point nearer than this takes the corner; two corners cannot claim it
-constexpr double swallow_share = 0.25;  ///< of the local edge: no vertex vanishes that lies farther than this from the outline as it goes on from the corner
+constexpr double swallow_share = 0.15;  ///< of the local edge: no vertex vanishes that lies farther than this from the outline as it goes on from the corner
 
 /// A crossing as one of the corners at the ends of its leaf edge sees it, through one of the two leaves at that edge.
 struct Sight {
