@@ -130,7 +130,10 @@ std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::
   const MeetingPairs pairs = meeting_pairs(flat);
   QUADLOOP_REQUIRE(pairs.count > 0, "the sweep found segments that meet, the search did not");
   const Point at = flat.meeting_point(pairs.first, pairs.second);
-  const std::string others = pairs.count == 1 ? "" : fmt::format(", and {}{} more", pairs.complete ? "" : "at least ", pairs.count - 1);
+  const std::int64_t more = pairs.count - 1;
+  const std::string others = more == 0 ? ""
+                                       : fmt::format(" ({}{} more pair{} of segments meet{})", pairs.complete ? "" : "at least ", more,
+                                                     more == 1 ? "" : "s", more == 1 ? "s" : "");
   throw InputError(
       fmt::format("{}: boundary {} meets boundary {} at ({}, {}){}; boundaries must neither cross nor touch: move or remove the points "
                   "there",

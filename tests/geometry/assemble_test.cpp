@@ -1,0 +1,136 @@
+#include "mesher/geometry/assemble.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/geometry/outlines.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::closed;
+using test::loop_area;
+using test::open;
+using test::refusal;
+using test::reversed;
+using test::square;
+
+Geometry assembled(std::vector<Chain> chains, Warnings* told = nullptr) {
+  Warnings warnings;
+  Geometry geometry = assemble(std::move(chains), {}, warnings);
+  if (told != nullptr) *told = warnings;
+  return geometry;
+}
+
+std::string refused(std::vector<Chain> chains) {
+  return refusal([&] { assembled(chains); });
+}
+
+TEST(Assemble, KeepsAGoodLoopAsItIs) {
+  Warnings warnings;
+  const Geometry g = assembled({square("box", {0, 0}, 1)}, &warnings);
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ(g.size(), 4);
+  EXPECT_EQ(g.loop_count(), 1);
+  EXPECT_EQ(g.point(0), (Point{-1, -1}));
+  EXPECT_EQ(g.point(1), (Point{1, -1}));
+}
+
+TEST(Assemble, TurnsLoopsByNestingDepth) {
+  Warnings warnings;
+  const auto lake = square("lake", {0, 0}, 1), island = square("island", {0, 0}, 2), sea = square("sea", {0, 0}, 4);
+  const Geometry g = assembled({reversed(lake), island, sea}, &warnings);
+  EXPECT_GT(loop_area(g, 0), 0);
+  EXPECT_LT(loop_area(g, 1), 0);
+  EXPECT_GT(loop_area(g, 2), 0);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].find("'lake'"), std::string::npos);
+  EXPECT_NE(warnings[1].find("'island'"), std::string::npos);
+}
+
+TEST(Assemble, SaysWhatALonelyOutlineEncloses) {
+  Warnings warnings;
+  assembled({reversed(square("airfoil", {0, 0}, 1))}, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("far field"), std::string::npos);
+}
+
+TEST(Assemble, JoinsOpenChains) {
+  const Geometry g = assembled({open("coast", {{0, 0}, {1, 0}, {1, 1}}), open("sea", {{1, 1}, {0, 1}, {0, 0}})});
+  ASSERT_EQ(g.size(), 4);
+  EXPECT_EQ(g.boundary(g.boundary_of(0)).name, "coast");
+  EXPECT_EQ(g.boundary(g.boundary_of(1)).name, "coast");
+  EXPECT_EQ(g.boundary(g.boundary_of(2)).name, "sea");
+  EXPECT_TRUE(g.kept(0)) << "two boundaries meet here";
+}
+
+TEST(Assemble, JoinsChainsInAnyDirection) {
+  const Geometry straight = assembled({open("a", {{0, 0}, {1, 0}, {1, 1}}), open("b", {{1, 1}, {0, 1}, {0, 0}})});
+  const Geometry mixed = assembled({open("a", {{0, 0}, {1, 0}, {1, 1}}), open("b", {{0, 0}, {0, 1}, {1, 1}})});
+  EXPECT_EQ(straight.digest(), mixed.digest());
+}
+
+TEST(Assemble, TurnsALoopOfChainsWithItsBoundaries) {
+  Warnings warnings;
+  const Geometry g = assembled({open("a", {{0, 0}, {0, 1}, {1, 1}}), open("b", {{1, 1}, {1, 0}, {0, 0}})}, &warnings);
+  EXPECT_EQ(warnings.size(), 1u);
+  EXPECT_GT(loop_area(g, 0), 0);
+  for (std::int32_t s = 0; s < g.size(); ++s) {
+    const bool on_a = g.point(s).x == 0 && g.point(g.next(s)).x == 0;
+    EXPECT_TRUE(!on_a || g.boundary(g.boundary_of(s)).name == "a") << s;
+  }
+}
+
+TEST(Assemble, MakesOneBoundaryOfOneName) {
+  const Geometry g = assembled({square("sea", {0, 0}, 9), reversed(square("island", {-3, 0}, 1)), reversed(square("island", {3, 0}, 1))});
+  EXPECT_EQ(g.boundaries().size(), 2u);
+  EXPECT_EQ(g.loop_count(), 3);
+  EXPECT_EQ(g.boundary_of(4), g.boundary_of(8));
+}
+
+TEST(Assemble, DropsRepeatedPointsWithAWarning) {
+  Warnings warnings;
+  const Geometry g = assembled({closed("box", {{0, 0}, {1, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}})}, &warnings);
+  EXPECT_EQ(g.size(), 4);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("2 points"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("(1, 0)"), std::string::npos) << warnings[0];
+}
+
+TEST(Assemble, RefusesWhatIsNoDomain) {
+  EXPECT_NE(refused({}).find("no boundary"), std::string::npos);
+  EXPECT_NE(refused({closed("thin", {{0, 0}, {1, 0}})}).find("'thin'"), std::string::npos);
+  EXPECT_NE(refused({closed("dot", {{2, 3}, {2, 3}, {2, 3}})}).find("(2, 3)"), std::string::npos);
+  EXPECT_NE(refused({closed("flat", {{0, 0}, {1, 0}, {2, 0}})}).find("'flat'"), std::string::npos);
+}
+
+TEST(Assemble, RefusesALooseEndWithItsPlace) {
+  const std::string message = refused({open("coast", {{0, 0}, {1, 0}, {1, 1}}), open("sea", {{1, 1}, {0, 1}, {0, 1e-9}})});
+  EXPECT_NE(message.find("'coast'"), std::string::npos) << message;
+  EXPECT_NE(message.find("(0, 0)"), std::string::npos) << message;
+  EXPECT_NE(message.find("watertight"), std::string::npos) << message;
+  EXPECT_NE(message.find("'sea'"), std::string::npos) << "the near miss is named: " << message;
+}
+
+TEST(Assemble, RefusesThreeEndsAtOnePoint) {
+  const std::string message =
+      refused({open("a", {{0, 0}, {1, 0}, {1, 1}}), open("b", {{1, 1}, {0, 1}, {0, 0}}), open("c", {{0, 0}, {0.5, 0.5}, {1, 1}})});
+  EXPECT_NE(message.find("3 chains end at (0, 0)"), std::string::npos) << message;
+}
+
+TEST(Assemble, RefusesCoordinatesThatAreNotFinite) {
+  const std::string message = refused({closed("bad", {{0, 0}, {1, 0}, {1, std::numeric_limits<double>::quiet_NaN()}})});
+  EXPECT_NE(message.find("'bad': point 3 is (1, nan)"), std::string::npos) << message;
+}
+
+TEST(Assemble, NestsByExactSidesThroughVertices) {
+  // The inner loop's leftmost points lie level with vertices of the outer ones.
+  std::vector<Chain> chains{square("sea", {0, 0}, 64)};
+  for (int ring = 1; ring <= 30; ++ring) chains.push_back(closed("diamond", {{-2.0 * ring, 0}, {0, -2.0 * ring}, {2.0 * ring, 0}, {0, 2.0 * ring}}));
+  const Geometry g = assembled(chains);
+  for (std::int32_t loop = 1; loop <= 30; ++loop) EXPECT_EQ(loop_area(g, loop) > 0, (31 - loop) % 2 == 0) << loop;
+}
+
+}  // namespace
+}  // namespace quadloop

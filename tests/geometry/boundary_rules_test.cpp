@@ -1,0 +1,42 @@
+#include "mesher/geometry/boundary_rules.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/geometry/outlines.hpp"
+
+namespace quadloop {
+namespace {
+
+TEST(BoundaryRules, MatchPatterns) {
+  EXPECT_TRUE(matches("island_*", "island_001"));
+  EXPECT_TRUE(matches("*", ""));
+  EXPECT_TRUE(matches("*_?b*c", "a_xbbbc"));
+  EXPECT_TRUE(matches("a", "a"));
+  EXPECT_FALSE(matches("island_?", "island_001"));
+  EXPECT_FALSE(matches("island_*", "island"));
+  EXPECT_FALSE(matches("a", "ab"));
+  EXPECT_FALSE(matches("", "a"));
+}
+
+TEST(BoundaryRules, ExactNamesWinOverPatterns) {
+  BoundaryRule exact{"island_2", 0.5, {}, {}, "", true};
+  BoundaryRule pattern{"island_*", 2.0, 45.0, "wall", "", true};
+  const auto boundaries = boundaries_by_rules({"sea", "island_1", "island_2"}, {exact, pattern}, 30);
+  EXPECT_EQ(boundaries[0].spacing, 0);
+  EXPECT_EQ(boundaries[0].corner_degrees, 30);
+  EXPECT_EQ(boundaries[0].condition, "none");
+  EXPECT_EQ(boundaries[1].spacing, 2);
+  EXPECT_EQ(boundaries[2].spacing, 0.5);
+  EXPECT_EQ(boundaries[2].corner_degrees, 45);
+  EXPECT_EQ(boundaries[2].condition, "wall");
+}
+
+TEST(BoundaryRules, RefuseWhatMatchesNothing) {
+  const BoundaryRule rule{"isle_*", 2.0, {}, {}, "case.toml:7: [boundary.isle_*]", true};
+  const std::string message = test::refusal([&] { boundaries_by_rules({"sea", "island_1"}, {rule}, 30); });
+  EXPECT_EQ(message.find("case.toml:7"), 0u) << message;
+  EXPECT_NE(message.find("island_1"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace quadloop
