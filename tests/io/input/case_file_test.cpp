@@ -1,0 +1,106 @@
+#include "io/input/case_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/io/input/temporary_file.hpp"
+
+namespace quadloop {
+namespace {
+
+class CaseFile : public ::testing::Test {
+ protected:
+  CaseTable read(const std::string& text, const std::vector<std::string>& assignments = {}) {
+    return read_case(folder_.write("case.toml", text), assignments);
+  }
+  std::string refused(const std::function<void()>& call) { return test::refusal(folder_, call); }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(CaseFile, GivesTypedValues) {
+  const CaseTable root = read("title = \"x\"\n[spacing]\nmin = 1\nmax = 2.5\nlist = [1, 2.0]\n");
+  const CaseTable spacing = *root.table("spacing");
+  EXPECT_EQ(root.text("title"), "x");
+  EXPECT_EQ(spacing.number("min"), 1.0);
+  EXPECT_EQ(spacing.number("max"), 2.5);
+  EXPECT_EQ(spacing.numbers("list", 2), (std::vector<double>{1, 2}));
+  EXPECT_EQ(spacing.number("absent"), std::nullopt);
+  EXPECT_NO_THROW(spacing.finish());
+}
+
+TEST_F(CaseFile, OneValueOrAList) {
+  const CaseTable root = read("a = \"x\"\nb = [\"x\", \"y\"]\nc = 1\nd = [1, 2]\ne = [1, 2]\nf = [[1, 2], [3, 4]]\n");
+  EXPECT_EQ(root.texts("a"), std::vector<std::string>{"x"});
+  EXPECT_EQ(root.texts("b"), (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(root.numbers_or_one("c"), std::vector<double>{1});
+  EXPECT_EQ(root.numbers_or_one("d"), (std::vector<double>{1, 2}));
+  EXPECT_EQ(root.pairs("e").size(), 1u);
+  EXPECT_EQ(root.pairs("f").size(), 2u);
+}
+
+TEST_F(CaseFile, NamesAnUnknownKeyAndItsLine) {
+  const CaseTable root = read("title = \"x\"\n\n[spacing]\nmin = 1\nfoo = 2\n");
+  const CaseTable spacing = *root.table("spacing");
+  spacing.number("min");
+  spacing.number("max");
+  EXPECT_EQ(refused([&] { spacing.finish(); }), "case.toml:5: unknown key 'spacing.foo'; known here: min, max");
+}
+
+TEST_F(CaseFile, NamesWrongTypes) {
+  const CaseTable root = read("a = \"1\"\nb = 1\nc = [1, \"x\"]\nd = true\ne = 1\n");
+  EXPECT_EQ(refused([&] { root.number("a"); }), "case.toml:1: 'a' must be a number, not a text");
+  EXPECT_EQ(refused([&] { root.text("b"); }), "case.toml:2: 'b' must be a text in quotes, not a whole number");
+  EXPECT_EQ(refused([&] { root.numbers("c", 2); }), "case.toml:3: 'c' must be a number, not a text");
+  EXPECT_EQ(refused([&] { root.numbers("c", 3); }), "case.toml:3: 'c' is a list of 2, but must be a list of 3 numbers");
+  EXPECT_EQ(refused([&] { root.number("d"); }), "case.toml:4: 'd' must be a number, not true or false");
+  EXPECT_EQ(refused([&] { root.table("e"); }), "case.toml:5: 'e' must be a table [e], not a whole number");
+}
+
+TEST_F(CaseFile, NamesValuesOutOfRange) {
+  const CaseTable root = read("a = 0\nb = nan\nc = 3\nd = \"z\"\n");
+  EXPECT_EQ(refused([&] { root.number("a", Range::positive()); }), "case.toml:1: 'a' is 0, but must be above 0");
+  EXPECT_EQ(refused([&] { root.number("b"); }), "case.toml:2: 'b' is nan, but must be finite");
+  EXPECT_EQ(refused([&] { root.number("c", {1, 2, true, false}); }), "case.toml:3: 'c' is 3, but must be above 1 and at most 2");
+  EXPECT_EQ(refused([&] { root.choice("d", {"x", "y"}); }), "case.toml:4: 'd' is 'z', but must be one of: x, y");
+}
+
+TEST_F(CaseFile, ListsTablesInTheOrderOfTheFile) {
+  const CaseTable root = read("[b.zebra]\n[b.\"isl_*\"]\n[b.ape]\n[[s]]\nx = 1\n[[s]]\nx = 2\n");
+  EXPECT_EQ(root.table("b")->table_names(), (std::vector<std::string>{"zebra", "isl_*", "ape"}));
+  const auto tables = root.tables("s");
+  ASSERT_EQ(tables.size(), 2u);
+  EXPECT_EQ(tables[1].number("x"), 2.0);
+}
+
+TEST_F(CaseFile, SetOverridesAndAdds) {
+  const CaseTable root =
+      read("[spacing]\nmin = 1\n", {"spacing.min=2", "spacing.max=3", "title=a b", "mesh.type=\"hybrid\"", "boundary.isl_*.spacing=4"});
+  EXPECT_EQ(root.table("spacing")->number("min"), 2.0);
+  EXPECT_EQ(root.table("spacing")->number("max"), 3.0);
+  EXPECT_EQ(root.text("title"), "a b");
+  EXPECT_EQ(root.table("mesh")->text("type"), "hybrid");
+  EXPECT_EQ(root.table("boundary")->table("isl_*")->number("spacing"), 4.0);
+}
+
+TEST_F(CaseFile, SetErrorsNameTheirText) {
+  const CaseTable root = read("[spacing]\nmin = 1\n[[source]]\nspacing = 1\n", {"spacing.min=-2", "spacing.foo=1", "source.0.spacing=0"});
+  const CaseTable spacing = *root.table("spacing");
+  EXPECT_EQ(refused([&] { spacing.number("min", Range::positive()); }), "--set spacing.min=-2: 'spacing.min' is -2, but must be above 0");
+  EXPECT_EQ(refused([&] { spacing.finish(); }), "--set spacing.foo=1: unknown key 'spacing.foo'; known here: min");
+  EXPECT_EQ(refused([&] { root.tables("source")[0].number("spacing", Range::positive()); }),
+            "--set source.0.spacing=0: 'source.0.spacing' is 0, but must be above 0");
+  EXPECT_NE(refused([&] { read("a = 1\n", {"a"}); }).find("--set a: has no '='"), std::string::npos);
+  EXPECT_NE(refused([&] { read("a = 1\n", {"a.b=2"}); }).find("--set a.b=2"), std::string::npos);
+  EXPECT_NE(refused([&] { read("a = 1\n", {"a..b=2"}); }).find("not a key"), std::string::npos);
+  EXPECT_NE(refused([&] { read("[[s]]\n", {"s.4.x=2"}); }).find("--set s.4.x=2"), std::string::npos);
+}
+
+TEST_F(CaseFile, NamesTheLineThatIsNotToml) {
+  EXPECT_EQ(refused([&] { read("a = 1\nb = = 2\n"); }).find("case.toml:2: "), 0u);
+  EXPECT_EQ(refused([&] { read("a = 1\na = 2\n"); }).find("case.toml:2: "), 0u);
+  EXPECT_EQ(refused([&] { read_case((folder_.path() / "none.toml").string()); }).find("none.toml: cannot be opened"), 0u);
+  EXPECT_NE(refused([&] { read_case(folder_.path().string()); }).find("folder"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace quadloop

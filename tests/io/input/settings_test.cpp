@@ -1,0 +1,150 @@
+#include "app/settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "app/digests.hpp"
+#include "tests/io/input/temporary_file.hpp"
+
+namespace quadloop {
+namespace {
+
+class SettingsTest : public ::testing::Test {
+ protected:
+  SettingsTest() { folder_.write("box.geom", "1\nbox\n4\n0 0\n4 0\n4 4\n0 4\n"); }
+
+  Settings read(const std::string& text, const std::vector<std::string>& assignments = {}) {
+    return read_settings(folder_.write("case.toml", "[geometry]\nfile = \"box.geom\"\n" + text), assignments);
+  }
+  Geometry load(const Settings& settings) {
+    Warnings warnings;
+    return load_geometry(settings, warnings);
+  }
+  /// The refusal of case text that follows two lines of [geometry].
+  std::string refused(const std::string& text) {
+    return test::refusal(folder_, [&] { load(read(text)); });
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(SettingsTest, ReadsEveryKey) {
+  const Settings s = read(R"(far_field = 10
+scale = 2
+rotate = 90
+translate = [1, 2]
+[spacing]
+min = 0.5
+max = 1
+gradation = 1.25
+curvature = 10
+gap = 2
+corner = 20
+[boundary.box]
+spacing = 0.25
+corner = 180
+bc = "wall"
+[[source]]
+box = [0, 1, 2, 3]
+spacing = 0.1
+[[source]]
+disc = [0, 1, 2]
+spacing = 0.2
+[[source]]
+line = [0, 1, 2, 3]
+spacing = 0.3
+[mesh]
+type = "hybrid"
+root = [-10, -10, 20, 1, 1]
+snap = 0.001
+[output]
+prefix = "out"
+formats = ["cgns"]
+)");
+  EXPECT_EQ(s.files[0].transform.scale, 2);
+  EXPECT_EQ(s.files[0].transform.rotate_degrees, 90);
+  EXPECT_EQ(s.files[0].transform.translate, (Point{1, 2}));
+  EXPECT_EQ(s.far_field->half_width, 10);
+  EXPECT_EQ(s.mesh.size.gradation, 1.25);
+  EXPECT_EQ(s.mesh.size.curvature, 10);
+  EXPECT_EQ(s.mesh.size.gap, 2);
+  ASSERT_EQ(s.mesh.size.sources.size(), 3u);
+  EXPECT_EQ(std::get<Box>(s.mesh.size.sources[0].shape).high, (Point{1, 3}));
+  EXPECT_EQ(std::get<Source::Disc>(s.mesh.size.sources[1].shape).radius, 2);
+  EXPECT_EQ(std::get<Source::Line>(s.mesh.size.sources[2].shape).to, (Point{2, 3}));
+  EXPECT_EQ(s.mesh.size.root->tree_edge, 20);
+  EXPECT_EQ(s.mesh.snap, 0.001);
+  EXPECT_EQ(s.output_prefix, "out");
+  EXPECT_EQ(s.formats, std::vector<std::string>{"cgns"});
+  const Geometry g = load(s);
+  EXPECT_EQ(g.boundary(BoundaryId{0}).spacing, 0.25);
+  EXPECT_EQ(g.boundary(BoundaryId{0}).condition, "wall");
+  EXPECT_EQ(g.boundary(BoundaryId{1}).name, "farfield");
+  EXPECT_EQ(g.boundary(BoundaryId{1}).condition, "farfield");
+  EXPECT_EQ(g.boundary(BoundaryId{1}).corner_degrees, 20);
+}
+
+TEST_F(SettingsTest, SizesFollowTheGeometryWhereTheyAreNotGiven) {
+  const Settings open = read("far_field = 16\n[boundary.box]\nspacing = 0.125\n");
+  const MeshOptions options = mesh_options(open, load(open));
+  EXPECT_EQ(options.size.max, 2);
+  EXPECT_EQ(options.size.min, 0.125);
+  const Settings coarse = read("far_field = 16\n[spacing]\nmin = 5\n");
+  EXPECT_EQ(mesh_options(coarse, load(coarse)).size.max, 5);
+  const Settings fine = read("far_field = 16\n[spacing]\nmax = 0.5\n");
+  EXPECT_EQ(mesh_options(fine, load(fine)).size.min, 0.5);
+}
+
+TEST_F(SettingsTest, EachFileHasItsOwnPlace) {
+  folder_.write("two.geom", "1\ntwo\n4\n0 0\n4 0\n4 4\n0 4\n");
+  const std::string path =
+      folder_.write("two.toml", "[geometry]\nfile = [\"box.geom\", \"two.geom\"]\ntranslate = [[0, 0], [10, 0]]\nscale = [1, 0.5]\nrotate = 90\n");
+  const Geometry g = load(read_settings(path, {}));
+  EXPECT_EQ(g.loop_count(), 2);
+  EXPECT_EQ(g.point(g.loop_start(1)), (Point{10, 0}));
+  EXPECT_EQ(g.box().high, (Point{10, 4}));
+  EXPECT_NE(test::refusal(folder_, [&] { read_settings(path, {"geometry.scale=[1,2,3]"}); }).find("2 files"), std::string::npos);
+}
+
+TEST_F(SettingsTest, RefusesEveryBadKey) {
+  EXPECT_EQ(refused("[spacing]\nfoo = 1\n").find("case.toml:4: unknown key 'spacing.foo'"), 0u);
+  EXPECT_EQ(refused("[spacings]\n").find("case.toml:3: unknown key 'spacings'"), 0u);
+  EXPECT_EQ(refused("[[block]]\nname = \"gas\"\n").find("case.toml:3: unknown key 'block'"), 0u);
+  EXPECT_EQ(refused("[solver]\n").find("case.toml:3: unknown key 'solver'"), 0u);
+  EXPECT_EQ(refused("[boundary.box]\nlayers = { first = 1, growth = 1.2, count = 3 }\n").find("case.toml:4: unknown key 'boundary.box.layers'"), 0u);
+  EXPECT_EQ(refused("[output]\npartitions = 0\n").find("case.toml:4: unknown key 'output.partitions'"), 0u);
+  EXPECT_EQ(refused("[spacing]\nmin = 0\n").find("case.toml:4: 'spacing.min' is 0"), 0u);
+  EXPECT_EQ(refused("[spacing]\nmin = 2\nmax = 1\n").find("case.toml:4: 'spacing.min' is 2, but must not be above spacing.max"), 0u);
+  EXPECT_EQ(refused("[spacing]\ngradation = 1\n").find("case.toml:4: 'spacing.gradation' is 1"), 0u);
+  EXPECT_EQ(refused("[spacing]\ncorner = 190\n").find("case.toml:4: 'spacing.corner' is 190"), 0u);
+  EXPECT_EQ(refused("[mesh]\nsnap = 0.5\n").find("case.toml:4: 'mesh.snap' is 0.5"), 0u);
+  EXPECT_EQ(refused("[mesh]\ntype = \"delaunay\"\n").find("case.toml:4: 'mesh.type' is 'delaunay', which this version does not make"), 0u);
+  EXPECT_EQ(refused("[mesh]\nroot = [0, 0, 1, 1.5, 1]\n").find("case.toml:4: 'mesh.root' must be"), 0u);
+  EXPECT_EQ(refused("[boundary.hull]\nbc = \"wall\"\n").find("case.toml:3: [boundary.hull]: no boundary of the geometry matches 'hull'"), 0u);
+  EXPECT_EQ(refused("[boundary.box]\nbc = \"wal\"\n").find("case.toml:4: 'boundary.box.bc' is 'wal'"), 0u);
+  EXPECT_EQ(refused("[output]\nformats = [\"vtu\"]\n").find("case.toml:4: 'output.formats' holds 'vtu'"), 0u);
+  EXPECT_EQ(refused("[[source]]\nspacing = 1\n").find("case.toml:3: a [[source]] needs exactly one"), 0u);
+  EXPECT_EQ(refused("[[source]]\ndisc = [0, 0, 1]\n").find("case.toml:3: 'source.0.spacing' is missing"), 0u);
+  EXPECT_EQ(refused("far_field = 1\n").find("case.toml:3: 'geometry.far_field': a far field of half width 1"), 0u);
+}
+
+TEST_F(SettingsTest, NeedsAGeometry) {
+  const std::string path = folder_.write("none.toml", "title = \"x\"\n");
+  EXPECT_EQ(test::refusal(folder_, [&] { read_settings(path, {}); }).find("none.toml"), 0u);
+}
+
+TEST_F(SettingsTest, TheDigestFollowsTheSettingsOfTheMesh) {
+  const auto digest = [&](const std::vector<std::string>& assignments) {
+    const Settings settings = read("[spacing]\nmin = 0.5\nmax = 1\n", assignments);
+    return case_digest(mesh_options(settings, load(settings)));
+  };
+  const auto base = digest({});
+  EXPECT_EQ(base, digest({"title=other", "output.prefix=other"}));
+  EXPECT_NE(base, digest({"spacing.min=0.25"}));
+  EXPECT_NE(base, digest({"spacing.gradation=1.25"}));
+  EXPECT_NE(base, digest({"spacing.gap=2"}));
+  EXPECT_NE(base, digest({"mesh.snap=0.001"}));
+  EXPECT_NE(base, digest({"source=[{disc=[0,0,1],spacing=1}]"}));
+}
+
+}  // namespace
+}  // namespace quadloop
