@@ -22,6 +22,13 @@ struct Releaser {
 
 static_assert(P4EST_MAXLEVEL == Quadrant::unit_level, "lattice units are p4est's");
 
+/// p4est is to be set up once in a program.
+void quieten_p4est() {
+  if (p4est_package_id >= 0) return;
+  sc_set_log_defaults(nullptr, nullptr, SC_LP_ERROR);
+  p4est_init(nullptr, SC_LP_ERROR);
+}
+
 /// What p4est's callbacks reach through its user pointer.
 struct Callbacks {
   const std::function<Quadrant(p4est_topidx_t, const p4est_quadrant_t&)>* place = nullptr;
@@ -59,8 +66,7 @@ struct Forest::Impl {
 };
 
 Forest::Forest(const Communicator& comm, const Lattice& lattice) : impl_{std::make_unique<Impl>()} {
-  sc_set_log_defaults(nullptr, nullptr, SC_LP_ERROR);
-  p4est_init(nullptr, SC_LP_ERROR);
+  quieten_p4est();
   impl_->size = comm.size();
   impl_->connectivity.reset(p4est_connectivity_new_brick(lattice.trees_x(), lattice.trees_y(), 0, 0));
   p4est_connectivity_t& trees = *impl_->connectivity;

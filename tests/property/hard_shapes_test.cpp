@@ -1,0 +1,94 @@
+// Thousands of small hard geometries: every one must end as a valid mesh or as a refusal that names a place, and none may hang.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+
+#include "mesher/base/error.hpp"
+#include "mesher/geometry/assemble.hpp"
+#include "mesher/mesh/build_mesh.hpp"
+#include "mesher/mesh/validate.hpp"
+#include "tests/property/shapes.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+constexpr double seconds_allowed = 10;  // for one shape of a few thousand leaves; the median is a few milliseconds
+
+/// Number of shapes: QUADLOOP_SHAPES where set.
+int shapes_wanted() {
+  const char* text = std::getenv("QUADLOOP_SHAPES");
+  return text != nullptr ? std::atoi(text) : 2400;
+}
+
+MeshOptions random_options(shapes::Random& random) {
+  MeshOptions options;
+  options.size.min = std::ldexp(1.0, -static_cast<int>(3 + random() % 4)) * (random() % 2 == 0 ? 1.0 : 1.3);
+  options.size.max = 0.5;
+  options.size.gradation = random() % 3 == 0 ? 2.0 : 1.5;
+  if (random() % 4 == 0) options.size.curvature = 30.0;
+  if (random() % 2 == 0) options.size.root = RootOptions{{-1, -1}, 2, 1, 1};
+  const double snaps[] = {0, 0.001, 0.4, 0.4};
+  options.snap = snaps[random() % 4];
+  return options;
+}
+
+void write_shape(const shapes::Shape& shape, std::uint64_t seed) {
+  std::ofstream out("failed_shape_" + std::to_string(seed) + ".geom");
+  out.precision(17);
+  out << "# " << shape.name << ", seed " << seed << "\n" << shape.chains.size() << "\n";
+  for (const Chain& chain : shape.chains) {
+    out << chain.name << (chain.open ? " open\n" : "\n") << chain.points.size() << "\n";
+    for (const Point p : chain.points) out << p.x << " " << p.y << "\n";
+  }
+}
+
+/// Empty where all is well; else what is wrong.
+std::string outcome(const shapes::Shape& shape, const MeshOptions& options, double corner, std::int64_t& refused) {
+  try {
+    Warnings warnings;
+    AssembleOptions how;
+    how.default_corner_degrees = corner;
+    const Geometry geometry = assemble(shape.chains, how, warnings);
+    const MeshResult result = build_mesh(test::world(), geometry, options);
+    Mesh mesh = result.mesh;
+    std::erase_if(mesh.boundaries, [](const BoundaryEdges& b) { return b.edges.empty(); });
+    for (const MeshFault& fault : validate(mesh)) return std::string(name_of(fault.rule)) + ": " + fault.what;
+  } catch (const InputError& error) {
+    ++refused;
+    const std::string message = error.what();
+    if (message.find("boundary") == std::string::npos && message.find("loop") == std::string::npos) return "a refusal without a place: " + message;
+  } catch (const std::exception& error) {
+    return std::string("a fault: ") + error.what();
+  }
+  return {};
+}
+
+TEST(HardShapes, EndValidOrRefused) {
+  const int count = shapes_wanted();
+  std::int64_t refused = 0;
+  double slowest = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto seed = static_cast<std::uint64_t>(i);
+    shapes::Random random(seed);
+    const shapes::Shape shape = shapes::random_shape(random);
+    const MeshOptions options = random_options(random);
+    const double corner = random() % 4 == 0 ? 180 : 30;
+    const auto start = std::chrono::steady_clock::now();
+    const std::string wrong = outcome(shape, options, corner, refused);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    slowest = std::max(slowest, seconds);
+    EXPECT_LT(seconds, seconds_allowed) << shape.name << ", seed " << seed;
+    EXPECT_EQ(wrong, "") << shape.name << ", seed " << seed << ", min " << options.size.min << ", snap " << options.snap << ", corner " << corner
+                         << ", gradation " << options.size.gradation << ", root " << options.size.root.has_value();
+    if (!wrong.empty()) write_shape(shape, seed);
+  }
+  std::cout << count << " shapes, " << refused << " refused, slowest " << slowest << " s\n";
+  EXPECT_LT(refused, count / 4) << "too many shapes are refused for the test to mean much";
+}
+
+}  // namespace
+}  // namespace quadloop
