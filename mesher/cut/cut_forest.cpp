@@ -138,7 +138,7 @@ class ForestCutter {
       const Quadrant& south = graph_.leaf(around.south);
       return side_inside(around.south, LeafGraph::top, south.level < q.level && q.x == south.x);
     }
-    return inside_.contains(lattice_.corner(q.x, q.y));
+    return inside_.contains(centre_of(lattice_, q));
   }
 
   /// Whether a half of a side, counter-clockwise, of a leaf that was dealt with lies inside.

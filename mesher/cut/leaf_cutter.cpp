@@ -148,7 +148,10 @@ bool LeafCutter::status_at_start(bool& inside) const {
     inside = change < 0;
     return change == 1 || change == -1;
   }
-  inside = input_.inside ? *input_.inside : inside_->contains(input_.trace.box.low);
+  // Every crossing shares its place with its opposite: the parts of the sides between such places are all alike.
+  std::size_t i = 0;
+  while (stops_[i + 1].position == stops_[i].position) ++i;
+  inside = input_.inside ? *input_.inside : inside_->contains(0.5 * (stops_[i].position + stops_[i + 1].position));
   return true;
 }
 

@@ -6,7 +6,7 @@
 
 namespace quadloop {
 
-/// Whether a lattice corner lies in the domain of a shifted outline, by an exact count of the crossings of a ray to its left; a point on
+/// Whether a point lies in the domain of a shifted outline, by an exact count of the crossings of a ray to its left; a point on
 /// the outline itself is outside. O(log n + k) for a ray that meets k boxes of segments; the index is built at the first question.
 class InsideTest {
  public:
@@ -15,7 +15,7 @@ class InsideTest {
   InsideTest(const InsideTest&) = delete;
   InsideTest& operator=(const InsideTest&) = delete;
 
-  bool contains(Point lattice_corner) const;
+  bool contains(Point p) const;
 
  private:
   struct Index;
