@@ -82,7 +82,7 @@ TEST_F(GeometryFile, ReadsSelig) {
   EXPECT_EQ(chains[0].name, "airfoil");
   EXPECT_FALSE(chains[0].open);
   EXPECT_EQ(chains[0].points.size(), 4u) << "the trailing edge once";
-  EXPECT_LT(chains[0].points[1].y, 0) << "the outside to the left";
+  EXPECT_LT(chains[0].points[0].y, 0) << "the outside to the left";
 }
 
 TEST_F(GeometryFile, ReadsABluntTrailingEdge) {

@@ -1,0 +1,95 @@
+"""What must be refused: for each case its files, its arguments, the exit status and what the one line must say."""
+
+from dataclasses import dataclass, field
+
+SQUARE = "1\nbox\n4\n0 0\n4 0\n4 4\n0 4\n"
+CASE = '[geometry]\nfile = "box.geom"\n[spacing]\nmin = 0.25\nmax = 1\n'
+
+BAD_INPUT, WRONG_USAGE, OUTPUT_FAILED = 1, 2, 4
+
+
+@dataclass
+class Refusal:
+    name: str
+    says: list  # pieces of the line on stderr
+    status: int = BAD_INPUT
+    geometry: str = SQUARE
+    case: str = CASE
+    arguments: list = field(default_factory=lambda: ["mesh", "case.toml", "-o", "out"])
+
+
+def with_set(*assignments):
+    arguments = ["mesh", "case.toml", "-o", "out"]
+    for assignment in assignments:
+        arguments += ["--set", assignment]
+    return arguments
+
+
+def geometry(name, text, *says):
+    return Refusal(name, list(says), geometry=text)
+
+
+def case_file(name, text, *says):
+    return Refusal(name, list(says), case=text)
+
+
+def usage(name, arguments, *says):
+    return Refusal(name, list(says), status=WRONG_USAGE, arguments=arguments)
+
+
+GEOMETRIES = [
+    geometry("not a count", "x\n", "box.geom:1:", "'x'"),
+    geometry("empty file", "", "box.geom"),
+    geometry("not a number", "1\nbox\n3\n0 0\n4 0\n4 x\n", "box.geom:6:", "'x'"),
+    geometry("not finite", "1\nbox\n3\n0 0\n4 0\n4 nan\n", "box.geom:6:", "'nan'"),
+    geometry("ends early", "1\nbox\n4\n0 0\n4 0\n4 4\n", "box.geom:6:", "ends here"),
+    geometry("trailing text", SQUARE + "1 2\n", "box.geom:8:"),
+    geometry("wrong count", "1\nbox\n3\n0 0\n4 0\n4 4\n0 4\n", "box.geom:7:"),
+    geometry("two points", "1\nbox\n2\n0 0\n4 0\n", "box.geom:2:", "'box'", "three"),
+    geometry("not watertight", "2\na open\n2\n0 0\n4 0\nb open\n3\n4 0\n4 4\n0 0.001\n", "'a'", "(0, 0)", "watertight"),
+    geometry("crosses itself", "1\nbox\n4\n0 0\n4 4\n4 0\n0 4\n", "'box'", "(2, 2)"),
+    geometry("touches another", SQUARE.replace("1\n", "2\n", 1) + "two\n3\n4 2\n6 1\n6 3\n", "'box'", "'two'", "(4, 2)"),
+    geometry("same loop twice", SQUARE.replace("1\n", "2\n", 1) + "two\n4\n0 0\n4 0\n4 4\n0 4\n", "'box'", "'two'"),
+    geometry("spike", "1\nbox\n5\n0 0\n4 0\n4 4\n4 9\n4 4\n", "'box'"),
+]
+
+CASES = [
+    case_file("unknown key", CASE + "foo = 1\n", "case.toml:6:", "spacing.foo", "known here"),
+    case_file("unknown table", CASE + "[spacings]\n", "case.toml:6:", "spacings"),
+    case_file("later key", CASE + "[smooth]\nsweeps = 3\n", "case.toml:6:", "smooth"),
+    case_file("wrong type", CASE + "gap = \"two\"\n", "case.toml:6:", "spacing.gap", "number"),
+    case_file("out of range", CASE + "gradation = 3.0\n", "case.toml:6:", "spacing.gradation"),
+    case_file("min above max", CASE.replace("0.25", "2"), "case.toml:4:", "spacing.min"),
+    case_file("boundary matches nothing", CASE + "[boundary.hull]\nbc = \"wall\"\n", "case.toml:6:", "hull", "box"),
+    case_file("pattern matches nothing", CASE + "[boundary.\"is_*\"]\nbc = \"wall\"\n", "case.toml:6:", "is_*"),
+    case_file("not TOML", "[geometry\n", "case.toml:1:"),
+    case_file("no geometry", "title = \"x\"\n", "case.toml", "geometry"),
+    case_file("missing geometry file", CASE.replace("box", "none"), "none.geom"),
+    case_file("unknown suffix", CASE.replace("box.geom", "box.stl"), "box.stl", ".geom"),
+    case_file("far field too small", CASE.replace("[spacing]", "far_field = 2\n[spacing]"), "case.toml:3:", "far_field"),
+    case_file("delaunay", CASE + "[mesh]\ntype = \"delaunay\"\n", "case.toml:7:", "delaunay"),
+    case_file("root too small", CASE + "[mesh]\nroot = [0, 0, 2, 1, 1]\n", "root"),
+    case_file("min too small for the tree", CASE.replace("0.25", "1e-12"), "min"),
+    case_file("unknown format", CASE + "[output]\nformats = [\"xyz\"]\n", "case.toml:7:", "xyz"),
+    Refusal("bad --set value", ["--set spacing.min=-1:", "spacing.min"], arguments=with_set("spacing.min=-1")),
+    Refusal("unknown --set key", ["--set spacing.foo=1:", "unknown key"], arguments=with_set("spacing.foo=1")),
+    Refusal("--set without =", ["--set spacing.min:"], arguments=with_set("spacing.min")),
+    Refusal("missing case file", ["none.toml"], arguments=["mesh", "none.toml", "-o", "out"]),
+    Refusal("--type delaunay", ["delaunay"], arguments=["mesh", "case.toml", "-o", "out", "--type", "delaunay"]),
+]
+
+USAGES = [
+    usage("no command", [], "--help"),
+    usage("unknown command", ["mash"], "--help"),
+    usage("no case file", ["mesh"], "case"),
+    usage("unknown option", ["mesh", "case.toml", "--nonsense"], "--nonsense"),
+]
+
+OUTPUTS = [
+    Refusal("missing folder", ["none/out"], OUTPUT_FAILED, arguments=["mesh", "case.toml", "-o", "none/out"]),
+    Refusal("missing folder of the geometry", ["none/o.geom"], OUTPUT_FAILED,
+            arguments=["mesh", "case.toml", "-o", "out", "--geometry-out", "none/o.geom"]),
+    Refusal("a folder in the way", ["taken.mesh"], OUTPUT_FAILED, arguments=["mesh", "case.toml", "-o", "taken"]),
+]
+
+ALL = GEOMETRIES + CASES + USAGES + OUTPUTS
