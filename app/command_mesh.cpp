@@ -1,7 +1,9 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 
@@ -85,9 +87,13 @@ void write_outputs(const Communicator& comm, const MeshResult& result, const Pre
   outputs.commit();
 }
 
+/// The first few, unless the user asked for all.
 void warn(const CommandContext& context, const Warnings& warnings) {
+  constexpr std::size_t most_shown = 10;
   if (!context.comm.is_root()) return;
-  for (const std::string& warning : warnings) log::warning(warning);
+  const std::size_t shown = context.verbose ? warnings.size() : std::min(most_shown, warnings.size());
+  for (std::size_t i = 0; i < shown; ++i) log::warning(warnings[i]);
+  if (shown < warnings.size()) log::warning(std::to_string(warnings.size() - shown) + " more warnings; --verbose shows them");
 }
 
 StageSeconds stages_of(const StageTimes& ours, const StageTimes& of_mesher) {
