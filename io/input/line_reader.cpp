@@ -46,7 +46,9 @@ std::optional<double> number_of(std::string_view word) {
 
 }  // namespace
 
-LineReader::LineReader(const std::string& path) : path_{path}, text_{read_whole(path)} {}
+LineReader::LineReader(const std::string& path) : path_{path}, text_{read_whole(path)} {
+  if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // the byte order mark of some editors
+}
 
 bool LineReader::next() {
   while (at_ < text_.size()) {

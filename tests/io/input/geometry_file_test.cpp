@@ -38,7 +38,9 @@ TEST_F(GeometryFile, ReadsClosedAndOpen) {
 }
 
 TEST_F(GeometryFile, TakesWhatOtherProgramsWrite) {
-  const auto chains = read("a.geom", "1 # boundaries\r\n\r\n  body\t\r\n# points\r\n3\r\n+0.5D+00 -1.0d0\r\n 1E0  0.\r\n.5 1e-400\r\n");
+  const auto chains = read("a.geom",
+                           "\xEF\xBB\xBF"
+                           "1 # boundaries\r\n\r\n  body\t\r\n# points\r\n3\r\n+0.5D+00 -1.0d0\r\n 1E0  0.\r\n.5 1e-400\r\n");
   EXPECT_EQ(chains[0].points, (std::vector<Point>{{0.5, -1}, {1, 0}, {0.5, 0}}));
 }
 
