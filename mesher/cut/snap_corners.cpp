@@ -90,8 +90,6 @@ class CornerDecision {
     corner_ = lattice_.corner(sights.front().x, sights.front().y);
     local_edge_ = shortest_edge(sights.front().x, sights.front().y);
     if (nearest >= share_ * local_edge_) return std::nullopt;
-    find_runs(sights);
-    if (!choose_run(sights)) return std::nullopt;
     if (!absorb(sights, true) && !absorb(sights, false)) return std::nullopt;
     Snap snap{sights.front().x, sights.front().y, target_, corner_, capture_share * local_edge_, {}};
     for (std::size_t i = 0; i < sights.size(); ++i) {
@@ -119,14 +117,14 @@ class CornerDecision {
     return i;
   }
 
-  /// Crossings are of one run where they are the same, or the two ends of one piece.
+  /// The runs among the crossings that may be taken: the same crossing, and the two ends of one piece, belong to one.
   void find_runs(std::span<const Sight> sights) {
     run_.resize(sights.size());
     std::iota(run_.begin(), run_.end(), std::size_t{0});
     for (std::size_t i = 0; i < sights.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t j = 0; j < i && absorbed_[i] != 0; ++j) {
         const bool same_piece = sights[i].trace == sights[j].trace && sights[i].piece == sights[j].piece;
-        if (same_piece || same_crossing(sights[i], sights[j])) run_[root(i)] = root(j);
+        if (absorbed_[j] != 0 && (same_piece || same_crossing(sights[i], sights[j]))) run_[root(i)] = root(j);
       }
     }
   }
@@ -173,7 +171,7 @@ class CornerDecision {
   }
 
   /// The run that claims the corner and comes nearest; none where two come equally near.
-  bool choose_run(std::span<const Sight> sights) {
+  std::optional<std::size_t> nearest_run(std::span<const Sight> sights) const {
     std::vector<std::size_t> claimants;
     for (std::size_t i = 0; i < sights.size(); ++i) {
       if (sights[i].distance < share_ * local_edge_) claimants.push_back(root(i));
@@ -181,26 +179,29 @@ class CornerDecision {
     std::sort(claimants.begin(), claimants.end());
     claimants.erase(std::unique(claimants.begin(), claimants.end()), claimants.end());
     double best = local_edge_;
-    bool tied = true;
+    std::optional<std::size_t> nearest;
     for (const std::size_t run : claimants) {
       const double distance = length(nearest_point(sights, [&](std::size_t i) { return root(i) == run; }) - corner_);
-      tied = distance == best ? true : distance < best ? false : tied;
-      if (distance >= best) continue;
-      best = distance;
-      chosen_ = run;
+      if (distance == best) nearest.reset();
+      if (distance < best) nearest = run;
+      best = std::min(best, distance);
     }
-    return !tied;
+    return nearest;
   }
 
-  /// Marks what the corner takes: the chosen run's claims and, if asked, its other crossings that are nearer to this corner than to the far end of their edge. False
-  /// where that would not be a contraction, or swallow too much.
+  /// Marks what the corner takes: one run of the crossings near it and, if asked, of those that are at least nearer to it than to the far end
+  /// of their edge. False where that would not be a contraction, or swallow too much.
   bool absorb(std::span<const Sight> sights, bool whole_run) {
     absorbed_.assign(sights.size(), 0);
     for (std::size_t i = 0; i < sights.size(); ++i) {
       const bool claims = sights[i].distance < share_ * local_edge_;
       const bool free = 2 * sights[i].distance < sights[i].edge;  // the corner at the far end is farther, and never takes it
-      absorbed_[i] = root(i) == chosen_ && (claims || (whole_run && free));
+      absorbed_[i] = claims || (whole_run && free);
     }
+    find_runs(sights);
+    const auto chosen = nearest_run(sights);
+    if (!chosen) return false;
+    for (std::size_t i = 0; i < sights.size(); ++i) absorbed_[i] = absorbed_[i] != 0 && root(i) == *chosen;
     for (std::size_t i = 0; i < sights.size(); ++i) {
       for (std::size_t j = 0; j < sights.size(); ++j) {
         const bool passed_over = absorbed_[i] != 0 && absorbed_[j] == 0 && sights[j].direction == sights[i].direction && sights[j].distance <= sights[i].distance;
@@ -254,7 +255,6 @@ class CornerDecision {
   double share_;
   Point corner_, target_;
   double local_edge_ = 0;
-  std::size_t chosen_ = 0;
   std::vector<std::size_t> run_;
   std::vector<char> absorbed_;
 };
