@@ -178,9 +178,8 @@ void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
   }
   const auto vertices = trimmed_vertices(piece);
   choose_points(piece, vertices, detail);
-  const std::int32_t first = closed || vertices.empty() || vertices.data() == input_.trace.vertices_of(piece).data()
-                                 ? piece.first_segment
-                                 : *(vertices.data() - 1);
+  const auto trimmed = vertices.data() - input_.trace.vertices_of(piece).data();  // in front
+  const std::int32_t first = trimmed == 0 ? piece.first_segment : input_.trace.vertices_of(piece)[static_cast<std::size_t>(trimmed) - 1];
   const auto segment_at = [&](std::size_t point) { return closed ? vertices[point] : point == 0 ? first : vertices[point - 1]; };
   std::size_t from = 0;
   std::int32_t from_node = closed ? node_at(run_points_[0]) : crossing_node_[static_cast<std::size_t>(piece.entry)];
