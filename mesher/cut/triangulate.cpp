@@ -26,9 +26,11 @@ bool Triangulator::triangulate(std::span<const Point> points, std::span<const Ti
     triangulate_region(points, loops, triangles_);
   }
   if (triangles_.size() > 1) flip_to_delaunay(loops);
-  for (const LocalTriangle& t : triangles_) {
+  for (LocalTriangle& t : triangles_) {
     if (!positive(t[0], t[1], t[2])) return false;
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   }
+  std::sort(triangles_.begin(), triangles_.end());  // the order must not tell how the triangles were found
   triangles.insert(triangles.end(), triangles_.begin(), triangles_.end());
   return true;
 }
