@@ -102,7 +102,7 @@ class ForestCutter {
         for (const LeafSnap& s : snaps) vetoes_.push_back({s.snap->x, s.snap->y});
         return;
       }
-      if (!done(Detail::full)) refuse(input.trace);
+      if (!done(Detail::full) && !done(Detail::exact)) refuse(input.trace);
     }
     if (state(leaf) != CutForest::State::outside || trace_of(leaf) >= 0) store(leaf);
   }

@@ -45,7 +45,8 @@ struct CutLeaf {
 /// How closely chords follow the outline inside a leaf.
 enum class Detail {
   merged,  ///< kept points, and those without which a chord would stray too far (thesis Fig. 3.12)
-  full     ///< every point of the geometry
+  full,    ///< every point where the outline turns
+  exact    ///< every point of the geometry
 };
 
 /// Cuts leaves; keeps its working memory from one to the next.
@@ -62,7 +63,7 @@ class LeafCutter {
     std::optional<bool> inside;         ///< where the leaf holds no geometry: whether it lies in the domain
   };
 
-  /// Cuts a leaf. Returns whether the loops are sound: simple, nested as outlines and holes, none overlapping another (always so with full detail
+  /// Cuts a leaf. Returns whether the loops are sound: simple, nested as outlines and holes, none overlapping another (always so with exact detail
   /// and no snaps, but for boundaries that double precision cannot part). The result is valid until the next call.
   bool cut(const Input& input, Detail detail);
 
@@ -102,7 +103,7 @@ class LeafCutter {
   std::vector<CutLeaf::Edge> edges_;  ///< of the loops: chords and sides
   std::vector<CutLeaf::Edge> bare_sides_;  ///< parts of sides outside the domain
   std::vector<Point> run_points_;     ///< of one piece: entry, vertices, exit
-  std::vector<char> run_keep_;
+  std::vector<char> run_turns_, run_keep_;
   double largest_stray_ = 0;
 };
 

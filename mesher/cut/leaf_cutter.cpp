@@ -216,10 +216,17 @@ void LeafCutter::choose_points(const Piece& piece, std::span<const std::int32_t>
   if (!closed) run_points_.push_back(node_position(piece.entry));
   for (const std::int32_t v : vertices) run_points_.push_back(g.point(v));
   run_points_.push_back(closed ? run_points_.front() : node_position(piece.exit));
-  run_keep_.assign(run_points_.size(), closed || detail == Detail::full ? 1 : 0);
+  const bool turns_stay = closed || detail != Detail::merged;
+  run_turns_.clear();
+  for (std::size_t i = 0; i < run_points_.size(); ++i) {
+    const bool vertex = i + 1 < run_points_.size() && (closed || i > 0);
+    run_turns_.push_back(!vertex || detail == Detail::exact || !g.straight(vertices[closed ? i : i - 1]));
+  }
+  run_keep_.assign(run_points_.size(), 0);
+  if (turns_stay) run_keep_ = run_turns_;
   run_keep_.front() = run_keep_.back() = 1;
   leaf_.refined = leaf_.refined || closed;
-  if (closed || detail == Detail::full) return;
+  if (turns_stay) return;
   std::size_t from = 0;
   for (std::size_t i = 1; i < run_points_.size(); ++i) {
     if (i + 1 < run_points_.size() && !g.kept(vertices[i - 1])) continue;
@@ -237,7 +244,7 @@ void LeafCutter::keep_strays(std::size_t from, std::size_t to) {
   double stray = a == b ? largest_stray_ / 2 : std::min(largest_stray_, stray_of_chord * length(b - a));
   for (std::size_t i = from + 1; i < to; ++i) {
     const double distance = distance_to_segment(run_points_[i], a, b);
-    if (distance <= stray) continue;
+    if (run_turns_[i] == 0 || distance <= stray) continue;
     stray = distance;
     farthest = i;
   }

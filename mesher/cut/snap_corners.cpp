@@ -129,26 +129,43 @@ class CornerDecision {
     }
   }
 
-  /// The vertices of a sight's piece from its crossing on, as long as they stay near the corner.
+  /// The vertices where a sight's piece turns, from its crossing on, as long as they stay near the corner.
   std::vector<std::int32_t> near_vertices(const Sight& s) const {
     const LeafTrace view = traces_[s.trace];
     const auto all = view.vertices_of(view.pieces[static_cast<std::size_t>(s.piece)]);
     std::vector<std::int32_t> near;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const std::int32_t v = s.at_entry ? all[i] : all[all.size() - 1 - i];
+      if (geometry_.straight(v)) continue;
       if (length(geometry_.point(v) - corner_) >= capture_share * local_edge_) break;
       near.push_back(v);
     }
     return near;
   }
 
-  /// The point of a sight's piece, from its crossing on, that follows so many vertices.
-  Point point_after(const Sight& s, std::size_t count) const {
+  /// The segments of a sight's piece from its crossing to the first turn that is not near the corner.
+  std::vector<std::int32_t> near_segments(const Sight& s) const {
+    const LeafTrace view = traces_[s.trace];
+    const auto all = view.vertices_of(view.pieces[static_cast<std::size_t>(s.piece)]);
+    std::vector<std::int32_t> segments{s.segment};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::int32_t v = s.at_entry ? all[i] : all[all.size() - 1 - i];
+      if (!geometry_.straight(v) && length(geometry_.point(v) - corner_) >= capture_share * local_edge_) break;
+      segments.push_back(s.at_entry ? v : geometry_.previous(v));
+    }
+    return segments;
+  }
+
+  /// The point of a sight's piece, from its crossing on, that follows so many turns.
+  Point point_after(const Sight& s, std::size_t turns) const {
     const LeafTrace view = traces_[s.trace];
     const Piece& piece = view.pieces[static_cast<std::size_t>(s.piece)];
     const auto all = view.vertices_of(piece);
-    if (count == all.size()) return view.crossing(s.at_entry ? piece.exit : piece.entry).position;
-    return geometry_.point(s.at_entry ? all[count] : all[all.size() - 1 - count]);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::int32_t v = s.at_entry ? all[i] : all[all.size() - 1 - i];
+      if (!geometry_.straight(v) && turns-- == 0) return geometry_.point(v);
+    }
+    return view.crossing(s.at_entry ? piece.exit : piece.entry).position;
   }
 
   /// The nearest point to the corner on the outline from the crossings of interest on, as long as it stays near.
@@ -164,8 +181,7 @@ class CornerDecision {
         distance = length(p - corner_);
         point = p;
       };
-      try_segment(sights[i].segment);
-      for (const std::int32_t v : near_vertices(sights[i])) try_segment(sights[i].at_entry ? v : geometry_.previous(v));
+      for (const std::int32_t segment : near_segments(sights[i])) try_segment(segment);
     }
     return point;
   }
@@ -229,7 +245,7 @@ class CornerDecision {
       if (vanishes(sights, sights[i])) {
         const LeafTrace view = traces_[sights[i].trace];
         const auto all = view.vertices_of(view.pieces[static_cast<std::size_t>(sights[i].piece)]);
-        swallowed.insert(swallowed.end(), all.begin(), all.end());
+        std::copy_if(all.begin(), all.end(), std::back_inserter(swallowed), [&](std::int32_t v) { return !geometry_.straight(v); });
       } else {
         const auto near = near_vertices(sights[i]);
         stubs.push_back(point_after(sights[i], near.size()));

@@ -49,9 +49,12 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, 
   }
   for (const Point p : points_) box_.include(p);
   kept_.resize(points_.size());
+  straight_.resize(points_.size());
   for (std::int32_t v = 0; v < size(); ++v) {
     const BoundaryId before = boundary_of(previous(v)), after = boundary_of(v);
-    kept_[static_cast<std::size_t>(v)] = before != after || turn_degrees(v) > boundary(after).corner_degrees;
+    const double turn = turn_degrees(v);
+    kept_[static_cast<std::size_t>(v)] = before != after || turn > boundary(after).corner_degrees;
+    straight_[static_cast<std::size_t>(v)] = before == after && turn < straight_degrees;
   }
 }
 

@@ -52,6 +52,10 @@ class Geometry {
 
   /// Whether the vertex must become a mesh node: it turns by more than its boundary's corner, or two boundaries meet there.
   bool kept(std::int32_t v) const { return kept_[static_cast<std::size_t>(v)] != 0; }
+  /// Whether the outline runs straight on through the vertex (to straight_degrees) within one boundary: such a point is no feature, so a mesh does not
+  /// change when segments are split.
+  bool straight(std::int32_t v) const { return straight_[static_cast<std::size_t>(v)] != 0; }
+  static constexpr double straight_degrees = 1e-6;
   /// By how much the outline turns at the vertex, in degrees, 0 to 180.
   double turn_degrees(std::int32_t v) const;
   /// The length that the segment asks of the leaves which hold it: its boundary's spacing, else its own length.
@@ -65,7 +69,7 @@ class Geometry {
   std::vector<Point> points_;
   std::vector<std::int32_t> loop_starts_, loop_of_, next_, previous_;
   std::vector<BoundaryId> segment_boundary_;
-  std::vector<char> kept_;
+  std::vector<char> kept_, straight_;
   Box box_;
 };
 
