@@ -12,6 +12,9 @@ namespace {
 
 Point centre_of(const Lattice& lattice, const Quadrant& q) { return lattice.corner(q.x + q.size() / 2, q.y + q.size() / 2); }
 
+/// Cells with a smaller angle are shaped by rounding: another way to cut the leaf is looked for first.
+constexpr double thinnest_sine = 1e-11;
+
 /// A corner whose snap is taken back.
 struct Veto {
   std::int64_t x = 0, y = 0;
@@ -96,7 +99,10 @@ class ForestCutter {
     } else {
       input.inside = state(leaf) == CutForest::State::inside;
     }
-    const auto done = [&](Detail detail) { return cutter_.cut(input, detail) && maker_.make(q, box, cutter_.result(), cells_); };
+    const auto done = [&](Detail detail) {
+      return cutter_.cut(input, detail) && maker_.make(q, box, cutter_.result(), cells_) &&
+             (detail == Detail::exact || maker_.smallest_sine() > thinnest_sine);
+    };
     if (!done(Detail::merged)) {
       if (!snaps.empty()) {
         for (const LeafSnap& s : snaps) vetoes_.push_back({s.snap->x, s.snap->y});

@@ -70,6 +70,7 @@ void LeafCellMaker::set_keys(const Quadrant& q, const Box& box, const CutLeaf& l
 bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf, LeafCells& cells) {
   cells.triangles.clear();
   cells.quads.clear();
+  smallest_sine_ = 1;
   points_.clear();
   for (const CutLeaf::Node& node : leaf.nodes) points_.push_back(node.position);
   set_keys(q, box, leaf);
@@ -79,14 +80,20 @@ bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf,
     loops.push_back(leaf.loop(i));
     holes = holes || winding_of(leaf, leaf.loop(i)) < 0;
   }
-  if (holes) return triangulator_.triangulate(points_, keys_, loops, cells.triangles);
+  if (holes) return triangulate(loops, cells);
   for (const auto& loop : loops) {
     if (is_whole(leaf, loop) && is_convex(leaf, loop)) {
       cells.quads.push_back({loop[0], loop[1], loop[2], loop[3]});
-    } else if (!triangulator_.triangulate(points_, keys_, std::span(&loop, 1), cells.triangles)) {
+    } else if (!triangulate(std::span(&loop, 1), cells)) {
       return false;
     }
   }
+  return true;
+}
+
+bool LeafCellMaker::triangulate(std::span<const std::span<const std::int32_t>> loops, LeafCells& cells) {
+  if (!triangulator_.triangulate(points_, keys_, loops, cells.triangles)) return false;
+  smallest_sine_ = std::min(smallest_sine_, triangulator_.smallest_sine());
   return true;
 }
 

@@ -19,11 +19,16 @@ class LeafCellMaker {
  public:
   /// Replaces `cells`. False where double precision leaves no room for cells of positive area.
   bool make(const Quadrant& q, const Box& box, const CutLeaf& leaf, LeafCells& cells);
+  /// The sine of the smallest angle of the triangles made last.
+  double smallest_sine() const { return smallest_sine_; }
 
  private:
   void set_keys(const Quadrant& q, const Box& box, const CutLeaf& leaf);
 
+  bool triangulate(std::span<const std::span<const std::int32_t>> loops, LeafCells& cells);
+
   Triangulator triangulator_;
+  double smallest_sine_ = 1;
   std::vector<Point> points_;
   std::vector<TieKey> keys_;
 };

@@ -30,9 +30,19 @@ bool Triangulator::triangulate(std::span<const Point> points, std::span<const Ti
     if (!positive(t[0], t[1], t[2])) return false;
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   }
+  measure();
   std::sort(triangles_.begin(), triangles_.end());  // the order must not tell how the triangles were found
   triangles.insert(triangles.end(), triangles_.begin(), triangles_.end());
   return true;
+}
+
+void Triangulator::measure() {
+  smallest_sine_ = 1;
+  for (const LocalTriangle& t : triangles_) {
+    const Point a = at(t[0]), b = at(t[1]), c = at(t[2]);
+    const double ab = length(b - a), bc = length(c - b), ca = length(a - c);
+    smallest_sine_ = std::min(smallest_sine_, cross(b - a, c - a) * std::min({ab, bc, ca}) / (ab * bc * ca));
+  }
 }
 
 /// Positive exactly, and by the plain products in doubles that every reader of the mesh will use, at each corner.

@@ -28,7 +28,11 @@ class Triangulator {
   bool triangulate(std::span<const Point> points, std::span<const TieKey> keys, std::span<const std::span<const std::int32_t>> loops,
                    std::vector<LocalTriangle>& triangles);
 
+  /// The sine of the smallest angle of the triangles made last; below about 1e-11 rounding, not the outline, shaped a triangle.
+  double smallest_sine() const { return smallest_sine_; }
+
  private:
+  void measure();
   bool clip_ears(std::span<const std::int32_t> loop);
   bool is_ear(std::size_t i) const;
   void flip_to_delaunay(std::span<const std::span<const std::int32_t>> loops);
@@ -50,6 +54,7 @@ class Triangulator {
   std::vector<HalfEdge> half_edges_;
   std::vector<HalfEdge> fixed_;
   std::vector<char> touched_;
+  double smallest_sine_ = 1;
 };
 
 }  // namespace quadloop
