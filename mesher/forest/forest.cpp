@@ -31,18 +31,23 @@ void quieten_p4est() {
 
 /// What p4est's callbacks reach through its user pointer.
 struct Callbacks {
-  const std::function<Quadrant(p4est_topidx_t, const p4est_quadrant_t&)>* place = nullptr;
+  const std::vector<Quadrant>* tree_corners = nullptr;
   const std::function<bool(const Quadrant&)>* split = nullptr;
   const std::vector<char>* marked = nullptr;
   const std::vector<int>* weights = nullptr;
   std::size_t next = 0;  ///< leaf that the callback is asked about
 };
 
+Quadrant place_of(const std::vector<Quadrant>& tree_corners, p4est_topidx_t tree, const p4est_quadrant_t& q) {
+  const Quadrant& corner = tree_corners[static_cast<std::size_t>(tree)];
+  return {corner.x + q.x, corner.y + q.y, q.level};
+}
+
 Callbacks& callbacks_of(p4est_t* forest) { return *static_cast<Callbacks*>(forest->user_pointer); }
 
 int split_by_function(p4est_t* forest, p4est_topidx_t tree, p4est_quadrant_t* q) {
   Callbacks& callbacks = callbacks_of(forest);
-  return (*callbacks.split)((*callbacks.place)(tree, *q)) ? 1 : 0;
+  return (*callbacks.split)(place_of(*callbacks.tree_corners, tree, *q)) ? 1 : 0;
 }
 
 int split_by_mark(p4est_t* forest, p4est_topidx_t, p4est_quadrant_t*) {
@@ -60,7 +65,6 @@ int weight_of(p4est_t* forest, p4est_topidx_t, p4est_quadrant_t*) {
 struct Forest::Impl {
   std::unique_ptr<p4est_connectivity_t, Releaser<p4est_connectivity_destroy>> connectivity;  // outlives the forest
   std::unique_ptr<p4est_t, Releaser<p4est_destroy>> forest;
-  std::function<Quadrant(p4est_topidx_t, const p4est_quadrant_t&)> place;
   std::vector<Quadrant> tree_corners;
   int size = 1;
 };
@@ -75,10 +79,6 @@ Forest::Forest(const Communicator& comm, const Lattice& lattice) : impl_{std::ma
     impl_->tree_corners.push_back(
         {std::llround(corner[0]) << Quadrant::unit_level, std::llround(corner[1]) << Quadrant::unit_level, 0});
   }
-  impl_->place = [corners = &impl_->tree_corners](p4est_topidx_t tree, const p4est_quadrant_t& q) {
-    const Quadrant& corner = (*corners)[static_cast<std::size_t>(tree)];
-    return Quadrant{corner.x + q.x, corner.y + q.y, q.level};
-  };
   impl_->forest.reset(p4est_new_ext(comm.raw(), impl_->connectivity.get(), 0, 1, 1, 0, nullptr, nullptr));
 }
 
@@ -86,7 +86,7 @@ Forest::~Forest() = default;
 Forest::Forest(Forest&&) noexcept = default;
 
 void Forest::refine(const std::function<bool(const Quadrant&)>& split, int deepest_level) {
-  Callbacks callbacks{.place = &impl_->place, .split = &split};
+  Callbacks callbacks{.tree_corners = &impl_->tree_corners, .split = &split};
   impl_->forest->user_pointer = &callbacks;
   p4est_refine_ext(impl_->forest.get(), 1, deepest_level, split_by_function, nullptr, nullptr);
 }
@@ -113,7 +113,7 @@ std::vector<Quadrant> Forest::leaves() const {
   p4est_t& forest = *impl_->forest;
   for (p4est_topidx_t t = forest.first_local_tree; t <= forest.last_local_tree; ++t) {
     sc_array_t& quadrants = p4est_tree_array_index(forest.trees, t)->quadrants;
-    for (std::size_t i = 0; i < quadrants.elem_count; ++i) leaves.push_back(impl_->place(t, *p4est_quadrant_array_index(&quadrants, i)));
+    for (std::size_t i = 0; i < quadrants.elem_count; ++i) leaves.push_back(place_of(impl_->tree_corners, t, *p4est_quadrant_array_index(&quadrants, i)));
   }
   return leaves;
 }
@@ -126,7 +126,7 @@ std::vector<Forest::Ghost> Forest::ghosts() const {
   for (int rank = 0; rank < impl_->size; ++rank) {
     for (p4est_locidx_t i = layer->proc_offsets[rank]; i < layer->proc_offsets[rank + 1]; ++i) {
       const p4est_quadrant_t& q = *p4est_quadrant_array_index(&layer->ghosts, static_cast<std::size_t>(i));
-      ghosts.push_back({impl_->place(q.p.piggy3.which_tree, q), rank, q.p.piggy3.local_num});
+      ghosts.push_back({place_of(impl_->tree_corners, q.p.piggy3.which_tree, q), rank, q.p.piggy3.local_num});
     }
   }
   return ghosts;

@@ -18,7 +18,7 @@ bool forbids(std::int64_t small, std::int64_t gap, std::int64_t large, std::int6
 
 bool SizeTree::must_split(const Quadrant& q) {
   if (q.level >= finest_) return false;
-  if (q.level < 1) return true;
+  if (q.level < coarsest_) return true;
   return forced(q, step_above(q).near);
 }
 
@@ -47,6 +47,7 @@ void SizeTree::fill_near(Step& step, const std::vector<std::int32_t>& parents) {
     if (!is_split(parent)) continue;
     const std::int32_t first = nodes_[static_cast<std::size_t>(parent)].children;
     for (std::int32_t child = first; child < first + 4; ++child) {
+      if (nodes_[static_cast<std::size_t>(child)].plain) continue;  // its leaves are as large as any may be
       const std::int64_t gap = chebyshev_gap(step.place, nodes_[static_cast<std::size_t>(child)].place);
       if (forbids(smallest, gap, half, slope_) && is_split(child)) step.near.push_back(child);
     }
@@ -66,6 +67,7 @@ bool SizeTree::forced(const Quadrant& q, const std::vector<std::int32_t>& near) 
 
 /// Whether some leaf of the wanted tree in this node forbids a leaf q.
 bool SizeTree::forced_by(const Quadrant& q, std::int32_t node) {
+  if (nodes_[static_cast<std::size_t>(node)].plain) return false;
   const Quadrant place = nodes_[static_cast<std::size_t>(node)].place;
   const std::int64_t smallest = std::int64_t{1} << (Quadrant::unit_level - finest_);
   const std::int64_t gap = chebyshev_gap(q, place);

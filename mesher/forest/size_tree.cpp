@@ -35,7 +35,9 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
       options_{&options},
       unresolved_{std::move(unresolved)},
       finest_{lattice.finest_level(options.min)},
+      coarsest_{1},
       slope_{std::llround((options.gradation - 1) / 2 * static_cast<double>(1 << slope_bits))} {
+  while (coarsest_ < finest_ && lattice.edge(coarsest_) > options.max) ++coarsest_;
   const Geometry& g = outline.geometry();
   for (std::int32_t s = 0; s < g.size(); ++s) {
     spacing_.push_back(g.spacing_of(s));
@@ -51,6 +53,7 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
         if (outline.meets(s, box)) segments_.push_back(s);
       }
       root.segments_end = static_cast<std::int32_t>(segments_.size());
+      root.plain = is_plain(root, box);
       roots_.push_back(static_cast<std::int32_t>(nodes_.size()));
       nodes_.push_back(root);
     }
@@ -85,6 +88,7 @@ void SizeTree::grow(std::int32_t node) {
       if (outline_->meets(s, box)) segments_.push_back(s);
     }
     child.segments_end = static_cast<std::int32_t>(segments_.size());
+    child.plain = parent.plain || is_plain(child, box);
     nodes_.push_back(child);
   }
   for (std::int32_t n = node; n >= 0 && nodes_[static_cast<std::size_t>(n)].deepest_split < parent.place.level;
@@ -93,12 +97,17 @@ void SizeTree::grow(std::int32_t node) {
   }
 }
 
+bool SizeTree::is_plain(const Node& node, const Box& box) const {
+  return node.segments_begin == node.segments_end &&
+         std::none_of(options_->sources.begin(), options_->sources.end(), [&](const Source& s) { return meets(s, box); });
+}
+
 bool SizeTree::wants_split(const Node& node) const {
   const Quadrant& q = node.place;
   if (q.level >= finest_) return false;
-  if (q.level < 1) return true;
+  if (q.level < coarsest_) return true;
+  if (node.plain) return false;
   const double size = lattice_->edge(q.level);
-  if (size > options_->max) return true;
   const Box box = lattice_->box_of(q);
   for (const Source& source : options_->sources) {
     if (size > source.spacing && meets(source, box)) return true;
@@ -124,12 +133,12 @@ bool SizeTree::turns_too_far(std::span<const std::int32_t> segments, const Box& 
   return std::any_of(turned.begin(), turned.end(), [&](const auto& entry) { return entry.second > allowed; });
 }
 
-/// From the node last asked for up to one that holds q, and down again: few steps along the curve.
+/// From the node last asked for up to one that holds q, and down again, but not into a plain one: few steps along the curve.
 std::int32_t SizeTree::deepest_node_at(const Quadrant& q) {
   std::int32_t node = cursor_;
   while (node >= 0 && !nodes_[static_cast<std::size_t>(node)].place.contains(q)) node = nodes_[static_cast<std::size_t>(node)].parent;
   if (node < 0) node = root_of(q);
-  while (nodes_[static_cast<std::size_t>(node)].place.level < q.level && is_split(node)) {
+  while (nodes_[static_cast<std::size_t>(node)].place.level < q.level && !nodes_[static_cast<std::size_t>(node)].plain && is_split(node)) {
     const Node& at = nodes_[static_cast<std::size_t>(node)];
     const std::int64_t half = at.place.size() / 2;
     const int k = (q.x >= at.place.x + half ? 1 : 0) + (q.y >= at.place.y + half ? 2 : 0);
@@ -151,6 +160,6 @@ std::span<const std::int32_t> SizeTree::segments_in(const Quadrant& q) {
   return found_;
 }
 
-int SizeTree::wanted_level(const Quadrant& leaf) { return nodes_[static_cast<std::size_t>(deepest_node_at(leaf))].place.level; }
+int SizeTree::wanted_level(const Quadrant& leaf) { return std::max(nodes_[static_cast<std::size_t>(deepest_node_at(leaf))].place.level, coarsest_); }
 
 }  // namespace quadloop
