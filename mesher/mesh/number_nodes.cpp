@@ -105,15 +105,30 @@ void NodeNumbering::mark(const Home& home) {
   }
 }
 
+/// Whether the leaf is a local inside one: that uses all nodes that it owns, and sees to them itself.
+bool NodeNumbering::marks_its_own(std::int32_t leaf) const {
+  return graph_->is_local(leaf) && cut_->states[static_cast<std::size_t>(leaf - graph_->local_begin())] == CutForest::State::inside;
+}
+
+void NodeNumbering::mark_inside(std::int32_t leaf) {
+  const LeafGraph::Around& around = graph_->around(leaf);
+  auto& own = inner_slots_[static_cast<std::size_t>(leaf - graph_->local_begin())];
+  own[0] = used;
+  if (graph_->has_hanging(leaf, LeafGraph::right)) own[1] = used;
+  if (graph_->has_hanging(leaf, LeafGraph::top)) own[2] = used;
+  if (!marks_its_own(around.south_west)) mark(home_of_place(leaf, 0));
+  if (!marks_its_own(around.south)) mark(home_of_place(leaf, 1));
+  if (!marks_its_own(around.west)) mark(home_of_place(leaf, 3));
+  if (graph_->has_hanging(leaf, LeafGraph::bottom) && !marks_its_own(around.south_half)) mark(home_of_place(leaf, 4));
+  if (graph_->has_hanging(leaf, LeafGraph::left) && !marks_its_own(around.west_half)) mark(home_of_place(leaf, 7));
+}
+
 void NodeNumbering::mark_used() {
   for (std::int32_t leaf = graph_->local_begin(); leaf < graph_->local_end(); ++leaf) {
     const auto local = static_cast<std::size_t>(leaf - graph_->local_begin());
     if (cut_->states[local] == CutForest::State::outside) continue;
     if (cut_->states[local] == CutForest::State::inside) {
-      const unsigned finer = graph_->around(leaf).finer;
-      for (int place = 0; place < 8; ++place) {
-        if (place < 4 || ((finer >> (place - 4)) & 1) != 0) mark(home_of_place(leaf, place));
-      }
+      mark_inside(leaf);
       continue;
     }
     const auto entry = static_cast<std::size_t>(cut_->entry_of[local]);
@@ -143,6 +158,7 @@ void NodeNumbering::number_slot(std::int32_t& slot, Point position) {
 }
 
 void NodeNumbering::number_owned() {
+  points_.reserve(cut_->states.size() + cut_->states.size() / 8 + cut_->nodes.size());
   auto border = border_slots_.begin();
   for (std::int32_t leaf = graph_->local_begin(); leaf < graph_->local_end(); ++leaf) {
     const Quadrant& q = graph_->leaf(leaf);

@@ -46,6 +46,8 @@ class NodeNumbering {
 
   void mark(const Home& home);
   void mark_used();
+  void mark_inside(std::int32_t leaf);
+  bool marks_its_own(std::int32_t leaf) const;
   void exchange_marks(const Communicator& comm);
   void number_owned();
   void place_moved();
