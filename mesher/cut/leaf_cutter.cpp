@@ -13,7 +13,7 @@ std::array<Point, 4> corners_of(const Box& box) { return {box.low, {box.high.x, 
 
 /// The same for the segment b-a and for mirror images, so that mirrored outlines keep mirrored points: rounded only at the end.
 double distance_to_segment(Point p, Point a, Point b) {
-  using Wide = __float128;
+  using Wide = long double;
   const Wide abx = Wide(b.x) - a.x, aby = Wide(b.y) - a.y, apx = Wide(p.x) - a.x, apy = Wide(p.y) - a.y;
   const Wide square = abx * abx + aby * aby, along = apx * abx + apy * aby;
   if (square == 0 || along <= 0) return length(p - a);

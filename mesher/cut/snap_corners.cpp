@@ -67,7 +67,7 @@ class SightCollector {
 
 /// The nearest point to p on the segment a-b, the same for the segment b-a; rounded once.
 Point nearest_on_segment(Point p, Point a, Point b) {
-  using Wide = __float128;
+  using Wide = long double;
   if (length(p - b) < length(p - a)) std::swap(a, b);
   const Wide dx = Wide(b.x) - a.x, dy = Wide(b.y) - a.y;
   const Wide along = (Wide(p.x) - a.x) * dx + (Wide(p.y) - a.y) * dy, square = dx * dx + dy * dy;
@@ -277,6 +277,26 @@ class CornerDecision {
 
 }  // namespace
 
+namespace {
+
+/// Sorts small keys and then moves each sight once.
+void sort_by_corner(std::vector<Sight>& sights) {
+  struct Key {
+    std::int64_t x, y;
+    std::uint32_t index;
+  };
+  std::vector<Key> keys;
+  keys.reserve(sights.size());
+  for (const Sight& s : sights) keys.push_back({s.x, s.y, static_cast<std::uint32_t>(keys.size())});
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.index < b.index; });
+  std::vector<Sight> sorted;
+  sorted.reserve(sights.size());
+  for (const Key& key : keys) sorted.push_back(sights[key.index]);
+  sights = std::move(sorted);
+}
+
+}  // namespace
+
 std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, const TracedForest& traced, double share) {
   std::vector<Sight> sights;
   SightCollector collector(graph, lattice, sights);
@@ -284,7 +304,7 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
     const std::int32_t trace = traced.trace_of[static_cast<std::size_t>(leaf)];
     if (trace >= 0) collector.add_leaf(leaf, trace, traced.traces[trace]);
   }
-  std::sort(sights.begin(), sights.end(), [](const Sight& a, const Sight& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  sort_by_corner(sights);
   std::vector<Snap> snaps;
   CornerDecision decision(graph, lattice, geometry, traced.traces, share);
   for (std::size_t begin = 0, end = 0; begin < sights.size(); begin = end) {

@@ -22,20 +22,19 @@ bool SizeTree::must_split(const Quadrant& q) {
   return forced(q, step_above(q).near);
 }
 
-/// The path's last step becomes the parent of q, with its list of near nodes.
+/// The path's last step becomes the parent of q, with its list of near nodes. A step depends on its place alone, so those that still hold q stay.
 SizeTree::Step& SizeTree::step_above(const Quadrant& q) {
-  const int depth = q.level;  // steps at levels 0 .. depth-1
-  std::size_t kept = 0;
-  while (kept < path_.size() && kept < static_cast<std::size_t>(depth) && path_[kept].has_near && path_[kept].place.contains(q)) ++kept;
-  if (path_.size() < static_cast<std::size_t>(depth)) path_.resize(static_cast<std::size_t>(depth));
-  for (std::size_t level = kept; level < static_cast<std::size_t>(depth); ++level) {
+  const auto depth = static_cast<std::size_t>(q.level);  // steps at levels 0 .. depth-1
+  if (path_.size() < depth) path_.resize(depth);
+  std::size_t kept = depth;
+  while (kept > 0 && !(path_[kept - 1].has_near && path_[kept - 1].place.contains(q))) --kept;
+  for (std::size_t level = kept; level < depth; ++level) {
     Step& step = path_[level];
     const std::int64_t mask = ~((std::int64_t{1} << (Quadrant::unit_level - static_cast<int>(level))) - 1);
     step.place = {q.x & mask, q.y & mask, static_cast<int>(level)};
     fill_near(step, level == 0 ? roots_ : path_[level - 1].near);
   }
-  for (std::size_t level = static_cast<std::size_t>(depth); level < path_.size(); ++level) path_[level].has_near = false;
-  return path_[static_cast<std::size_t>(depth) - 1];
+  return path_[depth - 1];
 }
 
 /// `parents` are the nodes of this step's size whose children may matter to it.
