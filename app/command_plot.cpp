@@ -21,6 +21,7 @@ namespace {
 
 struct PlotArguments {
   std::string input, output, window, field, colouring = "type";
+  int size = 1600;
 };
 
 PlotFormat format_of(const std::string& path) {
@@ -56,6 +57,7 @@ PlotOptions options_of(const PlotArguments& arguments) {
   PlotOptions options;
   if (!arguments.window.empty()) options.window = window_of(arguments.window);
   options.field = arguments.field;
+  options.size = arguments.size;
   if (arguments.colouring == "rank") throw UsageError("--colour-by rank: a mesh file holds no ranks; colour by block, quality or type");
   if (arguments.colouring == "quality") options.colouring = PlotColouring::quality;
   if (arguments.colouring == "block") options.colouring = PlotColouring::block;
@@ -108,6 +110,7 @@ void add_plot_command(CLI::App& app, CommandContext& context) {
       ->type_name("WHAT")
       ->check(CLI::IsMember({"block", "quality", "type", "rank"}))
       ->excludes(field);
+  command->add_option("--size", arguments->size, "pixels along the longer side: 1600")->type_name("N")->check(CLI::Range(400, 20000));
   command->callback([&context, arguments] { context.run = [&context, arguments] { run_plot(context, *arguments); }; });
 }
 

@@ -20,7 +20,7 @@ constexpr std::size_t batch = 4000;  // polygons or lines in one path
 constexpr double smallest = 1.3;     // pixels between two edges that are still drawn one by one
 constexpr double darkest = 0.42;     // share of ink that edges, or the shade in their place, give an area at most
 constexpr std::size_t most_boundary_names = 12;
-constexpr std::size_t width_classes = 10;
+constexpr std::size_t width_classes = 48;
 
 /// An edge between two nodes, the lower first, and how thick a cell beside it is there, in pixels.
 struct Edge {
@@ -137,11 +137,11 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double str
   edges.erase(std::unique(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) { return p.a == q.a && p.b == q.b; }), edges.end());
   std::vector<std::vector<std::size_t>> classes(width_classes);
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const double octaves = 2 * std::log2(edges[i].thickness / smallest);
-    classes[static_cast<std::size_t>(std::clamp(octaves, 0.0, width_classes - 1.0))].push_back(i);
+    const double eighths = 8 * std::log2(edges[i].thickness / smallest);
+    classes[static_cast<std::size_t>(std::clamp(eighths, 0.0, width_classes - 1.0))].push_back(i);
   }
   for (std::size_t k = 0; k < classes.size(); ++k) {
-    const double thickness = smallest * std::exp2(0.5 * static_cast<double>(k) + 0.25);
+    const double thickness = smallest * std::exp2(0.125 * static_cast<double>(k));
     const double width = std::clamp(thickness / 16, 0.5, 1.1);
     const double opacity = strength * std::min(0.85, darkest * thickness / (2 * width));
     for (std::size_t i = 0; i < classes[k].size(); ++i) {
@@ -151,10 +151,14 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double str
   }
 }
 
+/// Thinner where its edges are short: a coast drawn in bold would fill its own bays.
 void MeshPainter::stroke_boundary(const BoundaryEdges& boundary, Colour colour) {
+  double along = 0;
+  for (const auto& [a, b] : boundary.edges) along += view_.scale() * length(mesh_.point(b) - mesh_.point(a));
+  const double width = std::clamp(1.0 + along / (8 * static_cast<double>(boundary.edges.size())), 1.4, 2.6);
   for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
     add_line(boundary.edges[i][0], boundary.edges[i][1]);
-    if ((i + 1) % batch == 0 || i + 1 == boundary.edges.size()) canvas_.stroke(colour, 1, 2.6);
+    if ((i + 1) % batch == 0 || i + 1 == boundary.edges.size()) canvas_.stroke(colour, 1, width);
   }
 }
 
@@ -198,7 +202,7 @@ std::string draw_mesh(const LoadedMesh& loaded, const PlotOptions& options, Plot
   const std::vector<std::size_t> cells = cells_in(mesh, window);
   CellPaint paint = paint_cells(loaded, cells, options);
   add_boundary_names(mesh, window, paint.legend);
-  const PlotView view(window, paint.legend, paint.bar.has_value());
+  const PlotView view(window, options.size, paint.legend, paint.bar.has_value());
   Canvas canvas(format, view.width(), view.height());
   canvas.clip(view.frame());
   MeshPainter painter(mesh, view, canvas);

@@ -16,6 +16,7 @@ struct PlotOptions {
   PlotColouring colouring = PlotColouring::type;
   std::string field;          ///< a variable of the solution, instead of `colouring`; empty for none
   std::optional<Box> window;  ///< the whole mesh where absent
+  double size = 1600;         ///< pixels along the longer side, margins included; at least 400
 };
 
 /// The picture of a mesh, as a file's bytes. Cells and edges too small to be told apart become an even shade. Throws InputError,

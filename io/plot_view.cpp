@@ -10,7 +10,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double longer_side = 1600, narrowest = 420;
+constexpr double narrowest = 420;
 constexpr double left = 84, right = 28, right_with_bar = 150, top = 24, below_axis = 42, legend_row = 27, swatch = 24, gap = 26;
 constexpr double room = 64;  // pixels around the frame that are still drawn, so that clipped edges do not show
 constexpr Colour ink{0.2, 0.2, 0.2};
@@ -78,7 +78,7 @@ Colour quality_colour(double t) {
   return at < 0.5 ? mixed(red, yellow, 2 * at) : mixed(yellow, green, 2 * at - 1);
 }
 
-PlotView::PlotView(const Box& window, const std::vector<LegendEntry>& legend, bool has_bar) : window_{window} {
+PlotView::PlotView(const Box& window, double longer_side, const std::vector<LegendEntry>& legend, bool has_bar) : window_{window} {
   const double beside = left + (has_bar ? right_with_bar : right);
   double below = below_axis + legend_row;
   for (int pass = 0; pass < 3; ++pass) {  // the legend's rows hang on the width, the width on them

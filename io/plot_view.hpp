@@ -28,10 +28,10 @@ Colour perceptual_colour(double t);
 /// 0 red, 0.5 yellow, 1 green.
 Colour quality_colour(double t);
 
-/// Where a window of the plane lies on a sheet whose longer side has 1600 pixels, legend and axes included.
+/// Where a window of the plane lies on a sheet whose longer side has so many pixels, legend and axes included.
 class PlotView {
  public:
-  PlotView(const Box& window, const std::vector<LegendEntry>& legend, bool has_bar);
+  PlotView(const Box& window, double longer_side, const std::vector<LegendEntry>& legend, bool has_bar);
 
   const Box& window() const { return window_; }
   const Box& frame() const { return frame_; }  ///< in pixels
