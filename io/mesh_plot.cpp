@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -125,7 +126,7 @@ void MeshPainter::add_line(NodeId a, NodeId b) {
   if (const auto part = view_.visible_part(mesh_.point(a), mesh_.point(b))) canvas_.add_line(view_.pixel((*part)[0]), view_.pixel((*part)[1]));
 }
 
-/// Each edge once; the closer edges lie, the thinner and paler they are, so that a fine mesh does not turn black.
+/// Each edge once, by the thicker of its cells; the closer edges lie, the thinner and paler they are, so that a fine mesh does not turn black.
 void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double strength) {
   std::vector<Edge> edges;
   for (const std::size_t cell : cells) {
@@ -133,7 +134,7 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double str
       if (edge.thickness >= smallest) edges.push_back(edge);
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  std::sort(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) { return std::tuple(p.a, p.b, q.thickness) < std::tuple(q.a, q.b, p.thickness); });
   edges.erase(std::unique(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) { return p.a == q.a && p.b == q.b; }), edges.end());
   std::vector<std::vector<std::size_t>> classes(width_classes);
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -155,7 +156,7 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double str
 void MeshPainter::stroke_boundary(const BoundaryEdges& boundary, Colour colour) {
   double along = 0;
   for (const auto& [a, b] : boundary.edges) along += view_.scale() * length(mesh_.point(b) - mesh_.point(a));
-  const double width = std::clamp(1.0 + along / (8 * static_cast<double>(boundary.edges.size())), 1.4, 2.6);
+  const double width = std::clamp(1.0 + along / (4 * static_cast<double>(boundary.edges.size())), 1.7, 2.6);
   for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
     add_line(boundary.edges[i][0], boundary.edges[i][1]);
     if ((i + 1) % batch == 0 || i + 1 == boundary.edges.size()) canvas_.stroke(colour, 1, width);

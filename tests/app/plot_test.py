@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""`quadloop plot`: what kinds of picture come out, how large, in which colours, and what is refused.
+
+    plot_test.py QUADLOOP MPIRUN
+"""
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+import zlib
+from pathlib import Path
+
+QUADLOOP, MPIRUN = (str(Path(program).resolve()) for program in sys.argv[1:3])
+
+# Two squares and two triangles over [0,3] x [0,1], two blocks, a solution of which one variable is the same everywhere.
+MESH = """8
+0 0 1 0 2 0 3 0 3 1 2 1 1 1 0 1
+2
+0
+2
+1 2 7 8
+2 3 6 7
+2
+3 4 5
+3 5 6
+0
+2
+#Number of edges for boundary 1 (wall)
+3
+1 2 2 3 3 4
+#Number of edges for boundary 2 (far)
+5
+4 5 5 6 6 7 7 8 8 1
+0
+2
+#names: density pressure
+1 5 2 5 3 5 4 5 4 5 3 5 2 5 1 5
+"""
+PALE_BLUE, PALE_ORANGE = (213, 231, 249), (255, 218, 181)
+
+
+def png_pixels(data):
+    """Width, height, and the colours of a PNG of 8-bit RGB."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    width, height, depth, kind = struct.unpack(">IIBB", data[16:26])
+    assert (depth, kind) == (8, 2)
+    at, packed = 8, b""
+    while at < len(data):
+        length, name = struct.unpack(">I4s", data[at:at + 8])
+        packed += data[at + 8:at + 8 + length] if name == b"IDAT" else b""
+        at += length + 12
+    raw, rows, stride = zlib.decompress(packed), [], 3 * width
+    above = bytearray(stride)
+    for y in range(height):
+        mode, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride if mode else 0):
+            left, up, corner = (row[i - 3], above[i], above[i - 3]) if i >= 3 else (0, above[i], 0)
+            paeth = min((left, up, corner), key=lambda value: abs(left + up - corner - value))
+            row[i] = (row[i] + (0, left, up, (left + up) // 2, paeth)[mode]) & 255
+        rows.append(row)
+        above = row
+    return width, height, {tuple(row[i:i + 3]) for row in rows for i in range(0, stride, 3)}
+
+
+class Plot(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        (self.folder / "a.mesh").write_text(MESH)
+
+    def run_plot(self, *options, launcher=()):
+        return subprocess.run([*launcher, QUADLOOP, "plot", *options], cwd=self.folder, capture_output=True, text=True)
+
+    def picture(self, output, *options):
+        done = self.run_plot("a.mesh", "-o", output, *options)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        return (self.folder / output).read_bytes()
+
+    def small(self, *options):
+        return png_pixels(self.picture("a.png", "--size", "400", *options))
+
+    def refused(self, status, said, *options):
+        done = self.run_plot(*options)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertIn(said, done.stderr)
+        self.assertEqual([file.name for file in self.folder.iterdir()], ["a.mesh"])
+
+    def test_png_has_1600_pixels_along_its_longer_side(self):
+        data = self.picture("a.png")
+        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(max(struct.unpack(">II", data[16:24])), 1600)
+        data = self.picture("a.png", "--window", "0,0.4,0,1")
+        self.assertEqual(struct.unpack(">II", data[16:24])[1], 1600)
+
+    def test_svg_is_xml_and_names_its_size(self):
+        root = xml.etree.ElementTree.fromstring(self.picture("a.svg"))
+        self.assertTrue(root.tag.endswith("svg"))
+        self.assertIn("1600", root.attrib["width"])
+
+    def test_pdf(self):
+        self.assertEqual(self.picture("a.pdf")[:5], b"%PDF-")
+
+    def test_types_have_their_colours_and_the_window_leaves_cells_out(self):
+        self.assertLessEqual({PALE_BLUE, PALE_ORANGE}, self.small()[2])
+        self.assertNotIn(PALE_ORANGE, self.small("--window=0.1,0.9,0.1,0.9")[2])
+
+    def test_a_window_deep_inside_a_cell(self):
+        self.assertIn(PALE_BLUE, self.small("--window=0.5,0.500001,0.5,0.500001")[2])
+
+    def test_other_colours(self):
+        for options in (["--colour-by", "block"], ["--colour-by", "quality"], ["--field", "density"], ["--field", "pressure"]):
+            self.assertNotIn(PALE_ORANGE, self.small(*options)[2], options)
+
+    def test_the_same_bytes_twice_and_on_ranks(self):
+        for name in ("a.png", "a.svg", "a.pdf"):
+            first = self.picture(name)
+            done = self.run_plot("a.mesh", "-o", name, launcher=[MPIRUN, "-n", "2"])
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual((self.folder / name).read_bytes(), first, name)
+
+    def test_refusals(self):
+        self.refused(1, ".png, .svg or .pdf", "a.mesh", "-o", "a.jpg")
+        self.refused(1, ".mesh or a .cgns", "a.vtk", "-o", "a.png")
+        self.refused(1, "none.mesh", "none.mesh", "-o", "a.png")
+        self.refused(1, "window is empty", "a.mesh", "-o", "a.png", "--window=1,1,0,1")
+        self.refused(1, "no cell lies in the window", "a.mesh", "-o", "a.png", "--window=5,6,0,1")
+        self.refused(1, "density, pressure", "a.mesh", "-o", "a.png", "--field", "mach")
+        self.refused(2, "four numbers", "a.mesh", "-o", "a.png", "--window=1,2,3")
+        self.refused(2, "holds no ranks", "a.mesh", "-o", "a.png", "--colour-by", "rank")
+        self.refused(2, "--colour-by", "a.mesh", "-o", "a.png", "--colour-by", "taste")
+        self.refused(2, "--field", "a.mesh", "-o", "a.png", "--colour-by", "type", "--field", "density")
+        self.refused(4, "cannot be written", "a.mesh", "-o", "missing/a.png")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
