@@ -39,6 +39,7 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
       slope_{std::llround((options.gradation - 1) / 2 * static_cast<double>(1 << slope_bits))} {
   while (coarsest_ < finest_ && lattice.edge(coarsest_) > options.max) ++coarsest_;
   const Geometry& g = outline.geometry();
+  if (options.gap) gap_test_.emplace(g);
   for (std::int32_t s = 0; s < g.size(); ++s) {
     spacing_.push_back(g.spacing_of(s));
     turning_.push_back(g.kept(s) ? 0 : std::llround(g.turn_degrees(s) / turning_unit));
@@ -118,7 +119,9 @@ bool SizeTree::wants_split(const Node& node) const {
   for (const std::int32_t s : inside) {
     if (size > spacing_[static_cast<std::size_t>(s)]) return true;
   }
-  return (options_->curvature && turns_too_far(inside, box)) || unresolved_(q, inside);
+  if (options_->curvature && turns_too_far(inside, box)) return true;
+  if (gap_test_ && gap_test_->narrower(inside, box, *options_->gap * size)) return true;
+  return unresolved_(q, inside);
 }
 
 bool SizeTree::turns_too_far(std::span<const std::int32_t> segments, const Box& box) const {

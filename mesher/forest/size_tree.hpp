@@ -7,6 +7,7 @@
 
 #include "mesher/forest/lattice.hpp"
 #include "mesher/forest/size_options.hpp"
+#include "mesher/geometry/gap_test.hpp"
 #include "mesher/geometry/shifted_outline.hpp"
 
 namespace quadloop {
@@ -69,6 +70,7 @@ class SizeTree {
   const Lattice* lattice_;
   const SizeOptions* options_;
   Unresolved unresolved_;
+  std::optional<GapTest> gap_test_;
   std::vector<double> spacing_;        ///< of each segment
   std::vector<std::int64_t> turning_;  ///< of each vertex, in 2^-20 degrees, 0 where it is kept as a corner
   int finest_;
