@@ -134,7 +134,8 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double str
       if (edge.thickness >= smallest) edges.push_back(edge);
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) { return std::tuple(p.a, p.b, q.thickness) < std::tuple(q.a, q.b, p.thickness); });
+  std::sort(edges.begin(), edges.end(),
+            [](const Edge& p, const Edge& q) { return std::tuple(p.a, p.b, q.thickness) < std::tuple(q.a, q.b, p.thickness); });
   edges.erase(std::unique(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) { return p.a == q.a && p.b == q.b; }), edges.end());
   std::vector<std::vector<std::size_t>> classes(width_classes);
   for (std::size_t i = 0; i < edges.size(); ++i) {

@@ -137,12 +137,12 @@ void PlotView::draw_axes(Canvas& canvas) const {
   const Box& f = frame_;
   const std::array<Point, 4> corners{f.low, Point{f.high.x, f.low.y}, f.high, Point{f.low.x, f.high.y}};
   canvas.add_polygon(corners);
-  const Ticks along_x = round_ticks(window_.low.x, window_.high.x, f.width() / 140);
+  const Ticks along_x = round_ticks(window_.low.x, window_.high.x, f.width() / 110);
   for (std::size_t i = 0; i < along_x.values.size(); ++i) {
     const double x = pixel({along_x.values[i], window_.low.y}).x;
     canvas.add_line({x, f.high.y}, {x, f.high.y + 7});
   }
-  const Ticks along_y = round_ticks(window_.low.y, window_.high.y, f.height() / 110);
+  const Ticks along_y = round_ticks(window_.low.y, window_.high.y, f.height() / 75);
   for (std::size_t i = 0; i < along_y.values.size(); ++i) {
     const double y = pixel({window_.low.x, along_y.values[i]}).y;
     canvas.add_line({f.low.x - 7, y}, {f.low.x, y});
