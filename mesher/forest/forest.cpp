@@ -98,10 +98,13 @@ void Forest::split_marked(const std::vector<char>& marked) {
   p4est_refine_ext(impl_->forest.get(), 0, P4EST_QMAXLEVEL, split_by_mark, nullptr, nullptr);
 }
 
+void Forest::partition() { p4est_partition_ext(impl_->forest.get(), 0, nullptr); }
+
 void Forest::partition(const std::vector<int>& weights) {
+  QUADLOOP_REQUIRE(weights.size() == static_cast<std::size_t>(local_leaves()), "one weight for each local leaf");
   Callbacks callbacks{.weights = &weights};
   impl_->forest->user_pointer = &callbacks;
-  p4est_partition_ext(impl_->forest.get(), 0, weights.empty() ? nullptr : weight_of);
+  p4est_partition_ext(impl_->forest.get(), 0, weight_of);  // on every rank, also on one without leaves
 }
 
 std::int32_t Forest::local_leaves() const { return impl_->forest->local_num_quadrants; }

@@ -25,8 +25,9 @@ class Forest {
   /// Splits once the local leaves whose flag is set (one flag a leaf, in order).
   void split_marked(const std::vector<char>& marked);
 
-  /// Moves leaves between ranks so that the weights are shared out evenly. `weights`: one for each local leaf, or none for equal ones.
-  void partition(const std::vector<int>& weights = {});
+  /// Moves leaves between ranks so that their numbers are shared out evenly, or their weights (one for each local leaf).
+  void partition();
+  void partition(const std::vector<int>& weights);
 
   std::int32_t local_leaves() const;
   std::int64_t global_leaves() const;

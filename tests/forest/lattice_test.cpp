@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include "mesher/base/error.hpp"
+#include "mesher/forest/lattice.hpp"
+
+namespace quadloop {
+namespace {
+
+Geometry polygon(std::vector<Point> points) {
+  std::vector<BoundaryId> boundary(points.size(), BoundaryId{0});
+  const auto count = static_cast<std::int32_t>(points.size());
+  return {{{"frame", 0, 30, "none"}}, std::move(points), {0, count}, std::move(boundary)};
+}
+
+TEST(Lattice, ASquareFrameIsTheRoot) {
+  const Lattice root = choose_root(polygon({{-9.5, -10}, {10.5, -10}, {10.5, 10}, {-9.5, 10}}), {});
+  EXPECT_EQ(root.box().low, (Point{-9.5, -10}));
+  EXPECT_EQ(root.box().high, (Point{10.5, 10}));
+  EXPECT_EQ(root.trees_x() * root.trees_y(), 1);
+}
+
+TEST(Lattice, ARectangularFrameIsABrick) {
+  const Lattice root = choose_root(polygon({{0, 0}, {5, 0}, {5, 2}, {0, 2}}), {});
+  EXPECT_EQ(root.trees_x(), 5);
+  EXPECT_EQ(root.trees_y(), 2);
+  EXPECT_EQ(root.x(std::int64_t{5} << 30), 5.0);
+}
+
+TEST(Lattice, OtherShapesArePadded) {
+  const Geometry diamond = polygon({{0, -1}, {3, 0}, {0, 1}, {-3, 0}});
+  const Lattice root = choose_root(diamond, {});
+  EXPECT_LT(root.box().low.x, -3);
+  EXPECT_GT(root.box().high.y, 1);
+  EXPECT_LE(root.trees_y() * root.tree_edge(), (2 + 6.0 / 32) * 1.125 + 0.01);
+}
+
+TEST(Lattice, CoordinatesOfAMirroredRootAreMirrored) {
+  const Box box{{-0.123456789, 0.1}, {1.987654321, 0.7}};
+  const Lattice root(box, 7, 2), mirrored({{-box.high.x, box.low.y}, {-box.low.x, box.high.y}}, 7, 2);
+  const std::int64_t last = std::int64_t{7} << 30;
+  for (std::int64_t i = 0; i <= last; i += 123456789) {
+    EXPECT_EQ(root.x(i), -mirrored.x(last - i));
+    EXPECT_LT(root.x(i), root.x(i + 1024));
+  }
+  EXPECT_EQ(root.x(last), box.high.x);
+}
+
+TEST(Lattice, TooFineASpacingIsRefused) {
+  const Lattice root({{0, 0}, {1, 1}}, 1, 1), far({{1e6, 0}, {1e6 + 1, 1}}, 1, 1);
+  EXPECT_EQ(root.finest_level(0.1), 3);
+  EXPECT_THROW(root.finest_level(1e-10), InputError);
+  EXPECT_THROW(far.finest_level(1e-8), InputError);
+}
+
+TEST(Lattice, GeometryOutsideTheUsersRootIsRefused) {
+  EXPECT_THROW(choose_root(polygon({{0, 0}, {1, 0}, {1, 1}}), RootOptions{{0, 0}, 0.5, 1, 1}), InputError);
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include "mesher/forest/leaf_graph.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+/// A brick of 3 by 2 trees, refined towards one point.
+Forest refined_brick(const Lattice& lattice) {
+  Forest forest(test::world(), lattice);
+  forest.refine([](const Quadrant& q) { return q.level < 2 || (q.contains({(std::int64_t{3} << 29) + 5, (std::int64_t{1} << 30) - 7, 30}) && q.level < 6); }, 6);
+  forest.refine([](const Quadrant& q) { return q.level < 4; }, 4);  // levels 4 to 6: touching leaves may differ by two, which the graph must stand
+  forest.partition();
+  return forest;
+}
+
+const Lattice brick_lattice({{0, 0}, {3, 2}}, 3, 2);
+
+TEST(LeafGraph, PointsFindTheirLeaves) {
+  const Forest forest = refined_brick(brick_lattice);
+  const LeafGraph graph(test::world(), brick_lattice, forest);
+  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    const Quadrant& q = graph.leaf(leaf);
+    EXPECT_EQ(graph.leaf_at(q.x, q.y), leaf);
+    EXPECT_EQ(graph.leaf_at(q.x + q.size() - 1, q.y + q.size() - 1), leaf);
+  }
+  EXPECT_EQ(graph.leaf_at(-1, 0), LeafGraph::none);
+  EXPECT_EQ(graph.leaf_at(0, std::int64_t{2} << 30), LeafGraph::none);
+}
+
+TEST(LeafGraph, NeighboursAreTheLeavesThatTouch) {
+  const Forest forest = refined_brick(brick_lattice);
+  const LeafGraph graph(test::world(), brick_lattice, forest);
+  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+    const Quadrant& q = graph.leaf(leaf);
+    const std::int64_t last = q.size() - 1;
+    const auto& around = graph.around(leaf);
+    EXPECT_EQ(around.south_west, graph.leaf_at(q.x - 1, q.y - 1));
+    EXPECT_EQ(around.south, graph.leaf_at(q.x + last, q.y - 1));
+    EXPECT_EQ(around.west, graph.leaf_at(q.x - 1, q.y + last));
+    const auto finer = [&](std::int32_t other) { return other != LeafGraph::none && graph.leaf(other).level > q.level; };
+    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::right), finer(graph.leaf_at(q.x + q.size(), q.y)));
+    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::top), finer(graph.leaf_at(q.x, q.y + q.size())));
+    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::left), finer(around.west));
+    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::bottom), finer(around.south));
+  }
+}
+
+TEST(LeafGraph, EarlierNeighboursComeEarlierAlongTheCurve) {
+  const Forest forest = refined_brick(brick_lattice);
+  const LeafGraph graph(test::world(), brick_lattice, forest);
+  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    for (const std::int32_t before : {graph.around(leaf).south_west, graph.around(leaf).south, graph.around(leaf).west}) EXPECT_LT(before, leaf);
+  }
+}
+
+TEST(LeafGraph, PlacesNameTheOwners) {
+  const Forest forest = refined_brick(brick_lattice);
+  const LeafGraph graph(test::world(), brick_lattice, forest);
+  std::vector<Quadrant> local;
+  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) local.push_back(graph.leaf(leaf));
+  const auto counts = test::world().all_gather(static_cast<std::int64_t>(local.size()));
+  const auto all = test::world().all_gather_values(std::span<const Quadrant>(local));
+  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    const LeafGraph::Place place = graph.place_of(leaf);
+    std::int64_t at = place.index;
+    for (int rank = 0; rank < place.rank; ++rank) at += counts[static_cast<std::size_t>(rank)];
+    EXPECT_EQ(all[static_cast<std::size_t>(at)], graph.leaf(leaf));
+  }
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,168 @@
+// The rules that every tree keeps, checked leaf against leaf on one rank's copy of all leaves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "mesher/forest/refine_forest.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+Geometry circle_in_square(double spacing, double second_spacing = 0) {
+  std::vector<Point> points{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  std::vector<BoundaryId> boundary(4, BoundaryId{0});
+  for (int i = 0; i < 64; ++i) {
+    const double angle = -2 * std::numbers::pi * i / 64;
+    points.push_back({0.3 + 0.2 * std::cos(angle), -0.1 + 0.2 * std::sin(angle)});
+    boundary.push_back(BoundaryId{1});
+  }
+  return {{{"frame", second_spacing, 30, "none"}, {"circle", spacing, 30, "wall"}}, points, {0, 4, 68}, boundary};
+}
+
+struct Tree {
+  Tree(const Geometry& geometry, const SizeOptions& options)
+      : outline{geometry},
+        lattice{choose_root(geometry, options.root)},
+        sizes{outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; }},
+        graph{refine_forest(test::world(), sizes)} {
+    std::vector<Quadrant> local;
+    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) local.push_back(graph.leaf(leaf));
+    leaves = test::world().all_gather_values(std::span<const Quadrant>(local));
+  }
+  ShiftedOutline outline;
+  Lattice lattice;
+  SizeTree sizes;
+  LeafGraph graph;
+  std::vector<Quadrant> leaves;  // of all ranks
+};
+
+SizeOptions options_with(double min, double max, double gradation) {
+  SizeOptions options;
+  options.min = min;
+  options.max = max;
+  options.gradation = gradation;
+  return options;
+}
+
+TEST(TreeRules, LeavesTileTheRoot) {
+  const Geometry geometry = circle_in_square(0.02);
+  const Tree tree(geometry, options_with(0.01, 0.25, 1.5));
+  double area = 0;
+  for (const Quadrant& q : tree.leaves) area += std::ldexp(1.0, -2 * q.level);
+  EXPECT_EQ(area, 1.0);
+}
+
+TEST(TreeRules, SpacingIsKeptWhereTheGeometryIs) {
+  const Geometry geometry = circle_in_square(0.02);
+  Tree tree(geometry, options_with(0.001, 0.25, 1.5));
+  for (const Quadrant& q : tree.leaves) {
+    const double size = tree.lattice.edge(q.level);
+    EXPECT_LE(size, 0.25);
+    EXPECT_GE(size, 0.001);
+    const auto segments = tree.sizes.segments_in(q);
+    const bool holds_circle = std::any_of(segments.begin(), segments.end(), [](std::int32_t s) { return s >= 4; });
+    if (holds_circle) {
+      EXPECT_LE(size, 0.02);
+    }
+  }
+}
+
+class Gradation : public testing::TestWithParam<double> {};
+
+TEST_P(Gradation, NoLeafIsTooLargeForAWantedOne) {
+  const Geometry geometry = circle_in_square(0.02);
+  Tree tree(geometry, options_with(0.01, 0.5, GetParam()));
+  const double slope = (GetParam() - 1) / 2;
+  int wanted_leaves = 0;
+  for (const Quadrant& w : tree.leaves) {
+    if (tree.sizes.wanted_level(w) != w.level) continue;  // smaller than it was asked to be: it asks for nothing
+    ++wanted_leaves;
+    for (const Quadrant& q : tree.leaves) {
+      EXPECT_LE(static_cast<double>(q.size()), static_cast<double>(w.size()) + slope * static_cast<double>(chebyshev_gap(q, w)) + 1);
+    }
+  }
+  EXPECT_GT(wanted_leaves, 10);
+}
+
+TEST_P(Gradation, TouchingLeavesDifferByOneLevelAtMost) {
+  const Geometry geometry = circle_in_square(0.02);
+  const Tree tree(geometry, options_with(0.01, 0.5, GetParam()));
+  for (const Quadrant& a : tree.leaves) {
+    for (const Quadrant& b : tree.leaves) {
+      if (chebyshev_gap(a, b) == 0) {
+        EXPECT_LE(std::abs(a.level - b.level), 1);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Values, Gradation, testing::Values(1.25, 1.5, 2.0));
+
+TEST(TreeRules, TheTreeIsTheSmallest) {
+  // No four sibling leaves could be one: something asks for each split.
+  const Geometry geometry = circle_in_square(0.02);
+  Tree tree(geometry, options_with(0.01, 0.5, 1.5));
+  int squeezed = 0;
+  for (const Quadrant& q : tree.leaves) {
+    const Quadrant parent{q.x & ~(q.size() * 2 - 1), q.y & ~(q.size() * 2 - 1), q.level - 1};
+    if (q.level > 1 && q.x == parent.x && q.y == parent.y && !tree.sizes.must_split(parent)) ++squeezed;
+  }
+  EXPECT_LT(squeezed, 16) << "only leaves between finer ones may be split beyond what size and gradation ask";
+}
+
+TEST(TreeRules, NoLeafLiesBetweenFinerOnes) {
+  const Geometry geometry = circle_in_square(0.05, 0.06);
+  const Tree tree(geometry, options_with(0.02, 0.5, 2.0));
+  for (std::int32_t leaf = tree.graph.local_begin(); leaf < tree.graph.local_end(); ++leaf) {
+    const unsigned finer = tree.graph.around(leaf).finer;
+    EXPECT_EQ(finer & (finer >> 2), 0U);
+  }
+}
+
+TEST(TreeRules, SourcesRefineWithoutGeometry) {
+  const Geometry geometry = circle_in_square(0.1);
+  SizeOptions options = options_with(0.005, 0.5, 1.5);
+  Box box;
+  box.include({-0.9, -0.9});
+  box.include({-0.7, -0.8});
+  options.sources = {{box, 0.01}, {Source::Disc{{-0.5, 0.5}, 0.1}, 0.02}, {Source::Line{{0.5, 0.6}, {0.9, 0.9}}, 0.02}};
+  const Tree tree(geometry, options);
+  const auto size_at = [&](Point p) {
+    for (const Quadrant& q : tree.leaves) {
+      if (tree.lattice.box_of(q).contains(p)) return tree.lattice.edge(q.level);
+    }
+    return 0.0;
+  };
+  EXPECT_LE(size_at({-0.8, -0.85}), 0.01);
+  EXPECT_LE(size_at({-0.5, 0.5}), 0.02);
+  EXPECT_LE(size_at({0.7, 0.75}), 0.02);
+  EXPECT_GT(size_at({-0.9, 0.9}), 0.02);
+}
+
+TEST(TreeRules, GapsAreResolvedButCornersAreNot) {
+  // Two bars 0.02 apart, which their own spacing of 0.2 would not resolve.
+  const std::vector<Point> points{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-0.5, 0.01}, {-0.5, 0.21}, {0.5, 0.21}, {0.5, 0.01},
+                                  {-0.5, -0.21}, {-0.5, -0.01}, {0.5, -0.01}, {0.5, -0.21}};
+  std::vector<BoundaryId> boundary(4, BoundaryId{0});
+  boundary.resize(12, BoundaryId{1});
+  const Geometry geometry({{"frame", 0.5, 30, "none"}, {"bars", 0.2, 30, "wall"}}, points, {0, 4, 8, 12}, boundary);
+  SizeOptions options = options_with(0.001, 0.5, 1.5);
+  const Tree coarse(geometry, options);
+  options.gap = 2;
+  const Tree fine(geometry, options);
+  int finest_coarse = 0, finest_fine = 0, at_frame_corner = 0;
+  for (const Quadrant& q : coarse.leaves) finest_coarse = std::max(finest_coarse, q.level);
+  for (const Quadrant& q : fine.leaves) {
+    finest_fine = std::max(finest_fine, q.level);
+    if (fine.lattice.box_of(q).contains({-1, -1})) at_frame_corner = q.level;
+  }
+  EXPECT_GT(fine.lattice.edge(finest_coarse), 0.05);
+  EXPECT_LE(fine.lattice.edge(finest_fine), 0.01);
+  EXPECT_GT(fine.lattice.edge(finest_fine), 0.004);
+  EXPECT_GE(fine.lattice.edge(at_frame_corner), 0.1) << "the two sides of a corner are no gap; gradation from the bars allows 0.125 there";
+}
+
+}  // namespace
+}  // namespace quadloop
