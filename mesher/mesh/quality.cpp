@@ -85,4 +85,11 @@ QualitySummary summarise_quality(const Communicator& comm, const Mesh& mesh) {
   return result;
 }
 
+double area_of(const Mesh& mesh) {
+  long double area = 0;
+  for (const auto& t : mesh.triangles) area += cross(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0])) / 2;
+  for (const auto& q : mesh.quads) area += cross(mesh.point(q[2]) - mesh.point(q[0]), mesh.point(q[3]) - mesh.point(q[1])) / 2;
+  return static_cast<double>(area);
+}
+
 }  // namespace quadloop

@@ -28,4 +28,7 @@ MeshCounts count(const Communicator& comm, const Mesh& mesh);
 /// The same bits on any number of ranks: the mean is summed in fixed point (2^-30). *Collective.*
 QualitySummary summarise_quality(const Communicator& comm, const Mesh& mesh);
 
+/// The area of this rank's cells.
+double area_of(const Mesh& mesh);
+
 }  // namespace quadloop

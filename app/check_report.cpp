@@ -1,0 +1,137 @@
+#include "app/check_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace quadloop {
+
+namespace {
+
+/// Bytes of the UTF-8 character that `text` begins with; 0 where it is none.
+std::size_t utf8_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  const std::size_t length = first < 0x80 ? 1 : first >= 0xC2 && first < 0xE0 ? 2 : first >= 0xE0 && first < 0xF0 ? 3 : first >= 0xF0 && first < 0xF5 ? 4 : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((static_cast<unsigned char>(text[k]) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
+
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
+std::string number(std::int64_t value) { return fmt::format("{}", value); }
+
+/// `"name": value, ` pairs, in the order they are added.
+class JsonObject {
+ public:
+  template <class Number>
+  void add(const char* name, Number value) { add_raw(name, number(value)); }
+  void add_raw(const std::string& name, const std::string& value) {
+    text_ += fmt::format("{}{}: {}", text_.empty() ? "" : ", ", json_string(name), value);
+  }
+  std::string text() const { return "{" + text_ + "}"; }
+
+ private:
+  std::string text_;
+};
+
+void add_fit(JsonObject& json, const GeometryFit& fit) {
+  json.add("boundaries_dropped", fit.boundaries_dropped);
+  json.add("sharp_corners", fit.sharp_corners);
+  json.add("sharp_corners_lost", fit.sharp_corners_lost);
+  json.add("boundary_node_distance", fit.boundary_node_distance);
+  json.add("geometry_distance", fit.geometry_distance);
+  json.add("geometry_area_error", fit.area_error);
+}
+
+std::string faults_json(const std::vector<MeshFault>& faults) {
+  std::string text;
+  for (const MeshFault& fault : faults) {
+    text += fmt::format("{}{{\"rule\": \"{}\", \"what\": {}, \"place\": [{}, {}]}}", text.empty() ? "" : ", ", name_of(fault.rule),
+                        json_string(fault.what), number(fault.place.x), number(fault.place.y));
+  }
+  return "[" + text + "]";
+}
+
+template <class Value>
+std::string row(const char* name, const Value& value) {
+  return fmt::format("  {:<24}{:>16}\n", name, value);
+}
+std::string row(const char* name, double value) { return row(name, fmt::format("{:.6g}", value)); }
+
+std::string fit_text(const GeometryFit& fit) {
+  return row("boundaries dropped", fit.boundaries_dropped) + row("sharp corners", fit.sharp_corners) +
+         row("sharp corners lost", fit.sharp_corners_lost) + row("boundary node distance", fit.boundary_node_distance) +
+         row("geometry distance", fit.geometry_distance) + row("geometry area error", fit.area_error);
+}
+
+std::string faults_text(const std::vector<MeshFault>& faults, std::size_t most) {
+  std::string text;
+  std::map<MeshRule, std::size_t> found;
+  for (const MeshFault& fault : faults) {
+    if (++found[fault.rule] > most) continue;
+    text += fmt::format("  BROKEN {}: {} at ({}, {})\n", name_of(fault.rule), fault.what, fault.place.x, fault.place.y);
+  }
+  for (const auto& [rule, count] : found) {
+    if (count > most) text += fmt::format("  BROKEN {}: {} more faults; --verbose or --json shows them\n", name_of(rule), count - most);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string json_string(std::string_view text) {
+  std::string quoted = "\"";
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const auto byte = static_cast<unsigned char>(text[0]);
+    if (byte == '"' || byte == '\\') {
+      quoted += fmt::format("\\{}", text[0]);
+    } else if (byte < 0x20 || length == 0) {
+      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(byte));
+    } else {
+      quoted += text.substr(0, length);
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return quoted + "\"";
+}
+
+std::string report_text(const CheckReport& report, std::size_t most_faults) {
+  const QualitySummary& quality = report.quality;
+  std::string text = row("nodes", quality.counts.nodes) + row("triangles", quality.counts.triangles) + row("quads", quality.counts.quads);
+  text += row("blocks", report.blocks) + row("boundary edges", quality.counts.boundary_edges);
+  for (const auto& [name, edges] : report.boundaries) text += fmt::format("    {:<22}{:>16}\n", name, edges);
+  text += row("area", report.area) + row("smallest angle", quality.smallest_degrees) + row("largest angle", quality.largest_degrees);
+  text += row("worst quality", quality.worst) + row("mean quality", quality.mean) + row("pinched nodes", report.pinched_nodes);
+  if (report.fit) text += fit_text(*report.fit);
+  return text + faults_text(report.faults, most_faults) + (report.faults.empty() ? "  valid\n" : "  INVALID\n");
+}
+
+std::string report_json(const CheckReport& report) {
+  JsonObject boundaries, json;
+  for (const auto& [name, edges] : report.boundaries) boundaries.add(name.c_str(), edges);
+  const QualitySummary& quality = report.quality;
+  json.add_raw("valid", report.faults.empty() ? "true" : "false");
+  json.add_raw("file", json_string(report.file));
+  json.add_raw("faults", faults_json(report.faults));
+  json.add("nodes", quality.counts.nodes);
+  json.add("triangles", quality.counts.triangles);
+  json.add("quads", quality.counts.quads);
+  json.add("blocks", std::int64_t{report.blocks});
+  json.add("boundary_edges", quality.counts.boundary_edges);
+  json.add_raw("boundaries", boundaries.text());
+  json.add("area", report.area);
+  json.add("min_angle", quality.smallest_degrees);
+  json.add("max_angle", quality.largest_degrees);
+  json.add("worst_quality", quality.worst);
+  json.add("mean_quality", quality.mean);
+  json.add("pinched_nodes", report.pinched_nodes);
+  if (report.fit) add_fit(json, *report.fit);
+  return json.text() + "\n";
+}
+
+}  // namespace quadloop

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+
+#include "app/check_report.hpp"
+#include "app/command.hpp"
+#include "io/cgns_file.hpp"
+#include "io/input/geometry_file.hpp"
+#include "io/native_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
+
+namespace quadloop {
+
+namespace {
+
+struct CheckArguments {
+  std::string input, geometry;
+  bool json = false;
+};
+
+LoadedMesh load(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  if (suffix == ".mesh") return read_native(path);
+  if (suffix == ".cgns") return read_cgns(path);
+  throw InputError(path + ": no mesh is read from the format '" + suffix + "'; give a .mesh or a .cgns file");
+}
+
+std::vector<Chain> load_chains(const std::string& path) {
+  std::vector<std::string> warnings;
+  std::vector<Chain> chains = read_geometry(path, warnings);
+  for (const std::string& warning : warnings) log::warning(warning);
+  return chains;
+}
+
+/// The figures of a mesh whose connectivity names existing nodes, as every mesh read from a file does.
+CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) {
+  const Mesh& mesh = loaded.mesh;
+  CheckReport report;
+  report.blocks = loaded.blocks;
+  for (const BoundaryEdges& boundary : mesh.boundaries) report.boundaries.emplace_back(boundary.name, boundary.edges.size());
+  report.quality = summarise_quality(Communicator(MPI_COMM_SELF), mesh);
+  report.area = area_of(mesh);
+  report.pinched_nodes = pinched_nodes(mesh);
+  report.faults = validate(mesh, {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block});
+  const bool has_cells = report.quality.counts.triangles + report.quality.counts.quads > 0;
+  if (chains == nullptr || !has_cells) return report;
+  report.fit = validate_geometry(mesh, *chains);
+  report.faults.insert(report.faults.end(), report.fit->faults.begin(), report.fit->faults.end());
+  return report;
+}
+
+[[noreturn]] void refuse(const CheckReport& report) {
+  const MeshFault& first = report.faults.front();
+  const std::size_t more = report.faults.size() - 1;
+  const std::string others = more == 0 ? "" : fmt::format("; {} fault{} more", more, more == 1 ? "" : "s");
+  throw InputError(fmt::format("{}: invalid mesh: {}: {} at ({}, {}){}", report.file, name_of(first.rule), first.what, first.place.x,
+                               first.place.y, others));
+}
+
+void check_on_root(const CommandContext& context, const CheckArguments& arguments) {
+  constexpr std::size_t faults_shown = 20;
+  const LoadedMesh loaded = load(arguments.input);
+  std::vector<Chain> chains;
+  if (!arguments.geometry.empty()) chains = load_chains(arguments.geometry);
+  CheckReport report = examine(loaded, arguments.geometry.empty() ? nullptr : &chains);
+  report.file = arguments.input;
+  const std::size_t most = context.verbose ? std::numeric_limits<std::size_t>::max() : faults_shown;
+  if (arguments.json) {
+    std::cout << report_json(report) << std::flush;
+  } else if (!context.quiet) {
+    std::cout << report_text(report, most) << std::flush;
+  }
+  if (!report.faults.empty()) refuse(report);
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, CommandContext& context) {
+  auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* command = app.add_subcommand("check", "say whether a mesh is valid");
+  command->add_option("input", arguments->input, "the mesh (.mesh or .cgns)")->required()->type_name("IN");
+  command->add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")->type_name("FILE.geom");
+  command->add_flag("--json", arguments->json, "print one JSON object instead of a table");
+  command->callback([&context, arguments] {
+    context.run = [&context, arguments] {
+      context.comm.together([&] {  // the root rank alone works; what it finds is every rank's exit status
+        if (context.comm.is_root()) check_on_root(context, *arguments);
+      });
+    };
+  });
+}
+
+}  // namespace quadloop
