@@ -74,7 +74,7 @@ class NativeReader {
       read_rows("quadrilateral elements", loaded_.mesh.quads);
       loaded_.triangle_to_block.resize(loaded_.mesh.triangles.size(), block);
       loaded_.quad_to_block.resize(loaded_.mesh.quads.size(), block);
-      loaded_.block_names.push_back(blocks == 1 ? "domain" : "block_" + std::to_string(block + 1));
+      loaded_.block_names.push_back(blocks == 1 ? "domain" : std::string("block_").append(std::to_string(block + 1)));
     }
   }
 
@@ -89,8 +89,8 @@ class NativeReader {
 
   void read_rows_named(std::size_t number, std::vector<std::array<NodeId, 2>>& edges) {
     const bool more = !scan_.at_end();
-    std::string name = more ? name_in(scan_.last_comment_with("(")) : "";
-    if (name.empty()) name = "boundary_" + std::to_string(number);
+    std::string name = more ? name_in(scan_.last_comment_with("(")) : std::string();
+    if (name.empty()) name = std::string("boundary_").append(std::to_string(number));
     read_rows("edges of boundary " + std::to_string(number) + " (" + name + ")", edges);
     auto& boundaries = loaded_.mesh.boundaries;
     const auto same = std::find_if(boundaries.begin(), boundaries.end(), [&](const auto& b) { return b.name == name; });
@@ -151,7 +151,7 @@ class NativeReader {
     if (!names.empty() && names.size() != variables) {
       scan_.refuse(std::to_string(names.size()) + " names stand over " + std::to_string(variables) + " variables");
     }
-    for (std::size_t v = names.size(); v < variables; ++v) names.push_back("v" + std::to_string(v + 1));
+    for (std::size_t v = names.size(); v < variables; ++v) names.push_back(std::string("v").append(std::to_string(v + 1)));
     return names;
   }
 
