@@ -43,7 +43,7 @@ std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& nam
     std::replace(name.begin(), name.end(), '/', '_');
     std::string candidate = shortened(name, longest_name);
     for (int again = 2; used.contains(candidate); ++again) {
-      const std::string suffix = "_" + std::to_string(again);
+      const std::string suffix = std::string("_").append(std::to_string(again));
       candidate = shortened(name, longest_name - suffix.size()) + suffix;
     }
     used.insert(candidate);
