@@ -1,0 +1,125 @@
+// What is written does not depend on how many ranks hold it, and comes back as it was. The references are written by each rank's
+// own communicator of one.
+#include <gtest/gtest.h>
+
+#include "io/cgns_file.hpp"
+#include "io/native_file.hpp"
+#include "io/tree_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/validate.hpp"
+#include "tests/io/sample_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::TemporaryFolder;
+using test::world;
+
+constexpr std::int32_t columns = 500;
+constexpr std::int32_t leaves = 150000;  // more than two chunks
+
+void expect_same_mesh(const LoadedMesh& loaded, const Mesh& mesh) {
+  EXPECT_EQ(loaded.mesh.points, mesh.points);
+  EXPECT_EQ(loaded.mesh.triangles, mesh.triangles);
+  EXPECT_EQ(loaded.mesh.quads, mesh.quads);
+  ASSERT_EQ(loaded.mesh.boundaries.size(), mesh.boundaries.size());
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+    EXPECT_EQ(loaded.mesh.boundaries[b].name, mesh.boundaries[b].name);
+    EXPECT_EQ(loaded.mesh.boundaries[b].edges, mesh.boundaries[b].edges);
+  }
+  EXPECT_TRUE(validate(loaded.mesh).empty());
+}
+
+void expect_same_solution(const LoadedMesh& loaded, const Solution& solution) {
+  ASSERT_TRUE(loaded.solution);
+  EXPECT_EQ(loaded.solution->constants, solution.constants);
+  EXPECT_EQ(loaded.solution->values, solution.values);
+}
+
+/// The whole sample, and this rank's part of it.
+struct Sample {
+  Mesh mesh = test::sample_mesh(columns);
+  Solution solution = test::sample_solution(mesh);
+  Mesh own = test::share_of(mesh, world().rank(), world().size());
+  Solution own_solution = test::share_of(solution, mesh, own);
+  Communicator alone{MPI_COMM_SELF};
+};
+
+TEST(NativeFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
+  const TemporaryFolder folder;
+  const Sample sample;
+  write_native(world(), sample.own, folder.file("many.mesh"), &sample.own_solution);
+  if (!world().is_root()) return;
+  write_native(sample.alone, sample.mesh, folder.file("one.mesh"), &sample.solution);
+  EXPECT_TRUE(test::bytes_of(folder.file("many.mesh")) == test::bytes_of(folder.file("one.mesh")));
+  const LoadedMesh loaded = read_native(folder.file("many.mesh"));
+  expect_same_mesh(loaded, sample.mesh);
+  expect_same_solution(loaded, sample.solution);
+  EXPECT_EQ(loaded.solution->names, sample.solution.names);
+  EXPECT_EQ(test::files_in(folder.path()), 2U);
+}
+
+TEST(CgnsFile, ComesBackAsTheNativeFileDoes) {
+  const TemporaryFolder folder;
+  const Sample sample;
+  write_cgns(world(), sample.own, folder.file("m.cgns"), &sample.own_solution);
+  if (!world().is_root()) return;
+  const LoadedMesh loaded = read_cgns(folder.file("m.cgns"));
+  expect_same_mesh(loaded, sample.mesh);
+  expect_same_solution(loaded, sample.solution);
+  EXPECT_EQ(loaded.mesh.boundaries.at(1).condition, "farfield");
+  EXPECT_EQ(loaded.blocks, 1);
+}
+
+TEST(CgnsFile, RefusesWhatIsNone) {
+  const TemporaryFolder folder;
+  if (!world().is_root()) return;
+  test::write_bytes(folder.file("text.cgns"), "no CGNS at all\n");
+  EXPECT_THROW(read_cgns(folder.file("text.cgns")), InputError);
+  EXPECT_THROW(read_cgns(folder.file("missing.cgns")), InputError);
+}
+
+TEST(TreeFile, SameBytesEachTimeAndOnAnyNumberOfRanks) {
+  const TemporaryFolder folder;
+  const TreeRecord own = test::sample_tree(leaves, world().rank(), world().size()), all = test::sample_tree(leaves, 0, 1);
+  const Communicator alone(MPI_COMM_SELF);
+  write_tree(world(), own, folder.file("many.h5"));
+  write_tree(world(), own, folder.file("again.h5"));
+  if (!world().is_root()) return;
+  write_tree(alone, all, folder.file("one.h5"));
+  const std::string one = test::bytes_of(folder.file("one.h5"));
+  EXPECT_FALSE(one.empty());
+  EXPECT_TRUE(test::bytes_of(folder.file("many.h5")) == one);
+  EXPECT_TRUE(test::bytes_of(folder.file("again.h5")) == one);
+}
+
+TEST(TreeFile, ComesBackInShares) {
+  const TemporaryFolder folder;
+  write_tree(world(), test::sample_tree(leaves, world().rank(), world().size()), folder.file("t.h5"));
+  const TreeRecord read = read_tree(world(), folder.file("t.h5")), all = test::sample_tree(leaves, 0, 1);
+  EXPECT_EQ(read.attributes.coordinate_digest, all.attributes.coordinate_digest);
+  EXPECT_EQ(read.attributes.root_x, all.attributes.root_x);
+  const auto count = static_cast<std::int64_t>(read.leaves.size());
+  EXPECT_EQ(world().sum(count), leaves);
+  const std::int64_t first = world().exclusive_sum(count);
+  for (std::int64_t i = 0; i < count; ++i) {
+    const LeafRecord& a = read.leaves[static_cast<std::size_t>(i)];
+    const LeafRecord& b = all.leaves[static_cast<std::size_t>(first + i)];
+    const bool same = a.tree_x == b.tree_x && a.tree_y == b.tree_y && a.x == b.x && a.y == b.y && a.level == b.level && a.wanted == b.wanted &&
+                      a.mark == b.mark && a.triangles == b.triangles && a.quads == b.quads;
+    ASSERT_TRUE(same) << first + i;
+  }
+}
+
+TEST(TreeFile, RefusesWhatIsNoneOnAllRanks) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(read_tree(world(), folder.file("missing.h5")), InputError);
+  write_tree(world(), test::sample_tree(100, world().rank(), world().size()), folder.file("t.h5"));
+  if (world().is_root()) test::write_bytes(folder.file("t.h5"), test::bytes_of(folder.file("t.h5")).substr(0, 1500));
+  world().barrier();
+  EXPECT_THROW(read_tree(world(), folder.file("t.h5")), InputError);
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,153 @@
+#include "tests/io/sample_mesh.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "tests/support/world.hpp"
+
+namespace quadloop::test {
+
+namespace {
+
+std::pair<std::size_t, std::size_t> share(std::size_t count, int rank, int ranks) {
+  const auto r = static_cast<std::size_t>(rank), n = static_cast<std::size_t>(ranks);
+  return {count * r / n, count * (r + 1) / n};
+}
+
+/// Renumbers nodes of the whole mesh to those of one rank, which learns of copies as it goes.
+class Localiser {
+ public:
+  Localiser(const Mesh& whole, Mesh& part) : whole_{whole}, part_{part} {}
+
+  NodeId operator()(NodeId node) {
+    const auto local = node.value() - static_cast<std::int32_t>(part_.first_node);
+    if (local >= 0 && local < part_.owned_nodes) return NodeId{local};
+    const auto [found, added] = copies_.emplace(node.value(), static_cast<std::int32_t>(part_.points.size()));
+    if (added) {
+      part_.points.push_back(whole_.point(node));
+      part_.copies.push_back(GlobalNodeId{node.value()});
+    }
+    return NodeId{found->second};
+  }
+
+  template <class Rows>
+  Rows rows(const Rows& all, int rank, int ranks) {
+    const auto [begin, end] = share(all.size(), rank, ranks);
+    Rows own(all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end));
+    for (auto& row : own) {
+      for (NodeId& node : row) node = (*this)(node);
+    }
+    return own;
+  }
+
+ private:
+  const Mesh& whole_;
+  Mesh& part_;
+  std::map<std::int32_t, std::int32_t> copies_;
+};
+
+}  // namespace
+
+Mesh sample_mesh(std::int32_t columns) {
+  Mesh mesh;
+  const auto node = [&](std::int32_t i, std::int32_t j) { return NodeId{j * (columns + 1) + i}; };
+  for (std::int32_t j = 0; j <= 2; ++j) {
+    for (std::int32_t i = 0; i <= columns; ++i) mesh.points.push_back({static_cast<double>(i), static_cast<double>(j)});
+  }
+  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  BoundaryEdges wall{"wall", "wall", {}}, sides{"far field", "farfield", {}};
+  for (std::int32_t i = 0; i < columns; ++i) {
+    mesh.quads.push_back({node(i, 0), node(i + 1, 0), node(i + 1, 1), node(i, 1)});
+    mesh.triangles.push_back({node(i, 1), node(i + 1, 1), node(i + 1, 2)});
+    mesh.triangles.push_back({node(i, 1), node(i + 1, 2), node(i, 2)});
+    wall.edges.push_back({node(i, 0), node(i + 1, 0)});
+    wall.edges.push_back({node(i + 1, 2), node(i, 2)});
+  }
+  for (std::int32_t j = 0; j < 2; ++j) {
+    sides.edges.push_back({node(columns, j), node(columns, j + 1)});
+    sides.edges.push_back({node(0, j + 1), node(0, j)});
+  }
+  mesh.boundaries = {wall, sides};
+  return mesh;
+}
+
+Solution sample_solution(const Mesh& mesh) {
+  Solution solution{{12, 0.1, -3e-300}, {"density", "pressure"}, {}};
+  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
+    solution.values.push_back(1 + i / 3.0);
+    solution.values.push_back(-1e17 / (i + 7));
+  }
+  return solution;
+}
+
+Mesh share_of(const Mesh& whole, int rank, int ranks) {
+  Mesh part;
+  const auto [begin, end] = share(whole.points.size(), rank, ranks);
+  part.first_node = static_cast<std::int64_t>(begin);
+  part.owned_nodes = static_cast<std::int32_t>(end - begin);
+  part.points.assign(whole.points.begin() + static_cast<std::ptrdiff_t>(begin), whole.points.begin() + static_cast<std::ptrdiff_t>(end));
+  Localiser localise(whole, part);
+  part.triangles = localise.rows(whole.triangles, rank, ranks);
+  part.quads = localise.rows(whole.quads, rank, ranks);
+  for (const BoundaryEdges& boundary : whole.boundaries) {
+    part.boundaries.push_back({boundary.name, boundary.condition, localise.rows(boundary.edges, rank, ranks)});
+  }
+  return part;
+}
+
+Solution share_of(const Solution& whole, const Mesh& mesh, const Mesh& share) {
+  Solution part{whole.constants, whole.names, {}};
+  const std::size_t width = whole.values.size() / mesh.points.size();
+  const auto begin = whole.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(share.first_node) * width);
+  part.values.assign(begin, begin + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(share.owned_nodes) * width));
+  return part;
+}
+
+TreeRecord sample_tree(std::int32_t leaves, int rank, int ranks) {
+  TreeRecord tree;
+  tree.attributes.root_x = -0.1;
+  tree.attributes.tree_edge = 20;
+  tree.attributes.coordinate_digest = 0xFEDCBA9876543210;
+  const auto [begin, end] = share(static_cast<std::size_t>(leaves), rank, ranks);
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto n = static_cast<std::int32_t>(i);
+    tree.leaves.push_back({n % 3, n % 5, n, 7 * n, static_cast<std::int8_t>(n % 30), 4, static_cast<std::int16_t>(n % 2), n % 4, n % 6});
+  }
+  return tree;
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::vector<char> name;
+  if (world().is_root()) {
+    const std::string pattern = std::filesystem::temp_directory_path() / "quadloop_io_XXXXXX";
+    name.assign(pattern.begin(), pattern.end());
+    name.push_back('\0');
+    if (mkdtemp(name.data()) == nullptr) name.clear();
+  }
+  world().broadcast(name);
+  if (!name.empty()) path_ = name.data();
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  world().barrier();
+  std::error_code ignored;
+  if (world().is_root() && !path_.empty()) std::filesystem::remove_all(path_, ignored);
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_bytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+
+std::size_t files_in(const std::string& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+}
+
+}  // namespace quadloop::test

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+
+#include "io/loaded_mesh.hpp"
+#include "mesher/base/communicator.hpp"
+#include "mesher/forest/tree_record.hpp"
+
+namespace quadloop::test {
+
+/// The rectangle [0, columns] x [0, 2] as two rows of unit squares, the lower ones quads, each upper one two triangles; the
+/// boundaries "wall" (below and above) and "far field" (the sides). Whole on this rank.
+Mesh sample_mesh(std::int32_t columns);
+
+/// Two variables with rows that need all digits, and three constants.
+Solution sample_solution(const Mesh& mesh);
+
+/// What this rank holds of a whole mesh: its share of the nodes and the cells, in order, and copies of the nodes that they touch.
+Mesh share_of(const Mesh& whole, int rank, int ranks);
+Solution share_of(const Solution& whole, const Mesh& mesh, const Mesh& share);
+
+/// This rank's share of `leaves` leaves with made-up numbers.
+TreeRecord sample_tree(std::int32_t leaves, int rank, int ranks);
+
+/// A folder of this test alone, the same on all ranks, removed with everything in it. *Collective.*
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::string bytes_of(const std::string& path);
+void write_bytes(const std::string& path, const std::string& bytes);
+std::size_t files_in(const std::string& folder);
+
+}  // namespace quadloop::test
