@@ -41,8 +41,9 @@ class SegmentSet {
     }
     index_ = Index(entries);
   }
-  /// Number of the nearest segment, and how far it is.
+  /// Number of the nearest segment, and how far it is: infinitely, where there is none.
   std::pair<std::uint32_t, double> nearest(Point p) const {
+    if (segments_.empty()) return {0, std::numeric_limits<double>::infinity()};
     const auto found = index_.qbegin(bg::index::nearest(IndexPoint(p.x, p.y), 1));
     const auto& [a, b] = segments_[found->second];
     return {found->second, distance_to_segment(p, a, b)};
