@@ -139,6 +139,15 @@ TemporaryFolder::~TemporaryFolder() {
   if (world().is_root() && !path_.empty()) std::filesystem::remove_all(path_, ignored);
 }
 
+ExitStatus status_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.status();
+  }
+  return ExitStatus::done;
+}
+
 std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};

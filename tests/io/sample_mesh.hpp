@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "io/loaded_mesh.hpp"
 #include "mesher/base/communicator.hpp"
+#include "mesher/base/error.hpp"
 #include "mesher/forest/tree_record.hpp"
 
 namespace quadloop::test {
@@ -35,6 +37,9 @@ class TemporaryFolder {
  private:
   std::string path_;
 };
+
+/// How an Error that `call` throws would end the program; `done` where it throws none.
+ExitStatus status_of(const std::function<void()>& call);
 
 std::string bytes_of(const std::string& path);
 void write_bytes(const std::string& path, const std::string& bytes);
