@@ -33,6 +33,17 @@ std::vector<int> offsets_of(const std::vector<int>& counts) {
   return offsets;
 }
 
+/// The same kind of error on every rank, whichever rank met it.
+[[noreturn]] void rethrow(ExitStatus status, const std::string& message) {
+  switch (status) {
+    case ExitStatus::bad_input: throw InputError(message);
+    case ExitStatus::wrong_usage: throw UsageError(message);
+    case ExitStatus::output_failed: throw OutputError(message);
+    case ExitStatus::fault: throw Fault(message);
+    default: throw Error(status, message);
+  }
+}
+
 }  // namespace
 
 Communicator::Communicator(MPI_Comm to_duplicate) {
@@ -135,7 +146,7 @@ void Communicator::together(const std::function<void()>& local) const {
     for (auto& copy : to_rank) copy = text;
   }
   const std::vector<char> agreed = exchange(to_rank)[static_cast<std::size_t>(failed_rank)];
-  throw Error(static_cast<ExitStatus>(agreed.front()), std::string(agreed.begin() + 1, agreed.end()));
+  rethrow(static_cast<ExitStatus>(agreed.front()), std::string(agreed.begin() + 1, agreed.end()));
 }
 
 }  // namespace quadloop
