@@ -13,7 +13,11 @@ namespace {
 /// Bytes of the UTF-8 character that `text` begins with; 0 where it is none.
 std::size_t utf8_length(std::string_view text) {
   const auto first = static_cast<unsigned char>(text[0]);
-  const std::size_t length = first < 0x80 ? 1 : first >= 0xC2 && first < 0xE0 ? 2 : first >= 0xE0 && first < 0xF0 ? 3 : first >= 0xF0 && first < 0xF5 ? 4 : 0;
+  const std::size_t length = first < 0x80                    ? 1
+                             : first >= 0xC2 && first < 0xE0 ? 2
+                             : first >= 0xE0 && first < 0xF0 ? 3
+                             : first >= 0xF0 && first < 0xF5 ? 4
+                                                             : 0;
   if (length > text.size()) return 0;
   for (std::size_t k = 1; k < length; ++k) {
     if ((static_cast<unsigned char>(text[k]) & 0xC0) != 0x80) return 0;
@@ -28,7 +32,9 @@ std::string number(std::int64_t value) { return fmt::format("{}", value); }
 class JsonObject {
  public:
   template <class Number>
-  void add(const char* name, Number value) { add_raw(name, number(value)); }
+  void add(const char* name, Number value) {
+    add_raw(name, number(value));
+  }
   void add_raw(const std::string& name, const std::string& value) {
     text_ += fmt::format("{}{}: {}", text_.empty() ? "" : ", ", json_string(name), value);
   }

@@ -36,8 +36,19 @@ std::string shortened(const std::string& name, std::size_t length) {
 
 std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names) {
   // Sections stand in the zone and families in the base, beside these nodes.
-  std::set<std::string> used{"",      ".",       "..",           "ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "ZoneBC", "ZoneGridConnectivity",
-                             "FlowSolution", "domain", "DataClass", "DimensionalUnits"};
+  std::set<std::string> used{"",
+                             ".",
+                             "..",
+                             "ZoneType",
+                             "GridCoordinates",
+                             "TRI_3",
+                             "QUAD_4",
+                             "ZoneBC",
+                             "ZoneGridConnectivity",
+                             "FlowSolution",
+                             "domain",
+                             "DataClass",
+                             "DimensionalUnits"};
   std::vector<std::string> result;
   for (std::string name : names) {
     std::replace(name.begin(), name.end(), '/', '_');

@@ -160,8 +160,7 @@ class ZoneReader {
     std::array<int, 3> normal{};
     DataType_t normal_type = DataTypeNull;
     int datasets = 0;
-    file_.check(cg_boco_info(file_.id(), base_, zone_, boundary, name.data(), &type, &set, &count, normal.data(), &normals,
-                             &normal_type, &datasets));
+    file_.check(cg_boco_info(file_.id(), base_, zone_, boundary, name.data(), &type, &set, &count, normal.data(), &normals, &normal_type, &datasets));
     GridLocation_t location = Vertex;
     file_.check(cg_boco_gridlocation_read(file_.id(), base_, zone_, boundary, &location));
     const bool of_elements = set == ElementRange || set == ElementList || location != Vertex;

@@ -50,8 +50,7 @@ class CgnsSink {
     for (std::size_t k = 0; k < width; ++k) {
       for (std::size_t i = 0; i < count; ++i) column_[i] = rows[i * width + k];
       int field = 0;
-      file_->check(cg_field_partial_write(id(), base_, zone_, solution_, RealDouble, names[k].c_str(), &first, &last,
-                                          column_.data(), &field));
+      file_->check(cg_field_partial_write(id(), base_, zone_, solution_, RealDouble, names[k].c_str(), &first, &last, column_.data(), &field));
     }
   }
 
@@ -96,7 +95,7 @@ class CgnsSink {
     return next_row_ - 1;
   }
 
-  void put_coordinate(const char* name, std::span<const Point> points, double Point::* member, cgsize_t first, cgsize_t last) {
+  void put_coordinate(const char* name, std::span<const Point> points, double Point::*member, cgsize_t first, cgsize_t last) {
     column_.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) column_[i] = points[i].*member;
     int coordinate = 0;
@@ -135,9 +134,7 @@ class CgnsWriter {
     const RowStream nodes{comm_, mesh_.owned_nodes, rows_per_piece};
     on_root([&] { sink_->begin_rows(); });
     nodes.run<Point>(
-        [&](std::int64_t begin, std::int64_t end) {
-          return std::vector<Point>(mesh_.points.begin() + begin, mesh_.points.begin() + end);
-        },
+        [&](std::int64_t begin, std::int64_t end) { return std::vector<Point>(mesh_.points.begin() + begin, mesh_.points.begin() + end); },
         [&](std::span<const Point> points) { sink_->put_coordinates(points); });
     write_section("TRI_3", TRI_3, std::span(mesh_.triangles), counts_.triangles);
     write_section("QUAD_4", QUAD_4, std::span(mesh_.quads), counts_.quads);
@@ -183,8 +180,7 @@ class CgnsWriter {
   void refuse_too_large(const std::string& path) const {
     std::int64_t elements = counts_.triangles + counts_.quads;
     for (const std::int64_t edges : edges_) elements += edges;
-    if (counts_.nodes <= largest_size && elements <= largest_size && 3 * counts_.triangles <= largest_size &&
-        4 * counts_.quads <= largest_size) {
+    if (counts_.nodes <= largest_size && elements <= largest_size && 3 * counts_.triangles <= largest_size && 4 * counts_.quads <= largest_size) {
       return;
     }
     throw OutputError(path + ": " + std::to_string(counts_.nodes) + " nodes and " + std::to_string(elements) +
@@ -192,8 +188,7 @@ class CgnsWriter {
   }
 
   template <std::size_t width>
-  void write_section(const std::string& name, ElementType_t type, std::span<const std::array<NodeId, width>> rows,
-                     std::int64_t all_rows) {
+  void write_section(const std::string& name, ElementType_t type, std::span<const std::array<NodeId, width>> rows, std::int64_t all_rows) {
     if (all_rows == 0) return;
     on_root([&] { sink_->begin_section(name, type, all_rows); });
     const RowStream stream{comm_, static_cast<std::int64_t>(rows.size()), rows_per_piece};

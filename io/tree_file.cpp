@@ -136,9 +136,7 @@ void write_tree(OutputSet& outputs, const TreeRecord& tree, const std::string& p
   });
   const RowStream stream{comm, own, rows_per_chunk};
   stream.run<LeafRecord>(
-      [&](std::int64_t begin, std::int64_t end) {
-        return std::vector<LeafRecord>(tree.leaves.begin() + begin, tree.leaves.begin() + end);
-      },
+      [&](std::int64_t begin, std::int64_t end) { return std::vector<LeafRecord>(tree.leaves.begin() + begin, tree.leaves.begin() + end); },
       [&](std::span<const LeafRecord> leaves) { sink->put_leaves(leaves); });
   comm.together([&] {
     if (sink) sink->close();

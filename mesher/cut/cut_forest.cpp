@@ -26,7 +26,8 @@ TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const Shifted
   traced.trace_of.assign(static_cast<std::size_t>(graph.size()), -1);
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
     const auto segments = sizes.segments_in(graph.leaf(leaf));
-    if (!segments.empty()) traced.trace_of[static_cast<std::size_t>(leaf)] = traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
+    if (!segments.empty())
+      traced.trace_of[static_cast<std::size_t>(leaf)] = traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
   }
   return traced;
 }
@@ -160,7 +161,8 @@ class ForestCutter {
     const std::string first = name(trace.pieces.front()), last = name(trace.pieces.back());
     std::ostringstream message;
     message.precision(17);
-    message << "boundary " << first << (first == last ? "" : " and boundary " + last) << " near (" << trace.box.centre().x << ", " << trace.box.centre().y
+    message << "boundary " << first << (first == last ? "" : " and boundary " + last) << " near (" << trace.box.centre().x << ", "
+            << trace.box.centre().y
             << "): the outline comes so near to itself that double precision cannot part the two sides; move or remove points there";
     throw InputError(message.str());
   }

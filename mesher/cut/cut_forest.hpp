@@ -20,9 +20,9 @@ struct CutForest {
     std::uint8_t half_inside = 0;  ///< as CutLeaf::half_inside
   };
 
-  std::vector<State> states;             ///< of each local leaf
-  std::vector<std::int32_t> entry_of;    ///< of each local leaf; -1 where it is not cut
-  std::vector<Entry> entries;            ///< of the cut leaves, and of uncut ones with a snapped corner
+  std::vector<State> states;           ///< of each local leaf
+  std::vector<std::int32_t> entry_of;  ///< of each local leaf; -1 where it is not cut
+  std::vector<Entry> entries;          ///< of the cut leaves, and of uncut ones with a snapped corner
   std::vector<CutLeaf::Node> nodes;
   std::vector<LocalTriangle> triangles;  ///< numbers count from the leaf's first node
   std::vector<LocalQuad> quads;
@@ -33,7 +33,7 @@ struct CutForest {
     Point position;
   };
   std::vector<Moved> moved;
-  std::int64_t followed = 0;             ///< cut leaves in which points beside the corners were kept
+  std::int64_t followed = 0;  ///< cut leaves in which points beside the corners were kept
 
   template <class T>
   static std::span<const T> part(const std::vector<T>& all, std::int32_t begin, std::int32_t end) {
@@ -52,7 +52,7 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
 /// from the outline.
 class ResolutionTest {
  public:
-  ResolutionTest(const Lattice& lattice, const ShiftedOutline& outline, const InsideTest& inside) 
+  ResolutionTest(const Lattice& lattice, const ShiftedOutline& outline, const InsideTest& inside)
       : lattice_{&lattice}, outline_{&outline}, cutter_{outline, inside} {}
   bool unresolved(const Quadrant& q, std::span<const std::int32_t> segments);
 

@@ -27,14 +27,15 @@ struct CutLeaf {
     std::int32_t segment = -1;  ///< a segment of the outline that it stands for; -1: part of a side of the leaf
   };
 
-  std::vector<Node> nodes;    ///< round the sides first, counter-clockwise from the lower left corner; then those inside, by position
-  std::vector<Edge> outline;  ///< the chords that stand for the outline, also those that only bound a neighbour's cells
+  std::vector<Node> nodes;                ///< round the sides first, counter-clockwise from the lower left corner; then those inside, by position
+  std::vector<Edge> outline;              ///< the chords that stand for the outline, also those that only bound a neighbour's cells
   std::vector<std::int32_t> loop_nodes;   ///< the loops one after another
   std::vector<std::int32_t> loop_starts;  ///< one more than there are loops
   std::int32_t side_nodes = 0;            ///< how many nodes lie on the sides
-  std::uint8_t half_inside = 0;  ///< bit 2s+h: the first (h=0) or second half of side s, counter-clockwise, lies in the domain, where no crossing parts it
-  bool simple = false;           ///< one piece of outline was merged into one chord: convex loops, nothing can be wrong
-  bool refined = false;          ///< more points of the geometry were kept than its corners, to follow it closely enough
+  std::uint8_t half_inside =
+      0;                 ///< bit 2s+h: the first (h=0) or second half of side s, counter-clockwise, lies in the domain, where no crossing parts it
+  bool simple = false;   ///< one piece of outline was merged into one chord: convex loops, nothing can be wrong
+  bool refined = false;  ///< more points of the geometry were kept than its corners, to follow it closely enough
 
   std::size_t loop_count() const { return loop_starts.size() - 1; }
   std::span<const std::int32_t> loop(std::size_t i) const {
@@ -57,10 +58,10 @@ class LeafCutter {
   /// One leaf as the cutter needs it.
   struct Input {
     LeafTrace trace;
-    Point centre;                       ///< where hanging nodes lie on the sides
-    unsigned hanging = 0;               ///< bit s: side s has one
-    std::span<const LeafSnap> snaps;    ///< of this leaf
-    std::optional<bool> inside;         ///< where the leaf holds no geometry: whether it lies in the domain
+    Point centre;                     ///< where hanging nodes lie on the sides
+    unsigned hanging = 0;             ///< bit s: side s has one
+    std::span<const LeafSnap> snaps;  ///< of this leaf
+    std::optional<bool> inside;       ///< where the leaf holds no geometry: whether it lies in the domain
   };
 
   /// Cuts a leaf. Returns whether the loops are sound: simple, nested as outlines and holes, none overlapping another (always so with exact detail
@@ -100,9 +101,9 @@ class LeafCutter {
   CutLeaf leaf_;
   std::vector<Stop> stops_;
   std::vector<std::int32_t> stop_node_, crossing_node_;
-  std::vector<CutLeaf::Edge> edges_;  ///< of the loops: chords and sides
+  std::vector<CutLeaf::Edge> edges_;       ///< of the loops: chords and sides
   std::vector<CutLeaf::Edge> bare_sides_;  ///< parts of sides outside the domain
-  std::vector<Point> run_points_;     ///< of one piece: entry, vertices, exit
+  std::vector<Point> run_points_;          ///< of one piece: entry, vertices, exit
   std::vector<char> run_turns_, run_keep_;
   double largest_stray_ = 0;
 };

@@ -6,7 +6,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double stray_of_leaf = 0.15;   ///< how far the outline may lie from its chord, as a share of the leaf's edge
+constexpr double stray_of_leaf = 0.15;  ///< how far the outline may lie from its chord, as a share of the leaf's edge
 constexpr double stray_of_chord = 0.2;  ///< and as a share of the chord
 
 std::array<Point, 4> corners_of(const Box& box) { return {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}}; }
@@ -70,7 +70,10 @@ void LeafCutter::gather_stops() {
     add_stop(crossing.side, crossing.position, 8, static_cast<std::int32_t>(c));
   }
   std::sort(stops_.begin(), stops_.end(), [](const Stop& a, const Stop& b) {
-    return a.side != b.side ? a.side < b.side : a.along != b.along ? a.along < b.along : a.place != b.place ? a.place < b.place : a.crossing < b.crossing;
+    return a.side != b.side     ? a.side < b.side
+           : a.along != b.along ? a.along < b.along
+           : a.place != b.place ? a.place < b.place
+                                : a.crossing < b.crossing;
   });
   name_stops();
 }
@@ -107,7 +110,8 @@ void LeafCutter::name_stops() {
     if (stop_node_[i] < 0) stop_node_[i] = place_node[static_cast<std::size_t>(absorbing_snap(input_.trace.crossing(c))->place)];
     crossing_node_[static_cast<std::size_t>(c)] = stop_node_[i];
   }
-  for (const LeafSnap& s : input_.snaps) leaf_.nodes[static_cast<std::size_t>(place_node[static_cast<std::size_t>(s.place)])].position = s.snap->position;
+  for (const LeafSnap& s : input_.snaps)
+    leaf_.nodes[static_cast<std::size_t>(place_node[static_cast<std::size_t>(s.place)])].position = s.snap->position;
   leaf_.side_nodes = static_cast<std::int32_t>(leaf_.nodes.size());
 }
 
@@ -211,7 +215,9 @@ std::span<const std::int32_t> LeafCutter::trimmed_vertices(const Piece& piece) c
 void LeafCutter::choose_points(const Piece& piece, std::span<const std::int32_t> vertices, Detail detail) {
   const Geometry& g = outline_->geometry();
   const bool closed = piece.entry < 0;
-  const auto node_position = [&](std::int32_t c) { return leaf_.nodes[static_cast<std::size_t>(crossing_node_[static_cast<std::size_t>(c)])].position; };
+  const auto node_position = [&](std::int32_t c) {
+    return leaf_.nodes[static_cast<std::size_t>(crossing_node_[static_cast<std::size_t>(c)])].position;
+  };
   run_points_.clear();
   if (!closed) run_points_.push_back(node_position(piece.entry));
   for (const std::int32_t v : vertices) run_points_.push_back(g.point(v));

@@ -30,8 +30,8 @@ std::size_t next_edge(Edges edges, const CutLeaf& leaf, const std::vector<char>&
   std::size_t best = edges.size();
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (used[i] != 0 || edges[i].from != edges[e].to) continue;
-    const bool better = best == edges.size() || clockwise_before(at(leaf, edges[e].to), at(leaf, edges[e].from), at(leaf, edges[i].to),
-                                                                 at(leaf, edges[best].to));
+    const bool better =
+        best == edges.size() || clockwise_before(at(leaf, edges[e].to), at(leaf, edges[e].from), at(leaf, edges[i].to), at(leaf, edges[best].to));
     if (better) best = i;
   }
   return best;

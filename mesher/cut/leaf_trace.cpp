@@ -53,8 +53,8 @@ Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& b
 }
 
 /// Follows the outline from the segment at `start` to where it leaves the leaf or comes back; appends the vertices on the way.
-Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::span<const Passage> passages, std::vector<char>& seen,
-             std::size_t start, std::size_t first_vertex, std::vector<std::int32_t>& vertices) {
+Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::span<const Passage> passages, std::vector<char>& seen, std::size_t start,
+             std::size_t first_vertex, std::vector<std::int32_t>& vertices) {
   Piece piece;
   piece.first_segment = segments[start];
   piece.entry = passages[start].entry;
@@ -78,8 +78,8 @@ Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::spa
 }  // namespace
 
 std::int32_t LeafTraces::add(const ShiftedOutline& outline, const Box& box, std::span<const std::int32_t> segments) {
-  begins_.push_back({box, static_cast<std::int32_t>(crossings_.size()), static_cast<std::int32_t>(pieces_.size()),
-                     static_cast<std::int32_t>(vertices_.size())});
+  begins_.push_back(
+      {box, static_cast<std::int32_t>(crossings_.size()), static_cast<std::int32_t>(pieces_.size()), static_cast<std::int32_t>(vertices_.size())});
   const std::size_t first_crossing = crossings_.size(), first_vertex = vertices_.size();
   thread_local std::vector<Passage> passages;
   thread_local std::vector<char> seen;

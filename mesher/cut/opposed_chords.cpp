@@ -7,8 +7,8 @@ namespace quadloop {
 namespace {
 
 struct SideChord {
-  Point low, high;       ///< its ends, in ascending order
-  bool rising = true;    ///< whether it runs from low to high
+  Point low, high;     ///< its ends, in ascending order
+  bool rising = true;  ///< whether it runs from low to high
   friend auto operator<=>(const SideChord&, const SideChord&) = default;
 };
 

@@ -9,18 +9,19 @@ namespace quadloop {
 
 namespace {
 
-constexpr double capture_share = 0.45;   ///< of the local edge: a kept point nearer than this takes the corner; two corners cannot claim it
-constexpr double swallow_share = 0.15;  ///< of the local edge: no vertex vanishes that lies farther than this from the outline as it goes on from the corner
+constexpr double capture_share = 0.45;  ///< of the local edge: a kept point nearer than this takes the corner; two corners cannot claim it
+constexpr double swallow_share =
+    0.15;  ///< of the local edge: no vertex vanishes that lies farther than this from the outline as it goes on from the corner
 
 /// A crossing as one of the corners at the ends of its leaf edge sees it, through one of the two leaves at that edge.
 struct Sight {
-  std::int64_t x = 0, y = 0;    ///< the corner
-  int direction = 0;            ///< of the edge from the corner: 0 east, 1 north, 2 west, 3 south
-  double distance = 0;          ///< along the edge
-  double edge = 0;              ///< its length
+  std::int64_t x = 0, y = 0;  ///< the corner
+  int direction = 0;          ///< of the edge from the corner: 0 east, 1 north, 2 west, 3 south
+  double distance = 0;        ///< along the edge
+  double edge = 0;            ///< its length
   std::int32_t segment = -1;
   std::int32_t trace = -1, piece = -1;
-  bool at_entry = false;        ///< of the piece
+  bool at_entry = false;  ///< of the piece
   bool vertical() const { return direction % 2 == 1; }
 };
 
@@ -54,7 +55,8 @@ class SightCollector {
     }
     const double edge = line(to) - line(from);
     const auto see = [&](std::int64_t end, int direction) {
-      sights_.push_back({horizontal ? end : fixed, horizontal ? fixed : end, direction, std::abs(at - line(end)), edge, c.segment, trace, piece, at_entry});
+      sights_.push_back(
+          {horizontal ? end : fixed, horizontal ? fixed : end, direction, std::abs(at - line(end)), edge, c.segment, trace, piece, at_entry});
     };
     see(from, horizontal ? 0 : 1);
     see(to, horizontal ? 2 : 3);
@@ -220,7 +222,8 @@ class CornerDecision {
     for (std::size_t i = 0; i < sights.size(); ++i) absorbed_[i] = absorbed_[i] != 0 && root(i) == *chosen;
     for (std::size_t i = 0; i < sights.size(); ++i) {
       for (std::size_t j = 0; j < sights.size(); ++j) {
-        const bool passed_over = absorbed_[i] != 0 && absorbed_[j] == 0 && sights[j].direction == sights[i].direction && sights[j].distance <= sights[i].distance;
+        const bool passed_over =
+            absorbed_[i] != 0 && absorbed_[j] == 0 && sights[j].direction == sights[i].direction && sights[j].distance <= sights[i].distance;
         if (passed_over) return false;
       }
     }
@@ -256,12 +259,13 @@ class CornerDecision {
     for (const std::int32_t v : swallowed) {
       if (geometry_.kept(v)) target_ = geometry_.point(v);
     }
-    return !stubs.empty() && length(target_ - corner_) < capture_share * local_edge_ && std::none_of(swallowed.begin(), swallowed.end(), [&](std::int32_t v) {
-      const Point p = geometry_.point(v);
-      double stray = std::numeric_limits<double>::infinity();
-      for (const Point stub : stubs) stray = std::min(stray, length(p - nearest_on_segment(p, target_, stub)));
-      return stray > swallow_share * local_edge_ || (geometry_.kept(v) && p != target_);
-    });
+    return !stubs.empty() && length(target_ - corner_) < capture_share * local_edge_ &&
+           std::none_of(swallowed.begin(), swallowed.end(), [&](std::int32_t v) {
+             const Point p = geometry_.point(v);
+             double stray = std::numeric_limits<double>::infinity();
+             for (const Point stub : stubs) stray = std::min(stray, length(p - nearest_on_segment(p, target_, stub)));
+             return stray > swallow_share * local_edge_ || (geometry_.kept(v) && p != target_);
+           });
   }
 
   const LeafGraph& graph_;
@@ -328,7 +332,8 @@ std::vector<LeafSnap> snaps_of_leaves(const LeafGraph& graph, const std::vector<
       result.push_back({leaf, places[static_cast<std::size_t>((snap.y - q.y) / half)][static_cast<std::size_t>((snap.x - q.x) / half)], &snap});
     }
   }
-  std::sort(result.begin(), result.end(), [](const LeafSnap& a, const LeafSnap& b) { return a.leaf != b.leaf ? a.leaf < b.leaf : a.place < b.place; });
+  std::sort(result.begin(), result.end(),
+            [](const LeafSnap& a, const LeafSnap& b) { return a.leaf != b.leaf ? a.leaf < b.leaf : a.place < b.place; });
   return result;
 }
 

@@ -17,7 +17,7 @@ struct Snap {
   double radius = 0;          ///< vertices next to an absorbed crossing and nearer to the corner than this vanish in it
   struct Absorbed {
     std::int32_t segment = -1;
-    bool vertical = false;    ///< whether the crossing lies on the vertical lattice line through the corner
+    bool vertical = false;  ///< whether the crossing lies on the vertical lattice line through the corner
     friend bool operator==(const Absorbed&, const Absorbed&) = default;
   };
   std::vector<Absorbed> absorbed;

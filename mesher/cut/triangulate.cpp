@@ -15,8 +15,8 @@ std::int64_t name_of(std::int32_t a, std::int32_t b) { return (std::int64_t{std:
 
 }  // namespace
 
-bool Triangulator::triangulate(std::span<const Point> points, std::span<const TieKey> keys,
-                               std::span<const std::span<const std::int32_t>> loops, std::vector<LocalTriangle>& triangles) {
+bool Triangulator::triangulate(std::span<const Point> points, std::span<const TieKey> keys, std::span<const std::span<const std::int32_t>> loops,
+                               std::vector<LocalTriangle>& triangles) {
   points_ = points;
   keys_ = keys;
   triangles_.clear();
@@ -92,12 +92,12 @@ bool Triangulator::flip_pass() {
   half_edges_ = fixed_;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
-      half_edges_.push_back({name_of(triangles_[t][(k + 1) % 3], triangles_[t][(k + 2) % 3]), static_cast<std::int32_t>(t), static_cast<std::int32_t>(k)});
+      half_edges_.push_back(
+          {name_of(triangles_[t][(k + 1) % 3], triangles_[t][(k + 2) % 3]), static_cast<std::int32_t>(t), static_cast<std::int32_t>(k)});
     }
   }
-  std::sort(half_edges_.begin(), half_edges_.end(), [](const HalfEdge& e, const HalfEdge& f) {
-    return e.name != f.name ? e.name < f.name : e.triangle < f.triangle;
-  });
+  std::sort(half_edges_.begin(), half_edges_.end(),
+            [](const HalfEdge& e, const HalfEdge& f) { return e.name != f.name ? e.name < f.name : e.triangle < f.triangle; });
   touched_.assign(triangles_.size(), 0);
   bool any = false;
   for (std::size_t i = 0; i + 1 < half_edges_.size(); ++i) {

@@ -76,8 +76,7 @@ Forest::Forest(const Communicator& comm, const Lattice& lattice) : impl_{std::ma
   p4est_connectivity_t& trees = *impl_->connectivity;
   for (p4est_topidx_t t = 0; t < trees.num_trees; ++t) {
     const double* corner = trees.vertices + 3 * trees.tree_to_vertex[P4EST_CHILDREN * t];
-    impl_->tree_corners.push_back(
-        {std::llround(corner[0]) << Quadrant::unit_level, std::llround(corner[1]) << Quadrant::unit_level, 0});
+    impl_->tree_corners.push_back({std::llround(corner[0]) << Quadrant::unit_level, std::llround(corner[1]) << Quadrant::unit_level, 0});
   }
   impl_->forest.reset(p4est_new_ext(comm.raw(), impl_->connectivity.get(), 0, 1, 1, 0, nullptr, nullptr));
 }
@@ -116,7 +115,8 @@ std::vector<Quadrant> Forest::leaves() const {
   p4est_t& forest = *impl_->forest;
   for (p4est_topidx_t t = forest.first_local_tree; t <= forest.last_local_tree; ++t) {
     sc_array_t& quadrants = p4est_tree_array_index(forest.trees, t)->quadrants;
-    for (std::size_t i = 0; i < quadrants.elem_count; ++i) leaves.push_back(place_of(impl_->tree_corners, t, *p4est_quadrant_array_index(&quadrants, i)));
+    for (std::size_t i = 0; i < quadrants.elem_count; ++i)
+      leaves.push_back(place_of(impl_->tree_corners, t, *p4est_quadrant_array_index(&quadrants, i)));
   }
   return leaves;
 }
@@ -124,8 +124,7 @@ std::vector<Quadrant> Forest::leaves() const {
 std::vector<Forest::Ghost> Forest::ghosts() const {
   std::vector<Ghost> ghosts;
   if (impl_->size == 1) return ghosts;
-  const std::unique_ptr<p4est_ghost_t, Releaser<p4est_ghost_destroy>> layer(
-      p4est_ghost_new(impl_->forest.get(), P4EST_CONNECT_FULL));
+  const std::unique_ptr<p4est_ghost_t, Releaser<p4est_ghost_destroy>> layer(p4est_ghost_new(impl_->forest.get(), P4EST_CONNECT_FULL));
   for (int rank = 0; rank < impl_->size; ++rank) {
     for (p4est_locidx_t i = layer->proc_offsets[rank]; i < layer->proc_offsets[rank + 1]; ++i) {
       const p4est_quadrant_t& q = *p4est_quadrant_array_index(&layer->ghosts, static_cast<std::size_t>(i));

@@ -10,9 +10,7 @@ namespace {
 constexpr int slope_bits = 20;
 
 /// Whether a leaf of size `small` at this gap forbids a leaf of size `large`.
-bool forbids(std::int64_t small, std::int64_t gap, std::int64_t large, std::int64_t slope) {
-  return ((large - small) << slope_bits) > gap * slope;
-}
+bool forbids(std::int64_t small, std::int64_t gap, std::int64_t large, std::int64_t slope) { return ((large - small) << slope_bits) > gap * slope; }
 
 }  // namespace
 

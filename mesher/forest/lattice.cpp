@@ -43,10 +43,8 @@ bool is_own_root(const Geometry& g) {
   const Box& box = g.box();
   const auto x = [](Point p) { return p.x; };
   const auto y = [](Point p) { return p.y; };
-  return side_is_boundary(g, box.low.y, box.low.x, box.high.x, x, y) &&
-         side_is_boundary(g, box.high.y, box.low.x, box.high.x, x, y) &&
-         side_is_boundary(g, box.low.x, box.low.y, box.high.y, y, x) &&
-         side_is_boundary(g, box.high.x, box.low.y, box.high.y, y, x);
+  return side_is_boundary(g, box.low.y, box.low.x, box.high.x, x, y) && side_is_boundary(g, box.high.y, box.low.x, box.high.x, x, y) &&
+         side_is_boundary(g, box.low.x, box.low.y, box.high.y, y, x) && side_is_boundary(g, box.high.x, box.low.y, box.high.y, y, x);
 }
 
 /// The smallest number of trees that tile the box with squares, if any.

@@ -21,9 +21,7 @@ struct Quadrant {
     const std::int64_t half = size() / 2;
     return {x + (k & 1) * half, y + (k >> 1) * half, level + 1};
   }
-  constexpr bool contains(const Quadrant& q) const {
-    return level <= q.level && x <= q.x && q.x < x + size() && y <= q.y && q.y < y + size();
-  }
+  constexpr bool contains(const Quadrant& q) const { return level <= q.level && x <= q.x && q.x < x + size() && y <= q.y && q.y < y + size(); }
   friend constexpr bool operator==(const Quadrant&, const Quadrant&) = default;
 };
 

@@ -4,7 +4,8 @@
 
 namespace quadloop {
 
-LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest) : rank_{comm.rank()}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()} {
+LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest)
+    : rank_{comm.rank()}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()} {
   const std::vector<Forest::Ghost> ghosts = forest.ghosts();
   std::vector<Quadrant> local = forest.leaves();
   for (const auto& ghost : ghosts) local_begin_ += ghost.owner < rank_ ? 1 : 0;

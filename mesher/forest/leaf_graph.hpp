@@ -58,9 +58,7 @@ class LeafGraph {
   };
   static constexpr bool is_inner(Ref ref) { return ref < none; }
   Ref& child(Ref inner, int k) { return inner_[static_cast<std::size_t>(-2 - inner)][static_cast<std::size_t>(k)]; }
-  Ref down(Ref ref, int k) const {
-    return is_inner(ref) ? inner_[static_cast<std::size_t>(-2 - ref)][static_cast<std::size_t>(k)] : ref;
-  }
+  Ref down(Ref ref, int k) const { return is_inner(ref) ? inner_[static_cast<std::size_t>(-2 - ref)][static_cast<std::size_t>(k)] : ref; }
   Ref new_inner();
   void build_trees(const Lattice& lattice);
   void visit(Ref ref, const Neighbours& n);

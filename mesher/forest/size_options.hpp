@@ -31,11 +31,11 @@ struct RootOptions {
 
 /// How fine the leaves are. Lengths in the geometry's unit.
 struct SizeOptions {
-  double min = 0;                      ///< no leaf is cut smaller than this; > 0
-  double max = 0;                      ///< no leaf stays larger than this; >= min
-  double gradation = 1.5;              ///< 1 < g <= 2: h <= h' + (g-1)/2 d
-  std::optional<double> curvature;     ///< degrees that a boundary may turn within one leaf
-  std::optional<double> gap;           ///< leaves across the gap between two boundaries
+  double min = 0;                   ///< no leaf is cut smaller than this; > 0
+  double max = 0;                   ///< no leaf stays larger than this; >= min
+  double gradation = 1.5;           ///< 1 < g <= 2: h <= h' + (g-1)/2 d
+  std::optional<double> curvature;  ///< degrees that a boundary may turn within one leaf
+  std::optional<double> gap;        ///< leaves across the gap between two boundaries
   std::vector<Source> sources;
   std::optional<RootOptions> root;
 };

@@ -128,8 +128,8 @@ bool SizeTree::turns_too_far(std::span<const std::int32_t> segments, const Box& 
   const Geometry& g = outline_->geometry();
   std::map<BoundaryId, std::int64_t> turned;
   for (const std::int32_t v : segments) {
-    const bool inside = outline_->beyond_x(v, box.low.x) && !outline_->beyond_x(v, box.high.x) &&
-                        outline_->beyond_y(v, box.low.y) && !outline_->beyond_y(v, box.high.y);
+    const bool inside = outline_->beyond_x(v, box.low.x) && !outline_->beyond_x(v, box.high.x) && outline_->beyond_y(v, box.low.y) &&
+                        !outline_->beyond_y(v, box.high.y);
     if (inside) turned[g.boundary_of(v)] += turning_[static_cast<std::size_t>(v)];
   }
   const auto allowed = std::llround(*options_->curvature / turning_unit);

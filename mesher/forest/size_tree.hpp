@@ -42,7 +42,7 @@ class SizeTree {
     std::int32_t parent = -1;
     std::int32_t children = unknown;  ///< index of the first of four, or one of the two below
     std::int32_t segments_begin = 0, segments_end = 0;
-    bool plain = false;  ///< nothing inside asks for leaves finer than `max` does
+    bool plain = false;               ///< nothing inside asks for leaves finer than `max` does
     std::int32_t deepest_split = -1;  ///< level of the deepest split node known at or below this one
     static constexpr std::int32_t unknown = -2, leaf = -1;
   };
@@ -74,8 +74,8 @@ class SizeTree {
   std::vector<double> spacing_;        ///< of each segment
   std::vector<std::int64_t> turning_;  ///< of each vertex, in 2^-20 degrees, 0 where it is kept as a corner
   int finest_;
-  int coarsest_;                       ///< the level at which leaves are no larger than `max`
-  std::int64_t slope_;                 ///< (g-1)/2 in units of 2^-20
+  int coarsest_;        ///< the level at which leaves are no larger than `max`
+  std::int64_t slope_;  ///< (g-1)/2 in units of 2^-20
   std::vector<Node> nodes_;
   std::vector<std::int32_t> segments_;
   std::vector<std::int32_t> found_;

@@ -15,8 +15,8 @@ using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
 using Extent = bg::model::box<Corner>;
 using Entry = std::pair<Extent, std::int32_t>;
 
-constexpr double facing_cosine = 0.5;        ///< two pieces face each other where the way across leaves both within 60 degrees of the normal
-constexpr double bend_length = 3;            ///< of the gap: a shorter piece of outline between its two sides is a bend, not a gap
+constexpr double facing_cosine = 0.5;          ///< two pieces face each other where the way across leaves both within 60 degrees of the normal
+constexpr double bend_length = 3;              ///< of the gap: a shorter piece of outline between its two sides is a bend, not a gap
 constexpr double straight_sides_degrees = 30;  ///< what the two sides of a corner may turn by besides
 
 Point nearest(Point p, Point a, Point b) {
@@ -113,7 +113,8 @@ bool GapTest::narrower(std::span<const std::int32_t> segments, const Box& box, d
   const Geometry& g = *geometry_;
   for (const std::int32_t a : segments) {
     const auto [from, to] = clip(g.point(a), g.point(g.next(a)), box);
-    const Corner low{std::min(from.x, to.x) - width, std::min(from.y, to.y) - width}, high{std::max(from.x, to.x) + width, std::max(from.y, to.y) + width};
+    const Corner low{std::min(from.x, to.x) - width, std::min(from.y, to.y) - width},
+        high{std::max(from.x, to.x) + width, std::max(from.y, to.y) + width};
     const auto near = index_->tree.qbegin(bg::index::intersects(Extent{low, high}));
     for (auto b = near; b != index_->tree.qend(); ++b) {
       if (b->second != a && faces(a, from, to, b->second, width)) return true;

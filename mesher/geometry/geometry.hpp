@@ -21,8 +21,8 @@ struct Chain {
 /// What a boundary asks of the mesh, and what a solver is told of it.
 struct Boundary {
   std::string name;
-  double spacing = 0;         ///< length wanted along it; 0: the geometry's own point spacing
-  double corner_degrees = 30; ///< a point that turns by more is kept as a node; 180 keeps none
+  double spacing = 0;              ///< length wanted along it; 0: the geometry's own point spacing
+  double corner_degrees = 30;      ///< a point that turns by more is kept as a node; 180 keeps none
   std::string condition = "none";  ///< wall | farfield | inflow | outflow | symmetry | interface | none
 };
 
@@ -52,8 +52,8 @@ class Geometry {
 
   /// Whether the vertex must become a mesh node: it turns by more than its boundary's corner, or two boundaries meet there.
   bool kept(std::int32_t v) const { return kept_[static_cast<std::size_t>(v)] != 0; }
-  /// Whether the outline runs straight on through the vertex (to straight_degrees) within one boundary: such a point is no feature, so a mesh does not
-  /// change when segments are split.
+  /// Whether the outline runs straight on through the vertex (to straight_degrees) within one boundary: such a point is no feature, so a mesh does
+  /// not change when segments are split.
   bool straight(std::int32_t v) const { return straight_[static_cast<std::size_t>(v)] != 0; }
   static constexpr double straight_degrees = 1e-6;
   /// By how much the outline turns at the vertex, in degrees, 0 to 180.

@@ -36,9 +36,7 @@ struct Box {
   constexpr double height() const { return high.y - low.y; }
   constexpr Point centre() const { return {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)}; }
   constexpr bool contains(Point p) const { return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y; }
-  constexpr bool meets(const Box& b) const {
-    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y;
-  }
+  constexpr bool meets(const Box& b) const { return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y; }
 };
 
 }  // namespace quadloop

@@ -57,8 +57,7 @@ bool ShiftedOutline::has_left(std::int32_t segment, Point p) const {
 bool ShiftedOutline::meets(std::int32_t segment, const Box& box) const {
   const std::int32_t end = geometry_->next(segment);
   const Point a = geometry_->point(segment), b = geometry_->point(end);
-  if (std::max(a.x, b.x) < box.low.x || std::min(a.x, b.x) > box.high.x || std::max(a.y, b.y) < box.low.y ||
-      std::min(a.y, b.y) > box.high.y) {
+  if (std::max(a.x, b.x) < box.low.x || std::min(a.x, b.x) > box.high.x || std::max(a.y, b.y) < box.low.y || std::min(a.y, b.y) > box.high.y) {
     return false;
   }
   const bool a_right = beyond_x(segment, box.low.x), b_right = beyond_x(end, box.low.x);

@@ -22,18 +22,17 @@ struct BoundaryEdges {
 /// ranks' nodes that its cells touch. The global order of cells is the order of ranks, then the order here. `boundaries` has
 /// the same entries in the same order on every rank (also where this rank has no edge of it).
 struct Mesh {
-  std::vector<Point> points;           ///< owned nodes, then copies
-  std::int64_t first_node = 0;         ///< global number of points[0]
+  std::vector<Point> points;    ///< owned nodes, then copies
+  std::int64_t first_node = 0;  ///< global number of points[0]
   std::int32_t owned_nodes = 0;
-  std::vector<GlobalNodeId> copies;    ///< global numbers of points[owned_nodes ...]
+  std::vector<GlobalNodeId> copies;  ///< global numbers of points[owned_nodes ...]
   std::vector<std::array<NodeId, 3>> triangles;
   std::vector<std::array<NodeId, 4>> quads;
   std::vector<BoundaryEdges> boundaries;
 
   const Point& point(NodeId node) const { return points[static_cast<std::size_t>(node.value())]; }
   GlobalNodeId global(NodeId node) const {
-    return node.value() < owned_nodes ? GlobalNodeId{first_node + node.value()}
-                                      : copies[static_cast<std::size_t>(node.value() - owned_nodes)];
+    return node.value() < owned_nodes ? GlobalNodeId{first_node + node.value()} : copies[static_cast<std::size_t>(node.value() - owned_nodes)];
   }
 };
 

@@ -52,10 +52,8 @@ NodeNumbering::Home NodeNumbering::home_of_place(std::int32_t leaf, int place) c
       if (around.west != none) return {around.west_half != none ? around.west_half : around.west, south_east, {}};
       if (around.south != none) return {around.south_half != none ? around.south_half : around.south, north_west, {}};
       return {leaf, south_west, {}};
-    case 1:
-      return around.south != none ? corner_home(around.south, q.x + q.size(), q.y) : Home{leaf, south_east, {}};
-    case 3:
-      return around.west != none ? corner_home(around.west, q.x, q.y + q.size()) : Home{leaf, north_west, {}};
+    case 1: return around.south != none ? corner_home(around.south, q.x + q.size(), q.y) : Home{leaf, south_east, {}};
+    case 3: return around.west != none ? corner_home(around.west, q.x, q.y + q.size()) : Home{leaf, north_west, {}};
     case 4: return {around.south_half, north_east, {}};
     case 5: return {leaf, right_middle, {}};
     case 6: return {leaf, top_middle, {}};
@@ -91,8 +89,10 @@ std::int32_t NodeNumbering::listed_node(std::int32_t leaf, Point position) const
 
 std::int32_t* NodeNumbering::local_slot(const Home& home) {
   if (home.slot == listed) return &listed_slots_[static_cast<std::size_t>(listed_node(home.leaf, home.position))];
-  if (home.slot >= north_east) return &inner_slots_[static_cast<std::size_t>(home.leaf - graph_->local_begin())][static_cast<std::size_t>(home.slot - north_east)];
-  const auto at = std::lower_bound(border_slots_.begin(), border_slots_.end(), home.leaf, [](const auto& entry, std::int32_t leaf) { return entry.first < leaf; });
+  if (home.slot >= north_east)
+    return &inner_slots_[static_cast<std::size_t>(home.leaf - graph_->local_begin())][static_cast<std::size_t>(home.slot - north_east)];
+  const auto at = std::lower_bound(border_slots_.begin(), border_slots_.end(), home.leaf,
+                                   [](const auto& entry, std::int32_t leaf) { return entry.first < leaf; });
   QUADLOOP_REQUIRE(at != border_slots_.end() && at->first == home.leaf, "a leaf off the root's border owns a lower corner");
   return &at->second[static_cast<std::size_t>(home.slot)];
 }
@@ -134,7 +134,8 @@ void NodeNumbering::mark_used() {
     const auto entry = static_cast<std::size_t>(cut_->entry_of[local]);
     const CutForest::Mark &begin = cut_->entries[entry].begin, &end = cut_->entries[entry].end;
     const auto mark_node = [&](std::int32_t n) { mark(home_of_cut_node(leaf, cut_->nodes[static_cast<std::size_t>(begin.nodes + n)])); };
-    for (const auto& triangle : CutForest::part(cut_->triangles, begin.triangles, end.triangles)) std::for_each(triangle.begin(), triangle.end(), mark_node);
+    for (const auto& triangle : CutForest::part(cut_->triangles, begin.triangles, end.triangles))
+      std::for_each(triangle.begin(), triangle.end(), mark_node);
     for (const auto& quad : CutForest::part(cut_->quads, begin.quads, end.quads)) std::for_each(quad.begin(), quad.end(), mark_node);
     for (const auto& edge : CutForest::part(cut_->outline, begin.outline, end.outline)) {
       mark_node(edge.from);

@@ -59,12 +59,12 @@ class NodeNumbering {
   const Lattice* lattice_;
   const LeafGraph* graph_;
   const CutForest* cut_;
-  std::vector<std::array<std::int32_t, 3>> inner_slots_;  ///< of each local leaf: north east, right middle, top middle
+  std::vector<std::array<std::int32_t, 3>> inner_slots_;                            ///< of each local leaf: north east, right middle, top middle
   std::vector<std::pair<std::int32_t, std::array<std::int32_t, 3>>> border_slots_;  ///< of leaves on the root's lower or left side, by leaf
-  std::vector<std::int32_t> listed_slots_;                ///< of each of CutForest::nodes
-  std::vector<std::vector<Request>> wanted_;              ///< from each rank, sorted
-  std::vector<std::vector<Request>> asked_;               ///< by each rank
-  std::vector<std::vector<std::int32_t>> wanted_nodes_;   ///< numbers here of what was wanted
+  std::vector<std::int32_t> listed_slots_;                                          ///< of each of CutForest::nodes
+  std::vector<std::vector<Request>> wanted_;                                        ///< from each rank, sorted
+  std::vector<std::vector<Request>> asked_;                                         ///< by each rank
+  std::vector<std::vector<std::int32_t>> wanted_nodes_;                             ///< numbers here of what was wanted
   std::vector<Point> points_;
   std::int64_t first_node_ = 0;
   std::int32_t owned_ = 0;

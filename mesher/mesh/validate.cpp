@@ -84,8 +84,8 @@ void check_coincident(const Mesh& mesh, Faults& faults) {
   std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) { return at(i) < at(j); });
   for (std::size_t k = 1; k < order.size(); ++k) {
     if (at(order[k]) != at(order[k - 1])) continue;
-    faults.push_back({MeshRule::coincident, "nodes " + std::to_string(order[k - 1] + 1) + " and " + std::to_string(order[k] + 1) + " coincide",
-                      at(order[k])});
+    faults.push_back(
+        {MeshRule::coincident, "nodes " + std::to_string(order[k - 1] + 1) + " and " + std::to_string(order[k] + 1) + " coincide", at(order[k])});
   }
 }
 
@@ -150,7 +150,8 @@ std::vector<OuterEdge> outer_edges(const Mesh& mesh, const EdgeTable& table) {
 std::vector<MeshFault> validate(const Mesh& mesh, const CellBlocks& blocks) {
   Faults faults;
   check_indices(mesh, faults);
-  const bool senseless = std::any_of(faults.begin(), faults.end(), [](const MeshFault& f) { return f.what.find("belongs to no cell") == std::string::npos; });
+  const bool senseless =
+      std::any_of(faults.begin(), faults.end(), [](const MeshFault& f) { return f.what.find("belongs to no cell") == std::string::npos; });
   if (senseless) return faults;
   const EdgeTable table(mesh);
   check_coincident(mesh, faults);

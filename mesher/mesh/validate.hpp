@@ -46,12 +46,12 @@ std::int64_t pinched_nodes(const Mesh& mesh);
 /// How a mesh follows its geometry.
 struct GeometryFit {
   std::vector<MeshFault> faults;
-  std::int64_t boundaries_dropped = 0;   ///< of the geometry, that the mesh lacks
-  std::int64_t sharp_corners = 0;        ///< points where a closed boundary turns by more than 30 degrees, ends of open ones
-  std::int64_t sharp_corners_lost = 0;   ///< of these, no mesh node
-  double boundary_node_distance = 0;     ///< largest distance of a boundary node to its boundary
-  double geometry_distance = 0;          ///< largest distance of a point of the geometry to its boundary in the mesh
-  double area_error = 0;                 ///< relative
+  std::int64_t boundaries_dropped = 0;  ///< of the geometry, that the mesh lacks
+  std::int64_t sharp_corners = 0;       ///< points where a closed boundary turns by more than 30 degrees, ends of open ones
+  std::int64_t sharp_corners_lost = 0;  ///< of these, no mesh node
+  double boundary_node_distance = 0;    ///< largest distance of a boundary node to its boundary
+  double geometry_distance = 0;         ///< largest distance of a point of the geometry to its boundary in the mesh
+  double area_error = 0;                ///< relative
 };
 
 /// Compares a valid mesh, whole on this rank, with the polylines it was made from. `tolerance` is relative to the mesh's extent.

@@ -19,16 +19,14 @@ using IndexPoint = bg::model::point<double, 2, bg::cs::cartesian>;
 using IndexBox = bg::model::box<IndexPoint>;
 using Index = bg::index::rtree<std::pair<IndexBox, std::uint32_t>, bg::index::quadratic<16>>;
 
-constexpr double area_tolerance = 1e-10;      // relative: rounding of a sum over many cells
-constexpr double turn_tolerance = 1e-4;       // degrees
+constexpr double area_tolerance = 1e-10;  // relative: rounding of a sum over many cells
+constexpr double turn_tolerance = 1e-4;   // degrees
 constexpr double full_turn = 360;
 constexpr std::size_t most_components = 2000;  // whose winding is counted; beyond, the other rules must do
 
 struct Segment {
   Point from, to;
-  IndexBox box() const {
-    return {{std::min(from.x, to.x), std::min(from.y, to.y)}, {std::max(from.x, to.x), std::max(from.y, to.y)}};
-  }
+  IndexBox box() const { return {{std::min(from.x, to.x), std::min(from.y, to.y)}, {std::max(from.x, to.x), std::max(from.y, to.y)}}; }
 };
 
 /// Whether two boundary edges meet but at a common end.
@@ -76,9 +74,7 @@ std::vector<Point> piece_seeds(const Mesh& mesh) {
     }
     return i;
   };
-  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
-    parent[static_cast<std::size_t>(root(from.value()))] = root(to.value());
-  });
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) { parent[static_cast<std::size_t>(root(from.value()))] = root(to.value()); });
   std::vector<char> seen(mesh.points.size(), 0);
   std::vector<Point> seeds;
   const auto visit = [&](const auto& cells) {
@@ -122,10 +118,10 @@ void check_area(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
   for (const auto& q : mesh.quads) cells += cross(at(q[2]) - at(q[0]), at(q[3]) - at(q[1])) / 2;
   for (const OuterEdge& edge : outer_edges(mesh, table)) enclosed += cross(at(edge.from) - origin, at(edge.to) - origin) / 2;
   if (std::abs(cells - enclosed) <= area_tolerance * std::abs(enclosed)) return;
-  faults.push_back({MeshRule::area,
-                    "the cells cover " + std::to_string(static_cast<double>(cells)) + ", the boundary encloses " +
-                        std::to_string(static_cast<double>(enclosed)),
-                    origin});
+  faults.push_back(
+      {MeshRule::area,
+       "the cells cover " + std::to_string(static_cast<double>(cells)) + ", the boundary encloses " + std::to_string(static_cast<double>(enclosed)),
+       origin});
 }
 
 void check_overlap(const Mesh& mesh, const EdgeTable& table, Faults& faults) {

@@ -59,7 +59,7 @@ TEST(LeafCutter, ADiagonalCut) {
 }
 
 TEST(LeafCutter, ASegmentAlongASideBelongsToTheDomainsSide) {
-  const Cut inside = cut_unit_square(loops_of({{{0, -1}, {3, -1}, {3, 3}, {0, 3}}}));   // domain right of x = 0
+  const Cut inside = cut_unit_square(loops_of({{{0, -1}, {3, -1}, {3, 3}, {0, 3}}}));  // domain right of x = 0
   EXPECT_TRUE(inside.sound);
   EXPECT_EQ(inside.cells, 1U);
   EXPECT_EQ(inside.area, 1.0);

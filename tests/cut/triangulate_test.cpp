@@ -1,10 +1,11 @@
+#include "mesher/cut/triangulate.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 #include <random>
 
-#include "mesher/cut/triangulate.hpp"
 #include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {

@@ -1,7 +1,8 @@
+#include "mesher/forest/lattice.hpp"
+
 #include <gtest/gtest.h>
 
 #include "mesher/base/error.hpp"
-#include "mesher/forest/lattice.hpp"
 
 namespace quadloop {
 namespace {

@@ -1,6 +1,7 @@
+#include "mesher/forest/leaf_graph.hpp"
+
 #include <gtest/gtest.h>
 
-#include "mesher/forest/leaf_graph.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -9,7 +10,11 @@ namespace {
 /// A brick of 3 by 2 trees, refined towards one point.
 Forest refined_brick(const Lattice& lattice) {
   Forest forest(test::world(), lattice);
-  forest.refine([](const Quadrant& q) { return q.level < 2 || (q.contains({(std::int64_t{3} << 29) + 5, (std::int64_t{1} << 30) - 7, 30}) && q.level < 6); }, 6);
+  forest.refine(
+      [](const Quadrant& q) {
+        return q.level < 2 || (q.contains({(std::int64_t{3} << 29) + 5, (std::int64_t{1} << 30) - 7, 30}) && q.level < 6);
+      },
+      6);
   forest.refine([](const Quadrant& q) { return q.level < 4; }, 4);  // levels 4 to 6: touching leaves may differ by two, which the graph must stand
   forest.partition();
   return forest;

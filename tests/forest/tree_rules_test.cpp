@@ -143,8 +143,8 @@ TEST(TreeRules, SourcesRefineWithoutGeometry) {
 
 TEST(TreeRules, GapsAreResolvedButCornersAreNot) {
   // Two bars 0.02 apart, which their own spacing of 0.2 would not resolve.
-  const std::vector<Point> points{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-0.5, 0.01}, {-0.5, 0.21}, {0.5, 0.21}, {0.5, 0.01},
-                                  {-0.5, -0.21}, {-0.5, -0.01}, {0.5, -0.01}, {0.5, -0.21}};
+  const std::vector<Point> points{{-1, -1},    {1, -1},     {1, 1},        {-1, 1},       {-0.5, 0.01}, {-0.5, 0.21},
+                                  {0.5, 0.21}, {0.5, 0.01}, {-0.5, -0.21}, {-0.5, -0.01}, {0.5, -0.01}, {0.5, -0.21}};
   std::vector<BoundaryId> boundary(4, BoundaryId{0});
   boundary.resize(12, BoundaryId{1});
   const Geometry geometry({{"frame", 0.5, 30, "none"}, {"bars", 0.2, 30, "wall"}}, points, {0, 4, 8, 12}, boundary);

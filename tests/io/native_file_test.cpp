@@ -1,7 +1,8 @@
 // The native reader: what it accepts, and what it refuses by line. It works on one rank alone.
+#include "io/native_file.hpp"
+
 #include <gtest/gtest.h>
 
-#include "io/native_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -13,10 +14,10 @@ using test::TemporaryFolder;
 
 /// One square of two triangles; the line numbers below count in it.
 const std::string square =
-    "#Number of grid points\n4\n0 0\n1 0\n1 1\n0 1\n"                                   // 1-6
-    "#Number of blocks\n1\n#Number of triangular elements\n2\n1 2 3\n1 3 4\n"          // 7-12
-    "#Number of quadrilateral elements\n0\n#Number of boundaries\n1\n"                 // 13-16
-    "#Number of edges for boundary 1 (wall)\n4\n1 2\n2 3\n3 4\n4 1\n";                 // 17-22
+    "#Number of grid points\n4\n0 0\n1 0\n1 1\n0 1\n"                                                                     // 1-6
+    "#Number of blocks\n1\n#Number of triangular elements\n2\n1 2 3\n1 3 4\n"                                             // 7-12
+    "#Number of quadrilateral elements\n0\n#Number of boundaries\n1\n"                                                    // 13-16
+    "#Number of edges for boundary 1 (wall)\n4\n1 2\n2 3\n3 4\n4 1\n";                                                    // 17-22
 const std::string solution = "#Number of constants\n1\n0.5\n#Number of variables\n2\n#names: a b\n1 2\n3 4\n5 6\n7 8\n";  // 23-32
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {

@@ -1,11 +1,12 @@
 // Outputs appear whole or not at all, and every rank learns of a failure.
+#include "io/output_file.hpp"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "io/cgns_file.hpp"
 #include "io/native_file.hpp"
-#include "io/output_file.hpp"
 #include "io/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -29,7 +30,8 @@ TEST(OutputSet, MissingFolderIsRefusedOnAllRanks) {
   const std::string inside = folder.file("missing/out");
   EXPECT_EQ(test::status_of([&] { write_native(world(), own, inside + ".mesh"); }), ExitStatus::output_failed);
   EXPECT_EQ(test::status_of([&] { write_cgns(world(), own, inside + ".cgns"); }), ExitStatus::output_failed);
-  EXPECT_EQ(test::status_of([&] { write_tree(world(), test::sample_tree(10, world().rank(), world().size()), inside + ".h5"); }), ExitStatus::output_failed);
+  EXPECT_EQ(test::status_of([&] { write_tree(world(), test::sample_tree(10, world().rank(), world().size()), inside + ".h5"); }),
+            ExitStatus::output_failed);
   EXPECT_EQ(test::status_of([&] { write_native(world(), own, folder.path()); }), ExitStatus::output_failed);
   EXPECT_EQ(test::files_in(folder.path()), 0U);
 }

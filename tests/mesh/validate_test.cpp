@@ -27,9 +27,7 @@ Mesh square() {
 }
 
 /// The outline of square(), as two chains.
-std::vector<Chain> outline() {
-  return {{"wall", true, {{0, 0}, {2, 0}, {2, 2}}, ""}, {"far", true, {{2, 2}, {0, 2}, {0, 0}}, ""}};
-}
+std::vector<Chain> outline() { return {{"wall", true, {{0, 0}, {2, 0}, {2, 2}}, ""}, {"far", true, {{2, 2}, {0, 2}, {0, 0}}, ""}}; }
 
 bool has(const std::vector<MeshFault>& faults, MeshRule rule) {
   return std::any_of(faults.begin(), faults.end(), [&](const MeshFault& fault) { return fault.rule == rule; });
@@ -113,7 +111,8 @@ TEST(Validate, PinchedNodesAreCountedButAllowed) {
   mesh.points = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   mesh.owned_nodes = 5;
   mesh.triangles = {{node(0), node(1), node(2)}, {node(0), node(3), node(4)}};
-  mesh.boundaries = {{"b", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(0)}, {node(0), node(3)}, {node(3), node(4)}, {node(4), node(0)}}}};
+  mesh.boundaries = {
+      {"b", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(0)}, {node(0), node(3)}, {node(3), node(4)}, {node(4), node(0)}}}};
   EXPECT_TRUE(validate(mesh).empty());
   EXPECT_EQ(pinched_nodes(mesh), 1);
 }
@@ -143,7 +142,8 @@ TEST(ValidateGeometry, FindsWhatIsOff) {
 }
 
 TEST(ValidateGeometry, CountsLostCornersAndMissingArea) {
-  const std::vector<Chain> spiked{{"wall", true, {{0, 0}, {2, 0}, {2, 2}}, ""}, {"far", true, {{2, 2}, {0, 2}, {0, 0}}, ""},
+  const std::vector<Chain> spiked{{"wall", true, {{0, 0}, {2, 0}, {2, 2}}, ""},
+                                  {"far", true, {{2, 2}, {0, 2}, {0, 0}}, ""},
                                   {"hole", false, {{0.4, 0.4}, {0.4, 1.6}, {1.6, 1.6}, {1.6, 0.4}}, ""}};
   const GeometryFit fit = validate_geometry(square(), spiked);
   EXPECT_EQ(fit.boundaries_dropped, 1);

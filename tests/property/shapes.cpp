@@ -9,9 +9,7 @@ namespace {
 
 using Points = std::vector<Point>;
 
-double uniform(Random& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
+double uniform(Random& random, double low, double high) { return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53; }
 
 int pick(Random& random, int low, int high) { return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1)); }
 
@@ -150,9 +148,7 @@ Shape several_boundaries(Random& random) {
 
 Shape random_shape(Random& random) {
   const Point by = pick(random, 0, 1) == 0 ? Point{} : Point{uniform(random, -0.05, 0.05), uniform(random, -0.05, 0.05)};
-  const auto inside_frame = [&](const char* name, Points points) {
-    return Shape{name, {square(1), loop("body", shifted(std::move(points), by))}};
-  };
+  const auto inside_frame = [&](const char* name, Points points) { return Shape{name, {square(1), loop("body", shifted(std::move(points), by))}}; };
   switch (pick(random, 0, 11)) {
     case 0: return {"star", {loop("body", star(random, by, 0.1, 0.9, pick(random, 3, 40)))}};
     case 1: return inside_frame("star hole", star(random, {0, 0}, 0.05, 0.8, pick(random, 3, 60)));
