@@ -2,7 +2,6 @@
 
 #include <p4est_bits.h>
 #include <p4est_extended.h>
-#include <p4est_ghost.h>
 
 #include <cmath>
 
@@ -66,17 +65,21 @@ struct Forest::Impl {
   std::unique_ptr<p4est_connectivity_t, Releaser<p4est_connectivity_destroy>> connectivity;  // outlives the forest
   std::unique_ptr<p4est_t, Releaser<p4est_destroy>> forest;
   std::vector<Quadrant> tree_corners;
-  int size = 1;
+  std::vector<std::int32_t> tree_numbers;  ///< row by row
+  int trees_x = 1;
 };
 
 Forest::Forest(const Communicator& comm, const Lattice& lattice) : impl_{std::make_unique<Impl>()} {
   quieten_p4est();
-  impl_->size = comm.size();
+  impl_->trees_x = lattice.trees_x();
   impl_->connectivity.reset(p4est_connectivity_new_brick(lattice.trees_x(), lattice.trees_y(), 0, 0));
   p4est_connectivity_t& trees = *impl_->connectivity;
+  impl_->tree_numbers.resize(static_cast<std::size_t>(trees.num_trees));
   for (p4est_topidx_t t = 0; t < trees.num_trees; ++t) {
     const double* corner = trees.vertices + 3 * trees.tree_to_vertex[P4EST_CHILDREN * t];
-    impl_->tree_corners.push_back({std::llround(corner[0]) << Quadrant::unit_level, std::llround(corner[1]) << Quadrant::unit_level, 0});
+    const std::int64_t column = std::llround(corner[0]), row = std::llround(corner[1]);
+    impl_->tree_corners.push_back({column << Quadrant::unit_level, row << Quadrant::unit_level, 0});
+    impl_->tree_numbers[static_cast<std::size_t>(row * lattice.trees_x() + column)] = t;
   }
   impl_->forest.reset(p4est_new_ext(comm.raw(), impl_->connectivity.get(), 0, 1, 1, 0, nullptr, nullptr));
 }
@@ -121,17 +124,17 @@ std::vector<Quadrant> Forest::leaves() const {
   return leaves;
 }
 
-std::vector<Forest::Ghost> Forest::ghosts() const {
-  std::vector<Ghost> ghosts;
-  if (impl_->size == 1) return ghosts;
-  const std::unique_ptr<p4est_ghost_t, Releaser<p4est_ghost_destroy>> layer(p4est_ghost_new(impl_->forest.get(), P4EST_CONNECT_FULL));
-  for (int rank = 0; rank < impl_->size; ++rank) {
-    for (p4est_locidx_t i = layer->proc_offsets[rank]; i < layer->proc_offsets[rank + 1]; ++i) {
-      const p4est_quadrant_t& q = *p4est_quadrant_array_index(&layer->ghosts, static_cast<std::size_t>(i));
-      ghosts.push_back({place_of(impl_->tree_corners, q.p.piggy3.which_tree, q), rank, q.p.piggy3.local_num});
-    }
+std::vector<CurvePlace> Forest::begins() const {
+  std::vector<CurvePlace> begins;
+  for (int rank = 0; rank <= impl_->forest->mpisize; ++rank) {
+    const p4est_quadrant_t& first = impl_->forest->global_first_position[rank];
+    begins.push_back({first.p.which_tree, p4est_quadrant_linear_id(&first, P4EST_MAXLEVEL)});
   }
-  return ghosts;
+  return begins;
+}
+
+std::int32_t Forest::tree_at(const Quadrant& q) const {
+  return impl_->tree_numbers[static_cast<std::size_t>((q.y >> Quadrant::unit_level) * impl_->trees_x + (q.x >> Quadrant::unit_level))];
 }
 
 }  // namespace quadloop

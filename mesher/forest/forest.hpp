@@ -1,5 +1,7 @@
 #pragma once
 
+#include <compare>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -8,6 +10,13 @@
 #include "mesher/forest/lattice.hpp"
 
 namespace quadloop {
+
+/// A unit square by its place on the space-filling curve: first along the trees, then (Morton order) within the tree.
+struct CurvePlace {
+  std::int32_t tree = 0;
+  std::uint64_t square = 0;
+  friend auto operator<=>(const CurvePlace&, const CurvePlace&) = default;
+};
 
 /// The quadtrees over the root, their leaves distributed over the ranks in the order of the space-filling curve. The only owner
 /// of the p4est structures. Every member function but the plain reads is *collective*.
@@ -34,14 +43,10 @@ class Forest {
   /// This rank's leaves in the order of the curve.
   std::vector<Quadrant> leaves() const;
 
-  /// A leaf of another rank that touches one of this rank's, by an edge or a corner.
-  struct Ghost {
-    Quadrant place;
-    int owner = 0;
-    std::int32_t index = 0;  ///< its number on its owner
-  };
-  /// All of them, in the order of the curve.
-  std::vector<Ghost> ghosts() const;
+  /// Where on the curve each rank's leaves begin, and last the curve's end. Not collective.
+  std::vector<CurvePlace> begins() const;
+  /// The number along the curve of the tree that holds the quadrant. Not collective.
+  std::int32_t tree_at(const Quadrant& q) const;
 
  private:
   struct Impl;

@@ -2,12 +2,14 @@
 
 #include <bit>
 
+#include "mesher/forest/ghost_layer.hpp"
+
 namespace quadloop {
 
 LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest)
     : rank_{comm.rank()}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()} {
-  const std::vector<Forest::Ghost> ghosts = forest.ghosts();
-  std::vector<Quadrant> local = forest.leaves();
+  const std::vector<Quadrant> local = forest.leaves();
+  const std::vector<Ghost> ghosts = ghost_layer(comm, lattice, forest, local);
   for (const auto& ghost : ghosts) local_begin_ += ghost.owner < rank_ ? 1 : 0;
   local_count_ = static_cast<std::int32_t>(local.size());
   leaves_.reserve(local.size() + ghosts.size());

@@ -1,6 +1,7 @@
 #include "mesher/forest/refine_forest.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace quadloop {
 
@@ -10,15 +11,56 @@ constexpr std::int64_t leaves_to_share = 64;  ///< for each rank, before the fir
 constexpr int last_levels = 3;                ///< refined after the second partition
 constexpr int weight_unfinished = 16;         ///< of a leaf that is yet to be split, down those levels
 
-/// Flags for the local leaves that have finer neighbours on opposite sides.
-std::vector<char> squeezed_leaves(const LeafGraph& graph) {
-  std::vector<char> marked;
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-    const unsigned finer = graph.around(leaf).finer;
-    marked.push_back((finer & (finer >> 2)) != 0);
+/// Finds the leaves that have finer neighbours on opposite sides, and those that get them when these are split.
+class SqueezedLeaves {
+ public:
+  explicit SqueezedLeaves(const LeafGraph& graph) : graph_{graph} {
+    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) finer_.push_back(graph.around(leaf).finer);
+    marked_.assign(finer_.size(), 0);
+    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) mark(leaf);
+    while (!waiting_.empty()) {
+      const std::int32_t leaf = waiting_.back();
+      waiting_.pop_back();
+      tell_neighbours(leaf);
+    }
   }
-  return marked;
-}
+
+  bool any() const { return any_; }
+  /// A flag for each local leaf.
+  const std::vector<char>& marked() const { return marked_; }
+
+ private:
+  std::size_t local(std::int32_t leaf) const { return static_cast<std::size_t>(leaf - graph_.local_begin()); }
+
+  void mark(std::int32_t leaf) {
+    const unsigned finer = finer_[local(leaf)];
+    if ((finer & (finer >> 2)) == 0 || marked_[local(leaf)] != 0) return;
+    marked_[local(leaf)] = 1;
+    any_ = true;
+    waiting_.push_back(leaf);
+  }
+
+  /// A leaf as large as the one that splits gets a finer neighbour.
+  void tell_neighbours(std::int32_t leaf) {
+    const Quadrant& q = graph_.leaf(leaf);
+    const std::int64_t s = q.size();
+    constexpr int sides = 4;
+    const std::array<std::int32_t, sides> across{graph_.leaf_at(q.x, q.y - 1), graph_.leaf_at(q.x + s, q.y), graph_.leaf_at(q.x, q.y + s),
+                                                 graph_.leaf_at(q.x - 1, q.y)};
+    for (int side = 0; side < sides; ++side) {
+      const std::int32_t neighbour = across[static_cast<std::size_t>(side)];
+      if (neighbour == LeafGraph::none || !graph_.is_local(neighbour) || graph_.leaf(neighbour).level != q.level) continue;
+      finer_[local(neighbour)] |= static_cast<std::uint8_t>(1U << ((side + 2) % sides));
+      mark(neighbour);
+    }
+  }
+
+  const LeafGraph& graph_;
+  std::vector<std::uint8_t> finer_;
+  std::vector<char> marked_;
+  std::vector<std::int32_t> waiting_;
+  bool any_ = false;
+};
 
 /// The levels down to which the forest is refined before the leaves are shared out anew. Passes over finished leaves cost, so there are few.
 std::vector<int> stops_of(const Communicator& comm, const SizeTree& sizes) {
@@ -27,22 +69,31 @@ std::vector<int> stops_of(const Communicator& comm, const SizeTree& sizes) {
   int first = 1;
   while (first < finest && (std::int64_t{1} << (2 * first)) < leaves_to_share * comm.size()) ++first;
   std::vector<int> stops{first};
-  if (finest - last_levels > first) stops.push_back(finest - last_levels);
+  const int last = sizes.coarsest_level() > first + 2 ? sizes.coarsest_level() - 1 : finest - last_levels;
+  if (last > first && last < finest) stops.push_back(last);
   if (finest > first) stops.push_back(finest);
   return stops;
 }
 
+/// An estimate of the leaves that a quadrant will hold, in the end, for each that it holds where there is no outline: those as large as
+/// any may be, and about `leaves_across` of each finer size beside the outline.
+int leaves_to_come(const Quadrant& q, SizeTree& sizes) {
+  constexpr int leaves_across = 4, deepest = 12;
+  if (sizes.segments_in(q).empty()) return 1;
+  return 1 +
+         (leaves_across << std::min(sizes.finest_level() - q.level, deepest)) / (1 << 2 * std::clamp(sizes.coarsest_level() - q.level, 0, deepest));
+}
+
 /// The weights for sharing out the leaves at a stop: at the last one by the work of cutting, before by the leaves still to come.
 std::vector<int> weights_at(const Forest& forest, SizeTree& sizes, int stop) {
+  const auto weight = [&](const Quadrant& q) {
+    if (stop == sizes.finest_level()) return sizes.segments_in(q).empty() ? weight_uncut : weight_cut;
+    if (stop < sizes.coarsest_level()) return leaves_to_come(q, sizes);
+    return q.level == stop && sizes.must_split(q) ? weight_unfinished : 1;
+  };
   std::vector<int> weights;
   weights.reserve(static_cast<std::size_t>(forest.local_leaves()));
-  for (const Quadrant& q : forest.leaves()) {
-    if (stop == sizes.finest_level()) {
-      weights.push_back(sizes.segments_in(q).empty() ? weight_uncut : weight_cut);
-    } else {
-      weights.push_back(q.level == stop && sizes.must_split(q) ? weight_unfinished : 1);
-    }
-  }
+  for (const Quadrant& q : forest.leaves()) weights.push_back(weight(q));
   return weights;
 }
 
@@ -58,9 +109,9 @@ LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes) {
   }
   while (true) {
     LeafGraph graph(comm, sizes.lattice(), forest);
-    const std::vector<char> marked = squeezed_leaves(graph);
-    if (!comm.any(std::find(marked.begin(), marked.end(), 1) != marked.end())) return graph;
-    forest.split_marked(marked);
+    const SqueezedLeaves squeezed(graph);
+    if (!comm.any(squeezed.any())) return graph;
+    forest.split_marked(squeezed.marked());
   }
 }
 

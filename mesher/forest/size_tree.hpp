@@ -28,6 +28,7 @@ class SizeTree {
 
   const Lattice& lattice() const { return *lattice_; }
   int finest_level() const { return finest_; }
+  int coarsest_level() const { return coarsest_; }  ///< at which leaves are no larger than `max`
 
   /// Whether the quadrant must be split. Constant time on average where the quadrants come in the order of the curve.
   bool must_split(const Quadrant& q);
@@ -74,7 +75,7 @@ class SizeTree {
   std::vector<double> spacing_;        ///< of each segment
   std::vector<std::int64_t> turning_;  ///< of each vertex, in 2^-20 degrees, 0 where it is kept as a corner
   int finest_;
-  int coarsest_;        ///< the level at which leaves are no larger than `max`
+  int coarsest_;
   std::int64_t slope_;  ///< (g-1)/2 in units of 2^-20
   std::vector<Node> nodes_;
   std::vector<std::int32_t> segments_;
