@@ -7,9 +7,10 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::int64_t leaves_to_share = 64;  ///< for each rank, before the first partition
-constexpr int last_levels = 3;                ///< refined after the second partition
-constexpr int weight_unfinished = 16;         ///< of a leaf that is yet to be split, down those levels
+constexpr std::int64_t leaves_to_share = 64;    ///< for each rank, before the first partition
+constexpr std::int64_t leaves_to_judge = 4096;  ///< for each rank: enough to estimate the leaves to come well
+constexpr int last_levels = 3;                  ///< refined after the second partition, where such an estimate cannot be had
+constexpr int weight_unfinished = 16;           ///< of a leaf that is yet to be split, down those levels
 
 /// Finds the leaves that have finer neighbours on opposite sides, and those that get them when these are split.
 class SqueezedLeaves {
@@ -62,15 +63,21 @@ class SqueezedLeaves {
   bool any_ = false;
 };
 
+/// The level of a uniform tree with at least so many leaves.
+int level_with(std::int64_t leaves) {
+  int level = 1;
+  while (level < Quadrant::unit_level && (std::int64_t{1} << (2 * level)) < leaves) ++level;
+  return level;
+}
+
 /// The levels down to which the forest is refined before the leaves are shared out anew. Passes over finished leaves cost, so there are few.
 std::vector<int> stops_of(const Communicator& comm, const SizeTree& sizes) {
   const int finest = sizes.finest_level();
   if (comm.size() == 1) return {finest};
-  int first = 1;
-  while (first < finest && (std::int64_t{1} << (2 * first)) < leaves_to_share * comm.size()) ++first;
+  const int first = std::min(finest, level_with(leaves_to_share * comm.size())), judged = level_with(leaves_to_judge * comm.size());
   std::vector<int> stops{first};
-  const int last = sizes.coarsest_level() > first + 2 ? sizes.coarsest_level() - 1 : finest - last_levels;
-  if (last > first && last < finest) stops.push_back(last);
+  const int last = judged < sizes.coarsest_level() ? judged : finest - last_levels;
+  if (last > first) stops.push_back(last);
   if (finest > first) stops.push_back(finest);
   return stops;
 }
