@@ -33,7 +33,7 @@ struct Callbacks {
   const std::vector<Quadrant>* tree_corners = nullptr;
   const std::function<bool(const Quadrant&)>* split = nullptr;
   const std::vector<char>* marked = nullptr;
-  const std::vector<int>* weights = nullptr;
+  const std::function<int(const Quadrant&)>* weight = nullptr;
   std::size_t next = 0;  ///< leaf that the callback is asked about
 };
 
@@ -54,9 +54,9 @@ int split_by_mark(p4est_t* forest, p4est_topidx_t, p4est_quadrant_t*) {
   return (*callbacks.marked)[callbacks.next++];
 }
 
-int weight_of(p4est_t* forest, p4est_topidx_t, p4est_quadrant_t*) {
-  Callbacks& callbacks = callbacks_of(forest);
-  return (*callbacks.weights)[callbacks.next++];
+int weight_by_function(p4est_t* forest, p4est_topidx_t tree, p4est_quadrant_t* q) {
+  const Callbacks& callbacks = callbacks_of(forest);
+  return (*callbacks.weight)(place_of(*callbacks.tree_corners, tree, *q));
 }
 
 }  // namespace
@@ -102,11 +102,10 @@ void Forest::split_marked(const std::vector<char>& marked) {
 
 void Forest::partition() { p4est_partition_ext(impl_->forest.get(), 0, nullptr); }
 
-void Forest::partition(const std::vector<int>& weights) {
-  QUADLOOP_REQUIRE(weights.size() == static_cast<std::size_t>(local_leaves()), "one weight for each local leaf");
-  Callbacks callbacks{.weights = &weights};
+void Forest::partition(const std::function<int(const Quadrant&)>& weight) {
+  Callbacks callbacks{.tree_corners = &impl_->tree_corners, .weight = &weight};
   impl_->forest->user_pointer = &callbacks;
-  p4est_partition_ext(impl_->forest.get(), 0, weight_of);  // on every rank, also on one without leaves
+  p4est_partition_ext(impl_->forest.get(), 0, weight_by_function);  // on every rank, also on one without leaves
 }
 
 std::int32_t Forest::local_leaves() const { return impl_->forest->local_num_quadrants; }

@@ -34,9 +34,9 @@ class Forest {
   /// Splits once the local leaves whose flag is set (one flag a leaf, in order).
   void split_marked(const std::vector<char>& marked);
 
-  /// Moves leaves between ranks so that their numbers are shared out evenly, or their weights (one for each local leaf).
+  /// Moves leaves between ranks so that their numbers are shared out evenly, or their weights. `weight` is asked in the order of the curve.
   void partition();
-  void partition(const std::vector<int>& weights);
+  void partition(const std::function<int(const Quadrant&)>& weight);
 
   std::int32_t local_leaves() const;
   std::int64_t global_leaves() const;

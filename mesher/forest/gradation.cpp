@@ -12,6 +12,9 @@ constexpr int slope_bits = 20;
 /// Whether a leaf of size `small` at this gap forbids a leaf of size `large`.
 bool forbids(std::int64_t small, std::int64_t gap, std::int64_t large, std::int64_t slope) { return ((large - small) << slope_bits) > gap * slope; }
 
+/// The edge of the leaves of a level.
+std::int64_t leaf_size(int level) { return std::int64_t{1} << (Quadrant::unit_level - level); }
+
 }  // namespace
 
 bool SizeTree::must_split(const Quadrant& q) {
@@ -39,14 +42,14 @@ SizeTree::Step& SizeTree::step_above(const Quadrant& q) {
 void SizeTree::fill_near(Step& step, const std::vector<std::int32_t>& parents) {
   step.near.clear();
   step.has_near = true;
-  const std::int64_t half = step.place.size() / 2, smallest = std::int64_t{1} << (Quadrant::unit_level - finest_);
+  const std::int64_t half = step.place.size() / 2;
   for (const std::int32_t parent : parents) {
     if (!is_split(parent)) continue;
     const std::int32_t first = nodes_[static_cast<std::size_t>(parent)].children;
     for (std::int32_t child = first; child < first + 4; ++child) {
-      if (nodes_[static_cast<std::size_t>(child)].plain) continue;  // its leaves are as large as any may be
-      const std::int64_t gap = chebyshev_gap(step.place, nodes_[static_cast<std::size_t>(child)].place);
-      if (forbids(smallest, gap, half, slope_) && is_split(child)) step.near.push_back(child);
+      const Node& node = nodes_[static_cast<std::size_t>(child)];
+      if (node.plain) continue;  // its leaves are as large as any may be
+      if (forbids(leaf_size(node.finest), chebyshev_gap(step.place, node.place), half, slope_) && is_split(child)) step.near.push_back(child);
     }
   }
 }
@@ -64,11 +67,11 @@ bool SizeTree::forced(const Quadrant& q, const std::vector<std::int32_t>& near) 
 
 /// Whether some leaf of the wanted tree in this node forbids a leaf q.
 bool SizeTree::forced_by(const Quadrant& q, std::int32_t node) {
-  if (nodes_[static_cast<std::size_t>(node)].plain) return false;
-  const Quadrant place = nodes_[static_cast<std::size_t>(node)].place;
-  const std::int64_t smallest = std::int64_t{1} << (Quadrant::unit_level - finest_);
+  const Node& within = nodes_[static_cast<std::size_t>(node)];
+  if (within.plain) return false;
+  const Quadrant place = within.place;
   const std::int64_t gap = chebyshev_gap(q, place);
-  if (!forbids(smallest, gap, q.size(), slope_)) return false;
+  if (!forbids(leaf_size(within.finest), gap, q.size(), slope_)) return false;
   if (!is_split(node)) return forbids(place.size(), gap, q.size(), slope_);
   const std::int32_t first = nodes_[static_cast<std::size_t>(node)].children;
   for (std::int32_t child = first; child < first + 4; ++child) {

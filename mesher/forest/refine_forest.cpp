@@ -91,17 +91,11 @@ int leaves_to_come(const Quadrant& q, SizeTree& sizes) {
          (leaves_across << std::min(sizes.finest_level() - q.level, deepest)) / (1 << 2 * std::clamp(sizes.coarsest_level() - q.level, 0, deepest));
 }
 
-/// The weights for sharing out the leaves at a stop: at the last one by the work of cutting, before by the leaves still to come.
-std::vector<int> weights_at(const Forest& forest, SizeTree& sizes, int stop) {
-  const auto weight = [&](const Quadrant& q) {
-    if (stop == sizes.finest_level()) return sizes.segments_in(q).empty() ? weight_uncut : weight_cut;
-    if (stop < sizes.coarsest_level()) return leaves_to_come(q, sizes);
-    return q.level == stop && sizes.must_split(q) ? weight_unfinished : 1;
-  };
-  std::vector<int> weights;
-  weights.reserve(static_cast<std::size_t>(forest.local_leaves()));
-  for (const Quadrant& q : forest.leaves()) weights.push_back(weight(q));
-  return weights;
+/// The weight of a leaf when the leaves are shared out at a stop: at the last one by the work of cutting, before by the leaves still to come.
+int weight_at(const Quadrant& q, SizeTree& sizes, int stop) {
+  if (stop == sizes.finest_level()) return sizes.segments_in(q).empty() ? weight_uncut : weight_cut;
+  if (stop < sizes.coarsest_level()) return leaves_to_come(q, sizes);
+  return q.level == stop && sizes.must_split(q) ? weight_unfinished : 1;
 }
 
 }  // namespace
@@ -111,7 +105,7 @@ LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes) {
   int refined = 1;
   for (const int stop : stops_of(comm, sizes)) {
     forest.refine([&](const Quadrant& q) { return q.level >= refined && sizes.must_split(q); }, stop);
-    if (comm.size() > 1) forest.partition(weights_at(forest, sizes, stop));
+    if (comm.size() > 1) forest.partition([&](const Quadrant& q) { return weight_at(q, sizes, stop); });
     refined = stop;
   }
   while (true) {

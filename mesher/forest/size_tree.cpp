@@ -54,7 +54,7 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
         if (outline.meets(s, box)) segments_.push_back(s);
       }
       root.segments_end = static_cast<std::int32_t>(segments_.size());
-      root.plain = is_plain(root, box);
+      judge(root, box);
       roots_.push_back(static_cast<std::int32_t>(nodes_.size()));
       nodes_.push_back(root);
     }
@@ -89,7 +89,7 @@ void SizeTree::grow(std::int32_t node) {
       if (outline_->meets(s, box)) segments_.push_back(s);
     }
     child.segments_end = static_cast<std::int32_t>(segments_.size());
-    child.plain = parent.plain || is_plain(child, box);
+    judge(child, box);
     nodes_.push_back(child);
   }
   for (std::int32_t n = node; n >= 0 && nodes_[static_cast<std::size_t>(n)].deepest_split < parent.place.level;
@@ -98,9 +98,23 @@ void SizeTree::grow(std::int32_t node) {
   }
 }
 
-bool SizeTree::is_plain(const Node& node, const Box& box) const {
-  return node.segments_begin == node.segments_end &&
-         std::none_of(options_->sources.begin(), options_->sources.end(), [&](const Source& s) { return meets(s, box); });
+/// What can be said of a node's leaves without splitting it.
+void SizeTree::judge(Node& node, const Box& box) const {
+  node.plain = node.segments_begin == node.segments_end;
+  int finest = node.plain ? coarsest_ : finest_;
+  for (const Source& source : options_->sources) {
+    if (!meets(source, box)) continue;
+    node.plain = false;
+    finest = std::max(finest, level_for(source.spacing));
+  }
+  node.finest = static_cast<std::int8_t>(finest);
+}
+
+/// The coarsest level that a source of this spacing is content with.
+int SizeTree::level_for(double spacing) const {
+  int level = coarsest_;
+  while (level < finest_ && lattice_->edge(level) > spacing) ++level;
+  return level;
 }
 
 bool SizeTree::wants_split(const Node& node) const {

@@ -44,6 +44,7 @@ class SizeTree {
     std::int32_t children = unknown;  ///< index of the first of four, or one of the two below
     std::int32_t segments_begin = 0, segments_end = 0;
     bool plain = false;               ///< nothing inside asks for leaves finer than `max` does
+    std::int8_t finest = 0;           ///< no leaf inside is deeper than this level; it may be reached or not
     std::int32_t deepest_split = -1;  ///< level of the deepest split node known at or below this one
     static constexpr std::int32_t unknown = -2, leaf = -1;
   };
@@ -57,7 +58,8 @@ class SizeTree {
   std::int32_t root_of(const Quadrant& q) const;
   bool is_split(std::int32_t node);
   void grow(std::int32_t node);
-  bool is_plain(const Node& node, const Box& box) const;
+  void judge(Node& node, const Box& box) const;
+  int level_for(double spacing) const;
   bool wants_split(const Node& node) const;
   bool turns_too_far(std::span<const std::int32_t> segments, const Box& box) const;
   std::int32_t deepest_node_at(const Quadrant& q);
