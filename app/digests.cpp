@@ -55,6 +55,7 @@ class WordDigest {
 std::uint64_t case_digest(const MeshOptions& options) {
   WordDigest digest;
   const SizeOptions& size = options.size;
+  digest.add(static_cast<std::uint64_t>(options.type));
   digest.add(size.min);
   digest.add(size.max);
   digest.add(size.gradation);

@@ -109,7 +109,7 @@ void read_mesh_table(const CaseTable& root, Settings& settings) {
   const auto table = root.table("mesh");
   if (!table) return;
   const auto type = table->choice("type", {"hybrid", "delaunay"});
-  if (type == "delaunay") table->refuse("type", "is 'delaunay', which this version does not make; use \"hybrid\"");
+  if (type == "delaunay") settings.mesh.type = MeshType::delaunay;
   settings.mesh.snap = table->number("snap", {0, 0.5, false, true}).value_or(settings.mesh.snap);
   if (const auto root_values = table->numbers("root", 5)) {
     const auto& r = *root_values;

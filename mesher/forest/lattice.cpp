@@ -119,6 +119,13 @@ double Lattice::Axis::at(std::int64_t i) const {
   return sum + (sum_rest + product_rest);
 }
 
+std::int64_t Lattice::Axis::line_before(double coordinate) const {
+  std::int64_t i = std::clamp(static_cast<std::int64_t>((coordinate - low) / unit), std::int64_t{0}, count);
+  while (i > 0 && at(i) > coordinate) --i;
+  while (i < count && at(i + 1) <= coordinate) ++i;
+  return i;
+}
+
 Lattice::Lattice(const Box& box, int trees_x, int trees_y)
     : box_{box},
       trees_x_{trees_x},

@@ -50,6 +50,10 @@ class Lattice {
   double x(std::int64_t i) const { return x_.at(i); }
   double y(std::int64_t j) const { return y_.at(j); }
   Point corner(std::int64_t i, std::int64_t j) const { return {x(i), y(j)}; }
+  /// The last line at or before a coordinate inside the root (the last but the root's side at most); the unit square right of it, above it holds
+  /// the coordinate.
+  std::int64_t column_at(double x) const { return x_.line_before(x); }
+  std::int64_t row_at(double y) const { return y_.line_before(y); }
   Box box_of(const Quadrant& q) const { return {corner(q.x, q.y), corner(q.x + q.size(), q.y + q.size())}; }
 
   /// The finest level whose leaves are not smaller than `min`. Throws InputError where that is deeper than the forest or than
@@ -63,6 +67,7 @@ class Lattice {
     double unit = 0, unit_rest = 0;  ///< (high - low) / count as a sum of two doubles
     bool exact = false;              ///< whether every i * unit is a double
     double at(std::int64_t i) const;
+    std::int64_t line_before(double coordinate) const;
   };
   static Axis make_axis(double low, double high, int trees);
 

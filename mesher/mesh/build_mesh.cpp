@@ -6,6 +6,7 @@
 #include "mesher/forest/refine_forest.hpp"
 #include "mesher/mesh/assemble_mesh.hpp"
 #include "mesher/mesh/islands.hpp"
+#include "mesher/mesh/make_delaunay.hpp"
 
 namespace quadloop {
 
@@ -63,6 +64,11 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
 
   times.begin("mesh");
   assemble_mesh(comm, geometry, sizes, graph, cut, result);
+
+  if (options.type == MeshType::delaunay) {
+    times.begin("delaunay");
+    make_delaunay(comm, lattice, sizes.finest_level(), graph, cut, result.mesh, result.tree.leaves);
+  }
   times.end();
 
   report_tree(comm, graph, cut, result.report);

@@ -12,8 +12,12 @@
 
 namespace quadloop {
 
+/// Which cells a mesh has: quadrilaterals where they fit and triangles, or triangles alone, constrained Delaunay over the whole domain.
+enum class MeshType { hybrid, delaunay };
+
 /// How a mesh is made from a geometry.
 struct MeshOptions {
+  MeshType type = MeshType::hybrid;
   SizeOptions size;
   double snap = 0.4;  ///< a lattice corner nearer to a crossing than this share of the local edge moves onto the boundary; 0 <= snap < 0.5
 };
