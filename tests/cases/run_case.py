@@ -2,7 +2,7 @@
 """One case from end to end: mesh it, let `quadloop check` and, where they are at hand, an independent judge and cgnscheck look at
 what came out, and compare with the case's expected values (expected.toml: nodes, triangles, quads, boundaries, area, digest).
 
-    run_case.py --quadloop PROGRAM --case CASE.toml [--keeps-corners] [--ranks N] [--borrow FILE.geom] [--write-expected]
+    run_case.py --quadloop PROGRAM --case CASE.toml [--type delaunay] [--keeps-corners] [--ranks N] [--borrow FILE.geom] [--write-expected]
 
 --borrow   the geometry is not the project's to ship: it is taken from outside, or the test is skipped
 """
@@ -28,12 +28,13 @@ def borrowed_case(case, geometry_name, work):
     return Path(shutil.copy(case, work))
 
 
-def judge(prefix, geometry, keeps_corners):
+def judge(prefix, geometry, keeps_corners, mesh_type):
     script = beside_the_checkout("QUADLOOP_MESHCHECK", "tools/meshcheck.py")
     if script is None:
         print("no independent judge at hand: `quadloop check` alone has looked at the mesh")
         return
-    said = json.loads(run([sys.executable, script, f"{prefix}.mesh", "--geometry", geometry, "--json"], accept=(0, 1)))
+    kind = ["--delaunay"] if mesh_type == "delaunay" else []
+    said = json.loads(run([sys.executable, script, f"{prefix}.mesh", "--geometry", geometry, "--json", *kind], accept=(0, 1)))
     print({key: said[key] for key in sorted(said) if key not in ("valid", "broken")})
     if not said["valid"]:
         fail(f"the judge: {said['broken']}")
@@ -77,6 +78,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
     parser.add_argument("--case", required=True, type=Path)
+    parser.add_argument("--type", choices=("hybrid", "delaunay"), default="hybrid")
     parser.add_argument("--keeps-corners", action="store_true")
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--borrow")
@@ -86,13 +88,15 @@ def main():
         work = Path(folder)
         case = borrowed_case(args.case, args.borrow, work) if args.borrow else args.case
         prefix, geometry = work / "out", work / "as_meshed.geom"
-        mesh_case(args.quadloop, case, prefix, args.ranks, ["--geometry-out", geometry])
+        mesh_case(args.quadloop, case, prefix, args.ranks, ["--geometry-out", geometry, "--type", args.type])
         run([args.quadloop, "check", f"{prefix}.mesh", "--geometry", geometry])
-        judge(prefix, geometry, args.keeps_corners)
+        judge(prefix, geometry, args.keeps_corners, args.type)
         check_cgns(prefix)
         found = values_of(prefix)
     # case.toml has its values in expected.toml, medium.toml in expected_medium.toml
     stem = "expected" if args.case.stem == "case" else f"expected_{args.case.stem}"
+    if args.type != "hybrid":
+        stem += f"_{args.type}"
     expected = args.case.with_name(f"{stem}.toml")
     if args.write_expected:
         write_expected(expected, found)

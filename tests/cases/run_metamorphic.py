@@ -7,7 +7,7 @@
 
 The lattice is moved along by [mesh] root. Lengths are dyadic or given, so that the maps are exact in floating point.
 
-    run_metamorphic.py --quadloop PROGRAM --subject NAME [--map NAME ...]
+    run_metamorphic.py --quadloop PROGRAM --subject NAME [--map NAME ...] [--type delaunay]
 """
 import argparse
 import tempfile
@@ -158,13 +158,14 @@ def main():
     parser.add_argument("--quadloop", required=True)
     parser.add_argument("--subject", required=True, choices=SUBJECTS)
     parser.add_argument("--map", nargs="+")
+    parser.add_argument("--type", choices=("hybrid", "delaunay"), default="hybrid")
     args = parser.parse_args()
     subject = SUBJECTS[args.subject]()
     with tempfile.TemporaryDirectory(prefix="quadloop_metamorphic_") as folder:
         work = Path(folder)
 
         def mesh_of(case_subject, name):
-            mesh_case(args.quadloop, case_subject.write(work / name), work / f"{name}_out")
+            mesh_case(args.quadloop, case_subject.write(work / name), work / f"{name}_out", options=["--type", args.type])
             return NativeMesh(work / f"{name}_out.mesh")
 
         before = mesh_of(subject, "before")

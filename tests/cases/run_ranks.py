@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The same files whatever the number of ranks: .mesh and .tree.h5 byte for byte, every array of the .cgns.
 
-    run_ranks.py --quadloop PROGRAM --case CASE.toml --ranks 1 2 3 4 5 8 16
+    run_ranks.py --quadloop PROGRAM --case CASE.toml --ranks 1 2 3 4 5 8 16 [--type delaunay]
 """
 import argparse
 import filecmp
@@ -43,12 +43,13 @@ def main():
     parser.add_argument("--quadloop", required=True)
     parser.add_argument("--case", required=True, type=Path)
     parser.add_argument("--ranks", required=True, type=int, nargs="+")
+    parser.add_argument("--type", choices=("hybrid", "delaunay"), default="hybrid")
     args = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="quadloop_ranks_") as folder:
         prefixes = {ranks: Path(folder) / f"on_{ranks}" for ranks in args.ranks}
         first = prefixes[args.ranks[0]]
         for ranks, prefix in prefixes.items():
-            mesh_case(args.quadloop, args.case, prefix, ranks)
+            mesh_case(args.quadloop, args.case, prefix, ranks, ["--type", args.type])
             for suffix in (".mesh", ".tree.h5"):
                 if not filecmp.cmp(f"{first}{suffix}", f"{prefix}{suffix}", shallow=False):
                     fail(f"{suffix} on {ranks} ranks is not what it is on {args.ranks[0]}")
