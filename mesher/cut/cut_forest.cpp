@@ -111,7 +111,8 @@ class ForestCutter {
       }
       if (!done(Detail::full) && !done(Detail::exact)) refuse(input.trace);
     }
-    if (state(leaf) != CutForest::State::outside || trace_of(leaf) >= 0) store(leaf);
+    const bool bent = std::any_of(snaps.begin(), snaps.end(), [](const LeafSnap& s) { return s.snap->on_edge; });  // a node of the neighbour's
+    if (state(leaf) != CutForest::State::outside || trace_of(leaf) >= 0 || bent) store(leaf);
   }
 
   CutForest::Mark mark() const {
@@ -200,7 +201,9 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
     comm.together([&] { cutter.cut_again(leaf_snaps, vetoes); });
   }
   CutForest result = cutter.take_result();
-  for (const Snap& s : snaps) result.moved.push_back({s.x, s.y, s.position});
+  for (const Snap& s : snaps) {
+    if (!s.on_edge) result.moved.push_back({s.x, s.y, s.position});
+  }
   return result;
 }
 

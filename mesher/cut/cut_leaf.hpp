@@ -77,10 +77,11 @@ class LeafCutter {
     Point position;    ///< before any snap
     int place = 8;
     std::int32_t crossing = -1;
+    std::int32_t snap = -1;  ///< of the leaf's snaps, where the side bends through a kept point
   };
 
   void gather_stops();
-  void add_stop(int side, Point position, int place, std::int32_t crossing);
+  void add_stop(int side, Point position, int place, std::int32_t crossing, std::int32_t snap = -1);
   void name_stops();
   const LeafSnap* absorbing_snap(const Crossing& crossing) const;
   std::span<const std::int32_t> trimmed_vertices(const Piece& piece) const;
@@ -100,7 +101,7 @@ class LeafCutter {
   Input input_;
   CutLeaf leaf_;
   std::vector<Stop> stops_;
-  std::vector<std::int32_t> stop_node_, crossing_node_;
+  std::vector<std::int32_t> stop_node_, crossing_node_, snap_node_;
   std::vector<CutLeaf::Edge> edges_;       ///< of the loops: chords and sides
   std::vector<CutLeaf::Edge> bare_sides_;  ///< parts of sides outside the domain
   std::vector<Point> run_points_;          ///< of one piece: entry, vertices, exit

@@ -45,12 +45,12 @@ bool LeafCutter::cut(const Input& input, Detail detail) {
   return simple || (loops_are_sound(edges_, leaf_) && (input_.snaps.empty() || sides_are_sound(edges_, bare_sides_, leaf_)));
 }
 
-void LeafCutter::add_stop(int side, Point position, int place, std::int32_t crossing) {
+void LeafCutter::add_stop(int side, Point position, int place, std::int32_t crossing, std::int32_t snap) {
   const std::array<Point, 4> corner = corners_of(input_.trace.box);
   const auto next = static_cast<std::size_t>((side + 1) % 4);
   if (position == corner[next]) side = static_cast<int>(next);
   const double along = side == 0 ? position.x : side == 1 ? position.y : side == 2 ? -position.x : -position.y;
-  stops_.push_back({side, along, position, place, crossing});
+  stops_.push_back({side, along, position, place, crossing, snap});
 }
 
 /// Corners, hanging nodes and crossings in their order round the leaf, before any snap.
@@ -69,6 +69,12 @@ void LeafCutter::gather_stops() {
     const Crossing& crossing = input_.trace.crossings[c];
     add_stop(crossing.side, crossing.position, 8, static_cast<std::int32_t>(c));
   }
+  for (std::size_t s = 0; s < input_.snaps.size(); ++s) {
+    const int side = input_.snaps[s].place - 8;
+    if (side < 0) continue;
+    const Point p = input_.snaps[s].snap->position, from = corner[static_cast<std::size_t>(side)];
+    add_stop(side, side % 2 == 0 ? Point{p.x, from.y} : Point{from.x, p.y}, 8, -1, static_cast<std::int32_t>(s));
+  }
   std::sort(stops_.begin(), stops_.end(), [](const Stop& a, const Stop& b) {
     return a.side != b.side     ? a.side < b.side
            : a.along != b.along ? a.along < b.along
@@ -81,7 +87,8 @@ void LeafCutter::gather_stops() {
 /// The snap that takes the crossing; null for none.
 const LeafSnap* LeafCutter::absorbing_snap(const Crossing& crossing) const {
   for (const LeafSnap& s : input_.snaps) {
-    const bool on_side = s.place == crossing.side || s.place == 4 + crossing.side || s.place == (crossing.side + 1) % 4;
+    const bool on_side =
+        s.place == crossing.side || s.place == 4 + crossing.side || s.place == 8 + crossing.side || s.place == (crossing.side + 1) % 4;
     if (!on_side) continue;
     const auto& absorbed = s.snap->absorbed;
     const Snap::Absorbed wanted{crossing.segment, crossing.side % 2 == 1};
@@ -94,6 +101,7 @@ const LeafSnap* LeafCutter::absorbing_snap(const Crossing& crossing) const {
 void LeafCutter::name_stops() {
   stop_node_.assign(stops_.size(), -1);
   crossing_node_.assign(input_.trace.crossings.size(), -1);
+  snap_node_.assign(input_.snaps.size(), -1);
   std::array<std::int32_t, 8> place_node{};
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const Stop& stop = stops_[i];
@@ -103,15 +111,22 @@ void LeafCutter::name_stops() {
     if (!at_last) leaf_.nodes.push_back({stop.position, stop.place < 8 ? stop.place : 8 + stop.side});
     stop_node_[i] = static_cast<std::int32_t>(leaf_.nodes.size()) - 1;
     if (stop.place < 8) place_node[static_cast<std::size_t>(stop.place)] = stop_node_[i];
+    if (stop.snap >= 0) snap_node_[static_cast<std::size_t>(stop.snap)] = stop_node_[i];
+  }
+  for (std::size_t s = 0; s < input_.snaps.size(); ++s) {
+    if (input_.snaps[s].place < 8) snap_node_[s] = place_node[static_cast<std::size_t>(input_.snaps[s].place)];
   }
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const std::int32_t c = stops_[i].crossing;
     if (c < 0) continue;
-    if (stop_node_[i] < 0) stop_node_[i] = place_node[static_cast<std::size_t>(absorbing_snap(input_.trace.crossing(c))->place)];
+    if (stop_node_[i] < 0) {
+      const auto snap = absorbing_snap(input_.trace.crossing(c)) - input_.snaps.data();
+      stop_node_[i] = snap_node_[static_cast<std::size_t>(snap)];
+    }
     crossing_node_[static_cast<std::size_t>(c)] = stop_node_[i];
   }
-  for (const LeafSnap& s : input_.snaps)
-    leaf_.nodes[static_cast<std::size_t>(place_node[static_cast<std::size_t>(s.place)])].position = s.snap->position;
+  for (std::size_t s = 0; s < input_.snaps.size(); ++s)
+    leaf_.nodes[static_cast<std::size_t>(snap_node_[s])].position = input_.snaps[s].snap->position;
   leaf_.side_nodes = static_cast<std::int32_t>(leaf_.nodes.size());
 }
 
@@ -178,7 +193,7 @@ void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
   const bool closed = piece.entry < 0;
   if (!closed) {
     const LeafSnap *entry = absorbing_snap(input_.trace.crossing(piece.entry)), *exit = absorbing_snap(input_.trace.crossing(piece.exit));
-    if (entry != nullptr && exit != nullptr && entry->place == exit->place) return;
+    if (entry != nullptr && exit != nullptr && entry->snap == exit->snap) return;
   }
   const auto vertices = trimmed_vertices(piece);
   choose_points(piece, vertices, detail);

@@ -4,6 +4,10 @@
 #include <array>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <tuple>
+
+#include "mesher/cut/capture_points.hpp"
 
 namespace quadloop {
 
@@ -90,10 +94,25 @@ class CornerDecision {
     for (const Sight& s : sights) nearest = std::min(nearest, s.distance);
     if (nearest >= share_ * sights.front().edge * 2) return std::nullopt;  // edges at a corner differ by a factor of two at most
     corner_ = lattice_.corner(sights.front().x, sights.front().y);
-    local_edge_ = shortest_edge(sights.front().x, sights.front().y);
+    local_edge_ = shortest_edge_at(graph_, lattice_, sights.front().x, sights.front().y);
     if (nearest >= share_ * local_edge_) return std::nullopt;
     if (!absorb(sights, true) && !absorb(sights, false)) return std::nullopt;
-    Snap snap{sights.front().x, sights.front().y, target_, corner_, capture_share * local_edge_, {}};
+    return snap_to(sights.front().x, sights.front().y, target_, sights);
+  }
+
+  /// A corner that a kept point captures: it takes that point's run along, as far as it can.
+  Snap capture(const CornerCapture& captured, std::span<Sight> sights) {
+    corner_ = lattice_.corner(captured.x, captured.y);
+    local_edge_ = shortest_edge_at(graph_, lattice_, captured.x, captured.y);
+    captured_ = &captured;
+    if (!absorb(sights, true) && !absorb(sights, false)) absorbed_.assign(sights.size(), 0);
+    captured_ = nullptr;
+    return snap_to(captured.x, captured.y, geometry_.point(captured.vertex), sights);
+  }
+
+ private:
+  Snap snap_to(std::int64_t x, std::int64_t y, Point target, std::span<const Sight> sights) const {
+    Snap snap{x, y, target, corner_, capture_share * local_edge_, {}};
     for (std::size_t i = 0; i < sights.size(); ++i) {
       const Snap::Absorbed entry{sights[i].segment, sights[i].vertical()};
       const bool known = std::find(snap.absorbed.begin(), snap.absorbed.end(), entry) != snap.absorbed.end();
@@ -102,21 +121,17 @@ class CornerDecision {
     return snap;
   }
 
- private:
-  double shortest_edge(std::int64_t x, std::int64_t y) const {
-    int finest = 0;
-    for (const std::int64_t dx : {-1, 0}) {
-      for (const std::int64_t dy : {-1, 0}) {
-        const std::int32_t leaf = graph_.leaf_at(x + dx, y + dy);
-        if (leaf != LeafGraph::none) finest = std::max(finest, graph_.leaf(leaf).level);
-      }
-    }
-    return lattice_.edge(finest);
-  }
-
   std::size_t root(std::size_t i) const {
     while (run_[i] != i) i = run_[i];
     return i;
+  }
+
+  /// Whether a kept point far from the corner lies on a sight's piece: what comes before and after it are two runs.
+  bool parted(const Sight& s) const {
+    const LeafTrace view = traces_[s.trace];
+    const auto all = view.vertices_of(view.pieces[static_cast<std::size_t>(s.piece)]);
+    return std::any_of(all.begin(), all.end(),
+                       [&](std::int32_t v) { return geometry_.kept(v) && length(geometry_.point(v) - corner_) >= capture_share * local_edge_; });
   }
 
   /// The runs among the crossings that may be taken: the same crossing, and the two ends of one piece, belong to one.
@@ -126,7 +141,8 @@ class CornerDecision {
     for (std::size_t i = 0; i < sights.size(); ++i) {
       for (std::size_t j = 0; j < i && absorbed_[i] != 0; ++j) {
         const bool same_piece = sights[i].trace == sights[j].trace && sights[i].piece == sights[j].piece;
-        if (absorbed_[j] != 0 && (same_piece || same_crossing(sights[i], sights[j]))) run_[root(i)] = root(j);
+        if (absorbed_[j] == 0) continue;
+        if (same_crossing(sights[i], sights[j]) || (same_piece && !parted(sights[i]))) run_[root(i)] = root(j);
       }
     }
   }
@@ -207,6 +223,14 @@ class CornerDecision {
     return nearest;
   }
 
+  /// The run of the point that captures the corner.
+  std::optional<std::size_t> captured_run(std::span<const Sight> sights) const {
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+      if (absorbed_[i] != 0 && sights[i].trace == captured_->trace && sights[i].piece == captured_->piece) return root(i);
+    }
+    return std::nullopt;
+  }
+
   /// Marks what the corner takes: one run of the crossings near it and, if asked, of those that are at least nearer to it than to the far end
   /// of their edge. False where that would not be a contraction, or swallow too much.
   bool absorb(std::span<const Sight> sights, bool whole_run) {
@@ -217,7 +241,7 @@ class CornerDecision {
       absorbed_[i] = claims || (whole_run && free);
     }
     find_runs(sights);
-    const auto chosen = nearest_run(sights);
+    const auto chosen = captured_ != nullptr ? captured_run(sights) : nearest_run(sights);
     if (!chosen) return false;
     for (std::size_t i = 0; i < sights.size(); ++i) absorbed_[i] = absorbed_[i] != 0 && root(i) == *chosen;
     for (std::size_t i = 0; i < sights.size(); ++i) {
@@ -256,6 +280,7 @@ class CornerDecision {
       }
     }
     target_ = nearest_point(sights, [&](std::size_t i) { return absorbed_[i] != 0; });
+    if (captured_ != nullptr) swallowed.push_back(captured_->vertex);
     for (const std::int32_t v : swallowed) {
       if (geometry_.kept(v)) target_ = geometry_.point(v);
     }
@@ -275,6 +300,7 @@ class CornerDecision {
   double share_;
   Point corner_, target_;
   double local_edge_ = 0;
+  const CornerCapture* captured_ = nullptr;  ///< while a captured corner is decided
   std::vector<std::size_t> run_;
   std::vector<char> absorbed_;
 };
@@ -299,6 +325,15 @@ void sort_by_corner(std::vector<Sight>& sights) {
   sights = std::move(sorted);
 }
 
+/// Forgets the crossings that bent edges have taken.
+void drop_taken(const std::vector<Snap>& edges, std::vector<Sight>& sights) {
+  std::set<std::tuple<bool, std::int64_t, std::int32_t>> taken;  // vertical, line, segment
+  for (const Snap& edge : edges) {
+    for (const Snap::Absorbed& a : edge.absorbed) taken.emplace(edge.vertical, edge.vertical ? edge.x : edge.y, a.segment);
+  }
+  std::erase_if(sights, [&](const Sight& s) { return taken.contains({s.vertical(), s.vertical() ? s.x : s.y, s.segment}); });
+}
+
 }  // namespace
 
 std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, const TracedForest& traced, double share) {
@@ -309,11 +344,22 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
     if (trace >= 0) collector.add_leaf(leaf, trace, traced.traces[trace]);
   }
   sort_by_corner(sights);
-  std::vector<Snap> snaps;
+  Captures captures = capture_points(graph, lattice, geometry, traced, share);
+  drop_taken(captures.edges, sights);
+  std::vector<Snap> snaps = std::move(captures.edges);
   CornerDecision decision(graph, lattice, geometry, traced.traces, share);
-  for (std::size_t begin = 0, end = 0; begin < sights.size(); begin = end) {
-    while (end < sights.size() && sights[end].x == sights[begin].x && sights[end].y == sights[begin].y) ++end;
-    if (auto snap = decision.decide(std::span(sights).subspan(begin, end - begin))) snaps.push_back(std::move(*snap));
+  auto captured = captures.corners.begin();
+  const auto before = [](const auto& a, const auto& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  for (std::size_t begin = 0, end = 0; begin < sights.size() || captured != captures.corners.end(); begin = end) {
+    const bool capture = captured != captures.corners.end() && (begin == sights.size() || !before(sights[begin], *captured));
+    const std::int64_t x = capture ? captured->x : sights[begin].x, y = capture ? captured->y : sights[begin].y;
+    while (end < sights.size() && sights[end].x == x && sights[end].y == y) ++end;
+    const auto at_corner = std::span(sights).subspan(begin, end - begin);
+    if (capture) {
+      snaps.push_back(decision.capture(*captured++, at_corner));
+    } else if (auto snap = decision.decide(at_corner)) {
+      snaps.push_back(std::move(*snap));
+    }
   }
   return snaps;
 }
@@ -326,6 +372,11 @@ std::vector<LeafSnap> snaps_of_leaves(const LeafGraph& graph, const std::vector<
       const std::int32_t leaf = graph.leaf_at(snap.x - 1 + static_cast<std::int64_t>(k & 1), snap.y - 1 + static_cast<std::int64_t>(k >> 1));
       if (!graph.is_local(leaf) || std::find(seen.begin(), seen.end(), leaf) != seen.end()) continue;
       seen[k] = leaf;
+      if (snap.on_edge) {
+        const int side = snap.vertical ? (k & 1) == 0 ? 1 : 3 : k < 2 ? 2 : 0;
+        result.push_back({leaf, 8 + side, &snap});
+        continue;
+      }
       const Quadrant& q = graph.leaf(leaf);
       const std::int64_t half = q.size() / 2;
       constexpr std::array<std::array<int, 3>, 3> places{{{0, 4, 1}, {7, -1, 5}, {3, 6, 2}}};

@@ -1,0 +1,188 @@
+#include "mesher/cut/capture_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace quadloop {
+
+namespace {
+
+// Shares of the local edge, where crossings nearer than usual_snap take a corner.
+constexpr double usual_snap = 0.4, corner_reach = 0.45, edge_reach = 0.25;
+constexpr double crossing_reach = 0.4;  ///< a crossing nearer to the point than this is taken by its edge
+
+/// A leaf edge without nodes inside: a side of a leaf, or half of one that has a hanging node.
+struct LeafEdge {
+  std::int64_t fixed = 0, from = 0, to = 0;  ///< lattice lines: the one it lies on, and those at its ends
+  int side = 0;                              ///< of the leaf
+  bool vertical() const { return side % 2 == 1; }
+};
+
+/// Looks for what one kept point takes along.
+class PointCapture {
+ public:
+  PointCapture(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, double snap)
+      : graph_{graph}, lattice_{lattice}, geometry_{geometry}, share_{std::min(1.0, snap / usual_snap)} {}
+
+  /// The corner of the leaf, or hanging node on its sides, that is near enough.
+  std::optional<CornerCapture> corner_near(std::int32_t leaf, Point p) const {
+    const Quadrant& q = graph_.leaf(leaf);
+    const std::int64_t s = q.size(), h = s / 2;
+    const std::array<std::array<std::int64_t, 2>, 8> places{{{0, 0}, {s, 0}, {s, s}, {0, s}, {h, 0}, {s, h}, {h, s}, {0, h}}};
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (k >= 4 && !graph_.has_hanging(leaf, static_cast<LeafGraph::Side>(k - 4))) continue;
+      const std::int64_t x = q.x + places[k][0], y = q.y + places[k][1];
+      const double distance = length(lattice_.corner(x, y) - p);
+      if (distance < share_ * corner_reach * shortest_edge_at(graph_, lattice_, x, y)) return CornerCapture{x, y, distance, -1, -1, -1};
+    }
+    return std::nullopt;
+  }
+
+  /// The edge of the leaf that is near enough, with the crossings that it loses to the point.
+  std::optional<Snap> edge_near(std::int32_t leaf, std::int32_t vertex, const LeafTrace& view, const Piece& piece) const {
+    const Point p = geometry_.point(vertex);
+    for (int side = 0; side < 4; ++side) {
+      const LeafEdge edge = edge_at(leaf, side, p);
+      const double size = line(!edge.vertical(), edge.to) - line(!edge.vertical(), edge.from);
+      const double distance = std::abs((edge.vertical() ? p.x : p.y) - line(edge.vertical(), edge.fixed));
+      if (distance >= share_ * edge_reach * size || across(edge) == LeafGraph::none) continue;
+      Snap snap;
+      const std::int64_t middle = (edge.from + edge.to) / 2;
+      snap.x = edge.vertical() ? edge.fixed : middle;
+      snap.y = edge.vertical() ? middle : edge.fixed;
+      snap.position = snap.corner = p;
+      snap.radius = share_ * edge_reach * size;
+      snap.on_edge = true;
+      snap.vertical = edge.vertical();
+      if (!take_crossings(edge, size, vertex, view, piece, snap)) return std::nullopt;
+      return snap;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  double line(bool of_x, std::int64_t i) const { return of_x ? lattice_.x(i) : lattice_.y(i); }
+
+  LeafEdge edge_at(std::int32_t leaf, int side, Point p) const {
+    const Quadrant& q = graph_.leaf(leaf);
+    const std::int64_t s = q.size();
+    LeafEdge edge;
+    edge.side = side;
+    edge.fixed = side == 0 ? q.y : side == 1 ? q.x + s : side == 2 ? q.y + s : q.x;
+    edge.from = edge.vertical() ? q.y : q.x;
+    edge.to = edge.from + s;
+    if (graph_.has_hanging(leaf, static_cast<LeafGraph::Side>(side))) {
+      const std::int64_t middle = edge.from + s / 2;
+      const bool beyond = (edge.vertical() ? p.y : p.x) >= line(!edge.vertical(), middle);
+      (beyond ? edge.from : edge.to) = middle;
+    }
+    return edge;
+  }
+
+  std::int32_t across(const LeafEdge& edge) const {
+    const std::int64_t beyond = edge.side == 1 || edge.side == 2 ? edge.fixed : edge.fixed - 1;
+    return edge.vertical() ? graph_.leaf_at(beyond, edge.from) : graph_.leaf_at(edge.from, beyond);
+  }
+
+  bool on_edge(const LeafEdge& edge, const Crossing& c) const {
+    const double at = edge.vertical() ? c.position.y : c.position.x;
+    return c.side == edge.side && line(!edge.vertical(), edge.from) <= at && at <= line(!edge.vertical(), edge.to);
+  }
+
+  /// The crossings of the point's own piece that lie on the edge and near it. False where another one lies between, or another kept point near.
+  bool take_crossings(const LeafEdge& edge, double size, std::int32_t vertex, const LeafTrace& view, const Piece& piece, Snap& snap) const {
+    const Point p = geometry_.point(vertex);
+    const auto along = [&](Point point) { return edge.vertical() ? point.y : point.x; };
+    double low = along(p), high = low;
+    std::vector<std::int32_t> taken;
+    for (const std::int32_t c : {piece.entry, piece.exit}) {
+      const Crossing& crossing = view.crossing(c);
+      if (!on_edge(edge, crossing) || length(crossing.position - p) >= crossing_reach * size) continue;
+      snap.absorbed.push_back({crossing.segment, edge.vertical()});
+      taken.push_back(c);
+      low = std::min(low, along(crossing.position));
+      high = std::max(high, along(crossing.position));
+    }
+    for (std::int32_t c = 0; c < static_cast<std::int32_t>(view.crossings.size()); ++c) {
+      const Crossing& crossing = view.crossing(c);
+      if (std::find(taken.begin(), taken.end(), c) != taken.end() || !on_edge(edge, crossing)) continue;
+      if (low <= along(crossing.position) && along(crossing.position) <= high) return false;
+    }
+    const auto vertices = view.vertices_of(piece);
+    return std::none_of(vertices.begin(), vertices.end(),
+                        [&](std::int32_t v) { return v != vertex && geometry_.kept(v) && length(geometry_.point(v) - p) < crossing_reach * size; });
+  }
+
+  const LeafGraph& graph_;
+  const Lattice& lattice_;
+  const Geometry& geometry_;
+  double share_;
+};
+
+/// Of those that claim one corner the nearest has it; none where two are equally near.
+std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
+  std::sort(claims.begin(), claims.end(), [](const CornerCapture& a, const CornerCapture& b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.distance < b.distance;
+  });
+  std::vector<CornerCapture> settled;
+  for (std::size_t begin = 0, end = 0; begin < claims.size(); begin = end) {
+    while (end < claims.size() && claims[end].x == claims[begin].x && claims[end].y == claims[begin].y) ++end;
+    if (end - begin == 1 || claims[begin].distance < claims[begin + 1].distance) settled.push_back(claims[begin]);
+  }
+  return settled;
+}
+
+/// An edge that two points claim goes to neither.
+std::vector<Snap> settle_edges(std::vector<Snap> claims) {
+  const auto same = [](const Snap& a, const Snap& b) { return a.x == b.x && a.y == b.y; };
+  std::sort(claims.begin(), claims.end(), [](const Snap& a, const Snap& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<Snap> settled;
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    const bool contested = (i > 0 && same(claims[i - 1], claims[i])) || (i + 1 < claims.size() && same(claims[i], claims[i + 1]));
+    if (!contested) settled.push_back(claims[i]);
+  }
+  return settled;
+}
+
+}  // namespace
+
+double shortest_edge_at(const LeafGraph& graph, const Lattice& lattice, std::int64_t x, std::int64_t y) {
+  int finest = 0;
+  for (const std::int64_t dx : {-1, 0}) {
+    for (const std::int64_t dy : {-1, 0}) {
+      const std::int32_t leaf = graph.leaf_at(x + dx, y + dy);
+      if (leaf != LeafGraph::none) finest = std::max(finest, graph.leaf(leaf).level);
+    }
+  }
+  return lattice.edge(finest);
+}
+
+Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, const TracedForest& traced, double snap) {
+  const PointCapture capture(graph, lattice, geometry, snap);
+  std::vector<CornerCapture> corners;
+  std::vector<Snap> edges;
+  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    const std::int32_t trace = traced.trace_of[static_cast<std::size_t>(leaf)];
+    if (trace < 0) continue;
+    const LeafTrace view = traced.traces[trace];
+    for (std::size_t p = 0; p < view.pieces.size(); ++p) {
+      if (view.pieces[p].entry < 0) continue;
+      for (const std::int32_t v : view.vertices_of(view.pieces[p])) {
+        if (!geometry.kept(v)) continue;
+        if (auto corner = capture.corner_near(leaf, geometry.point(v))) {
+          corner->vertex = v;
+          corner->trace = trace;
+          corner->piece = static_cast<std::int32_t>(p);
+          corners.push_back(*corner);
+        } else if (auto edge = capture.edge_near(leaf, v, view, view.pieces[p])) {
+          edges.push_back(std::move(*edge));
+        }
+      }
+    }
+  }
+  return {settle_corners(std::move(corners)), settle_edges(std::move(edges))};
+}
+
+}  // namespace quadloop
