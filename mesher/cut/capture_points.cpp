@@ -10,7 +10,7 @@ namespace quadloop {
 namespace {
 
 // Shares of the local edge, where crossings nearer than usual_snap take a corner.
-constexpr double usual_snap = 0.4, corner_reach = 0.45, edge_reach = 0.25;
+constexpr double usual_snap = 0.4, corner_reach = 0.45, edge_reach = 0.34;
 constexpr double crossing_reach = 0.4;  ///< a crossing nearer to the point than this is taken by its edge
 
 /// A leaf edge without nodes inside: a side of a leaf, or half of one that has a hanging node.
@@ -25,6 +25,12 @@ class PointCapture {
  public:
   PointCapture(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, double snap)
       : graph_{graph}, lattice_{lattice}, geometry_{geometry}, share_{std::min(1.0, snap / usual_snap)} {}
+
+  /// Whether a point lies on a side of the leaf: the crossings there have its position already.
+  bool on_lattice(std::int32_t leaf, Point p) const {
+    const Box box = lattice_.box_of(graph_.leaf(leaf));
+    return p.x == box.low.x || p.x == box.high.x || p.y == box.low.y || p.y == box.high.y;
+  }
 
   /// The corner of the leaf, or hanging node on its sides, that is near enough.
   std::optional<CornerCapture> corner_near(std::int32_t leaf, Point p) const {
@@ -171,6 +177,7 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
       if (view.pieces[p].entry < 0) continue;
       for (const std::int32_t v : view.vertices_of(view.pieces[p])) {
         if (!geometry.kept(v)) continue;
+        if (capture.on_lattice(leaf, geometry.point(v))) continue;
         if (auto corner = capture.corner_near(leaf, geometry.point(v))) {
           corner->vertex = v;
           corner->trace = trace;

@@ -66,7 +66,11 @@ class ForestCutter {
       if (!graph_.is_local(leaf)) continue;
       const auto [first, last] = std::equal_range(snaps.begin(), snaps.end(), LeafSnap{leaf, 0, nullptr},
                                                   [](const LeafSnap& a, const LeafSnap& b) { return a.leaf < b.leaf; });
-      if (trace_of(leaf) < 0 && entry_of(leaf) >= 0) state(leaf) = CutForest::State::inside;
+      if (trace_of(leaf) < 0 && entry_of(leaf) >= 0) {
+        const bool inside = result_.entries[static_cast<std::size_t>(entry_of(leaf))].half_inside != 0;
+        state(leaf) = inside ? CutForest::State::inside : CutForest::State::outside;
+        entry_of(leaf) = -1;
+      }
       cut(leaf, std::span<const LeafSnap>(first, last));
     }
   }
