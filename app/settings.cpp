@@ -80,6 +80,8 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
   }
 }
 
+constexpr double largest_coordinate = 1e100;
+
 Source read_source(const CaseTable& table) {
   Source source;
   const auto box = table.numbers("box", 4);
@@ -97,6 +99,10 @@ Source read_source(const CaseTable& table) {
     source.shape = Source::Disc{{(*disc)[0], (*disc)[1]}, (*disc)[2]};
   } else {
     source.shape = Source::Line{{(*line)[0], (*line)[1]}, {(*line)[2], (*line)[3]}};
+  }
+  for (const auto& [key, numbers] : {std::pair{"box", box}, {"line", line}, {"disc", disc}}) {
+    const bool huge = numbers && std::any_of(numbers->begin(), numbers->end(), [](double v) { return std::abs(v) > largest_coordinate; });
+    if (huge) table.refuse(key, "has a number beyond 1e100; no geometry reaches that far");
   }
   const auto spacing = table.number("spacing", Range::positive());
   if (!spacing) table.refuse("spacing", "is missing; a [[source]] needs the spacing that it asks for");
@@ -171,6 +177,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
   const double side = std::max(geometry.box().width(), geometry.box().height());
   double smallest = side;
   for (std::int32_t s = 0; s < geometry.size(); ++s) smallest = std::min(smallest, geometry.spacing_of(s));
+  for (const Source& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
   const double wanted_min = std::max(smallest, std::ldexp(side, -20));
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
   options.size.max = max;

@@ -19,7 +19,10 @@ std::int64_t leaf_size(int level) { return std::int64_t{1} << (Quadrant::unit_le
 
 bool SizeTree::must_split(const Quadrant& q) {
   if (q.level >= finest_) return false;
-  if (q.level < coarsest_) return true;
+  if (q.level < coarsest_) {
+    const bool near_domain = forbids(leaf_size(coarsest_), gap_to_domain(q), q.size(), slope_);  // whose leaves are as small as that at least
+    if (near_domain || in_domains_box(q)) return true;
+  }
   return forced(q, step_above(q).near);
 }
 
@@ -48,7 +51,7 @@ void SizeTree::fill_near(Step& step, const std::vector<std::int32_t>& parents) {
     const std::int32_t first = nodes_[static_cast<std::size_t>(parent)].children;
     for (std::int32_t child = first; child < first + 4; ++child) {
       const Node& node = nodes_[static_cast<std::size_t>(child)];
-      if (node.plain) continue;  // its leaves are as large as any may be
+      if (node.plain) continue;  // its leaves are as large as any in the domain may be
       if (forbids(leaf_size(node.finest), chebyshev_gap(step.place, node.place), half, slope_) && is_split(child)) step.near.push_back(child);
     }
   }

@@ -39,6 +39,10 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
       slope_{std::llround((options.gradation - 1) / 2 * static_cast<double>(1 << slope_bits))} {
   while (coarsest_ < finest_ && lattice.edge(coarsest_) > options.max) ++coarsest_;
   const Geometry& g = outline.geometry();
+  const auto line_after = [](std::int64_t line, double at, double coordinate) { return at < coordinate ? line + 1 : line; };
+  const std::int64_t right = lattice.column_at(g.box().high.x), top = lattice.row_at(g.box().high.y);
+  domain_ = {lattice.column_at(g.box().low.x), line_after(right, lattice.x(right), g.box().high.x), lattice.row_at(g.box().low.y),
+             line_after(top, lattice.y(top), g.box().high.y)};
   if (options.gap) gap_test_.emplace(g);
   for (std::int32_t s = 0; s < g.size(); ++s) {
     spacing_.push_back(g.spacing_of(s));
@@ -110,6 +114,16 @@ void SizeTree::judge(Node& node, const Box& box) const {
   node.finest = static_cast<std::int8_t>(finest);
 }
 
+/// Whether any of the domain can lie in the quadrant. Where none does, leaves may be larger than `max`: a wide root costs nothing.
+bool SizeTree::in_domains_box(const Quadrant& q) const {
+  return q.x < domain_[1] && domain_[0] < q.x + q.size() && q.y < domain_[3] && domain_[2] < q.y + q.size();
+}
+
+/// As chebyshev_gap.
+std::int64_t SizeTree::gap_to_domain(const Quadrant& q) const {
+  return std::max({std::int64_t{0}, domain_[0] - (q.x + q.size()), q.x - domain_[1], domain_[2] - (q.y + q.size()), q.y - domain_[3]});
+}
+
 /// The coarsest level that a source of this spacing is content with.
 int SizeTree::level_for(double spacing) const {
   int level = coarsest_;
@@ -120,10 +134,10 @@ int SizeTree::level_for(double spacing) const {
 bool SizeTree::wants_split(const Node& node) const {
   const Quadrant& q = node.place;
   if (q.level >= finest_) return false;
-  if (q.level < coarsest_) return true;
+  const Box box = lattice_->box_of(q);
+  if (q.level < coarsest_ && in_domains_box(q)) return true;
   if (node.plain) return false;
   const double size = lattice_->edge(q.level);
-  const Box box = lattice_->box_of(q);
   for (const Source& source : options_->sources) {
     if (size > source.spacing && meets(source, box)) return true;
   }
@@ -177,6 +191,8 @@ std::span<const std::int32_t> SizeTree::segments_in(const Quadrant& q) {
   return found_;
 }
 
-int SizeTree::wanted_level(const Quadrant& leaf) { return std::max(nodes_[static_cast<std::size_t>(deepest_node_at(leaf))].place.level, coarsest_); }
+int SizeTree::wanted_level(const Quadrant& leaf) {
+  return std::min(leaf.level, std::max(nodes_[static_cast<std::size_t>(deepest_node_at(leaf))].place.level, coarsest_));
+}
 
 }  // namespace quadloop

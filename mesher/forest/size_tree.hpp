@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -59,6 +60,8 @@ class SizeTree {
   bool is_split(std::int32_t node);
   void grow(std::int32_t node);
   void judge(Node& node, const Box& box) const;
+  bool in_domains_box(const Quadrant& q) const;
+  std::int64_t gap_to_domain(const Quadrant& q) const;
   int level_for(double spacing) const;
   bool wants_split(const Node& node) const;
   bool turns_too_far(std::span<const std::int32_t> segments, const Box& box) const;
@@ -78,7 +81,8 @@ class SizeTree {
   std::vector<std::int64_t> turning_;  ///< of each vertex, in 2^-20 degrees, 0 where it is kept as a corner
   int finest_;
   int coarsest_;
-  std::int64_t slope_;  ///< (g-1)/2 in units of 2^-20
+  std::array<std::int64_t, 4> domain_{};  ///< lattice lines round the domain's box: left, right, bottom, top
+  std::int64_t slope_;                    ///< (g-1)/2 in units of 2^-20
   std::vector<Node> nodes_;
   std::vector<std::int32_t> segments_;
   std::vector<std::int32_t> found_;

@@ -52,6 +52,14 @@ Geometry to_geometry(const Outline& outline, const AssembleOptions& options) {
   return Geometry(std::move(boundaries), std::move(points), std::move(loop_starts), std::move(segment_boundary));
 }
 
+/// Areas of a geometry much smaller than this leave the range of double precision.
+void require_extent(const Geometry& g) {
+  constexpr double smallest_extent = 1e-100;
+  if (std::max(g.box().width(), g.box().height()) >= smallest_extent) return;
+  throw InputError(fmt::format("boundary '{}' near ({}, {}): the geometry is smaller than 1e-100, out of the range of double precision; scale it up",
+                               g.boundary(g.boundary_of(0)).name, g.point(0).x, g.point(0).y));
+}
+
 }  // namespace
 
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
@@ -65,7 +73,9 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
   Outline outline = join_chains(chains);
   const std::vector<LoopPlace> places = validate(outline);
   orient(outline, places, warnings);
-  return to_geometry(outline, options);
+  Geometry geometry = to_geometry(outline, options);
+  require_extent(geometry);
+  return geometry;
 }
 
 }  // namespace quadloop

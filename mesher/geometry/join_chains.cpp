@@ -15,8 +15,15 @@ namespace {
 
 std::string text(Point p) { return fmt::format("({}, {})", p.x, p.y); }
 
+constexpr double largest_coordinate = 1e100;
+
 void require_finite(const Chain& chain) {
   for (std::size_t i = 0; i < chain.points.size(); ++i) {
+    const double size = std::max(std::abs(chain.points[i].x), std::abs(chain.points[i].y));
+    if (size > largest_coordinate && std::isfinite(size)) {
+      throw InputError(fmt::format("{}: boundary '{}': point {} is {}, beyond 1e100, where areas leave the range of double precision; scale it down",
+                                   chain.source, chain.name, i + 1, text(chain.points[i])));
+    }
     if (std::isfinite(chain.points[i].x) && std::isfinite(chain.points[i].y)) continue;
     throw InputError(fmt::format("{}: boundary '{}': point {} is {}, which is not finite; correct the coordinates or the transformation",
                                  chain.source, chain.name, i + 1, text(chain.points[i])));

@@ -47,7 +47,11 @@ Geometry without_small_islands(const Geometry& g, double min, MeshReport& report
   }
   if (report.islands_dropped == 0) return g;
   if (std::find(keep.begin(), keep.end(), 1) == keep.end()) {
-    throw InputError("every loop of the geometry is smaller than spacing.min; make spacing.min smaller");
+    const Box box = box_of_loop(g, 0);
+    std::ostringstream message;
+    message << "boundary " << g.boundary(g.boundary_of(0)).name << " near (" << box.centre().x << ", " << box.centre().y
+            << "): this and every other loop of the geometry is smaller than spacing.min = " << min << " both ways; make spacing.min smaller";
+    throw InputError(message.str());
   }
   return with_loops(g, keep);
 }
