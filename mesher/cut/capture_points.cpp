@@ -140,6 +140,31 @@ std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
   return settled;
 }
 
+/// Moves one hanging node onto the nearest point of the outline in its leaf, if that is within reach and the node is the only one to be there.
+std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometry, const LeafTrace& view, std::int64_t x, std::int64_t y,
+                                 double reach) {
+  const Point node = lattice.corner(x, y);
+  Snap snap;
+  snap.x = x;
+  snap.y = y;
+  snap.corner = node;
+  double nearest = reach;
+  for (const Piece& piece : view.pieces) {
+    const auto vertices = view.vertices_of(piece);
+    const auto try_segment = [&](std::int32_t s) {
+      const Point p = nearest_on_segment(node, geometry.point(s), geometry.point(geometry.next(s)));
+      if (length(p - node) >= nearest || !view.box.contains(p)) return;
+      nearest = length(p - node);
+      snap.position = p;
+      snap.segment = s;
+    };
+    if (piece.entry >= 0) try_segment(piece.first_segment);
+    std::for_each(vertices.begin(), vertices.end(), try_segment);
+  }
+  if (snap.segment < 0) return std::nullopt;
+  return snap;
+}
+
 /// An edge that two points claim goes to neither.
 std::vector<Snap> settle_edges(std::vector<Snap> claims) {
   const auto same = [](const Snap& a, const Snap& b) { return a.x == b.x && a.y == b.y; };
@@ -153,6 +178,17 @@ std::vector<Snap> settle_edges(std::vector<Snap> claims) {
 }
 
 }  // namespace
+
+Point nearest_on_segment(Point p, Point a, Point b) {
+  using Wide = long double;
+  if (length(p - b) < length(p - a)) std::swap(a, b);
+  const Wide dx = Wide(b.x) - a.x, dy = Wide(b.y) - a.y;
+  const Wide along = (Wide(p.x) - a.x) * dx + (Wide(p.y) - a.y) * dy, square = dx * dx + dy * dy;
+  if (along <= 0) return a;
+  if (along >= square) return b;
+  const Wide t = along / square;
+  return {static_cast<double>(a.x + t * dx), static_cast<double>(a.y + t * dy)};
+}
 
 double shortest_edge_at(const LeafGraph& graph, const Lattice& lattice, std::int64_t x, std::int64_t y) {
   int finest = 0;
@@ -190,6 +226,24 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
     }
   }
   return {settle_corners(std::move(corners)), settle_edges(std::move(edges))};
+}
+
+std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, const TracedForest& traced, double share) {
+  std::vector<Snap> snaps;
+  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    const std::int32_t trace = traced.trace_of[static_cast<std::size_t>(leaf)];
+    if (trace < 0) continue;
+    const Quadrant& q = graph.leaf(leaf);
+    const std::int64_t s = q.size(), h = s / 2;
+    const std::array<std::array<std::int64_t, 2>, 4> middles{{{h, 0}, {s, h}, {h, s}, {0, h}}};
+    for (int side = 0; side < 4; ++side) {
+      if (!graph.has_hanging(leaf, static_cast<LeafGraph::Side>(side))) continue;
+      const auto& [dx, dy] = middles[static_cast<std::size_t>(side)];
+      auto snap = hanging_snap(lattice, geometry, traced.traces[trace], q.x + dx, q.y + dy, share * lattice.edge(q.level + 1));
+      if (snap) snaps.push_back(std::move(*snap));
+    }
+  }
+  return snaps;
 }
 
 }  // namespace quadloop

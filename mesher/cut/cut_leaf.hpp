@@ -90,7 +90,9 @@ class LeafCutter {
   void note_side(const Stop& from, const Stop& to);
   void add_chords(Detail detail);
   void add_chord_run(const Piece& piece, Detail detail);
-  void choose_points(const Piece& piece, std::span<const std::int32_t> vertices, Detail detail);
+  void list_points(const Piece& piece, std::span<const std::int32_t> vertices);
+  void add_hanging_nodes(Point segment_end);
+  void choose_points(bool closed, Detail detail);
   void keep_strays(std::size_t from, std::size_t to);
   std::int32_t node_at(Point position);
   void sort_inner_nodes();
@@ -104,8 +106,15 @@ class LeafCutter {
   std::vector<std::int32_t> stop_node_, crossing_node_, snap_node_;
   std::vector<CutLeaf::Edge> edges_;       ///< of the loops: chords and sides
   std::vector<CutLeaf::Edge> bare_sides_;  ///< parts of sides outside the domain
-  std::vector<Point> run_points_;          ///< of one piece: entry, vertices, exit
-  std::vector<char> run_turns_, run_keep_;
+  /// A point of a piece: its entry, a vertex, a hanging node put onto it, its exit.
+  struct RunPoint {
+    Point position;
+    std::int32_t segment = -1;  ///< that begins here or goes on from here
+    bool turns = false;         ///< the outline is not straight here
+    bool fixed = false;         ///< a chord must end here
+    bool chosen = false;        ///< a chord ends here
+  };
+  std::vector<RunPoint> run_;
   double largest_stray_ = 0;
 };
 

@@ -195,18 +195,15 @@ void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
     const LeafSnap *entry = absorbing_snap(input_.trace.crossing(piece.entry)), *exit = absorbing_snap(input_.trace.crossing(piece.exit));
     if (entry != nullptr && exit != nullptr && entry->snap == exit->snap) return;
   }
-  const auto vertices = trimmed_vertices(piece);
-  choose_points(piece, vertices, detail);
-  const auto trimmed = vertices.data() - input_.trace.vertices_of(piece).data();  // in front
-  const std::int32_t first = trimmed == 0 ? piece.first_segment : input_.trace.vertices_of(piece)[static_cast<std::size_t>(trimmed) - 1];
-  const auto segment_at = [&](std::size_t point) { return closed ? vertices[point] : point == 0 ? first : vertices[point - 1]; };
+  list_points(piece, trimmed_vertices(piece));
+  choose_points(closed, detail);
   std::size_t from = 0;
-  std::int32_t from_node = closed ? node_at(run_points_[0]) : crossing_node_[static_cast<std::size_t>(piece.entry)];
-  for (std::size_t i = 1; i < run_points_.size(); ++i) {
-    if (run_keep_[i] == 0) continue;
-    const bool at_exit = !closed && i + 1 == run_points_.size();
-    const std::int32_t to_node = at_exit ? crossing_node_[static_cast<std::size_t>(piece.exit)] : node_at(run_points_[i]);
-    if (from_node != to_node) leaf_.outline.push_back({from_node, to_node, segment_at(from)});
+  std::int32_t from_node = closed ? node_at(run_[0].position) : crossing_node_[static_cast<std::size_t>(piece.entry)];
+  for (std::size_t i = 1; i < run_.size(); ++i) {
+    if (!run_[i].chosen) continue;
+    const bool at_exit = !closed && i + 1 == run_.size();
+    const std::int32_t to_node = at_exit ? crossing_node_[static_cast<std::size_t>(piece.exit)] : node_at(run_[i].position);
+    if (from_node != to_node) leaf_.outline.push_back({from_node, to_node, run_[from].segment});
     from = i;
     from_node = to_node;
   }
@@ -226,32 +223,55 @@ std::span<const std::int32_t> LeafCutter::trimmed_vertices(const Piece& piece) c
   return vertices;
 }
 
-/// Lists a piece's points and marks those that the chords go through.
-void LeafCutter::choose_points(const Piece& piece, std::span<const std::int32_t> vertices, Detail detail) {
+/// Lists a piece's points in their order.
+void LeafCutter::list_points(const Piece& piece, std::span<const std::int32_t> vertices) {
   const Geometry& g = outline_->geometry();
   const bool closed = piece.entry < 0;
   const auto node_position = [&](std::int32_t c) {
     return leaf_.nodes[static_cast<std::size_t>(crossing_node_[static_cast<std::size_t>(c)])].position;
   };
-  run_points_.clear();
-  if (!closed) run_points_.push_back(node_position(piece.entry));
-  for (const std::int32_t v : vertices) run_points_.push_back(g.point(v));
-  run_points_.push_back(closed ? run_points_.front() : node_position(piece.exit));
-  const bool turns_stay = closed || detail != Detail::merged;
-  run_turns_.clear();
-  for (std::size_t i = 0; i < run_points_.size(); ++i) {
-    const bool vertex = i + 1 < run_points_.size() && (closed || i > 0);
-    run_turns_.push_back(!vertex || detail == Detail::exact || !g.straight(vertices[closed ? i : i - 1]));
+  run_.clear();
+  if (!closed) {
+    const auto all = input_.trace.vertices_of(piece);
+    const auto trimmed = vertices.data() - all.data();  // in front
+    run_.push_back({node_position(piece.entry), trimmed == 0 ? piece.first_segment : all[static_cast<std::size_t>(trimmed) - 1], true, true});
   }
-  run_keep_.assign(run_points_.size(), 0);
-  if (turns_stay) run_keep_ = run_turns_;
-  run_keep_.front() = run_keep_.back() = 1;
+  for (const std::int32_t v : vertices) {
+    if (!run_.empty()) add_hanging_nodes(g.point(v));
+    const bool holds_node = std::any_of(input_.snaps.begin(), input_.snaps.end(),
+                                        [&](const LeafSnap& s) { return s.place >= 4 && s.place < 8 && s.snap->position == g.point(v); });
+    run_.push_back({g.point(v), v, !g.straight(v), g.kept(v) || holds_node});
+  }
+  const Point last = closed ? run_.front().position : node_position(piece.exit);
+  add_hanging_nodes(last);
+  run_.push_back({last, -1, true, true});
+}
+
+/// Hanging nodes that were moved onto the segment from the last point of the run on come next.
+void LeafCutter::add_hanging_nodes(Point segment_end) {
+  const RunPoint start = run_.back();
+  const std::size_t first = run_.size();
+  for (const LeafSnap& s : input_.snaps) {
+    const Point p = s.snap->position;
+    if (s.place < 4 || s.place >= 8 || s.snap->segment != start.segment || p == start.position || p == segment_end) continue;
+    run_.push_back({p, start.segment, true, true});
+  }
+  std::sort(run_.begin() + static_cast<std::ptrdiff_t>(first), run_.end(),
+            [&](const RunPoint& a, const RunPoint& b) { return length(a.position - start.position) < length(b.position - start.position); });
+}
+
+/// Marks the points of a piece that the chords go through.
+void LeafCutter::choose_points(bool closed, Detail detail) {
   leaf_.refined = leaf_.refined || closed;
-  if (turns_stay) return;
+  run_.front().chosen = run_.back().chosen = true;
+  if (closed || detail != Detail::merged) {
+    for (RunPoint& p : run_) p.chosen = p.chosen || p.turns || detail == Detail::exact;
+    return;
+  }
   std::size_t from = 0;
-  for (std::size_t i = 1; i < run_points_.size(); ++i) {
-    if (i + 1 < run_points_.size() && !g.kept(vertices[i - 1])) continue;
-    run_keep_[i] = 1;
+  for (std::size_t i = 1; i < run_.size(); ++i) {
+    if (!run_[i].fixed) continue;
+    run_[i].chosen = true;
     keep_strays(from, i);
     from = i;
   }
@@ -260,17 +280,17 @@ void LeafCutter::choose_points(const Piece& piece, std::span<const std::int32_t>
 /// Keeps the points between two kept ones from which the chord would stray too far (the rule of Douglas and Peucker 1973).
 void LeafCutter::keep_strays(std::size_t from, std::size_t to) {
   if (to - from < 2) return;
-  const Point a = run_points_[from], b = run_points_[to];
+  const Point a = run_[from].position, b = run_[to].position;
   std::size_t farthest = from;
   double stray = a == b ? largest_stray_ / 2 : std::min(largest_stray_, stray_of_chord * length(b - a));
   for (std::size_t i = from + 1; i < to; ++i) {
-    const double distance = distance_to_segment(run_points_[i], a, b);
-    if (run_turns_[i] == 0 || distance <= stray) continue;
+    const double distance = distance_to_segment(run_[i].position, a, b);
+    if (!run_[i].turns || distance <= stray) continue;
     stray = distance;
     farthest = i;
   }
   if (farthest == from) return;
-  run_keep_[farthest] = 1;
+  run_[farthest].chosen = true;
   leaf_.refined = true;
   keep_strays(from, farthest);
   keep_strays(farthest, to);

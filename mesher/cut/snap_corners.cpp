@@ -71,18 +71,6 @@ class SightCollector {
   std::vector<Sight>& sights_;
 };
 
-/// The nearest point to p on the segment a-b, the same for the segment b-a; rounded once.
-Point nearest_on_segment(Point p, Point a, Point b) {
-  using Wide = long double;
-  if (length(p - b) < length(p - a)) std::swap(a, b);
-  const Wide dx = Wide(b.x) - a.x, dy = Wide(b.y) - a.y;
-  const Wide along = (Wide(p.x) - a.x) * dx + (Wide(p.y) - a.y) * dy, square = dx * dx + dy * dy;
-  if (along <= 0) return a;
-  if (along >= square) return b;
-  const Wide t = along / square;
-  return {static_cast<double>(a.x + t * dx), static_cast<double>(a.y + t * dy)};
-}
-
 /// Decides one corner from all that it sees.
 class CornerDecision {
  public:
@@ -325,6 +313,15 @@ void sort_by_corner(std::vector<Sight>& sights) {
   sights = std::move(sorted);
 }
 
+/// Adds those whose place is not taken.
+void add_hanging(const std::vector<Snap>& hanging, std::vector<Snap>& snaps) {
+  std::set<std::pair<std::int64_t, std::int64_t>> taken;
+  for (const Snap& s : snaps) taken.emplace(s.x, s.y);
+  for (const Snap& s : hanging) {
+    if (taken.emplace(s.x, s.y).second) snaps.push_back(s);
+  }
+}
+
 /// Forgets the crossings that bent edges have taken.
 void drop_taken(const std::vector<Snap>& edges, std::vector<Sight>& sights) {
   std::set<std::tuple<bool, std::int64_t, std::int32_t>> taken;  // vertical, line, segment
@@ -361,6 +358,7 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
       snaps.push_back(std::move(*snap));
     }
   }
+  add_hanging(hanging_snaps(graph, lattice, geometry, traced, share), snaps);
   return snaps;
 }
 

@@ -22,8 +22,9 @@ struct Snap {
     friend bool operator==(const Absorbed&, const Absorbed&) = default;
   };
   std::vector<Absorbed> absorbed;
-  bool on_edge = false;   ///< an edge's, not a corner's
-  bool vertical = false;  ///< of an edge
+  std::int32_t segment = -1;  ///< that a hanging node was moved onto where no crossing was near; else -1
+  bool on_edge = false;       ///< an edge's, not a corner's
+  bool vertical = false;      ///< of an edge
 };
 
 /// A snap as one leaf sees it: at a corner (0 to 3), a hanging node (4 to 7), or anywhere on a side (8 to 11) of it.
