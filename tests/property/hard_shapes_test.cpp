@@ -8,7 +8,9 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble.hpp"
+#include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/build_mesh.hpp"
+#include "mesher/mesh/topology.hpp"
 #include "mesher/mesh/validate.hpp"
 #include "tests/property/shapes.hpp"
 #include "tests/support/world.hpp"
@@ -33,6 +35,7 @@ MeshOptions random_options(shapes::Random& random) {
   if (random() % 2 == 0) options.size.root = RootOptions{{-1, -1}, 2, 1, 1};
   const double snaps[] = {0, 0.001, 0.4, 0.4};
   options.snap = snaps[random() % 4];
+  options.type = random() % 2 == 0 ? MeshType::delaunay : MeshType::hybrid;
   return options;
 }
 
@@ -46,6 +49,26 @@ void write_shape(const shapes::Shape& shape, std::uint64_t seed) {
   }
 }
 
+/// Empty, or what is wrong: an edge that the circumcircle of one triangle beside it would have flipped, though the other diagonal leaves room.
+std::string delaunay_fault(const Mesh& mesh) {
+  if (!mesh.quads.empty()) return "quads in a Delaunay mesh";
+  const EdgeTable table(mesh);
+  const auto positive = [](Point a, Point b, Point c) { return cross(b - a, c - a) > 0 && cross(c - b, a - b) > 0 && cross(a - c, b - c) > 0; };
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const NodeId a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+      const std::int32_t across = table.cell_left_of(b, a);
+      if (across < 0) continue;
+      for (const NodeId d : mesh.triangles[static_cast<std::size_t>(across)]) {
+        if (d == a || d == b) continue;
+        const Point pa = mesh.point(a), pb = mesh.point(b), pc = mesh.point(c), pd = mesh.point(d);
+        if (in_circle(pa, pb, pc, pd) > 0 && positive(pa, pd, pc) && positive(pd, pb, pc)) return "an edge is not Delaunay";
+      }
+    }
+  }
+  return "";
+}
+
 /// Empty where all is well; else what is wrong.
 std::string outcome(const shapes::Shape& shape, const MeshOptions& options, double corner, std::int64_t& refused) {
   try {
@@ -57,6 +80,7 @@ std::string outcome(const shapes::Shape& shape, const MeshOptions& options, doub
     Mesh mesh = result.mesh;
     std::erase_if(mesh.boundaries, [](const BoundaryEdges& b) { return b.edges.empty(); });
     for (const MeshFault& fault : validate(mesh)) return std::string(name_of(fault.rule)) + ": " + fault.what;
+    if (options.type == MeshType::delaunay) return delaunay_fault(mesh);
   } catch (const InputError& error) {
     ++refused;
     const std::string message = error.what();
