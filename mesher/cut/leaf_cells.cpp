@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/predicates.hpp"
@@ -9,6 +10,9 @@
 namespace quadloop {
 
 namespace {
+
+// Of the corners of quadrilaterals: at most 50 degrees from the right angle in a whole leaf, whose corners may have been snapped, 40 in a cut one.
+constexpr double whole_cosine = 0.766, cut_cosine = 0.643;
 
 /// Trailing zeros of a lattice coordinate, at most those of a tree's edge: the sides of the root rank alike.
 std::int8_t rank_of(std::int64_t coordinate) {
@@ -22,14 +26,17 @@ TieKey key_of_lattice_node(std::int64_t x, std::int64_t y) {
 }
 
 bool is_whole(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
-  return loop.size() == 4 && std::all_of(loop.begin(), loop.end(), [&](std::int32_t n) { return leaf.nodes[static_cast<std::size_t>(n)].place < 4; });
+  return std::all_of(loop.begin(), loop.end(), [&](std::int32_t n) { return leaf.nodes[static_cast<std::size_t>(n)].place < 4; });
 }
 
-/// Strictly convex, in plain doubles as every reader of the mesh will compute it.
-bool is_convex(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
+/// Strictly convex, in plain doubles as every reader of the mesh will compute it, and no corner far from a right angle: such a quadrilateral stays
+/// one.
+bool is_well_shaped(const CutLeaf& leaf, std::span<const std::int32_t> loop, double largest_cosine) {
   const auto at = [&](std::size_t i) { return leaf.nodes[static_cast<std::size_t>(loop[i % 4])].position; };
   for (std::size_t i = 0; i < 4; ++i) {
-    if (cross(at(i + 1) - at(i), at(i + 3) - at(i)) <= 0 || orientation(at(i + 3), at(i), at(i + 1)) <= 0) return false;
+    const Point u = at(i + 1) - at(i), v = at(i + 3) - at(i);
+    if (cross(u, v) <= 0 || orientation(at(i + 3), at(i), at(i + 1)) <= 0) return false;
+    if (std::abs(dot(u, v)) > largest_cosine * length(u) * length(v)) return false;
   }
   return true;
 }
@@ -82,7 +89,7 @@ bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf,
   }
   if (holes) return triangulate(loops, cells);
   for (const auto& loop : loops) {
-    if (is_whole(leaf, loop) && is_convex(leaf, loop)) {
+    if (loop.size() == 4 && is_well_shaped(leaf, loop, is_whole(leaf, loop) ? whole_cosine : cut_cosine)) {
       cells.quads.push_back({loop[0], loop[1], loop[2], loop[3]});
     } else if (!triangulate(std::span(&loop, 1), cells)) {
       return false;

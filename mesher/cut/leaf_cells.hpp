@@ -14,7 +14,7 @@ struct LeafCells {
   std::vector<LocalQuad> quads;
 };
 
-/// Makes the cells of cut leaves: a leaf that is whole stays a quadrilateral, anything else is triangulated.
+/// Makes the cells of cut leaves: four nodes in good shape stay a quadrilateral, anything else is triangulated.
 class LeafCellMaker {
  public:
   /// Replaces `cells`. False where double precision leaves no room for cells of positive area.
