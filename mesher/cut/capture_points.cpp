@@ -11,6 +11,7 @@ namespace {
 
 // Shares of the local edge, where crossings nearer than usual_snap take a corner.
 constexpr double usual_snap = 0.4, corner_reach = 0.45, edge_reach = 0.34;
+constexpr double pointed_degrees = 45;  ///< a point that turns by more takes corners and edges along even where it is not kept
 constexpr double crossing_reach = 0.4;  ///< a crossing nearer to the point than this is taken by its edge
 
 /// A leaf edge without nodes inside: a side of a leaf, or half of one that has a hanging node.
@@ -212,7 +213,7 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
     for (std::size_t p = 0; p < view.pieces.size(); ++p) {
       if (view.pieces[p].entry < 0) continue;
       for (const std::int32_t v : view.vertices_of(view.pieces[p])) {
-        if (!geometry.kept(v)) continue;
+        if (!geometry.kept(v) && geometry.turn_degrees(v) < pointed_degrees) continue;
         if (capture.on_lattice(leaf, geometry.point(v))) continue;
         if (auto corner = capture.corner_near(leaf, geometry.point(v))) {
           corner->vertex = v;

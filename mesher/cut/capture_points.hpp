@@ -15,8 +15,8 @@ struct CornerCapture {
   std::int32_t trace = -1, piece = -1;  ///< that the vertex lies on
 };
 
-/// What the kept points take along: each the lattice corner next to it, or else the lattice edge next to it, which then bends through it. So no
-/// sliver is left between a point and a corner or an edge.
+/// What the kept points, and others where the outline turns sharply, take along: each the lattice corner next to it, or else the lattice edge next to
+/// it, which then bends through it. So no sliver is left between a point and a corner or an edge.
 struct Captures {
   std::vector<CornerCapture> corners;  ///< by corner; one each
   std::vector<Snap> edges;             ///< on_edge is set

@@ -267,18 +267,37 @@ class CornerDecision {
         swallowed.insert(swallowed.end(), near.begin(), near.end());
       }
     }
+    if (stubs.empty()) return false;
     target_ = nearest_point(sights, [&](std::size_t i) { return absorbed_[i] != 0; });
     if (captured_ != nullptr) swallowed.push_back(captured_->vertex);
     for (const std::int32_t v : swallowed) {
       if (geometry_.kept(v)) target_ = geometry_.point(v);
     }
-    return !stubs.empty() && length(target_ - corner_) < capture_share * local_edge_ &&
-           std::none_of(swallowed.begin(), swallowed.end(), [&](std::int32_t v) {
+    return follows(swallowed, stubs) || move_to_vertex(swallowed, stubs);
+  }
+
+  /// Whether the target is near the corner, and no vertex that vanishes in it strays from the outline as it goes on from there, nor is a kept one.
+  bool follows(std::span<const std::int32_t> swallowed, std::span<const Point> stubs) const {
+    return length(target_ - corner_) < capture_share * local_edge_ && std::none_of(swallowed.begin(), swallowed.end(), [&](std::int32_t v) {
              const Point p = geometry_.point(v);
              double stray = std::numeric_limits<double>::infinity();
              for (const Point stub : stubs) stray = std::min(stray, length(p - nearest_on_segment(p, target_, stub)));
              return stray > swallow_share * local_edge_ || (geometry_.kept(v) && p != target_);
            });
+  }
+
+  /// A vertex that strays from the outline beside it may be the target itself: the nearest that does.
+  bool move_to_vertex(std::vector<std::int32_t> swallowed, std::span<const Point> stubs) {
+    const auto distance = [&](std::int32_t v) { return length(geometry_.point(v) - corner_); };
+    std::sort(swallowed.begin(), swallowed.end(), [&](std::int32_t a, std::int32_t b) { return distance(a) < distance(b); });
+    for (std::size_t i = 0; i < swallowed.size(); ++i) {
+      const bool tied = (i > 0 && distance(swallowed[i - 1]) == distance(swallowed[i]) && swallowed[i - 1] != swallowed[i]) ||
+                        (i + 1 < swallowed.size() && distance(swallowed[i + 1]) == distance(swallowed[i]) && swallowed[i + 1] != swallowed[i]);
+      if (tied) continue;
+      target_ = geometry_.point(swallowed[i]);
+      if (follows(swallowed, stubs)) return true;
+    }
+    return false;
   }
 
   const LeafGraph& graph_;
