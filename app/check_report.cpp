@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace quadloop {
 
 namespace {
+
+constexpr std::size_t most_listed = 20;
 
 /// Bytes of the UTF-8 character that `text` begins with; 0 where it is none.
 std::size_t utf8_length(std::string_view text) {
@@ -53,6 +56,28 @@ void add_fit(JsonObject& json, const GeometryFit& fit) {
   json.add("geometry_area_error", fit.area_error);
 }
 
+std::string places_json(const std::vector<SharpPlace>& places) {
+  std::string text;
+  for (const auto& [place, degrees] : places) {
+    text += fmt::format("{}[{}, {}, {}]", text.empty() ? "" : ", ", number(place.x), number(place.y), number(degrees));
+  }
+  return "[" + text + "]";
+}
+
+void add_shape(JsonObject& json, const ShapeStatistics& shape) {
+  json.add("corners", shape.corners);
+  json.add("corners_below_15", shape.corners_below_15);
+  json.add("corners_below_26", shape.corners_below_26);
+  json.add("corners_above_150", shape.corners_above_150);
+  json.add("corners_of_outline", shape.corners_of_outline);
+  json.add("min_angle_made", shape.smallest_degrees);
+  json.add("max_angle_made", shape.largest_degrees);
+  json.add("area_ratio_max", shape.area_ratio_max);
+  json.add("area_ratio_p99", shape.area_ratio_p99);
+  json.add("quad_share", shape.quad_share);
+  json.add_raw("sharp_places", places_json(shape.sharp_places));
+}
+
 std::string faults_json(const std::vector<MeshFault>& faults) {
   std::string text;
   for (const MeshFault& fault : faults) {
@@ -67,6 +92,34 @@ std::string row(const char* name, const Value& value) {
   return fmt::format("  {:<24}{:>16}\n", name, value);
 }
 std::string row(const char* name, double value) { return row(name, fmt::format("{:.6g}", value)); }
+
+template <class Value>
+std::string inner_row(std::string_view name, const Value& value) {
+  return fmt::format("    {:<22}{:>16}\n", name, value);
+}
+
+std::string boundaries_text(const std::vector<std::pair<std::string, std::int64_t>>& boundaries, std::size_t most) {
+  std::string text;
+  const std::size_t listed = std::min(boundaries.size(), most);
+  for (std::size_t b = 0; b < listed; ++b) text += inner_row(boundaries[b].first, boundaries[b].second);
+  if (listed < boundaries.size()) text += fmt::format("    {} more; --verbose or --json shows them\n", boundaries.size() - listed);
+  return text;
+}
+
+std::string outline_corners_text(const ShapeStatistics& shape, bool verbose) {
+  std::string text = row("corners of the outline", shape.corners_of_outline);
+  if (!verbose) return text;
+  for (const auto& [place, degrees] : shape.sharp_places) {
+    text += inner_row(fmt::format("({}, {})", place.x, place.y), fmt::format("{:.6g}", degrees));
+  }
+  return text;
+}
+
+std::string shape_text(const ShapeStatistics& shape, bool with_geometry, bool verbose) {
+  return row("corners below 15 degrees", shape.corners_below_15) + row("corners below 26", shape.corners_below_26) +
+         row("corners above 150", shape.corners_above_150) + (with_geometry ? outline_corners_text(shape, verbose) : "") +
+         row("largest area ratio", shape.area_ratio_max) + row("area ratio, 99 %", shape.area_ratio_p99) + row("share of quads", shape.quad_share);
+}
 
 std::string fit_text(const GeometryFit& fit) {
   return row("boundaries dropped", fit.boundaries_dropped) + row("sharp corners", fit.sharp_corners) +
@@ -106,15 +159,17 @@ std::string json_string(std::string_view text) {
   return quoted + "\"";
 }
 
-std::string report_text(const CheckReport& report, std::size_t most_faults) {
+std::string report_text(const CheckReport& report, bool verbose) {
+  const std::size_t most = verbose ? std::numeric_limits<std::size_t>::max() : most_listed;
   const QualitySummary& quality = report.quality;
   std::string text = row("nodes", quality.counts.nodes) + row("triangles", quality.counts.triangles) + row("quads", quality.counts.quads);
   text += row("blocks", report.blocks) + row("boundary edges", quality.counts.boundary_edges);
-  for (const auto& [name, edges] : report.boundaries) text += fmt::format("    {:<22}{:>16}\n", name, edges);
+  text += boundaries_text(report.boundaries, most);
   text += row("area", report.area) + row("smallest angle", quality.smallest_degrees) + row("largest angle", quality.largest_degrees);
+  text += shape_text(report.shape, report.fit.has_value(), verbose);
   text += row("worst quality", quality.worst) + row("mean quality", quality.mean) + row("pinched nodes", report.pinched_nodes);
   if (report.fit) text += fit_text(*report.fit);
-  return text + faults_text(report.faults, most_faults) + (report.faults.empty() ? "  valid\n" : "  INVALID\n");
+  return text + faults_text(report.faults, most) + (report.faults.empty() ? "  valid\n" : "  INVALID\n");
 }
 
 std::string report_json(const CheckReport& report) {
@@ -133,6 +188,7 @@ std::string report_json(const CheckReport& report) {
   json.add("area", report.area);
   json.add("min_angle", quality.smallest_degrees);
   json.add("max_angle", quality.largest_degrees);
+  add_shape(json, report.shape);
   json.add("worst_quality", quality.worst);
   json.add("mean_quality", quality.mean);
   json.add("pinched_nodes", report.pinched_nodes);

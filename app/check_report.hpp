@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/shape_statistics.hpp"
 #include "mesher/mesh/validate.hpp"
 
 namespace quadloop {
@@ -16,14 +17,16 @@ struct CheckReport {
   std::int32_t blocks = 1;
   std::vector<std::pair<std::string, std::int64_t>> boundaries;  ///< name and number of edges
   QualitySummary quality;
+  ShapeStatistics shape;
   double area = 0;
   std::int64_t pinched_nodes = 0;
   std::optional<GeometryFit> fit;  ///< its faults are in `faults` too
   std::vector<MeshFault> faults;
 };
 
-/// A table for people. At most `most_faults` faults of each rule are listed; how many more there are is said.
-std::string report_text(const CheckReport& report, std::size_t most_faults);
+/// A table for people, angles in degrees. At most 20 boundaries and 20 faults of each rule are listed, and how many more there are is said;
+/// `verbose` lists all, and every place where the outline makes corners sharp.
+std::string report_text(const CheckReport& report, bool verbose);
 
 /// One JSON object on one line, with all faults. Numbers read back to the same double; one that is not finite is null.
 std::string report_json(const CheckReport& report);

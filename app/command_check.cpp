@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <memory>
+#include <span>
 
 #include "app/check_report.hpp"
 #include "app/command.hpp"
@@ -46,6 +46,7 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   report.blocks = loaded.blocks;
   for (const BoundaryEdges& boundary : mesh.boundaries) report.boundaries.emplace_back(boundary.name, boundary.edges.size());
   report.quality = summarise_quality(Communicator(MPI_COMM_SELF), mesh);
+  report.shape = shape_statistics(mesh, chains == nullptr ? std::span<const Chain>() : std::span(*chains));
   report.area = area_of(mesh);
   report.pinched_nodes = pinched_nodes(mesh);
   report.faults = validate(mesh, {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block});
@@ -65,17 +66,15 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
 }
 
 void check_on_root(const CommandContext& context, const CheckArguments& arguments) {
-  constexpr std::size_t faults_shown = 20;
   const LoadedMesh loaded = load(arguments.input);
   std::vector<Chain> chains;
   if (!arguments.geometry.empty()) chains = load_chains(arguments.geometry);
   CheckReport report = examine(loaded, arguments.geometry.empty() ? nullptr : &chains);
   report.file = arguments.input;
-  const std::size_t most = context.verbose ? std::numeric_limits<std::size_t>::max() : faults_shown;
   if (arguments.json) {
     std::cout << report_json(report) << std::flush;
   } else if (!context.quiet) {
-    std::cout << report_text(report, most) << std::flush;
+    std::cout << report_text(report, context.verbose) << std::flush;
   }
   if (!report.faults.empty()) refuse(report);
 }
