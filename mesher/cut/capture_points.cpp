@@ -38,39 +38,49 @@ class PointCapture {
     const Quadrant& q = graph_.leaf(leaf);
     const std::int64_t s = q.size(), h = s / 2;
     const std::array<std::array<std::int64_t, 2>, 8> places{{{0, 0}, {s, 0}, {s, s}, {0, s}, {h, 0}, {s, h}, {h, s}, {0, h}}};
+    std::optional<CornerCapture> nearest;
+    bool contested = false;
     for (std::size_t k = 0; k < places.size(); ++k) {
       if (k >= 4 && !graph_.has_hanging(leaf, static_cast<LeafGraph::Side>(k - 4))) continue;
       const std::int64_t x = q.x + places[k][0], y = q.y + places[k][1];
       const double distance = length(lattice_.corner(x, y) - p);
-      if (distance < share_ * corner_reach * shortest_edge_at(graph_, lattice_, x, y)) return CornerCapture{x, y, distance, -1, -1, -1};
+      if (distance >= share_ * corner_reach * shortest_edge_at(graph_, lattice_, x, y) || (nearest && distance > nearest->distance)) continue;
+      contested = nearest && distance == nearest->distance;
+      nearest = CornerCapture{x, y, distance, -1, -1, -1};
     }
-    return std::nullopt;
+    return contested ? std::nullopt : nearest;
   }
 
   /// The edge of the leaf that is near enough, with the crossings that it loses to the point.
   std::optional<Snap> edge_near(std::int32_t leaf, std::int32_t vertex, const LeafTrace& view, const Piece& piece) const {
     const Point p = geometry_.point(vertex);
+    LeafEdge nearest;
+    bool contested = false;
+    double least = share_ * edge_reach;
     for (int side = 0; side < 4; ++side) {
       const LeafEdge edge = edge_at(leaf, side, p);
-      const double size = line(!edge.vertical(), edge.to) - line(!edge.vertical(), edge.from);
-      const double distance = std::abs((edge.vertical() ? p.x : p.y) - line(edge.vertical(), edge.fixed));
-      if (distance >= share_ * edge_reach * size || across(edge) == LeafGraph::none) continue;
-      Snap snap;
-      const std::int64_t middle = (edge.from + edge.to) / 2;
-      snap.x = edge.vertical() ? edge.fixed : middle;
-      snap.y = edge.vertical() ? middle : edge.fixed;
-      snap.position = snap.corner = p;
-      snap.radius = share_ * edge_reach * size;
-      snap.on_edge = true;
-      snap.vertical = edge.vertical();
-      if (!take_crossings(edge, size, vertex, view, piece, snap)) return std::nullopt;
-      return snap;
+      const double distance = std::abs((edge.vertical() ? p.x : p.y) - line(edge.vertical(), edge.fixed)) / length_of(edge);
+      if (distance > least) continue;
+      contested = distance == least;
+      nearest = edge;
+      least = distance;
     }
-    return std::nullopt;
+    if (contested || least == share_ * edge_reach || across(nearest) == LeafGraph::none) return std::nullopt;
+    Snap snap;
+    const std::int64_t middle = (nearest.from + nearest.to) / 2;
+    snap.x = nearest.vertical() ? nearest.fixed : middle;
+    snap.y = nearest.vertical() ? middle : nearest.fixed;
+    snap.position = snap.corner = p;
+    snap.radius = share_ * edge_reach * length_of(nearest);
+    snap.on_edge = true;
+    snap.vertical = nearest.vertical();
+    if (!take_crossings(nearest, vertex, view, piece, snap)) return std::nullopt;
+    return snap;
   }
 
  private:
   double line(bool of_x, std::int64_t i) const { return of_x ? lattice_.x(i) : lattice_.y(i); }
+  double length_of(const LeafEdge& edge) const { return line(!edge.vertical(), edge.to) - line(!edge.vertical(), edge.from); }
 
   LeafEdge edge_at(std::int32_t leaf, int side, Point p) const {
     const Quadrant& q = graph_.leaf(leaf);
@@ -99,8 +109,9 @@ class PointCapture {
   }
 
   /// The crossings of the point's own piece that lie on the edge and near it. False where another one lies between, or another kept point near.
-  bool take_crossings(const LeafEdge& edge, double size, std::int32_t vertex, const LeafTrace& view, const Piece& piece, Snap& snap) const {
+  bool take_crossings(const LeafEdge& edge, std::int32_t vertex, const LeafTrace& view, const Piece& piece, Snap& snap) const {
     const Point p = geometry_.point(vertex);
+    const double size = length_of(edge);
     const auto along = [&](Point point) { return edge.vertical() ? point.y : point.x; };
     double low = along(p), high = low;
     std::vector<std::int32_t> taken;
@@ -150,11 +161,13 @@ std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometr
   snap.y = y;
   snap.corner = node;
   double nearest = reach;
+  bool contested = false;  // two places are equally near
   for (const Piece& piece : view.pieces) {
     const auto vertices = view.vertices_of(piece);
     const auto try_segment = [&](std::int32_t s) {
       const Point p = nearest_on_segment(node, geometry.point(s), geometry.point(geometry.next(s)));
-      if (length(p - node) >= nearest || !view.box.contains(p)) return;
+      if (length(p - node) > nearest || !view.box.contains(p)) return;
+      contested = length(p - node) == nearest && snap.segment >= 0 && p != snap.position;
       nearest = length(p - node);
       snap.position = p;
       snap.segment = s;
@@ -162,7 +175,7 @@ std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometr
     if (piece.entry >= 0) try_segment(piece.first_segment);
     std::for_each(vertices.begin(), vertices.end(), try_segment);
   }
-  if (snap.segment < 0) return std::nullopt;
+  if (snap.segment < 0 || contested) return std::nullopt;
   return snap;
 }
 
@@ -220,7 +233,7 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
           corner->trace = trace;
           corner->piece = static_cast<std::int32_t>(p);
           corners.push_back(*corner);
-        } else if (auto edge = capture.edge_near(leaf, v, view, view.pieces[p])) {
+        } else if (auto edge = !geometry.kept(v) ? std::nullopt : capture.edge_near(leaf, v, view, view.pieces[p])) {
           edges.push_back(std::move(*edge));
         }
       }

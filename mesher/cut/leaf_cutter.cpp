@@ -238,8 +238,7 @@ void LeafCutter::list_points(const Piece& piece, std::span<const std::int32_t> v
   }
   for (const std::int32_t v : vertices) {
     if (!run_.empty()) add_hanging_nodes(g.point(v));
-    const bool holds_node = std::any_of(input_.snaps.begin(), input_.snaps.end(),
-                                        [&](const LeafSnap& s) { return s.snap->position == g.point(v); });
+    const bool holds_node = std::any_of(input_.snaps.begin(), input_.snaps.end(), [&](const LeafSnap& s) { return s.snap->position == g.point(v); });
     run_.push_back({g.point(v), v, !g.straight(v), g.kept(v) || holds_node});
   }
   const Point last = closed ? run_.front().position : node_position(piece.exit);

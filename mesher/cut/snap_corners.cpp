@@ -89,12 +89,17 @@ class CornerDecision {
   }
 
   /// A corner that a kept point captures: it takes that point's run along, as far as it can.
-  Snap capture(const CornerCapture& captured, std::span<Sight> sights) {
+  std::optional<Snap> capture(const CornerCapture& captured, std::span<Sight> sights) {
     corner_ = lattice_.corner(captured.x, captured.y);
     local_edge_ = shortest_edge_at(graph_, lattice_, captured.x, captured.y);
     captured_ = &captured;
-    if (!absorb(sights, true) && !absorb(sights, false)) absorbed_.assign(sights.size(), 0);
+    const bool absorbs = absorb(sights, true) || absorb(sights, false);
     captured_ = nullptr;
+    if (!absorbs) {
+      const bool crossed = std::any_of(sights.begin(), sights.end(), [&](const Sight& s) { return s.distance < share_ * local_edge_; });
+      if (crossed) return decide(sights);
+      absorbed_.assign(sights.size(), 0);
+    }
     return snap_to(captured.x, captured.y, geometry_.point(captured.vertex), sights);
   }
 
@@ -269,11 +274,11 @@ class CornerDecision {
     }
     if (stubs.empty()) return false;
     target_ = nearest_point(sights, [&](std::size_t i) { return absorbed_[i] != 0; });
-    if (captured_ != nullptr) swallowed.push_back(captured_->vertex);
     for (const std::int32_t v : swallowed) {
       if (geometry_.kept(v)) target_ = geometry_.point(v);
     }
-    return follows(swallowed, stubs) || move_to_vertex(swallowed, stubs);
+    if (captured_ != nullptr) target_ = geometry_.point(captured_->vertex);
+    return follows(swallowed, stubs) || (captured_ == nullptr && move_to_vertex(swallowed, stubs));
   }
 
   /// Whether the target is near the corner, and no vertex that vanishes in it strays from the outline as it goes on from there, nor is a kept one.
@@ -371,11 +376,8 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
     const std::int64_t x = capture ? captured->x : sights[begin].x, y = capture ? captured->y : sights[begin].y;
     while (end < sights.size() && sights[end].x == x && sights[end].y == y) ++end;
     const auto at_corner = std::span(sights).subspan(begin, end - begin);
-    if (capture) {
-      snaps.push_back(decision.capture(*captured++, at_corner));
-    } else if (auto snap = decision.decide(at_corner)) {
-      snaps.push_back(std::move(*snap));
-    }
+    auto snap = capture ? decision.capture(*captured++, at_corner) : decision.decide(at_corner);
+    if (snap) snaps.push_back(std::move(*snap));
   }
   add_hanging(hanging_snaps(graph, lattice, geometry, traced, share), snaps);
   return snaps;
