@@ -47,7 +47,17 @@ void require_folder(const std::string& output) {
   if (std::filesystem::is_directory(output)) throw OutputError(output + ": is a folder; choose another name");
 }
 
+/// An outline in the place of a case file is a likely slip.
+void require_case_file(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  for (const char* outline : {".geom", ".dat", ".dxf", ".geojson", ".shp", ".gpkg"}) {
+    if (suffix != outline) continue;
+    throw InputError(path + ": is an outline, not a case file; write a case file with file = \"" + path + "\" in its table [geometry]");
+  }
+}
+
 Prepared prepare(const MeshArguments& arguments) {
+  require_case_file(arguments.case_path);
   Prepared prepared;
   std::vector<std::string> assignments = arguments.assignments;
   if (!arguments.type.empty()) assignments.push_back("mesh.type=\"" + arguments.type + "\"");
@@ -60,6 +70,7 @@ Prepared prepare(const MeshArguments& arguments) {
   for (const std::string& file : prepared.files) require_folder(file);
   prepared.geometry = load_geometry(settings, prepared.warnings);
   prepared.options = mesh_options(settings, *prepared.geometry);
+  for (std::string& warning : spacing_warnings(prepared.options, *prepared.geometry)) prepared.warnings.push_back(std::move(warning));
   return prepared;
 }
 

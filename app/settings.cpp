@@ -178,11 +178,28 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
   double smallest = side;
   for (std::int32_t s = 0; s < geometry.size(); ++s) smallest = std::min(smallest, geometry.spacing_of(s));
   for (const Source& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
-  const double wanted_min = std::max(smallest, std::ldexp(side, -20));
+  const double wanted_min = std::max(smallest / 2, std::ldexp(side, -20));  // leaf sizes halve: so there is one at most as large as asked for
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
   options.size.max = max;
   options.size.min = settings.min.value_or(std::min(wanted_min, max));
   return options;
+}
+
+Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
+  Warnings warnings;
+  const double min = options.size.min;
+  for (const Boundary& b : geometry.boundaries()) {
+    if (b.spacing > 0 && b.spacing < min) {
+      warnings.push_back(
+          fmt::format("boundary '{}' asks for a spacing of {}, but spacing.min = {} ends the refinement before", b.name, b.spacing, min));
+    }
+  }
+  for (const Source& source : options.size.sources) {
+    if (source.spacing < min) {
+      warnings.push_back(fmt::format("a [[source]] asks for a spacing of {}, but spacing.min = {} ends the refinement before", source.spacing, min));
+    }
+  }
+  return warnings;
 }
 
 }  // namespace quadloop

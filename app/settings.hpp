@@ -46,4 +46,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings);
 /// if that is larger), min the smallest spacing that it asks for, but no less than 2^-20 of that side.
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
 
+/// One line for each boundary and source whose spacing is smaller than leaves may be.
+Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry);
+
 }  // namespace quadloop

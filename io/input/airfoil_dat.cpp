@@ -42,9 +42,21 @@ double area(const std::vector<Point>& points) {
   return 0.5 * sum;
 }
 
+/// The trailing edge may be blunt, but a file with one side alone is not to pass in silence.
+void warn_of_gap(const std::vector<Point>& rows, const std::string& source, std::vector<std::string>& warnings) {
+  constexpr double blunt = 0.05;  // of the chord
+  if (rows.size() < 2) return;
+  Box box;
+  for (const Point p : rows) box.include(p);
+  const double gap = length(rows.back() - rows.front());
+  if (gap <= blunt * std::max(box.width(), box.height())) return;
+  warnings.push_back(fmt::format("{}: the airfoil's first and last point, ({}, {}) and ({}, {}), are {:.3g} apart and were joined by a straight line",
+                                 source, rows.front().x, rows.front().y, rows.back().x, rows.back().y, gap));
+}
+
 }  // namespace
 
-std::vector<Chain> read_airfoil(const std::string& path) {
+std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string>& warnings) {
   LineReader lines(path);
   lines.require_next("the airfoil's name");
   std::vector<Point> rows;
@@ -62,6 +74,7 @@ std::vector<Chain> read_airfoil(const std::string& path) {
     rows = around(rows, static_cast<std::size_t>(counts.x));
   }
   if (rows.size() > 1 && rows.front() == rows.back()) rows.pop_back();
+  warn_of_gap(rows, source, warnings);
   if (area(rows) > 0) std::reverse(rows.begin(), rows.end());
   return {Chain{"airfoil", false, std::move(rows), source}};
 }

@@ -17,7 +17,7 @@ std::vector<Chain> read_geometry(const std::string& path, std::vector<std::strin
   std::string suffix = std::filesystem::path(path).extension().string();
   std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (suffix == ".geom") return read_geom(path);
-  if (suffix == ".dat") return read_airfoil(path);
+  if (suffix == ".dat") return read_airfoil(path, warnings);
   for (const char* known : {".dxf", ".geojson", ".shp", ".gpkg"}) {
     if (suffix == known) return read_ogr(path, warnings);
   }

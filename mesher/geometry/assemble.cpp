@@ -39,6 +39,19 @@ void orient(Outline& outline, const std::vector<LoopPlace>& places, Warnings& wa
   if (turned > most_named) warnings.push_back(fmt::format("{} more loops wound the wrong way round and were turned", turned - most_named));
 }
 
+/// Several outermost loops are several domains: meant so, or a loop with wrong coordinates.
+void warn_of_domains(const Outline& outline, const std::vector<LoopPlace>& places, Warnings& warnings) {
+  std::vector<std::size_t> outermost;
+  for (std::size_t l = 0; l < places.size(); ++l) {
+    if (places[l].depth == 0) outermost.push_back(l);
+  }
+  if (outermost.size() < 2) return;
+  const OutlineLoop& second = outline.loops[outermost[1]];
+  const std::string& name = outline.names[static_cast<std::size_t>(second.boundary.front().value())];
+  warnings.push_back(fmt::format("the geometry has {} domains beside each other; that of boundary '{}' at ({}, {}) lies in no other",
+                                 outermost.size(), name, second.points.front().x, second.points.front().y));
+}
+
 Geometry to_geometry(const Outline& outline, const AssembleOptions& options) {
   std::vector<Point> points;
   std::vector<BoundaryId> segment_boundary;
@@ -73,6 +86,7 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
   Outline outline = join_chains(chains);
   const std::vector<LoopPlace> places = validate(outline);
   orient(outline, places, warnings);
+  warn_of_domains(outline, places, warnings);
   Geometry geometry = to_geometry(outline, options);
   require_extent(geometry);
   return geometry;

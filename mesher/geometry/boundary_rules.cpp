@@ -60,7 +60,8 @@ std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names,
         found = true;
       }
       if (!found && rule.must_match) {
-        throw InputError(fmt::format("{}: no boundary of the geometry matches '{}'; it has: {}", rule.where, rule.pattern, shown(names)));
+        const char* hint = rule.pattern == "farfield" ? "; geometry.far_field adds a far field" : "";
+        throw InputError(fmt::format("{}: no boundary of the geometry matches '{}'; it has: {}{}", rule.where, rule.pattern, shown(names), hint));
       }
     }
   }

@@ -67,7 +67,7 @@ CASES = [
     case_file("missing geometry file", CASE.replace("box", "none"), "none.geom"),
     case_file("unknown suffix", CASE.replace("box.geom", "box.stl"), "box.stl", ".geom"),
     case_file("far field too small", CASE.replace("[spacing]", "far_field = 2\n[spacing]"), "case.toml:3:", "far_field"),
-    case_file("delaunay", CASE + "[mesh]\ntype = \"delaunay\"\n", "case.toml:7:", "delaunay"),
+    case_file("type", CASE + "[mesh]\ntype = \"voronoi\"\n", "case.toml:7:", "voronoi", "delaunay"),
     case_file("root too small", CASE + "[mesh]\nroot = [0, 0, 2, 1, 1]\n", "root"),
     case_file("min too small for the tree", CASE.replace("0.25", "1e-12"), "min"),
     case_file("unknown format", CASE + "[output]\nformats = [\"xyz\"]\n", "case.toml:7:", "xyz"),
@@ -75,7 +75,7 @@ CASES = [
     Refusal("unknown --set key", ["--set spacing.foo=1:", "unknown key"], arguments=with_set("spacing.foo=1")),
     Refusal("--set without =", ["--set spacing.min:"], arguments=with_set("spacing.min")),
     Refusal("missing case file", ["none.toml"], arguments=["mesh", "none.toml", "-o", "out"]),
-    Refusal("--type delaunay", ["delaunay"], arguments=["mesh", "case.toml", "-o", "out", "--type", "delaunay"]),
+    Refusal("--type voronoi", ["voronoi", "delaunay"], arguments=["mesh", "case.toml", "-o", "out", "--type", "voronoi"]),
 ]
 
 USAGES = [
