@@ -47,7 +47,8 @@ void SizeTree::fill_near(Step& step, const std::vector<std::int32_t>& parents) {
   step.has_near = true;
   const std::int64_t half = step.place.size() / 2;
   for (const std::int32_t parent : parents) {
-    if (!is_split(parent)) continue;
+    const Node& whole = nodes_[static_cast<std::size_t>(parent)];
+    if (!forbids(leaf_size(whole.finest), chebyshev_gap(step.place, whole.place), half, slope_) || !is_split(parent)) continue;
     const std::int32_t first = nodes_[static_cast<std::size_t>(parent)].children;
     for (std::int32_t child = first; child < first + 4; ++child) {
       const Node& node = nodes_[static_cast<std::size_t>(child)];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace quadloop {
 
@@ -131,7 +130,7 @@ int SizeTree::level_for(double spacing) const {
   return level;
 }
 
-bool SizeTree::wants_split(const Node& node) const {
+bool SizeTree::wants_split(const Node& node) {
   const Quadrant& q = node.place;
   if (q.level >= finest_) return false;
   const Box box = lattice_->box_of(q);
@@ -152,16 +151,23 @@ bool SizeTree::wants_split(const Node& node) const {
   return unresolved_(q, inside);
 }
 
-bool SizeTree::turns_too_far(std::span<const std::int32_t> segments, const Box& box) const {
+bool SizeTree::turns_too_far(std::span<const std::int32_t> segments, const Box& box) {
   const Geometry& g = outline_->geometry();
-  std::map<BoundaryId, std::int64_t> turned;
+  turned_.clear();
   for (const std::int32_t v : segments) {
     const bool inside = outline_->beyond_x(v, box.low.x) && !outline_->beyond_x(v, box.high.x) && outline_->beyond_y(v, box.low.y) &&
                         !outline_->beyond_y(v, box.high.y);
-    if (inside) turned[g.boundary_of(v)] += turning_[static_cast<std::size_t>(v)];
+    if (!inside) continue;
+    const BoundaryId boundary = g.boundary_of(v);
+    const auto known = std::find_if(turned_.begin(), turned_.end(), [&](const auto& entry) { return entry.first == boundary; });
+    if (known == turned_.end()) {
+      turned_.emplace_back(boundary, turning_[static_cast<std::size_t>(v)]);
+    } else {
+      known->second += turning_[static_cast<std::size_t>(v)];
+    }
   }
   const auto allowed = std::llround(*options_->curvature / turning_unit);
-  return std::any_of(turned.begin(), turned.end(), [&](const auto& entry) { return entry.second > allowed; });
+  return std::any_of(turned_.begin(), turned_.end(), [&](const auto& entry) { return entry.second > allowed; });
 }
 
 /// From the node last asked for up to one that holds q, and down again, but not into a plain one: few steps along the curve.

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cstdint>
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -63,8 +63,8 @@ class SizeTree {
   bool in_domains_box(const Quadrant& q) const;
   std::int64_t gap_to_domain(const Quadrant& q) const;
   int level_for(double spacing) const;
-  bool wants_split(const Node& node) const;
-  bool turns_too_far(std::span<const std::int32_t> segments, const Box& box) const;
+  bool wants_split(const Node& node);
+  bool turns_too_far(std::span<const std::int32_t> segments, const Box& box);
   std::int32_t deepest_node_at(const Quadrant& q);
 
   Step& step_above(const Quadrant& q);
@@ -86,7 +86,8 @@ class SizeTree {
   std::vector<Node> nodes_;
   std::vector<std::int32_t> segments_;
   std::vector<std::int32_t> found_;
-  std::int32_t cursor_ = -1;  ///< node last asked for
+  std::vector<std::pair<BoundaryId, std::int64_t>> turned_;  ///< of the quadrant looked at
+  std::int32_t cursor_ = -1;                                 ///< node last asked for
   std::vector<Step> path_;
   std::vector<std::int32_t> roots_;
 };
