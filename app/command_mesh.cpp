@@ -129,6 +129,13 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   log::detail("meshing " + std::to_string(prepared.geometry->size()) + " segments");
   times.begin("mesh");
   MeshResult result = build_mesh(comm, *prepared.geometry, prepared.options);
+  if (prepared.settings.smooth.sweeps > 0) {
+    times.begin("smooth");
+    SmoothOptions smooth = prepared.settings.smooth;
+    smooth.geometry = &*prepared.geometry;
+    const SmoothReport smoothed = smooth_mesh(comm, result.mesh, smooth);
+    if (comm.is_root()) std::cerr << "free " << smoothed.free_nodes << " moves " << smoothed.moves << " sweeps " << smoothed.sweeps << " cost " << smoothed.worst_cost_before << " " << smoothed.worst_cost_after << "\n";
+  }
   result.tree.attributes.case_digest = case_digest(prepared.options);
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);
   times.begin("write");

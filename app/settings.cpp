@@ -129,6 +129,20 @@ void read_mesh_table(const CaseTable& root, Settings& settings) {
   table->finish();
 }
 
+void read_smooth_table(const CaseTable& root, Settings& settings) {
+  const auto table = root.table("smooth");
+  if (!table) return;
+  if (const auto sweeps = table->number("sweeps", {0, 100000})) {
+    if (*sweeps != std::floor(*sweeps)) table->refuse("sweeps", "must be a whole number, 0 or more; 0 leaves the mesh as it is cut");
+    settings.smooth.sweeps = static_cast<int>(*sweeps);
+  }
+  const auto objective = table->choice("objective", {"power", "thesis"});
+  if (objective) settings.smooth.objective = *objective == "thesis" ? Objective::thesis : Objective::power;
+  const auto method = table->choice("method", {"perturb", "nlopt"});
+  if (method) settings.smooth.method = *method == "nlopt" ? Method::nlopt : Method::perturb;
+  table->finish();
+}
+
 void read_output_table(const CaseTable& root, const std::string& case_path, Settings& settings) {
   settings.output_prefix = std::filesystem::path(case_path).stem().string();
   const auto table = root.table("output");
@@ -156,6 +170,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   read_boundary_tables(root, settings);
   for (const CaseTable& source : root.tables("source")) settings.mesh.size.sources.push_back(read_source(source));
   read_mesh_table(root, settings);
+  read_smooth_table(root, settings);
   read_output_table(root, case_path, settings);
   root.finish();
   return settings;

@@ -8,6 +8,7 @@
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/transform.hpp"
 #include "mesher/mesh/build_mesh.hpp"
+#include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
 
@@ -31,6 +32,7 @@ struct Settings {
   AssembleOptions outline;
   std::optional<double> min, max;  ///< spacing.min and spacing.max, where given
   MeshOptions mesh;                ///< without the sizes min and max: those may follow from the geometry
+  SmoothOptions smooth;            ///< without the geometry
   std::string output_prefix;
   std::vector<std::string> formats{"mesh", "cgns"};
 };

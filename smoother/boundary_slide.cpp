@@ -1,0 +1,115 @@
+#include "smoother/boundary_slide.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "smoother/untangle.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Shares of the way to the neighbour on that side.
+constexpr std::array<double, 4> shares{0.3, 0.12, 0.04, 0.01};
+constexpr double straight_sine = 1e-10;
+constexpr double longest_way = 20;  ///< a chord that stands for a part of the outline longer than so many times itself is left alone
+
+}  // namespace
+
+BoundarySlide::BoundarySlide(const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline,
+                             const std::vector<char>& pinned)
+    : mesh_{mesh}, boundaries_{boundaries}, outline_{outline}, freedom_(static_cast<std::size_t>(mesh.owned_nodes()), NodeFreedom::interior) {
+  find_rails(pinned);
+}
+
+void BoundarySlide::find_rails(const std::vector<char>& pinned) {
+  for (std::size_t node = 0; node < pinned.size() && node < freedom_.size(); ++node) {
+    if (pinned[node] != 0) freedom_[node] = NodeFreedom::fixed;
+  }
+  struct End {
+    std::int32_t node, other, boundary;
+    bool leaves;
+    auto key() const { return std::tie(node, leaves, boundary, other); }
+  };
+  std::vector<End> ends;
+  for (const HaloEdge& e : mesh_.boundary_edges()) {
+    if (e.from.value() < mesh_.owned_nodes()) ends.push_back({e.from.value(), e.to.value(), e.boundary, true});
+    if (e.to.value() < mesh_.owned_nodes()) ends.push_back({e.to.value(), e.from.value(), e.boundary, false});
+  }
+  std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.key() < b.key(); });
+  for (std::size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
+    while (end < ends.size() && ends[end].node == ends[begin].node) ++end;
+    const End &in = ends[begin], &out = ends[end - 1];
+    NodeFreedom& freedom = freedom_[static_cast<std::size_t>(in.node)];
+    const bool through = end - begin == 2 && !in.leaves && out.leaves && in.boundary == out.boundary;
+    const Rail rail{in.node, in.other, out.other, in.boundary};
+    const bool slides = freedom == NodeFreedom::interior && through && may_slide(rail);
+    freedom = slides ? NodeFreedom::sliding : NodeFreedom::fixed;
+    if (slides) rails_.push_back(rail);
+  }
+}
+
+bool BoundarySlide::is_straight(const Rail& rail) const {
+  const Point in = point(rail.node) - point(rail.before), out = point(rail.after) - point(rail.node);
+  return dot(in, out) > 0 && std::abs(cross(in, out)) <= straight_sine * length(in) * length(out);
+}
+
+/// The chords' ends may be kept vertices, whose places are those of any other point.
+BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
+  const std::string& name = boundaries_[static_cast<std::size_t>(rail.boundary)].name;
+  return {outline_->locate(point(rail.before), name, true), outline_->locate(point(rail.node), name, false),
+          outline_->locate(point(rail.after), name, true)};
+}
+
+bool BoundarySlide::may_slide(const Rail& rail) const {
+  if (outline_ == nullptr) return is_straight(rail);
+  const Places places = locate(rail);
+  if (!places.at.valid() || places.before.loop != places.at.loop || places.after.loop != places.at.loop) return false;
+  const double chord = length(point(rail.node) - point(rail.before)) + length(point(rail.after) - point(rail.node));
+  return outline_->way(places.before, places.at) + outline_->way(places.at, places.after) <= longest_way * chord;
+}
+
+const BoundarySlide::Rail& BoundarySlide::rail_of(std::int32_t node) const {
+  return *std::lower_bound(rails_.begin(), rails_.end(), node, [](const Rail& rail, std::int32_t n) { return rail.node < n; });
+}
+
+bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const {
+  const Point a = point(rail.before), b = point(rail.after), now = point(rail.node);
+  const auto deviation = [&](OutlinePlace at, Point middle) {
+    return std::max(outline_->deviation(places.before, a, at, middle), outline_->deviation(at, middle, places.after, b));
+  };
+  return deviation(moved, p) <= deviation(places.at, now) && !outline_->meets_elsewhere(places.before, a, moved, p) &&
+         !outline_->meets_elsewhere(moved, p, places.after, b);
+}
+
+std::optional<Point> BoundarySlide::improve(std::int32_t node, const Star& star, Objective objective) const {
+  const Rail& rail = rail_of(node);
+  const Point p = point(node);
+  Places places;
+  double back = length(p - point(rail.before)), ahead = length(point(rail.after) - p);
+  const Point direction = (1 / length(point(rail.after) - point(rail.before))) * (point(rail.after) - point(rail.before));
+  if (outline_ != nullptr) {
+    places = locate(rail);
+    if (!places.before.valid() || !places.at.valid() || !places.after.valid()) return std::nullopt;
+    back = outline_->way(places.before, places.at);
+    ahead = outline_->way(places.at, places.after);
+  }
+  std::array<OutlinePlace, Star::batch> moved;
+  Star::Batch x, y;
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    const double step = k < shares.size() ? shares[k] * ahead : -shares[k - shares.size()] * back;
+    moved[k] = {places.at.loop, places.at.arc + step};
+    const Point to = outline_ != nullptr ? outline_->point_at(moved[k]) : point(rail.before) + (back + step) * direction;
+    x[static_cast<Eigen::Index>(k)] = to.x;
+    y[static_cast<Eigen::Index>(k)] = to.y;
+  }
+  std::vector<int> order = ranked_places(star, p, objective, x, y);
+  for (const int k : order) {
+    const Point to{x[k], y[k]};
+    if (outline_ == nullptr || keeps_outline(rail, places, moved[static_cast<std::size_t>(k)], to)) return to;
+  }
+  return std::nullopt;
+}
+
+}  // namespace quadloop

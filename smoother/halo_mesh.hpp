@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/node_exchange.hpp"
+
+namespace quadloop {
+
+/// A boundary edge, the domain to its left.
+struct HaloEdge {
+  NodeId from, to;
+  std::int32_t boundary = -1;
+};
+
+/// One rank's part of a mesh with all cells, of other ranks too, that touch its owned nodes. The cells come in their global order, so what is added up
+/// over the cells round a node does not depend on where ranks meet.
+class HaloMesh {
+ public:
+  /// `mesh` must outlive it and keep its cells. *Collective.*
+  HaloMesh(const Communicator& comm, const Mesh& mesh);
+
+  /// Owned nodes first, as in the mesh; then its copies; then the other nodes of other ranks' cells.
+  std::vector<Point>& points() { return points_; }
+  const std::vector<Point>& points() const { return points_; }
+  const Point& point(NodeId node) const { return points_[static_cast<std::size_t>(node.value())]; }
+  std::int32_t owned_nodes() const { return mesh_->owned_nodes; }
+  std::int64_t global(std::int32_t node) const;
+  const NodeExchange& exchange() const { return exchange_; }
+
+  /// Those that touch an owned node, among others.
+  const std::vector<HaloEdge>& boundary_edges() const { return edges_; }
+
+  /// A value for each of the mesh's own cells, triangles, then quads, becomes one for each cell here, in the order of for_each_cell. *Collective.*
+  template <class T>
+  std::vector<T> spread(const Communicator& comm, const std::vector<T>& own) const;
+
+  /// Calls `visit(nodes)` for each cell, an array of three or four nodes: triangles, then quads.
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    for (const auto* part : {&triangles_before_, &mesh_->triangles, &triangles_after_}) {
+      for (const auto& nodes : *part) visit(nodes);
+    }
+    for (const auto* part : {&quads_before_, &mesh_->quads, &quads_after_}) {
+      for (const auto& nodes : *part) visit(nodes);
+    }
+  }
+
+ private:
+  template <std::size_t width>
+  using Cells = std::vector<std::array<NodeId, width>>;
+
+  class Numbering;
+  using CellLists = std::vector<std::vector<std::int32_t>>;  ///< for each rank
+  template <std::size_t width>
+  void receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own, Numbering& numbering, Cells<width>& before,
+                     Cells<width>& after, CellLists& sent);
+  template <class T>
+  void append_spread(const Communicator& comm, const CellLists& sent, std::span<const T> own, std::vector<T>& all) const;
+  void receive_edges(const Communicator& comm, const NodeOwners& owners, const Numbering& numbering);
+  NodeExchange gather(const Communicator& comm);
+
+  const Mesh* mesh_;
+  std::vector<Point> points_;
+  std::vector<GlobalNodeId> copies_;
+  Cells<3> triangles_before_, triangles_after_;  ///< of lower and of higher ranks
+  Cells<4> quads_before_, quads_after_;
+  std::vector<HaloEdge> edges_;
+  CellLists triangles_sent_, quads_sent_;  ///< own cells that other ranks have too
+  NodeExchange exchange_;
+};
+
+template <class T>
+void HaloMesh::append_spread(const Communicator& comm, const CellLists& sent, std::span<const T> own, std::vector<T>& all) const {
+  std::vector<std::vector<T>> out(sent.size());
+  for (std::size_t rank = 0; rank < sent.size(); ++rank) {
+    for (const std::int32_t cell : sent[rank]) out[rank].push_back(own[static_cast<std::size_t>(cell)]);
+  }
+  const auto received = comm.exchange(out);
+  const auto self = static_cast<std::size_t>(comm.rank());
+  for (std::size_t rank = 0; rank < received.size(); ++rank) {
+    if (rank == self) all.insert(all.end(), own.begin(), own.end());
+    all.insert(all.end(), received[rank].begin(), received[rank].end());
+  }
+}
+
+template <class T>
+std::vector<T> HaloMesh::spread(const Communicator& comm, const std::vector<T>& own) const {
+  std::vector<T> all;
+  const std::size_t triangles = mesh_->triangles.size();
+  append_spread(comm, triangles_sent_, std::span(own).first(triangles), all);
+  append_spread(comm, quads_sent_, std::span(own).subspan(triangles), all);
+  return all;
+}
+
+}  // namespace quadloop

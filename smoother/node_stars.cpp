@@ -1,0 +1,92 @@
+#include "smoother/node_stars.hpp"
+
+#include <numeric>
+
+namespace quadloop {
+
+namespace {
+
+/// Corners that a node of a cell hangs on.
+template <std::size_t width>
+constexpr std::size_t corners_of_cell = width == 3 ? 1 : 3;
+
+/// Targets as the nodes of a cell see its corners. A triangle: for each node its own corner. A quad: for each node its own corner, then that of the
+/// next node, then that of the previous one.
+template <std::size_t width>
+std::vector<CornerTarget> seen_targets(const std::array<CornerTarget, width>& of_corners) {
+  std::vector<CornerTarget> seen;
+  for (std::size_t k = 0; k < width; ++k) {
+    seen.push_back(of_corners[k]);
+    if (width == 3) continue;
+    seen.push_back(seen_from_next(seen_from_next(of_corners[(k + 1) % width])));
+    seen.push_back(seen_from_next(of_corners[(k + width - 1) % width]));
+  }
+  return seen;
+}
+
+template <std::size_t width>
+std::size_t ideal_begin() {
+  return width == 3 ? 0 : 3;
+}
+
+}  // namespace
+
+NodeStars::NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes, const std::vector<CellTarget>& targets)
+    : mesh_{mesh}, nodes_{std::move(free_nodes)}, starts_(nodes_.size() + 1, 0) {
+  for (const auto& seen : {seen_targets<3>(ideal_targets<3>()), seen_targets<4>(ideal_targets<4>())}) {
+    targets_.insert(targets_.end(), seen.begin(), seen.end());
+  }
+  std::vector<std::int32_t> place(mesh.points().size(), -1);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) place[static_cast<std::size_t>(nodes_[i])] = static_cast<std::int32_t>(i);
+  mesh.for_each_cell([&](const auto& cell) {
+    for (const NodeId node : cell) {
+      const std::int32_t i = place[static_cast<std::size_t>(node.value())];
+      if (i >= 0) starts_[static_cast<std::size_t>(i) + 1] += corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
+    }
+  });
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  corners_.resize(starts_.back());
+  std::vector<std::size_t> ends(starts_.begin(), starts_.end() - 1);
+  std::size_t number = 0;
+  mesh.for_each_cell([&](const auto& cell) {
+    add_cell(cell, targets.empty() ? CellTarget{} : targets[number], place, ends);
+    ++number;
+  });
+}
+
+template <std::size_t width>
+std::int32_t NodeStars::first_target(const CellTarget& target) {
+  if (target.ideal()) return static_cast<std::int32_t>(ideal_begin<width>());
+  const auto begin = static_cast<std::int32_t>(targets_.size());
+  const auto seen = seen_targets<width>(stretched_targets<width>(target.w1, target.w2));
+  targets_.insert(targets_.end(), seen.begin(), seen.end());
+  return begin;
+}
+
+template <std::size_t width>
+void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target, std::span<const std::int32_t> place,
+                         std::vector<std::size_t>& ends) {
+  constexpr auto per_node = static_cast<std::int32_t>(corners_of_cell<width>);
+  std::int32_t targets = -1;
+  for (std::size_t k = 0; k < width; ++k) {
+    const std::int32_t i = place[static_cast<std::size_t>(cell[k].value())];
+    if (i < 0) continue;
+    if (targets < 0) targets = first_target<width>(target);
+    const NodeId next = cell[(k + 1) % width], previous = cell[(k + width - 1) % width];
+    const std::int32_t own = targets + per_node * static_cast<std::int32_t>(k);
+    std::size_t& end = ends[static_cast<std::size_t>(i)];
+    corners_[end++] = {next, previous, own, width == 3 ? CellAngle::all : CellAngle::at_p};
+    if constexpr (width == 4) {
+      const NodeId opposite = cell[(k + 2) % width];
+      corners_[end++] = {next, opposite, own + 1, CellAngle::at_q};
+      corners_[end++] = {opposite, previous, own + 2, CellAngle::at_r};
+    }
+  }
+}
+
+void NodeStars::gather(std::size_t i, Star& star) const {
+  star.clear();
+  for (const Corner& c : corners_of(i)) star.add({mesh_.point(c.q), mesh_.point(c.r), targets_[static_cast<std::size_t>(c.target)], c.angle});
+}
+
+}  // namespace quadloop

@@ -1,0 +1,133 @@
+#include "smoother/outline_path.hpp"
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+#include <limits>
+
+#include "mesher/geometry/predicates.hpp"
+
+namespace quadloop {
+
+namespace {
+
+namespace bg = boost::geometry;
+using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
+using Extent = bg::model::box<Corner>;
+using Entry = std::pair<Extent, std::int32_t>;
+
+constexpr int most_vertices = 1000;  ///< that one chord may stand for
+
+Extent extent_of(Point a, Point b, double margin = 0) {
+  return {{std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin}, {std::max(a.x, b.x) + margin, std::max(a.y, b.y) + margin}};
+}
+
+/// The share of the way from a to b at which the nearest point to p lies.
+double nearest_share(Point p, Point a, Point b) {
+  const Point ab = b - a;
+  const double square = dot(ab, ab);
+  return square > 0 ? std::clamp(dot(p - a, ab) / square, 0.0, 1.0) : 0.0;
+}
+
+double distance_to(Point p, Point a, Point b) { return length(p - a - nearest_share(p, a, b) * (b - a)); }
+
+}  // namespace
+
+struct OutlinePath::Index {
+  bg::index::rtree<Entry, bg::index::quadratic<16>> tree;
+};
+
+OutlinePath::OutlinePath(const Geometry& geometry)
+    : geometry_{geometry},
+      arc_(static_cast<std::size_t>(geometry.size())),
+      tolerance_{on_outline * std::max(geometry.box().width(), geometry.box().height())},
+      index_{std::make_unique<Index>()} {
+  std::vector<Entry> entries;
+  for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
+    double arc = 0;
+    for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {
+      arc_[static_cast<std::size_t>(v)] = arc;
+      const Point a = geometry.point(v), b = geometry.point(geometry.next(v));
+      arc += length(b - a);
+      entries.emplace_back(extent_of(a, b), v);
+    }
+    length_.push_back(arc);
+  }
+  index_->tree = decltype(index_->tree)(entries);
+}
+
+OutlinePath::~OutlinePath() = default;
+
+double OutlinePath::within(std::int32_t loop, double arc) const {
+  const double whole = loop_length(loop);
+  if (arc < 0) arc += whole;
+  return arc >= whole ? arc - whole : arc;
+}
+
+std::int32_t OutlinePath::segment_at(std::int32_t loop, double arc) const {
+  const auto first = arc_.begin() + geometry_.loop_start(loop), last = arc_.begin() + geometry_.loop_start(loop + 1);
+  return static_cast<std::int32_t>(std::upper_bound(first + 1, last, arc) - arc_.begin()) - 1;
+}
+
+OutlinePlace OutlinePath::locate(Point p, const std::string& boundary, bool also_kept) const {
+  std::int32_t segment = -1;
+  double nearest = tolerance_;
+  const Extent around = extent_of(p, p, tolerance_);
+  for (auto found = index_->tree.qbegin(bg::index::intersects(around)); found != index_->tree.qend(); ++found) {
+    const std::int32_t s = found->second;
+    if (geometry_.boundary(geometry_.boundary_of(s)).name != boundary) continue;
+    const double distance = distance_to(p, geometry_.point(s), geometry_.point(geometry_.next(s)));
+    if (distance > nearest || (distance == nearest && segment >= 0 && s > segment)) continue;
+    nearest = distance;
+    segment = s;
+  }
+  if (segment < 0) return {};
+  for (const std::int32_t v : {segment, geometry_.next(segment)}) {
+    if (!also_kept && geometry_.kept(v) && length(p - geometry_.point(v)) <= tolerance_) return {};
+  }
+  const Point a = geometry_.point(segment), b = geometry_.point(geometry_.next(segment));
+  const std::int32_t loop = geometry_.loop_of(segment);
+  return {loop, within(loop, arc_[static_cast<std::size_t>(segment)] + nearest_share(p, a, b) * length(b - a))};
+}
+
+Point OutlinePath::point_at(OutlinePlace place) const {
+  const double arc = within(place.loop, place.arc);
+  const std::int32_t s = segment_at(place.loop, arc);
+  const Point a = geometry_.point(s), b = geometry_.point(geometry_.next(s));
+  const double whole = length(b - a), along = arc - arc_[static_cast<std::size_t>(s)];
+  return along >= whole ? b : a + (along / whole) * (b - a);
+}
+
+double OutlinePath::way(OutlinePlace from, OutlinePlace to) const { return within(from.loop, to.arc - from.arc); }
+
+double OutlinePath::deviation(OutlinePlace from, Point a, OutlinePlace to, Point b) const {
+  const double end = way(from, to), start = within(from.loop, from.arc);
+  double deviation = 0;
+  std::int32_t v = geometry_.next(segment_at(from.loop, start));
+  for (int passed = 0; passed < most_vertices; ++passed, v = geometry_.next(v)) {
+    const double arc = way({from.loop, start}, {from.loop, arc_[static_cast<std::size_t>(v)]});
+    if (arc >= end || (arc == 0 && passed > 0)) return deviation;
+    deviation = std::max(deviation, distance_to(geometry_.point(v), a, b));
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+bool OutlinePath::meets_elsewhere(OutlinePlace from, Point a, OutlinePlace to, Point b) const {
+  const double end = way(from, to);
+  const std::int32_t first = segment_at(from.loop, within(from.loop, from.arc)), last = segment_at(to.loop, within(to.loop, to.arc));
+  const auto belongs = [&](std::int32_t s) {
+    if (geometry_.loop_of(s) != from.loop) return false;
+    if (s == first || s == last || s == geometry_.previous(first) || s == geometry_.next(last)) return true;
+    return way(from, {from.loop, arc_[static_cast<std::size_t>(s)]}) <= end;
+  };
+  for (auto found = index_->tree.qbegin(bg::index::intersects(extent_of(a, b))); found != index_->tree.qend(); ++found) {
+    const std::int32_t s = found->second;
+    if (!belongs(s) && segments_meet(a, b, geometry_.point(s), geometry_.point(geometry_.next(s)))) return true;
+  }
+  return false;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,196 @@
+#include "smoother/smooth_mesh.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "smoother/boundary_slide.hpp"
+#include "smoother/colouring.hpp"
+#include "smoother/untangle.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr int free_rings = 3;  ///< of nodes round those of cells above the threshold that may come to move
+
+template <std::size_t width>
+std::array<Point, width> corners_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes) {
+  std::array<Point, width> points;
+  for (std::size_t k = 0; k < width; ++k) points[k] = mesh.point(nodes[k]);
+  return points;
+}
+
+/// Calls `visit(nodes, cost)` for each cell of the halo mesh.
+template <class Visit>
+void for_each_cost(const HaloMesh& mesh, const std::vector<CellTarget>& targets, const Visit& visit) {
+  std::size_t number = 0;
+  mesh.for_each_cell([&](const auto& nodes) {
+    constexpr std::size_t width = std::tuple_size_v<std::remove_cvref_t<decltype(nodes)>>;
+    const bool ideal = targets.empty() || targets[number].ideal();
+    const auto shape = ideal ? ideal_targets<width>() : stretched_targets<width>(targets[number].w1, targets[number].w2);
+    visit(nodes, cell_cost(corners_of(mesh, nodes), shape));
+    ++number;
+  });
+}
+
+/// The owned nodes that may come to move: those of cells above the threshold and some rings round them. *Collective.*
+std::vector<std::int32_t> find_free_nodes(const HaloMesh& mesh, const BoundarySlide& slide, const std::vector<CellTarget>& targets, double threshold) {
+  std::vector<char> near(mesh.points().size(), 0);
+  const auto mark = [&](const auto& nodes) {
+    for (const NodeId node : nodes) near[static_cast<std::size_t>(node.value())] = 1;
+  };
+  for_each_cost(mesh, targets, [&](const auto& nodes, double cost) {
+    if (cost > threshold) mark(nodes);
+  });
+  for (int ring = 0; ring < free_rings; ++ring) {
+    mesh.exchange().update(near);
+    const std::vector<char> before = near;
+    mesh.for_each_cell([&](const auto& nodes) {
+      if (std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return before[static_cast<std::size_t>(n.value())] != 0; })) mark(nodes);
+    });
+  }
+  std::vector<std::int32_t> free;
+  for (std::int32_t node = 0; node < mesh.owned_nodes(); ++node) {
+    if (near[static_cast<std::size_t>(node)] != 0 && slide.freedom(node) != NodeFreedom::fixed) free.push_back(node);
+  }
+  return free;
+}
+
+/// Visits the nodes sweep by sweep.
+class Sweeper {
+ public:
+  Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide, const SmoothOptions& options)
+      : comm_{comm}, mesh_{mesh}, stars_{stars}, slide_{slide}, options_{options}, solver_{make_node_solver(options.method)} {
+    const Colouring colouring = colour_nodes(comm, mesh, stars);
+    by_colour_.resize(static_cast<std::size_t>(colouring.count));
+    for (std::size_t i = 0; i < stars.size(); ++i) {
+      by_colour_[static_cast<std::size_t>(colouring.colour_of[static_cast<std::size_t>(stars.nodes()[i])])].push_back(i);
+    }
+    moved_at_.assign(mesh.points().size(), 0);
+    visited_at_.assign(stars.size(), -1);
+    worst_.assign(stars.size(), 0);
+    bad_.assign(mesh.points().size(), 0);
+  }
+
+  /// Returns the number of nodes moved over all ranks. *Collective.*
+  std::int64_t sweep() {
+    find_bad();
+    std::int64_t moves = 0;
+    for (const auto& nodes : by_colour_) {
+      ++clock_;
+      for (const std::size_t i : nodes) {
+        if (is_active(i) && is_stale(i)) moves += visit(i) ? 1 : 0;
+      }
+      share_moves();
+    }
+    return comm_.sum(moves);
+  }
+
+ private:
+  std::int32_t node(std::size_t i) const { return stars_.nodes()[i]; }
+  std::int32_t moved_at(std::int32_t n) const { return moved_at_[static_cast<std::size_t>(n)]; }
+
+  /// Whether the node or one that it shares a cell with has moved since it was last visited.
+  bool is_stale(std::size_t i) const {
+    bool stale = moved_at(node(i)) >= visited_at_[i];
+    stars_.for_each_neighbour(i, [&](std::int32_t other) { stale = stale || moved_at(other) >= visited_at_[i]; });
+    return stale;
+  }
+
+  /// Flags the nodes of cells above the threshold, of other ranks too.
+  void find_bad() {
+    for (std::size_t i = 0; i < stars_.size(); ++i) {
+      if (!is_stale(i)) continue;
+      stars_.gather(i, star_);
+      bad_[static_cast<std::size_t>(node(i))] = star_.worst_cost(mesh_.points()[static_cast<std::size_t>(node(i))]) > options_.threshold ? 1 : 0;
+    }
+    mesh_.exchange().update(bad_);
+  }
+
+  bool is_active(std::size_t i) const {
+    bool active = bad_[static_cast<std::size_t>(node(i))] != 0;
+    stars_.for_each_neighbour(i, [&](std::int32_t other) { active = active || bad_[static_cast<std::size_t>(other)] != 0; });
+    return active;
+  }
+
+  bool visit(std::size_t i) {
+    stars_.gather(i, star_);
+    visited_at_[i] = clock_;
+    const std::int32_t n = node(i);
+    Point& p = mesh_.points()[static_cast<std::size_t>(n)];
+    const auto better = better_place(n, p);
+    if (!better) return false;
+    p = *better;
+    moved_at_[static_cast<std::size_t>(n)] = clock_;
+    return true;
+  }
+
+  std::optional<Point> better_place(std::int32_t n, Point p) {
+    if (slide_.freedom(n) == NodeFreedom::sliding) return slide_.improve(n, star_, options_.objective);
+    if (star_.cost(p, options_.objective).valid[0]) return solver_->improve(star_, p, options_.objective);
+    return untangle(star_, p);
+  }
+
+  void share_moves() {
+    const auto just_moved = [&](std::int32_t n) { return moved_at(n) == clock_; };
+    mesh_.exchange().update(mesh_.points(), just_moved);
+    mesh_.exchange().update(moved_at_, just_moved);
+  }
+
+  const Communicator& comm_;
+  HaloMesh& mesh_;
+  const NodeStars& stars_;
+  const BoundarySlide& slide_;
+  const SmoothOptions& options_;
+  std::unique_ptr<NodeSolver> solver_;
+  std::vector<std::vector<std::size_t>> by_colour_;
+  std::vector<std::int32_t> moved_at_;    ///< the clock when each node moved last
+  std::vector<std::int32_t> visited_at_;  ///< the clock when each free node was visited last
+  std::vector<double> worst_;
+  std::vector<char> bad_;
+  std::int32_t clock_ = 0;
+  Star star_;
+};
+
+struct WorstCell {
+  double cost = 0;
+  std::int64_t inverted = 0;
+};
+
+WorstCell worst_cell(const Communicator& comm, const Mesh& mesh, const HaloMesh& halo, const std::vector<CellTarget>& targets) {
+  WorstCell worst;
+  for_each_cost(halo, targets, [&](const auto& nodes, double cost) {
+    worst.cost = std::max(worst.cost, cost);
+    const bool own = nodes[0].value() < mesh.owned_nodes;  // each cell counts on the rank that owns its first node
+    worst.inverted += own && cost >= 1 ? 1 : 0;
+  });
+  return {comm.maximum(worst.cost), comm.sum(worst.inverted)};
+}
+
+}  // namespace
+
+SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
+  SmoothReport report;
+  std::optional<OutlinePath> outline;
+  if (options.geometry != nullptr) outline.emplace(*options.geometry);
+  HaloMesh halo(comm, mesh);
+  const std::vector<CellTarget> targets = comm.any(!options.targets.empty()) ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
+  const BoundarySlide slide(halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
+  const NodeStars stars(halo, find_free_nodes(halo, slide, targets, options.threshold), targets);
+  const WorstCell before = worst_cell(comm, mesh, halo, targets);
+  Sweeper sweeper(comm, halo, stars, slide, options);
+  for (std::int64_t moves = 1; report.sweeps < options.sweeps && moves > 0; ++report.sweeps) {
+    moves = sweeper.sweep();
+    report.moves += moves;
+  }
+  const WorstCell after = worst_cell(comm, mesh, halo, targets);
+  std::copy_n(halo.points().begin(), mesh.points.size(), mesh.points.begin());
+  report.free_nodes = comm.sum(static_cast<std::int64_t>(stars.size()));
+  report.worst_cost_before = before.cost;
+  report.worst_cost_after = after.cost;
+  report.inverted_before = before.inverted;
+  report.inverted_after = after.inverted;
+  return report;
+}
+
+}  // namespace quadloop
