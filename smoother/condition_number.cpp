@@ -1,7 +1,5 @@
 #include "smoother/condition_number.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace quadloop {
@@ -19,20 +17,7 @@ CornerTarget seen_from_next(const CornerTarget& t) {
   return {t.g22, -(t.g12 + t.g22), t.g11 + 2 * t.g12 + t.g22};
 }
 
-CornerForm corner_form(Point p, Point q, Point r) {
-  const Point u = q - p, v = r - p;
-  return {dot(u, u), dot(u, v), dot(v, v), cross(u, v)};
-}
-
-double condition_number(const CornerForm& c, const CornerTarget& t) { return (t.g11 * c.uu + 2 * t.g12 * c.uv + t.g22 * c.vv) / c.jacobian; }
-
-bool is_inverted(const CornerForm& c) { return !(c.jacobian > flattest_sine * std::sqrt(c.uu * c.vv)); }
-
-double corner_cost(const CornerForm& c, const CornerTarget& t, double reference) {
-  if (is_inverted(c)) return 1 - std::min(c.jacobian, 0.0) / reference;
-  const double defect = 1 - 1 / condition_number(c, t);
-  return defect * defect;
-}
+double condition_number(const CornerForm& corner, const CornerTarget& target) { return 1 / inverse_condition(corner, target); }
 
 template <>
 std::array<CornerTarget, 3> ideal_targets<3>() {

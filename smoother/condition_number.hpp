@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -31,18 +32,29 @@ CornerTarget seen_from_next(const CornerTarget& target);
 struct CornerForm {
   double uu = 0, uv = 0, vv = 0, jacobian = 0;
 };
-CornerForm corner_form(Point p, Point q, Point r);
+inline CornerForm corner_form(Point p, Point q, Point r) {
+  const Point u = q - p, v = r - p;
+  return {dot(u, u), dot(u, v), dot(v, v), cross(u, v)};
+}
 
 /// Eq. 3.3: 1 for the target's shape, larger for any other. The corner must not be inverted.
 double condition_number(const CornerForm& corner, const CornerTarget& target);
+/// Its inverse, which is all that the cost needs.
+inline double inverse_condition(const CornerForm& c, const CornerTarget& t) { return c.jacobian / (t.g11 * c.uu + 2 * t.g12 * c.uv + t.g22 * c.vv); }
 
 /// Whether a corner counts as inverted: J <= 1e-12 |e1| |e2|.
-bool is_inverted(const CornerForm& corner);
 inline constexpr double flattest_sine = 1e-12;
+inline bool is_inverted(const CornerForm& c) {
+  return !(c.jacobian > 0 && c.jacobian * c.jacobian > flattest_sine * flattest_sine * c.uu * c.vv);
+}
 
 /// Eq. 3.2: (1 - 1/CN)^2, between 0 and 1, or for an inverted corner 1 - J / reference, at least 1. `reference` is an area, the same for all
 /// corners that are compared.
-double corner_cost(const CornerForm& corner, const CornerTarget& target, double reference);
+inline double corner_cost(const CornerForm& c, const CornerTarget& t, double reference) {
+  if (is_inverted(c)) return 1 - std::min(c.jacobian, 0.0) / reference;
+  const double defect = 1 - inverse_condition(c, t);
+  return defect * defect;
+}
 
 /// The target of each corner of a cell of three or four nodes, seen from that corner; of an equilateral triangle or a square.
 template <std::size_t width>

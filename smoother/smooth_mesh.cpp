@@ -20,38 +20,67 @@ std::array<Point, width> corners_of(const HaloMesh& mesh, const std::array<NodeI
   return points;
 }
 
-/// Calls `visit(nodes, cost)` for each cell of the halo mesh.
-template <class Visit>
-void for_each_cost(const HaloMesh& mesh, const std::vector<CellTarget>& targets, const Visit& visit) {
-  std::size_t number = 0;
-  mesh.for_each_cell([&](const auto& nodes) {
-    constexpr std::size_t width = std::tuple_size_v<std::remove_cvref_t<decltype(nodes)>>;
-    const bool ideal = targets.empty() || targets[number].ideal();
-    const auto shape = ideal ? ideal_targets<width>() : stretched_targets<width>(targets[number].w1, targets[number].w2);
-    visit(nodes, cell_cost(corners_of(mesh, nodes), shape));
-    ++number;
-  });
+/// The cost of a cell by its number in the halo mesh.
+template <std::size_t width>
+double cost_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes, const std::vector<CellTarget>& targets, std::size_t number) {
+  const bool ideal = targets.empty() || targets[number].ideal();
+  return cell_cost(corners_of(mesh, nodes), ideal ? ideal_targets<width>() : stretched_targets<width>(targets[number].w1, targets[number].w2));
 }
 
-/// The owned nodes that may come to move: those of cells above the threshold and some rings round them. *Collective.*
-std::vector<std::int32_t> find_free_nodes(const HaloMesh& mesh, const BoundarySlide& slide, const std::vector<CellTarget>& targets, double threshold) {
-  std::vector<char> near(mesh.points().size(), 0);
+struct WorstCell {
+  double cost = 0;
+  std::int64_t inverted = 0;
+};
+
+/// What has to be known before the first sweep: the worst cell, and the nodes that may come to move.
+struct Survey {
+  WorstCell worst;
+  std::vector<double> costs;  ///< of each cell of the halo mesh
+  std::vector<char> near;     ///< a flag for each node: of a cell above the threshold, or some rings round those
+};
+
+template <class Nodes>
+bool any_flagged(const std::vector<char>& flags, const Nodes& nodes) {
+  return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[static_cast<std::size_t>(n.value())] != 0; });
+}
+
+WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) { return {comm.maximum(worst.cost), comm.sum(worst.inverted)}; }
+
+/// Adds a cell to a rank's worst; those that other ranks have too count where their first node is owned.
+void include(WorstCell& worst, const HaloMesh& mesh, NodeId first, double cost) {
+  worst.cost = std::max(worst.cost, cost);
+  worst.inverted += cost >= 1 && first.value() < mesh.owned_nodes() ? 1 : 0;
+}
+
+/// *Collective.*
+Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets, double threshold) {
+  Survey result;
+  std::vector<char>& near = result.near;
+  near.assign(mesh.points().size(), 0);
   const auto mark = [&](const auto& nodes) {
     for (const NodeId node : nodes) near[static_cast<std::size_t>(node.value())] = 1;
   };
-  for_each_cost(mesh, targets, [&](const auto& nodes, double cost) {
+  mesh.for_each_cell([&](const auto& nodes) {
+    const double cost = cost_of(mesh, nodes, targets, result.costs.size());
+    include(result.worst, mesh, nodes[0], cost);
+    result.costs.push_back(cost);
     if (cost > threshold) mark(nodes);
   });
   for (int ring = 0; ring < free_rings; ++ring) {
     mesh.exchange().update(near);
     const std::vector<char> before = near;
     mesh.for_each_cell([&](const auto& nodes) {
-      if (std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return before[static_cast<std::size_t>(n.value())] != 0; })) mark(nodes);
+      if (any_flagged(before, nodes)) mark(nodes);
     });
   }
+  result.worst = over_ranks(comm, result.worst);
+  return result;
+}
+
+std::vector<std::int32_t> free_nodes(const Survey& surveyed, const HaloMesh& mesh, const BoundarySlide& slide) {
   std::vector<std::int32_t> free;
   for (std::int32_t node = 0; node < mesh.owned_nodes(); ++node) {
-    if (near[static_cast<std::size_t>(node)] != 0 && slide.freedom(node) != NodeFreedom::fixed) free.push_back(node);
+    if (surveyed.near[static_cast<std::size_t>(node)] != 0 && slide.freedom(node) != NodeFreedom::fixed) free.push_back(node);
   }
   return free;
 }
@@ -152,19 +181,16 @@ class Sweeper {
   Star star_;
 };
 
-struct WorstCell {
-  double cost = 0;
-  std::int64_t inverted = 0;
-};
-
-WorstCell worst_cell(const Communicator& comm, const Mesh& mesh, const HaloMesh& halo, const std::vector<CellTarget>& targets) {
+/// The worst cell now; cells away from nodes that may have moved are as they were. *Collective.*
+WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets, const Survey& before) {
   WorstCell worst;
-  for_each_cost(halo, targets, [&](const auto& nodes, double cost) {
-    worst.cost = std::max(worst.cost, cost);
-    const bool own = nodes[0].value() < mesh.owned_nodes;  // each cell counts on the rank that owns its first node
-    worst.inverted += own && cost >= 1 ? 1 : 0;
+  std::size_t number = 0;
+  mesh.for_each_cell([&](const auto& nodes) {
+    const double cost = any_flagged(before.near, nodes) ? cost_of(mesh, nodes, targets, number) : before.costs[number];
+    include(worst, mesh, nodes[0], cost);
+    ++number;
   });
-  return {comm.maximum(worst.cost), comm.sum(worst.inverted)};
+  return over_ranks(comm, worst);
 }
 
 }  // namespace
@@ -176,19 +202,19 @@ SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptio
   HaloMesh halo(comm, mesh);
   const std::vector<CellTarget> targets = comm.any(!options.targets.empty()) ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
   const BoundarySlide slide(halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
-  const NodeStars stars(halo, find_free_nodes(halo, slide, targets, options.threshold), targets);
-  const WorstCell before = worst_cell(comm, mesh, halo, targets);
+  const Survey before = survey(comm, halo, targets, options.threshold);
+  const NodeStars stars(halo, free_nodes(before, halo, slide), targets);
   Sweeper sweeper(comm, halo, stars, slide, options);
   for (std::int64_t moves = 1; report.sweeps < options.sweeps && moves > 0; ++report.sweeps) {
     moves = sweeper.sweep();
     report.moves += moves;
   }
-  const WorstCell after = worst_cell(comm, mesh, halo, targets);
+  const WorstCell after = worst_cell(comm, halo, targets, before);
   std::copy_n(halo.points().begin(), mesh.points.size(), mesh.points.begin());
   report.free_nodes = comm.sum(static_cast<std::int64_t>(stars.size()));
-  report.worst_cost_before = before.cost;
+  report.worst_cost_before = before.worst.cost;
   report.worst_cost_after = after.cost;
-  report.inverted_before = before.inverted;
+  report.inverted_before = before.worst.inverted;
   report.inverted_after = after.inverted;
   return report;
 }
