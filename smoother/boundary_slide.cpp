@@ -13,6 +13,7 @@ namespace {
 /// Shares of the way to the neighbour on that side.
 constexpr std::array<double, 4> shares{0.3, 0.12, 0.04, 0.01};
 constexpr double straight_sine = 1e-10;
+constexpr double stray_share = 0.15;  ///< of the shorter chord: so far the outline may stray from the chords, as it may in cutting
 constexpr double longest_way = 20;  ///< a chord that stands for a part of the outline longer than so many times itself is left alone
 
 }  // namespace
@@ -79,7 +80,8 @@ bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, Outlin
   const auto deviation = [&](OutlinePlace at, Point middle) {
     return std::max(outline_->deviation(places.before, a, at, middle), outline_->deviation(at, middle, places.after, b));
   };
-  return deviation(moved, p) <= deviation(places.at, now) && !outline_->meets_elsewhere(places.before, a, moved, p) &&
+  const double allowed = std::max(deviation(places.at, now), stray_share * std::min(length(p - a), length(b - p)));
+  return deviation(moved, p) <= allowed && !outline_->meets_elsewhere(places.before, a, moved, p) &&
          !outline_->meets_elsewhere(moved, p, places.after, b);
 }
 

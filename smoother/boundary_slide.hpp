@@ -14,7 +14,8 @@ namespace quadloop {
 enum class NodeFreedom : std::uint8_t { interior, sliding, fixed };
 
 /// Moves boundary nodes along the true outline, or, where that is not known, along a straight boundary of the mesh. A node never passes its
-/// neighbours, never makes the outline stray farther from the chords at it, and never brings a chord across another part of the outline.
+/// neighbours, never makes the outline stray farther from the chords at it (unless by less than cutting allows itself too), and never brings a chord
+/// across another part of the outline.
 class BoundarySlide {
  public:
   /// `outline` may be null. `pinned` flags owned nodes that stay. All arguments must outlive it. *Collective.*
