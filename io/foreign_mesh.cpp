@@ -12,8 +12,6 @@ namespace quadloop {
 
 namespace {
 
-std::int32_t size_of(const auto& list) { return static_cast<std::int32_t>(list.size()); }
-
 /// Corners that turn left less those that turn right, exactly; for a triangle one corner tells.
 template <std::size_t width>
 int winding(const Mesh& mesh, const std::array<NodeId, width>& nodes) {
@@ -86,6 +84,25 @@ std::int32_t block_of(const LoadedMesh& loaded, std::int32_t cell) {
   const auto at = static_cast<std::size_t>(cell);
   const std::size_t triangles = loaded.triangle_to_block.size();
   return at < triangles ? loaded.triangle_to_block[at] : loaded.quad_to_block[at - triangles];
+}
+
+/// A block whose every element stood in another one too has no cells.
+void drop_empty_blocks(LoadedMesh& loaded) {
+  std::vector<std::int32_t> new_number(loaded.block_names.size(), -1);
+  for (const auto* cell_to_block : {&loaded.triangle_to_block, &loaded.quad_to_block}) {
+    for (const std::int32_t block : *cell_to_block) new_number[static_cast<std::size_t>(block)] = 0;
+  }
+  std::size_t kept = 0;
+  for (std::size_t block = 0; block < new_number.size(); ++block) {
+    if (new_number[block] < 0) continue;
+    new_number[block] = static_cast<std::int32_t>(kept);
+    std::swap(loaded.block_names[kept++], loaded.block_names[block]);
+  }
+  loaded.block_names.resize(kept);
+  loaded.blocks = static_cast<std::int32_t>(kept);
+  for (auto* cell_to_block : {&loaded.triangle_to_block, &loaded.quad_to_block}) {
+    for (std::int32_t& block : *cell_to_block) block = new_number[static_cast<std::size_t>(block)];
+  }
 }
 
 [[noreturn]] void refuse_edge(const ForeignMesh& foreign, const ForeignEdge& edge, const TextScanner& scan) {
@@ -179,8 +196,8 @@ LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
   LoadedMesh& loaded = foreign.loaded;
   Mesh& mesh = loaded.mesh;
   if (mesh.triangles.empty() && mesh.quads.empty()) scan.refuse("the file has no triangle and no quadrilateral; a mesh needs cells");
-  mesh.owned_nodes = size_of(mesh.points);
-  loaded.blocks = size_of(loaded.block_names);
+  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  drop_empty_blocks(loaded);
   const std::int64_t turned = turn_cells(mesh, mesh.triangles) + turn_cells(mesh, mesh.quads);
   sort_by_block(mesh.triangles, loaded.triangle_to_block);
   sort_by_block(mesh.quads, loaded.quad_to_block);
