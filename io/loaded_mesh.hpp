@@ -23,6 +23,7 @@ struct LoadedMesh {
   std::vector<std::int32_t> triangle_to_block, quad_to_block;  ///< from 0; a block's cells follow each other
   std::vector<std::string> block_names;
   std::optional<Solution> solution;
+  std::vector<std::string> warnings;  ///< what the reader turned round or left out, with the file's name
 };
 
 }  // namespace quadloop

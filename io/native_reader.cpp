@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 
 #include "io/native_file.hpp"
 #include "io/text_scanner.hpp"
@@ -26,21 +25,9 @@ class NativeReader {
   }
 
  private:
-  /// A number of rows, checked against what the file can still hold, so that a wrong one is not taken as a size of memory.
-  std::size_t count(const std::string& of, std::size_t width) {
-    const std::int64_t value = scan_.integer("the number of " + of);
-    if (value < 0) scan_.refuse("the number of " + of + " is negative: " + std::to_string(value));
-    const auto rows = static_cast<std::size_t>(value);
-    if (rows > std::numeric_limits<std::int32_t>::max()) scan_.refuse("more than 2^31 - 1 " + of + " cannot be read on one rank");
-    if (2 * width * rows > scan_.bytes_left() + 1) {
-      scan_.refuse("the file ends before its " + std::to_string(rows) + " " + of + " can follow; it is cut short, or this count is wrong");
-    }
-    return rows;
-  }
-
   void read_nodes() {
     Mesh& mesh = loaded_.mesh;
-    mesh.points.resize(count("grid points", 2));
+    mesh.points.resize(scan_.count("grid points", 2));
     mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
     for (Point& p : mesh.points) {
       p.x = scan_.real("an x coordinate");
@@ -51,7 +38,7 @@ class NativeReader {
   template <std::size_t width>
   void read_rows(const std::string& of, std::vector<std::array<NodeId, width>>& rows) {
     const std::size_t first = rows.size();
-    rows.resize(first + count(of, width));
+    rows.resize(first + scan_.count(of, width));
     const std::string expected = "a node of the " + of;
     for (std::size_t i = first; i < rows.size(); ++i) {
       for (NodeId& node : rows[i]) node = node_of(scan_.integer(expected));
@@ -66,7 +53,7 @@ class NativeReader {
   }
 
   void read_blocks() {
-    const std::size_t blocks = count("blocks", 1);
+    const std::size_t blocks = scan_.count("blocks", 1);
     if (blocks == 0) scan_.refuse("a mesh has at least one block");
     loaded_.blocks = static_cast<std::int32_t>(blocks);
     for (std::int32_t block = 0; block < loaded_.blocks; ++block) {
@@ -79,7 +66,7 @@ class NativeReader {
   }
 
   void read_boundaries() {
-    const std::size_t boundaries = count("boundaries", 1);
+    const std::size_t boundaries = scan_.count("boundaries", 1);
     for (std::size_t b = 1; b <= boundaries; ++b) {
       scan_.forget_comments();
       std::vector<std::array<NodeId, 2>> edges;
@@ -113,13 +100,13 @@ class NativeReader {
 
   void read_solution() {
     Solution solution;
-    solution.constants.resize(count("constants", 1));
+    solution.constants.resize(scan_.count("constants", 1));
     for (double& value : solution.constants) value = scan_.real("a constant");
     if (scan_.at_end()) {
       if (!solution.constants.empty()) loaded_.solution = std::move(solution);
       return;
     }
-    const std::size_t variables = count("variables", 1);
+    const std::size_t variables = scan_.count("variables", 1);
     scan_.forget_comments();
     const bool more = !scan_.at_end();
     solution.names = names_in(more ? scan_.last_comment_with("names:") : "", variables);

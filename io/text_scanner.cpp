@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <utility>
 
 #include "mesher/base/error.hpp"
@@ -19,6 +20,11 @@ namespace {
 constexpr std::size_t longest_quote = 40;  // of a wrong token, in a message
 
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+const char* end_of_line(const char* at, const char* end) {
+  const void* const found = std::memchr(at, '\n', static_cast<std::size_t>(end - at));
+  return found == nullptr ? end : static_cast<const char*>(found);
+}
 
 std::string whole_file(const std::string& path) {
   std::error_code ignored;
@@ -54,18 +60,17 @@ bool parse_real(std::string_view token, double& value) {
 
 }  // namespace
 
-TextScanner::TextScanner(std::string path) : path_{std::move(path)}, text_{whole_file(path_)} {
+TextScanner::TextScanner(std::string path, char comment) : path_{std::move(path)}, text_{whole_file(path_)}, comment_{comment} {
   at_ = token_ = comments_begin_ = text_.data();
   end_ = at_ + text_.size();
 }
 
 void TextScanner::skip() {
   while (at_ != end_) {
-    if (*at_ == '#') {
-      const void* const line_end = std::memchr(at_, '\n', bytes_left());
-      at_ = line_end == nullptr ? end_ : static_cast<const char*>(line_end);
-    } else if (is_blank(*at_)) {
+    if (is_blank(*at_)) {
       ++at_;
+    } else if (*at_ == comment_) {
+      at_ = end_of_line(at_, end_);
     } else {
       return;
     }
@@ -105,9 +110,37 @@ double TextScanner::real(std::string_view expected) {
   return value;
 }
 
+std::size_t TextScanner::count(const std::string& of, std::size_t width) {
+  const std::int64_t value = integer("the number of " + of);
+  if (value < 0) refuse("the number of " + of + " is negative: " + std::to_string(value));
+  const auto rows = static_cast<std::size_t>(value);
+  if (rows > std::numeric_limits<std::int32_t>::max()) refuse("more than 2^31 - 1 " + of + " cannot be read on one rank");
+  if (2 * width * rows > bytes_left() + 1) {
+    refuse("the file ends before its " + std::to_string(rows) + " " + of + " can follow; it is cut short, or this count is wrong");
+  }
+  return rows;
+}
+
+bool TextScanner::at_line_end() {
+  while (at_ != end_ && *at_ != '\n' && is_blank(*at_)) ++at_;
+  return at_ == end_ || *at_ == '\n' || *at_ == comment_;
+}
+
+std::string_view TextScanner::rest_of_line() {
+  if (at_line_end()) return {};
+  token_ = at_;
+  const char* last = at_;
+  for (; at_ != end_ && *at_ != '\n'; ++at_) {
+    if (is_blank(*at_)) continue;
+    if (*at_ == comment_ && is_blank(at_[-1])) break;
+    last = at_ + 1;
+  }
+  return {token_, static_cast<std::size_t>(last - token_)};
+}
+
 std::string_view TextScanner::last_comment_with(std::string_view text) const {
   const std::string_view passed(comments_begin_, static_cast<std::size_t>(at_ - comments_begin_));
-  for (std::size_t hash = passed.rfind('#'); hash != std::string_view::npos; hash = passed.rfind('#', hash - 1)) {
+  for (std::size_t hash = passed.rfind(comment_); hash != std::string_view::npos; hash = passed.rfind(comment_, hash - 1)) {
     const std::string_view comment = passed.substr(hash, passed.find_first_of("\r\n", hash) - hash);
     if (comment.find(text) != std::string_view::npos) return comment;
     if (hash == 0) break;
@@ -115,8 +148,8 @@ std::string_view TextScanner::last_comment_with(std::string_view text) const {
   return {};
 }
 
-void TextScanner::refuse(const std::string& message) const {
-  const auto line = 1 + std::count(text_.data(), token_, '\n');
+void TextScanner::refuse_at(std::size_t place, const std::string& message) const {
+  const auto line = 1 + std::count(text_.data(), text_.data() + place, '\n');
   throw InputError(path_ + ":" + std::to_string(line) + ": " + message);
 }
 

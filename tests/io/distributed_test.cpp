@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "io/cgns_file.hpp"
+#include "io/msh_file.hpp"
 #include "io/native_file.hpp"
+#include "io/su2_file.hpp"
 #include "io/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/validate.hpp"
@@ -58,6 +60,30 @@ TEST(NativeFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   EXPECT_EQ(loaded.solution->names, sample.solution.names);
   EXPECT_EQ(loaded.solution->constants, sample.solution.constants);  // CGNS has no place for them
   EXPECT_EQ(test::files_in(folder.path()), 2U);
+}
+
+TEST(Su2File, SameBytesOnAnyNumberOfRanksAndComesBack) {
+  const TemporaryFolder folder;
+  Sample sample;
+  write_su2(world(), sample.own, folder.file("many.su2"));
+  if (!world().is_root()) return;
+  write_su2(sample.alone, sample.mesh, folder.file("one.su2"));
+  EXPECT_TRUE(test::bytes_of(folder.file("many.su2")) == test::bytes_of(folder.file("one.su2")));
+  sample.mesh.boundaries.at(1).name = "far_field";  // SU2 takes no blanks
+  expect_same_mesh(read_su2(folder.file("many.su2")), sample.mesh);
+}
+
+TEST(MshFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
+  const TemporaryFolder folder;
+  const Sample sample;
+  write_msh(world(), sample.own, folder.file("many.msh"));
+  if (!world().is_root()) return;
+  write_msh(sample.alone, sample.mesh, folder.file("one.msh"));
+  EXPECT_TRUE(test::bytes_of(folder.file("many.msh")) == test::bytes_of(folder.file("one.msh")));
+  const LoadedMesh loaded = read_msh(folder.file("many.msh"));
+  expect_same_mesh(loaded, sample.mesh);
+  EXPECT_EQ(loaded.block_names, std::vector<std::string>{"domain"});
+  EXPECT_TRUE(loaded.warnings.empty());
 }
 
 TEST(CgnsFile, ComesBackAsTheNativeFileDoes) {

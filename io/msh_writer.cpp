@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <span>
+
+#include "io/msh_file.hpp"
+#include "io/text_output.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr int msh_line = 1, msh_triangle = 2, msh_quad = 3;
+
+std::string quoted(std::string name) {
+  for (char& c : name) {
+    if (c == '"') c = '\'';
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  return '"' + name + '"';
+}
+
+/// Groups are numbered 1, 2, ... over curves and surface together, as some readers know them by number alone.
+class MshWriter {
+ public:
+  MshWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
+      : comm_{outputs.communicator()}, mesh_{mesh}, boundaries_{boundaries_with_edges(comm_, mesh)}, file_{outputs, path} {}
+
+  void write_mesh() {
+    file_.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
+    write_names();
+    write_nodes();
+    write_all_elements();
+    file_.close();
+  }
+
+ private:
+  std::int64_t total(const auto& rows) const { return comm_.sum(static_cast<std::int64_t>(rows.size())); }
+  std::int64_t surface() const { return static_cast<std::int64_t>(boundaries_.size()) + 1; }
+
+  void write_names() {
+    std::string text = "$PhysicalNames\n" + std::to_string(surface()) + "\n";
+    std::int64_t group = 0;
+    for (const BoundaryEdges* boundary : boundaries_) text += "1 " + std::to_string(++group) + " " + quoted(boundary->name) + "\n";
+    file_.write(text + "2 " + std::to_string(surface()) + " \"domain\"\n$EndPhysicalNames\n");
+  }
+
+  void write_nodes() {
+    file_.write("$Nodes\n" + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\n");
+    file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 4, [&](TextRows& text, std::size_t i) {
+      text.put(mesh_.first_node + static_cast<std::int64_t>(i) + 1, ' ');
+      text.put(mesh_.points[i].x, ' ');
+      text.put(mesh_.points[i].y, ' ');
+      text.put(0, '\n');
+    });
+    file_.write("$EndNodes\n");
+  }
+
+  void write_all_elements() {
+    std::int64_t elements = total(mesh_.triangles) + total(mesh_.quads);
+    for (const BoundaryEdges* boundary : boundaries_) elements += total(boundary->edges);
+    file_.write("$Elements\n" + std::to_string(elements) + "\n");
+    std::int64_t group = 0;
+    for (const BoundaryEdges* boundary : boundaries_) write_elements(msh_line, ++group, std::span(boundary->edges));
+    write_elements(msh_triangle, surface(), std::span(mesh_.triangles));
+    write_elements(msh_quad, surface(), std::span(mesh_.quads));
+    file_.write("$EndElements\n");
+  }
+
+  /// Each row: number, type, two tags (the group, and the curve or surface of the same number), nodes.
+  template <std::size_t width>
+  void write_elements(int type, std::int64_t group, std::span<const std::array<NodeId, width>> rows) {
+    const auto own = static_cast<std::int64_t>(rows.size());
+    const std::int64_t number = next_element_ + comm_.exclusive_sum(own);
+    next_element_ += comm_.sum(own);
+    file_.write_rows(rows.size(), 5 + width, [&](TextRows& text, std::size_t i) {
+      text.put(number + static_cast<std::int64_t>(i), ' ');
+      text.put(type, ' ');
+      text.put(2, ' ');
+      text.put(group, ' ');
+      text.put(group, ' ');
+      for (std::size_t k = 0; k < width; ++k) text.put(mesh_.global(rows[i][k]).value() + 1, k + 1 < width ? ' ' : '\n');
+    });
+  }
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  std::vector<const BoundaryEdges*> boundaries_;
+  TextOutput file_;
+  std::int64_t next_element_ = 1;
+};
+
+}  // namespace
+
+void write_msh(OutputSet& outputs, const Mesh& mesh, const std::string& path) { MshWriter(outputs, mesh, path).write_mesh(); }
+
+void write_msh(const Communicator& comm, const Mesh& mesh, const std::string& path) {
+  OutputSet outputs(comm);
+  write_msh(outputs, mesh, path);
+  outputs.commit();
+}
+
+}  // namespace quadloop

@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <span>
+
+#include "io/su2_file.hpp"
+#include "io/text_output.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr int vtk_line = 3, vtk_triangle = 5, vtk_quad = 9;
+
+std::string marker_name(const std::string& name) {
+  std::string result = name.empty() ? "_" : name;
+  for (char& c : result) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'), digit = c >= '0' && c <= '9';
+    const bool above_ascii = (static_cast<unsigned char>(c) & 0x80U) != 0;  // part of a letter in UTF-8
+    if (!letter && !digit && !above_ascii && std::string_view("_-.+").find(c) == std::string_view::npos) c = '_';
+  }
+  return result;
+}
+
+/// Each boundary's name as SU2 can hold it, all of them different.
+std::vector<std::string> marker_names(const std::vector<const BoundaryEdges*>& boundaries) {
+  std::vector<std::string> names;
+  for (const BoundaryEdges* boundary : boundaries) {
+    const std::string wanted = marker_name(boundary->name);
+    std::string name = wanted;
+    for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number) name = wanted + "_" + std::to_string(number);
+    names.push_back(name);
+  }
+  return names;
+}
+
+class Su2Writer {
+ public:
+  Su2Writer(OutputSet& outputs, const Mesh& mesh, const std::string& path) : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path} {}
+
+  void write_mesh() {
+    const std::int64_t triangles = total(mesh_.triangles), quads = total(mesh_.quads);
+    file_.write("NDIME= 2\nNELEM= " + std::to_string(triangles + quads) + "\n");
+    write_elements(vtk_triangle, std::span(mesh_.triangles), 0);
+    write_elements(vtk_quad, std::span(mesh_.quads), triangles);
+    write_points();
+    write_markers();
+    file_.close();
+  }
+
+ private:
+  std::int64_t total(const auto& rows) const { return comm_.sum(static_cast<std::int64_t>(rows.size())); }
+
+  /// Each row ends with its number, counted from `first` over all ranks.
+  template <std::size_t width>
+  void write_elements(int type, std::span<const std::array<NodeId, width>> rows, std::int64_t first) {
+    const std::int64_t number = first + comm_.exclusive_sum(static_cast<std::int64_t>(rows.size()));
+    file_.write_rows(rows.size(), width + 2, [&](TextRows& text, std::size_t i) {
+      text.put(type, ' ');
+      for (const NodeId node : rows[i]) text.put(mesh_.global(node).value(), ' ');
+      text.put(number + static_cast<std::int64_t>(i), '\n');
+    });
+  }
+
+  void write_points() {
+    file_.write("NPOIN= " + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\n");
+    file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 3, [&](TextRows& text, std::size_t i) {
+      text.put(mesh_.points[i].x, ' ');
+      text.put(mesh_.points[i].y, ' ');
+      text.put(mesh_.first_node + static_cast<std::int64_t>(i), '\n');
+    });
+  }
+
+  void write_markers() {
+    const std::vector<const BoundaryEdges*> present = boundaries_with_edges(comm_, mesh_);
+    const std::vector<std::string> names = marker_names(present);
+    file_.write("NMARK= " + std::to_string(present.size()) + "\n");
+    for (std::size_t b = 0; b < present.size(); ++b) {
+      const auto& edges = present[b]->edges;
+      file_.write("MARKER_TAG= " + names[b] + "\nMARKER_ELEMS= " + std::to_string(total(edges)) + "\n");
+      file_.write_rows(edges.size(), 3, [&](TextRows& text, std::size_t i) {
+        text.put(vtk_line, ' ');
+        text.put(mesh_.global(edges[i][0]).value(), ' ');
+        text.put(mesh_.global(edges[i][1]).value(), '\n');
+      });
+    }
+  }
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  TextOutput file_;
+};
+
+}  // namespace
+
+void write_su2(OutputSet& outputs, const Mesh& mesh, const std::string& path) { Su2Writer(outputs, mesh, path).write_mesh(); }
+
+void write_su2(const Communicator& comm, const Mesh& mesh, const std::string& path) {
+  OutputSet outputs(comm);
+  write_su2(outputs, mesh, path);
+  outputs.commit();
+}
+
+}  // namespace quadloop

@@ -1,0 +1,32 @@
+#include "io/text_output.hpp"
+
+namespace quadloop {
+
+TextOutput::TextOutput(OutputSet& outputs, const std::string& path) : comm_{outputs.communicator()} {
+  const StagedFile staged = outputs.stage(path);
+  comm_.together([&] {
+    if (comm_.is_root()) file_ = std::make_unique<OutputFile>(staged);
+  });
+}
+
+void TextOutput::write(const std::string& text) {
+  comm_.together([&] {
+    if (file_) file_->write(text);
+  });
+}
+
+void TextOutput::close() {
+  comm_.together([&] {
+    if (file_) file_->close();
+  });
+}
+
+std::vector<const BoundaryEdges*> boundaries_with_edges(const Communicator& comm, const Mesh& mesh) {
+  std::vector<const BoundaryEdges*> present;
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    if (comm.any(!boundary.edges.empty())) present.push_back(&boundary);
+  }
+  return present;
+}
+
+}  // namespace quadloop
