@@ -3,16 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <span>
 
 #include "app/check_report.hpp"
 #include "app/command.hpp"
-#include "io/cgns_file.hpp"
 #include "io/input/geometry_file.hpp"
-#include "io/native_file.hpp"
+#include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 
@@ -24,13 +22,6 @@ struct CheckArguments {
   std::string input, geometry;
   bool json = false;
 };
-
-LoadedMesh load(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension();
-  if (suffix == ".mesh") return read_native(path);
-  if (suffix == ".cgns") return read_cgns(path);
-  throw InputError(path + ": no mesh is read from the format '" + suffix + "'; give a .mesh or a .cgns file");
-}
 
 std::vector<Chain> load_chains(const std::string& path) {
   std::vector<std::string> warnings;
@@ -66,7 +57,8 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
 }
 
 void check_on_root(const CommandContext& context, const CheckArguments& arguments) {
-  const LoadedMesh loaded = load(arguments.input);
+  const LoadedMesh loaded = read_mesh(arguments.input);
+  for (const std::string& warning : loaded.warnings) log::warning(warning);
   std::vector<Chain> chains;
   if (!arguments.geometry.empty()) chains = load_chains(arguments.geometry);
   CheckReport report = examine(loaded, arguments.geometry.empty() ? nullptr : &chains);
@@ -84,7 +76,7 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
 void add_check_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check", "say whether a mesh is valid");
-  command->add_option("input", arguments->input, "the mesh (.mesh or .cgns)")->required()->type_name("IN");
+  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .su2 or .msh)")->required()->type_name("IN");
   command->add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")->type_name("FILE.geom");
   command->add_flag("--json", arguments->json, "print one JSON object instead of a table");
   command->callback([&context, arguments] {

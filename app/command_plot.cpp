@@ -8,9 +8,8 @@
 #include <string>
 
 #include "app/command.hpp"
-#include "io/cgns_file.hpp"
+#include "io/mesh_file.hpp"
 #include "io/mesh_plot.hpp"
-#include "io/native_file.hpp"
 #include "io/output_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -30,12 +29,6 @@ PlotFormat format_of(const std::string& path) {
   if (suffix == ".svg") return PlotFormat::svg;
   if (suffix == ".pdf") return PlotFormat::pdf;
   throw InputError(path + ": a picture cannot be written in the format '" + suffix + "'; end its name in .png, .svg or .pdf");
-}
-
-void require_mesh_suffix(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension();
-  if (suffix != ".mesh" && suffix != ".cgns")
-    throw InputError(path + ": no mesh is read from the format '" + suffix + "'; give a .mesh or a .cgns file");
 }
 
 /// X0,X1,Y0,Y1. Four numbers that span no area are left to draw_mesh.
@@ -65,8 +58,7 @@ PlotOptions options_of(const PlotArguments& arguments) {
 }
 
 std::string picture(const PlotArguments& arguments, const PlotOptions& options, PlotFormat format) {
-  const bool is_cgns = std::filesystem::path(arguments.input).extension() == ".cgns";
-  const LoadedMesh loaded = is_cgns ? read_cgns(arguments.input) : read_native(arguments.input);
+  const LoadedMesh loaded = read_mesh(arguments.input);
   try {
     return draw_mesh(loaded, options, format);
   } catch (const InputError& error) {
@@ -80,7 +72,7 @@ void run_plot(const CommandContext& context, const PlotArguments& arguments) {
   PlotOptions options;
   PlotFormat format = PlotFormat::png;
   comm.together([&] {
-    require_mesh_suffix(arguments.input);
+    require_readable_suffix(arguments.input);
     format = format_of(arguments.output);
     options = options_of(arguments);
   });
@@ -102,7 +94,7 @@ void run_plot(const CommandContext& context, const PlotArguments& arguments) {
 void add_plot_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<PlotArguments>();
   CLI::App* command = app.add_subcommand("plot", "draw a mesh, or a field on it");
-  command->add_option("input", arguments->input, "the mesh (.mesh or .cgns)")->required()->type_name("IN");
+  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .su2 or .msh)")->required()->type_name("IN");
   command->add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")->required()->type_name("OUT");
   command->add_option("--window", arguments->window, "the part of the plane to show")->type_name("X0,X1,Y0,Y1");
   CLI::Option* field = command->add_option("--field", arguments->field, "a variable of the solution, as colours")->type_name("NAME");

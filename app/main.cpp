@@ -48,6 +48,7 @@ void run(int argc, char** argv, const Communicator& comm) {
   app.add_flag("-q,--quiet", context.quiet, "print nothing but warnings and errors");
   app.add_flag("-v,--verbose", context.verbose, "print details, those of each rank too");
   add_mesh_command(app, context);
+  add_smooth_command(app, context);
   add_check_command(app, context);
   add_plot_command(app, context);
   try {

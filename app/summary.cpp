@@ -24,13 +24,12 @@ double peak_memory_mib() {
 }
 
 struct StageRow {
-  std::string stage;
   double slowest = 0, mean = 0;
 };
 
-StageRow over_ranks(const Communicator& comm, const std::string& stage, double seconds) {
+StageRow over_ranks(const Communicator& comm, double seconds) {
   const auto microseconds = static_cast<std::int64_t>(std::llround(seconds * 1e6));  // there is no floating-point sum, on purpose
-  return {stage, comm.maximum(seconds), static_cast<double>(comm.sum(microseconds)) * 1e-6 / comm.size()};
+  return {comm.maximum(seconds), static_cast<double>(comm.sum(microseconds)) * 1e-6 / comm.size()};
 }
 
 std::string row(const std::string& name, const std::string& value) { return fmt::format("  {:<16}{:>14}\n", name, value); }
@@ -38,9 +37,17 @@ std::string row(const std::string& name, std::int64_t value) { return row(name, 
 
 }  // namespace
 
+std::string stage_table(const Communicator& comm, const StageSeconds& seconds) {
+  std::string text = "  seconds              slowest          mean\n";
+  for (const auto& [stage, of_rank] : seconds) {
+    const StageRow row_of_stage = over_ranks(comm, of_rank);
+    text += fmt::format("    {:<14}{:>14.3f}{:>14.3f}\n", stage, row_of_stage.slowest, row_of_stage.mean);
+  }
+  return text;
+}
+
 std::string summary_table(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds, const std::vector<std::string>& files) {
-  std::vector<StageRow> stages;
-  for (const auto& [stage, of_rank] : seconds) stages.push_back(over_ranks(comm, stage, of_rank));
+  const std::string stages = stage_table(comm, seconds);
   const QualitySummary quality = summarise_quality(comm, result.mesh);
   const double memory = comm.maximum(peak_memory_mib());
   if (!comm.is_root()) return {};
@@ -53,8 +60,7 @@ std::string summary_table(const Communicator& comm, const MeshResult& result, co
   text += row("worst quality", fmt::format("{:.3f}", quality.worst)) + row("mean quality", fmt::format("{:.3f}", quality.mean));
   text += row("smallest angle", fmt::format("{:.2f} degrees", quality.smallest_degrees));
   text += row("peak memory", fmt::format("{:.0f} MiB", memory)) + row("imbalance", fmt::format("{:.3f}", report.imbalance));
-  text += "  seconds              slowest          mean\n";
-  for (const StageRow& stage : stages) text += fmt::format("    {:<14}{:>14.3f}{:>14.3f}\n", stage.stage, stage.slowest, stage.mean);
+  text += stages;
   for (const std::string& file : files) text += fmt::format("  wrote {}\n", file);
   return text;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,5 +27,12 @@ struct LoadedMesh {
   std::optional<Solution> solution;
   std::vector<std::string> warnings;  ///< what the reader turned round or left out, with the file's name
 };
+
+/// The cells of one block, which follow each other.
+template <class Cell>
+std::span<const Cell> cells_of_block(const std::vector<Cell>& cells, const std::vector<std::int32_t>& cell_to_block, std::int32_t block) {
+  const auto [first, last] = std::equal_range(cell_to_block.begin(), cell_to_block.end(), block);
+  return std::span(cells).subspan(static_cast<std::size_t>(first - cell_to_block.begin()), static_cast<std::size_t>(last - first));
+}
 
 }  // namespace quadloop

@@ -21,8 +21,9 @@ std::string quoted(std::string name) {
 /// Groups are numbered 1, 2, ... over curves and surface together, as some readers know them by number alone.
 class MshWriter {
  public:
-  MshWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
-      : comm_{outputs.communicator()}, mesh_{mesh}, boundaries_{boundaries_with_edges(comm_, mesh)}, file_{outputs, path} {}
+  /// `whole`, where given, is the mesh with its blocks, on one rank.
+  MshWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path, const LoadedMesh* whole = nullptr)
+      : comm_{outputs.communicator()}, mesh_{mesh}, whole_{whole}, boundaries_{boundaries_with_edges(comm_, mesh)}, file_{outputs, path} {}
 
   void write_mesh() {
     file_.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
@@ -34,13 +35,20 @@ class MshWriter {
 
  private:
   std::int64_t total(const auto& rows) const { return comm_.sum(static_cast<std::int64_t>(rows.size())); }
-  std::int64_t surface() const { return static_cast<std::int64_t>(boundaries_.size()) + 1; }
+  std::int32_t blocks() const { return whole_ != nullptr ? whole_->blocks : 1; }
+  std::int64_t surface(std::int32_t block) const { return static_cast<std::int64_t>(boundaries_.size()) + 1 + block; }
+  std::string block_name(std::int32_t block) const {
+    const auto b = static_cast<std::size_t>(block);
+    if (whole_ != nullptr && b < whole_->block_names.size()) return whole_->block_names[b];
+    return blocks() == 1 ? "domain" : "block_" + std::to_string(block + 1);
+  }
 
   void write_names() {
-    std::string text = "$PhysicalNames\n" + std::to_string(surface()) + "\n";
+    std::string text = "$PhysicalNames\n" + std::to_string(surface(blocks() - 1)) + "\n";
     std::int64_t group = 0;
     for (const BoundaryEdges* boundary : boundaries_) text += "1 " + std::to_string(++group) + " " + quoted(boundary->name) + "\n";
-    file_.write(text + "2 " + std::to_string(surface()) + " \"domain\"\n$EndPhysicalNames\n");
+    for (std::int32_t block = 0; block < blocks(); ++block) text += "2 " + std::to_string(surface(block)) + " " + quoted(block_name(block)) + "\n";
+    file_.write(text + "$EndPhysicalNames\n");
   }
 
   void write_nodes() {
@@ -60,9 +68,18 @@ class MshWriter {
     file_.write("$Elements\n" + std::to_string(elements) + "\n");
     std::int64_t group = 0;
     for (const BoundaryEdges* boundary : boundaries_) write_elements(msh_line, ++group, std::span(boundary->edges));
-    write_elements(msh_triangle, surface(), std::span(mesh_.triangles));
-    write_elements(msh_quad, surface(), std::span(mesh_.quads));
+    for (std::int32_t block = 0; block < blocks(); ++block) {
+      write_elements(msh_triangle, surface(block), cells_of(mesh_.triangles, &LoadedMesh::triangle_to_block, block));
+      write_elements(msh_quad, surface(block), cells_of(mesh_.quads, &LoadedMesh::quad_to_block, block));
+    }
     file_.write("$EndElements\n");
+  }
+
+  template <class Cells>
+  std::span<const typename Cells::value_type> cells_of(const Cells& cells, std::vector<std::int32_t> LoadedMesh::* cell_to_block,
+                                                       std::int32_t block) const {
+    if (whole_ == nullptr) return std::span(cells);
+    return cells_of_block(cells, whole_->*cell_to_block, block);
   }
 
   /// Each row: number, type, two tags (the group, and the curve or surface of the same number), nodes.
@@ -83,6 +100,7 @@ class MshWriter {
 
   const Communicator& comm_;
   const Mesh& mesh_;
+  const LoadedMesh* whole_;
   std::vector<const BoundaryEdges*> boundaries_;
   TextOutput file_;
   std::int64_t next_element_ = 1;
@@ -91,6 +109,8 @@ class MshWriter {
 }  // namespace
 
 void write_msh(OutputSet& outputs, const Mesh& mesh, const std::string& path) { MshWriter(outputs, mesh, path).write_mesh(); }
+
+void write_msh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) { MshWriter(outputs, whole.mesh, path, &whole).write_mesh(); }
 
 void write_msh(const Communicator& comm, const Mesh& mesh, const std::string& path) {
   OutputSet outputs(comm);

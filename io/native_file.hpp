@@ -16,6 +16,9 @@ void write_native(OutputSet& outputs, const Mesh& mesh, const std::string& path,
 /// The same as an output of its own, in place when the function returns. *Collective.*
 void write_native(const Communicator& comm, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr);
 
+/// Writes a mesh that the set's only rank holds whole, block by block, with its solution. Throws OutputError.
+void write_native(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
+
 /// Reads a native mesh, with the solution if the file has one, on the calling rank alone. Boundaries of the same name become one.
 /// Throws InputError "file:line: ..." on anything that is not such a mesh; geometric faults are left to validate().
 LoadedMesh read_native(const std::string& path);

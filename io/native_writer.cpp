@@ -14,8 +14,17 @@ class NativeWriter {
   void write_mesh() {
     write_nodes();
     file_.write("#Number of blocks\n1\n");
-    write_connectivity("#Number of triangular elements\n", std::span(mesh_.triangles));
-    write_connectivity("#Number of quadrilateral elements\n", std::span(mesh_.quads));
+    write_block(std::span(mesh_.triangles), std::span(mesh_.quads));
+    write_boundaries();
+  }
+
+  /// Where one rank has all: the cells of each block in turn.
+  void write_blocks(const LoadedMesh& whole) {
+    write_nodes();
+    file_.write("#Number of blocks\n" + std::to_string(whole.blocks) + "\n");
+    for (std::int32_t block = 0; block < whole.blocks; ++block) {
+      write_block(cells_of_block(mesh_.triangles, whole.triangle_to_block, block), cells_of_block(mesh_.quads, whole.quad_to_block, block));
+    }
     write_boundaries();
   }
 
@@ -34,6 +43,11 @@ class NativeWriter {
   void close() { file_.close(); }
 
  private:
+  void write_block(std::span<const std::array<NodeId, 3>> triangles, std::span<const std::array<NodeId, 4>> quads) {
+    write_connectivity("#Number of triangular elements\n", triangles);
+    write_connectivity("#Number of quadrilateral elements\n", quads);
+  }
+
   void write_nodes() {
     file_.write("#Number of grid points\n" + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\n");
     file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 2, [&](TextRows& text, std::size_t i) {
@@ -79,6 +93,13 @@ void write_native(OutputSet& outputs, const Mesh& mesh, const std::string& path,
   NativeWriter writer(outputs, mesh, path);
   writer.write_mesh();
   if (solution != nullptr) writer.write_solution(*solution);
+  writer.close();
+}
+
+void write_native(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
+  NativeWriter writer(outputs, whole.mesh, path);
+  writer.write_blocks(whole);
+  if (whole.solution) writer.write_solution(*whole.solution);
   writer.close();
 }
 

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "app/command.hpp"
+#include "app/smooth_report.hpp"
+#include "app/summary.hpp"
+#include "io/input/geometry_file.hpp"
+#include "io/mesh_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
+#include "mesher/base/timer.hpp"
+#include "mesher/geometry/assemble.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "smoother/smooth_mesh.hpp"
+
+namespace quadloop {
+
+namespace {
+
+struct SmoothArguments {
+  std::string input, output, geometry, method = "perturb", objective = "power";
+  int sweeps = 20;
+};
+
+/// What the root rank knows of the mesh as it was read; on the others nothing but the geometry.
+struct Loaded {
+  LoadedMesh whole;
+  MeshOrder order;
+  std::vector<char> pinned;  ///< a flag for each node that cells of two blocks share
+  std::optional<Geometry> geometry;
+};
+
+std::vector<char> interface_nodes(const LoadedMesh& loaded) {
+  const Mesh& mesh = loaded.mesh;
+  std::vector<std::int32_t> block_of(mesh.points.size(), -1);
+  std::vector<char> shared(mesh.points.size(), 0);
+  const auto visit = [&](const auto& cells, const std::vector<std::int32_t>& blocks) {
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+      for (const NodeId node : cells[cell]) {
+        std::int32_t& block = block_of[static_cast<std::size_t>(node.value())];
+        if (block >= 0 && block != blocks[cell]) shared[static_cast<std::size_t>(node.value())] = 1;
+        block = blocks[cell];
+      }
+    }
+  };
+  visit(mesh.triangles, loaded.triangle_to_block);
+  visit(mesh.quads, loaded.quad_to_block);
+  return shared;
+}
+
+Geometry read_outline(const std::string& path, Warnings& warnings) {
+  return assemble(read_geometry(path, warnings), {}, warnings);
+}
+
+/// The root reads the mesh, every rank the geometry (files are small beside a mesh). *Collective.*
+Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
+  Loaded loaded;
+  Warnings warnings;
+  context.comm.together([&] {
+    require_readable_suffix(arguments.input);
+    require_writable_suffix(arguments.output);
+    if (!arguments.geometry.empty()) loaded.geometry = read_outline(arguments.geometry, warnings);
+    if (!context.comm.is_root()) return;
+    loaded.whole = read_mesh(arguments.input);
+    warnings.insert(warnings.end(), loaded.whole.warnings.begin(), loaded.whole.warnings.end());
+    loaded.order = space_filling_order(loaded.whole.mesh);
+    if (loaded.whole.blocks > 1) loaded.pinned = interface_nodes(loaded.whole);
+    if (loaded.whole.solution) warnings.push_back(arguments.input + ": the solution stays with its nodes, which move; it is that of the old mesh");
+    for (std::string& loss : losses_in(loaded.whole, arguments.output)) warnings.push_back(std::move(loss));
+  });
+  if (context.comm.is_root()) {
+    for (const std::string& warning : warnings) log::warning(warning);
+  }
+  return loaded;
+}
+
+/// The root alone, which has the whole mesh. *Collective.*
+void write(const Communicator& comm, const LoadedMesh& whole, const std::string& path) {
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    const Communicator alone(MPI_COMM_SELF);
+    OutputSet outputs(alone);
+    write_mesh(outputs, whole, path);
+    outputs.commit();
+  });
+}
+
+void run_smooth(const CommandContext& context, const SmoothArguments& arguments) {
+  const Communicator& comm = context.comm;
+  StageTimes times;
+  times.begin("read");
+  Loaded loaded = load(context, arguments);
+  Mesh part = scatter_mesh(comm, loaded.whole.mesh, loaded.order);
+  SmoothOptions options;
+  options.sweeps = arguments.sweeps;
+  options.method = arguments.method == "nlopt" ? Method::nlopt : Method::perturb;
+  options.objective = arguments.objective == "thesis" ? Objective::thesis : Objective::power;
+  options.pinned = scatter_nodes(comm, loaded.pinned, loaded.order);
+  options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
+  times.begin("report");
+  const ShapeReport before = report_shapes(comm, part);
+  times.begin("smooth");
+  const SmoothReport smoothed = smooth_mesh(comm, part, options);
+  times.begin("report");
+  const ShapeReport after = report_shapes(comm, part);
+  times.begin("write");
+  gather_mesh(comm, part, loaded.order, loaded.whole.mesh);
+  write(comm, loaded.whole, arguments.output);
+  times.end();
+  if (comm.is_root() && smoothed.inverted_after > 0) {
+    log::warning(fmt::format("{} of {} inverted cells could not be untangled", smoothed.inverted_after, smoothed.inverted_before));
+  }
+  const std::string stages = stage_table(comm, times.stages());
+  if (!comm.is_root() || context.quiet) return;
+  std::cout << comparison_table(before, after)
+            << fmt::format("  {:<24}{:>14}\n  {:<24}{:>14}\n  {:<24}{:>14}\n", "sweeps", smoothed.sweeps, "nodes that may move", smoothed.free_nodes,
+                           "moves", smoothed.moves)
+            << stages << "  wrote " << arguments.output << "\n";
+}
+
+}  // namespace
+
+void add_smooth_command(CLI::App& app, CommandContext& context) {
+  auto arguments = std::make_shared<SmoothArguments>();
+  CLI::App* command = app.add_subcommand("smooth", "move a mesh's nodes to better the shapes of its cells");
+  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .su2 or .msh)")->required()->type_name("IN");
+  command->add_option("-o,--output", arguments->output, "the smoothed mesh, in the format of its suffix")->required()->type_name("OUT");
+  command->add_option("--sweeps", arguments->sweeps, "how often each node is visited at most: 20")->type_name("N")->check(CLI::Range(0, 100000));
+  command->add_option("--method", arguments->method, "how a node's place is looked for: perturb (the default) or nlopt")
+      ->type_name("METHOD")
+      ->check(CLI::IsMember({"perturb", "nlopt"}));
+  command->add_option("--objective", arguments->objective, "what is lowered: power (the default) or thesis (Eq. 3.4)")
+      ->type_name("COST")
+      ->check(CLI::IsMember({"power", "thesis"}));
+  command->add_option("--geometry", arguments->geometry, "the outline that boundary nodes may slide along, as meshed")->type_name("FILE.geom");
+  command->callback([&context, arguments] { context.run = [&context, arguments] { run_smooth(context, *arguments); }; });
+}
+
+}  // namespace quadloop

@@ -1,0 +1,219 @@
+#include "mesher/mesh/scatter_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include "mesher/mesh/node_exchange.hpp"
+
+namespace quadloop {
+
+namespace {
+
+template <std::size_t width>
+using Cells = std::vector<std::array<NodeId, width>>;
+template <std::size_t width>
+using GlobalCells = std::vector<std::array<std::int64_t, width>>;
+
+struct GlobalEdge {
+  std::int64_t from, to;
+  std::int32_t boundary;
+};
+
+/// The bits of a number below 2^31 spread apart, a zero between each two.
+std::uint64_t spread_bits(std::uint64_t v) {
+  v = (v | (v << 16)) & 0x0000ffff0000ffffU;
+  v = (v | (v << 8)) & 0x00ff00ff00ff00ffU;
+  v = (v | (v << 4)) & 0x0f0f0f0f0f0f0f0fU;
+  v = (v | (v << 2)) & 0x3333333333333333U;
+  return (v | (v << 1)) & 0x5555555555555555U;
+}
+
+/// Places along the Morton curve over the box of all nodes.
+std::vector<std::uint64_t> curve_places(const Mesh& mesh) {
+  Box box;
+  for (const Point p : mesh.points) box.include(p);
+  const double side = std::max(box.width(), box.height());
+  constexpr double steps = (std::uint64_t{1} << 31) - 1;
+  const auto step = [&](double at, double low) { return static_cast<std::uint64_t>(side > 0 ? (at - low) / side * steps : 0); };
+  std::vector<std::uint64_t> places;
+  places.reserve(mesh.points.size());
+  for (const Point p : mesh.points) places.push_back(spread_bits(step(p.x, box.low.x)) | (spread_bits(step(p.y, box.low.y)) << 1));
+  return places;
+}
+
+/// Numbers in the order of their keys, equal ones as they are.
+template <class Key>
+std::vector<std::int32_t> ordered_by(const std::vector<Key>& keys) {
+  std::vector<std::int32_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::int32_t a, std::int32_t b) { return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)]; });
+  return order;
+}
+
+/// For each node of the whole mesh its number in the order.
+std::vector<std::int32_t> inverse_of(const std::vector<std::int32_t>& order) {
+  std::vector<std::int32_t> inverse(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) inverse[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
+  return inverse;
+}
+
+template <std::size_t width>
+std::vector<std::int32_t> ordered_cells(const Cells<width>& cells, const std::vector<std::int32_t>& numbers) {
+  std::vector<std::int32_t> first;
+  for (const auto& nodes : cells) {
+    std::int32_t least = numbers[static_cast<std::size_t>(nodes[0].value())];
+    for (const NodeId node : nodes) least = std::min(least, numbers[static_cast<std::size_t>(node.value())]);
+    first.push_back(least);
+  }
+  return ordered_by(first);
+}
+
+template <std::size_t width>
+GlobalCells<width> scatter_cells(const Communicator& comm, const Cells<width>& cells, const std::vector<std::int32_t>& order,
+                                 const std::vector<std::int32_t>& numbers) {
+  GlobalCells<width> ordered;
+  for (const std::int32_t cell : order) {
+    std::array<std::int64_t, width> nodes;
+    for (std::size_t k = 0; k < width; ++k) nodes[k] = numbers[static_cast<std::size_t>(cells[static_cast<std::size_t>(cell)][k].value())];
+    ordered.push_back(nodes);
+  }
+  return scatter_evenly(comm, std::span<const std::array<std::int64_t, width>>(ordered));
+}
+
+std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whole, const std::vector<std::int32_t>& numbers) {
+  std::vector<GlobalEdge> edges;
+  for (std::size_t b = 0; comm.is_root() && b < whole.boundaries.size(); ++b) {
+    for (const auto& [from, to] : whole.boundaries[b].edges) {
+      edges.push_back(
+          {numbers[static_cast<std::size_t>(from.value())], numbers[static_cast<std::size_t>(to.value())], static_cast<std::int32_t>(b)});
+    }
+  }
+  return scatter_evenly(comm, std::span<const GlobalEdge>(edges));
+}
+
+/// The root's boundaries on every rank, without their edges.
+std::vector<BoundaryEdges> broadcast_boundaries(const Communicator& comm, const Mesh& whole) {
+  std::vector<char> text;
+  for (std::size_t b = 0; comm.is_root() && b < whole.boundaries.size(); ++b) {
+    for (const std::string* word : {&whole.boundaries[b].name, &whole.boundaries[b].condition}) {
+      text.insert(text.end(), word->begin(), word->end());
+      text.push_back('\0');
+    }
+  }
+  comm.broadcast(text);
+  std::vector<BoundaryEdges> boundaries;
+  for (auto at = text.begin(); at != text.end();) {
+    std::array<std::string, 2> words;
+    for (std::string& word : words) {
+      const auto end = std::find(at, text.end(), '\0');
+      word.assign(at, end);
+      at = end + 1;
+    }
+    boundaries.push_back({words[0], words[1], {}});
+  }
+  return boundaries;
+}
+
+/// Makes a rank's part from what it was sent: its nodes, and cells that name nodes over all ranks.
+class PartBuilder {
+ public:
+  PartBuilder(const Communicator& comm, std::vector<Point> points) {
+    part_.points = std::move(points);
+    part_.owned_nodes = static_cast<std::int32_t>(part_.points.size());
+    part_.first_node = comm.exclusive_sum(part_.owned_nodes);
+  }
+
+  template <std::size_t width>
+  void add_cells(const GlobalCells<width>& cells, Cells<width>& to) {
+    for (const auto& cell : cells) {
+      std::array<NodeId, width> nodes;
+      for (std::size_t k = 0; k < width; ++k) nodes[k] = local(cell[k]);
+      to.push_back(nodes);
+    }
+  }
+  void add_edges(const std::vector<GlobalEdge>& edges) {
+    for (const GlobalEdge& e : edges) part_.boundaries[static_cast<std::size_t>(e.boundary)].edges.push_back({local(e.from), local(e.to)});
+  }
+  Mesh& part() { return part_; }
+
+  /// Fetches the copies' positions. *Collective.*
+  Mesh finish(const Communicator& comm) {
+    part_.points.resize(part_.points.size() + part_.copies.size());
+    const NodeOwners owners(comm, part_.first_node);
+    NodeExchange(comm, owners, part_.owned_nodes, part_.copies).update(part_.points);
+    return std::move(part_);
+  }
+
+ private:
+  NodeId local(std::int64_t number) {
+    const std::int64_t offset = number - part_.first_node;
+    if (0 <= offset && offset < part_.owned_nodes) return NodeId{static_cast<std::int32_t>(offset)};
+    const auto [found, added] = copies_.emplace(number, part_.owned_nodes + static_cast<std::int32_t>(part_.copies.size()));
+    if (added) part_.copies.push_back(GlobalNodeId{number});
+    return NodeId{found->second};
+  }
+
+  Mesh part_;
+  std::unordered_map<std::int64_t, std::int32_t> copies_;
+};
+
+/// All ranks' values on the root, one rank's after the other's; elsewhere none. *Collective.*
+template <class T>
+std::vector<T> gather_values(const Communicator& comm, std::vector<T> values) {
+  std::vector<std::vector<T>> out(static_cast<std::size_t>(comm.size()));
+  out[0] = std::move(values);
+  std::vector<T> all;
+  for (const auto& from_rank : comm.exchange(out)) all.insert(all.end(), from_rank.begin(), from_rank.end());
+  return all;
+}
+
+template <std::size_t width>
+void gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>& cells, const MeshOrder& order,
+                  const std::vector<std::int32_t>& cell_order, Cells<width>& whole) {
+  GlobalCells<width> named;
+  for (const auto& nodes : cells) {
+    std::array<std::int64_t, width> numbers;
+    for (std::size_t k = 0; k < width; ++k) numbers[k] = part.global(nodes[k]).value();
+    named.push_back(numbers);
+  }
+  named = gather_values(comm, std::move(named));
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    for (std::size_t k = 0; k < width; ++k) {
+      whole[static_cast<std::size_t>(cell_order[i])][k] = NodeId{order.nodes[static_cast<std::size_t>(named[i][k])]};
+    }
+  }
+}
+
+}  // namespace
+
+MeshOrder space_filling_order(const Mesh& whole) {
+  MeshOrder order;
+  order.nodes = ordered_by(curve_places(whole));
+  const std::vector<std::int32_t> numbers = inverse_of(order.nodes);
+  order.triangles = ordered_cells(whole.triangles, numbers);
+  order.quads = ordered_cells(whole.quads, numbers);
+  return order;
+}
+
+Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& order) {
+  const std::vector<std::int32_t> numbers = inverse_of(order.nodes);
+  PartBuilder builder(comm, scatter_nodes(comm, whole.points, order));
+  builder.add_cells(scatter_cells(comm, whole.triangles, order.triangles, numbers), builder.part().triangles);
+  builder.add_cells(scatter_cells(comm, whole.quads, order.quads, numbers), builder.part().quads);
+  builder.part().boundaries = broadcast_boundaries(comm, whole);
+  builder.add_edges(scatter_edges(comm, whole, numbers));
+  return builder.finish(comm);
+}
+
+void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole) {
+  const auto owned = part.points.begin() + part.owned_nodes;
+  const std::vector<Point> points = gather_values(comm, std::vector<Point>(part.points.begin(), owned));
+  for (std::size_t i = 0; i < points.size(); ++i) whole.points[static_cast<std::size_t>(order.nodes[i])] = points[i];
+  gather_cells(comm, part, part.triangles, order, order.triangles, whole.triangles);
+  gather_cells(comm, part, part.quads, order, order.quads, whole.quads);
+}
+
+}  // namespace quadloop
