@@ -1,0 +1,136 @@
+#include "mesher/mesh/region_triangulation.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace quadloop {
+
+namespace {
+
+template <class Node>
+void put_smallest_first(std::array<Node, 3>& nodes) {
+  std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end()), nodes.end());
+}
+
+}  // namespace
+
+RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) {
+  gather_nodes(halo.triangles());
+  DelaunayPatch patch = make_patch(halo, rank_of);
+  patch.flip_to_delaunay();
+  const std::vector<char> doubts = patch.doubtful();
+  for (std::size_t t = 0; t < doubts.size() && !uncertain_; ++t) {
+    const Triangle& nodes = patch.triangles()[t];
+    const std::int32_t first = *std::min_element(nodes.begin(), nodes.end());
+    uncertain_ = doubts[t] != 0 && halo.owns(numbers_[static_cast<std::size_t>(first)]);
+  }
+  if (uncertain_) return;
+  compare(find_changes(halo, patch));
+  find_outgrown(halo.triangles());
+}
+
+void RegionTriangulation::gather_nodes(std::span<const NumberedTriangle> triangles) {
+  for (const NumberedTriangle& t : triangles) numbers_.insert(numbers_.end(), t.nodes.begin(), t.nodes.end());
+  std::sort(numbers_.begin(), numbers_.end());
+  numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+  points_.resize(numbers_.size());
+  core_.resize(numbers_.size());
+  first_around_.assign(numbers_.size(), std::numeric_limits<std::int64_t>::max());
+  for (const NumberedTriangle& t : triangles) {
+    const Triangle nodes = local(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto node = static_cast<std::size_t>(nodes[k]);
+      points_[node] = t.points[k];
+      core_[node] = t.core[k];
+      first_around_[node] = std::min(first_around_[node], t.number);
+    }
+  }
+}
+
+RegionTriangulation::Triangle RegionTriangulation::local(const NumberedTriangle& triangle) const {
+  Triangle nodes;
+  for (std::size_t k = 0; k < 3; ++k) {
+    nodes[k] = static_cast<std::int32_t>(std::lower_bound(numbers_.begin(), numbers_.end(), triangle.nodes[k]) - numbers_.begin());
+  }
+  return nodes;
+}
+
+DelaunayPatch RegionTriangulation::make_patch(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) const {
+  std::vector<TieRank> ranks;
+  for (const Point& p : points_) ranks.push_back(rank_of(p));
+  std::vector<Triangle> triangles;
+  std::vector<char> open;
+  for (const NumberedTriangle& t : halo.triangles()) {
+    triangles.push_back(local(t));
+    open.push_back(halo.at_rim(t) ? 1 : 0);
+  }
+  return {points_, std::move(ranks), std::move(triangles), open};
+}
+
+RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& halo, const DelaunayPatch& patch) const {
+  Changes changes;
+  for (std::size_t i = 0; i < halo.triangles().size(); ++i) {
+    Triangle before = local(halo.triangles()[i]), after = patch.triangles()[i];
+    if (before == after) continue;
+    put_smallest_first(before);
+    put_smallest_first(after);
+    const auto is_concern = [&](const Triangle& t) { return halo.owns(numbers_[static_cast<std::size_t>(t[0])]); };
+    if (is_concern(before)) changes.before.emplace_back(before, halo.triangles()[i].number);
+    if (is_concern(after)) changes.after.push_back(after);
+  }
+  std::sort(changes.before.begin(), changes.before.end());
+  std::sort(changes.after.begin(), changes.after.end());
+  return changes;
+}
+
+/// A triangle may come back at another place of the patch.
+void RegionTriangulation::compare(const Changes& changes) {
+  std::vector<Triangle> before;
+  for (const auto& [nodes, number] : changes.before) {
+    before.push_back(nodes);
+    if (!std::binary_search(changes.after.begin(), changes.after.end(), nodes)) freed_.push_back(number);
+  }
+  std::set_difference(changes.after.begin(), changes.after.end(), before.begin(), before.end(), std::back_inserter(new_triangles_));
+  for (const Triangle& t : new_triangles_) {
+    MadeTriangle made{first_around_[static_cast<std::size_t>(t[0])], {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      made.nodes[k] = numbers_[static_cast<std::size_t>(t[k])];
+      made.points[k] = points_[static_cast<std::size_t>(t[k])];
+    }
+    made_.push_back(made);
+  }
+}
+
+/// Those with one triangle at hand, between nodes that may have more triangles around them than the region has.
+std::vector<RegionTriangulation::Edge> RegionTriangulation::outer_edges(std::span<const NumberedTriangle> triangles) const {
+  std::vector<Edge> edges, single;
+  for (const NumberedTriangle& t : triangles) {
+    const Triangle nodes = local(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax({nodes[k], nodes[(k + 1) % 3]});
+      if (!is_core(low) && !is_core(high)) edges.push_back({low, high});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (auto edge = edges.begin(); edge != edges.end();) {
+    const auto next = std::upper_bound(edge, edges.end(), *edge);
+    if (next - edge == 1) single.push_back(*edge);
+    edge = next;
+  }
+  return single;
+}
+
+void RegionTriangulation::find_outgrown(std::span<const NumberedTriangle> triangles) {
+  if (new_triangles_.empty()) return;
+  const std::vector<Edge> outer = outer_edges(triangles);
+  for (std::size_t i = 0; i < new_triangles_.size(); ++i) {
+    const Triangle& t = new_triangles_[i];
+    const auto is_outer = [&](std::size_t k) {
+      const auto [low, high] = std::minmax({t[k], t[(k + 1) % 3]});
+      return std::binary_search(outer.begin(), outer.end(), Edge{low, high});
+    };
+    if (is_outer(0) || is_outer(1) || is_outer(2)) outgrown_.insert(outgrown_.end(), made_[i].nodes.begin(), made_[i].nodes.end());
+  }
+}
+
+}  // namespace quadloop
