@@ -21,11 +21,10 @@ RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::functi
   const std::vector<char> doubts = patch.doubtful();
   for (std::size_t t = 0; t < doubts.size() && !uncertain_; ++t) {
     const Triangle& nodes = patch.triangles()[t];
-    const std::int32_t first = *std::min_element(nodes.begin(), nodes.end());
-    uncertain_ = doubts[t] != 0 && halo.owns(numbers_[static_cast<std::size_t>(first)]);
+    uncertain_ = doubts[t] != 0 && std::any_of(nodes.begin(), nodes.end(), [&](std::int32_t node) { return halo.owns(number_of(node)); });
   }
   if (uncertain_) return;
-  compare(find_changes(halo, patch));
+  compare(halo, find_changes(halo, patch));
   find_outgrown(halo.triangles());
 }
 
@@ -35,14 +34,12 @@ void RegionTriangulation::gather_nodes(std::span<const NumberedTriangle> triangl
   numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
   points_.resize(numbers_.size());
   core_.resize(numbers_.size());
-  first_around_.assign(numbers_.size(), std::numeric_limits<std::int64_t>::max());
   for (const NumberedTriangle& t : triangles) {
     const Triangle nodes = local(t);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto node = static_cast<std::size_t>(nodes[k]);
       points_[node] = t.points[k];
       core_[node] = t.core[k];
-      first_around_[node] = std::min(first_around_[node], t.number);
     }
   }
 }
@@ -74,9 +71,8 @@ RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& h
     if (before == after) continue;
     put_smallest_first(before);
     put_smallest_first(after);
-    const auto is_concern = [&](const Triangle& t) { return halo.owns(numbers_[static_cast<std::size_t>(t[0])]); };
-    if (is_concern(before)) changes.before.emplace_back(before, halo.triangles()[i].number);
-    if (is_concern(after)) changes.after.push_back(after);
+    changes.before.emplace_back(before, halo.triangles()[i].number);
+    changes.after.push_back(after);
   }
   std::sort(changes.before.begin(), changes.before.end());
   std::sort(changes.after.begin(), changes.after.end());
@@ -84,20 +80,25 @@ RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& h
 }
 
 /// A triangle may come back at another place of the patch.
-void RegionTriangulation::compare(const Changes& changes) {
-  std::vector<Triangle> before;
+void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) {
+  std::vector<Triangle> before, made;
+  std::vector<std::int64_t> first_freed(numbers_.size(), std::numeric_limits<std::int64_t>::max());  // around each node
   for (const auto& [nodes, number] : changes.before) {
     before.push_back(nodes);
-    if (!std::binary_search(changes.after.begin(), changes.after.end(), nodes)) freed_.push_back(number);
+    if (std::binary_search(changes.after.begin(), changes.after.end(), nodes)) continue;
+    for (const std::int32_t node : nodes) first_freed[static_cast<std::size_t>(node)] = std::min(first_freed[static_cast<std::size_t>(node)], number);
+    if (halo.owns(number_of(nodes[0]))) freed_.push_back(number);
   }
-  std::set_difference(changes.after.begin(), changes.after.end(), before.begin(), before.end(), std::back_inserter(new_triangles_));
-  for (const Triangle& t : new_triangles_) {
-    MadeTriangle made{first_around_[static_cast<std::size_t>(t[0])], {}, {}};
+  std::set_difference(changes.after.begin(), changes.after.end(), before.begin(), before.end(), std::back_inserter(made));
+  for (const Triangle& t : made) {
+    if (!halo.owns(number_of(t[0]))) continue;
+    MadeTriangle triangle{first_freed[static_cast<std::size_t>(t[0])], {}, {}};
     for (std::size_t k = 0; k < 3; ++k) {
-      made.nodes[k] = numbers_[static_cast<std::size_t>(t[k])];
-      made.points[k] = points_[static_cast<std::size_t>(t[k])];
+      triangle.nodes[k] = number_of(t[k]);
+      triangle.points[k] = points_[static_cast<std::size_t>(t[k])];
     }
-    made_.push_back(made);
+    new_triangles_.push_back(t);
+    made_.push_back(triangle);
   }
 }
 

@@ -10,7 +10,7 @@ namespace quadloop {
 
 /// A triangle that was not there before.
 struct MadeTriangle {
-  std::int64_t near = 0;  ///< the lowest number of the region's triangles that had its first node
+  std::int64_t near = 0;                ///< the lowest number of the triangles with its first node that are gone
   std::array<std::int64_t, 3> nodes{};  ///< over all ranks, the smallest first
   std::array<Point, 3> points;
   friend auto operator<=>(const MadeTriangle&, const MadeTriangle&) = default;
@@ -22,7 +22,7 @@ class RegionTriangulation {
  public:
   RegionTriangulation(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of);
 
-  /// Whether triangles not at hand might change some that are this rank's concern. If not, on no rank, the following hold for the whole region.
+  /// Whether triangles not at hand might change some around nodes that this rank owns. If so, the following are empty.
   bool uncertain() const { return uncertain_; }
   /// The numbers of triangles that are gone.
   const std::vector<std::int64_t>& freed() const { return freed_; }
@@ -42,17 +42,17 @@ class RegionTriangulation {
   void gather_nodes(std::span<const NumberedTriangle> triangles);
   DelaunayPatch make_patch(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) const;
   Changes find_changes(const StarHalo& halo, const DelaunayPatch& patch) const;
-  void compare(const Changes& changes);
+  void compare(const StarHalo& halo, const Changes& changes);
   void find_outgrown(std::span<const NumberedTriangle> triangles);
   std::vector<Edge> outer_edges(std::span<const NumberedTriangle> triangles) const;
 
   Triangle local(const NumberedTriangle& triangle) const;
+  std::int64_t number_of(std::int32_t node) const { return numbers_[static_cast<std::size_t>(node)]; }
   bool is_core(std::int32_t node) const { return core_[static_cast<std::size_t>(node)] != 0; }
 
-  std::vector<std::int64_t> numbers_;       ///< of the nodes at hand, over all ranks, ascending
-  std::vector<Point> points_;               ///< of each
-  std::vector<char> core_;                  ///< of each
-  std::vector<std::int64_t> first_around_;  ///< of each: the lowest number of a triangle at hand that has it
+  std::vector<std::int64_t> numbers_;  ///< of the nodes at hand, over all ranks, ascending
+  std::vector<Point> points_;          ///< of each
+  std::vector<char> core_;             ///< of each
   bool uncertain_ = false;
   std::vector<Triangle> new_triangles_;  ///< this rank's concern
   std::vector<MadeTriangle> made_;
