@@ -25,7 +25,7 @@ RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::functi
   }
   if (uncertain_) return;
   compare(halo, find_changes(halo, patch));
-  find_outgrown(halo.triangles());
+  find_outgrown();
 }
 
 void RegionTriangulation::gather_nodes(std::span<const NumberedTriangle> triangles) {
@@ -34,40 +34,30 @@ void RegionTriangulation::gather_nodes(std::span<const NumberedTriangle> triangl
   numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
   points_.resize(numbers_.size());
   core_.resize(numbers_.size());
+  triangles_.reserve(triangles.size());
   for (const NumberedTriangle& t : triangles) {
-    const Triangle nodes = local(t);
+    Triangle& nodes = triangles_.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto node = static_cast<std::size_t>(nodes[k]);
+      const auto node = static_cast<std::size_t>(std::lower_bound(numbers_.begin(), numbers_.end(), t.nodes[k]) - numbers_.begin());
+      nodes[k] = static_cast<std::int32_t>(node);
       points_[node] = t.points[k];
       core_[node] = t.core[k];
     }
   }
 }
 
-RegionTriangulation::Triangle RegionTriangulation::local(const NumberedTriangle& triangle) const {
-  Triangle nodes;
-  for (std::size_t k = 0; k < 3; ++k) {
-    nodes[k] = static_cast<std::int32_t>(std::lower_bound(numbers_.begin(), numbers_.end(), triangle.nodes[k]) - numbers_.begin());
-  }
-  return nodes;
-}
-
 DelaunayPatch RegionTriangulation::make_patch(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) const {
   std::vector<TieRank> ranks;
   for (const Point& p : points_) ranks.push_back(rank_of(p));
-  std::vector<Triangle> triangles;
   std::vector<char> open;
-  for (const NumberedTriangle& t : halo.triangles()) {
-    triangles.push_back(local(t));
-    open.push_back(halo.at_rim(t) ? 1 : 0);
-  }
-  return {points_, std::move(ranks), std::move(triangles), open};
+  for (const NumberedTriangle& t : halo.triangles()) open.push_back(halo.at_rim(t) ? 1 : 0);
+  return {points_, std::move(ranks), triangles_, open};
 }
 
 RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& halo, const DelaunayPatch& patch) const {
   Changes changes;
-  for (std::size_t i = 0; i < halo.triangles().size(); ++i) {
-    Triangle before = local(halo.triangles()[i]), after = patch.triangles()[i];
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    Triangle before = triangles_[i], after = patch.triangles()[i];
     if (before == after) continue;
     put_smallest_first(before);
     put_smallest_first(after);
@@ -103,10 +93,9 @@ void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) 
 }
 
 /// Those with one triangle at hand, between nodes that may have more triangles around them than the region has.
-std::vector<RegionTriangulation::Edge> RegionTriangulation::outer_edges(std::span<const NumberedTriangle> triangles) const {
+std::vector<RegionTriangulation::Edge> RegionTriangulation::outer_edges() const {
   std::vector<Edge> edges, single;
-  for (const NumberedTriangle& t : triangles) {
-    const Triangle nodes = local(t);
+  for (const Triangle& nodes : triangles_) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax({nodes[k], nodes[(k + 1) % 3]});
       if (!is_core(low) && !is_core(high)) edges.push_back({low, high});
@@ -121,9 +110,9 @@ std::vector<RegionTriangulation::Edge> RegionTriangulation::outer_edges(std::spa
   return single;
 }
 
-void RegionTriangulation::find_outgrown(std::span<const NumberedTriangle> triangles) {
+void RegionTriangulation::find_outgrown() {
   if (new_triangles_.empty()) return;
-  const std::vector<Edge> outer = outer_edges(triangles);
+  const std::vector<Edge> outer = outer_edges();
   for (std::size_t i = 0; i < new_triangles_.size(); ++i) {
     const Triangle& t = new_triangles_[i];
     const auto is_outer = [&](std::size_t k) {

@@ -43,16 +43,16 @@ class RegionTriangulation {
   DelaunayPatch make_patch(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) const;
   Changes find_changes(const StarHalo& halo, const DelaunayPatch& patch) const;
   void compare(const StarHalo& halo, const Changes& changes);
-  void find_outgrown(std::span<const NumberedTriangle> triangles);
-  std::vector<Edge> outer_edges(std::span<const NumberedTriangle> triangles) const;
+  void find_outgrown();
+  std::vector<Edge> outer_edges() const;
 
-  Triangle local(const NumberedTriangle& triangle) const;
   std::int64_t number_of(std::int32_t node) const { return numbers_[static_cast<std::size_t>(node)]; }
   bool is_core(std::int32_t node) const { return core_[static_cast<std::size_t>(node)] != 0; }
 
   std::vector<std::int64_t> numbers_;  ///< of the nodes at hand, over all ranks, ascending
   std::vector<Point> points_;          ///< of each
   std::vector<char> core_;             ///< of each
+  std::vector<Triangle> triangles_;    ///< at hand, before any flip
   bool uncertain_ = false;
   std::vector<Triangle> new_triangles_;  ///< this rank's concern
   std::vector<MadeTriangle> made_;

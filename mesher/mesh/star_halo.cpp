@@ -6,6 +6,10 @@ namespace quadloop {
 
 StarHalo::StarHalo(const Communicator& comm, const NodeOwners& owners, std::span<const NumberedTriangle> own) : comm_{comm}, owners_{owners} {
   gather_stars(own);
+  if (comm.size() > 1) list_spokes();
+}
+
+void StarHalo::list_spokes() {
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (const std::int64_t node : triangles_[t].nodes) {
       if (owns(node)) spokes_.push_back({node, t});

@@ -47,13 +47,14 @@ class StarHalo {
   };
   bool known(std::int64_t node) const { return owns(node) || fetched_.contains(node); }
   void gather_stars(std::span<const NumberedTriangle> own);
+  void list_spokes();
   void add(const NumberedTriangle& triangle);
   std::vector<NumberedTriangle> around(std::span<const std::int64_t> nodes) const;
 
   const Communicator& comm_;
   const NodeOwners& owners_;
   std::vector<NumberedTriangle> triangles_;
-  std::vector<Spoke> spokes_;                  ///< sorted
+  std::vector<Spoke> spokes_;                  ///< sorted; none on a rank that is alone
   std::unordered_set<std::int64_t> numbers_;   ///< of the triangles at hand
   std::unordered_set<std::int64_t> fetched_;   ///< other ranks' nodes around which all triangles are at hand
   std::unordered_set<std::int64_t> frontier_;  ///< other nodes of the triangles at hand
