@@ -20,7 +20,6 @@ namespace quadloop {
 namespace {
 
 using test::world;
-using Triangle = std::array<std::int64_t, 3>;
 
 Chain circle(const std::string& name, Point centre, double radius, int vertices) {
   Chain chain;
@@ -293,6 +292,47 @@ TEST(RestoreDelaunay, AnyDistributionWillDo) {
   expect_same(gather(world(), part), whole);
   for (const std::int64_t every : {1, 10}) {
     for (unsigned seed = 0; seed < 4; ++seed) move_and_restore(whole, part, every, seed);
+  }
+}
+
+/// A polygon on a circle, fanned from one of its nodes, and the tip of a triangle across its longest side, the last node, at a distance from the
+/// centre.
+Mesh polygon_with_tip(std::int32_t corners, double distance) {
+  Mesh mesh;
+  const auto node = [](std::int32_t i) { return NodeId{i}; };
+  for (int i = 0; i < corners; ++i) {
+    const double t = std::numbers::pi * (1.0 / 6 + 5.0 / 3 * i / (corners - 1));
+    mesh.points.push_back({std::cos(t), std::sin(t)});
+  }
+  mesh.points.push_back({distance, 0});
+  mesh.owned_nodes = corners + 1;
+  mesh.boundaries = {{"outline", "wall", {}}};
+  for (std::int32_t i = 0; i <= corners; ++i) mesh.boundaries[0].edges.push_back({node(i), node((i + 1) % (corners + 1))});
+  for (std::int32_t i = 1; i + 1 < corners; ++i) mesh.triangles.push_back({node(0), node(i), node(i + 1)});
+  mesh.triangles.push_back({node(0), node(corners - 1), node(corners)});
+  return mesh;
+}
+
+TEST(RestoreDelaunay, FollowsAsFarAsOneMoveReaches) {
+  const Communicator self(MPI_COMM_SELF);
+  const Mesh outside = polygon_with_tip(60, 1.2);
+  Mesh whole = shuffled_part(self, outside), part = shuffled_part(world(), outside);
+  const Point before = outside.points.back(), after{0.95, 0};  // into the circle
+  const auto restore = [&](const Communicator& comm, Mesh& mesh) {
+    restore_delaunay(comm, mesh, std::vector<char>(mesh.points.size(), 1), rank_of);
+    std::vector<char> moved;
+    for (Point& p : mesh.points) {
+      moved.push_back(p == before ? 1 : 0);
+      if (p == before) p = after;
+    }
+    restore_delaunay(comm, mesh, moved, rank_of);
+  };
+  restore(self, whole);
+  restore(world(), part);
+  expect_same(gather(world(), part), whole);
+  expect_delaunay(whole);
+  for (const auto& t : whole.triangles) {
+    EXPECT_TRUE(std::any_of(t.begin(), t.end(), [&](NodeId n) { return whole.point(n) == after; }));
   }
 }
 
