@@ -55,6 +55,7 @@ std::vector<NumberedTriangle> StarHalo::around(std::span<const std::int64_t> nod
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
   std::vector<NumberedTriangle> found;
+  found.reserve(places.size());
   for (const std::size_t place : places) found.push_back(triangles_[place]);
   return found;
 }
