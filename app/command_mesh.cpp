@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -118,6 +119,20 @@ StageSeconds stages_of(const StageTimes& ours, const StageTimes& of_mesher) {
   return seconds;
 }
 
+/// The mesh of a Delaunay type ends with flips, under the order of nodes that it was made with.
+void smooth(const Communicator& comm, const Prepared& prepared, MeshResult& result) {
+  SmoothOptions options = prepared.settings.smooth;
+  if (options.sweeps == 0) return;
+  options.geometry = &*prepared.geometry;
+  const Lattice lattice = choose_root(*prepared.geometry, prepared.options.size.root);
+  if (prepared.options.type == MeshType::delaunay) {
+    options.delaunay = [&lattice, finest = lattice.finest_level(prepared.options.size.min)](Point p) { return tie_rank(lattice, finest, p); };
+  }
+  const SmoothReport report = smooth_mesh(comm, result.mesh, options);
+  log::detail(fmt::format("smoothed: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}", report.moves,
+                          report.free_nodes, report.sweeps, report.worst_cost_after, report.worst_cost_before));
+}
+
 /// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere), meshes, writes. Warnings
 /// come when all is done, so that a failure is one line.
 void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
@@ -129,13 +144,8 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   log::detail("meshing " + std::to_string(prepared.geometry->size()) + " segments");
   times.begin("mesh");
   MeshResult result = build_mesh(comm, *prepared.geometry, prepared.options);
-  if (prepared.settings.smooth.sweeps > 0) {
-    times.begin("smooth");
-    SmoothOptions smooth = prepared.settings.smooth;
-    smooth.geometry = &*prepared.geometry;
-    const SmoothReport smoothed = smooth_mesh(comm, result.mesh, smooth);
-    if (comm.is_root()) std::cerr << "free " << smoothed.free_nodes << " moves " << smoothed.moves << " sweeps " << smoothed.sweeps << " cost " << smoothed.worst_cost_before << " " << smoothed.worst_cost_after << "\n";
-  }
+  times.begin("smooth");
+  smooth(comm, prepared, result);
   result.tree.attributes.case_digest = case_digest(prepared.options);
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);
   times.begin("write");

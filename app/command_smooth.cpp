@@ -16,6 +16,7 @@
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/assemble.hpp"
+#include "mesher/mesh/delaunay_check.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "smoother/smooth_mesh.hpp"
 
@@ -34,6 +35,7 @@ struct Loaded {
   MeshOrder order;
   std::vector<char> pinned;  ///< a flag for each node that cells of two blocks share
   std::optional<Geometry> geometry;
+  bool delaunay = false;  ///< on every rank
 };
 
 std::vector<char> interface_nodes(const LoadedMesh& loaded) {
@@ -71,9 +73,11 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     warnings.insert(warnings.end(), loaded.whole.warnings.begin(), loaded.whole.warnings.end());
     loaded.order = space_filling_order(loaded.whole.mesh);
     if (loaded.whole.blocks > 1) loaded.pinned = interface_nodes(loaded.whole);
+    loaded.delaunay = loaded.whole.blocks == 1 && is_delaunay(loaded.whole.mesh);
     if (loaded.whole.solution) warnings.push_back(arguments.input + ": the solution stays with its nodes, which move; it is that of the old mesh");
     for (std::string& loss : losses_in(loaded.whole, arguments.output)) warnings.push_back(std::move(loss));
   });
+  loaded.delaunay = context.comm.any(loaded.delaunay);
   if (context.comm.is_root()) {
     for (const std::string& warning : warnings) log::warning(warning);
   }
@@ -91,6 +95,12 @@ void write(const Communicator& comm, const LoadedMesh& whole, const std::string&
   });
 }
 
+Point centre_of(const Communicator& comm, const Mesh& part) {
+  Box box;
+  for (const Point p : part.points) box.include(p);
+  return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)}, {comm.maximum(box.high.x), comm.maximum(box.high.y)}}.centre();
+}
+
 void run_smooth(const CommandContext& context, const SmoothArguments& arguments) {
   const Communicator& comm = context.comm;
   StageTimes times;
@@ -103,6 +113,8 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
   options.objective = arguments.objective == "thesis" ? Objective::thesis : Objective::power;
   options.pinned = scatter_nodes(comm, loaded.pinned, loaded.order);
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
+  const Point centre = centre_of(comm, part);
+  if (loaded.delaunay) options.delaunay = [centre](Point p) { return tie_rank(centre, p); };
   times.begin("report");
   const ShapeReport before = report_shapes(comm, part);
   times.begin("smooth");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "mesher/mesh/restore_delaunay.hpp"
 #include "smoother/boundary_slide.hpp"
 #include "smoother/colouring.hpp"
 #include "smoother/untangle.hpp"
@@ -193,6 +194,16 @@ WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::
   return over_ranks(comm, worst);
 }
 
+/// Puts the nodes where they are now; flags those that have moved.
+std::vector<char> take_positions(const HaloMesh& from, Mesh& to) {
+  std::vector<char> moved(to.points.size(), 0);
+  for (std::size_t node = 0; node < to.points.size(); ++node) {
+    moved[node] = to.points[node] != from.points()[node] ? 1 : 0;
+    to.points[node] = from.points()[node];
+  }
+  return moved;
+}
+
 }  // namespace
 
 SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
@@ -210,12 +221,13 @@ SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptio
     report.moves += moves;
   }
   const WorstCell after = worst_cell(comm, halo, targets, before);
-  std::copy_n(halo.points().begin(), mesh.points.size(), mesh.points.begin());
+  report.inverted_after = after.inverted;
+  const std::vector<char> moved = take_positions(halo, mesh);
+  if (options.delaunay && report.inverted_after == 0) restore_delaunay(comm, mesh, moved, options.delaunay);
   report.free_nodes = comm.sum(static_cast<std::int64_t>(stars.size()));
   report.worst_cost_before = before.worst.cost;
   report.worst_cost_after = after.cost;
   report.inverted_before = before.worst.inverted;
-  report.inverted_after = after.inverted;
   return report;
 }
 

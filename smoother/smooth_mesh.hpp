@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
+#include "mesher/delaunay/tie_order.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "smoother/node_solver.hpp"
@@ -19,6 +21,7 @@ struct SmoothOptions {
   double threshold = 0.05;                  ///< nodes of cells that cost no more stay, unless they share a cell with a node of one that does
   const Geometry* geometry = nullptr;       ///< the outline that boundary nodes slide along; without it they slide where the mesh's own is straight
   std::vector<char> pinned;                 ///< a flag for each owned node that must stay, or none at all
+  std::function<TieRank(Point)> delaunay;   ///< if set, the mesh is Delaunay under this order of nodes, and is made so again by flips in the end
   std::vector<CellTarget> targets;          ///< the shape of each own cell, triangles, then quads; or none at all for ideal ones
 };
 
@@ -30,7 +33,7 @@ struct SmoothReport {
   std::int64_t inverted_before = 0, inverted_after = 0;  ///< cells
 };
 
-/// Moves nodes to better the cells' shapes, T 3.7; connectivity stays. The positions are the same bits on any number of ranks, those of the mesh's
+/// Moves nodes to better the cells' shapes, T 3.7; connectivity stays but for the flips of a Delaunay mesh. The positions are the same bits on any number of ranks, those of the mesh's
 /// copies too. Neither the largest cost nor the smallest angle of the mesh gets worse; a mesh with inverted cells is untangled first. *Collective.*
 SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options);
 

@@ -16,10 +16,13 @@ std::int8_t zeros_of(std::int64_t line) {
 
 }  // namespace
 
-TieRank tie_rank(const Lattice& lattice, int finest_level, Point position) {
-  const Point centre = lattice.box().centre();
+TieRank tie_rank(Point centre, Point position) {
   const auto [nearer, farther] = std::minmax({std::abs(position.x - centre.x), std::abs(position.y - centre.y)});
-  TieRank rank{-1, -1, farther, nearer, position.x, position.y};
+  return {-1, -1, farther, nearer, position.x, position.y};
+}
+
+TieRank tie_rank(const Lattice& lattice, int finest_level, Point position) {
+  TieRank rank = tie_rank(lattice.box().centre(), position);
   const std::int64_t column = lattice.column_at(position.x), row = lattice.row_at(position.y);
   if (lattice.x(column) != position.x || lattice.y(row) != position.y) return rank;
   const auto [low, high] = std::minmax({zeros_of(column), zeros_of(row)});

@@ -21,4 +21,7 @@ struct TieRank {
 /// From a node's position alone.
 TieRank tie_rank(const Lattice& lattice, int finest_level, Point position);
 
+/// The same without a lattice: nodes farther from the centre of a box rank higher.
+TieRank tie_rank(Point centre, Point position);
+
 }  // namespace quadloop

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <optional>
-#include <unordered_map>
 
 #include "mesher/base/error.hpp"
 #include "mesher/delaunay/delaunay_patch.hpp"
 #include "mesher/forest/ghost_exchange.hpp"
 #include "mesher/mesh/cell_halo.hpp"
+#include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
 
@@ -157,27 +157,6 @@ class LocalTriangulation {
   std::optional<DelaunayPatch> patch_;
   std::vector<Placed> placed_;
   bool uncertain_ = false;
-};
-
-/// The mesh's list of nodes, which learns of other ranks' nodes as it goes.
-class NodeTable {
- public:
-  explicit NodeTable(Mesh& mesh) : mesh_{mesh} {}
-
-  NodeId local(std::int64_t number, Point point) {
-    const std::int64_t offset = number - mesh_.first_node;
-    if (0 <= offset && offset < mesh_.owned_nodes) return NodeId{static_cast<std::int32_t>(offset)};
-    const auto [found, added] = copies_.emplace(number, static_cast<std::int32_t>(mesh_.points.size()));
-    if (added) {
-      mesh_.points.push_back(point);
-      mesh_.copies.push_back(GlobalNodeId{number});
-    }
-    return NodeId{found->second};
-  }
-
- private:
-  Mesh& mesh_;
-  std::unordered_map<std::int64_t, std::int32_t> copies_;
 };
 
 /// The two triangles of a leaf's square: of its diagonals the one through the corner that it shares with its parent, whose coordinates have the most

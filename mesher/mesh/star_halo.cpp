@@ -1,0 +1,79 @@
+#include "mesher/mesh/star_halo.hpp"
+
+#include <algorithm>
+
+namespace quadloop {
+
+StarHalo::StarHalo(const Communicator& comm, const NodeOwners& owners, std::span<const NumberedTriangle> own) : comm_{comm}, owners_{owners} {
+  gather_stars(own);
+  if (comm.size() > 1) list_spokes();
+}
+
+void StarHalo::list_spokes() {
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (const std::int64_t node : triangles_[t].nodes) {
+      if (owns(node)) spokes_.push_back({node, t});
+    }
+  }
+  std::sort(spokes_.begin(), spokes_.end());
+}
+
+/// Each triangle goes to the owners of its nodes.
+void StarHalo::gather_stars(std::span<const NumberedTriangle> own) {
+  std::vector<std::vector<NumberedTriangle>> to_rank(static_cast<std::size_t>(comm_.size()));
+  for (const NumberedTriangle& triangle : own) {
+    std::array<int, 3> ranks{};
+    for (std::size_t k = 0; k < 3; ++k) ranks[k] = owners_.rank_of(GlobalNodeId{triangle.nodes[k]});
+    std::sort(ranks.begin(), ranks.end());
+    const auto end = std::unique(ranks.begin(), ranks.end());
+    for (auto rank = ranks.begin(); rank != end; ++rank) {
+      if (*rank == comm_.rank()) {
+        add(triangle);
+      } else {
+        to_rank[static_cast<std::size_t>(*rank)].push_back(triangle);
+      }
+    }
+  }
+  for (const auto& from_rank : comm_.exchange(to_rank)) std::for_each(from_rank.begin(), from_rank.end(), [&](const auto& t) { add(t); });
+}
+
+void StarHalo::add(const NumberedTriangle& triangle) {
+  if (comm_.size() > 1 && !numbers_.insert(triangle.number).second) return;
+  triangles_.push_back(triangle);
+  for (const std::int64_t node : triangle.nodes) {
+    if (!known(node)) frontier_.insert(node);
+  }
+}
+
+/// The triangles around owned nodes, each once.
+std::vector<NumberedTriangle> StarHalo::around(std::span<const std::int64_t> nodes) const {
+  std::vector<std::size_t> places;
+  for (const std::int64_t node : nodes) {
+    auto spoke = std::lower_bound(spokes_.begin(), spokes_.end(), Spoke{node, 0});
+    for (; spoke != spokes_.end() && spoke->node == node; ++spoke) places.push_back(spoke->triangle);
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::vector<NumberedTriangle> found;
+  found.reserve(places.size());
+  for (const std::size_t place : places) found.push_back(triangles_[place]);
+  return found;
+}
+
+void StarHalo::grow(bool wanted) {
+  std::vector<std::vector<std::int64_t>> asking(static_cast<std::size_t>(comm_.size()));
+  if (wanted) {
+    for (const std::int64_t node : frontier_) asking[static_cast<std::size_t>(owners_.rank_of(GlobalNodeId{node}))].push_back(node);
+    fetched_.insert(frontier_.begin(), frontier_.end());
+    frontier_.clear();
+  }
+  std::vector<std::vector<NumberedTriangle>> answers;
+  for (const auto& nodes : comm_.exchange(asking)) answers.push_back(around(nodes));
+  for (const auto& from_rank : comm_.exchange(answers)) std::for_each(from_rank.begin(), from_rank.end(), [&](const auto& t) { add(t); });
+}
+
+bool StarHalo::at_rim(const NumberedTriangle& triangle) const {
+  return std::count_if(triangle.nodes.begin(), triangle.nodes.end(), [&](std::int64_t node) { return !known(node); }) > 1;
+}
+
+}  // namespace quadloop
