@@ -19,7 +19,7 @@ enum class NodeFreedom : std::uint8_t { interior, sliding, fixed };
 class BoundarySlide {
  public:
   /// `outline` may be null. `pinned` flags owned nodes that stay. All arguments must outlive it. *Collective.*
-  BoundarySlide(const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline, const std::vector<char>& pinned);
+  BoundarySlide(const Communicator& comm, const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline, const std::vector<char>& pinned);
 
   /// Of an owned node.
   NodeFreedom freedom(std::int32_t node) const { return freedom_[static_cast<std::size_t>(node)]; }
@@ -39,6 +39,9 @@ class BoundarySlide {
   };
 
   void find_rails(const std::vector<char>& pinned);
+  void find_tight_segments(const Communicator& comm);
+  bool is_tight(const Places& places) const;
+  std::optional<OutlinePath::Chord> chord_of(const HaloEdge& edge) const;
   bool may_slide(const Rail& rail) const;
   bool is_straight(const Rail& rail) const;
   Places locate(const Rail& rail) const;
@@ -51,6 +54,9 @@ class BoundarySlide {
   const OutlinePath* outline_;
   std::vector<NodeFreedom> freedom_;
   std::vector<Rail> rails_;  ///< by node
+  /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for: nodes there stay, as chords that keep clear
+  /// of the other parts of the outline could still meet one another. Ascending.
+  std::vector<std::int32_t> tight_segments_;
 };
 
 }  // namespace quadloop

@@ -19,7 +19,7 @@ using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
 using Extent = bg::model::box<Corner>;
 using Entry = std::pair<Extent, std::int32_t>;
 
-constexpr int most_vertices = 1000;  ///< that one chord may stand for
+constexpr std::size_t most_vertices = 1000;  ///< that one chord may stand for
 
 Extent extent_of(Point a, Point b, double margin = 0) {
   return {{std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin}, {std::max(a.x, b.x) + margin, std::max(a.y, b.y) + margin}};
@@ -107,7 +107,7 @@ double OutlinePath::deviation(OutlinePlace from, Point a, OutlinePlace to, Point
   const double end = way(from, to), start = within(from.loop, from.arc);
   double deviation = 0;
   std::int32_t v = geometry_.next(segment_at(from.loop, start));
-  for (int passed = 0; passed < most_vertices; ++passed, v = geometry_.next(v)) {
+  for (std::size_t passed = 0; passed < most_vertices; ++passed, v = geometry_.next(v)) {
     const double arc = way({from.loop, start}, {from.loop, arc_[static_cast<std::size_t>(v)]});
     if (arc >= end || (arc == 0 && passed > 0)) return deviation;
     deviation = std::max(deviation, distance_to(geometry_.point(v), a, b));
@@ -115,19 +115,48 @@ double OutlinePath::deviation(OutlinePlace from, Point a, OutlinePlace to, Point
   return std::numeric_limits<double>::infinity();
 }
 
-bool OutlinePath::meets_elsewhere(OutlinePlace from, Point a, OutlinePlace to, Point b) const {
-  const double end = way(from, to);
+/// Whether a segment is a part of the way between two places, or touches its ends a and b there.
+bool OutlinePath::belongs(std::int32_t segment, OutlinePlace from, Point a, OutlinePlace to, Point b) const {
+  if (geometry_.loop_of(segment) != from.loop) return false;
   const std::int32_t first = segment_at(from.loop, within(from.loop, from.arc)), last = segment_at(to.loop, within(to.loop, to.arc));
-  const auto belongs = [&](std::int32_t s) {
-    if (geometry_.loop_of(s) != from.loop) return false;
-    if (s == first || s == last || s == geometry_.previous(first) || s == geometry_.next(last)) return true;
-    return way(from, {from.loop, arc_[static_cast<std::size_t>(s)]}) <= end;
-  };
-  for (auto found = index_->tree.qbegin(bg::index::intersects(extent_of(a, b))); found != index_->tree.qend(); ++found) {
+  if (segment == first || segment == last) return true;
+  if (segment == geometry_.previous(first) && length(geometry_.point(first) - a) <= tolerance_) return true;
+  if (segment == geometry_.next(last) && length(geometry_.point(segment) - b) <= tolerance_) return true;
+  return way(from, {from.loop, arc_[static_cast<std::size_t>(segment)]}) <= way(from, to);
+}
+
+std::vector<std::int32_t> OutlinePath::met_elsewhere(const Chord& chord) const {
+  std::vector<std::int32_t> met;
+  for (auto found = index_->tree.qbegin(bg::index::intersects(extent_of(chord.a, chord.b))); found != index_->tree.qend(); ++found) {
     const std::int32_t s = found->second;
-    if (!belongs(s) && segments_meet(a, b, geometry_.point(s), geometry_.point(geometry_.next(s)))) return true;
+    if (belongs(s, chord.from, chord.a, chord.to, chord.b)) continue;
+    if (segments_meet(chord.a, chord.b, geometry_.point(s), geometry_.point(geometry_.next(s)))) met.push_back(s);
+  }
+  return met;
+}
+
+bool OutlinePath::sweeps_over(const Chord& chord, Point apex) const {
+  const Point a = chord.a, b = chord.b, c = apex;
+  Extent around = extent_of(a, b);
+  bg::expand(around, Corner{c.x, c.y});
+  for (auto found = index_->tree.qbegin(bg::index::intersects(around)); found != index_->tree.qend(); ++found) {
+    const Point v = geometry_.point(found->second);
+    const std::array<int, 3> turns{orientation(a, b, v), orientation(b, c, v), orientation(c, a, v)};
+    const auto [least, most] = std::minmax_element(turns.begin(), turns.end());
+    const bool in_triangle = *least * *most >= 0 && (*least != 0 || *most != 0);
+    if (in_triangle && !belongs(found->second, chord.from, a, chord.to, b)) return true;
   }
   return false;
+}
+
+std::vector<std::int32_t> OutlinePath::segments_between(OutlinePlace from, OutlinePlace to) const {
+  std::vector<std::int32_t> segments;
+  const std::int32_t last = segment_at(to.loop, within(to.loop, to.arc));
+  for (std::int32_t s = segment_at(from.loop, within(from.loop, from.arc)); segments.size() < most_vertices; s = geometry_.next(s)) {
+    segments.push_back(s);
+    if (s == last) return segments;
+  }
+  return {};
 }
 
 }  // namespace quadloop

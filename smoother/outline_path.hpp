@@ -40,14 +40,25 @@ class OutlinePath {
   /// How far the outline strays from the chord a-b between two places, at most; infinitely where more than a few vertices lie between.
   double deviation(OutlinePlace from, Point a, OutlinePlace to, Point b) const;
 
-  /// Whether a chord has a point in common with the outline outside the part that it stands for.
-  bool meets_elsewhere(OutlinePlace from, Point a, OutlinePlace to, Point b) const;
+  /// A chord of the outline that a mesh's boundary edge is, with the way it stands for.
+  struct Chord {
+    OutlinePlace from, to;
+    Point a, b;
+  };
+  /// The segments outside the chord's own part of the outline that it has a point in common with.
+  std::vector<std::int32_t> met_elsewhere(const Chord& chord) const;
+  /// Whether a vertex outside that part lies in the triangle that the chord makes with a point, or on its edges.
+  bool sweeps_over(const Chord& chord, Point apex) const;
+
+  /// The segments from one place to another of the same loop, in order; none where there are more than a few.
+  std::vector<std::int32_t> segments_between(OutlinePlace from, OutlinePlace to) const;
 
  private:
   struct Index;
   double loop_length(std::int32_t loop) const { return length_[static_cast<std::size_t>(loop)]; }
   std::int32_t segment_at(std::int32_t loop, double arc) const;
   double within(std::int32_t loop, double arc) const;
+  bool belongs(std::int32_t segment, OutlinePlace from, Point a, OutlinePlace to, Point b) const;
 
   const Geometry& geometry_;
   std::vector<double> arc_;     ///< of each vertex, from its loop's first

@@ -212,7 +212,7 @@ SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptio
   if (options.geometry != nullptr) outline.emplace(*options.geometry);
   HaloMesh halo(comm, mesh);
   const std::vector<CellTarget> targets = comm.any(!options.targets.empty()) ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
-  const BoundarySlide slide(halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
+  const BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
   const Survey before = survey(comm, halo, targets, options.threshold);
   const NodeStars stars(halo, free_nodes(before, halo, slide), targets);
   Sweeper sweeper(comm, halo, stars, slide, options);
