@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/restore_delaunay.hpp"
 #include "smoother/boundary_slide.hpp"
 #include "smoother/colouring.hpp"
@@ -204,6 +205,12 @@ std::vector<char> take_positions(const HaloMesh& from, Mesh& to) {
   return moved;
 }
 
+/// Whether a triangle is inverted or flat, exactly: some that count as flat when they are smoothed are none.
+bool any_turns_right(const Mesh& mesh) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
+                     [&](const auto& t) { return orientation(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])) <= 0; });
+}
+
 }  // namespace
 
 SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
@@ -223,7 +230,8 @@ SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptio
   const WorstCell after = worst_cell(comm, halo, targets, before);
   report.inverted_after = after.inverted;
   const std::vector<char> moved = take_positions(halo, mesh);
-  if (options.delaunay && report.inverted_after == 0) restore_delaunay(comm, mesh, moved, options.delaunay);
+  const bool sound = report.inverted_after == 0 || !comm.any(any_turns_right(mesh));
+  if (options.delaunay && sound) restore_delaunay(comm, mesh, moved, options.delaunay);
   report.free_nodes = comm.sum(static_cast<std::int64_t>(stars.size()));
   report.worst_cost_before = before.worst.cost;
   report.worst_cost_after = after.cost;

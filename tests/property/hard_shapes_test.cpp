@@ -10,14 +10,17 @@
 #include "mesher/geometry/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/build_mesh.hpp"
+#include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/topology.hpp"
 #include "mesher/mesh/validate.hpp"
+#include "smoother/smooth_mesh.hpp"
 #include "tests/property/shapes.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+constexpr double rounding = 1e-7;      // of costs near 1 and of angles in degrees: cells of these shapes may be as flat as doubles can tell
 constexpr double seconds_allowed = 10;  // for one shape of a few thousand leaves; the median is a few milliseconds
 
 /// Number of shapes: QUADLOOP_SHAPES where set.
@@ -69,6 +72,34 @@ std::string delaunay_fault(const Mesh& mesh) {
   return "";
 }
 
+std::string mesh_fault(Mesh mesh, MeshType type) {
+  std::erase_if(mesh.boundaries, [](const BoundaryEdges& b) { return b.edges.empty(); });
+  for (const MeshFault& fault : validate(mesh)) return std::string(name_of(fault.rule)) + ": " + fault.what;
+  return type == MeshType::delaunay ? delaunay_fault(mesh) : "";
+}
+
+/// Smooths the mesh, boundary nodes along the geometry; empty where it stays valid and its worst cell and smallest angle get no worse.
+std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptions& options) {
+  SmoothOptions how;
+  how.geometry = &geometry;
+  const Lattice lattice = choose_root(geometry, options.size.root);
+  if (options.type == MeshType::delaunay) {
+    how.delaunay = [&](Point p) { return tie_rank(lattice, lattice.finest_level(options.size.min), p); };
+  }
+  const QualitySummary before = summarise_quality(test::world(), mesh);
+  const SmoothReport report = smooth_mesh(test::world(), mesh, how);
+  const QualitySummary after = summarise_quality(test::world(), mesh);
+  if (report.inverted_after > report.inverted_before) return "smoothed: more cells are flat";
+  if (report.inverted_before == 0 && report.worst_cost_after > report.worst_cost_before + rounding) {
+    return "smoothed: the largest cost has risen from " + std::to_string(report.worst_cost_before) + " to " + std::to_string(report.worst_cost_after);
+  }
+  if (report.inverted_before == 0 && after.smallest_degrees < before.smallest_degrees - rounding) {
+    return "smoothed: the smallest angle has fallen from " + std::to_string(before.smallest_degrees) + " to " + std::to_string(after.smallest_degrees);
+  }
+  const std::string wrong = mesh_fault(std::move(mesh), options.type);
+  return wrong.empty() ? wrong : "smoothed: " + wrong;
+}
+
 /// Empty where all is well; else what is wrong.
 std::string outcome(const shapes::Shape& shape, const MeshOptions& options, double corner, std::int64_t& refused) {
   try {
@@ -76,11 +107,9 @@ std::string outcome(const shapes::Shape& shape, const MeshOptions& options, doub
     AssembleOptions how;
     how.default_corner_degrees = corner;
     const Geometry geometry = assemble(shape.chains, how, warnings);
-    const MeshResult result = build_mesh(test::world(), geometry, options);
-    Mesh mesh = result.mesh;
-    std::erase_if(mesh.boundaries, [](const BoundaryEdges& b) { return b.edges.empty(); });
-    for (const MeshFault& fault : validate(mesh)) return std::string(name_of(fault.rule)) + ": " + fault.what;
-    if (options.type == MeshType::delaunay) return delaunay_fault(mesh);
+    MeshResult result = build_mesh(test::world(), geometry, options);
+    const std::string wrong = mesh_fault(result.mesh, options.type);
+    return wrong.empty() ? smoothing_fault(result.mesh, geometry, options) : wrong;
   } catch (const InputError& error) {
     ++refused;
     const std::string message = error.what();
