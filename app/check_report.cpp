@@ -67,15 +67,18 @@ std::string places_json(const std::vector<SharpPlace>& places) {
 void add_shape(JsonObject& json, const ShapeStatistics& shape) {
   json.add("corners", shape.corners);
   json.add("corners_below_15", shape.corners_below_15);
+  json.add("corners_below_25", shape.corners_below_25);
   json.add("corners_below_26", shape.corners_below_26);
   json.add("corners_above_150", shape.corners_above_150);
   json.add("corners_of_outline", shape.corners_of_outline);
+  json.add("corners_in_passages", shape.corners_in_passages);
   json.add("min_angle_made", shape.smallest_degrees);
   json.add("max_angle_made", shape.largest_degrees);
   json.add("area_ratio_max", shape.area_ratio_max);
   json.add("area_ratio_p99", shape.area_ratio_p99);
   json.add("quad_share", shape.quad_share);
   json.add_raw("sharp_places", places_json(shape.sharp_places));
+  json.add_raw("passages", places_json(shape.passages));
 }
 
 std::string faults_json(const std::vector<MeshFault>& faults) {
@@ -106,13 +109,15 @@ std::string boundaries_text(const std::vector<std::pair<std::string, std::int64_
   return text;
 }
 
-std::string outline_corners_text(const ShapeStatistics& shape, bool verbose) {
-  std::string text = row("corners of the outline", shape.corners_of_outline);
-  if (!verbose) return text;
-  for (const auto& [place, degrees] : shape.sharp_places) {
-    text += inner_row(fmt::format("({}, {})", place.x, place.y), fmt::format("{:.6g}", degrees));
-  }
+std::string places_text(const std::vector<SharpPlace>& places) {
+  std::string text;
+  for (const auto& [place, degrees] : places) text += inner_row(fmt::format("({}, {})", place.x, place.y), fmt::format("{:.6g}", degrees));
   return text;
+}
+
+std::string outline_corners_text(const ShapeStatistics& shape, bool verbose) {
+  return row("corners of the outline", shape.corners_of_outline) + (verbose ? places_text(shape.sharp_places) : "") +
+         row("corners in passages", shape.corners_in_passages) + (verbose ? places_text(shape.passages) : "");
 }
 
 std::string shape_text(const ShapeStatistics& shape, bool with_geometry, bool verbose) {

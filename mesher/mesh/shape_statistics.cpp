@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 
 #include "mesher/mesh/quality.hpp"
@@ -54,10 +55,11 @@ class SharpVertices {
     });
   }
 
-  /// Whether the corner of a cell at p is excepted.
-  bool excepts(Point p, double degrees) {
+  /// Whether the corner of a cell at p is excepted. `own` tells that it lies between two boundary edges: it is the boundary's own angle.
+  bool excepts(Point p, double degrees, bool own) {
     if (!(degrees > 0 && degrees < sharp_corner_degrees)) return false;
-    const auto vertex = smallest_.find(p);
+    auto vertex = smallest_.find(p);
+    if (vertex == smallest_.end() && own) vertex = smallest_.emplace(p, infinity).first;
     if (vertex == smallest_.end()) return false;
     vertex->second = std::min(vertex->second, degrees);
     return true;
@@ -78,22 +80,60 @@ class SharpVertices {
 
 void add_corner(double degrees, ShapeStatistics& shape) {
   shape.corners_below_15 += degrees < 15 ? 1 : 0;
+  shape.corners_below_25 += degrees < 25 ? 1 : 0;
   shape.corners_below_26 += degrees < 26 ? 1 : 0;
   shape.corners_above_150 += degrees > 150 ? 1 : 0;
   shape.smallest_degrees = std::min(shape.smallest_degrees, degrees);
   shape.largest_degrees = std::max(shape.largest_degrees, degrees);
 }
 
+/// Tells the cells that fill a passage from side to side.
+class PassageTest {
+ public:
+  PassageTest(const Mesh& mesh, const EdgeTable& table) : table_{table}, on_boundary_(mesh.points.size(), 0) {
+    for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
+      if (is_inner(from, to)) return;
+      for (const NodeId node : {from, to}) on_boundary_[static_cast<std::size_t>(node.value())] = 1;
+    });
+  }
+
+  bool is_boundary(NodeId from, NodeId to) const { return !is_inner(from, to); }
+
+  /// Whether all nodes of a cell lie on the boundary, and no two of its edges that meet do.
+  template <std::size_t width>
+  bool fills(const std::array<NodeId, width>& cell) const {
+    for (const NodeId node : cell) {
+      if (on_boundary_[static_cast<std::size_t>(node.value())] == 0) return false;
+    }
+    for (std::size_t k = 0; k < width; ++k) {
+      const NodeId a = cell[k], b = cell[(k + 1) % width], c = cell[(k + 2) % width];
+      if (!is_inner(a, b) && !is_inner(b, c)) return false;
+    }
+    return true;
+  }
+
+ private:
+  bool is_inner(NodeId from, NodeId to) const { return table_.cell_left_of(to, from) >= 0; }
+
+  const EdgeTable& table_;
+  std::vector<char> on_boundary_;
+};
+
 template <class Cells>
-void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, ShapeStatistics& shape) {
+void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, const PassageTest* passages, ShapeStatistics& shape) {
   for (const auto& nodes : cells) {
     const std::size_t width = nodes.size();
     for (std::size_t k = 0; k < width; ++k) {
       const Point p = mesh.point(nodes[k]);
       const double degrees = corner_degrees(mesh.point(nodes[(k + width - 1) % width]), p, mesh.point(nodes[(k + 1) % width]));
       ++shape.corners;
-      if (sharp.excepts(p, degrees)) {
+      const bool own = passages != nullptr && passages->is_boundary(nodes[(k + width - 1) % width], nodes[k]) &&
+                       passages->is_boundary(nodes[k], nodes[(k + 1) % width]);
+      if (sharp.excepts(p, degrees, own)) {
         ++shape.corners_of_outline;
+      } else if (passages != nullptr && degrees > 0 && degrees < sharp_corner_degrees && passages->fills(nodes)) {
+        ++shape.corners_in_passages;
+        shape.passages.push_back({p, degrees});
       } else {
         add_corner(degrees, shape);
       }
@@ -101,14 +141,20 @@ void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, Sha
   }
 }
 
-void add_all_corners(const Mesh& mesh, std::span<const Chain> geometry, ShapeStatistics& shape) {
+void add_all_corners(const Mesh& mesh, const EdgeTable& table, std::span<const Chain> geometry, ShapeStatistics& shape) {
   SharpVertices sharp(geometry);
+  std::optional<PassageTest> test;
+  if (!geometry.empty()) test.emplace(mesh, table);
+  const PassageTest* passages = test ? &*test : nullptr;
   shape.smallest_degrees = infinity;
   shape.largest_degrees = -infinity;
-  add_corners(mesh, mesh.triangles, sharp, shape);
-  add_corners(mesh, mesh.quads, sharp, shape);
-  if (shape.corners == shape.corners_of_outline) shape.smallest_degrees = shape.largest_degrees = 0;
+  add_corners(mesh, mesh.triangles, sharp, passages, shape);
+  add_corners(mesh, mesh.quads, sharp, passages, shape);
+  if (shape.corners == shape.corners_of_outline + shape.corners_in_passages) shape.smallest_degrees = shape.largest_degrees = 0;
   shape.sharp_places = sharp.places();
+  std::sort(shape.passages.begin(), shape.passages.end(), [](const SharpPlace& a, const SharpPlace& b) {
+    return a.place != b.place ? a.place < b.place : a.degrees < b.degrees;
+  });
 }
 
 /// Triangles first, then quads.
@@ -127,8 +173,7 @@ double ratio_of(double a, double b) {
 }
 
 /// One ratio for each edge between two cells.
-std::vector<double> area_ratios(const Mesh& mesh) {
-  const EdgeTable table(mesh);
+std::vector<double> area_ratios(const Mesh& mesh, const EdgeTable& table) {
   const std::vector<double> areas = cell_areas(mesh);
   const auto area = [&](std::int32_t cell) { return areas[static_cast<std::size_t>(cell)]; };
   std::vector<double> ratios;
@@ -148,8 +193,8 @@ double percentile_99(std::vector<double>& values) {
   return *at;
 }
 
-void add_area_ratios(const Mesh& mesh, ShapeStatistics& shape) {
-  std::vector<double> ratios = area_ratios(mesh);
+void add_area_ratios(const Mesh& mesh, const EdgeTable& table, ShapeStatistics& shape) {
+  std::vector<double> ratios = area_ratios(mesh, table);
   if (ratios.empty()) return;
   shape.area_ratio_max = *std::max_element(ratios.begin(), ratios.end());
   shape.area_ratio_p99 = percentile_99(ratios);
@@ -162,8 +207,9 @@ ShapeStatistics shape_statistics(const Mesh& whole_mesh, std::span<const Chain> 
   const std::size_t cells = whole_mesh.triangles.size() + whole_mesh.quads.size();
   if (cells == 0) return shape;
   shape.quad_share = static_cast<double>(whole_mesh.quads.size()) / static_cast<double>(cells);
-  add_all_corners(whole_mesh, geometry, shape);
-  add_area_ratios(whole_mesh, shape);
+  const EdgeTable table(whole_mesh);
+  add_all_corners(whole_mesh, table, geometry, shape);
+  add_area_ratios(whole_mesh, table, shape);
   return shape;
 }
 

@@ -165,7 +165,7 @@ def main():
         work = Path(folder)
 
         def mesh_of(case_subject, name):
-            mesh_case(args.quadloop, case_subject.write(work / name), work / f"{name}_out", options=["--type", args.type])
+            mesh_case(args.quadloop, case_subject.write(work / name), work / f"{name}_out", options=["--type", args.type, "--set", "smooth.sweeps=0"])
             return NativeMesh(work / f"{name}_out.mesh")
 
         before = mesh_of(subject, "before")

@@ -17,7 +17,7 @@ def main():
     args = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="quadloop_symmetry_") as folder:
         for mesh_type in ("hybrid", "delaunay"):
-            mesh_case(args.quadloop, args.case, Path(folder) / mesh_type, options=["--type", mesh_type])
+            mesh_case(args.quadloop, args.case, Path(folder) / mesh_type, options=["--type", mesh_type, "--set", "smooth.sweeps=0"])
             mesh = NativeMesh(Path(folder) / f"{mesh_type}.mesh")
             image = mesh.mapped(lambda x, y: (x, 0.0 - y), True)
             for what, here, there in zip(("nodes", "cells", "boundaries"), mesh.canonical(), image.canonical()):
