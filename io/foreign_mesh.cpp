@@ -5,34 +5,12 @@
 #include <algorithm>
 #include <numeric>
 
-#include "mesher/geometry/predicates.hpp"
+#include "io/orient_cells.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
 
 namespace {
-
-/// Corners that turn left less those that turn right, exactly; for a triangle one corner tells.
-template <std::size_t width>
-int winding(const Mesh& mesh, const std::array<NodeId, width>& nodes) {
-  int sum = 0;
-  for (std::size_t k = 0; k < (width == 3 ? 1 : width); ++k) {
-    sum += orientation(mesh.point(nodes[k]), mesh.point(nodes[(k + 1) % width]), mesh.point(nodes[(k + 2) % width]));
-  }
-  return sum;
-}
-
-/// The number of cells that ran clockwise. Flat and twisted ones stay as they are.
-template <std::size_t width>
-std::int64_t turn_cells(const Mesh& mesh, std::vector<std::array<NodeId, width>>& cells) {
-  std::int64_t turned = 0;
-  for (auto& nodes : cells) {
-    if (winding(mesh, nodes) >= 0) continue;
-    std::reverse(nodes.begin() + 1, nodes.end());
-    ++turned;
-  }
-  return turned;
-}
 
 template <class Cells>
 void sort_by_block(Cells& cells, std::vector<std::int32_t>& cell_to_block) {
@@ -198,7 +176,7 @@ LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
   if (mesh.triangles.empty() && mesh.quads.empty()) scan.refuse("the file has no triangle and no quadrilateral; a mesh needs cells");
   mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
   drop_empty_blocks(loaded);
-  const std::int64_t turned = turn_cells(mesh, mesh.triangles) + turn_cells(mesh, mesh.quads);
+  const std::int64_t turned = orient_cells(mesh);
   sort_by_block(mesh.triangles, loaded.triangle_to_block);
   sort_by_block(mesh.quads, loaded.quad_to_block);
   const std::int64_t inside = place_edges(foreign, scan);

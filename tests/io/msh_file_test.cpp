@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mesher/mesh/validate.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -113,6 +115,19 @@ TEST(MshReader, KeepsBlocksApart) {
   EXPECT_EQ(boundary_names(loaded).back(), "physical_11");
   EXPECT_EQ(loaded.mesh.boundaries.back().edges.at(0), (std::array{node(2), node(3)}));  // the first block to its left
   EXPECT_TRUE(validate(loaded.mesh, {2, loaded.triangle_to_block, loaded.quad_to_block}).empty());
+}
+
+/// The top is pulled down into the room below, which is another block: its triangle is inverted, not turned.
+TEST(MshReader, LeavesInvertedCellsToValidate) {
+  const std::string two = replaced(replaced(old_house, "2 2 9 1 40", "2 2 10 2 40"), "5 0.5 1.5", "5 0.5 0.5");
+  for (const std::string& text : {two, replaced(replaced(two, "40 30 5\n$End", "40 5 30\n$End"), " 10 20 30 40\n", " 10 40 30 20\n")}) {
+    const LoadedMesh loaded = check.of(text);
+    EXPECT_EQ(loaded.mesh.quads, check.of(old_house).mesh.quads);
+    EXPECT_EQ(loaded.mesh.triangles, check.of(old_house).mesh.triangles);
+    EXPECT_EQ(loaded.mesh.boundaries.at(1).edges, check.of(old_house).mesh.boundaries.at(1).edges);
+    const std::vector<MeshFault> faults = validate(loaded.mesh, {2, loaded.triangle_to_block, loaded.quad_to_block});
+    EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [](const MeshFault& fault) { return fault.rule == MeshRule::positive; }));
+  }
 }
 
 /// Two triangles, then a third, in blocks that alternate.
