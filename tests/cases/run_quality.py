@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Shapes of cells, before any smoothing or after it, on the case's own root and on others that shift the lattice. Corners that the outline
+"""Shapes of cells, before any smoothing and after it, on the case's own root and on others that shift the lattice. Corners that the outline
 itself makes sharp are not counted.
 
-    run_quality.py --quadloop PROGRAM --case CASE.toml --smallest DEG --largest DEG [--quads SHARE] [--type delaunay] [--offsets 8]
-                   [--borrow FILE.geom] [--smoothed]
+    run_quality.py --quadloop PROGRAM --case CASE.toml --cut SMALLEST LARGEST --smoothed SMALLEST LARGEST [--quads SHARE] [--type delaunay]
+                   [--offsets 8] [--borrow FILE.geom]
 
---smoothed  judges the mesh after smoothing, and that smoothing made neither the worst cell nor the smallest angle worse
+Angles in degrees, of the mesh as it is cut and of the smoothed one; smoothing may make neither the smallest angle nor the mean quality worse.
 """
 import argparse
 import json
@@ -37,33 +37,40 @@ def shapes_of(quadloop, case, prefix, options):
     return json.loads(run([quadloop, "check", f"{prefix}.mesh", "--geometry", f"{prefix}.geom", "--json"]))
 
 
-def shortfalls(said, args, before):
-    """`before` is the unsmoothed mesh where the smoothed one is judged."""
-    limits = [("smallest angle", said["min_angle_made"], ">=", args.smallest), ("largest angle", said["max_angle_made"], "<=", args.largest),
-              ("share of quads", said["quad_share"], ">=", args.quads)]
-    if before:
-        limits += [("largest area ratio of neighbours", said["area_ratio_max"], "<=", LARGEST_RATIO_SMOOTHED),
-                   ("smallest angle of all", said["min_angle"], ">=", before["min_angle"] * (1 - 1e-9)),
-                   ("mean quality", said["mean_quality"], ">=", before["mean_quality"])]
-    else:
-        limits += [("share of corners below 26 degrees", said["corners_below_26"] / said["corners"], "<=", BELOW_26),
-                   ("largest area ratio of neighbours", said["area_ratio_max"], "<=", LARGEST_RATIO),
-                   ("99 % of the area ratios", said["area_ratio_p99"], "<=", USUAL_RATIO)]
+def shortfalls_of(limits):
     return [f"{what} is {value:.4g}, not {sign} {bound}" for what, value, sign, bound in limits
             if not (value >= bound if sign == ">=" else value <= bound)]
+
+
+def angle_limits(said, bounds, what):
+    return [(f"smallest angle {what}", said["min_angle_made"], ">=", bounds[0]), (f"largest angle {what}", said["max_angle_made"], "<=", bounds[1])]
+
+
+def cut_limits(said, args):
+    return angle_limits(said, args.cut, "as cut") + [
+        ("share of quads", said["quad_share"], ">=", args.quads),
+        ("share of corners below 26 degrees", said["corners_below_26"] / said["corners"], "<=", BELOW_26),
+        ("largest area ratio of neighbours", said["area_ratio_max"], "<=", LARGEST_RATIO),
+        ("99 % of the area ratios", said["area_ratio_p99"], "<=", USUAL_RATIO)]
+
+
+def smoothed_limits(said, before, args):
+    return angle_limits(said, args.smoothed, "smoothed") + [
+        ("largest area ratio of neighbours, smoothed", said["area_ratio_max"], "<=", LARGEST_RATIO_SMOOTHED),
+        ("smallest angle of all, smoothed", said["min_angle"], ">=", before["min_angle"] * (1 - 1e-9)),
+        ("mean quality, smoothed", said["mean_quality"], ">=", before["mean_quality"])]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
     parser.add_argument("--case", required=True, type=Path)
-    parser.add_argument("--smallest", type=float, required=True)
-    parser.add_argument("--largest", type=float, required=True)
+    parser.add_argument("--cut", type=float, nargs=2, required=True)
+    parser.add_argument("--smoothed", type=float, nargs=2, required=True)
     parser.add_argument("--quads", type=float, default=0)
     parser.add_argument("--type", choices=("hybrid", "delaunay"), default="hybrid")
     parser.add_argument("--offsets", type=int, default=8)
     parser.add_argument("--borrow")
-    parser.add_argument("--smoothed", action="store_true")
     args = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="quadloop_quality_") as folder:
         case, prefix = args.case, Path(folder) / "out"
@@ -77,10 +84,10 @@ def main():
         shapes_of(args.quadloop, case, prefix, options)
         for root in list(roots(f"{prefix}.geom", args.offsets)):
             here = options + (["--set", f"mesh.root={root}"] if root else [])
-            unsmoothed = shapes_of(args.quadloop, case, prefix, here + UNSMOOTHED)
-            said = shapes_of(args.quadloop, case, prefix, here) if args.smoothed else unsmoothed
-            print(root, {key: said[key] for key in ("min_angle_made", "max_angle_made", "corners_of_outline", "area_ratio_max", "quad_share")})
-            found = shortfalls(said, args, unsmoothed if args.smoothed else None)
+            cut, smoothed = shapes_of(args.quadloop, case, prefix, here + UNSMOOTHED), shapes_of(args.quadloop, case, prefix, here)
+            for said in (cut, smoothed):
+                print(root, {key: said[key] for key in ("min_angle_made", "max_angle_made", "corners_of_outline", "area_ratio_max", "quad_share")})
+            found = shortfalls_of(cut_limits(cut, args) + smoothed_limits(smoothed, cut, args))
             if found:
                 fail(f"root {root}: {'; '.join(found)}")
     print("good")
