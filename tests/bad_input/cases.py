@@ -56,7 +56,9 @@ GEOMETRIES = [
 CASES = [
     case_file("unknown key", CASE + "foo = 1\n", "case.toml:6:", "spacing.foo", "known here"),
     case_file("unknown table", CASE + "[spacings]\n", "case.toml:6:", "spacings"),
-    case_file("later key", CASE + "[smooth]\nsweeps = 3\n", "case.toml:6:", "smooth"),
+    case_file("later key", CASE + "[adapt]\ncycles = 3\n", "case.toml:6:", "adapt"),
+    case_file("half a sweep", CASE + "[smooth]\nsweeps = 2.5\n", "case.toml:7:", "sweeps"),
+    case_file("unknown objective", CASE + "[smooth]\nobjective = \"best\"\n", "case.toml:7:", "objective", "power"),
     case_file("wrong type", CASE + "gap = \"two\"\n", "case.toml:6:", "spacing.gap", "number"),
     case_file("out of range", CASE + "gradation = 3.0\n", "case.toml:6:", "spacing.gradation"),
     case_file("min above max", CASE.replace("0.25", "2"), "case.toml:4:", "spacing.min"),
@@ -79,6 +81,10 @@ CASES = [
 ]
 
 USAGES = [
+    Refusal("smooth: missing mesh", ["none.mesh"], arguments=["smooth", "none.mesh", "-o", "out.mesh"]),
+    Refusal("smooth: unknown format", ["out.vtk", ".su2"], arguments=["smooth", "none.mesh", "-o", "out.vtk"]),
+    usage("smooth: unknown method", ["smooth", "none.mesh", "-o", "out.mesh", "--method", "best"], "--method"),
+    usage("smooth: no output", ["smooth", "none.mesh"], "--output"),
     usage("no command", [], "--help"),
     usage("unknown command", ["mash"], "--help"),
     usage("no case file", ["mesh"], "case"),

@@ -128,10 +128,36 @@ TEST(ShapeStatistics, SmallestCornerOfAPlace) {
 
 TEST(ShapeStatistics, WhatTheOutlineDoesNotExcuse) {
   expect_no_exception(fan({40}), wedge(40));                                                         // a corner that is not sharp
-  expect_no_exception(fan({20, 45}), {{"blunt", false, {{0, 0}, {2, 0}, 2 * at_degrees(65)}, ""}});  // a vertex that is not
-  expect_no_exception(fan({10}), {{"hole", false, {{0, 0}, at_degrees(10), {1, 0}}, ""}});           // a domain of the other 350 degrees
-  expect_no_exception(fan({10}), {{"near", false, {{1e-15, 0}, {1, 0}, at_degrees(10)}, ""}});
-  expect_no_exception(fan({10}), {{"loose", true, {{0, 0}, {1, 0}}, ""}});
+  expect_no_exception(fan({20, 35}), {{"blunt", false, {{0, 0}, {2, 0}, 2 * at_degrees(65)}, ""}});  // a vertex that is not
+  expect_no_exception(fan({10, 40}), {{"hole", false, {{0, 0}, at_degrees(50), {1, 0}}, ""}});       // a domain of the other 310 degrees
+  expect_no_exception(fan({10, 40}), {{"near", false, {{1e-15, 0}, {1, 0}, at_degrees(50)}, ""}});
+  expect_no_exception(fan({10, 40}), {{"loose", true, {{0, 0}, {1, 0}}, ""}});
+}
+
+TEST(ShapeStatistics, CornerBetweenTwoBoundaryEdgesIsTheOutlines) {
+  expect_excepted_tip(fan({10}), {{"near", false, {{1e-15, 0}, {1, 0}, at_degrees(10)}, ""}});
+}
+
+/// A channel of ten squares, 10 long and 1/10 wide, each cut in two, that opens into a square of side 10.
+Mesh channel() {
+  Mesh mesh;
+  for (std::int32_t i = 0; i <= 10; ++i) mesh.points.insert(mesh.points.end(), {{1.0 * i, 0}, {1.0 * i, 0.1}});
+  for (std::int32_t i = 0; i < 10; ++i) {
+    mesh.triangles.push_back({node(2 * i), node(2 * i + 2), node(2 * i + 3)});
+    mesh.triangles.push_back({node(2 * i), node(2 * i + 3), node(2 * i + 1)});
+  }
+  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  return mesh;
+}
+
+TEST(ShapeStatistics, CornersOfCellsThatFillAPassage) {
+  const std::vector<Chain> outline{{"banks", false, {{0, 0}, {10, 0}, {10, 0.1}, {0, 0.1}}, ""}};
+  const ShapeStatistics shape = shape_statistics(channel(), outline);
+  EXPECT_EQ(shape.corners_in_passages, 18);  // two in each half of a square, but for the halves at the ends, of which two edges meet on the boundary
+  ASSERT_EQ(shape.passages.size(), 18U);
+  EXPECT_EQ(shape.corners_below_15, 2);
+  EXPECT_EQ(shape.corners_of_outline, 0);
+  EXPECT_EQ(shape_statistics(channel(), {}).corners_in_passages, 0);
 }
 
 /// Unit squares side by side, then one that is three times as long.
