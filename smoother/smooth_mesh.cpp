@@ -75,6 +75,7 @@ Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<
       if (any_flagged(before, nodes)) mark(nodes);
     });
   }
+  mesh.exchange().update(near);
   result.worst = over_ranks(comm, result.worst);
   return result;
 }
