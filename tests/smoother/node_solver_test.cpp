@@ -21,6 +21,10 @@ class EachSolver : public testing::TestWithParam<std::tuple<Method, Objective>> 
   static Method method() { return std::get<0>(GetParam()); }
   static Objective objective() { return std::get<1>(GetParam()); }
 
+  /// So near the centre of a regular star, as a share of its edges, a visit leaves its node: the shortest step, or where nlopt finds that the cost, the
+  /// eighth power of the distance, hardly falls any more.
+  static double reach() { return method() == Method::nlopt ? 0.1 : 0.02; }
+
   /// Where visit after visit leads to, a few hundred at most.
   Point settle(const Star& star, Point p) {
     for (int visit = 0; visit < 200; ++visit) {
@@ -79,7 +83,9 @@ TEST_P(EachSolver, ComesBackToTheCentre) {
   const std::vector<Star> stars{test::fan_of(test::regular_polygon(6)), test::quad_patch()};
   for (const Star& star : stars) {
     for (const Point start : {Point{0.5, 0}, Point{0.1, -0.4}, Point{-0.3, 0.3}, Point{-0.2, -0.1}}) {
-      EXPECT_LT(length(settle(star, start)), 0.05) << "from " << start.x << " " << start.y;
+      const Point end = settle(star, start);
+      EXPECT_LT(length(end), reach()) << "from " << start.x << " " << start.y;
+      EXPECT_LT(test::largest_cost(star, end), 1e-4);
     }
   }
 }
@@ -87,7 +93,7 @@ TEST_P(EachSolver, ComesBackToTheCentre) {
 TEST_P(EachSolver, DoesTheSameFarFromTheOriginAndInAnotherUnit) {
   for (const auto& [centre, radius] : {std::pair{Point{1000, -500}, 1.0}, {Point{0, 0}, 1e-6}, {Point{0, 0}, 1e6}}) {
     const Star star = test::fan_of(test::regular_polygon(6, centre, radius));
-    EXPECT_LT(length(settle(star, centre + radius * Point{0.3, 0.2}) - centre), 0.05 * radius);
+    EXPECT_LT(length(settle(star, centre + radius * Point{0.3, 0.2}) - centre), reach() * radius);
   }
 }
 
