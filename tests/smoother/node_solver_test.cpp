@@ -21,8 +21,8 @@ class EachSolver : public testing::TestWithParam<std::tuple<Method, Objective>> 
   static Method method() { return std::get<0>(GetParam()); }
   static Objective objective() { return std::get<1>(GetParam()); }
 
-  /// So near the centre of a regular star, as a share of its edges, a visit leaves its node: the shortest step, or where nlopt finds that the cost, the
-  /// eighth power of the distance, hardly falls any more.
+  /// So near the centre of a regular star, as a share of its edges, a visit leaves its node: the shortest step, or where nlopt finds that the cost,
+  /// the eighth power of the distance, hardly falls any more.
   static double reach() { return method() == Method::nlopt ? 0.1 : 0.02; }
 
   /// Where visit after visit leads to, a few hundred at most.

@@ -107,9 +107,9 @@ TEST_F(OnABoxWithAHole, WalksWithTheDomainToTheLeft) {
 }
 
 TEST_F(OnABoxWithAHole, StraysFromChordsByItsVertices) {
-  EXPECT_NEAR(deviation(before, after), 0.1, rounding);                    // vertex 0
-  EXPECT_NEAR(deviation(after, {4, 1}), 1 / std::sqrt(2.21), rounding);    // the corner at (4, 0)
-  EXPECT_NEAR(deviation({4, 1}, {3, 3}), 2 / std::sqrt(5.0), rounding);    // that at (4, 3)
+  EXPECT_NEAR(deviation(before, after), 0.1, rounding);                  // vertex 0
+  EXPECT_NEAR(deviation(after, {4, 1}), 1 / std::sqrt(2.21), rounding);  // the corner at (4, 0)
+  EXPECT_NEAR(deviation({4, 1}, {3, 3}), 2 / std::sqrt(5.0), rounding);  // that at (4, 3)
   EXPECT_NEAR(deviation({4, 1}, {1, 3}), 3 * 2 / std::sqrt(13.0), rounding);
 }
 
@@ -128,10 +128,10 @@ TEST_F(OnABoxWithAHole, FindsWhatAChordMeetsElsewhere) {
   EXPECT_EQ(path.met_elsewhere(chord(before, after)), Segments{});
   EXPECT_EQ(path.met_elsewhere(chord({4, 0.5}, {4, 2})), Segments{});
   EXPECT_EQ(path.met_elsewhere(chord({4, 0}, {4, 3})), Segments{});
-  EXPECT_EQ(path.met_elsewhere(chord(after, {0, 1})), Segments{});                        // below the hole
-  EXPECT_EQ(sorted(path.met_elsewhere(chord({4, 1.5}, {0, 1.5}))), (Segments{5, 7}));      // through it
-  EXPECT_EQ(sorted(path.met_elsewhere(chord({4, 2}, {0, 2}))), (Segments{5, 6, 7}));       // along its upper side
-  EXPECT_EQ(sorted(path.met_elsewhere(chord({3, 3}, {0, 0}))), (Segments{5, 6, 7, 8}));    // through two of its corners
+  EXPECT_EQ(path.met_elsewhere(chord(after, {0, 1})), Segments{});                       // below the hole
+  EXPECT_EQ(sorted(path.met_elsewhere(chord({4, 1.5}, {0, 1.5}))), (Segments{5, 7}));    // through it
+  EXPECT_EQ(sorted(path.met_elsewhere(chord({4, 2}, {0, 2}))), (Segments{5, 6, 7}));     // along its upper side
+  EXPECT_EQ(sorted(path.met_elsewhere(chord({3, 3}, {0, 0}))), (Segments{5, 6, 7, 8}));  // through two of its corners
 }
 
 TEST_F(OnABoxWithAHole, FindsPartsOfTheSameLoopThatAChordMeets) {

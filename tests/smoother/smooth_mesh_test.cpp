@@ -26,9 +26,10 @@ using test::world;
 constexpr double rounding = 1e-12;
 constexpr double degrees_rounding = 1e-9;
 
+/// This rank alone; never freed, as MPI ends before what is static does.
 const Communicator& self() {
-  static const auto held = std::make_unique<Communicator>(MPI_COMM_SELF);
-  return *held;
+  static const Communicator& held = *new Communicator(MPI_COMM_SELF);
+  return held;
 }
 
 Mesh jittered(const Grid& grid, double share, std::uint64_t seed = 3) {
@@ -45,7 +46,8 @@ Mesh tangled(const Grid& grid, std::uint64_t seed) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const NodeId a = nodes[k], b = nodes[(k + 1) % nodes.size()];
       const double edge = length(mesh.point(b) - mesh.point(a));
-      for (const NodeId node : {a, b}) shortest[static_cast<std::size_t>(node.value())] = std::min(shortest[static_cast<std::size_t>(node.value())], edge);
+      for (const NodeId node : {a, b})
+        shortest[static_cast<std::size_t>(node.value())] = std::min(shortest[static_cast<std::size_t>(node.value())], edge);
     }
   };
   for (const auto& t : mesh.triangles) look_at(t);
@@ -144,10 +146,14 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanks) {
 }
 
 TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWhereLittleIsBad) {
-  for (const double threshold : {0.02, 0.1, 0.3}) {
+  const Grid grid{16};
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Mesh mesh = jittered(grid, 0.08, seed);
+    const auto displaced = static_cast<std::size_t>(17 * (3 + seed) + 8);
+    mesh.points[displaced] = mesh.points[displaced] + Point{0.03, 0.03};
     SmoothOptions options;
-    options.threshold = threshold;
-    expect_same_positions(jittered(Grid{12}, 0.24), [&](const Mesh&) { return options; });
+    options.threshold = seed % 2 == 0 ? 0.05 : 0.1;
+    expect_same_positions(mesh, [&](const Mesh&) { return options; });
   }
 }
 
@@ -281,7 +287,7 @@ TEST(SmoothMesh, PinnedNodesStay) {
   std::int64_t moved = 0;
   for (std::int32_t node = 0; node < static_cast<std::int32_t>(part.points.size()); ++node) {
     const bool pinned = part.global(NodeId{node}).value() % 3 == 0;
-    if (pinned) EXPECT_EQ(part.point(NodeId{node}), before.point(NodeId{node}));
+    EXPECT_TRUE(!pinned || part.point(NodeId{node}) == before.point(NodeId{node})) << node;
     moved += part.point(NodeId{node}) != before.point(NodeId{node}) ? 1 : 0;
   }
   EXPECT_GT(world().sum(moved), 10);
@@ -295,8 +301,8 @@ TEST(SmoothMesh, BoundaryNodesSlideAlongStraightSides) {
     if (grid.inner(node)) continue;
     const Point old = before.point(NodeId{node}), now = after.point(NodeId{node});
     const bool in_row = old.y == 0 || old.y == 1, in_column = old.x == 0 || old.x == 2;
-    if (in_row) EXPECT_NEAR(now.y, old.y, rounding);
-    if (in_column) EXPECT_NEAR(now.x, old.x, rounding);
+    EXPECT_NEAR(now.y, in_row ? old.y : now.y, rounding);
+    EXPECT_NEAR(now.x, in_column ? old.x : now.x, rounding);
     slid += now != old ? 1 : 0;
   }
   EXPECT_GT(slid, 10);
@@ -411,7 +417,7 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWithTargets) {
 void expect_untangled(Method method) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     if (static_cast<int>(seed) % world().size() != world().rank()) continue;
-    const Mesh before = tangled(Grid{12}, seed);
+    const Mesh before = tangled(Grid{20}, seed);
     SmoothOptions options;
     options.method = method;
     SmoothReport report;

@@ -176,7 +176,8 @@ TEST(RankedPlaces, AreAcceptedAndBestFirst) {
     }
     for (std::size_t k = 0; k + 1 < order.size(); ++k) {
       const Point a = place(order[k]), b = place(order[k + 1]);
-      EXPECT_TRUE(valid ? star.cost(a, Objective::power).objective[0] <= star.cost(b, Objective::power).objective[0] : !(rule.tangle(b) < rule.tangle(a)));
+      EXPECT_TRUE(valid ? star.cost(a, Objective::power).objective[0] <= star.cost(b, Objective::power).objective[0]
+                        : !(rule.tangle(b) < rule.tangle(a)));
     }
   }
   EXPECT_GT(ranked[0], 100U);
