@@ -349,6 +349,46 @@ TEST(SmoothMesh, BoundaryNodesStayOnTheOutline) {
   EXPECT_TRUE(validate(after).empty());
 }
 
+/// The unit square, its corners none that must be kept, and a grid on it.
+Geometry soft_square() {
+  std::vector<Boundary> boundaries(1);
+  boundaries[0].name = "square";
+  boundaries[0].corner_degrees = 180;
+  return {boundaries, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {0, 4}, std::vector<BoundaryId>(4, BoundaryId{0})};
+}
+Mesh on_soft_square(const Grid& grid, std::uint64_t seed) {
+  Mesh mesh = jittered(grid, 0.24, seed);
+  auto& boundaries = mesh.boundaries;
+  boundaries[0].name = "square";
+  boundaries[0].edges.insert(boundaries[0].edges.end(), boundaries[1].edges.begin(), boundaries[1].edges.end());
+  boundaries.pop_back();
+  return mesh;
+}
+
+/// How far a point lies from the nearest boundary edge, as a share of the longest one.
+double share_off_boundary(const Mesh& mesh, Point p) {
+  double nearest = std::numeric_limits<double>::infinity(), longest = 0;
+  for (const auto& [from, to] : mesh.boundaries[0].edges) {
+    const Point a = mesh.point(from), ab = mesh.point(to) - a;
+    nearest = std::min(nearest, length(p - a - std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0) * ab));
+    longest = std::max(longest, length(ab));
+  }
+  return nearest / longest;
+}
+
+TEST(SmoothMesh, ChordsStayNearTheOutline) {
+  const Geometry square = soft_square();
+  SmoothOptions options;
+  options.geometry = &square;
+  double farthest = 0;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Mesh after = smoothed_alone(on_soft_square(Grid{6, {1, 1}, false}, seed), options);
+    for (const Point corner : square.points()) farthest = std::max(farthest, share_off_boundary(after, corner));
+  }
+  EXPECT_GT(farthest, 0) << "no node has left a corner";
+  EXPECT_LE(farthest, 0.15);
+}
+
 /// The shapes of the undisturbed grid's cells.
 std::vector<CellTarget> targets_of(const Grid& grid, const Mesh& mesh) {
   std::vector<CellTarget> targets;
