@@ -24,10 +24,10 @@ double depth(const Star& star, Point p) {
   return least;
 }
 
-void expect_deepest(const std::vector<Point>& polygon, Point expected, double tolerance = 1e-12) {
+void expect_deepest(const std::vector<Point>& polygon, Point expected) {
   for (const Point start : {Point{0.1, 0.2}, Point{5, 3}, Point{-2, -0.5}}) {
     const Point found = deepest_point(test::fan_of(polygon), start);
-    EXPECT_LT(length(found - expected), tolerance) << "from " << start.x << " " << start.y << " to " << found.x << " " << found.y;
+    EXPECT_LT(length(found - expected), 1e-12) << "from " << start.x << " " << start.y << " to " << found.x << " " << found.y;
   }
 }
 
