@@ -151,10 +151,12 @@ bool OutlinePath::sweeps_over(const Chord& chord, Point apex) const {
 
 std::vector<std::int32_t> OutlinePath::segments_between(OutlinePlace from, OutlinePlace to) const {
   std::vector<std::int32_t> segments;
-  const std::int32_t last = segment_at(to.loop, within(to.loop, to.arc));
-  for (std::int32_t s = segment_at(from.loop, within(from.loop, from.arc)); segments.size() < most_vertices; s = geometry_.next(s)) {
+  const double start = within(from.loop, from.arc), end = within(to.loop, to.arc);
+  const std::int32_t last = segment_at(to.loop, end);
+  bool goes_round = end < start;  // on the way over the loop's first vertex, perhaps back to the segment where it begins
+  for (std::int32_t s = segment_at(from.loop, start); segments.size() < most_vertices; s = geometry_.next(s)) {
     segments.push_back(s);
-    if (s == last) return segments;
+    if (s == last && !(goes_round && segments.size() == 1)) return segments;
   }
   return {};
 }

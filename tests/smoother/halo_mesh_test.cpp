@@ -1,0 +1,155 @@
+// Each rank has all cells and boundary edges that touch its nodes, in their global order, and values reach the ranks that have copies.
+#include "smoother/halo_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "tests/mesh/grid_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+using Numbers = std::vector<std::int64_t>;
+
+/// A mesh as a whole, nodes and cells in the order of the parts, and this rank's part of it.
+struct Pieces {
+  Pieces(const Mesh& mesh, const MeshOrder& order)
+      : whole{scatter_mesh(Communicator(MPI_COMM_SELF), mesh, order)},
+        part{scatter_mesh(world(), mesh, order)},
+        first_triangle{world().exclusive_sum(static_cast<std::int64_t>(part.triangles.size()))},
+        first_quad{world().exclusive_sum(static_cast<std::int64_t>(part.quads.size()))} {}
+
+  bool is_owned(NodeId number) const { return part.first_node <= number.value() && number.value() < part.first_node + part.owned_nodes; }
+
+  Mesh whole, part;
+  std::int64_t first_triangle, first_quad;
+};
+
+/// Calls `check(pieces)` for several meshes and orders.
+template <class Check>
+void for_each_distribution(const Check& check) {
+  for (const std::int32_t n : {1, 2, 9}) {
+    const test::Grid grid{n};
+    Mesh mesh = grid.mesh();
+    test::jitter(grid, 0.2, 3, mesh);
+    for (const MeshOrder& order : {space_filling_order(mesh), test::shuffled_order(mesh, 12)}) check(Pieces(mesh, order));
+  }
+}
+
+/// Of the cells that this rank must have, in global order: their numbers among triangles or quads.
+template <class Cells>
+Numbers expected_numbers(const Pieces& pieces, const Cells& cells, std::int64_t first_own, std::size_t own) {
+  Numbers numbers;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const auto number = static_cast<std::int64_t>(c);
+    const bool is_own = first_own <= number && number < first_own + static_cast<std::int64_t>(own);
+    if (is_own || std::any_of(cells[c].begin(), cells[c].end(), [&](NodeId n) { return pieces.is_owned(n); })) numbers.push_back(number);
+  }
+  return numbers;
+}
+
+/// The same as rows of nodes, triangles, then quads.
+std::vector<Numbers> expected_cells(const Pieces& pieces) {
+  std::vector<Numbers> rows;
+  const auto add = [&](const auto& cells, const Numbers& numbers) {
+    for (const std::int64_t number : numbers) {
+      rows.emplace_back();
+      for (const NodeId node : cells[static_cast<std::size_t>(number)]) rows.back().push_back(node.value());
+    }
+  };
+  add(pieces.whole.triangles, expected_numbers(pieces, pieces.whole.triangles, pieces.first_triangle, pieces.part.triangles.size()));
+  add(pieces.whole.quads, expected_numbers(pieces, pieces.whole.quads, pieces.first_quad, pieces.part.quads.size()));
+  return rows;
+}
+
+TEST(HaloMesh, HasAllCellsRoundOwnedNodesInGlobalOrder) {
+  for_each_distribution([](const Pieces& pieces) {
+    const HaloMesh halo(world(), pieces.part);
+    std::vector<Numbers> rows;
+    halo.for_each_cell([&](const auto& nodes) {
+      rows.emplace_back();
+      for (const NodeId node : nodes) rows.back().push_back(halo.global(node.value()));
+    });
+    EXPECT_TRUE(rows == expected_cells(pieces));
+  });
+}
+
+TEST(HaloMesh, KnowsWhereItsNodesAre) {
+  for_each_distribution([](const Pieces& pieces) {
+    const HaloMesh halo(world(), pieces.part);
+    EXPECT_EQ(halo.owned_nodes(), pieces.part.owned_nodes);
+    Numbers numbers;
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(halo.points().size()); ++node) {
+      numbers.push_back(halo.global(node));
+      EXPECT_EQ(halo.point(NodeId{node}), pieces.whole.points[static_cast<std::size_t>(halo.global(node))]);
+    }
+    std::sort(numbers.begin(), numbers.end());
+    EXPECT_EQ(std::adjacent_find(numbers.begin(), numbers.end()), numbers.end()) << "a node is there twice";
+  });
+}
+
+TEST(HaloMesh, HasAllBoundaryEdgesAtOwnedNodesOnce) {
+  for_each_distribution([](const Pieces& pieces) {
+    const HaloMesh halo(world(), pieces.part);
+    std::vector<Numbers> found, expected;
+    for (const HaloEdge& e : halo.boundary_edges()) {
+      ASSERT_TRUE(e.from.valid() && e.to.valid());
+      if (std::min(e.from, e.to).value() < halo.owned_nodes()) found.push_back({halo.global(e.from.value()), halo.global(e.to.value()), e.boundary});
+    }
+    for (std::size_t b = 0; b < pieces.whole.boundaries.size(); ++b) {
+      for (const auto& [from, to] : pieces.whole.boundaries[b].edges) {
+        if (pieces.is_owned(from) || pieces.is_owned(to)) expected.push_back({from.value(), to.value(), static_cast<std::int64_t>(b)});
+      }
+    }
+    std::sort(found.begin(), found.end());
+    std::sort(expected.begin(), expected.end());
+    EXPECT_TRUE(found == expected);
+  });
+}
+
+TEST(HaloMesh, SpreadsTheCellsValues) {
+  for_each_distribution([](const Pieces& pieces) {
+    const HaloMesh halo(world(), pieces.part);
+    Numbers own(pieces.part.triangles.size() + pieces.part.quads.size());
+    const auto quads_begin = own.begin() + static_cast<std::ptrdiff_t>(pieces.part.triangles.size());
+    std::iota(own.begin(), quads_begin, pieces.first_triangle);
+    std::iota(quads_begin, own.end(), pieces.first_quad);
+    Numbers expected = expected_numbers(pieces, pieces.whole.triangles, pieces.first_triangle, pieces.part.triangles.size());
+    const Numbers quads = expected_numbers(pieces, pieces.whole.quads, pieces.first_quad, pieces.part.quads.size());
+    expected.insert(expected.end(), quads.begin(), quads.end());
+    EXPECT_TRUE(halo.spread(world(), own) == expected);
+  });
+}
+
+TEST(HaloMesh, ExchangeBringsTheOwnersValues) {
+  for_each_distribution([](const Pieces& pieces) {
+    const HaloMesh halo(world(), pieces.part);
+    std::vector<double> values;
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(halo.points().size()); ++node) {
+      values.push_back(node < halo.owned_nodes() ? 0.5 * static_cast<double>(halo.global(node)) : -1);
+    }
+    halo.exchange().update(values);
+    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(values[i], 0.5 * static_cast<double>(halo.global(static_cast<std::int32_t>(i))));
+  });
+}
+
+TEST(HaloMesh, ExchangeBringsOnlyWhatHasChanged) {
+  for_each_distribution([](const Pieces& pieces) {
+    const HaloMesh halo(world(), pieces.part);
+    const auto is_even = [&](std::int32_t node) { return halo.global(node) % 2 == 0; };
+    Numbers values(halo.points().size(), -1);
+    for (std::int32_t node = 0; node < halo.owned_nodes(); ++node) values[static_cast<std::size_t>(node)] = halo.global(node);
+    halo.exchange().update(values, is_even);
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(values.size()); ++node) {
+      const bool known = node < halo.owned_nodes() || is_even(node);
+      EXPECT_EQ(values[static_cast<std::size_t>(node)], known ? halo.global(node) : -1);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,477 @@
+// Whole meshes: the same positions on any number of ranks, never worse from sweep to sweep, the boundary kept, tangles undone.
+#include "smoother/smooth_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "mesher/mesh/delaunay_check.hpp"
+#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/restore_delaunay.hpp"
+#include "mesher/mesh/validate.hpp"
+#include "smoother/condition_number.hpp"
+#include "tests/mesh/grid_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::Grid;
+using test::world;
+
+constexpr double rounding = 1e-12;
+constexpr double degrees_rounding = 1e-9;
+
+/// This rank alone; never freed, as MPI ends before what is static does.
+const Communicator& self() {
+  static const Communicator& held = *new Communicator(MPI_COMM_SELF);
+  return held;
+}
+
+Mesh jittered(const Grid& grid, double share, std::uint64_t seed = 3) {
+  Mesh mesh = grid.mesh();
+  test::jitter(grid, share, seed, mesh);
+  return mesh;
+}
+
+/// A fifth of the inner nodes go up to nine tenths of their shortest edge away, so that cells are inverted.
+Mesh tangled(const Grid& grid, std::uint64_t seed) {
+  Mesh mesh = jittered(grid, 0.15, seed);
+  std::vector<double> shortest(mesh.points.size(), std::numeric_limits<double>::infinity());
+  const auto look_at = [&](const auto& nodes) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const NodeId a = nodes[k], b = nodes[(k + 1) % nodes.size()];
+      const double edge = length(mesh.point(b) - mesh.point(a));
+      for (const NodeId node : {a, b})
+        shortest[static_cast<std::size_t>(node.value())] = std::min(shortest[static_cast<std::size_t>(node.value())], edge);
+    }
+  };
+  for (const auto& t : mesh.triangles) look_at(t);
+  for (const auto& q : mesh.quads) look_at(q);
+  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
+    if (!grid.inner(node) || test::scattered(seed, node, 4) > -0.6) continue;
+    const double turn = std::numbers::pi * test::scattered(seed, node, 5), reach = 0.45 * (1 + test::scattered(seed, node, 6));
+    Point& p = mesh.points[static_cast<std::size_t>(node)];
+    p = p + reach * shortest[static_cast<std::size_t>(node)] * Point{std::cos(turn), std::sin(turn)};
+  }
+  return mesh;
+}
+
+/// A polygon close to the unit circle: `vertices` of them, none a corner.
+Geometry circle(int vertices) {
+  std::vector<Boundary> boundaries(1);
+  boundaries[0].name = "circle";
+  std::vector<Point> points;
+  for (int k = 0; k < vertices; ++k) points.push_back({std::cos(2 * std::numbers::pi * k / vertices), std::sin(2 * std::numbers::pi * k / vertices)});
+  return {boundaries, points, {0, vertices}, std::vector<BoundaryId>(static_cast<std::size_t>(vertices), BoundaryId{0})};
+}
+
+/// Where the ray at an angle leaves the polygon.
+Point on_polygon(const Geometry& polygon, double radians) {
+  const double along = polygon.size() * (radians / (2 * std::numbers::pi) + (radians < 0 ? 1 : 0));
+  const auto k = static_cast<std::int32_t>(along) % polygon.size();
+  return polygon.point(k) + (along - std::floor(along)) * (polygon.point(polygon.next(k)) - polygon.point(k));
+}
+
+/// A grid bent to the disc inside the polygon, its boundary nodes somewhere on it.
+Mesh disc(const Grid& grid, const Geometry& polygon) {
+  Mesh mesh = grid.mesh();
+  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
+    const Point at = grid.place(node), p{2 * at.x - 1, 2 * at.y - 1};
+    const Point round{p.x * std::sqrt(1 - p.y * p.y / 2), p.y * std::sqrt(1 - p.x * p.x / 2)};
+    const Point by{test::scattered(5, node, 1), test::scattered(5, node, 2)};
+    const double angle = std::atan2(round.y, round.x) + 0.35 / grid.n * by.x;
+    mesh.points[static_cast<std::size_t>(node)] = grid.inner(node) ? round + 0.25 / grid.n * by : on_polygon(polygon, angle);
+  }
+  auto& boundaries = mesh.boundaries;
+  boundaries[0].name = "circle";
+  boundaries[0].edges.insert(boundaries[0].edges.end(), boundaries[1].edges.begin(), boundaries[1].edges.end());
+  boundaries.pop_back();
+  return mesh;
+}
+
+/// A whole mesh smoothed on one rank and on all, in one order.
+struct Smoothed {
+  MeshOrder order;
+  Mesh alone, part;
+  SmoothReport alone_report, report;
+};
+
+/// `options_for(part, order)` gives each communicator's options.
+template <class Options>
+Smoothed smooth_both_ways(const Mesh& mesh, const MeshOrder& order, const Options& options_for) {
+  Smoothed s{order, scatter_mesh(self(), mesh, order), scatter_mesh(world(), mesh, order), {}, {}};
+  s.alone_report = smooth_mesh(self(), s.alone, options_for(s.alone));
+  s.report = smooth_mesh(world(), s.part, options_for(s.part));
+  return s;
+}
+
+void expect_same_report(const SmoothReport& a, const SmoothReport& b) {
+  EXPECT_EQ(a.sweeps, b.sweeps);
+  EXPECT_EQ(a.free_nodes, b.free_nodes);
+  EXPECT_EQ(a.moves, b.moves);
+  EXPECT_EQ(a.worst_cost_before, b.worst_cost_before);
+  EXPECT_EQ(a.worst_cost_after, b.worst_cost_after);
+  EXPECT_EQ(a.inverted_before, b.inverted_before);
+  EXPECT_EQ(a.inverted_after, b.inverted_after);
+}
+
+template <class Options>
+void expect_same_positions(const Mesh& mesh, const Options& options_for) {
+  for (const MeshOrder& order : {space_filling_order(mesh), test::shuffled_order(mesh, 7)}) {
+    const Smoothed s = smooth_both_ways(mesh, order, options_for);
+    EXPECT_GT(s.report.moves, 0);
+    expect_same_report(s.report, s.alone_report);
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(s.part.points.size()); ++node) {
+      const std::int64_t number = s.part.global(NodeId{node}).value();
+      EXPECT_EQ(s.part.point(NodeId{node}), s.alone.points[static_cast<std::size_t>(number)]) << "node " << number;
+    }
+  }
+}
+
+TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanks) {
+  for (const Method method : {Method::perturb, Method::nlopt}) {
+    for (const Objective objective : {Objective::power, Objective::thesis}) {
+      SmoothOptions options;
+      options.method = method;
+      options.objective = objective;
+      options.sweeps = 6;
+      expect_same_positions(jittered(Grid{12, {3, 1}}, 0.24), [&](const Mesh&) { return options; });
+    }
+  }
+}
+
+TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWhereLittleIsBad) {
+  const Grid grid{16};
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Mesh mesh = jittered(grid, 0.08, seed);
+    const auto displaced = static_cast<std::size_t>(17 * (3 + seed) + 8);
+    mesh.points[displaced] = mesh.points[displaced] + Point{0.03, 0.03};
+    SmoothOptions options;
+    options.threshold = seed % 2 == 0 ? 0.05 : 0.1;
+    expect_same_positions(mesh, [&](const Mesh&) { return options; });
+  }
+}
+
+TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksFromATangle) {
+  expect_same_positions(tangled(Grid{12}, 2), [](const Mesh&) { return SmoothOptions{}; });
+}
+
+TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksAlongAnOutline) {
+  const Geometry polygon = circle(240);
+  SmoothOptions options;
+  options.geometry = &polygon;
+  expect_same_positions(disc(Grid{10}, polygon), [&](const Mesh&) { return options; });
+}
+
+/// Any strict order of positions will do.
+TieRank rank_of(Point p) { return {-1, -1, std::abs(p.x) + std::abs(p.y), std::abs(p.x), p.x, p.y}; }
+
+TEST(SmoothMesh, IsTheSameDelaunayMeshOnAnyNumberOfRanks) {
+  Mesh mesh = jittered(Grid{12, {2, 1}, false}, 0.24);
+  restore_delaunay(self(), mesh, std::vector<char>(mesh.points.size(), 1), rank_of);
+  SmoothOptions options;
+  options.delaunay = rank_of;
+  expect_same_positions(mesh, [&](const Mesh&) { return options; });
+  const Smoothed s = smooth_both_ways(mesh, space_filling_order(mesh), [&](const Mesh&) { return options; });
+  EXPECT_TRUE(is_delaunay(s.alone));
+  auto own = s.part.triangles;
+  for (auto& t : own) {
+    for (NodeId& node : t) node = NodeId{static_cast<std::int32_t>(s.part.global(node).value())};
+  }
+  EXPECT_TRUE(world().all_gather_values(std::span<const std::array<NodeId, 3>>(own)) == s.alone.triangles);
+}
+
+/// Smooths a whole mesh on this rank.
+Mesh smoothed_alone(Mesh mesh, const SmoothOptions& options, SmoothReport* report = nullptr) {
+  const SmoothReport told = smooth_mesh(self(), mesh, options);
+  if (report != nullptr) *report = told;
+  return mesh;
+}
+
+void expect_never_worse(const Mesh& mesh, SmoothOptions options) {
+  double worst = 1, sharpest = summarise_quality(self(), mesh).smallest_degrees;
+  for (options.sweeps = 1; options.sweeps <= 8; ++options.sweeps) {
+    SmoothReport report;
+    const Mesh after = smoothed_alone(mesh, options, &report);
+    const double smallest = summarise_quality(self(), after).smallest_degrees;
+    EXPECT_LE(report.worst_cost_after, std::min(worst, report.worst_cost_before) + rounding) << options.sweeps << " sweeps";
+    EXPECT_GE(smallest, sharpest - degrees_rounding) << options.sweeps << " sweeps";
+    worst = report.worst_cost_after;
+    sharpest = smallest;
+  }
+}
+
+TEST(SmoothMesh, NeverGetsWorseFromSweepToSweep) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    for (const Method method : {Method::perturb, Method::nlopt}) {
+      SmoothOptions options;
+      options.method = method;
+      expect_never_worse(jittered(Grid{10, {2, 1}}, 0.24, seed), options);
+    }
+  }
+  const Geometry polygon = circle(240);
+  SmoothOptions options;
+  options.geometry = &polygon;
+  expect_never_worse(disc(Grid{10}, polygon), options);
+}
+
+TEST(SmoothMesh, BettersTheWorstCellAndTheSmallestAngle) {
+  const Mesh before = jittered(Grid{12}, 0.24);
+  SmoothReport report;
+  const Mesh after = smoothed_alone(before, {}, &report);
+  EXPECT_LT(report.worst_cost_after, 0.5 * report.worst_cost_before);
+  EXPECT_GT(summarise_quality(self(), after).smallest_degrees, summarise_quality(self(), before).smallest_degrees + 5);
+  EXPECT_TRUE(validate(after).empty());
+}
+
+TEST(SmoothMesh, ReportsTheWorstCells) {
+  const Mesh before = tangled(Grid{12}, 4);
+  SmoothReport report;
+  SmoothOptions options;
+  options.sweeps = 1;
+  const Mesh after = smoothed_alone(before, options, &report);
+  const auto survey = [](const Mesh& mesh) {
+    std::pair<double, std::int64_t> found{0, 0};
+    const auto include = [&](double cost) {
+      found.first = std::max(found.first, cost);
+      found.second += cost >= 1 ? 1 : 0;
+    };
+    for (const auto& t : mesh.triangles) include(cell_cost<3>({mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])}, ideal_targets<3>()));
+    for (const auto& q : mesh.quads) {
+      include(cell_cost<4>({mesh.point(q[0]), mesh.point(q[1]), mesh.point(q[2]), mesh.point(q[3])}, ideal_targets<4>()));
+    }
+    return found;
+  };
+  EXPECT_GT(report.inverted_before, 0);
+  EXPECT_EQ(survey(before), std::pair(report.worst_cost_before, report.inverted_before));
+  EXPECT_EQ(survey(after), std::pair(report.worst_cost_after, report.inverted_after));
+}
+
+TEST(SmoothMesh, LeavesAPerfectMeshAlone) {
+  Mesh mesh = Grid{8}.mesh();
+  mesh.triangles.clear();  // quads alone, all of them
+  mesh.quads.clear();
+  const auto at = [](std::int32_t i, std::int32_t j) { return NodeId{9 * j + i}; };
+  for (std::int32_t j = 0; j < 8; ++j) {
+    for (std::int32_t i = 0; i < 8; ++i) mesh.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+  }
+  SmoothReport report;
+  SmoothOptions options;
+  options.threshold = 0;
+  EXPECT_TRUE(smoothed_alone(mesh, options, &report).points == mesh.points);
+  EXPECT_EQ(report.moves, 0);
+}
+
+TEST(SmoothMesh, CellsUpToTheThresholdStay) {
+  const Mesh mesh = jittered(Grid{10}, 0.1);
+  SmoothOptions options;
+  options.threshold = 0.9;
+  EXPECT_TRUE(smoothed_alone(mesh, options).points == mesh.points);
+  options.threshold = 0.01;
+  EXPECT_FALSE(smoothed_alone(mesh, options).points == mesh.points);
+}
+
+TEST(SmoothMesh, PinnedNodesStay) {
+  const Mesh mesh = tangled(Grid{12}, 3);
+  const MeshOrder order = space_filling_order(mesh);
+  Mesh part = scatter_mesh(world(), mesh, order);
+  const Mesh before = part;
+  SmoothOptions options;
+  for (std::int32_t node = 0; node < part.owned_nodes; ++node) options.pinned.push_back((part.first_node + node) % 3 == 0 ? 1 : 0);
+  smooth_mesh(world(), part, options);
+  std::int64_t moved = 0;
+  for (std::int32_t node = 0; node < static_cast<std::int32_t>(part.points.size()); ++node) {
+    const bool pinned = part.global(NodeId{node}).value() % 3 == 0;
+    EXPECT_TRUE(!pinned || part.point(NodeId{node}) == before.point(NodeId{node})) << node;
+    moved += part.point(NodeId{node}) != before.point(NodeId{node}) ? 1 : 0;
+  }
+  EXPECT_GT(world().sum(moved), 10);
+}
+
+TEST(SmoothMesh, BoundaryNodesSlideAlongStraightSides) {
+  const Grid grid{12, {2, 1}};
+  const Mesh before = jittered(grid, 0.24), after = smoothed_alone(before, {});
+  int slid = 0;
+  for (std::int32_t node = 0; node < before.owned_nodes; ++node) {
+    if (grid.inner(node)) continue;
+    const Point old = before.point(NodeId{node}), now = after.point(NodeId{node});
+    const bool in_row = old.y == 0 || old.y == 1, in_column = old.x == 0 || old.x == 2;
+    EXPECT_NEAR(now.y, in_row ? old.y : now.y, rounding);
+    EXPECT_NEAR(now.x, in_column ? old.x : now.x, rounding);
+    slid += now != old ? 1 : 0;
+  }
+  EXPECT_GT(slid, 10);
+  EXPECT_TRUE(validate(after).empty());
+}
+
+TEST(SmoothMesh, CornersStayAlsoWhereBoundariesMeetOnAStraightSide) {
+  const Grid grid{8};
+  Mesh mesh = jittered(grid, 0.24);
+  auto& wall = mesh.boundaries[0].edges;  // the edges of node 4, in the middle of the south side
+  const auto leaving = std::find_if(wall.begin(), wall.end(), [](const auto& e) { return e[0] == NodeId{4}; });
+  mesh.boundaries.push_back({"inflow", "inflow", {*leaving}});
+  wall.erase(leaving);
+  const Mesh after = smoothed_alone(mesh, {});
+  for (const std::int32_t node : {0, 8, 72, 80, 4, 5}) EXPECT_EQ(after.point(NodeId{node}), mesh.point(NodeId{node})) << node;
+}
+
+double distance_to(const Geometry& polygon, Point p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::int32_t s = 0; s < polygon.size(); ++s) {
+    const Point a = polygon.point(s), ab = polygon.point(polygon.next(s)) - a;
+    const double share = std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0);
+    nearest = std::min(nearest, length(p - a - share * ab));
+  }
+  return nearest;
+}
+
+TEST(SmoothMesh, BoundaryNodesStayOnTheOutline) {
+  const Grid grid{10};
+  const Geometry polygon = circle(240);
+  const Mesh before = disc(grid, polygon);
+  SmoothOptions options;
+  options.geometry = &polygon;
+  SmoothReport report;
+  const Mesh after = smoothed_alone(before, options, &report);
+  int slid = 0;
+  for (std::int32_t node = 0; node < before.owned_nodes; ++node) {
+    if (grid.inner(node)) continue;
+    EXPECT_LE(distance_to(polygon, after.point(NodeId{node})), rounding);
+    slid += after.point(NodeId{node}) != before.point(NodeId{node}) ? 1 : 0;
+  }
+  EXPECT_GT(slid, 20);
+  EXPECT_LT(report.worst_cost_after, report.worst_cost_before);
+  EXPECT_TRUE(validate(after).empty());
+}
+
+/// The unit square, its corners none that must be kept, and a grid on it.
+Geometry soft_square() {
+  std::vector<Boundary> boundaries(1);
+  boundaries[0].name = "square";
+  boundaries[0].corner_degrees = 180;
+  return {boundaries, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {0, 4}, std::vector<BoundaryId>(4, BoundaryId{0})};
+}
+Mesh on_soft_square(const Grid& grid, std::uint64_t seed) {
+  Mesh mesh = jittered(grid, 0.24, seed);
+  auto& boundaries = mesh.boundaries;
+  boundaries[0].name = "square";
+  boundaries[0].edges.insert(boundaries[0].edges.end(), boundaries[1].edges.begin(), boundaries[1].edges.end());
+  boundaries.pop_back();
+  return mesh;
+}
+
+/// How far a point lies from the nearest boundary edge, as a share of the longest one.
+double share_off_boundary(const Mesh& mesh, Point p) {
+  double nearest = std::numeric_limits<double>::infinity(), longest = 0;
+  for (const auto& [from, to] : mesh.boundaries[0].edges) {
+    const Point a = mesh.point(from), ab = mesh.point(to) - a;
+    nearest = std::min(nearest, length(p - a - std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0) * ab));
+    longest = std::max(longest, length(ab));
+  }
+  return nearest / longest;
+}
+
+TEST(SmoothMesh, ChordsStayNearTheOutline) {
+  const Geometry square = soft_square();
+  SmoothOptions options;
+  options.geometry = &square;
+  double farthest = 0;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Mesh after = smoothed_alone(on_soft_square(Grid{6, {1, 1}, false}, seed), options);
+    for (const Point corner : square.points()) farthest = std::max(farthest, share_off_boundary(after, corner));
+  }
+  EXPECT_GT(farthest, 0) << "no node has left a corner";
+  EXPECT_LE(farthest, 0.15);
+}
+
+/// The shapes of the undisturbed grid's cells.
+std::vector<CellTarget> targets_of(const Grid& grid, const Mesh& mesh) {
+  std::vector<CellTarget> targets;
+  const auto add = [&](NodeId first, NodeId second, NodeId last) {
+    const Point p = grid.place(first.value());
+    targets.push_back({grid.place(second.value()) - p, grid.place(last.value()) - p});
+  };
+  for (const auto& t : mesh.triangles) add(t[0], t[1], t[2]);
+  for (const auto& q : mesh.quads) add(q[0], q[1], q[3]);
+  return targets;
+}
+
+double cost_by(const std::vector<CellTarget>& targets, const Mesh& mesh) {
+  double sum = 0;
+  std::size_t number = 0;
+  for (const auto& t : mesh.triangles) {
+    const CellTarget& target = targets[number++];
+    sum += cell_cost<3>({mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])}, stretched_targets<3>(target.w1, target.w2));
+  }
+  for (const auto& q : mesh.quads) {
+    const CellTarget& target = targets[number++];
+    sum += cell_cost<4>({mesh.point(q[0]), mesh.point(q[1]), mesh.point(q[2]), mesh.point(q[3])}, stretched_targets<4>(target.w1, target.w2));
+  }
+  return sum;
+}
+
+TEST(SmoothMesh, CellsTakeTheShapesTheyAreAskedFor) {
+  const Grid grid{10, {2, 1}};
+  const Mesh before = jittered(grid, 0.24);
+  SmoothOptions options;
+  options.targets = targets_of(grid, before);
+  options.threshold = 0.002;
+  const double asked = cost_by(options.targets, smoothed_alone(before, options));
+  EXPECT_LT(asked, 0.1 * cost_by(options.targets, before));
+  SmoothOptions ideal;
+  ideal.threshold = options.threshold;
+  EXPECT_GT(cost_by(options.targets, smoothed_alone(before, ideal)), 2 * asked);
+  EXPECT_TRUE(smoothed_alone(grid.mesh(), options).points == grid.mesh().points) << "cells that have their shapes already";
+}
+
+TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWithTargets) {
+  const Grid grid{10, {2, 1}};
+  const Mesh mesh = jittered(grid, 0.24);
+  const auto all = targets_of(grid, mesh);
+  const MeshOrder order = space_filling_order(mesh);
+  const auto options_for = [&](const Mesh& part) {
+    const Communicator& comm = part.owned_nodes == mesh.owned_nodes ? self() : world();
+    SmoothOptions options;
+    const auto take = [&](std::size_t count, const std::vector<std::int32_t>& cells, std::size_t offset) {
+      const auto first = static_cast<std::size_t>(comm.exclusive_sum(static_cast<std::int64_t>(count)));
+      for (std::size_t c = first; c < first + count; ++c) options.targets.push_back(all[offset + static_cast<std::size_t>(cells[c])]);
+    };
+    take(part.triangles.size(), order.triangles, 0);
+    take(part.quads.size(), order.quads, mesh.triangles.size());
+    return options;
+  };
+  const Smoothed s = smooth_both_ways(mesh, order, options_for);
+  EXPECT_GT(s.report.moves, 0);
+  expect_same_report(s.report, s.alone_report);
+  for (std::int32_t node = 0; node < static_cast<std::int32_t>(s.part.points.size()); ++node) {
+    EXPECT_EQ(s.part.point(NodeId{node}), s.alone.points[static_cast<std::size_t>(s.part.global(NodeId{node}).value())]);
+  }
+}
+
+/// The seeds are shared out among the ranks.
+void expect_untangled(Method method) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    if (static_cast<int>(seed) % world().size() != world().rank()) continue;
+    const Mesh before = tangled(Grid{20}, seed);
+    SmoothOptions options;
+    options.method = method;
+    SmoothReport report;
+    const Mesh after = smoothed_alone(before, options, &report);
+    EXPECT_GT(report.inverted_before, 0) << "seed " << seed;
+    EXPECT_EQ(report.inverted_after, 0) << "seed " << seed << ", of " << report.inverted_before << "; largest cost " << report.worst_cost_after;
+    for (const MeshFault& fault : validate(after)) {
+      ADD_FAILURE() << "seed " << seed << ": " << name_of(fault.rule) << ": " << fault.what << " at " << fault.place.x << " " << fault.place.y;
+    }
+  }
+}
+
+TEST(SmoothMesh, UntanglesWithPerturbations) { expect_untangled(Method::perturb); }
+TEST(SmoothMesh, UntanglesWithNlopt) { expect_untangled(Method::nlopt); }
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,176 @@
+// What a star is worth: batches against single places, objectives against their formulas, gradients against differences.
+#include "smoother/star.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/smoother/stars.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::Cells;
+using test::Random;
+using test::uniform;
+
+constexpr double rounding = 1e-12;
+
+/// Calls `check(star, random)` for many stars of all kinds.
+template <class Check>
+void for_each_star(const Check& check) {
+  Random random(11);
+  for (int i = 0; i < 100; ++i) {
+    for (const Cells cells : {Cells::triangles, Cells::quads, Cells::mixed}) {
+      const Star star = test::random_star(random, cells, i % 2 == 1);
+      check(star, random);
+    }
+  }
+}
+
+Point near_centre(Random& random, double reach) { return uniform(random, 0, reach) * test::random_direction(random); }
+
+bool is_valid(const Star& star, Point p) { return star.cost(p, Objective::power).valid[0]; }
+
+TEST(Star, ABatchIsItsPlacesOneByOne) {
+  for_each_star([](const Star& star, Random& random) {
+    Star::Batch x, y;
+    for (int k = 0; k < Star::batch; ++k) {
+      const Point p = near_centre(random, 0.6);
+      x[k] = p.x;
+      y[k] = p.y;
+    }
+    for (const Objective objective : {Objective::thesis, Objective::power}) {
+      const auto batch = star.cost(x, y, objective);
+      for (int k = 0; k < Star::batch; ++k) {
+        const auto one = star.cost(Point{x[k], y[k]}, objective);
+        EXPECT_EQ(batch.valid[k], one.valid[0]);
+        if (!one.valid[0]) continue;
+        EXPECT_EQ(batch.objective[k], one.objective[0]);
+        EXPECT_EQ(batch.largest_defect[k], one.largest_defect[0]);
+        EXPECT_EQ(batch.largest_cotangent[k], one.largest_cotangent[0]);
+      }
+    }
+  });
+}
+
+TEST(Star, ObjectivesAreTheirFormulas) {
+  for_each_star([](const Star& star, Random& random) {
+    const Point p = near_centre(random, 0.3);
+    if (!is_valid(star, p)) return;
+    double squares = 0, sum = 0, largest = 0;
+    for (const double cost : test::corner_costs(star, p)) {
+      squares += cost * cost;
+      sum += cost;
+      largest = std::max(largest, cost);
+    }
+    const double blend = (std::tanh(5 * (largest - 1)) + 1) / 2, mean = sum / static_cast<double>(star.corners().size());
+    EXPECT_NEAR(star.cost(p, Objective::power).objective[0], squares, rounding);
+    EXPECT_NEAR(star.cost(p, Objective::thesis).objective[0], blend * largest + (1 - blend) * mean, rounding);
+  });
+}
+
+TEST(BlendedCost, ByHand) {
+  EXPECT_NEAR(blended_cost(1, 0.5), 0.75, rounding);  // tanh 0 = 0: half of each
+  EXPECT_NEAR(blended_cost(0.3, 0.3), 0.3, rounding);
+  const double blend = 1 / (1 + std::exp(2.0));  // (tanh(-1) + 1) / 2
+  EXPECT_NEAR(blended_cost(0.8, 0.2), blend * 0.8 + (1 - blend) * 0.2, rounding);
+}
+
+TEST(Star, ThesisObjectiveOfARightAngledStarByHand) {
+  // Four right isosceles triangles, each of cost (1 - sqrt(3) / 2)^2: largest and mean are the same.
+  const Star star = test::fan_of({{1, 0}, {0, 1}, {-1, 0}, {0, -1}});
+  const double cost = std::pow(1 - std::numbers::sqrt3 / 2, 2);
+  EXPECT_NEAR(star.cost({0, 0}, Objective::thesis).objective[0], cost, rounding);
+  EXPECT_NEAR(star.cost({0, 0}, Objective::power).objective[0], 4 * cost * cost, rounding);
+  EXPECT_NEAR(star.cost({0, 0}, Objective::power).largest_cotangent[0], 1, rounding);  // 45 degrees
+}
+
+TEST(Star, LargestDefectAndCotangentAreTheWorstCornersAndTheSmallestAngles) {
+  for_each_star([](const Star& star, Random& random) {
+    const Point p = near_centre(random, 0.3);
+    if (!is_valid(star, p)) return;
+    const auto cost = star.cost(p, Objective::power);
+    EXPECT_NEAR(std::pow(cost.largest_defect[0], 2), test::largest_cost(star, p), rounding);
+    EXPECT_NEAR(star.worst_cost(p), test::largest_cost(star, p), rounding);
+    EXPECT_NEAR(std::atan2(1, cost.largest_cotangent[0]) * 180 / std::numbers::pi, test::smallest_degrees(star, p), 1e-9);
+  });
+}
+
+/// The gradient by central differences, far from where another corner becomes the worst.
+Point differences(const Star& star, Point p, Objective objective) {
+  constexpr double h = 1e-6;
+  const auto value = [&](Point at) { return star.cost(at, objective).objective[0]; };
+  return {(value(p + Point{h, 0}) - value(p - Point{h, 0})) / (2 * h), (value(p + Point{0, h}) - value(p - Point{0, h})) / (2 * h)};
+}
+
+/// By how much the worst corner is worse than the next.
+double lead_of_worst(const Star& star, Point p) {
+  std::vector<double> costs = test::corner_costs(star, p);
+  std::sort(costs.begin(), costs.end());
+  return costs.back() - costs[costs.size() - 2];
+}
+
+TEST(Star, GradientsAgreeWithDifferences) {
+  int compared = 0;
+  for_each_star([&](const Star& star, Random& random) {
+    const Point p = near_centre(random, 0.3);
+    if (test::largest_cost(star, p) > 0.98) return;  // nearly flat: too steep for differences
+    for (const Objective objective : {Objective::thesis, Objective::power}) {
+      if (objective == Objective::thesis && lead_of_worst(star, p) < 1e-4) continue;
+      Point gradient;
+      EXPECT_NEAR(star.cost_and_gradient(p, objective, gradient), star.cost(p, objective).objective[0], rounding);
+      const Point expected = differences(star, p, objective);
+      EXPECT_LT(length(gradient - expected), 1e-6 * (1 + length(expected)));
+      ++compared;
+    }
+  });
+  EXPECT_GT(compared, 400);
+}
+
+TEST(Star, GradientsAgreeWhereTheLargestCostCounts) {
+  const Star star = test::fan_of({{1, 0}, {0, 1}, {-1, 0}, {0, -1}});
+  const Point p{0.47, 0.46};  // the blend is some 0.3 there
+  ASSERT_GT(test::largest_cost(star, p), 0.8);
+  Point gradient;
+  star.cost_and_gradient(p, Objective::thesis, gradient);
+  EXPECT_LT(length(gradient - differences(star, p, Objective::thesis)), 1e-6 * length(gradient));
+}
+
+TEST(Star, InversionAndReferenceByHand) {
+  const Star star = test::fan_of({{1, 0}, {0, 1}, {-1, 0}, {0, -1}});
+  EXPECT_EQ(star.inversion({0, 0}, 1), 0);
+  EXPECT_EQ(star.reference({0, 0}), 1);
+  // From (2, 0) the edges' squares are 1, 5, 9, 5; J is -1 twice and 3 twice.
+  EXPECT_EQ(star.reference({2, 0}), 5);
+  EXPECT_EQ(star.inversion({2, 0}, 5), 0.4);
+  EXPECT_EQ(star.worst_cost({2, 0}), 1.2);
+  EXPECT_EQ(star.sound_corners({2, 0}), (std::vector<char>{0, 1, 1, 0}));
+  EXPECT_FALSE(is_valid(star, {2, 0}));
+  EXPECT_FALSE(is_valid(star, {0.5, 0.5})) << "one corner is flat";
+  EXPECT_EQ(star.worst_cost({0.5, 0.5}), 1);
+}
+
+TEST(Star, IsValidWhereAllCornersAreSound) {
+  int invalid = 0;
+  for_each_star([&](const Star& star, Random& random) {
+    const Point p = near_centre(random, 1.2);
+    const auto sound = star.sound_corners(p);
+    EXPECT_EQ(is_valid(star, p), std::count(sound.begin(), sound.end(), 0) == 0);
+    EXPECT_EQ(is_valid(star, p), star.worst_cost(p) < 1);
+    invalid += is_valid(star, p) ? 0 : 1;
+  });
+  EXPECT_GT(invalid, 50);
+}
+
+TEST(Star, ClearLeavesNothing) {
+  Star star = test::quad_patch();
+  EXPECT_EQ(star.corners().size(), 12U);
+  star.clear();
+  EXPECT_TRUE(star.empty());
+}
+
+}  // namespace
+}  // namespace quadloop
