@@ -2,10 +2,11 @@
 """Shapes of cells, before any smoothing and after it, on the case's own root and on others that shift the lattice. Corners that the outline
 itself makes sharp are not counted.
 
-    run_quality.py --quadloop PROGRAM --case CASE.toml --cut SMALLEST LARGEST --smoothed SMALLEST LARGEST [--quads SHARE] [--type delaunay]
-                   [--offsets 8] [--borrow FILE.geom]
+    run_quality.py --quadloop PROGRAM --case CASE.toml (--cut SMALLEST LARGEST --smoothed SMALLEST LARGEST [--quads SHARE] | --fractal)
+                   [--type delaunay] [--offsets 8] [--borrow FILE.geom]
 
 Angles in degrees, of the mesh as it is cut and of the smoothed one; smoothing may make neither the smallest angle nor the mean quality worse.
+--fractal  for a coast, where no angle can be promised: of a thousand corners at most one below 15 degrees as cut, below 25 smoothed
 """
 import argparse
 import json
@@ -18,6 +19,7 @@ from quadloop_runs import beside_the_checkout, fail, mesh_case, run, skip
 
 BELOW_26, LARGEST_RATIO, USUAL_RATIO = 0.01, 50, 4.5  # share of corners; area ratio of neighbours: any, 99 percent
 LARGEST_RATIO_SMOOTHED = 10
+MOST_OF_A_COAST = 0.001
 UNSMOOTHED = ["--set", "smooth.sweeps=0"]
 
 
@@ -46,6 +48,13 @@ def angle_limits(said, bounds, what):
     return [(f"smallest angle {what}", said["min_angle_made"], ">=", bounds[0]), (f"largest angle {what}", said["max_angle_made"], "<=", bounds[1])]
 
 
+def fractal_limits(cut, smoothed):
+    share = lambda said, degrees: said[f"corners_below_{degrees}"] / said["corners"]
+    return [("share of corners below 15 degrees", share(cut, 15), "<=", MOST_OF_A_COAST), ("share below 26", share(cut, 26), "<=", BELOW_26),
+            ("share of corners below 25 degrees, smoothed", share(smoothed, 25), "<=", MOST_OF_A_COAST),
+            ("mean quality, smoothed", smoothed["mean_quality"], ">=", cut["mean_quality"])]
+
+
 def cut_limits(said, args):
     return angle_limits(said, args.cut, "as cut") + [
         ("share of quads", said["quad_share"], ">=", args.quads),
@@ -65,8 +74,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
     parser.add_argument("--case", required=True, type=Path)
-    parser.add_argument("--cut", type=float, nargs=2, required=True)
-    parser.add_argument("--smoothed", type=float, nargs=2, required=True)
+    parser.add_argument("--cut", type=float, nargs=2)
+    parser.add_argument("--smoothed", type=float, nargs=2)
+    parser.add_argument("--fractal", action="store_true")
     parser.add_argument("--quads", type=float, default=0)
     parser.add_argument("--type", choices=("hybrid", "delaunay"), default="hybrid")
     parser.add_argument("--offsets", type=int, default=8)
@@ -87,7 +97,8 @@ def main():
             cut, smoothed = shapes_of(args.quadloop, case, prefix, here + UNSMOOTHED), shapes_of(args.quadloop, case, prefix, here)
             for said in (cut, smoothed):
                 print(root, {key: said[key] for key in ("min_angle_made", "max_angle_made", "corners_of_outline", "area_ratio_max", "quad_share")})
-            found = shortfalls_of(cut_limits(cut, args) + smoothed_limits(smoothed, cut, args))
+            limits = fractal_limits(cut, smoothed) if args.fractal else cut_limits(cut, args) + smoothed_limits(smoothed, cut, args)
+            found = shortfalls_of(limits)
             if found:
                 fail(f"root {root}: {'; '.join(found)}")
     print("good")
