@@ -129,8 +129,8 @@ void smooth(const Communicator& comm, const Prepared& prepared, MeshResult& resu
     options.delaunay = [&lattice, finest = lattice.finest_level(prepared.options.size.min)](Point p) { return tie_rank(lattice, finest, p); };
   }
   const SmoothReport report = smooth_mesh(comm, result.mesh, options);
-  log::detail(fmt::format("smoothed: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}", report.moves,
-                          report.free_nodes, report.sweeps, report.worst_cost_after, report.worst_cost_before));
+  log::detail(fmt::format("smoothed: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}", report.moves, report.free_nodes,
+                          report.sweeps, report.worst_cost_after, report.worst_cost_before));
 }
 
 /// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere), meshes, writes. Warnings

@@ -56,9 +56,7 @@ std::vector<char> interface_nodes(const LoadedMesh& loaded) {
   return shared;
 }
 
-Geometry read_outline(const std::string& path, Warnings& warnings) {
-  return assemble(read_geometry(path, warnings), {}, warnings);
-}
+Geometry read_outline(const std::string& path, Warnings& warnings) { return assemble(read_geometry(path, warnings), {}, warnings); }
 
 /// The root reads the mesh, every rank the geometry (files are small beside a mesh). *Collective.*
 Loaded load(const CommandContext& context, const SmoothArguments& arguments) {

@@ -48,7 +48,8 @@ void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& 
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path) {
   const std::string suffix = suffix_of(path);
   std::vector<std::string> losses;
-  if (whole.solution && (suffix == ".su2" || suffix == ".msh")) losses.push_back(path + ": this format has no place for the solution, which is left out");
+  if (whole.solution && (suffix == ".su2" || suffix == ".msh"))
+    losses.push_back(path + ": this format has no place for the solution, which is left out");
   if (whole.solution && suffix == ".cgns" && !whole.solution->constants.empty()) {
     losses.push_back(path + ": this format has no place for the solution's constants, which are left out");
   }

@@ -76,7 +76,7 @@ class MshWriter {
   }
 
   template <class Cells>
-  std::span<const typename Cells::value_type> cells_of(const Cells& cells, std::vector<std::int32_t> LoadedMesh::* cell_to_block,
+  std::span<const typename Cells::value_type> cells_of(const Cells& cells, std::vector<std::int32_t> LoadedMesh::*cell_to_block,
                                                        std::int32_t block) const {
     if (whole_ == nullptr) return std::span(cells);
     return cells_of_block(cells, whole_->*cell_to_block, block);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<double, 4> shares{0.3, 0.12, 0.04, 0.01};
 constexpr double straight_sine = 1e-10;
 constexpr double stray_share = 0.15;  ///< of the shorter chord: so far the outline may stray from the chords, as it may in cutting
-constexpr double longest_way = 20;  ///< a chord that stands for a part of the outline longer than so many times itself is left alone
+constexpr double longest_way = 20;    ///< a chord that stands for a part of the outline longer than so many times itself is left alone
 
 }  // namespace
 
@@ -53,9 +53,8 @@ void BoundarySlide::find_tight_segments(const Communicator& comm) {
 
 bool BoundarySlide::is_tight(const Places& places) const {
   const auto segments = outline_->segments_between(places.before, places.after);
-  return segments.empty() || std::any_of(segments.begin(), segments.end(), [&](std::int32_t s) {
-           return std::binary_search(tight_segments_.begin(), tight_segments_.end(), s);
-         });
+  return segments.empty() || std::any_of(segments.begin(), segments.end(),
+                                         [&](std::int32_t s) { return std::binary_search(tight_segments_.begin(), tight_segments_.end(), s); });
 }
 
 namespace {

@@ -19,7 +19,8 @@ enum class NodeFreedom : std::uint8_t { interior, sliding, fixed };
 class BoundarySlide {
  public:
   /// `outline` may be null. `pinned` flags owned nodes that stay. All arguments must outlive it. *Collective.*
-  BoundarySlide(const Communicator& comm, const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline, const std::vector<char>& pinned);
+  BoundarySlide(const Communicator& comm, const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline,
+                const std::vector<char>& pinned);
 
   /// Of an owned node.
   NodeFreedom freedom(std::int32_t node) const { return freedom_[static_cast<std::size_t>(node)]; }
@@ -54,8 +55,8 @@ class BoundarySlide {
   const OutlinePath* outline_;
   std::vector<NodeFreedom> freedom_;
   std::vector<Rail> rails_;  ///< by node
-  /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for: nodes there stay, as chords that keep clear
-  /// of the other parts of the outline could still meet one another. Ascending.
+  /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for: nodes there stay, as chords that keep
+  /// clear of the other parts of the outline could still meet one another. Ascending.
   std::vector<std::int32_t> tight_segments_;
 };
 

@@ -44,9 +44,7 @@ inline double inverse_condition(const CornerForm& c, const CornerTarget& t) { re
 
 /// Whether a corner counts as inverted: J <= 1e-12 |e1| |e2|.
 inline constexpr double flattest_sine = 1e-12;
-inline bool is_inverted(const CornerForm& c) {
-  return !(c.jacobian > 0 && c.jacobian * c.jacobian > flattest_sine * flattest_sine * c.uu * c.vv);
-}
+inline bool is_inverted(const CornerForm& c) { return !(c.jacobian > 0 && c.jacobian * c.jacobian > flattest_sine * flattest_sine * c.uu * c.vv); }
 
 /// Eq. 3.2: (1 - 1/CN)^2, between 0 and 1, or for an inverted corner 1 - J / reference, at least 1. `reference` is an area, the same for all
 /// corners that are compared.

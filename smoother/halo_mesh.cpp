@@ -82,8 +82,8 @@ NodeExchange HaloMesh::gather(const Communicator& comm) {
 }
 
 template <std::size_t width>
-void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own, Numbering& numbering,
-                             Cells<width>& before, Cells<width>& after, CellLists& sent) {
+void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own, Numbering& numbering, Cells<width>& before,
+                             Cells<width>& after, CellLists& sent) {
   std::vector<std::vector<TravellingCell<width>>> out(static_cast<std::size_t>(comm.size()));
   sent.resize(out.size());
   for (std::size_t i = 0; i < own.size(); ++i) {

@@ -17,8 +17,8 @@ struct HaloEdge {
   std::int32_t boundary = -1;
 };
 
-/// One rank's part of a mesh with all cells, of other ranks too, that touch its owned nodes. The cells come in their global order, so what is added up
-/// over the cells round a node does not depend on where ranks meet.
+/// One rank's part of a mesh with all cells, of other ranks too, that touch its owned nodes. The cells come in their global order, so what is added
+/// up over the cells round a node does not depend on where ranks meet.
 class HaloMesh {
  public:
   /// `mesh` must outlive it and keep its cells. *Collective.*

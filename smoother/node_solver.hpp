@@ -17,8 +17,8 @@ class Acceptance {
 
   template <int places>
   bool accepts(const StarCost<places>& cost, int place) const {
-    return cost.valid[place] && cost.largest_defect[place] <= now_.largest_defect[0] &&
-           cost.largest_cotangent[place] <= now_.largest_cotangent[0] && cost.objective[place] < worthwhile * now_.objective[0];
+    return cost.valid[place] && cost.largest_defect[place] <= now_.largest_defect[0] && cost.largest_cotangent[place] <= now_.largest_cotangent[0] &&
+           cost.objective[place] < worthwhile * now_.objective[0];
   }
   /// The accepted place of the lowest cost among the first `count`; -1 if there is none. Of equal ones the first.
   template <int places>

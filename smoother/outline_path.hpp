@@ -26,8 +26,8 @@ class OutlinePath {
   OutlinePath(const OutlinePath&) = delete;
   OutlinePath& operator=(const OutlinePath&) = delete;
 
-  /// The place of a point that lies on the boundary of this name, to `on_outline` of the outline's extent; an invalid one where it does not, or, unless
-  /// `also_kept`, where it is a vertex that a mesh must keep.
+  /// The place of a point that lies on the boundary of this name, to `on_outline` of the outline's extent; an invalid one where it does not, or,
+  /// unless `also_kept`, where it is a vertex that a mesh must keep.
   OutlinePlace locate(Point p, const std::string& boundary, bool also_kept) const;
   static constexpr double on_outline = 1e-9;
 

@@ -40,9 +40,7 @@ void add_cell(const std::array<Point, width>& cell, std::vector<Histogram>& hist
 
 }  // namespace
 
-void Histogram::add(double value) {
-  ++counts[static_cast<std::size_t>(std::upper_bound(limits.begin(), limits.end(), value) - limits.begin())];
-}
+void Histogram::add(double value) { ++counts[static_cast<std::size_t>(std::upper_bound(limits.begin(), limits.end(), value) - limits.begin())]; }
 
 std::vector<Histogram> shape_histograms(const Communicator& comm, const Mesh& mesh) {
   std::vector<Histogram> histograms{{"angle", {0, 15, 20, 25, 30, 45, 60, 75, 90, 105, 120, 135, 150}, {}},

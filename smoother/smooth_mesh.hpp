@@ -18,23 +18,24 @@ struct SmoothOptions {
   int sweeps = 20;  ///< at most; fewer where nothing moves any more
   Objective objective = Objective::power;
   Method method = Method::perturb;
-  double threshold = 0.05;                  ///< nodes of cells that cost no more stay, unless they share a cell with a node of one that does
-  const Geometry* geometry = nullptr;       ///< the outline that boundary nodes slide along; without it they slide where the mesh's own is straight
-  std::vector<char> pinned;                 ///< a flag for each owned node that must stay, or none at all
-  std::function<TieRank(Point)> delaunay;   ///< if set, the mesh is Delaunay under this order of nodes, and is made so again by flips in the end
-  std::vector<CellTarget> targets;          ///< the shape of each own cell, triangles, then quads; or none at all for ideal ones
+  double threshold = 0.05;                 ///< nodes of cells that cost no more stay, unless they share a cell with a node of one that does
+  const Geometry* geometry = nullptr;      ///< the outline that boundary nodes slide along; without it they slide where the mesh's own is straight
+  std::vector<char> pinned;                ///< a flag for each owned node that must stay, or none at all
+  std::function<TieRank(Point)> delaunay;  ///< if set, the mesh is Delaunay under this order of nodes, and is made so again by flips in the end
+  std::vector<CellTarget> targets;         ///< the shape of each own cell, triangles, then quads; or none at all for ideal ones
 };
 
 /// What the smoother did, over all ranks.
 struct SmoothReport {
   int sweeps = 0;
   std::int64_t free_nodes = 0, moves = 0;
-  double worst_cost_before = 0, worst_cost_after = 0;  ///< Eq. 3.2, over all cells
+  double worst_cost_before = 0, worst_cost_after = 0;    ///< Eq. 3.2, over all cells
   std::int64_t inverted_before = 0, inverted_after = 0;  ///< cells
 };
 
-/// Moves nodes to better the cells' shapes, T 3.7; connectivity stays but for the flips of a Delaunay mesh. The positions are the same bits on any number of ranks, those of the mesh's
-/// copies too. Neither the largest cost nor the smallest angle of the mesh gets worse; a mesh with inverted cells is untangled first. *Collective.*
+/// Moves nodes to better the cells' shapes, T 3.7; connectivity stays but for the flips of a Delaunay mesh. The positions are the same bits on any
+/// number of ranks, those of the mesh's copies too. Neither the largest cost nor the smallest angle of the mesh gets worse; a mesh with inverted
+/// cells is untangled first. *Collective.*
 SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options);
 
 }  // namespace quadloop

@@ -27,10 +27,10 @@ enum class Objective { thesis, power };
 template <int places>
 struct StarCost {
   using Values = Eigen::Array<double, places, 1>;
-  Values objective;                    ///< cost of the node; of no use where the star is not valid
-  Values largest_defect;               ///< square root of the largest corner cost
-  Values largest_cotangent;            ///< of the cells' angles: that of the smallest
-  Eigen::Array<bool, places, 1> valid; ///< no corner is inverted
+  Values objective;                     ///< cost of the node; of no use where the star is not valid
+  Values largest_defect;                ///< square root of the largest corner cost
+  Values largest_cotangent;             ///< of the cells' angles: that of the smallest
+  Eigen::Array<bool, places, 1> valid;  ///< no corner is inverted
 };
 
 /// All corners that hang on one node.

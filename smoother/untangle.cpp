@@ -101,7 +101,8 @@ std::optional<Point> untangle(const Star& star, Point p) {
   for (const double share : {0.5, 0.25, 0.1}) {
     candidates.push_back(p + share * (deep - p));
     candidates.push_back(p + share * (mean - p));
-    for (const Point d : {Point{1, 0}, Point{-1, 0}, Point{0, 1}, Point{0, -1}, Point{0.7, 0.7}, Point{-0.7, 0.7}, Point{0.7, -0.7}, Point{-0.7, -0.7}}) {
+    for (const Point d :
+         {Point{1, 0}, Point{-1, 0}, Point{0, 1}, Point{0, -1}, Point{0.7, 0.7}, Point{-0.7, 0.7}, Point{0.7, -0.7}, Point{-0.7, -0.7}}) {
       candidates.push_back(p + share * edge * d);
     }
   }

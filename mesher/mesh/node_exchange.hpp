@@ -16,9 +16,7 @@ class NodeOwners {
   NodeOwners(const Communicator& comm, std::int64_t first_node) : first_{comm.all_gather(first_node)} {}
 
   int rank_of(GlobalNodeId node) const;
-  std::int32_t index_of(GlobalNodeId node) const {
-    return static_cast<std::int32_t>(node.value() - first_[static_cast<std::size_t>(rank_of(node))]);
-  }
+  std::int32_t index_of(GlobalNodeId node) const { return static_cast<std::int32_t>(node.value() - first_[static_cast<std::size_t>(rank_of(node))]); }
 
  private:
   std::vector<std::int64_t> first_;

@@ -87,8 +87,7 @@ std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whol
   std::vector<GlobalEdge> edges;
   for (std::size_t b = 0; comm.is_root() && b < whole.boundaries.size(); ++b) {
     for (const auto& [from, to] : whole.boundaries[b].edges) {
-      edges.push_back(
-          {numbers[static_cast<std::size_t>(from.value())], numbers[static_cast<std::size_t>(to.value())], static_cast<std::int32_t>(b)});
+      edges.push_back({numbers[static_cast<std::size_t>(from.value())], numbers[static_cast<std::size_t>(to.value())], static_cast<std::int32_t>(b)});
     }
   }
   return scatter_evenly(comm, std::span<const GlobalEdge>(edges));

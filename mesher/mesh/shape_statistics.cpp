@@ -152,9 +152,8 @@ void add_all_corners(const Mesh& mesh, const EdgeTable& table, std::span<const C
   add_corners(mesh, mesh.quads, sharp, passages, shape);
   if (shape.corners == shape.corners_of_outline + shape.corners_in_passages) shape.smallest_degrees = shape.largest_degrees = 0;
   shape.sharp_places = sharp.places();
-  std::sort(shape.passages.begin(), shape.passages.end(), [](const SharpPlace& a, const SharpPlace& b) {
-    return a.place != b.place ? a.place < b.place : a.degrees < b.degrees;
-  });
+  std::sort(shape.passages.begin(), shape.passages.end(),
+            [](const SharpPlace& a, const SharpPlace& b) { return a.place != b.place ? a.place < b.place : a.degrees < b.degrees; });
 }
 
 /// Triangles first, then quads.

@@ -20,7 +20,7 @@
 namespace quadloop {
 namespace {
 
-constexpr double rounding = 1e-7;      // of costs near 1 and of angles in degrees: cells of these shapes may be as flat as doubles can tell
+constexpr double rounding = 1e-7;       // of costs near 1 and of angles in degrees: cells of these shapes may be as flat as doubles can tell
 constexpr double seconds_allowed = 10;  // for one shape of a few thousand leaves; the median is a few milliseconds
 
 /// Number of shapes: QUADLOOP_SHAPES where set.
@@ -94,7 +94,8 @@ std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptio
     return "smoothed: the largest cost has risen from " + std::to_string(report.worst_cost_before) + " to " + std::to_string(report.worst_cost_after);
   }
   if (report.inverted_before == 0 && after.smallest_degrees < before.smallest_degrees - rounding) {
-    return "smoothed: the smallest angle has fallen from " + std::to_string(before.smallest_degrees) + " to " + std::to_string(after.smallest_degrees);
+    return "smoothed: the smallest angle has fallen from " + std::to_string(before.smallest_degrees) + " to " +
+           std::to_string(after.smallest_degrees);
   }
   const std::string wrong = mesh_fault(std::move(mesh), options.type);
   return wrong.empty() ? wrong : "smoothed: " + wrong;
