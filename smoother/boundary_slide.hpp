@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "smoother/halo_mesh.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
 #include "smoother/node_solver.hpp"
 #include "smoother/outline_path.hpp"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "smoother/halo_mesh.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
 #include "smoother/star.hpp"
 
 namespace quadloop {

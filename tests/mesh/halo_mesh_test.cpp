@@ -1,5 +1,5 @@
 // Each rank has all cells and boundary edges that touch its nodes, in their global order, and values reach the ranks that have copies.
-#include "smoother/halo_mesh.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
 
 #include <gtest/gtest.h>
 

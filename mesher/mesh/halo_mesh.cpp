@@ -1,4 +1,4 @@
-#include "smoother/halo_mesh.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
 
 #include <algorithm>
 #include <unordered_map>
