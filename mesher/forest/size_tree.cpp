@@ -28,15 +28,18 @@ bool meets(const Source& source, const Box& box) {
 
 }  // namespace
 
-SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options, Unresolved unresolved)
+SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options, Unresolved unresolved,
+                   const DemandedSplits& demanded)
     : outline_{&outline},
       lattice_{&lattice},
       options_{&options},
+      demanded_{&demanded},
       unresolved_{std::move(unresolved)},
-      finest_{lattice.finest_level(options.min)},
+      finest_of_case_{lattice.finest_level(options.min)},
+      finest_{std::max(finest_of_case_, demanded.finest_level())},
       coarsest_{1},
       slope_{std::llround((options.gradation - 1) / 2 * static_cast<double>(1 << slope_bits))} {
-  while (coarsest_ < finest_ && lattice.edge(coarsest_) > options.max) ++coarsest_;
+  while (coarsest_ < finest_of_case_ && lattice.edge(coarsest_) > options.max) ++coarsest_;
   const Geometry& g = outline.geometry();
   const auto line_after = [](std::int64_t line, double at, double coordinate) { return at < coordinate ? line + 1 : line; };
   const std::int64_t right = lattice.column_at(g.box().high.x), top = lattice.row_at(g.box().high.y);
@@ -51,6 +54,7 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
     for (int tx = 0; tx < lattice.trees_x(); ++tx) {
       Node root;
       root.place = {std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0};
+      root.demanded = demanded.root(tx, ty);
       root.segments_begin = static_cast<std::int32_t>(segments_.size());
       const Box box = lattice.box_of(root.place);
       for (std::int32_t s = 0; s < g.size(); ++s) {
@@ -85,6 +89,7 @@ void SizeTree::grow(std::int32_t node) {
     Node child;
     child.place = parent.place.child(k);
     child.parent = node;
+    if (parent.demanded != DemandedSplits::none) child.demanded = demanded_->child(parent.demanded, k);
     child.segments_begin = static_cast<std::int32_t>(segments_.size());
     const Box box = lattice_->box_of(child.place);
     for (std::int32_t i = parent.segments_begin; i < parent.segments_end; ++i) {
@@ -103,7 +108,8 @@ void SizeTree::grow(std::int32_t node) {
 
 /// What can be said of a node's leaves without splitting it.
 void SizeTree::judge(Node& node, const Box& box) const {
-  node.plain = node.segments_begin == node.segments_end;
+  const bool demanded = node.demanded != DemandedSplits::none;
+  node.plain = node.segments_begin == node.segments_end && !demanded;
   int finest = node.plain ? coarsest_ : finest_;
   for (const Source& source : options_->sources) {
     if (!meets(source, box)) continue;
@@ -126,13 +132,14 @@ std::int64_t SizeTree::gap_to_domain(const Quadrant& q) const {
 /// The coarsest level that a source of this spacing is content with.
 int SizeTree::level_for(double spacing) const {
   int level = coarsest_;
-  while (level < finest_ && lattice_->edge(level) > spacing) ++level;
+  while (level < finest_of_case_ && lattice_->edge(level) > spacing) ++level;
   return level;
 }
 
 bool SizeTree::wants_split(const Node& node) {
   const Quadrant& q = node.place;
-  if (q.level >= finest_) return false;
+  if (node.demanded != DemandedSplits::none) return true;
+  if (q.level >= finest_of_case_) return false;
   const Box box = lattice_->box_of(q);
   if (q.level < coarsest_ && in_domains_box(q)) return true;
   if (node.plain) return false;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "mesher/forest/demanded_splits.hpp"
 #include "mesher/forest/lattice.hpp"
 #include "mesher/forest/size_options.hpp"
 #include "mesher/geometry/gap_test.hpp"
@@ -24,8 +25,8 @@ class SizeTree {
   /// Tells whether a leaf of this place, holding these segments, cannot be cut as it is.
   using Unresolved = std::function<bool(const Quadrant&, std::span<const std::int32_t>)>;
 
-  /// All arguments must outlive the tree.
-  SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options, Unresolved unresolved);
+  /// All arguments must outlive the tree. `demanded` are split beside those that case and geometry ask to, also below the case's `min`.
+  SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options, Unresolved unresolved, const DemandedSplits& demanded);
 
   const Lattice& lattice() const { return *lattice_; }
   int finest_level() const { return finest_; }
@@ -35,8 +36,9 @@ class SizeTree {
   bool must_split(const Quadrant& q);
   /// The segments that meet the inside of the quadrant, in ascending order; valid until the next call.
   std::span<const std::int32_t> segments_in(const Quadrant& q);
-  /// The level at which case and geometry alone would have stopped at this leaf's place.
+  /// The level at which case, geometry and demands alone would have stopped at this leaf's place.
   int wanted_level(const Quadrant& leaf);
+  const DemandedSplits& demanded() const { return *demanded_; }
 
  private:
   struct Node {
@@ -44,9 +46,10 @@ class SizeTree {
     std::int32_t parent = -1;
     std::int32_t children = unknown;  ///< index of the first of four, or one of the two below
     std::int32_t segments_begin = 0, segments_end = 0;
-    bool plain = false;               ///< nothing inside asks for leaves finer than `max` does
-    std::int8_t finest = 0;           ///< no leaf inside is deeper than this level; it may be reached or not
-    std::int32_t deepest_split = -1;  ///< level of the deepest split node known at or below this one
+    bool plain = false;                            ///< nothing inside asks for leaves finer than `max` does
+    std::int8_t finest = 0;                        ///< no leaf inside is deeper than this level; it may be reached or not
+    std::int32_t demanded = DemandedSplits::none;  ///< its number there
+    std::int32_t deepest_split = -1;               ///< level of the deepest split node known at or below this one
     static constexpr std::int32_t unknown = -2, leaf = -1;
   };
   /// One step of the path from the root to the quadrant last asked for.
@@ -75,11 +78,13 @@ class SizeTree {
   const ShiftedOutline* outline_;
   const Lattice* lattice_;
   const SizeOptions* options_;
+  const DemandedSplits* demanded_;
   Unresolved unresolved_;
   std::optional<GapTest> gap_test_;
   std::vector<double> spacing_;        ///< of each segment
   std::vector<std::int64_t> turning_;  ///< of each vertex, in 2^-20 degrees, 0 where it is kept as a corner
-  int finest_;
+  int finest_of_case_;
+  int finest_;  ///< of case and demands
   int coarsest_;
   std::array<std::int64_t, 4> domain_{};  ///< lattice lines round the domain's box: left, right, bottom, top
   std::int64_t slope_;                    ///< (g-1)/2 in units of 2^-20

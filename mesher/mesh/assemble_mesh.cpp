@@ -82,6 +82,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree&
     LeafRecord record = record_of(graph.leaf(leaf), sizes.wanted_level(graph.leaf(leaf)));
     record.triangles = static_cast<std::int32_t>(mesh.triangles.size() - triangles);
     record.quads = static_cast<std::int32_t>(mesh.quads.size() - quads);
+    record.adapted = sizes.demanded().levels_above(graph.leaf(leaf));
     record.mark = record.triangles + record.quads > 0 ? 1 : 0;
     leaves.push_back(record);
   }

@@ -44,7 +44,7 @@ void describe_tree(const Communicator& comm, const Geometry& geometry, const Lat
 
 }  // namespace
 
-MeshResult build_mesh(const Communicator& comm, const Geometry& given, const MeshOptions& options) {
+MeshResult build_mesh(const Communicator& comm, const Geometry& given, const MeshOptions& options, const DemandedSplits& demanded) {
   MeshResult result;
   StageTimes& times = result.report.times;
   times.begin("geometry");
@@ -53,8 +53,10 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   const ShiftedOutline outline(geometry);
   const InsideTest inside(outline);
   ResolutionTest resolution(lattice, outline, inside);
-  SizeTree sizes(outline, lattice, options.size,
-                 [&](const Quadrant& q, std::span<const std::int32_t> segments) { return resolution.unresolved(q, segments); });
+  SizeTree sizes(
+      outline, lattice, options.size, [&](const Quadrant& q, std::span<const std::int32_t> segments) { return resolution.unresolved(q, segments); },
+      demanded);
+  result.report.finest_allowed = sizes.finest_level();
 
   times.begin("refinement");
   const LeafGraph graph = refine_forest(comm, sizes);

@@ -5,6 +5,7 @@
 
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/timer.hpp"
+#include "mesher/forest/demanded_splits.hpp"
 #include "mesher/forest/size_options.hpp"
 #include "mesher/forest/tree_record.hpp"
 #include "mesher/geometry/geometry.hpp"
@@ -26,6 +27,7 @@ struct MeshOptions {
 struct MeshReport {
   std::int64_t leaves = 0, cut_leaves = 0, islands_dropped = 0;
   int coarsest_level = 0, finest_level = 0;
+  int finest_allowed = 0;             ///< level that no leaf may pass
   double imbalance = 1;               ///< the heaviest rank's work over the mean, as the partition weighs it
   std::vector<std::string> warnings;  ///< one line each: what was dropped or coarsened, and where
   StageTimes times;                   ///< of this rank
@@ -37,7 +39,8 @@ struct MeshResult {
   MeshReport report;
 };
 
-/// Meshes the domain of `geometry`. *Collective.* Throws InputError where the geometry cannot be meshed with these options.
-MeshResult build_mesh(const Communicator& comm, const Geometry& geometry, const MeshOptions& options);
+/// Meshes the domain of `geometry`: the mesh is a function of geometry, options and what adaptation has demanded of the tree. *Collective.* Throws
+/// InputError where the geometry cannot be meshed with these options.
+MeshResult build_mesh(const Communicator& comm, const Geometry& geometry, const MeshOptions& options, const DemandedSplits& demanded = {});
 
 }  // namespace quadloop

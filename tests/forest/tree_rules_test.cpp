@@ -22,10 +22,11 @@ Geometry circle_in_square(double spacing, double second_spacing = 0) {
 }
 
 struct Tree {
-  Tree(const Geometry& geometry, const SizeOptions& options)
+  Tree(const Geometry& geometry, const SizeOptions& options, const std::vector<SplitDemand>& demands = {})
       : outline{geometry},
         lattice{choose_root(geometry, options.root)},
-        sizes{outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; }},
+        demanded{test::world(), demands},
+        sizes{outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; }, demanded},
         graph{refine_forest(test::world(), sizes)} {
     std::vector<Quadrant> local;
     for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) local.push_back(graph.leaf(leaf));
@@ -33,6 +34,7 @@ struct Tree {
   }
   ShiftedOutline outline;
   Lattice lattice;
+  DemandedSplits demanded;
   SizeTree sizes;
   LeafGraph graph;
   std::vector<Quadrant> leaves;  // of all ranks
@@ -139,6 +141,33 @@ TEST(TreeRules, SourcesRefineWithoutGeometry) {
   EXPECT_LE(size_at({-0.5, 0.5}), 0.02);
   EXPECT_LE(size_at({0.7, 0.75}), 0.02);
   EXPECT_GT(size_at({-0.9, 0.9}), 0.02);
+}
+
+TEST(TreeRules, DemandsRefineBelowTheCasesSmallestLeaf) {
+  const Geometry geometry = circle_in_square(0.1);
+  const SizeOptions options = options_with(0.05, 0.5, 1.5);
+  const Tree before(geometry, options);
+  const auto coarsest =
+      std::min_element(before.leaves.begin(), before.leaves.end(), [](const Quadrant& a, const Quadrant& b) { return a.level < b.level; });
+  const Quadrant deep = coarsest->child(3).child(0).child(3).child(3).child(0);
+  const std::vector<SplitDemand> demands{{deep, 1U << deep.level}};
+  const Tree after(geometry, options, test::world().is_root() ? demands : std::vector<SplitDemand>{});
+  EXPECT_LT(after.lattice.edge(deep.level + 1), 0.05);
+  int split = 0;
+  for (const Quadrant& q : after.leaves) {
+    EXPECT_FALSE(q.contains(deep));
+    if (deep.contains(q)) split += q.level == deep.level + 1 ? 1 : 0;
+    for (const Quadrant& r : after.leaves) {
+      if (chebyshev_gap(q, r) == 0) {
+        EXPECT_LE(std::abs(q.level - r.level), 1);
+      }
+    }
+  }
+  EXPECT_EQ(split, 4);
+  for (const Quadrant& q : before.leaves) {
+    const bool kept = std::any_of(after.leaves.begin(), after.leaves.end(), [&](const Quadrant& r) { return q.contains(r); });
+    EXPECT_TRUE(kept) << "the new tree is a refinement of the old one";
+  }
 }
 
 TEST(TreeRules, GapsAreResolvedButCornersAreNot) {

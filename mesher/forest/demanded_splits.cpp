@@ -1,0 +1,127 @@
+#include "mesher/forest/demanded_splits.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::size_t block = 16;
+constexpr std::uint8_t children_bits = 0xf, asked_bit = 0x10;
+
+std::uint64_t spread(std::uint64_t bits) {
+  bits &= 0xffffffffULL;
+  bits = (bits | (bits << 16)) & 0x0000ffff0000ffffULL;
+  bits = (bits | (bits << 8)) & 0x00ff00ff00ff00ffULL;
+  bits = (bits | (bits << 4)) & 0x0f0f0f0f0f0f0f0fULL;
+  bits = (bits | (bits << 2)) & 0x3333333333333333ULL;
+  return (bits | (bits << 1)) & 0x5555555555555555ULL;
+}
+
+/// Of the quadrant of this level that holds a place. No quadrant deeper than this is split: its coordinates in units of its size fit into 32 bits.
+std::uint64_t key_of(const Quadrant& place, int level) {
+  const int shift = Quadrant::unit_level - level;
+  return spread(static_cast<std::uint64_t>(place.x >> shift)) | (spread(static_cast<std::uint64_t>(place.y >> shift)) << 1);
+}
+
+void make_unique(std::vector<std::uint64_t>& keys) {
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+}
+
+using KeysOfLevels = std::array<std::vector<std::uint64_t>, Quadrant::unit_level>;
+
+/// The keys that are asked for, level by level, the same on all ranks.
+KeysOfLevels gather_asked(const Communicator& comm, std::span<const SplitDemand> demands) {
+  KeysOfLevels asked;
+  for (const SplitDemand& demand : demands) {
+    for (std::uint32_t levels = demand.levels; levels != 0; levels &= levels - 1) {
+      const int level = std::countr_zero(levels);
+      QUADLOOP_REQUIRE(level <= demand.leaf.level && level < Quadrant::unit_level - 1, "a split below its leaf, or below the lattice");
+      auto& keys = asked[static_cast<std::size_t>(level)];
+      const std::uint64_t key = key_of(demand.leaf, level);
+      if (keys.empty() || keys.back() != key) keys.push_back(key);
+    }
+  }
+  for (auto& keys : asked) {
+    make_unique(keys);
+    keys = comm.all_gather_values(std::span<const std::uint64_t>(keys));
+    make_unique(keys);
+  }
+  return asked;
+}
+
+/// Those keys and all above them.
+KeysOfLevels with_ancestors(KeysOfLevels keys) {
+  for (std::size_t level = keys.size() - 1; level > 0; --level) {
+    for (const std::uint64_t key : keys[level]) {
+      if (keys[level - 1].empty() || keys[level - 1].back() != key >> 2) keys[level - 1].push_back(key >> 2);
+    }
+    make_unique(keys[level - 1]);
+  }
+  return keys;
+}
+
+}  // namespace
+
+DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands) {
+  const KeysOfLevels asked = gather_asked(comm, demands), all = with_ancestors(asked);
+  std::int32_t first = 0;
+  for (std::size_t level = 0; level < all.size() && !all[level].empty(); ++level) {
+    const auto begin = static_cast<std::int32_t>(masks_.size());
+    append_level(all[level], asked[level], level == 0 ? std::span<const Key>{} : std::span<const Key>(all[level - 1]), first);
+    first = begin;
+    finest_ = static_cast<int>(level) + 1;
+  }
+  roots_ = all[0];
+  std::int32_t children = 0;
+  for (std::size_t i = 0; i < masks_.size(); ++i) {
+    if (i % block == 0) children_before_.push_back(children);
+    children += std::popcount(static_cast<unsigned>(masks_[i] & children_bits));
+  }
+}
+
+/// `first_above` is the number of the first of the level above. Marks the parents.
+void DemandedSplits::append_level(std::span<const Key> all, std::span<const Key> asked, std::span<const Key> above, std::int32_t first_above) {
+  std::size_t next_asked = 0, parent = 0;
+  for (const Key key : all) {
+    const bool is_asked = next_asked < asked.size() && asked[next_asked] == key;
+    if (is_asked) ++next_asked;
+    masks_.push_back(is_asked ? asked_bit : 0);
+    if (above.empty()) continue;
+    while (above[parent] != key >> 2) ++parent;
+    masks_[static_cast<std::size_t>(first_above) + parent] |= static_cast<std::uint8_t>(1U << (key & 3));
+  }
+}
+
+std::int32_t DemandedSplits::root(std::int64_t tree_x, std::int64_t tree_y) const {
+  const Key key = key_of({tree_x << Quadrant::unit_level, tree_y << Quadrant::unit_level, 0}, 0);
+  const auto found = std::lower_bound(roots_.begin(), roots_.end(), key);
+  return found == roots_.end() || *found != key ? none : static_cast<std::int32_t>(found - roots_.begin());
+}
+
+std::int32_t DemandedSplits::child(std::int32_t number, int k) const {
+  const auto at = static_cast<std::size_t>(number);
+  if ((masks_[at] >> k & 1) == 0) return none;
+  std::int32_t before = children_before_[at / block];
+  for (std::size_t i = at - at % block; i < at; ++i) before += std::popcount(static_cast<unsigned>(masks_[i] & children_bits));
+  before += std::popcount(static_cast<unsigned>(masks_[at]) & ((1U << k) - 1));
+  return static_cast<std::int32_t>(roots_.size()) + before;
+}
+
+std::uint32_t DemandedSplits::levels_above(const Quadrant& leaf) const {
+  std::uint32_t levels = 0;
+  std::int32_t number = root(leaf.x >> Quadrant::unit_level, leaf.y >> Quadrant::unit_level);
+  for (int level = 0; number != none && level < leaf.level; ++level) {
+    if ((masks_[static_cast<std::size_t>(number)] & asked_bit) != 0) levels |= 1U << level;
+    const int shift = Quadrant::unit_level - 1 - level;
+    number = child(number, static_cast<int>(((leaf.x >> shift) & 1) | ((leaf.y >> shift) & 1) << 1));
+  }
+  return levels;
+}
+
+}  // namespace quadloop
