@@ -23,6 +23,7 @@ constexpr double longest_timeout = 1e9;  // seconds; its nanoseconds fit into 64
 /// The array of pointers that exec wants; it lives as long as the strings.
 std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
   std::vector<char*> pointers;
+  pointers.reserve(strings.size() + 1);
   for (const std::string& text : strings) pointers.push_back(const_cast<char*>(text.c_str()));
   pointers.push_back(nullptr);
   return pointers;

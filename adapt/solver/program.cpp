@@ -25,7 +25,7 @@ bool may_be_run(const std::string& path) { return ::access(path.c_str(), X_OK) =
 
 /// `name` has a slash.
 std::string program_at(const std::string& name, const std::string& folder) {
-  const std::string path = std::filesystem::path(folder) / name;
+  std::string path = std::filesystem::path(folder) / name;
   if (!is_file(path)) {
     const bool relative = name.front() != '/';
     refuse(name, relative ? "is not in the cycle's folder, where it is looked for; write {case}/" + name + " for one beside the case file"
@@ -42,7 +42,7 @@ std::string find_program(const std::string& name, const std::string& search, con
   if (name.find('/') != std::string::npos) return program_at(name, folder);
   std::istringstream folders(search);
   for (std::string candidate; std::getline(folders, candidate, ':');) {
-    const std::string path = std::filesystem::absolute(candidate.empty() ? "." : candidate) / name;
+    std::string path = std::filesystem::absolute(candidate.empty() ? "." : candidate) / name;
     if (is_file(path) && may_be_run(path)) return path;
   }
   refuse(name, "is in no folder of PATH; install it, write its full path, or {case}/" + name + " for one beside the case file");
