@@ -1,8 +1,10 @@
 #include "mesher/base/communicator.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <string>
+#include <thread>
 
 #include "mesher/base/error.hpp"
 
@@ -10,6 +12,7 @@ namespace quadloop {
 
 namespace {
 
+constexpr auto shortest_nap = std::chrono::microseconds(100), longest_nap = std::chrono::microseconds(10000);
 constexpr std::size_t largest_message = std::size_t{1} << 30;  // MPI counts are 32-bit: longer data go in pieces
 
 template <class T>
@@ -38,6 +41,7 @@ std::vector<int> offsets_of(const std::vector<int>& counts) {
   switch (status) {
     case ExitStatus::bad_input: throw InputError(message);
     case ExitStatus::wrong_usage: throw UsageError(message);
+    case ExitStatus::solver_failed: throw SolverError(message);
     case ExitStatus::output_failed: throw OutputError(message);
     case ExitStatus::fault: throw Fault(message);
     default: throw Error(status, message);
@@ -67,6 +71,16 @@ std::int64_t Communicator::exclusive_sum(std::int64_t value) const {
 }
 
 void Communicator::barrier() const { MPI_Barrier(comm_); }
+
+void Communicator::patient_barrier() const {
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(comm_, &request);
+  auto nap = shortest_nap;
+  for (int done = 0; done == 0; nap = std::min(2 * nap, longest_nap)) {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done == 0) std::this_thread::sleep_for(nap);
+  }
+}
 
 std::vector<std::byte> Communicator::all_gather_bytes(std::span<const std::byte> bytes) const {
   const int mine = count_of(bytes.size());

@@ -34,6 +34,9 @@ class Communicator {
   /// The sum of the values of all lower ranks.
   std::int64_t exclusive_sum(std::int64_t value) const;
   void barrier() const;
+  /// A barrier for a wait of seconds to hours: a rank that waits sleeps between its looks, so that the processors are free for another program,
+  /// where barrier() keeps each of them busy. Ranks leave it up to 10 ms late for each doubling of their number.
+  void patient_barrier() const;
 
   /// One value from every rank, in the order of ranks, on every rank.
   template <class T>
