@@ -12,9 +12,8 @@
 #include "app/digests.hpp"
 #include "app/settings.hpp"
 #include "app/summary.hpp"
-#include "io/cgns_file.hpp"
 #include "io/input/geom_text.hpp"
-#include "io/native_file.hpp"
+#include "io/mesh_file.hpp"
 #include "io/output_file.hpp"
 #include "io/tree_file.hpp"
 #include "mesher/base/error.hpp"
@@ -90,9 +89,7 @@ void write_outputs(const Communicator& comm, const MeshResult& result, const Pre
   OutputSet outputs(comm);
   const Settings& settings = prepared.settings;
   for (const std::string& format : settings.formats) {
-    const std::string path = settings.output_prefix + "." + format;
-    if (format == "mesh") write_native(outputs, result.mesh, path);
-    if (format == "cgns") write_cgns(outputs, result.mesh, path);
+    write_mesh(outputs, result.mesh, settings.output_prefix + "." + format);
   }
   if (!geometry_out.empty()) write_geometry(outputs, *prepared.geometry, geometry_out);
   write_tree(outputs, result.tree, settings.output_prefix + ".tree.h5");

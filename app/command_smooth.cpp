@@ -139,7 +139,7 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
 void add_smooth_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<SmoothArguments>();
   CLI::App* command = app.add_subcommand("smooth", "move a mesh's nodes to better the shapes of its cells");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .su2 or .msh)")->required()->type_name("IN");
+  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")->required()->type_name("IN");
   command->add_option("-o,--output", arguments->output, "the smoothed mesh, in the format of its suffix")->required()->type_name("OUT");
   command->add_option("--sweeps", arguments->sweeps, "how often each node is visited at most: 20")->type_name("N")->check(CLI::Range(0, 100000));
   command->add_option("--method", arguments->method, "how a node's place is looked for: perturb (the default) or nlopt")

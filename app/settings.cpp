@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -152,7 +153,10 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
   if (table->has("formats")) {
     settings.formats.clear();
     for (const std::string& format : table->texts("formats")) {
-      if (format != "mesh" && format != "cgns") table->refuse("formats", fmt::format("holds '{}', but this version writes: mesh, cgns", format));
+      constexpr std::array known{"mesh", "cgns", "vtu", "su2", "msh"};
+      if (std::find(known.begin(), known.end(), format) == known.end()) {
+        table->refuse("formats", fmt::format("holds '{}', but this version writes: mesh, cgns, vtu, su2, msh", format));
+      }
       if (std::find(settings.formats.begin(), settings.formats.end(), format) == settings.formats.end()) settings.formats.push_back(format);
     }
   }

@@ -124,7 +124,7 @@ class Plot(unittest.TestCase):
 
     def test_refusals(self):
         self.refused(1, ".png, .svg or .pdf", "a.mesh", "-o", "a.jpg")
-        self.refused(1, "give a .mesh, .cgns, .su2 or .msh file", "a.vtk", "-o", "a.png")
+        self.refused(1, "give a .mesh, .cgns, .vtu, .su2 or .msh file", "a.vtk", "-o", "a.png")
         self.refused(1, "none.mesh", "none.mesh", "-o", "a.png")
         self.refused(1, "window is empty", "a.mesh", "-o", "a.png", "--window=1,1,0,1")
         self.refused(1, "no cell lies in the window", "a.mesh", "-o", "a.png", "--window=5,6,0,1")
