@@ -38,6 +38,7 @@ std::vector<int> offsets_of(const std::vector<int>& counts) {
   switch (status) {
     case ExitStatus::bad_input: throw InputError(message);
     case ExitStatus::wrong_usage: throw UsageError(message);
+    case ExitStatus::solver_failed: throw SolverError(message);
     case ExitStatus::output_failed: throw OutputError(message);
     case ExitStatus::fault: throw Fault(message);
     default: throw Error(status, message);

@@ -30,6 +30,12 @@ class UsageError : public Error {
   explicit UsageError(const std::string& message) : Error(ExitStatus::wrong_usage, message) {}
 };
 
+/// A flow solver failed (exit status 3).
+class SolverError : public Error {
+ public:
+  explicit SolverError(const std::string& message) : Error(ExitStatus::solver_failed, message) {}
+};
+
 /// An output could not be written (exit status 4).
 class OutputError : public Error {
  public:
