@@ -4,17 +4,20 @@
 #include <algorithm>
 #include <numeric>
 
-#include "adapt/euler/flux_jacobian.hpp"
-#include "adapt/euler/residual.hpp"
 
 namespace quadloop::euler {
 
 namespace {
 
-template <class Float>
-void store(const Matrix4& matrix, double factor, std::array<Float, 16>& block) {
-  for (std::size_t k = 0; k < 16; ++k) block[k] = static_cast<Float>(factor * matrix[k]);
+/// Row by row to column by column.
+void store(const Matrix4& matrix, double factor, std::array<float, 16>& block) {
+  for (std::size_t row = 0; row < 4; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) block[4 * column + row] = static_cast<float>(factor * matrix[4 * row + column]);
+  }
 }
+
+using MatrixMap = Eigen::Map<const Eigen::Matrix4f>;  // column by column
+using VectorMap = Eigen::Map<const Eigen::Vector4f>;
 
 void add(const Matrix4& matrix, double factor, Matrix4& sum) {
   for (std::size_t k = 0; k < 16; ++k) sum[k] += factor * matrix[k];
@@ -34,7 +37,7 @@ void add_wall_matrix(const Gas& gas, const State& state, Point normal, double fa
 }  // namespace
 
 ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model)
-    : mesh_{mesh}, model_{model}, colours_{colour_nodes(comm, mesh)}, diagonal_(mesh.nodes()), wave_sums_(mesh.nodes()) {
+    : mesh_{mesh}, model_{model}, colours_{colour_nodes(comm, mesh)}, diagonal_(mesh.nodes()), inverses_(static_cast<std::size_t>(mesh.owned_nodes())), wave_sums_(mesh.nodes()) {
   lay_out();
 }
 
@@ -67,7 +70,7 @@ void ImplicitSystem::lay_out() {
 }
 
 void ImplicitSystem::assemble(const std::vector<State>& states, double cfl) {
-  for (Block& block : diagonal_) block = {};
+  for (Matrix4& block : diagonal_) block = {};
   std::fill(wave_sums_.begin(), wave_sums_.end(), 0.0);
   add_edges(states);
   add_faces(states);
@@ -82,8 +85,8 @@ void ImplicitSystem::add_edges(const std::vector<State>& states) {
     const auto low = static_cast<std::size_t>(edge.low), high = static_cast<std::size_t>(edge.high);
     Matrix4 upwind{};
     const double half = 0.5 * edge.size, speed = add_upwind_matrix(model_.gas, states[low], states[high], edge.normal, half, upwind);
-    Matrix4 by_low = upwind, by_high;
-    store(upwind, -1, by_high);
+    Matrix4 by_low = upwind, by_high{};
+    add(upwind, -1, by_high);
     add_flux_matrix(model_.gas, states[low], edge.normal, half, by_low);
     add_flux_matrix(model_.gas, states[high], edge.normal, half, by_high);
     add(by_low, 1, diagonal_[low]);
@@ -120,8 +123,9 @@ void ImplicitSystem::invert_diagonal(double cfl) {
     using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
     Eigen::Map<Matrix> block(diagonal_[node].data());
     block.diagonal().array() += wave_sums_[node] / cfl;  // the area over the time step
-    const Matrix inverse = block.inverse();
-    block = inverse;
+    Matrix4 inverse;
+    Eigen::Map<Matrix>(inverse.data()) = block.inverse();
+    store(inverse, 1, inverses_[node]);
   }
 }
 
@@ -139,18 +143,12 @@ void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::v
 void ImplicitSystem::relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual, std::vector<Change>& change) const {
   for (std::size_t row = begin; row < end; ++row) {
     const auto node = static_cast<std::size_t>(row_nodes_[row]);
-    std::array<double, 4> right{-residual[node][0], -residual[node][1], -residual[node][2], -residual[node][3]};
+    Eigen::Vector4f right;
+    for (int k = 0; k < 4; ++k) right[k] = static_cast<float>(-residual[node][static_cast<std::size_t>(k)]);
     for (std::size_t slot = row_starts_[row]; slot < row_starts_[row + 1]; ++slot) {
-      const SmallBlock& block = blocks_[slot];
-      const Change& other = change[static_cast<std::size_t>(columns_[slot])];
-      for (std::size_t i = 0; i < 4; ++i) {
-        right[i] -= block[4 * i] * other[0] + block[4 * i + 1] * other[1] + block[4 * i + 2] * other[2] + block[4 * i + 3] * other[3];
-      }
+      right.noalias() -= MatrixMap(blocks_[slot].data()) * VectorMap(change[static_cast<std::size_t>(columns_[slot])].data());
     }
-    const Block& inverse = diagonal_[node];
-    for (std::size_t i = 0; i < 4; ++i) {
-      change[node][i] = inverse[4 * i] * right[0] + inverse[4 * i + 1] * right[1] + inverse[4 * i + 2] * right[2] + inverse[4 * i + 3] * right[3];
-    }
+    Eigen::Map<Eigen::Vector4f>(change[node].data()).noalias() = MatrixMap(inverses_[node].data()) * right;
   }
 }
 

@@ -5,14 +5,15 @@
 #include "adapt/euler/colouring.hpp"
 #include "adapt/euler/dual_mesh.hpp"
 #include "adapt/euler/flow_model.hpp"
+#include "adapt/euler/flux_jacobian.hpp"
 
 namespace quadloop::euler {
 
-using Change = std::array<double, 4>;  ///< of what is conserved
+using Change = std::array<float, 4>;  ///< of what is conserved
 
 /// The linear system of an implicit step: (area / time step + first-order upwind flux matrix) change = -residual, one row of 4 x 4 blocks for each owned
-/// node. It is relaxed by coloured Gauss-Seidel sweeps, whose bits do not depend on the number of ranks. Blocks beside the diagonal are kept in
-/// single precision: they only steer the way to the solution.
+/// node. It is relaxed by coloured Gauss-Seidel sweeps, whose bits do not depend on the number of ranks, in single precision: it only steers the way to
+/// the solution.
 class ImplicitSystem {
  public:
   /// Both must outlive it. *Collective.*
@@ -25,8 +26,7 @@ class ImplicitSystem {
   void relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change) const;
 
  private:
-  using Block = std::array<double, 16>;
-  using SmallBlock = std::array<float, 16>;
+  using Block = std::array<float, 16>;  ///< column by column
   struct Slots {
     std::int32_t in_low = -1, in_high = -1;  ///< the edge's blocks in the rows of its nodes; -1 where another rank has the row
   };
@@ -43,9 +43,10 @@ class ImplicitSystem {
   std::vector<std::size_t> colour_starts_;  ///< into them
   std::vector<std::size_t> row_starts_;     ///< into the two lists that follow
   std::vector<std::int32_t> columns_;
-  std::vector<SmallBlock> blocks_;
+  std::vector<Block> blocks_;
   std::vector<Slots> slots_;       ///< of each edge
-  std::vector<Block> diagonal_;    ///< of each node; after assembly the inverses, for the owned ones
+  std::vector<Matrix4> diagonal_;  ///< of each node
+  std::vector<Block> inverses_;    ///< of each owned node's diagonal block
   std::vector<double> wave_sums_;  ///< of each node: half the sum of largest wave speed times size over its faces
 };
 

@@ -63,6 +63,10 @@ EulerResult march_in_time(const FlowRun& run) {
   while (true) {
     const std::vector<Flux>& fluxes = run.residual.evaluate(run.states);
     const double norm = mass_residual(run, fluxes);
+    if (!std::isfinite(norm)) {
+      throw SolverError(fmt::format("the flow solver failed at time {:.6g} {}; look at the boundary conditions and the cells there, or try a smaller cfl",
+                                    result.time, worst_place(run, fluxes)));
+    }
     reference = std::max(reference, result.iterations == 0 ? norm : 0);
     result.residual = reference > 0 ? norm / reference : 0;
     result.converged = result.time >= run.options.end_time;
