@@ -11,14 +11,12 @@ namespace quadloop::euler {
 
 namespace {
 
-using enum DualMesh::EdgeKind;
-
 /// One cell's part of an edge's dual face.
 struct Facet {
   std::int64_t global_low, global_high;
   std::int32_t low, high;
-  Point normal;  ///< as long as the facet
-  DualMesh::EdgeKind kind;
+  Point normal;          ///< as long as the facet
+  Point with_x, with_y;  ///< as of a SkewEdge
 };
 
 template <class Nodes>
@@ -34,12 +32,24 @@ Point middle(Point a, Point b) { return 0.5 * (a + b); }
 Point turned(Point v) { return {v.y, -v.x}; }
 
 /// The part of the edge from node a to node b of a counter-clockwise cell.
-Facet facet_of(const HaloMesh& mesh, NodeId a, NodeId b, Point centre, DualMesh::EdgeKind kind) {
-  const Point normal = turned(centre - middle(mesh.point(a), mesh.point(b)));
+Facet facet_of(const HaloMesh& mesh, NodeId a, NodeId b, Point centre, bool is_quad) {
   const std::int64_t global_a = mesh.global(a.value()), global_b = mesh.global(b.value());
-  if (global_a < global_b) return {global_a, global_b, a.value(), b.value(), normal, kind};
-  return {global_b, global_a, b.value(), a.value(), -1.0 * normal, kind};
+  const double side = global_a < global_b ? 1 : -1;
+  const Point along = mesh.point(b) - mesh.point(a), across = centre - middle(mesh.point(a), mesh.point(b)), normal = side * turned(across);
+  Facet facet{global_a, global_b, a.value(), b.value(), normal, {}, {}};
+  if (is_quad) {  // half from the facet's own middle; the rest is what each triangle leaves over at an edge for the next one
+    facet.with_x = 0.5 * across.x * normal + side * along.x / 24 * turned(along);
+    facet.with_y = 0.5 * across.y * normal + side * along.y / 24 * turned(along);
+  }
+  if (side < 0) {
+    std::swap(facet.global_low, facet.global_high);
+    std::swap(facet.low, facet.high);
+  }
+  return facet;
 }
+
+/// Less than this share of an edge's length squared is rounding.
+constexpr double least_skew = 1e-10;
 
 /// Twice the area of a quadrilateral.
 double twice_area(const std::array<Point, 4>& p) { return cross(p[2] - p[0], p[3] - p[1]); }
@@ -55,7 +65,7 @@ DualMesh::DualMesh(const Communicator& comm, const Mesh& mesh) : halo_(comm, mes
   add_areas();
   collect_edges();
   comm.together([&] { collect_faces(); });
-  edge_kinds_ = {};
+  open_ = {};
 }
 
 void DualMesh::add_areas() {
@@ -76,23 +86,28 @@ void DualMesh::collect_edges() {
   std::vector<Facet> facets;
   halo_.for_each_cell([&](const auto& nodes) {
     const Point centre = centre_of(halo_, nodes);
-    const EdgeKind kind = nodes.size() == 3 ? of_triangle : of_quad;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const NodeId a = nodes[k], b = nodes[(k + 1) % nodes.size()];
-      if (is_owned(a.value()) || is_owned(b.value())) facets.push_back(facet_of(halo_, a, b, centre, kind));
+      if (is_owned(a.value()) || is_owned(b.value())) facets.push_back(facet_of(halo_, a, b, centre, nodes.size() == 4));
     }
   });
   std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) {
     return a.global_low != b.global_low ? a.global_low < b.global_low : a.global_high < b.global_high;
   });
   for (std::size_t i = 0; i < facets.size();) {
-    const Facet& first = facets[i];
-    Point normal = first.normal;
+    Facet sum = facets[i];
     std::size_t end = i + 1;
-    for (; end < facets.size() && facets[end].low == first.low && facets[end].high == first.high; ++end) normal = normal + facets[end].normal;
-    const double size = length(normal);
-    edges_.push_back({first.low, first.high, size > 0 ? (1 / size) * normal : Point{}, size, 0.5 * (point(first.high) - point(first.low))});
-    edge_kinds_.push_back(end == i + 1 ? first.kind : inside);
+    for (; end < facets.size() && facets[end].low == sum.low && facets[end].high == sum.high; ++end) {
+      sum.normal = sum.normal + facets[end].normal;
+      sum.with_x = sum.with_x + facets[end].with_x;
+      sum.with_y = sum.with_y + facets[end].with_y;
+    }
+    const double size = length(sum.normal);
+    const Point half = 0.5 * (point(sum.high) - point(sum.low));
+    const double skew = std::max(length(sum.with_x), length(sum.with_y));
+    if (skew > least_skew * dot(half, half)) skew_edges_.push_back({edges_.size(), sum.with_x, sum.with_y});
+    edges_.push_back({sum.low, sum.high, size > 0 ? (1 / size) * sum.normal : Point{}, size, half});
+    open_.push_back(end == i + 1 ? 1 : 0);
     i = end;
   }
 }
@@ -109,18 +124,17 @@ void DualMesh::collect_faces() {
         std::lower_bound(edges_.begin(), edges_.end(), wanted, [&](const DualEdge& edge, const auto& at) { return key(edge.low, edge.high) < at; });
     const Point from = point(e.from.value()), to = point(e.to.value());
     if (found == edges_.end() || key(found->low, found->high) != wanted) refuse_edge("boundary edge", from, to, "belongs to no cell; mesh it anew");
-    EdgeKind& kind = edge_kinds_[static_cast<std::size_t>(found - edges_.begin())];
-    if (kind == inside || kind == covered) {
+    char& open = open_[static_cast<std::size_t>(found - edges_.begin())];
+    if (open == 0) {
       refuse_edge("boundary edge", from, to, "has cells on both sides or is there twice, and the flow solver takes one domain alone; mesh without it");
     }
     const Point outward = turned(to - from);
     const double size = length(outward);
-    // With these shares the fluxes of a linear field add up exactly where the cells are triangles, or parallelograms.
-    faces_.push_back({e.from.value(), e.to.value(), e.boundary, (1 / size) * outward, 0.5 * size, kind == of_triangle ? 1.0 / 6 : 0.0});
-    kind = covered;
+    faces_.push_back({e.from.value(), e.to.value(), e.boundary, (1 / size) * outward, 0.5 * size});
+    open = 0;
   }
   for (std::size_t i = 0; i < edges_.size(); ++i) {
-    if (edge_kinds_[i] == of_triangle || edge_kinds_[i] == of_quad) {
+    if (open_[i] != 0) {
       refuse_edge("edge", point(edges_[i].low), point(edges_[i].high), "has a cell on one side alone but is on no boundary; give the mesh a boundary there");
     }
   }

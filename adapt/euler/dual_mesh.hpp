@@ -16,13 +16,20 @@ struct DualEdge {
   Point half;              ///< from the first node to the edge's middle
 };
 
+/// What an edge's dual face lacks of symmetry about the edge's middle, where cells beside it are quadrilaterals: the integral over the face of place
+/// (from the middle) times normal. A flux that varies linearly carries that times its gradient beside its value in the middle. In triangles these
+/// terms cancel round each node; what is here counts from that, so that the fluxes of a linear field add up exactly on any mesh.
+struct SkewEdge {
+  std::size_t edge;      ///< into the edges
+  Point with_x, with_y;  ///< normals that go with the gradient along x and along y
+};
+
 /// A boundary edge, the domain to its left.
 struct BoundaryFace {
   std::int32_t from, to;
   std::int32_t boundary;
-  Point normal;        ///< of length 1, out of the domain
-  double half_size;    ///< each of its two nodes has one half of it
-  double other_share;  ///< the state that acts on one node's half is (1 - share) of its own and this share of the other's
+  Point normal;      ///< of length 1, out of the domain
+  double half_size;  ///< each of its two nodes has one half of it
 };
 
 /// The median dual of a mesh around this rank's owned nodes: each node's part of a cell is bounded by the middles of its two edges and the mean of the
@@ -42,10 +49,8 @@ class DualMesh {
 
   std::span<const double> areas() const { return areas_; }  ///< of the owned nodes' dual cells
   std::span<const DualEdge> edges() const { return edges_; }
+  std::span<const SkewEdge> skew_edges() const { return skew_edges_; }
   std::span<const BoundaryFace> faces() const { return faces_; }
-
-  /// What an edge has beside it: two cells, one triangle, one quadrilateral, or a cell and a boundary.
-  enum class EdgeKind : char { inside, of_triangle, of_quad, covered };
 
  private:
   void add_areas();
@@ -55,7 +60,8 @@ class DualMesh {
   HaloMesh halo_;
   std::vector<double> areas_;
   std::vector<DualEdge> edges_;
-  std::vector<EdgeKind> edge_kinds_;  ///< while it is built
+  std::vector<SkewEdge> skew_edges_;
+  std::vector<char> open_;  ///< while it is built, for each edge: 1 where it has one cell and no boundary yet
   std::vector<BoundaryFace> faces_;
 };
 

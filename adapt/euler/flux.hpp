@@ -14,6 +14,17 @@ inline Flux physical_flux(const Gas& gas, const State& state, Point normal) {
   return {mass, mass * u + p * normal.x, mass * v + p * normal.y, mass * gas.total_enthalpy(state)};
 }
 
+/// How the physical flux through a normal of any length answers to a small change of the state: its derivative.
+inline Flux flux_change(const Gas& gas, const State& state, const State& change, Point normal) {
+  const auto& [rho, u, v, p] = state;
+  const auto& [d_rho, d_u, d_v, d_p] = change;
+  const double through = u * normal.x + v * normal.y, mass = rho * through;
+  const double d_mass = d_rho * through + rho * (d_u * normal.x + d_v * normal.y);
+  const double d_enthalpy = gas.gamma / (gas.gamma - 1) * (d_p - p * d_rho / rho) / rho + u * d_u + v * d_v;
+  return {d_mass, d_mass * u + mass * d_u + d_p * normal.x, d_mass * v + mass * d_v + d_p * normal.y,
+          d_mass * gas.total_enthalpy(state) + mass * d_enthalpy};
+}
+
 /// Sizes of the three wave speeds through a face, kept away from zero.
 struct WaveSpeeds {
   double fast, slow, middle;  ///< |q + c|, |q - c|, |q|, with q the speed along the normal
