@@ -52,8 +52,9 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   const MeshFault& first = report.faults.front();
   const std::size_t more = report.faults.size() - 1;
   const std::string others = more == 0 ? "" : fmt::format("; {} fault{} more", more, more == 1 ? "" : "s");
-  throw InputError(
-      fmt::format("{}: invalid mesh: {}: {} at ({}, {}){}", report.file, name_of(first.rule), first.what, first.place.x, first.place.y, others));
+  const char* cure = first.rule == MeshRule::geometry ? "; give the file that `mesh --geometry-out` wrote" : "";
+  throw InputError(fmt::format("{}: invalid mesh: {}: {} at ({}, {}){}{}", report.file, name_of(first.rule), first.what, first.place.x, first.place.y,
+                               others, cure));
 }
 
 void check_on_root(const CommandContext& context, const CheckArguments& arguments) {

@@ -56,7 +56,14 @@ void require_case_file(const std::string& path) {
   }
 }
 
+/// `-o out.mesh` would write out.mesh.mesh.
+void require_prefix(const std::string& prefix) {
+  const std::string suffix = format_suffix_of(prefix);
+  if (!suffix.empty()) throw UsageError("-o " + prefix + ": give the prefix without " + suffix + ", which is added");
+}
+
 Prepared prepare(const MeshArguments& arguments) {
+  require_prefix(arguments.prefix);
   require_case_file(arguments.case_path);
   Prepared prepared;
   std::vector<std::string> assignments = arguments.assignments;
@@ -162,7 +169,9 @@ void add_mesh_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand("mesh", "mesh the domain that a case file describes");
   command->add_option("case", arguments->case_path, "the case file (TOML)")->required()->type_name("CASE.toml");
   command->add_option("-o,--output", arguments->prefix, "what the output files begin with, instead of output.prefix")->type_name("PREFIX");
-  command->add_option("--type", arguments->type, "kind of mesh, instead of mesh.type: hybrid or delaunay")->type_name("TYPE");
+  command->add_option("--type", arguments->type, "kind of mesh, instead of mesh.type: hybrid or delaunay")
+      ->type_name("TYPE")
+      ->check(CLI::IsMember({"hybrid", "delaunay"}));
   command->add_option("--geometry-out", arguments->geometry_out, "write the geometry as it is meshed")->type_name("OUT.geom");
   command->add_option("--set", arguments->assignments, "set a key of the case file, as in spacing.min=0.1; may be repeated")
       ->type_name("KEY=VALUE")

@@ -10,6 +10,7 @@
 #include "io/input/case_file.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/forest/lattice.hpp"
 
 namespace quadloop {
 
@@ -38,7 +39,9 @@ void read_geometry_table(const CaseTable& root, const std::string& case_path, Se
     const auto move = of_file(*table, "translate", moves, i, files.size(), {0, 0});
     const double turn = of_file(*table, "rotate", turns, i, files.size(), 0.0);
     const double scale = of_file(*table, "scale", scales, i, files.size(), 1.0);
-    settings.files.push_back({(std::filesystem::path(case_path).parent_path() / files[i]).string(), {scale, turn, {move[0], move[1]}}});
+    settings.files.push_back({(std::filesystem::path(case_path).parent_path() / files[i]).string(),
+                              fmt::format("{}: 'geometry.file'", table->place("file")),
+                              {scale, turn, {move[0], move[1]}}});
   }
   if (const auto width = table->number("far_field", Range::positive())) {
     settings.far_field = FarField{*width, fmt::format("{}: 'geometry.far_field'", table->place("far_field"))};
@@ -85,6 +88,7 @@ constexpr double largest_coordinate = 1e100;
 
 Source read_source(const CaseTable& table) {
   Source source;
+  source.where = table.place();
   const auto box = table.numbers("box", 4);
   const auto disc = table.numbers("disc", 3);
   const auto line = table.numbers("line", 4);
@@ -150,6 +154,9 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
   if (!table) return;
   settings.output_prefix = table->text("prefix").value_or(settings.output_prefix);
   if (settings.output_prefix.empty()) table->refuse("prefix", "is empty; name what the output files begin with");
+  if (const std::string suffix = format_suffix_of(settings.output_prefix); !suffix.empty()) {
+    table->refuse("prefix", fmt::format("is '{}'; give it without {}, which is added", settings.output_prefix, suffix));
+  }
   if (table->has("formats")) {
     settings.formats.clear();
     for (const std::string& format : table->texts("formats")) {
@@ -180,9 +187,21 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   return settings;
 }
 
+std::string format_suffix_of(const std::string& prefix) {
+  const std::string suffix = std::filesystem::path(prefix).extension();
+  for (const char* known : {".mesh", ".cgns", ".vtu", ".su2", ".msh", ".h5"}) {
+    if (suffix == known) return suffix;
+  }
+  return {};
+}
+
 Geometry load_geometry(const Settings& settings, Warnings& warnings) {
   std::vector<Chain> chains;
   for (const GeometryInput& input : settings.files) {
+    if (!std::filesystem::exists(input.path)) {
+      throw InputError(
+          fmt::format("{}: there is no file '{}'; check the name, which is relative to the case file's folder", input.where, input.path));
+    }
     std::vector<Chain> of_file = read_geometry(input.path, warnings);
     apply(input.transform, of_file);
     std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
@@ -207,6 +226,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
   Warnings warnings;
   const double min = options.size.min;
+  const Box root = choose_root(geometry, options.size.root).box();
   for (const Boundary& b : geometry.boundaries()) {
     if (b.spacing > 0 && b.spacing < min) {
       warnings.push_back(
@@ -215,7 +235,12 @@ Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) 
   }
   for (const Source& source : options.size.sources) {
     if (source.spacing < min) {
-      warnings.push_back(fmt::format("a [[source]] asks for a spacing of {}, but spacing.min = {} ends the refinement before", source.spacing, min));
+      warnings.push_back(fmt::format("{}: this [[source]] asks for a spacing of {}, but spacing.min = {} ends the refinement before", source.where,
+                                     source.spacing, min));
+    }
+    if (!meets(source, root)) {
+      warnings.push_back(fmt::format("{}: this [[source]] lies outside the root, which reaches from ({}, {}) to ({}, {}), and does nothing; move it",
+                                     source.where, root.low.x, root.low.y, root.high.x, root.high.y));
     }
   }
   return warnings;

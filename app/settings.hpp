@@ -15,6 +15,7 @@ namespace quadloop {
 /// One geometry file and how its coordinates are placed.
 struct GeometryInput {
   std::string path;
+  std::string where;  ///< the setting that names it, for messages
   Transform transform;
 };
 
@@ -41,6 +42,9 @@ struct Settings {
 /// and line.
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments);
 
+/// The suffix of a mesh or tree file that a prefix of output files ends in, if any: a slip, as suffixes are added to it.
+std::string format_suffix_of(const std::string& prefix);
+
 /// Reads, places and assembles the geometry. On the calling rank alone.
 Geometry load_geometry(const Settings& settings, Warnings& warnings);
 
@@ -48,7 +52,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings);
 /// if that is larger), min the smallest spacing that it asks for, but no less than 2^-20 of that side.
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
 
-/// One line for each boundary and source whose spacing is smaller than leaves may be.
+/// One line for each boundary and source whose spacing is smaller than leaves may be, and for each source outside the root of the trees.
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry);
 
 }  // namespace quadloop

@@ -23,6 +23,7 @@ bool is_known(const std::string& suffix) {
 
 void require_readable_suffix(const std::string& path) {
   if (is_known(suffix_of(path))) return;
+  if (std::filesystem::exists(path + ".mesh")) throw InputError(path + ": is no mesh file; do you mean '" + path + ".mesh'?");
   throw InputError(path + ": no mesh is read from the format '" + suffix_of(path) + "'; give a .mesh, .cgns, .vtu, .su2 or .msh file");
 }
 

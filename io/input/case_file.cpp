@@ -153,7 +153,11 @@ std::vector<CaseTable> CaseTable::tables(const std::string& key) const {
   const Lookup lookup(*this, key);
   std::vector<CaseTable> result;
   const std::string wanted = "a list of tables, each begun by [[" + full_name(key) + "]]";
-  for (const toml::node& value : lookup.list(*as_table(table_).get(key), wanted)) {
+  const toml::node& node = *as_table(table_).get(key);
+  if (node.is_table() && node.source().begin.line == 0) {  // made by an assignment to key.0.x
+    refuse(key, "has nothing in the case file that --set could change; write a [[" + full_name(key) + "]] there first (the first is number 0)");
+  }
+  for (const toml::node& value : lookup.list(node, wanted)) {
     if (!value.is_table()) lookup.refuse(wanted, value);
     result.emplace_back(data_, value.as_table(), fmt::format("{}.{}", full_name(key), result.size()));
   }

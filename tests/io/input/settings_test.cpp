@@ -127,6 +127,32 @@ TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(refused("far_field = 1\n").find("case.toml:3: 'geometry.far_field': a far field of half width 1"), 0u);
 }
 
+TEST_F(SettingsTest, NamesTheKeyOfAMissingGeometry) {
+  const std::string path = folder_.write("lost.toml", "title = \"x\"\n[geometry]\nfile = [\"box.geom\", \"none.geom\"]\n");
+  const std::string said = test::refusal(folder_, [&] { load(read_settings(path, {})); });
+  EXPECT_EQ(said.find("lost.toml:3: 'geometry.file': there is no file '"), 0u) << said;
+  EXPECT_NE(said.find("none.geom"), std::string::npos) << said;
+}
+
+TEST_F(SettingsTest, RefusesAPrefixWithASuffix) {
+  EXPECT_EQ(refused("[output]\nprefix = \"a.mesh\"\n").find("case.toml:4: 'output.prefix' is 'a.mesh'; give it without .mesh"), 0u);
+  EXPECT_EQ(read("[output]\nprefix = \"out/v1.2\"\n").output_prefix, "out/v1.2");
+  EXPECT_EQ(format_suffix_of("a.tree.h5"), ".h5");
+  EXPECT_EQ(format_suffix_of("a.mesh/b"), "");
+}
+
+TEST_F(SettingsTest, WarnsOfSourcesThatDoNothing) {
+  const Settings settings = read(
+      "[spacing]\nmin = 0.5\nmax = 1\n[[source]]\nbox = [3, 9, 3, 9]\nspacing = 1\n[[source]]\ndisc = [9, 2, 4.5]\nspacing = 1\n"
+      "[[source]]\nline = [5, 0, 5, 4]\nspacing = 0.25\n");  // the root is the box, 0 to 4
+  const Geometry geometry = load(settings);
+  const Warnings warnings = spacing_warnings(mesh_options(settings, geometry), geometry);
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_NE(warnings[0].find("case.toml:9: this [[source]] lies outside the root, which reaches from (0, 0) to (4, 4)"), std::string::npos);
+  EXPECT_NE(warnings[1].find("case.toml:12: this [[source]] asks for a spacing of 0.25"), std::string::npos);
+  EXPECT_NE(warnings[2].find("case.toml:12: this [[source]] lies outside the root"), std::string::npos);
+}
+
 TEST_F(SettingsTest, NeedsAGeometry) {
   const std::string path = folder_.write("none.toml", "title = \"x\"\n");
   EXPECT_EQ(test::refusal(folder_, [&] { read_settings(path, {}); }).find("none.toml"), 0u);
