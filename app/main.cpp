@@ -66,6 +66,9 @@ void run(int argc, char** argv, const Communicator& comm) {
   app.add_flag("-v,--verbose", context.verbose, verbose);
   add_mesh_command(app, context);
   add_smooth_command(app, context);
+  add_adapt_command(app, context);
+  add_solve_command(app, context);
+  add_remesh_command(app, context);
   add_check_command(app, context);
   add_plot_command(app, context);
   for (CLI::App* command : commands_of(app)) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/adapt_settings.hpp"
 #include "io/input/case_file.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
@@ -79,6 +80,10 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
     rule.spacing = table.number("spacing", Range::positive());
     rule.corner_degrees = table.number("corner", {0, 180});
     rule.condition = table.choice("bc", {"wall", "farfield", "inflow", "outflow", "symmetry", "interface", "none"});
+    if (const auto pressure = table.number("pressure", Range::positive())) {
+      if (rule.condition != "outflow") table.refuse("pressure", "needs bc = \"outflow\" in the same table; elsewhere there is none to set");
+      settings.solver.pressures.push_back({name, *pressure});
+    }
     table.finish();
     settings.outline.rules.push_back(std::move(rule));
   }
@@ -170,6 +175,15 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
   table->finish();
 }
 
+/// The far field where a saved tree has it, if its root is one of that size.
+Box saved_far_field(const Box& square, const TreeAttributes& saved) {
+  constexpr double rounding = 1e-9;
+  const Point low{saved.root_x, saved.root_y};
+  const bool is_root = saved.trees_x == 1 && saved.trees_y == 1 && std::abs(square.width() - saved.tree_edge) <= rounding * saved.tree_edge;
+  if (!is_root || (square.low == low && square.width() == saved.tree_edge)) return square;
+  return {low, low + Point{saved.tree_edge, saved.tree_edge}};
+}
+
 }  // namespace
 
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments) {
@@ -182,8 +196,11 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   for (const CaseTable& source : root.tables("source")) settings.mesh.size.sources.push_back(read_source(source));
   read_mesh_table(root, settings);
   read_smooth_table(root, settings);
+  settings.adapt = read_adapt_table(root);
+  read_solver_table(root, settings.solver);
   read_output_table(root, case_path, settings);
   root.finish();
+  settings.text = root.canonical_text({"title", "output", "adapt.cycles"});
   return settings;
 }
 
@@ -195,7 +212,7 @@ std::string format_suffix_of(const std::string& prefix) {
   return {};
 }
 
-Geometry load_geometry(const Settings& settings, Warnings& warnings) {
+Geometry load_geometry(const Settings& settings, Warnings& warnings, const std::optional<TreeAttributes>& saved) {
   std::vector<Chain> chains;
   for (const GeometryInput& input : settings.files) {
     if (!std::filesystem::exists(input.path)) {
@@ -206,7 +223,11 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings) {
     apply(input.transform, of_file);
     std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
   }
-  if (settings.far_field) add_far_field(chains, settings.far_field->half_width, settings.far_field->where);
+  if (settings.far_field) {
+    const auto& [half_width, where] = *settings.far_field;
+    const Box square = far_field_box(chains, half_width, where);
+    add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
+  }
   return assemble(std::move(chains), settings.outline, warnings);
 }
 

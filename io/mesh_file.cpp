@@ -51,11 +51,11 @@ void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& 
   if (suffix == ".msh") write_msh(outputs, whole, path);
 }
 
-void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
+void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
   const std::string suffix = suffix_of(path);
-  if (suffix == ".mesh") write_native(outputs, mesh, path);
-  if (suffix == ".cgns") write_cgns(outputs, mesh, path);
-  if (suffix == ".vtu") write_vtu(outputs, mesh, path);
+  if (suffix == ".mesh") write_native(outputs, mesh, path, solution);
+  if (suffix == ".cgns") write_cgns(outputs, mesh, path, solution);
+  if (suffix == ".vtu") write_vtu(outputs, mesh, path, solution);
   if (suffix == ".su2") write_su2(outputs, mesh, path);
   if (suffix == ".msh") write_msh(outputs, mesh, path);
 }

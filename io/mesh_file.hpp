@@ -18,8 +18,9 @@ void require_writable_suffix(const std::string& path);
 /// Writes a mesh that the set's only rank holds whole, with its solution and blocks as far as the format has a place for them. Throws OutputError.
 void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
 
-/// Writes a distributed mesh in the format that the suffix tells. *Collective.* Throws OutputError on all ranks.
-void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path);
+/// Writes a distributed mesh in the format that the suffix tells, with a solution where the format has a place for one. *Collective.* Throws
+/// OutputError on all ranks.
+void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr);
 
 /// What a format has no place for and the mesh has: one line each, with the file's name.
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path);

@@ -86,7 +86,8 @@ std::vector<std::string> require_match(const Geometry& outline, const Mesh& whol
   if (!absent.empty() && absent.size() == whole.boundaries.size()) {
     throw InputError(path + ": has none of the mesh's boundaries, " + listed(absent) + ", but " + listed(names_of(outline.boundaries())) + cure);
   }
-  if (!absent.empty()) warnings.push_back(path + ": lacks these boundaries of the mesh: " + listed(absent) + "; nodes there slide only where it is straight");
+  if (!absent.empty())
+    warnings.push_back(path + ": lacks these boundaries of the mesh: " + listed(absent) + "; nodes there slide only where it is straight");
   return warnings;
 }
 

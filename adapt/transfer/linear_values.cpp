@@ -20,9 +20,9 @@ std::size_t nearest_corner(const std::array<Point, 3>& corners, Point p) {
 void interpolate_on_nearest_side(const std::array<Point, 3>& corners, const std::array<std::span<const double>, 3>& at_corners, Point p,
                                  std::span<double> values) {
   std::size_t side = 0;
-  NearestOnSegment best = nearest_on_segment(corners[0], corners[1], p);
+  NearestOnSegment best = nearest_along_segment(corners[0], corners[1], p);
   for (std::size_t k = 1; k < 3; ++k) {
-    const NearestOnSegment other = nearest_on_segment(corners[k], corners[(k + 1) % 3], p);
+    const NearestOnSegment other = nearest_along_segment(corners[k], corners[(k + 1) % 3], p);
     if (!(other.squared_distance < best.squared_distance)) continue;
     best = other;
     side = k;
@@ -32,7 +32,7 @@ void interpolate_on_nearest_side(const std::array<Point, 3>& corners, const std:
 
 }  // namespace
 
-NearestOnSegment nearest_on_segment(Point a, Point b, Point p) {
+NearestOnSegment nearest_along_segment(Point a, Point b, Point p) {
   const Point along = b - a;
   const double square = dot(along, along);
   const double parameter = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;

@@ -79,7 +79,7 @@ BoundaryPlace NearestBoundary::nearest(Point p) const {
        ++item) {
     if (best >= 0 && geometry::comparable_distance(at, item->first) > slack * place.squared_distance) break;
     const Edge& edge = tree_->edges[static_cast<std::size_t>(item->second)];
-    const NearestOnSegment other = nearest_on_segment(edge.from, edge.to, p);
+    const NearestOnSegment other = nearest_along_segment(edge.from, edge.to, p);
     const bool nearer = other.squared_distance < place.squared_distance;
     if (best >= 0 && !nearer && !(other.squared_distance == place.squared_distance && item->second < best)) continue;
     best = item->second;

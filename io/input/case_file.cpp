@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "io/input/case_data.hpp"
 #include "mesher/base/error.hpp"
@@ -139,6 +140,22 @@ std::vector<std::vector<double>> CaseTable::pairs(const std::string& key) const 
   std::vector<std::vector<double>> result;
   for (const toml::node& value : values) result.push_back(lookup.numbers(value, 2));
   return result;
+}
+
+bool CaseTable::is_table(const std::string& key) const { return has(key) && as_table(table_).get(key)->is_table(); }
+
+std::string CaseTable::canonical_text(const std::vector<std::string>& without) const {
+  toml::table table = as_table(table_);
+  for (const std::string& name : without) {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string::npos)
+      table.erase(name);
+    else if (toml::table* within = table[name.substr(0, dot)].as_table())
+      within->erase(name.substr(dot + 1));
+  }
+  std::ostringstream text;
+  text << toml::json_formatter(table);
+  return text.str();
 }
 
 std::optional<CaseTable> CaseTable::table(const std::string& key) const {

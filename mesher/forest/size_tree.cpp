@@ -92,9 +92,11 @@ void SizeTree::grow(std::int32_t node) {
 
 /// What can be said of a node's leaves without splitting it.
 void SizeTree::judge(Node& node, const Box& box) const {
-  const bool demanded = node.demanded != DemandedSplits::none;
-  node.plain = node.segments_begin == node.segments_end && !demanded;
-  int finest = node.plain ? coarsest_ : finest_;
+  const bool holds_outline = node.segments_begin < node.segments_end, demanded = node.demanded != DemandedSplits::none;
+  const bool made_by_demand = node.parent >= 0 && nodes_[static_cast<std::size_t>(node.parent)].demanded != DemandedSplits::none;
+  node.plain = !holds_outline && !demanded && !made_by_demand;
+  int finest = holds_outline || demanded ? finest_ : coarsest_;
+  if (made_by_demand) finest = std::max(finest, node.place.level);
   for (const Source& source : options_->sources) {
     if (!meets(source, box)) continue;
     node.plain = false;

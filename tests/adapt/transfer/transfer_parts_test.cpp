@@ -180,12 +180,12 @@ TEST(LinearValues, AFlatTriangleIsItsSides) {
 
 TEST(NearestOnSegment, EndsAndMiddle) {
   const Point a{0, 0}, b{2, 0};
-  EXPECT_EQ(nearest_on_segment(a, b, {-3, 4}).squared_distance, 25);
-  EXPECT_EQ(nearest_on_segment(a, b, {-3, 4}).parameter, 0);
-  EXPECT_EQ(nearest_on_segment(a, b, {5, 4}).parameter, 1);
-  EXPECT_EQ(nearest_on_segment(a, b, {5, 4}).squared_distance, 25);
-  EXPECT_EQ(nearest_on_segment(a, b, {0.5, 4}).parameter, 0.25);
-  EXPECT_EQ(nearest_on_segment(a, a, {3, 4}).squared_distance, 25);
+  EXPECT_EQ(nearest_along_segment(a, b, {-3, 4}).squared_distance, 25);
+  EXPECT_EQ(nearest_along_segment(a, b, {-3, 4}).parameter, 0);
+  EXPECT_EQ(nearest_along_segment(a, b, {5, 4}).parameter, 1);
+  EXPECT_EQ(nearest_along_segment(a, b, {5, 4}).squared_distance, 25);
+  EXPECT_EQ(nearest_along_segment(a, b, {0.5, 4}).parameter, 0.25);
+  EXPECT_EQ(nearest_along_segment(a, a, {3, 4}).squared_distance, 25);
 }
 
 TEST(ExchangePieces, AnySizeArrivesInOrder) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/digests.hpp"
+#include "adapt/digests.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {
