@@ -74,8 +74,9 @@ std::vector<double> rows_of_owned(const Communicator& comm, const Mesh& mesh, co
 SolvedFlow solve(const Communicator& comm, const CommandSolver& solver, const Mesh& mesh, const std::optional<Solution>& start,
                  const std::string& folder, int cycle) {
   const std::filesystem::path place = std::filesystem::absolute(folder);
-  const SolverFiles files{place,          (place / solver.mesh).string(), (place / solver.solution).string(),
-                          solver.case_folder, solver.ranks > 0 ? solver.ranks : comm.size(), cycle};
+  const SolverFiles files{
+      place, (place / solver.mesh).string(), (place / solver.solution).string(), solver.case_folder, solver.ranks > 0 ? solver.ranks : comm.size(),
+      cycle};
   const std::string native = (place / "mesh.mesh").string();
   write_for(comm, mesh, start, native, files.mesh);
   run_solver(comm, solver.command, files);

@@ -28,7 +28,8 @@ struct SolvedFlow {
   std::vector<std::string> notes;  ///< for the cycle's log
 };
 
-/// Solves on a mesh whose native file, with the starting state where there is one, stands in the folder already. Throws InputError, SolverError. *Collective.*
+/// Solves on a mesh whose native file, with the starting state where there is one, stands in the folder already. Throws InputError, SolverError.
+/// *Collective.*
 SolvedFlow solve_flow(const Communicator& comm, const FlowSolver& solver, const Mesh& mesh, const std::optional<Solution>& start,
                       const std::string& folder, int cycle);
 

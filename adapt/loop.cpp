@@ -61,7 +61,8 @@ class AdaptiveRun {
       std::ifstream file(path);
       const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
       if (case_digest_in(text) == case_.digest) return;
-      throw InputError(path + ": is of another case, or the case, its geometry or a --set has changed since; resume with the same, or take another folder");
+      throw InputError(path +
+                       ": is of another case, or the case, its geometry or a --set has changed since; resume with the same, or take another folder");
     });
   }
 
@@ -83,7 +84,8 @@ class AdaptiveRun {
     const std::string folder = folders_.under_way(cycle);
     folders_.begin(cycle);
     times.begin("mesh");
-    const CarriedMesh carried = before ? carry_over(comm_, case_.mesh, before->plan, before->solved) : CarriedMesh{generate_mesh(comm_, case_.mesh), {}, 0, {}};
+    const CarriedMesh carried =
+        before ? carry_over(comm_, case_.mesh, before->plan, before->solved) : CarriedMesh{generate_mesh(comm_, case_.mesh), {}, 0, {}};
     const MeshResult& result = carried.generated.result;
     times.begin("write");
     std::optional<Solution> start;
@@ -151,8 +153,8 @@ class AdaptiveRun {
   }
 
   static std::string log_text(const CycleRecord& record, const SolvedFlow& flow, const MeshResult& result, const AdaptationPlan& plan) {
-    std::string text = fmt::format("cycle {}: {} nodes, {} triangles, {} quads, smallest angle {:.1f}\n", record.cycle, record.nodes, record.triangles,
-                                   record.quads, record.worst_angle);
+    std::string text = fmt::format("cycle {}: {} nodes, {} triangles, {} quads, smallest angle {:.1f}\n", record.cycle, record.nodes,
+                                   record.triangles, record.quads, record.worst_angle);
     for (const auto* lines : {&result.report.warnings, &flow.notes, &plan.warnings}) {
       for (const std::string& line : *lines) text += line + "\n";
     }

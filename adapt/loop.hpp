@@ -20,9 +20,9 @@ struct AdaptiveCase {
 /// What a run tells its caller after each cycle.
 using CycleReport = std::function<void(const CycleRecord&)>;
 
-/// Runs the cycles 0 to adapt.cycles in `folder`: mesh, transfer of the last solution, solve, marks. Each cycle begins with what the last one left in its
-/// files, so that a run which was broken off and resumed ends with the same files as one that was not. `report` is called on every rank. Throws InputError,
-/// SolverError, OutputError; whole cycles then stay as they are. *Collective.*
+/// Runs the cycles 0 to adapt.cycles in `folder`: mesh, transfer of the last solution, solve, marks. Each cycle begins with what the last one left in
+/// its files, so that a run which was broken off and resumed ends with the same files as one that was not. `report` is called on every rank. Throws
+/// InputError, SolverError, OutputError; whole cycles then stay as they are. *Collective.*
 void run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume, const CycleReport& report);
 
 }  // namespace quadloop

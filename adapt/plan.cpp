@@ -63,7 +63,8 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
     changes = search.within(*options.max_nodes, std::move(changes));
     const std::int64_t nodes = search.nodes_after(changes);
     if (nodes > *options.max_nodes) {
-      plan.warnings.push_back(fmt::format("the mesh has {} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them", nodes, *options.max_nodes));
+      plan.warnings.push_back(
+          fmt::format("the mesh has {} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them", nodes, *options.max_nodes));
     }
   }
   plan.demands = std::move(changes.demands);

@@ -27,9 +27,9 @@ struct AdaptationPlan {
   std::vector<std::string> warnings;
 };
 
-/// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where the number of nodes is bounded or wanted; the
-/// nodes are counted on the meshes themselves, unsmoothed. *Collective.* Throws InputError where the solution has no such variable, or one that is not
-/// finite.
+/// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where the number of nodes is bounded or wanted;
+/// the nodes are counted on the meshes themselves, unsmoothed. *Collective.* Throws InputError where the solution has no such variable, or one that
+/// is not finite.
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options, const SolvedMesh& solved);
 
 }  // namespace quadloop

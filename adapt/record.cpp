@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <charconv>
+#include <cmath>
 
 namespace quadloop {
 

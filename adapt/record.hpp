@@ -13,10 +13,10 @@ struct CycleRecord {
   int cycle = 0;
   std::uint64_t case_digest = 0;  ///< of all that the run depends on
   std::int64_t nodes = 0, triangles = 0, quads = 0, leaves = 0;
-  double worst_angle = 0;         ///< the smallest corner, degrees
-  double mean = 0, deviation = 0; ///< of log10 of the indicator
+  double worst_angle = 0;          ///< the smallest corner, degrees
+  double mean = 0, deviation = 0;  ///< of log10 of the indicator
   std::int64_t refined = 0, coarsened = 0;
-  std::int64_t outside = 0;       ///< nodes that the transfer found outside the old mesh
+  std::int64_t outside = 0;                           ///< nodes that the transfer found outside the old mesh
   std::vector<std::pair<std::string, double>> drift;  ///< of each variable's integral in the transfer into this cycle
   std::optional<double> cl, cd, residual;
   std::vector<std::pair<std::string, double>> seconds;

@@ -135,8 +135,9 @@ void keep_root(const TreeAttributes& tree, MeshInput& input) {
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
     const Point p = geometry.point(v);
     if (root.contains(p)) continue;
-    throw InputError(fmt::format("boundary {}: the point ({}, {}) lies outside the root of the saved tree, from ({}, {}) to ({}, {}); mesh without the tree",
-                                 geometry.boundary(geometry.boundary_of(v)).name, p.x, p.y, root.low.x, root.low.y, root.high.x, root.high.y));
+    throw InputError(
+        fmt::format("boundary {}: the point ({}, {}) lies outside the root of the saved tree, from ({}, {}) to ({}, {}); mesh without the tree",
+                    geometry.boundary(geometry.boundary_of(v)).name, p.x, p.y, root.low.x, root.low.y, root.high.x, root.high.y));
   }
   input.mesh.size.root = RootOptions{{tree.root_x, tree.root_y}, tree.tree_edge, tree.trees_x, tree.trees_y};
 }

@@ -37,7 +37,8 @@ void read_thresholds(const CaseTable& table, AdaptOptions& options) {
   if (shares && options.refine + options.coarsen > 1) {
     table.refuse("coarsen", "with refine must be 1 at most: they are shares of the same leaves");
   }
-  if (!shares && -options.coarsen > options.refine) table.refuse("coarsen", "lets leaves be refined and coarsened at once; make it larger than -refine");
+  if (!shares && -options.coarsen > options.refine)
+    table.refuse("coarsen", "lets leaves be refined and coarsened at once; make it larger than -refine");
 }
 
 }  // namespace

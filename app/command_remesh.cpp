@@ -46,8 +46,8 @@ LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& t
   const auto nodes = static_cast<std::int64_t>(whole.mesh.points.size()), triangles = static_cast<std::int64_t>(whole.mesh.triangles.size()),
              quads = static_cast<std::int64_t>(whole.mesh.quads.size());
   if (nodes != tree.nodes || triangles != tree.triangles || quads != tree.quads) {
-    throw InputError(fmt::format("{}: is of another mesh than {}: {} nodes, {} triangles, {} quads, but the tree's mesh has {}, {}, {}", arguments.solution,
-                                 arguments.tree, nodes, triangles, quads, tree.nodes, tree.triangles, tree.quads));
+    throw InputError(fmt::format("{}: is of another mesh than {}: {} nodes, {} triangles, {} quads, but the tree's mesh has {}, {}, {}",
+                                 arguments.solution, arguments.tree, nodes, triangles, quads, tree.nodes, tree.triangles, tree.quads));
   }
   return whole;
 }

@@ -76,7 +76,8 @@ EulerOptions euler_options(const SolverSettings& settings, const std::vector<Bou
   return options;
 }
 
-FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules, const Geometry& geometry, const std::string& case_path) {
+FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules, const Geometry& geometry,
+                       const std::string& case_path) {
   if (settings.kind == SolverSettings::Kind::euler) {
     Mesh named;
     for (const Boundary& boundary : geometry.boundaries()) named.boundaries.push_back({boundary.name, boundary.condition, {}});

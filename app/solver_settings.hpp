@@ -22,7 +22,7 @@ struct SolverSettings {
   enum class Kind { euler, command };
 
   Kind kind = Kind::euler;
-  EulerOptions euler;  ///< without the boundaries
+  EulerOptions euler;     ///< without the boundaries
   CommandSolver command;  ///< without the case's folder
   std::vector<OutflowPressure> pressures;
 };
@@ -34,6 +34,7 @@ void read_solver_table(const CaseTable& root, SolverSettings& settings);
 EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules, const Mesh& mesh);
 
 /// The solver of an adaptive run on meshes of this geometry. `case_path` names the case file.
-FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules, const Geometry& geometry, const std::string& case_path);
+FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules, const Geometry& geometry,
+                       const std::string& case_path);
 
 }  // namespace quadloop

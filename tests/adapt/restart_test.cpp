@@ -116,7 +116,8 @@ TEST(Restart, WantedLevelsStandUnderACoarserCase) {
   coarser.digest = 1;
   const auto before = all_leaves(first), after = all_leaves(tree_of(coarser, standing_splits(first, coarser)));
   ASSERT_EQ(before.size(), after.size());
-  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ((std::array{before[i][0], before[i][1], before[i][2]}), (std::array{after[i][0], after[i][1], after[i][2]}));
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_EQ((std::array{before[i][0], before[i][1], before[i][2]}), (std::array{after[i][0], after[i][1], after[i][2]}));
 }
 
 TEST(Restart, TheRootStaysAndAGeometryOutsideIsRefused) {
