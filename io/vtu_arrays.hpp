@@ -18,7 +18,7 @@ class VtuNumbers {
   /// `count` is how many there must be; without it all there are.
   std::vector<double> reals(const VtuArray& array, std::optional<std::int64_t> count) const;
   std::vector<std::int64_t> integers(const VtuArray& array, std::optional<std::int64_t> count) const;
-  /// Of an array of type String.
+  /// Of an array of type String, or of the codes of its bytes: a 0 ends each text.
   std::vector<std::string> texts(const VtuArray& array) const;
 
  private:

@@ -11,7 +11,8 @@ namespace quadloop {
 
 /// Writes the mesh as a VTK XML unstructured grid, ASCII, into the set; the bytes are the same on any number of ranks. Triangles, then quads, then
 /// the boundaries' edges as lines. The cell data "boundary" holds 0 for cells and the boundary's number, from 1, for lines; the field data
-/// "boundary_names" the names. `solution`, where given, becomes point data of its names. *Collective.* Throws OutputError on all ranks.
+/// "boundary_names" the names, as codes of their bytes with a 0 after each. `solution`, where given, becomes point data of its names. *Collective.*
+/// Throws OutputError on all ranks.
 void write_vtu(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr);
 
 /// The same as an output of its own, in place when the function returns. *Collective.*

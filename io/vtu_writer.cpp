@@ -29,15 +29,17 @@ std::string array_tag(const std::string& type, const std::string& name, int comp
   return tag + " format=\"ascii\">\n";
 }
 
-/// VTK keeps strings as the codes of their bytes, each string with a 0 after it.
+/// The codes of their bytes, after each text a 0: what an array of strings holds, but under a type of numbers, since not every reader knows strings.
 std::string text_array(const std::string& name, const std::vector<std::string>& texts) {
   std::string codes;
+  std::size_t count = 0;
   for (const std::string& text : texts) {
     for (const char c : text) codes += std::to_string(static_cast<unsigned char>(c)) + " ";
     codes += "0\n";
+    count += text.size() + 1;
   }
-  return "<Array type=\"String\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(texts.size()) + "\" format=\"ascii\">\n" + codes +
-         "</Array>\n";
+  return "<DataArray type=\"UInt8\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(count) + "\" format=\"ascii\">\n" + codes +
+         "</DataArray>\n";
 }
 
 class VtuWriter {
