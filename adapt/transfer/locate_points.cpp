@@ -47,10 +47,14 @@ class Search {
     Box box;
     for (const std::int32_t index : order) box.include(point(index));
     const std::size_t begin = candidates_.size();
+    candidates_.resize(begin + (begin - first));
+    std::size_t end = begin;
     for (std::size_t i = first; i < begin; ++i) {
       const std::int32_t candidate = candidates_[i];
-      if (boxes_[static_cast<std::size_t>(candidate)].meets(box)) candidates_.push_back(candidate);
+      candidates_[end] = candidate;  // taken back unless its box meets this one
+      end += boxes_[static_cast<std::size_t>(candidate)].meets(box) ? 1 : 0;
     }
+    candidates_.resize(end);
     if (std::min(order.size(), candidates_.size() - begin) <= few || depth == deepest) {
       try_all(order, begin);
     } else {

@@ -118,13 +118,18 @@ void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const No
   }
 }
 
-void report_drift(const Communicator& comm, const Mesh& new_mesh, const std::vector<double>& values, const MeshIntegrals& before,
+/// What the old mesh had of each variable: its integral, and that of its absolute value.
+struct OldIntegrals {
+  std::vector<double> of_values, of_sizes;
+};
+
+void report_drift(const Communicator& comm, const Mesh& new_mesh, const std::vector<double>& values, const OldIntegrals& before,
                   TransferReport& report) {
   const auto triangles = cell_triangles(comm, new_mesh, centre_of_nodes(comm, new_mesh));
   const NodeRows rows = rows_with_copies(comm, new_mesh, values, static_cast<int>(before.of_values.size()));
-  const MeshIntegrals after = integrate(comm, new_mesh, triangles, rows);
-  for (std::size_t k = 0; k < before.of_values.size(); ++k) {
-    report.drift.push_back(after.of_values[k] - before.of_values[k]);
+  const std::vector<double> after = integrate(comm, new_mesh, triangles, rows);
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    report.drift.push_back(after[k] - before.of_values[k]);
     report.relative_drift.push_back(before.of_sizes[k] > 0 ? report.drift[k] / before.of_sizes[k] : 0);
   }
 }
@@ -146,7 +151,9 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, std::span<c
   transferred.report.outside = comm.sum(static_cast<std::int64_t>(outside.size()));
   if (transferred.report.outside > 0) take_from_boundary(comm, old_mesh, old_rows, new_mesh, outside, rows);
   transferred.values = std::move(rows.values);
-  report_drift(comm, new_mesh, transferred.values, integrate(comm, old_mesh, triangles, old_rows), transferred.report);
+  OldIntegrals before{integrate(comm, old_mesh, triangles, old_rows), {}};
+  before.of_sizes = integrate_sizes(comm, old_mesh, triangles, old_rows, before.of_values);
+  report_drift(comm, new_mesh, transferred.values, before, transferred.report);
   return transferred;
 }
 

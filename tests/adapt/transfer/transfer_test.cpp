@@ -194,6 +194,17 @@ TEST(Transfer, OutsideTakesTheNearestBoundaryValue) {
   EXPECT_NEAR(result.report.relative_drift[0], 3, 1e-12);
 }
 
+TEST(Transfer, DriftIsAShareOfTheAbsoluteIntegral) {
+  const Mesh whole = Grid{2, {2, 2}, true}.mesh();
+  const Mesh mesh = Whole{whole, space_filling_order(whole)}.part(world());
+  const auto values = [](Point p, std::int64_t, int k) { return k == 0 ? 2.0 : (k == 1 ? -2.0 : p.x - 1); };
+  const Mesh larger = Whole{moved(whole, {2, 0}), space_filling_order(whole)}.part(world());  // takes the values of the side x = 2
+  const Transferred result = transfer(world(), mesh, rows_of(mesh, 3, values), 3, larger);
+  EXPECT_EQ(result.report.outside, 6);
+  EXPECT_EQ(result.report.drift, (std::vector<double>{0, 0, 4}));
+  EXPECT_EQ(result.report.relative_drift, (std::vector<double>{0, 0, 2}));  // |x - 1| over [0, 2]^2 is 2
+}
+
 /// A ring of eight squares round a hole from (1, 1) to (2, 2).
 Mesh ring() {
   Mesh mesh = Grid{3, {3, 3}, true}.mesh();
