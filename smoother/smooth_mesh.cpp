@@ -22,11 +22,19 @@ std::array<Point, width> corners_of(const HaloMesh& mesh, const std::array<NodeI
   return points;
 }
 
+/// Most cells are whole leaves, whose cost is 0 to the last bit.
+bool is_square(const std::array<Point, 4>& p) {
+  return p[0].y == p[1].y && p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x && p[1].x - p[0].x == p[2].y - p[1].y && p[0].x < p[1].x;
+}
+bool is_square(const std::array<Point, 3>&) { return false; }
+
 /// The cost of a cell by its number in the halo mesh.
 template <std::size_t width>
 double cost_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes, const std::vector<CellTarget>& targets, std::size_t number) {
   const bool ideal = targets.empty() || targets[number].ideal();
-  return cell_cost(corners_of(mesh, nodes), ideal ? ideal_targets<width>() : stretched_targets<width>(targets[number].w1, targets[number].w2));
+  const auto corners = corners_of(mesh, nodes);
+  if (ideal && is_square(corners)) return 0;
+  return cell_cost(corners, ideal ? ideal_targets<width>() : stretched_targets<width>(targets[number].w1, targets[number].w2));
 }
 
 struct WorstCell {
@@ -62,6 +70,7 @@ Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<
   const auto mark = [&](const auto& nodes) {
     for (const NodeId node : nodes) near[static_cast<std::size_t>(node.value())] = 1;
   };
+  result.costs.reserve(mesh.points().size());
   mesh.for_each_cell([&](const auto& nodes) {
     const double cost = cost_of(mesh, nodes, targets, result.costs.size());
     include(result.worst, mesh, nodes[0], cost);
