@@ -9,6 +9,7 @@
 #include "adapt/transfer/curve_shares.hpp"
 #include "adapt/transfer/exchange_pieces.hpp"
 #include "adapt/transfer/linear_values.hpp"
+#include "adapt/transfer/locate_points.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -149,6 +150,30 @@ TEST(CurveShares, TakesABoxWithoutExtentOrWithoutPoints) {
     shares.ranks_meeting({{0, 0}, {9, 9}}, ranks);
     EXPECT_TRUE(std::binary_search(ranks.begin(), ranks.end(), shares.rank_of({3, 4})));
   }
+}
+
+/// A fan of triangles round the origin, under numbers that do not follow its order.
+TEST(LocatePoints, OfSeveralTrianglesTheLowestNumberWins) {
+  TrianglePiece piece;
+  piece.points = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  const std::array<std::int64_t, 4> numbers{5, 1LL << 40, 2, 7};
+  for (std::int32_t k = 0; k < 4; ++k)
+    piece.triangles.push_back({{NodeId{0}, NodeId{1 + k}, NodeId{1 + (k + 1) % 4}}, numbers[static_cast<std::size_t>(k)]});
+  const double next = std::nextafter(0.5, 1);
+  const std::vector<Point> points{{0, 0}, {0.5, 0}, {0, 0.5}, {-0.5, 0}, {0, -0.5}, {0.25, 0.25}, {0.5, 0.5}, {next, 0.5}, {-2, 0}, {-1, 0}};
+  EXPECT_EQ(locate_points(piece, points), (std::vector<std::int32_t>{2, 0, 0, 2, 2, 0, 0, -1, -1, 2}));
+  EXPECT_TRUE(locate_points(piece, {}).empty());
+  EXPECT_EQ(locate_points({}, std::vector<Point>{{0, 0}}), std::vector<std::int32_t>{-1});
+}
+
+TEST(LocatePoints, ManyPointsAtOnePlaceAndInBigFansEnd) {
+  TrianglePiece piece;
+  constexpr std::int32_t blades = 60;
+  piece.points.push_back({0, 0});
+  for (std::int32_t k = 0; k < blades; ++k) piece.points.push_back({std::cos(6.28 * k / blades), std::sin(6.28 * k / blades)});
+  for (std::int32_t k = 0; k + 1 < blades; ++k) piece.triangles.push_back({{NodeId{0}, NodeId{1 + k}, NodeId{2 + k}}, blades - k});
+  const std::vector<Point> points(100, Point{0, 0});
+  EXPECT_EQ(locate_points(piece, points), std::vector<std::int32_t>(100, blades - 2));
 }
 
 TEST(LinearValues, CornersKeepTheirBitsAndNothingGoesBeyond) {
