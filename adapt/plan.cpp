@@ -49,7 +49,7 @@ class NodeSearch {
 
 int finest_level(const MeshInput& input, const AdaptOptions& options) {
   const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
-  return lattice.finest_level(options.min.value_or(input.mesh.size.min));
+  return options.min ? lattice.finest_level(*options.min, "adapt.min") : lattice.finest_level(input.mesh.size.min);
 }
 
 }  // namespace

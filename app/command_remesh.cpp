@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "adapt/own_mesh.hpp"
 #include "adapt/remesh.hpp"
 #include "app/case_input.hpp"
 #include "app/command.hpp"
@@ -38,17 +39,11 @@ std::string mesh_beside(const std::string& tree) {
 }
 
 /// The solution's own mesh where its file has one, else the tree's. On the calling rank alone.
-LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
+LoadedMesh solved_mesh(const RemeshArguments& arguments) {
   LoadedSolution solution = read_solution(arguments.solution);
   LoadedMesh whole = read_mesh(solution.has_cells ? arguments.solution : mesh_beside(arguments.tree));
   require_same_mesh(solution, whole.mesh);
   whole.solution = std::move(solution.solution);
-  const auto nodes = static_cast<std::int64_t>(whole.mesh.points.size()), triangles = static_cast<std::int64_t>(whole.mesh.triangles.size()),
-             quads = static_cast<std::int64_t>(whole.mesh.quads.size());
-  if (nodes != tree.nodes || triangles != tree.triangles || quads != tree.quads) {
-    throw InputError(fmt::format("{}: is of another mesh than {}: {} nodes, {} triangles, {} quads, but the tree's mesh has {}, {}, {}",
-                                 arguments.solution, arguments.tree, nodes, triangles, quads, tree.nodes, tree.triangles, tree.quads));
-  }
   return whole;
 }
 
@@ -84,9 +79,10 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
     for (const std::string& format : input.settings.formats) files.push_back(prefix + "." + format);
     files.push_back(prefix + ".tree.h5");
     for (const std::string& file : files) require_folder(file);
-    if (comm.is_root()) whole = solved_mesh(arguments, tree.attributes);
+    if (comm.is_root()) whole = solved_mesh(arguments);
   });
   const SolvedMesh solved = spread_solved(comm, whole, std::move(tree));
+  require_own_mesh(comm, solved, arguments.solution, arguments.tree);
   times.begin("adapt");
   const MeshInput& mesh = *input.mesh;
   const AdaptationPlan plan = input.settings.adapt ? plan_adaptation(comm, mesh, *input.settings.adapt, solved) : standing_plan(solved.tree, mesh);
