@@ -49,6 +49,7 @@ void run(int argc, char** argv, const Communicator& comm) {
   app.add_flag("-v,--verbose", context.verbose, "print details, those of each rank too");
   add_mesh_command(app, context);
   add_smooth_command(app, context);
+  add_solve_command(app, context);
   add_check_command(app, context);
   add_plot_command(app, context);
   try {

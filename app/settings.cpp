@@ -75,6 +75,10 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
     rule.spacing = table.number("spacing", Range::positive());
     rule.corner_degrees = table.number("corner", {0, 180});
     rule.condition = table.choice("bc", {"wall", "farfield", "inflow", "outflow", "symmetry", "interface", "none"});
+    if (const auto pressure = table.number("pressure", Range::positive())) {
+      if (rule.condition != "outflow") table.refuse("pressure", "needs bc = \"outflow\" in the same table; elsewhere there is none to set");
+      settings.solver.pressures.push_back({name, *pressure});
+    }
     table.finish();
     settings.outline.rules.push_back(std::move(rule));
   }
@@ -171,6 +175,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   for (const CaseTable& source : root.tables("source")) settings.mesh.size.sources.push_back(read_source(source));
   read_mesh_table(root, settings);
   read_smooth_table(root, settings);
+  read_solver_table(root, settings.solver);
   read_output_table(root, case_path, settings);
   root.finish();
   return settings;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/solver_settings.hpp"
 #include "mesher/geometry/assemble.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/transform.hpp"
@@ -33,6 +34,7 @@ struct Settings {
   std::optional<double> min, max;  ///< spacing.min and spacing.max, where given
   MeshOptions mesh;                ///< without the sizes min and max: those may follow from the geometry
   SmoothOptions smooth;            ///< without the geometry
+  SolverSettings solver;
   std::string output_prefix;
   std::vector<std::string> formats{"mesh", "cgns"};
 };

@@ -7,8 +7,8 @@
 
 namespace quadloop::euler {
 
-/// Colours for all nodes, so that no edge joins two of one colour: a relaxation may visit the nodes of a colour at once. Nodes choose, in an order that
-/// their numbers over all ranks alone decide, the first colour that no neighbour before them has (Jones and Plassmann 1993).
+/// Colours for all nodes, so that no edge joins two of one colour: a relaxation may visit the nodes of a colour at once. Nodes choose, in an order
+/// that their numbers over all ranks alone decide, the first colour that no neighbour before them has (Jones and Plassmann 1993).
 struct NodeColours {
   std::vector<std::int8_t> colour_of;  ///< of each node; -1 for those that no edge of this rank reaches
   int count = 0;                       ///< over all ranks

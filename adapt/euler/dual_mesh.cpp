@@ -126,7 +126,8 @@ void DualMesh::collect_faces() {
     if (found == edges_.end() || key(found->low, found->high) != wanted) refuse_edge("boundary edge", from, to, "belongs to no cell; mesh it anew");
     char& open = open_[static_cast<std::size_t>(found - edges_.begin())];
     if (open == 0) {
-      refuse_edge("boundary edge", from, to, "has cells on both sides or is there twice, and the flow solver takes one domain alone; mesh without it");
+      refuse_edge("boundary edge", from, to,
+                  "has cells on both sides or is there twice, and the flow solver takes one domain alone; mesh without it");
     }
     const Point outward = turned(to - from);
     const double size = length(outward);
@@ -135,7 +136,8 @@ void DualMesh::collect_faces() {
   }
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     if (open_[i] != 0) {
-      refuse_edge("edge", point(edges_[i].low), point(edges_[i].high), "has a cell on one side alone but is on no boundary; give the mesh a boundary there");
+      refuse_edge("edge", point(edges_[i].low), point(edges_[i].high),
+                  "has a cell on one side alone but is on no boundary; give the mesh a boundary there");
     }
   }
 }

@@ -32,9 +32,9 @@ struct BoundaryFace {
   double half_size;  ///< each of its two nodes has one half of it
 };
 
-/// The median dual of a mesh around this rank's owned nodes: each node's part of a cell is bounded by the middles of its two edges and the mean of the
-/// cell's nodes. Edges and boundary faces come in the order of their nodes' numbers over all ranks, so that what a node adds up over them has the same
-/// bits on any number of ranks. Every edge and face that touches an owned node is there; nodes that are not owned may lack some.
+/// The median dual of a mesh around this rank's owned nodes: each node's part of a cell is bounded by the middles of its two edges and the mean of
+/// the cell's nodes. Edges and boundary faces come in the order of their nodes' numbers over all ranks, so that what a node adds up over them has the
+/// same bits on any number of ranks. Every edge and face that touches an owned node is there; nodes that are not owned may lack some.
 class DualMesh {
  public:
   /// `mesh` must outlive it and stay as it is. Throws InputError where an edge of one cell alone is on no boundary. *Collective.*

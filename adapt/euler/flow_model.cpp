@@ -17,8 +17,8 @@ Condition condition_of(const std::string& name, const std::string& word) {
   if (word == "inflow") return Condition::inflow;
   if (word == "outflow") return Condition::outflow;
   throw InputError(
-      fmt::format("boundary '{0}' has {1}, which the flow solver cannot use; set [boundary.{0}] bc to wall, farfield, inflow, outflow or symmetry", name,
-                  word.empty() || word == "none" ? "no condition" : "the condition '" + word + "'"));
+      fmt::format("boundary '{0}' has {1}, which the flow solver cannot use; set [boundary.{0}] bc to wall, farfield, inflow, outflow or symmetry",
+                  name, word.empty() || word == "none" ? "no condition" : "the condition '" + word + "'"));
 }
 
 BoundaryModel boundary_model(const BoundaryEdges& boundary, const EulerOptions& options) {

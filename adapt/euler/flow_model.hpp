@@ -32,7 +32,8 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
 /// What leaves the domain through a boundary of length 1 with this outward unit normal, the flow inside being `state`.
 ///
 ///   wall      the pressure alone
-///   farfield  the upwind flux against the free stream, which lets waves out; there is no correction for the circulation, so lift errs by the order of
+///   farfield  the upwind flux against the free stream, which lets waves out; there is no correction for the circulation, so lift errs by the order
+///   of
 ///             chord over far-field distance
 ///   inflow    the free stream where it comes in faster than sound, else as farfield
 ///   outflow   the flow itself where it is faster than sound or no pressure is given, else with the given pressure and the density and speed that

@@ -45,8 +45,8 @@ std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes) {
     told = {run.mesh.point(node).x, run.mesh.point(node).y, state[0], state[1], state[2], state[3]};
   }
   for (double& value : told) value = run.comm.maximum(value);
-  return fmt::format("at ({:.6g}, {:.6g}), where density is {:.4g}, velocity ({:.4g}, {:.4g}) and pressure {:.4g}", told[0], told[1], told[2], told[3],
-                     told[4], told[5]);
+  return fmt::format("at ({:.6g}, {:.6g}), where density is {:.4g}, velocity ({:.4g}, {:.4g}) and pressure {:.4g}", told[0], told[1], told[2],
+                     told[3], told[4], told[5]);
 }
 
 }  // namespace quadloop::euler

@@ -30,9 +30,9 @@ struct WaveSpeeds {
   double fast, slow, middle;  ///< |q + c|, |q - c|, |q|, with q the speed along the normal
 };
 
-/// An entropy fix after Harten (1983): a speed below delta becomes (speed^2 + delta^2) / (2 delta). For the sound waves delta is a fifth of |q| + c, so that
-/// no expansion shock stands at a sonic line. For the middle wave, which carries entropy and shear, it is a fiftieth: enough to damp the odd-even decay of
-/// grid-aligned shocks, and little dissipation of the slow flow near a stagnation point.
+/// An entropy fix after Harten (1983): a speed below delta becomes (speed^2 + delta^2) / (2 delta). For the sound waves delta is a fifth of |q| + c,
+/// so that no expansion shock stands at a sonic line. For the middle wave, which carries entropy and shear, it is a fiftieth: enough to damp the
+/// odd-even decay of grid-aligned shocks, and little dissipation of the slow flow near a stagnation point.
 inline WaveSpeeds wave_speeds(double along, double sound) {
   const double largest = std::abs(along) + sound;
   const auto kept = [](double speed, double delta) {
@@ -66,8 +66,8 @@ inline UpwindPart upwind_part(const WaveSpeeds& waves, double sound, double pres
   return {even * pressure / (sound * sound) + odd * momentum / sound, even * momentum + odd * pressure / sound};
 }
 
-/// What crosses a face of length 1 with this unit normal, which points from `left` to `right` (Roe 1981). The flux of two equal states is the physical
-/// one but for rounding.
+/// What crosses a face of length 1 with this unit normal, which points from `left` to `right` (Roe 1981). The flux of two equal states is the
+/// physical one but for rounding.
 inline Flux roe_flux(const Gas& gas, const State& left, const State& right, Point normal) {
   const Flux of_left = physical_flux(gas, left, normal), of_right = physical_flux(gas, right, normal);
   const RoeAverage mean = roe_average(gas, left, right);

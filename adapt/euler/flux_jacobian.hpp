@@ -7,8 +7,8 @@ namespace quadloop::euler {
 /// How a flux answers to a change of what is conserved: row by row.
 using Matrix4 = std::array<double, 16>;
 
-/// middle times the identity, and what is left of a flux matrix's two waves of sound: with the change of pressure dp and of momentum along the normal dm
-/// (less the mean motion), (even_p dp + odd_m dm) [1, u, v, H] + (odd_p dp + even_m dm) [0, nx, ny, q].
+/// middle times the identity, and what is left of a flux matrix's two waves of sound: with the change of pressure dp and of momentum along the normal
+/// dm (less the mean motion), (even_p dp + odd_m dm) [1, u, v, H] + (odd_p dp + even_m dm) [0, nx, ny, q].
 struct WaveMatrix {
   double middle = 0, first_pressure = 0, first_momentum = 0, second_pressure = 0, second_momentum = 0;
 };
@@ -38,8 +38,8 @@ inline void add_flux_matrix(const Gas& gas, const State& state, Point normal, do
   add_matrix(gas, at, {state[1] * normal.x + state[2] * normal.y, 0, 1, 1, 0}, factor, sum);
 }
 
-/// The flux's speeds, none less than a tenth of the largest (a fifth, of sound waves): a matrix whose middle wave all but vanishes makes implicit steps
-/// swing to and fro near stagnation points.
+/// The flux's speeds, none less than a tenth of the largest (a fifth, of sound waves): a matrix whose middle wave all but vanishes makes implicit
+/// steps swing to and fro near stagnation points.
 inline WaveSpeeds steadying_speeds(double along, double sound) {
   const double largest = std::abs(along) + sound;
   const WaveSpeeds waves = wave_speeds(along, sound);

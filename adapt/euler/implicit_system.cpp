@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <numeric>
 
-
 namespace quadloop::euler {
 
 namespace {
@@ -37,7 +36,12 @@ void add_wall_matrix(const Gas& gas, const State& state, Point normal, double fa
 }  // namespace
 
 ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model)
-    : mesh_{mesh}, model_{model}, colours_{colour_nodes(comm, mesh)}, diagonal_(mesh.nodes()), inverses_(static_cast<std::size_t>(mesh.owned_nodes())), wave_sums_(mesh.nodes()) {
+    : mesh_{mesh},
+      model_{model},
+      colours_{colour_nodes(comm, mesh)},
+      diagonal_(mesh.nodes()),
+      inverses_(static_cast<std::size_t>(mesh.owned_nodes())),
+      wave_sums_(mesh.nodes()) {
   lay_out();
 }
 
@@ -57,7 +61,8 @@ void ImplicitSystem::lay_out() {
     }
   }
   row_starts_.push_back(0);
-  for (const std::int32_t node : row_nodes_) row_starts_.push_back(row_starts_.back() + std::exchange(next[static_cast<std::size_t>(node)], row_starts_.back()));
+  for (const std::int32_t node : row_nodes_)
+    row_starts_.push_back(row_starts_.back() + std::exchange(next[static_cast<std::size_t>(node)], row_starts_.back()));
   columns_.resize(row_starts_.back());
   blocks_.resize(row_starts_.back());
   const auto take = [&](std::int32_t node, std::int32_t column) {

@@ -11,9 +11,9 @@ namespace quadloop::euler {
 
 using Change = std::array<float, 4>;  ///< of what is conserved
 
-/// The linear system of an implicit step: (area / time step + first-order upwind flux matrix) change = -residual, one row of 4 x 4 blocks for each owned
-/// node. It is relaxed by coloured Gauss-Seidel sweeps, whose bits do not depend on the number of ranks, in single precision: it only steers the way to
-/// the solution.
+/// The linear system of an implicit step: (area / time step + first-order upwind flux matrix) change = -residual, one row of 4 x 4 blocks for each
+/// owned node. It is relaxed by coloured Gauss-Seidel sweeps, whose bits do not depend on the number of ranks, in single precision: it only steers
+/// the way to the solution.
 class ImplicitSystem {
  public:
   /// Both must outlive it. *Collective.*

@@ -33,8 +33,8 @@ double unit_time_step(const FlowRun& run, std::vector<double>& wave_sums) {
   return run.comm.minimum(step);
 }
 
-/// One stage of a strong-stability-preserving Runge-Kutta step (Shu and Osher 1988): the step's start and the stage before it advanced by an Euler step,
-/// mixed.
+/// One stage of a strong-stability-preserving Runge-Kutta step (Shu and Osher 1988): the step's start and the stage before it advanced by an Euler
+/// step, mixed.
 struct Stage {
   double start, advanced;
 };
@@ -46,7 +46,9 @@ void advance(const FlowRun& run, const Stage& stage, double step, const std::vec
   for (std::size_t node = 0; node < areas.size(); ++node) {
     const Conserved &w0 = start[node], w = gas.conserved(run.states[node]);
     const Flux& flux = fluxes[node];
-    const auto mixed = [&](double before, double now, double out) { return stage.start * before + stage.advanced * (now - step / areas[node] * out); };
+    const auto mixed = [&](double before, double now, double out) {
+      return stage.start * before + stage.advanced * (now - step / areas[node] * out);
+    };
     run.states[node] = gas.state({mixed(w0.mass, w.mass, flux[0]), mixed(w0.x_momentum, w.x_momentum, flux[1]),
                                   mixed(w0.y_momentum, w.y_momentum, flux[2]), mixed(w0.energy, w.energy, flux[3])});
   }
@@ -64,8 +66,9 @@ EulerResult march_in_time(const FlowRun& run) {
     const std::vector<Flux>& fluxes = run.residual.evaluate(run.states);
     const double norm = mass_residual(run, fluxes);
     if (!std::isfinite(norm)) {
-      throw SolverError(fmt::format("the flow solver failed at time {:.6g} {}; look at the boundary conditions and the cells there, or try a smaller cfl",
-                                    result.time, worst_place(run, fluxes)));
+      throw SolverError(
+          fmt::format("the flow solver failed at time {:.6g} {}; look at the boundary conditions and the cells there, or try a smaller cfl",
+                      result.time, worst_place(run, fluxes)));
     }
     reference = std::max(reference, result.iterations == 0 ? norm : 0);
     result.residual = reference > 0 ? norm / reference : 0;

@@ -99,8 +99,9 @@ class SteadyMarch {
   /// To the best flow so far, to leave it in smaller steps.
   void go_back(const std::vector<Flux>& fluxes) {
     if (++retries_ > most_retries || result_.iterations == 0) {
-      throw SolverError(fmt::format("the flow solver failed after {} steps {}; look at the boundary conditions and the cells there, or try a smaller cfl",
-                                    result_.iterations, worst_place(run_, fluxes)));
+      throw SolverError(
+          fmt::format("the flow solver failed after {} steps {}; look at the boundary conditions and the cells there, or try a smaller cfl",
+                      result_.iterations, worst_place(run_, fluxes)));
     }
     cfl_share_ *= 0.3;
     run_.states = sound_;

@@ -29,8 +29,8 @@ class LeastSquares {
   std::vector<Symmetric> inverse_;  ///< of each owned node's normal matrix
 };
 
-/// Venkatakrishnan's limiter (1995): each variable's gradient at a node is scaled so that the values at the middles of its edges stay within those of the
-/// node and its neighbours, smoothly, and not at all where the flow varies by less than (K h)^1.5. There h is the side of the square of the dual
+/// Venkatakrishnan's limiter (1995): each variable's gradient at a node is scaled so that the values at the middles of its edges stay within those of
+/// the node and its neighbours, smoothly, and not at all where the flow varies by less than (K h)^1.5. There h is the side of the square of the dual
 /// cell's area in units of the reference length, and K = 5. So smooth flow is not limited once the mesh resolves it.
 class Limiter {
  public:

@@ -37,8 +37,8 @@ class Residual {
   std::vector<Flux> sums_;
 };
 
-/// What acts on one node's half of a boundary face: nearer to the node's own state than the half's middle is, which makes up for what the edge along the
-/// boundary leaves over (see SkewEdge). The fluxes of a linear field then add up exactly there too.
+/// What acts on one node's half of a boundary face: nearer to the node's own state than the half's middle is, which makes up for what the edge along
+/// the boundary leaves over (see SkewEdge). The fluxes of a linear field then add up exactly there too.
 inline State state_at_half(const State& own, const State& other) {
   State state;
   for (std::size_t k = 0; k < 4; ++k) state[k] = own[k] + (other[k] - own[k]) / 6;

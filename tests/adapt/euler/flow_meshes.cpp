@@ -42,7 +42,8 @@ Mesh wedge_mesh(std::int32_t n, double degrees) {
   for (std::int32_t j = 0; j < n; ++j) {
     for (std::int32_t i = 0; i < n; ++i) mesh.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
   }
-  mesh.boundaries = {{"inflow", "inflow", {}}, {"outflow", "outflow", {}}, {"farfield", "farfield", {}}, {"symmetry", "symmetry", {}}, {"wall", "wall", {}}};
+  mesh.boundaries = {
+      {"inflow", "inflow", {}}, {"outflow", "outflow", {}}, {"farfield", "farfield", {}}, {"symmetry", "symmetry", {}}, {"wall", "wall", {}}};
   for (std::int32_t k = 0; k < n; ++k) {
     mesh.boundaries[0].edges.push_back({at(0, k + 1), at(0, k)});
     mesh.boundaries[1].edges.push_back({at(n, k), at(n, k + 1)});

@@ -19,9 +19,8 @@ void relabel(Mesh& mesh, const std::function<std::string(Point)>& name_of);
 /// corner, then wall.
 Mesh wedge_mesh(std::int32_t n, double degrees);
 
-/// Quads around the ellipse with the axes 1 and `thickness` about the origin, out to a circle of radius `far`: a mirror image of itself in the x axis. The
-/// boundaries are "wall" and "farfield".
+/// Quads around the ellipse with the axes 1 and `thickness` about the origin, out to a circle of radius `far`: a mirror image of itself in the x
+/// axis. The boundaries are "wall" and "farfield".
 Mesh ring_mesh(std::int32_t around, std::int32_t outwards, double thickness, double far);
-
 
 }  // namespace quadloop::test

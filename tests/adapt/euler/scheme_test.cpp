@@ -159,7 +159,8 @@ TEST(FluxMatrix, IsTheDerivativeOfTheFlux) {
   }
 }
 
-/// The pressure alone varies, linearly, in a gas at rest: each node's dual cell must feel exactly gradient times area, on any mesh and at its boundary.
+/// The pressure alone varies, linearly, in a gas at rest: each node's dual cell must feel exactly gradient times area, on any mesh and at its
+/// boundary.
 TEST(Residual, OfALinearPressureIsExact) {
   for (const bool quads : {true, false}) {
     Mesh mesh = test::irregular_grid(10, {1, 2}, 0.24, quads);
