@@ -74,7 +74,8 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
     require_outputs(arguments.output);
     problem.settings = read_settings(arguments.case_path, arguments.assignments);
     if (problem.settings.solver.kind != SolverSettings::Kind::euler) {
-      throw InputError(arguments.case_path + ": 'solver.kind' is 'command', but 'quadloop solve' runs the built-in solver alone; set kind = \"euler\"");
+      throw InputError(arguments.case_path +
+                       ": 'solver.kind' is 'command', but 'quadloop solve' runs the built-in solver alone; set kind = \"euler\"");
     }
     if (!context.comm.is_root()) return;
     problem.whole = read_mesh(arguments.input);
@@ -127,7 +128,8 @@ void write(const Communicator& comm, Problem& problem, const EulerResult& result
 EulerResult solve(const Communicator& comm, const Problem& problem, const Mesh& part) {
   EulerOptions options = euler_options(problem.settings.solver, problem.settings.outline.rules, part);
   options.progress = [&comm](const EulerProgress& p) {
-    if (comm.is_root()) log::information(fmt::format("step {}: residual {:.2e}, cl {:.6f}, cd {:.6f}, time {:.6g}", p.iteration, p.residual, p.cl, p.cd, p.time));
+    if (comm.is_root())
+      log::information(fmt::format("step {}: residual {:.2e}, cl {:.6f}, cd {:.6f}, time {:.6g}", p.iteration, p.residual, p.cl, p.cd, p.time));
   };
   return solve_euler(comm, part, options, start_states(comm, problem));
 }
@@ -135,17 +137,19 @@ EulerResult solve(const Communicator& comm, const Problem& problem, const Mesh& 
 void warn_unless_done(const EulerResult& result, const EulerOptions& options) {
   if (result.converged) return;
   if (options.time == EulerOptions::Time::accurate) {
-    log::warning(fmt::format("time {:.6g} of {:.6g} was reached in {} steps; raise solver.iterations", result.time, options.end_time, result.iterations));
+    log::warning(
+        fmt::format("time {:.6g} of {:.6g} was reached in {} steps; raise solver.iterations", result.time, options.end_time, result.iterations));
   } else {
-    log::warning(fmt::format("the residual fell to {:.2e} of the first in {} steps, not to the tolerance {:.2e}; raise solver.iterations", result.residual,
-                             result.iterations, options.tolerance));
+    log::warning(fmt::format("the residual fell to {:.2e} of the first in {} steps, not to the tolerance {:.2e}; raise solver.iterations",
+                             result.residual, result.iterations, options.tolerance));
   }
 }
 
 std::string result_table(std::int64_t nodes, const EulerResult& result, const EulerOptions& options) {
   std::string text = fmt::format("  {:<16}{:>14}\n  {:<16}{:>14}\n", "nodes", nodes, "steps", result.iterations);
   if (options.time == EulerOptions::Time::accurate) text += fmt::format("  {:<16}{:>14.6g}\n", "time", result.time);
-  return text + fmt::format("  {:<16}{:>14.3e}\n  {:<16}{:>14.6f}\n  {:<16}{:>14.6f}\n", "residual", result.residual, "cl", result.cl, "cd", result.cd);
+  return text +
+         fmt::format("  {:<16}{:>14.3e}\n  {:<16}{:>14.6f}\n  {:<16}{:>14.6f}\n", "residual", result.residual, "cl", result.cl, "cd", result.cd);
 }
 
 void run_solve(const CommandContext& context, const SolveArguments& arguments) {
