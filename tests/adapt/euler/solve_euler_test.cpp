@@ -1,4 +1,4 @@
-// Flows whose answer is known, and the same bits on any number of ranks.
+// Flows whose answer is known; euler_ranks_test looks at numbers of ranks.
 #include "adapt/euler/solve_euler.hpp"
 
 #include <gtest/gtest.h>
@@ -77,8 +77,8 @@ TEST(UniformFlow, IsKeptBetweenWalls) {
   }
 }
 
-TEST(SteadyFlow, RoundASymmetricBodyHasNoLift) {
-  const Mesh mesh = shared(test::ring_mesh(64, 28, 0.3, 20));
+TEST(SteadyFlow, RoundASymmetricBodyHasNoLiftAndEverLessDrag) {
+  const Mesh mesh = shared(test::ring_mesh(64, 28, 0.3, 20)), coarse = shared(test::ring_mesh(32, 14, 0.3, 20));
   EulerOptions options;
   options.mach = 0.3;
   options.iterations = 300;
@@ -86,7 +86,7 @@ TEST(SteadyFlow, RoundASymmetricBodyHasNoLift) {
   EXPECT_TRUE(result.converged) << result.residual;
   EXPECT_LT(result.residual, 1e-8);
   EXPECT_NEAR(result.cl, 0, 1e-5);
-  EXPECT_NEAR(result.cd, 0, 0.02);  // d'Alembert
+  EXPECT_LT(std::abs(result.cd), 0.5 * std::abs(solve_euler(world(), coarse, options).cd));  // d'Alembert: none in the end
   options.alpha = 3;
   EXPECT_GT(solve_euler(world(), mesh, options).cl, 0.02);
 }
@@ -115,38 +115,6 @@ TEST(BowShock, StandsBeforeABluntBody) {
   for (std::size_t i = 3; i < result.states.size(); i += 4) largest = std::max(largest, result.states[i]);
   EXPECT_NEAR(world().maximum(largest) * 1.4, 5.640, 0.08);  // pressure behind a normal shock at Mach 2, brought to rest
   EXPECT_NEAR(result.cl, 0, 2e-3);
-}
-
-/// Two runs, on all ranks and alone, must agree to the last bit.
-void expect_same_on_all_ranks(const Mesh& whole, const MeshOrder& order, const EulerOptions& options) {
-  const Communicator self(MPI_COMM_SELF);
-  const Mesh part = scatter_mesh(world(), whole, order);
-  const Mesh all = scatter_mesh(self, whole, order);
-  const EulerResult together = solve_euler(world(), part, options), alone = solve_euler(self, all, options);
-  const auto first = alone.states.begin() + static_cast<std::ptrdiff_t>(4 * part.first_node);
-  EXPECT_TRUE(std::equal(together.states.begin(), together.states.end(), first));
-  EXPECT_EQ(together.iterations, alone.iterations);
-  EXPECT_EQ(together.residual, alone.residual);
-  EXPECT_EQ(together.cl, alone.cl);
-  EXPECT_EQ(together.cd, alone.cd);
-  EXPECT_EQ(together.time, alone.time);
-}
-
-TEST(Ranks, GiveTheSameBits) {
-  EulerOptions options;
-  options.mach = 0.7;
-  options.alpha = 5;
-  options.iterations = 12;
-  options.boundaries = {{"wall", "wall", {}}, {"far", "farfield", {}}};
-  const Mesh grid = test::irregular_grid(9, {1, 1}, 0.2);
-  const Mesh ring = test::ring_mesh(24, 8, 0.3, 5);
-  for (const auto time : {EulerOptions::Time::steady, EulerOptions::Time::accurate}) {
-    options.time = time;
-    for (const Mesh* mesh : {&grid, &ring}) {
-      expect_same_on_all_ranks(*mesh, space_filling_order(*mesh), options);
-      expect_same_on_all_ranks(*mesh, test::shuffled_order(*mesh, 5), options);
-    }
-  }
 }
 
 TEST(Refusals, NameTheValue) {
