@@ -40,7 +40,7 @@ SolvedFlow solve(const Communicator& comm, EulerOptions options, const Mesh& mes
     flow.notes.push_back(fmt::format("iteration {}: residual {:.3e}, cl {:.6f}, cd {:.6f}", p.iteration, p.residual, p.cl, p.cd));
   };
   EulerResult result = solve_euler(comm, mesh, options, states_of(start));
-  if (!result.converged) flow.notes.push_back("the solver did not reach its tolerance or end time within its iterations");
+  if (!result.converged) flow.warnings.push_back("the solver did not reach its tolerance or end time within its iterations");
   flow.solution.constants = {static_cast<double>(result.iterations), result.time, options.mach};
   flow.solution.names.assign(euler_names.begin(), euler_names.end());
   flow.solution.values = std::move(result.states);
@@ -89,7 +89,7 @@ SolvedFlow solve(const Communicator& comm, const CommandSolver& solver, const Me
       require_same_mesh(left, read_native(native).mesh);
       whole = std::move(left.solution);
     } catch (const InputError& fault) {
-      throw SolverError(solver_message(solver.command, files, fault.what()));
+      throw SolverError(solver_message(solver.command, files, std::string("left no solution for its mesh: ") + fault.what()));
     }
   });
   flow.solution = share_solution(comm, whole);

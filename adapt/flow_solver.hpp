@@ -25,7 +25,7 @@ using FlowSolver = std::variant<EulerOptions, CommandSolver>;
 struct SolvedFlow {
   Solution solution;  ///< a row for each owned node
   std::optional<double> cl, cd, residual;
-  std::vector<std::string> notes;  ///< for the cycle's log
+  std::vector<std::string> notes, warnings;  ///< for the cycle's log; for the user too
 };
 
 /// Solves on a mesh whose native file, with the starting state where there is one, stands in the folder already. Throws InputError, SolverError.

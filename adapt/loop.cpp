@@ -99,10 +99,13 @@ class AdaptiveRun {
     Left left = left_in(folder);
     times.end();
     const CycleRecord record = record_of(cycle, carried, flow, left.plan, times);
-    write_text(comm_, folder + "/log.txt", log_text(record, flow, result, left.plan));
+    std::vector<std::string> warnings = result.report.warnings;
+    warnings.insert(warnings.end(), flow.warnings.begin(), flow.warnings.end());
+    warnings.insert(warnings.end(), left.plan.warnings.begin(), left.plan.warnings.end());
+    write_text(comm_, folder + "/log.txt", log_text(record, flow.notes, warnings));
     write_text(comm_, folder + "/record.json", json_text(record));
     folders_.finish(cycle);
-    report_(record);
+    report_(record, warnings);
     return left;
   }
 
@@ -152,12 +155,11 @@ class AdaptiveRun {
     all.emplace_back(stage, seconds);
   }
 
-  static std::string log_text(const CycleRecord& record, const SolvedFlow& flow, const MeshResult& result, const AdaptationPlan& plan) {
+  static std::string log_text(const CycleRecord& record, const std::vector<std::string>& notes, const std::vector<std::string>& warnings) {
     std::string text = fmt::format("cycle {}: {} nodes, {} triangles, {} quads, smallest angle {:.1f}\n", record.cycle, record.nodes,
                                    record.triangles, record.quads, record.worst_angle);
-    for (const auto* lines : {&result.report.warnings, &flow.notes, &plan.warnings}) {
-      for (const std::string& line : *lines) text += line + "\n";
-    }
+    for (const std::string& line : notes) text += line + "\n";
+    for (const std::string& line : warnings) text += "warning: " + line + "\n";
     text += fmt::format("marks for the next cycle: {} leaves to be split, {} to go\n", record.refined, record.coarsened);
     for (const auto& [stage, seconds] : record.seconds) text += fmt::format("{} {:.2f} s\n", stage, seconds);
     return text;

@@ -14,7 +14,7 @@ namespace quadloop {
 namespace {
 
 /// A coordinate of the centres of this rank's cells, triangles, then quads.
-std::vector<double> centres(const Mesh& mesh, double Point::* coordinate) {
+std::vector<double> centres(const Mesh& mesh, double Point::*coordinate) {
   std::vector<double> values;
   const auto append = [&](const auto& cells) {
     for (const auto& nodes : cells) {
@@ -56,9 +56,10 @@ void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const 
       const double far = reach * lattice.edge(q.level);
       const bool near = left[i] > box.low.x - far && right[i] < box.high.x + far && bottom[i] > box.low.y - far && top[i] < box.high.y + far;
       if (near) continue;
-      throw InputError(fmt::format("{}: is of another mesh than {}: a cell at ({}, {}) does not belong to the tree's leaf at ({}, {}); give the mesh that "
-                                   "was written with the tree",
-                                   shown, tree, left[i], bottom[i], box.centre().x, box.centre().y));
+      throw InputError(
+          fmt::format("{}: is of another mesh than {}: a cell at ({}, {}) does not belong to the tree's leaf at ({}, {}); give the mesh that "
+                      "was written with the tree",
+                      shown, tree, left[i], bottom[i], box.centre().x, box.centre().y));
     }
   });
 }

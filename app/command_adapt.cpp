@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "adapt/digests.hpp"
 #include "adapt/loop.hpp"
@@ -60,8 +61,14 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   std::string folder = arguments.folder;
   if (folder.empty()) folder = std::filesystem::path(arguments.case_path).stem().string() + ".adapt";
   show_warnings(comm.is_root(), context.verbose, warnings);
-  const CycleReport report = [&](const CycleRecord& record) {
+  std::set<std::string> told;
+  const CycleReport report = [&](const CycleRecord& record, const std::vector<std::string>& of_cycle) {
     if (comm.is_root() && !context.quiet) std::cout << line_of(record) << std::endl;
+    Warnings fresh;
+    for (const std::string& warning : of_cycle) {
+      if (told.insert(warning).second) fresh.push_back(warning);
+    }
+    show_warnings(comm.is_root(), context.verbose, fresh);
   };
   run_adaptation(comm, *adaptive, folder, arguments.resume, report);
   if (comm.is_root() && !context.quiet) std::cout << fmt::format("  wrote {}/cycle_00 to cycle_{:02}\n", folder, adaptive->adapt.cycles);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -23,6 +24,15 @@ void require_values(const LoadedMesh& loaded, const std::string& path) {
   throw InputError(path + ": holds a mesh without a solution; " +
                    (vtu ? "let the solver save values at points (in ParaView: Cell Data to Point Data)"
                         : "let the solver append its variables, a row of values for each node"));
+}
+
+/// For the formats whose reader has not looked.
+void require_finite(const Solution& solution, const std::string& path) {
+  const std::size_t width = solution.names.size();
+  for (std::size_t i = 0; i < solution.values.size(); ++i) {
+    if (std::isfinite(solution.values[i])) continue;
+    throw InputError(fmt::format("{}: {} is not finite at node {}: {}", path, solution.names[i % width], i / width + 1, solution.values[i]));
+  }
 }
 
 /// The cells with the nodes of each in ascending order, and so the cells: the same list for the same cells.
@@ -84,6 +94,7 @@ LoadedSolution read_solution(const std::string& path) {
   }
   LoadedMesh loaded = read_mesh(path);
   require_values(loaded, path);
+  require_finite(*loaded.solution, path);
   LoadedSolution result{path, std::move(*loaded.solution), static_cast<std::int64_t>(loaded.mesh.points.size()), {}, true, {}, {}};
   result.points = std::move(loaded.mesh.points);
   result.triangles = std::move(loaded.mesh.triangles);

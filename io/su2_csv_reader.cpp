@@ -96,7 +96,9 @@ class Su2CsvReader {
       if (!parse_real(texts[k], row_[k])) {
         scan_.refuse_at(line_begin_, fmt::format("expected a number for {}, found \"{}\"", names_[k], texts[k].substr(0, 40)));
       }
-      if (!std::isfinite(row_[k])) scan_.refuse_at(line_begin_, fmt::format("{} is not finite: {}", names_[k], texts[k].substr(0, 40)));
+      if (!std::isfinite(row_[k]))
+        scan_.refuse_at(line_begin_,
+                        fmt::format("{} is not finite: {}, in row {} of the nodes", names_[k], texts[k].substr(0, 40), loaded_.nodes + 1));
     }
     for (const std::size_t column : variables_) loaded_.solution.values.push_back(row_[column]);
     if (x_column_) loaded_.points.push_back({row_[*x_column_], row_[*y_column_]});

@@ -33,18 +33,18 @@ MeshInput disc_input() {
   return input;
 }
 
-TreeRecord tree_of(const MeshInput& input, const std::vector<SplitDemand>& demands) {
-  return build_mesh(world(), input.geometry, input.mesh, DemandedSplits(world(), demands)).tree;
+TreeRecord tree_of(const MeshInput& input, const std::vector<SplitDemand>& demands, const Communicator& comm = world()) {
+  return build_mesh(comm, input.geometry, input.mesh, DemandedSplits(comm, demands)).tree;
 }
 
 /// All ranks' leaves, bit for bit.
-std::vector<std::array<std::int64_t, 6>> all_leaves(const TreeRecord& tree) {
+std::vector<std::array<std::int64_t, 6>> all_leaves(const TreeRecord& tree, const Communicator& comm = world()) {
   std::vector<std::array<std::int64_t, 6>> own;
   for (const LeafRecord& leaf : tree.leaves) {
     const Quadrant q = place_of(leaf);
     own.push_back({q.x, q.y, q.level, leaf.wanted, leaf.adapted, leaf.triangles + 1000 * leaf.quads});
   }
-  return world().all_gather_values(std::span<const std::array<std::int64_t, 6>>(own));
+  return comm.all_gather_values(std::span<const std::array<std::int64_t, 6>>(own));
 }
 
 /// By place alone, so the same on any number of ranks: about one leaf in seven.
@@ -52,11 +52,41 @@ bool chosen(const Quadrant& q) { return (static_cast<std::uint64_t>(q.x * 31 + q
 
 constexpr int finest = 12;
 
-ChangedSplits refined_by_choice(const TreeRecord& tree) {
+ChangedSplits refined_by_choice(const TreeRecord& tree, const Communicator& comm = world()) {
   std::vector<Mark> marks;
   for (const LeafRecord& leaf : tree.leaves) marks.push_back(chosen(place_of(leaf)) ? Mark::refine : Mark::keep);
-  return changed_splits(world(), tree, marks, finest);
+  return changed_splits(comm, tree, marks, finest);
 }
+
+class RestartUnderGradation : public testing::TestWithParam<double> {};
+
+/// Each rank alone makes the tree that all make together, also where demands of one rank's leaves reach into those of another: by gradation from leaf
+/// to leaf, and twice, so that the second demands stand on what the first led to.
+TEST_P(RestartUnderGradation, OneRankAndAllRanksMakeTheSameTree) {
+  MeshInput input = disc_input();
+  input.mesh.size.gradation = GetParam();
+  const Communicator alone(MPI_COMM_SELF);
+  TreeRecord together = tree_of(input, {}), single = tree_of(input, {}, alone);
+  ASSERT_EQ(all_leaves(together), all_leaves(single, alone));
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    const ChangedSplits by_all = refined_by_choice(together), by_one = refined_by_choice(single, alone);
+    EXPECT_EQ(by_all.refined, by_one.refined);
+    together = tree_of(input, by_all.demands);
+    single = tree_of(input, by_one.demands, alone);
+    ASSERT_EQ(all_leaves(together), all_leaves(single, alone)) << "refined " << cycle + 1 << " times";
+  }
+  for (int cycle = 0; cycle < 2; ++cycle) {
+    const std::vector<Mark> of_all(together.leaves.size(), Mark::coarsen), of_one(single.leaves.size(), Mark::coarsen);
+    const ChangedSplits by_all = changed_splits(world(), together, of_all, finest), by_one = changed_splits(alone, single, of_one, finest);
+    EXPECT_EQ(by_all.coarsened, by_one.coarsened);
+    EXPECT_GT(by_all.coarsened, 0);
+    together = tree_of(input, by_all.demands);
+    single = tree_of(input, by_one.demands, alone);
+    ASSERT_EQ(all_leaves(together), all_leaves(single, alone)) << "coarsened " << cycle + 1 << " times";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Gradations, RestartUnderGradation, testing::Values(1.25, 1.5, 2.0));
 
 TEST(Restart, WithoutMarksTheTreeIsTheSame) {
   const MeshInput input = disc_input();
