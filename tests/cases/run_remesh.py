@@ -167,7 +167,7 @@ def check_outline(program, case, folder, cycles, name, change, ranks):
     moved_outline(outline, change)
     words = remesh(program, case, old / "mesh.tree.h5", old / "mesh.mesh", made, 1, ["--geometry", outline])
     outside = re.search(r"nodes outside the old mesh +(\d+)", words)
-    require(outside and int(outside[1]) > 0, f"no nodes outside the old mesh in: {words}")
+    require(outside and (int(outside[1]) > 0) == (name == "moved"), f"a thicker airfoil uncovers nothing, a moved one does: {words}")
     require(root_of(f"{made}.tree.h5") == root_of(old / "mesh.tree.h5"), "the root has changed")
     whole = folder / f"{name}_whole.geom"
     old_whole = (folder / "whole.geom").read_text()
@@ -191,8 +191,17 @@ def check_outlines(program, folder, ranks):
     check_outline(program, case, folder, cycles, "thicker", lambda x, y: (x, 1.02 * y), ranks[:2])
     check_outline(program, case, folder, cycles, "moved", lambda x, y: (x + 0.02, y + 0.01), ranks[:3])
     moved_outline(folder / "far.geom", lambda x, y: (x + 6, y))
-    expect_refusal(program, 1, ["outside the root"], "remesh", "--tree", cycles / "cycle_02/mesh.tree.h5", "--solution", cycles / "cycle_02/mesh.mesh",
-                   case, "-o", folder / "far", "--geometry", folder / "far.geom")
+    last = cycles / "cycle_02"
+    expect_refusal(program, 1, ["far field", "does not enclose"], "remesh", "--tree", last / "mesh.tree.h5", "--solution", last / "mesh.mesh", case,
+                   "-o", folder / "far", "--geometry", folder / "far.geom")
+
+
+def check_outside_the_root(program, case, cycles, folder):
+    larger, old = folder / "larger.geom", cycles / "cycle_01"
+    larger.write_text("1\nframe\n4\n-1 -1\n1.5 -1\n1.5 1\n-1 1\n")
+    expect_refusal(program, 1, ["frame", "(1.5, -1)", "outside the root"], "remesh", "--tree", old / "mesh.tree.h5", "--solution", old / "mesh.mesh", case,
+                   "-o", folder / "outside", "--geometry", larger)
+    require(not list(folder.glob("outside*")), "a refusal has left files")
 
 
 def main():
@@ -210,6 +219,7 @@ def main():
         check_formats(args.quadloop, case, cycles, folder)
         check_standing(args.quadloop, case, cycles, folder, args.ranks)
         check_other_mesh(args.quadloop, case, cycles, folder)
+        check_outside_the_root(args.quadloop, case, cycles, folder)
         check_outlines(args.quadloop, folder, args.ranks)
     print("good")
 
