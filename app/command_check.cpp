@@ -67,7 +67,7 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
 void add_check_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check", "say whether a mesh is valid");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .su2 or .msh)")->required()->type_name("IN");
+  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")->required()->type_name("IN");
   command->add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")->type_name("FILE.geom");
   command->add_flag("--json", arguments->json, "print one JSON object instead of a table");
   command->callback([&context, arguments] {

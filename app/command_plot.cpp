@@ -94,11 +94,13 @@ void run_plot(const CommandContext& context, const PlotArguments& arguments) {
 void add_plot_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<PlotArguments>();
   CLI::App* command = app.add_subcommand("plot", "draw a mesh, or a field on it");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .su2 or .msh)")->required()->type_name("IN");
+  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")->required()->type_name("IN");
   command->add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")->required()->type_name("OUT");
   command->add_option("--window", arguments->window, "the part of the plane to show")->type_name("X0,X1,Y0,Y1");
   CLI::Option* field = command->add_option("--field", arguments->field, "a variable of the solution, as colours")->type_name("NAME");
-  command->add_option("--colour-by", arguments->colouring, "what the cells' colours tell: block, quality or type (the default)")
+  command
+      ->add_option("--colour-by,--color-by", arguments->colouring,
+                   "what the cells' colours tell: block, quality or type (the default); rank is refused, as a mesh file holds no ranks")
       ->type_name("WHAT")
       ->check(CLI::IsMember({"block", "quality", "type", "rank"}))
       ->excludes(field);

@@ -20,6 +20,7 @@
 #include "mesher/geometry/assemble.hpp"
 #include "mesher/mesh/delaunay_check.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "smoother/outline_match.hpp"
 #include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
@@ -58,12 +59,19 @@ std::vector<char> interface_nodes(const LoadedMesh& loaded) {
   return shared;
 }
 
-Geometry read_outline(const std::string& path, Warnings& warnings) { return assemble(read_geometry(path, warnings), {}, warnings); }
+Geometry read_outline(const std::string& path, Warnings& warnings) {
+  AssembleOptions options;
+  options.domain_is_known = true;
+  return assemble(read_geometry(path, warnings), options, warnings);
+}
+
+void append(Warnings& warnings, const Warnings& more) { warnings.insert(warnings.end(), more.begin(), more.end()); }
 
 /// The root reads the mesh, every rank the geometry (files are small beside a mesh). *Collective.*
 Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   Loaded loaded;
   Warnings warnings;
+  std::vector<char> turned;
   context.comm.together([&] {
     require_readable_suffix(arguments.input);
     require_writable_suffix(arguments.output);
@@ -72,13 +80,19 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     loaded.whole = read_mesh(arguments.input);
     tidy_mesh(loaded.whole, arguments.input);
     require_sound_topology(loaded.whole, arguments.input);
-    warnings.insert(warnings.end(), loaded.whole.warnings.begin(), loaded.whole.warnings.end());
+    append(warnings, loaded.whole.warnings);
+    if (loaded.geometry) {
+      append(warnings, require_match(*loaded.geometry, loaded.whole.mesh, arguments.geometry));
+      turned = loops_against(*loaded.geometry, loaded.whole.mesh);
+    }
     loaded.order = space_filling_order(loaded.whole.mesh);
     if (loaded.whole.blocks > 1) loaded.pinned = interface_nodes(loaded.whole);
     loaded.delaunay = is_delaunay(loaded.whole.mesh, loaded.whole.triangle_to_block);
     if (loaded.whole.solution) warnings.push_back(arguments.input + ": the solution stays with its nodes, which move; it is that of the old mesh");
-    for (std::string& loss : losses_in(loaded.whole, arguments.output)) warnings.push_back(std::move(loss));
+    append(warnings, losses_in(loaded.whole, arguments.output));
   });
+  context.comm.broadcast(turned);
+  if (loaded.geometry) loaded.geometry = with_loops_turned(*loaded.geometry, turned);
   loaded.delaunay = context.comm.any(loaded.delaunay);
   if (context.comm.is_root()) {
     for (const std::string& warning : warnings) log::warning(warning);
@@ -119,11 +133,9 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
   if (loaded.delaunay) options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);
   if (loaded.delaunay) options.delaunay = [centre](Point p) { return tie_rank(centre, p); };
   times.begin("report");
-  const ShapeReport before = report_shapes(comm, part);
+  const ShapeReport before = report_shapes(comm, part, loaded.whole.mesh);
   times.begin("smooth");
   const SmoothReport smoothed = smooth_mesh(comm, part, options);
-  times.begin("report");
-  const ShapeReport after = report_shapes(comm, part);
   times.begin("check");
   gather_mesh(comm, part, loaded.order, loaded.whole.mesh);
   comm.together([&] {
@@ -131,6 +143,8 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
   });
   times.begin("write");
   write(comm, loaded.whole, arguments.output);
+  times.begin("report");
+  const ShapeReport after = report_shapes(comm, part, loaded.whole.mesh);
   times.end();
   const std::string stages = stage_table(comm, times.stages());
   if (!comm.is_root() || context.quiet) return;
@@ -145,8 +159,10 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
 void add_smooth_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<SmoothArguments>();
   CLI::App* command = app.add_subcommand("smooth", "move a mesh's nodes to better the shapes of its cells");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .su2 or .msh)")->required()->type_name("IN");
-  command->add_option("-o,--output", arguments->output, "the smoothed mesh, in the format of its suffix")->required()->type_name("OUT");
+  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")->required()->type_name("IN");
+  command->add_option("-o,--output", arguments->output, "the smoothed mesh, in the format of its suffix; IN itself is overwritten")
+      ->required()
+      ->type_name("OUT");
   command->add_option("--sweeps", arguments->sweeps, "how often each node is visited at most: 20")->type_name("N")->check(CLI::Range(0, 100000));
   command->add_option("--method", arguments->method, "how a node's place is looked for: perturb (the default) or nlopt")
       ->type_name("METHOD")
@@ -154,7 +170,8 @@ void add_smooth_command(CLI::App& app, CommandContext& context) {
   command->add_option("--objective", arguments->objective, "what is lowered: power (the default) or thesis (Eq. 3.4)")
       ->type_name("COST")
       ->check(CLI::IsMember({"power", "thesis"}));
-  command->add_option("--geometry", arguments->geometry, "the outline that boundary nodes may slide along, as meshed")->type_name("FILE.geom");
+  command->add_option("--geometry", arguments->geometry, "the outline that boundary nodes may slide along, as `mesh --geometry-out` wrote it")
+      ->type_name("FILE.geom");
   command->callback([&context, arguments] { context.run = [&context, arguments] { run_smooth(context, *arguments); }; });
 }
 

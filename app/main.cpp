@@ -28,12 +28,27 @@ class MpiGuard {
   MpiGuard& operator=(const MpiGuard&) = delete;
 };
 
+std::vector<CLI::App*> commands_of(CLI::App& app) {
+  return app.get_subcommands([](CLI::App*) { return true; });
+}
+
+/// What is wrong where no word of the command line is a command.
+std::string without_command(CLI::App& app) {
+  std::string commands;
+  for (const CLI::App* command : commands_of(app)) commands += (commands.empty() ? "" : ", ") + command->get_name();
+  const std::vector<std::string> words = app.remaining();
+  const bool names_one = !words.empty() && !words.front().starts_with('-');
+  const std::string fault = names_one ? "'" + words.front() + "' is no command" : "a command is missing";
+  return fmt::format("{}; the commands are: {}; see 'quadloop --help'", fault, commands);
+}
+
 /// Lets CLI11 say what it has to say (help, version) on the root rank; what is wrong becomes our own one line.
-void answer(const CLI::App& app, const CLI::ParseError& request, const Communicator& comm) {
+void answer(CLI::App& app, const CLI::ParseError& request, const Communicator& comm) {
   if (request.get_exit_code() == 0) {
     if (comm.is_root()) app.exit(request, std::cout, std::cerr);
     return;
   }
+  if (app.get_subcommands().empty()) throw UsageError(without_command(app));
   std::string command = "quadloop";
   for (const CLI::App* subcommand : app.get_subcommands()) command += " " + subcommand->get_name();
   throw UsageError(fmt::format("{}; see '{} --help'", request.what(), command));
@@ -45,12 +60,21 @@ void run(int argc, char** argv, const Communicator& comm) {
   app.fallthrough();
   app.require_subcommand(1);
   app.set_version_flag("--version", "quadloop " QUADLOOP_VERSION);
-  app.add_flag("-q,--quiet", context.quiet, "print nothing but warnings and errors");
-  app.add_flag("-v,--verbose", context.verbose, "print details, those of each rank too");
+  const char* const quiet = "print nothing but warnings and errors";
+  const char* const verbose = "print details, those of each rank too";
+  app.add_flag("-q,--quiet", context.quiet, quiet);
+  app.add_flag("-v,--verbose", context.verbose, verbose);
   add_mesh_command(app, context);
   add_smooth_command(app, context);
+  add_adapt_command(app, context);
+  add_solve_command(app, context);
+  add_remesh_command(app, context);
   add_check_command(app, context);
   add_plot_command(app, context);
+  for (CLI::App* command : commands_of(app)) {
+    command->footer(
+        fmt::format("With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n  --version", quiet, verbose));
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& request) {

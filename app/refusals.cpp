@@ -40,8 +40,9 @@ Point worst_place(const Mesh& mesh) {
 
 void refuse_invalid(const std::string& file, const std::vector<MeshFault>& faults) {
   const MeshFault& first = faults.front();
-  throw InputError(fmt::format("{}: invalid mesh: {}: {} at ({}, {}){}", file, name_of(first.rule), first.what, first.place.x, first.place.y,
-                               more_faults(faults.size() - 1)));
+  const char* cure = first.rule == MeshRule::geometry ? "; give the file that `mesh --geometry-out` wrote" : "";
+  throw InputError(fmt::format("{}: invalid mesh: {}: {} at ({}, {}){}{}", file, name_of(first.rule), first.what, first.place.x, first.place.y,
+                               more_faults(faults.size() - 1), cure));
 }
 
 void require_sound_topology(const LoadedMesh& loaded, const std::string& file) {
@@ -55,9 +56,10 @@ void require_valid(const LoadedMesh& smoothed, const std::string& file) {
   const auto inverted = std::count_if(faults.begin(), faults.end(), [](const MeshFault& fault) { return fault.rule == MeshRule::positive; });
   if (inverted == 0) refuse_invalid(file, faults);
   const Point place = worst_place(smoothed.mesh);
-  throw InputError(fmt::format("{}: {} cell{} could not be untangled, the worst at ({}, {}); nothing was written. Give more --sweeps, or mend the mesh "
-                               "there: nodes between blocks stay, and those of the outline but for straight or --geometry's parts of it",
-                               file, inverted, inverted == 1 ? "" : "s", place.x, place.y));
+  throw InputError(
+      fmt::format("{}: {} cell{} could not be untangled, the worst at ({}, {}); nothing was written. Give more --sweeps, or mend the mesh "
+                  "there: nodes between blocks stay, and those of the outline but for straight or --geometry's parts of it",
+                  file, inverted, inverted == 1 ? "" : "s", place.x, place.y));
 }
 
 }  // namespace quadloop

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
+#include "app/adapt_settings.hpp"
 #include "io/input/case_file.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/forest/lattice.hpp"
 
 namespace quadloop {
 
@@ -37,7 +40,9 @@ void read_geometry_table(const CaseTable& root, const std::string& case_path, Se
     const auto move = of_file(*table, "translate", moves, i, files.size(), {0, 0});
     const double turn = of_file(*table, "rotate", turns, i, files.size(), 0.0);
     const double scale = of_file(*table, "scale", scales, i, files.size(), 1.0);
-    settings.files.push_back({(std::filesystem::path(case_path).parent_path() / files[i]).string(), {scale, turn, {move[0], move[1]}}});
+    settings.files.push_back({(std::filesystem::path(case_path).parent_path() / files[i]).string(),
+                              fmt::format("{}: 'geometry.file'", table->place("file")),
+                              {scale, turn, {move[0], move[1]}}});
   }
   if (const auto width = table->number("far_field", Range::positive())) {
     settings.far_field = FarField{*width, fmt::format("{}: 'geometry.far_field'", table->place("far_field"))};
@@ -75,6 +80,10 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
     rule.spacing = table.number("spacing", Range::positive());
     rule.corner_degrees = table.number("corner", {0, 180});
     rule.condition = table.choice("bc", {"wall", "farfield", "inflow", "outflow", "symmetry", "interface", "none"});
+    if (const auto pressure = table.number("pressure", Range::positive())) {
+      if (rule.condition != "outflow") table.refuse("pressure", "needs bc = \"outflow\" in the same table; elsewhere there is none to set");
+      settings.solver.pressures.push_back({name, *pressure});
+    }
     table.finish();
     settings.outline.rules.push_back(std::move(rule));
   }
@@ -84,6 +93,7 @@ constexpr double largest_coordinate = 1e100;
 
 Source read_source(const CaseTable& table) {
   Source source;
+  source.where = table.place();
   const auto box = table.numbers("box", 4);
   const auto disc = table.numbers("disc", 3);
   const auto line = table.numbers("line", 4);
@@ -149,14 +159,29 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
   if (!table) return;
   settings.output_prefix = table->text("prefix").value_or(settings.output_prefix);
   if (settings.output_prefix.empty()) table->refuse("prefix", "is empty; name what the output files begin with");
+  if (const std::string suffix = format_suffix_of(settings.output_prefix); !suffix.empty()) {
+    table->refuse("prefix", fmt::format("is '{}'; give it without {}, which is added", settings.output_prefix, suffix));
+  }
   if (table->has("formats")) {
     settings.formats.clear();
     for (const std::string& format : table->texts("formats")) {
-      if (format != "mesh" && format != "cgns") table->refuse("formats", fmt::format("holds '{}', but this version writes: mesh, cgns", format));
+      constexpr std::array known{"mesh", "cgns", "vtu", "su2", "msh"};
+      if (std::find(known.begin(), known.end(), format) == known.end()) {
+        table->refuse("formats", fmt::format("holds '{}', but this version writes: mesh, cgns, vtu, su2, msh", format));
+      }
       if (std::find(settings.formats.begin(), settings.formats.end(), format) == settings.formats.end()) settings.formats.push_back(format);
     }
   }
   table->finish();
+}
+
+/// The far field where a saved tree has it, if its root is one of that size.
+Box saved_far_field(const Box& square, const TreeAttributes& saved) {
+  constexpr double rounding = 1e-9;
+  const Point low{saved.root_x, saved.root_y};
+  const bool is_root = saved.trees_x == 1 && saved.trees_y == 1 && std::abs(square.width() - saved.tree_edge) <= rounding * saved.tree_edge;
+  if (!is_root || (square.low == low && square.width() == saved.tree_edge)) return square;
+  return {low, low + Point{saved.tree_edge, saved.tree_edge}};
 }
 
 }  // namespace
@@ -171,19 +196,38 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   for (const CaseTable& source : root.tables("source")) settings.mesh.size.sources.push_back(read_source(source));
   read_mesh_table(root, settings);
   read_smooth_table(root, settings);
+  settings.adapt = read_adapt_table(root);
+  read_solver_table(root, settings.solver);
   read_output_table(root, case_path, settings);
   root.finish();
+  settings.text = root.canonical_text({"title", "output", "adapt.cycles"});
   return settings;
 }
 
-Geometry load_geometry(const Settings& settings, Warnings& warnings) {
+std::string format_suffix_of(const std::string& prefix) {
+  const std::string suffix = std::filesystem::path(prefix).extension();
+  for (const char* known : {".mesh", ".cgns", ".vtu", ".su2", ".msh", ".h5"}) {
+    if (suffix == known) return suffix;
+  }
+  return {};
+}
+
+Geometry load_geometry(const Settings& settings, Warnings& warnings, const std::optional<TreeAttributes>& saved) {
   std::vector<Chain> chains;
   for (const GeometryInput& input : settings.files) {
+    if (!std::filesystem::exists(input.path)) {
+      throw InputError(
+          fmt::format("{}: there is no file '{}'; check the name, which is relative to the case file's folder", input.where, input.path));
+    }
     std::vector<Chain> of_file = read_geometry(input.path, warnings);
     apply(input.transform, of_file);
     std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
   }
-  if (settings.far_field) add_far_field(chains, settings.far_field->half_width, settings.far_field->where);
+  if (settings.far_field) {
+    const auto& [half_width, where] = *settings.far_field;
+    const Box square = far_field_box(chains, half_width, where);
+    add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
+  }
   return assemble(std::move(chains), settings.outline, warnings);
 }
 
@@ -203,6 +247,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
   Warnings warnings;
   const double min = options.size.min;
+  const Box root = choose_root(geometry, options.size.root).box();
   for (const Boundary& b : geometry.boundaries()) {
     if (b.spacing > 0 && b.spacing < min) {
       warnings.push_back(
@@ -211,7 +256,12 @@ Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) 
   }
   for (const Source& source : options.size.sources) {
     if (source.spacing < min) {
-      warnings.push_back(fmt::format("a [[source]] asks for a spacing of {}, but spacing.min = {} ends the refinement before", source.spacing, min));
+      warnings.push_back(fmt::format("{}: this [[source]] asks for a spacing of {}, but spacing.min = {} ends the refinement before", source.where,
+                                     source.spacing, min));
+    }
+    if (!meets(source, root)) {
+      warnings.push_back(fmt::format("{}: this [[source]] lies outside the root, which reaches from ({}, {}) to ({}, {}), and does nothing; move it",
+                                     source.where, root.low.x, root.low.y, root.high.x, root.high.y));
     }
   }
   return warnings;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/shape_statistics.hpp"
 #include "smoother/shape_histogram.hpp"
 
 namespace quadloop {
@@ -12,12 +13,13 @@ namespace quadloop {
 struct ShapeReport {
   QualitySummary quality;
   std::vector<Histogram> histograms;
+  AreaRatios areas;  ///< on the root rank alone
 };
 
-/// *Collective.*
-ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh);
+/// `whole` is the same mesh, whole on the root rank. *Collective.*
+ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh& whole);
 
-/// Worst and mean quality, angles and histograms in two columns.
+/// Worst and mean quality, angles, ratios of areas and histograms in two columns.
 std::string comparison_table(const ShapeReport& before, const ShapeReport& after);
 
 }  // namespace quadloop

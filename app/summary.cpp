@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -35,6 +36,15 @@ StageRow over_ranks(const Communicator& comm, double seconds) {
 std::string row(const std::string& name, const std::string& value) { return fmt::format("  {:<16}{:>14}\n", name, value); }
 std::string row(const std::string& name, std::int64_t value) { return row(name, std::to_string(value)); }
 
+std::string vanished_text(const std::vector<std::string>& boundaries) {
+  constexpr std::size_t most_named = 10;
+  if (boundaries.empty()) return {};
+  const std::size_t named = std::min(most_named, boundaries.size());
+  const std::string more = named < boundaries.size() ? fmt::format(" and {} more", boundaries.size() - named) : "";
+  return fmt::format("  boundaries that vanished, smaller than spacing.min: {}{}\n",
+                     fmt::join(boundaries.begin(), boundaries.begin() + static_cast<std::ptrdiff_t>(named), ", "), more);
+}
+
 }  // namespace
 
 std::string stage_table(const Communicator& comm, const StageSeconds& seconds) {
@@ -62,7 +72,7 @@ std::string summary_table(const Communicator& comm, const MeshResult& result, co
   text += row("peak memory", fmt::format("{:.0f} MiB", memory)) + row("imbalance", fmt::format("{:.3f}", report.imbalance));
   text += stages;
   for (const std::string& file : files) text += fmt::format("  wrote {}\n", file);
-  return text;
+  return text + vanished_text(report.boundaries_vanished);
 }
 
 }  // namespace quadloop

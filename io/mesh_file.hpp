@@ -8,7 +8,7 @@
 
 namespace quadloop {
 
-/// Reads a mesh in the format that the file's suffix tells, .mesh, .cgns, .su2 or .msh, on the calling rank alone. Throws InputError.
+/// Reads a mesh in the format that the file's suffix tells, .mesh, .cgns, .vtu, .su2 or .msh, on the calling rank alone. Throws InputError.
 LoadedMesh read_mesh(const std::string& path);
 
 /// Throw InputError unless the suffix is that of a format which is read, or written.
@@ -17,6 +17,10 @@ void require_writable_suffix(const std::string& path);
 
 /// Writes a mesh that the set's only rank holds whole, with its solution and blocks as far as the format has a place for them. Throws OutputError.
 void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
+
+/// Writes a distributed mesh in the format that the suffix tells, with a solution where the format has a place for one. *Collective.* Throws
+/// OutputError on all ranks.
+void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr);
 
 /// What a format has no place for and the mesh has: one line each, with the file's name.
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path);

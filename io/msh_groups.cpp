@@ -1,5 +1,6 @@
 #include "io/msh_groups.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace quadloop {
@@ -27,6 +28,10 @@ std::int32_t MshGroups::block_of(ForeignMesh& foreign, std::int64_t physical) {
   const auto found = blocks_.find(std::abs(physical));
   if (found != blocks_.end()) return found->second;
   return blocks_[std::abs(physical)] = foreign.block_named(physical == 0 ? "domain" : name_of(2, std::abs(physical)));
+}
+
+std::int64_t MshGroups::curves_without_group() const {
+  return std::count_if(boundaries_.begin(), boundaries_.end(), [](const auto& entry) { return entry.first.first == 0; });
 }
 
 std::string MshGroups::name_of(int dimension, std::int64_t physical) const {

@@ -23,6 +23,9 @@ class MshGroups {
   std::int32_t boundary_of(ForeignMesh& foreign, std::int64_t physical, std::int64_t entity);
   std::int32_t block_of(ForeignMesh& foreign, std::int64_t physical);
 
+  /// How many boundaries are curves of no physical group.
+  std::int64_t curves_without_group() const;
+
  private:
   using Key = std::pair<std::int64_t, std::int64_t>;
 

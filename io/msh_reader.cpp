@@ -49,10 +49,19 @@ class MshReader {
       read_elements();
     }
     drop_unused_nodes(foreign_, scan_.path());
+    warn_of_names();
     return finish(std::move(foreign_), scan_);
   }
 
  private:
+  void warn_of_names() {
+    const std::int64_t curves = groups_.curves_without_group();
+    if (curves == 0) return;
+    foreign_.loaded.warnings.push_back(scan_.path() + ": " + std::to_string(curves) +
+                                       " curves are in no physical group; their boundaries are called " +
+                                       "boundary_ and the curve's number (in Gmsh, Physical Curve gives names)");
+  }
+
   /// Goes behind the line "$name"; false where the file has no such section.
   bool go_to_section(const std::string& name) {
     const std::string_view text = scan_.text();

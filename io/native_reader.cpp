@@ -110,17 +110,22 @@ class NativeReader {
     scan_.forget_comments();
     const bool more = !scan_.at_end();
     solution.names = names_in(more ? scan_.last_comment_with("names:") : "", variables);
-    solution.values = read_values(variables);
+    solution.values = read_values(solution.names);
     loaded_.solution = std::move(solution);
   }
 
-  std::vector<double> read_values(std::size_t variables) {
-    const std::size_t rows = loaded_.mesh.points.size();
+  std::vector<double> read_values(const std::vector<std::string>& names) {
+    const std::size_t rows = loaded_.mesh.points.size(), variables = names.size();
     if (variables > 0 && 2 * rows > (scan_.bytes_left() + 1) / variables) {
       scan_.refuse("the file ends before the " + std::to_string(rows) + " rows of " + std::to_string(variables) + " variables");
     }
     std::vector<double> values(rows * variables);
-    for (double& value : values) value = scan_.real("a value of the solution");
+    std::size_t at = 0;
+    try {
+      for (; at < values.size(); ++at) values[at] = scan_.real("a value of the solution");
+    } catch (const InputError& fault) {
+      throw InputError(std::string(fault.what()) + "; it is " + names[at % variables] + " at node " + std::to_string(at / variables + 1));
+    }
     return values;
   }
 

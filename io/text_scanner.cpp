@@ -49,7 +49,7 @@ std::string with_c_exponent(std::string_view token) {
 }
 
 /// from_chars, but values that underflow are taken as the nearest number, as other programs do.
-bool parse_real(std::string_view token, double& value) {
+bool parse_c_real(std::string_view token, double& value) {
   if (!token.empty() && token.front() == '+') token.remove_prefix(1);
   const char* const end = token.data() + token.size();
   const auto [stopped, error] = std::from_chars(token.data(), end, value);
@@ -59,6 +59,8 @@ bool parse_real(std::string_view token, double& value) {
 }
 
 }  // namespace
+
+bool parse_real(std::string_view token, double& value) { return parse_c_real(token, value) || parse_c_real(with_c_exponent(token), value); }
 
 TextScanner::TextScanner(std::string path, char comment) : path_{std::move(path)}, text_{whole_file(path_)}, comment_{comment} {
   at_ = token_ = comments_begin_ = text_.data();
@@ -103,7 +105,7 @@ std::int64_t TextScanner::integer(std::string_view expected) {
 double TextScanner::real(std::string_view expected) {
   const std::string_view text = token(expected);
   double value = 0;
-  if (!parse_real(text, value) && !parse_real(with_c_exponent(text), value)) {
+  if (!parse_real(text, value)) {
     refuse("expected " + std::string(expected) + ", found \"" + std::string(text.substr(0, longest_quote)) + "\"");
   }
   if (!std::isfinite(value)) refuse(std::string(expected) + " is not finite: " + std::string(text.substr(0, longest_quote)));

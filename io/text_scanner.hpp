@@ -6,6 +6,9 @@
 
 namespace quadloop {
 
+/// Whether a token is one number from end to end, also with a Fortran exponent (1.0D-3); "nan" and "inf" are.
+bool parse_real(std::string_view token, double& value);
+
 /// Reads blank-separated tokens of a text that is held whole, and passes over comments (from a `comment` that begins a token to the
 /// end of its line). Every refusal is an InputError "file:line: ...".
 class TextScanner {

@@ -25,8 +25,9 @@ void for_each_named_node(Mesh& mesh, const Visit& visit) {
 
 void move_row(Solution& solution, std::size_t from, std::size_t to) {
   const std::size_t width = solution.names.size();
-  if (from != to) std::copy_n(solution.values.begin() + static_cast<std::ptrdiff_t>(from * width), width,
-                              solution.values.begin() + static_cast<std::ptrdiff_t>(to * width));
+  if (from != to)
+    std::copy_n(solution.values.begin() + static_cast<std::ptrdiff_t>(from * width), width,
+                solution.values.begin() + static_cast<std::ptrdiff_t>(to * width));
 }
 
 /// A node that a boundary edge alone names is kept: that edge is a fault, not the node.
@@ -100,7 +101,8 @@ void tidy_mesh(LoadedMesh& loaded, const std::string& path) {
   warn(std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); }),
        "boundaries without edges were left out");
   const std::size_t added = add_missing_boundary(mesh, table);
-  if (added > 0) warn(added, fmt::format("edges of the outline belong to no boundary; they are the boundary \"{}\" now", mesh.boundaries.back().name));
+  if (added > 0)
+    warn(added, fmt::format("edges of the outline belong to no boundary; they are the boundary \"{}\" now", mesh.boundaries.back().name));
 }
 
 }  // namespace quadloop

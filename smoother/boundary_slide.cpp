@@ -23,11 +23,13 @@ constexpr double longest_way = 20;    ///< a chord that stands for a part of the
 BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline,
                              const std::vector<char>& pinned)
     : mesh_{mesh}, boundaries_{boundaries}, outline_{outline}, freedom_(static_cast<std::size_t>(mesh.owned_nodes()), NodeFreedom::interior) {
+  for (const BoundaryEdges& boundary : boundaries) outlined_.push_back(outline != nullptr && outline->has(boundary.name) ? 1 : 0);
   if (outline != nullptr) find_tight_segments(comm);
   find_rails(pinned);
 }
 
 std::optional<OutlinePath::Chord> BoundarySlide::chord_of(const HaloEdge& edge) const {
+  if (!is_outlined(edge.boundary)) return std::nullopt;
   const std::string& name = boundaries_[static_cast<std::size_t>(edge.boundary)].name;
   const Point a = mesh_.point(edge.from), b = mesh_.point(edge.to);
   const OutlinePath::Chord chord{outline_->locate(a, name, true), outline_->locate(b, name, true), a, b};
@@ -121,7 +123,7 @@ BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
 }
 
 bool BoundarySlide::may_slide(const Rail& rail) const {
-  if (outline_ == nullptr) return is_straight(rail);
+  if (!is_outlined(rail.boundary)) return is_straight(rail);
   const Places places = locate(rail);
   if (!places.at.valid() || places.before.loop != places.at.loop || places.after.loop != places.at.loop) return false;
   const double chord = length(point(rail.node) - point(rail.before)) + length(point(rail.after) - point(rail.node));
@@ -149,7 +151,8 @@ std::optional<Point> BoundarySlide::improve(std::int32_t node, const Star& star,
   Places places;
   double back = length(p - point(rail.before)), ahead = length(point(rail.after) - p);
   const Point direction = (1 / length(point(rail.after) - point(rail.before))) * (point(rail.after) - point(rail.before));
-  if (outline_ != nullptr) {
+  const bool outlined = is_outlined(rail.boundary);
+  if (outlined) {
     places = locate(rail);
     if (!places.before.valid() || !places.at.valid() || !places.after.valid()) return std::nullopt;
     back = outline_->way(places.before, places.at);
@@ -160,14 +163,14 @@ std::optional<Point> BoundarySlide::improve(std::int32_t node, const Star& star,
   for (std::size_t k = 0; k < moved.size(); ++k) {
     const double step = k < shares.size() ? shares[k] * ahead : -shares[k - shares.size()] * back;
     moved[k] = {places.at.loop, places.at.arc + step};
-    const Point to = outline_ != nullptr ? outline_->point_at(moved[k]) : point(rail.before) + (back + step) * direction;
+    const Point to = outlined ? outline_->point_at(moved[k]) : point(rail.before) + (back + step) * direction;
     x[static_cast<Eigen::Index>(k)] = to.x;
     y[static_cast<Eigen::Index>(k)] = to.y;
   }
   std::vector<int> order = ranked_places(star, p, objective, x, y);
   for (const int k : order) {
     const Point to{x[k], y[k]};
-    if (outline_ == nullptr || keeps_outline(rail, places, moved[static_cast<std::size_t>(k)], to)) return to;
+    if (!outlined || keeps_outline(rail, places, moved[static_cast<std::size_t>(k)], to)) return to;
   }
   return std::nullopt;
 }

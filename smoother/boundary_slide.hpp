@@ -13,9 +13,9 @@ namespace quadloop {
 /// Whether a node may move, and how.
 enum class NodeFreedom : std::uint8_t { interior, sliding, fixed };
 
-/// Moves boundary nodes along the true outline, or, where that is not known, along a straight boundary of the mesh. A node never passes its
-/// neighbours, never makes the outline stray farther from the chords at it (unless by less than cutting allows itself too), and never brings a chord
-/// across another part of the outline.
+/// Moves boundary nodes along the true outline, or, where that has no boundary of the name, along a straight boundary of the mesh. A node never
+/// passes its neighbours, never makes the outline stray farther from the chords at it (unless by less than cutting allows itself too), and never
+/// brings a chord across another part of the outline.
 class BoundarySlide {
  public:
   /// `outline` may be null. `pinned` flags owned nodes that stay. All arguments must outlive it. *Collective.*
@@ -45,6 +45,7 @@ class BoundarySlide {
   std::optional<OutlinePath::Chord> chord_of(const HaloEdge& edge) const;
   bool may_slide(const Rail& rail) const;
   bool is_straight(const Rail& rail) const;
+  bool is_outlined(std::int32_t boundary) const { return outlined_[static_cast<std::size_t>(boundary)] != 0; }
   Places locate(const Rail& rail) const;
   const Point& point(std::int32_t node) const { return mesh_.points()[static_cast<std::size_t>(node)]; }
   const Rail& rail_of(std::int32_t node) const;
@@ -53,6 +54,7 @@ class BoundarySlide {
   const HaloMesh& mesh_;
   const std::vector<BoundaryEdges>& boundaries_;
   const OutlinePath* outline_;
+  std::vector<char> outlined_;  ///< a flag for each boundary: the outline has it
   std::vector<NodeFreedom> freedom_;
   std::vector<Rail> rails_;  ///< by node
   /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for: nodes there stay, as chords that keep

@@ -72,10 +72,11 @@ std::int32_t OutlinePath::segment_at(std::int32_t loop, double arc) const {
   return static_cast<std::int32_t>(std::upper_bound(first + 1, last, arc) - arc_.begin()) - 1;
 }
 
-OutlinePlace OutlinePath::locate(Point p, const std::string& boundary, bool also_kept) const {
-  std::int32_t segment = -1;
-  double nearest = tolerance_;
-  const Extent around = extent_of(p, p, tolerance_);
+/// The nearest segment of that boundary, the lowest of several; none where it is farther than `within`.
+OutlinePath::Nearest OutlinePath::nearest(Point p, const std::string& boundary, double within) const {
+  Nearest found_so_far{-1, within};
+  auto& [segment, nearest] = found_so_far;
+  const Extent around = extent_of(p, p, within);
   for (auto found = index_->tree.qbegin(bg::index::intersects(around)); found != index_->tree.qend(); ++found) {
     const std::int32_t s = found->second;
     if (geometry_.boundary(geometry_.boundary_of(s)).name != boundary) continue;
@@ -84,6 +85,21 @@ OutlinePlace OutlinePath::locate(Point p, const std::string& boundary, bool also
     nearest = distance;
     segment = s;
   }
+  return found_so_far;
+}
+
+bool OutlinePath::has(const std::string& boundary) const {
+  const auto boundaries = geometry_.boundaries();
+  return std::any_of(boundaries.begin(), boundaries.end(), [&](const Boundary& b) { return b.name == boundary; });
+}
+
+double OutlinePath::distance(Point p, const std::string& boundary, double within) const {
+  const Nearest found = nearest(p, boundary, within);
+  return found.segment < 0 ? std::numeric_limits<double>::infinity() : found.distance;
+}
+
+OutlinePlace OutlinePath::locate(Point p, const std::string& boundary, bool also_kept) const {
+  const std::int32_t segment = nearest(p, boundary, tolerance_).segment;
   if (segment < 0) return {};
   for (const std::int32_t v : {segment, geometry_.next(segment)}) {
     if (!also_kept && geometry_.kept(v) && length(p - geometry_.point(v)) <= tolerance_) return {};

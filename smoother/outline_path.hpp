@@ -31,6 +31,13 @@ class OutlinePath {
   OutlinePlace locate(Point p, const std::string& boundary, bool also_kept) const;
   static constexpr double on_outline = 1e-9;
 
+  /// Whether the outline has a boundary of this name.
+  bool has(const std::string& boundary) const;
+  /// How far a point lies from the boundary of this name; infinitely where that is more than `within`.
+  double distance(Point p, const std::string& boundary, double within) const;
+  /// The length that `on_outline` stands for.
+  double tolerance() const { return tolerance_; }
+
   /// The point at an arc, which may lie beyond the loop's ends by less than its length.
   Point point_at(OutlinePlace place) const;
 
@@ -55,6 +62,11 @@ class OutlinePath {
 
  private:
   struct Index;
+  struct Nearest {
+    std::int32_t segment = -1;
+    double distance = 0;
+  };
+  Nearest nearest(Point p, const std::string& boundary, double within) const;
   double loop_length(std::int32_t loop) const { return length_[static_cast<std::size_t>(loop)]; }
   std::int32_t segment_at(std::int32_t loop, double arc) const;
   double within(std::int32_t loop, double arc) const;

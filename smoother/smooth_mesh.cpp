@@ -26,11 +26,19 @@ std::array<Point, width> corners_of(const HaloMesh& mesh, const std::array<NodeI
   return points;
 }
 
+/// Most cells are whole leaves, whose cost is 0 to the last bit.
+bool is_square(const std::array<Point, 4>& p) {
+  return p[0].y == p[1].y && p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x && p[1].x - p[0].x == p[2].y - p[1].y && p[0].x < p[1].x;
+}
+bool is_square(const std::array<Point, 3>&) { return false; }
+
 /// The cost of a cell by its number in the halo mesh.
 template <std::size_t width>
 double cost_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes, const std::vector<CellTarget>& targets, std::size_t number) {
   const bool ideal = targets.empty() || targets[number].ideal();
-  return cell_cost(corners_of(mesh, nodes), ideal ? ideal_targets<width>() : stretched_targets<width>(targets[number].w1, targets[number].w2));
+  const auto corners = corners_of(mesh, nodes);
+  if (ideal && is_square(corners)) return 0;
+  return cell_cost(corners, ideal ? ideal_targets<width>() : stretched_targets<width>(targets[number].w1, targets[number].w2));
 }
 
 template <std::size_t width>
@@ -57,6 +65,11 @@ bool any_flagged(const std::vector<char>& flags, const Nodes& nodes) {
   return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[static_cast<std::size_t>(n.value())] != 0; });
 }
 
+template <class Nodes>
+void flag_all(const Nodes& nodes, std::vector<char>& flags) {
+  for (const NodeId node : nodes) flags[static_cast<std::size_t>(node.value())] = 1;
+}
+
 WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) { return {comm.maximum(worst.cost), comm.sum(worst.inverted)}; }
 
 /// Adds a cell to a rank's worst; those that other ranks have too count where their first node is owned.
@@ -71,8 +84,7 @@ void grow(const HaloMesh& mesh, std::vector<char>& flags, int rings) {
     mesh.exchange().update(flags);
     const std::vector<char> before = flags;
     mesh.for_each_cell([&](const auto& nodes) {
-      if (!any_flagged(before, nodes)) return;
-      for (const NodeId node : nodes) flags[static_cast<std::size_t>(node.value())] = 1;
+      if (any_flagged(before, nodes)) flag_all(nodes, flags);
     });
   }
   mesh.exchange().update(flags);
@@ -83,11 +95,12 @@ Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<
   Survey result;
   std::vector<char>& near = result.near;
   near.assign(mesh.points().size(), 0);
+  result.costs.reserve(mesh.points().size());
   mesh.for_each_cell([&](const auto& nodes) {
     const double cost = cost_of(mesh, nodes, targets, result.costs.size());
     include(result.worst, mesh, nodes[0], cost);
     result.costs.push_back(cost);
-    for (const NodeId node : nodes) near[static_cast<std::size_t>(node.value())] |= cost > threshold ? 1 : 0;
+    if (cost > threshold) flag_all(nodes, near);
   });
   grow(mesh, near, free_rings);
   result.worst = over_ranks(comm, result.worst);

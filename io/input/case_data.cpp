@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -66,6 +67,29 @@ toml::node* step_down(toml::node& node, const std::string& part, const std::stri
   return table->get(part);
 }
 
+/// Row `number`, from 1 on, of a text.
+std::string row_of(const std::string& text, std::uint32_t number) {
+  std::istringstream rows(text);
+  std::string row;
+  for (std::uint32_t i = 0; i < number && std::getline(rows, row);) ++i;
+  return row;
+}
+
+/// The two slips that beginners make, told from the row that is not TOML: a pattern or a text without quotes.
+std::string hint_for(const std::string& row) {
+  const auto begin = row.find_first_not_of(" \t");
+  if (begin == std::string::npos) return "";
+  if (row[begin] == '[') {
+    const bool bare_pattern = row.find_first_of("*?") != std::string::npos && row.find_first_of("\"'") == std::string::npos;
+    return bare_pattern ? "; quote it: [boundary.\"*\"]" : "";
+  }
+  const auto equals = row.find('=', begin);
+  const auto value = equals == std::string::npos ? equals : row.find_first_not_of(" \t[", equals + 1);
+  if (value == std::string::npos || std::isalpha(static_cast<unsigned char>(row[value])) == 0) return "";
+  const std::string word = row.substr(value, row.find_first_of(" \t\r,]#", value) - value);
+  return word == "true" || word == "false" ? "" : "; put text in quotes: \"" + word + "\"";
+}
+
 }  // namespace
 
 std::string CaseTable::Data::place(const std::string& path, const toml::node* node) const {
@@ -93,7 +117,9 @@ void parse_case(CaseTable::Data& data, const std::string& path) {
   } catch (const toml::parse_error& error) {
     std::string what(error.description());
     for (char& c : what) c = c == '\n' ? ' ' : c;
-    throw InputError(fmt::format("{}:{}: {}; correct this line (column {})", path, error.source().begin.line, what, error.source().begin.column));
+    const toml::source_position at = error.source().begin;
+    throw InputError(
+        fmt::format("{}:{}: {}; correct this line (column {}){}", path, at.line, what, at.column, hint_for(row_of(text.str(), at.line))));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "io/input/case_data.hpp"
 #include "mesher/base/error.hpp"
@@ -141,6 +142,22 @@ std::vector<std::vector<double>> CaseTable::pairs(const std::string& key) const 
   return result;
 }
 
+bool CaseTable::is_table(const std::string& key) const { return has(key) && as_table(table_).get(key)->is_table(); }
+
+std::string CaseTable::canonical_text(const std::vector<std::string>& without) const {
+  toml::table table = as_table(table_);
+  for (const std::string& name : without) {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string::npos)
+      table.erase(name);
+    else if (toml::table* within = table[name.substr(0, dot)].as_table())
+      within->erase(name.substr(dot + 1));
+  }
+  std::ostringstream text;
+  text << toml::json_formatter(table);
+  return text.str();
+}
+
 std::optional<CaseTable> CaseTable::table(const std::string& key) const {
   if (!has(key)) return std::nullopt;
   const toml::node& node = *as_table(table_).get(key);
@@ -153,7 +170,11 @@ std::vector<CaseTable> CaseTable::tables(const std::string& key) const {
   const Lookup lookup(*this, key);
   std::vector<CaseTable> result;
   const std::string wanted = "a list of tables, each begun by [[" + full_name(key) + "]]";
-  for (const toml::node& value : lookup.list(*as_table(table_).get(key), wanted)) {
+  const toml::node& node = *as_table(table_).get(key);
+  if (node.is_table() && node.source().begin.line == 0) {  // made by an assignment to key.0.x
+    refuse(key, "has nothing in the case file that --set could change; write a [[" + full_name(key) + "]] there first (the first is number 0)");
+  }
+  for (const toml::node& value : lookup.list(node, wanted)) {
     if (!value.is_table()) lookup.refuse(wanted, value);
     result.emplace_back(data_, value.as_table(), fmt::format("{}.{}", full_name(key), result.size()));
   }

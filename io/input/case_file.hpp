@@ -29,6 +29,7 @@ class CaseTable {
   CaseTable(std::shared_ptr<Data> data, const void* table, std::string path);
 
   bool has(const std::string& key) const;
+  bool is_table(const std::string& key) const;
   std::optional<double> number(const std::string& key, const Range& range = {}) const;
   std::optional<std::string> text(const std::string& key) const;
   /// One of the given words.
@@ -52,6 +53,9 @@ class CaseTable {
   /// Where the key stands (this table, if it is absent), for messages of the caller's own.
   std::string place(const std::string& key) const;
   std::string place() const;
+  /// The table with all assignments, keys in alphabetical order, but for those of the dotted names given: the same for every way to write the same
+  /// case.
+  std::string canonical_text(const std::vector<std::string>& without) const;
   /// The dotted name of a key.
   std::string full_name(const std::string& key) const;
   [[noreturn]] void refuse(const std::string& key, const std::string& message) const;

@@ -15,8 +15,8 @@ struct SplitDemand {
   std::uint32_t levels = 0;
 };
 
-/// The quadrants that adaptation has asked to split, whatever case and geometry say, with all quadrants above them. Every rank has them all, in little
-/// more than a byte for each: a third of a byte for a leaf of the tree.
+/// The quadrants that adaptation has asked to split, whatever case and geometry say, with all quadrants above them. Every rank has them all, in
+/// little more than a byte for each: a third of a byte for a leaf of the tree.
 class DemandedSplits {
  public:
   static constexpr std::int32_t none = -1;

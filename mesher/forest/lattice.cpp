@@ -134,7 +134,7 @@ Lattice::Lattice(const Box& box, int trees_x, int trees_y)
       x_{make_axis(box.low.x, box.high.x, trees_x)},
       y_{make_axis(box.low.y, box.high.y, trees_y)} {}
 
-int Lattice::finest_level(double min) const {
+int Lattice::finest_level(double min, const char* setting) const {
   int level = 1;
   while (level < deepest_level && edge(level + 1) >= min) ++level;
   const double largest = std::max({std::abs(box_.low.x), std::abs(box_.low.y), std::abs(box_.high.x), std::abs(box_.high.y)});
@@ -142,7 +142,7 @@ int Lattice::finest_level(double min) const {
   const bool too_fine = edge(level) < largest * 0x1p-44;
   if (too_deep || too_fine) {
     std::ostringstream out;
-    out << "spacing.min = " << min << " is too small for a root edge of " << tree_edge_
+    out << setting << " = " << min << " is too small for a root edge of " << tree_edge_
         << (too_deep ? " (more than 29 levels)" : " at these coordinates (double precision)") << "; make it larger";
     throw InputError(out.str());
   }

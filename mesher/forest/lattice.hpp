@@ -57,8 +57,8 @@ class Lattice {
   Box box_of(const Quadrant& q) const { return {corner(q.x, q.y), corner(q.x + q.size(), q.y + q.size())}; }
 
   /// The finest level whose leaves are not smaller than `min`. Throws InputError where that is deeper than the forest or than
-  /// double precision can tell apart.
-  int finest_level(double min) const;
+  /// double precision can tell apart; it names the setting.
+  int finest_level(double min, const char* setting = "spacing.min") const;
 
  private:
   struct Axis {

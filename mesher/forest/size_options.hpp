@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -20,7 +21,11 @@ struct Source {
   };
   std::variant<Box, Disc, Line> shape;
   double spacing = 0;
+  std::string where = {};  ///< for messages
 };
+
+/// Whether the closed shape and the closed box have a point in common.
+bool meets(const Source& source, const Box& box);
 
 /// The root as the user may fix it: trees_x by trees_y square trees, the first one's lower left corner at `corner`.
 struct RootOptions {

@@ -10,22 +10,6 @@ namespace {
 constexpr int slope_bits = 20;
 constexpr double turning_unit = 0x1p-20;  // degrees; integers, so that a sum does not depend on its order
 
-bool meets(const Source& source, const Box& box) {
-  if (const auto* area = std::get_if<Box>(&source.shape)) return area->meets(box);
-  if (const auto* disc = std::get_if<Source::Disc>(&source.shape)) {
-    const Point nearest{std::clamp(disc->centre.x, box.low.x, box.high.x), std::clamp(disc->centre.y, box.low.y, box.high.y)};
-    return length(nearest - disc->centre) <= disc->radius;
-  }
-  const auto& line = std::get<Source::Line>(source.shape);
-  Box extent;
-  extent.include(line.from);
-  extent.include(line.to);
-  if (!extent.meets(box)) return false;
-  const auto side = [&](Point p) { return cross(line.to - line.from, p - line.from); };
-  const double a = side(box.low), b = side({box.high.x, box.low.y}), c = side(box.high), d = side({box.low.x, box.high.y});
-  return std::min({a, b, c, d}) <= 0 && std::max({a, b, c, d}) >= 0;
-}
-
 }  // namespace
 
 SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options, Unresolved unresolved,
@@ -108,9 +92,11 @@ void SizeTree::grow(std::int32_t node) {
 
 /// What can be said of a node's leaves without splitting it.
 void SizeTree::judge(Node& node, const Box& box) const {
-  const bool demanded = node.demanded != DemandedSplits::none;
-  node.plain = node.segments_begin == node.segments_end && !demanded;
-  int finest = node.plain ? coarsest_ : finest_;
+  const bool holds_outline = node.segments_begin < node.segments_end, demanded = node.demanded != DemandedSplits::none;
+  const bool made_by_demand = node.parent >= 0 && nodes_[static_cast<std::size_t>(node.parent)].demanded != DemandedSplits::none;
+  node.plain = !holds_outline && !demanded && !made_by_demand;
+  int finest = holds_outline || demanded ? finest_ : coarsest_;
+  if (made_by_demand) finest = std::max(finest, node.place.level);
   for (const Source& source : options_->sources) {
     if (!meets(source, box)) continue;
     node.plain = false;

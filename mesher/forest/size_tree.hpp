@@ -46,7 +46,7 @@ class SizeTree {
     std::int32_t parent = -1;
     std::int32_t children = unknown;  ///< index of the first of four, or one of the two below
     std::int32_t segments_begin = 0, segments_end = 0;
-    bool plain = false;                            ///< nothing inside asks for leaves finer than `max` does
+    bool plain = false;                            ///< nothing inside asks for leaves finer than `max` does; no leaf made by a demand
     std::int8_t finest = 0;                        ///< no leaf inside is deeper than this level; it may be reached or not
     std::int32_t demanded = DemandedSplits::none;  ///< its number there
     std::int32_t deepest_split = -1;               ///< level of the deepest split node known at or below this one

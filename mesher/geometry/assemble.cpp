@@ -23,7 +23,8 @@ std::string turned_text(const Outline& outline, const OutlineLoop& loop, const L
   const std::string& name = outline.names[static_cast<std::size_t>(loop.boundary.front().value())];
   const Point p = loop.points.front();
   std::string text = fmt::format("boundary '{}': the loop from ({}, {}) wound the wrong way round and was turned", name, p.x, p.y);
-  if (place.depth == 0) text += "; nothing encloses it, so the domain is its inside (for the outside, add a boundary around it, as a far field)";
+  if (place.depth == 0)
+    text += "; nothing encloses it, so the domain is its inside (to mesh the outside, set geometry.far_field = ..., or add a boundary around it)";
   return text;
 }
 
@@ -85,8 +86,10 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
   }
   Outline outline = join_chains(chains);
   const std::vector<LoopPlace> places = validate(outline);
-  orient(outline, places, warnings);
-  warn_of_domains(outline, places, warnings);
+  Warnings of_domain;
+  orient(outline, places, of_domain);
+  warn_of_domains(outline, places, of_domain);
+  if (!options.domain_is_known) warnings.insert(warnings.end(), of_domain.begin(), of_domain.end());
   Geometry geometry = to_geometry(outline, options);
   require_extent(geometry);
   return geometry;

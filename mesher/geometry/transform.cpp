@@ -38,7 +38,10 @@ void apply(const Transform& transform, std::vector<Chain>& chains) {
   }
 }
 
-void add_far_field(std::vector<Chain>& chains, double half_width, const std::string& where) {
+namespace {
+
+/// The box of the chains. Throws InputError where one of them is a far field already.
+Box box_without_far_field(const std::vector<Chain>& chains, const std::string& where) {
   Box box;
   for (const Chain& chain : chains) {
     if (chain.name == "farfield") {
@@ -47,12 +50,25 @@ void add_far_field(std::vector<Chain>& chains, double half_width, const std::str
     }
     for (const Point p : chain.points) box.include(p);
   }
-  const Point low = box.centre() - Point{half_width, half_width}, high = box.centre() + Point{half_width, half_width};
+  return box;
+}
+
+}  // namespace
+
+Box far_field_box(const std::vector<Chain>& chains, double half_width, const std::string& where) {
+  const Point centre = box_without_far_field(chains, where).centre();
+  return {centre - Point{half_width, half_width}, centre + Point{half_width, half_width}};
+}
+
+void add_far_field(std::vector<Chain>& chains, const Box& square, const std::string& where) {
+  const Box box = box_without_far_field(chains, where);
+  const auto& [low, high] = square;
   if (!(low.x < box.low.x && low.y < box.low.y && box.high.x < high.x && box.high.y < high.y)) {
-    throw InputError(fmt::format(
-        "{}: a far field of half width {} around ({}, {}) does not enclose the geometry, which reaches from ({}, {}) to "
-        "({}, {}); make it larger than {}",
-        where, half_width, box.centre().x, box.centre().y, box.low.x, box.low.y, box.high.x, box.high.y, 0.5 * std::max(box.width(), box.height())));
+    throw InputError(
+        fmt::format("{}: a far field of half width {:g} around ({}, {}) does not enclose the geometry, which reaches from ({}, {}) to "
+                    "({}, {}); make it larger than {}",
+                    where, 0.5 * square.width(), square.centre().x, square.centre().y, box.low.x, box.low.y, box.high.x, box.high.y,
+                    0.5 * std::max(box.width(), box.height())));
   }
   chains.push_back({"farfield", false, {low, {high.x, low.y}, high, {low.x, high.y}}, where});
 }

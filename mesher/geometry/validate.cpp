@@ -134,11 +134,12 @@ std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::
   const std::string others = more == 0 ? ""
                                        : fmt::format(" ({}{} more pair{} of segments meet{})", pairs.complete ? "" : "at least ", more,
                                                      more == 1 ? "" : "s", more == 1 ? "s" : "");
+  const std::string &source = outline.loops[flat.loop(pairs.first)].source, &other_source = outline.loops[flat.loop(pairs.second)].source;
+  const std::string place_of_other = source == other_source ? "" : fmt::format(" ({})", other_source);
   throw InputError(
-      fmt::format("{}: boundary {} meets boundary {} at ({}, {}){}; boundaries must neither cross nor touch: move or remove the points "
+      fmt::format("{}: boundary {} meets boundary {}{} at ({}, {}){}; boundaries must neither cross nor touch: move or remove the points "
                   "there",
-                  outline.loops[flat.loop(pairs.first)].source, boundary_text(outline, flat, pairs.first), boundary_text(outline, flat, pairs.second),
-                  at.x, at.y, others));
+                  source, boundary_text(outline, flat, pairs.first), boundary_text(outline, flat, pairs.second), place_of_other, at.x, at.y, others));
 }
 
 }  // namespace

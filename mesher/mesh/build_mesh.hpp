@@ -27,10 +27,11 @@ struct MeshOptions {
 struct MeshReport {
   std::int64_t leaves = 0, cut_leaves = 0, islands_dropped = 0;
   int coarsest_level = 0, finest_level = 0;
-  int finest_allowed = 0;             ///< level that no leaf may pass
-  double imbalance = 1;               ///< the heaviest rank's work over the mean, as the partition weighs it
-  std::vector<std::string> warnings;  ///< one line each: what was dropped or coarsened, and where
-  StageTimes times;                   ///< of this rank
+  int finest_allowed = 0;                        ///< level that no leaf may pass
+  double imbalance = 1;                          ///< the heaviest rank's work over the mean, as the partition weighs it
+  std::vector<std::string> boundaries_vanished;  ///< names of those of which every loop was dropped
+  std::vector<std::string> warnings;             ///< one line each: what was dropped or coarsened, and where
+  StageTimes times;                              ///< of this rank
 };
 
 struct MeshResult {

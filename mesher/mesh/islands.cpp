@@ -30,6 +30,17 @@ Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
   return {{g.boundaries().begin(), g.boundaries().end()}, std::move(points), std::move(starts), std::move(segment_boundary)};
 }
 
+/// In the order of the geometry.
+std::vector<std::string> names_without_segments(const Geometry& g) {
+  std::vector<char> found(g.boundaries().size(), 0);
+  for (std::int32_t s = 0; s < g.size(); ++s) found[static_cast<std::size_t>(g.boundary_of(s).value())] = 1;
+  std::vector<std::string> names;
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (found[b] == 0) names.push_back(g.boundaries()[b].name);
+  }
+  return names;
+}
+
 }  // namespace
 
 Geometry without_small_islands(const Geometry& g, double min, MeshReport& report) {
@@ -53,7 +64,9 @@ Geometry without_small_islands(const Geometry& g, double min, MeshReport& report
             << "): this and every other loop of the geometry is smaller than spacing.min = " << min << " both ways; make spacing.min smaller";
     throw InputError(message.str());
   }
-  return with_loops(g, keep);
+  Geometry kept = with_loops(g, keep);
+  report.boundaries_vanished = names_without_segments(kept);
+  return kept;
 }
 
 }  // namespace quadloop

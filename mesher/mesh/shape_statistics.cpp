@@ -172,7 +172,7 @@ double ratio_of(double a, double b) {
 }
 
 /// One ratio for each edge between two cells.
-std::vector<double> area_ratios(const Mesh& mesh, const EdgeTable& table) {
+std::vector<double> ratios_at_edges(const Mesh& mesh, const EdgeTable& table) {
   const std::vector<double> areas = cell_areas(mesh);
   const auto area = [&](std::int32_t cell) { return areas[static_cast<std::size_t>(cell)]; };
   std::vector<double> ratios;
@@ -192,14 +192,15 @@ double percentile_99(std::vector<double>& values) {
   return *at;
 }
 
-void add_area_ratios(const Mesh& mesh, const EdgeTable& table, ShapeStatistics& shape) {
-  std::vector<double> ratios = area_ratios(mesh, table);
-  if (ratios.empty()) return;
-  shape.area_ratio_max = *std::max_element(ratios.begin(), ratios.end());
-  shape.area_ratio_p99 = percentile_99(ratios);
+AreaRatios area_ratios(const Mesh& mesh, const EdgeTable& table) {
+  std::vector<double> ratios = ratios_at_edges(mesh, table);
+  if (ratios.empty()) return {};
+  return {*std::max_element(ratios.begin(), ratios.end()), percentile_99(ratios)};
 }
 
 }  // namespace
+
+AreaRatios area_ratios(const Mesh& whole_mesh) { return area_ratios(whole_mesh, EdgeTable(whole_mesh)); }
 
 ShapeStatistics shape_statistics(const Mesh& whole_mesh, std::span<const Chain> geometry) {
   ShapeStatistics shape;
@@ -208,7 +209,9 @@ ShapeStatistics shape_statistics(const Mesh& whole_mesh, std::span<const Chain> 
   shape.quad_share = static_cast<double>(whole_mesh.quads.size()) / static_cast<double>(cells);
   const EdgeTable table(whole_mesh);
   add_all_corners(whole_mesh, table, geometry, shape);
-  add_area_ratios(whole_mesh, table, shape);
+  const AreaRatios ratios = area_ratios(whole_mesh, table);
+  shape.area_ratio_max = ratios.largest;
+  shape.area_ratio_p99 = ratios.of_99_percent;
   return shape;
 }
 

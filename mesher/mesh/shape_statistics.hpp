@@ -31,6 +31,15 @@ struct ShapeStatistics {
   std::vector<SharpPlace> passages;               ///< excepted corners in passages, likewise
 };
 
+/// Of the two cells at each inner edge, the larger area by the smaller: the largest, and the one that 99 percent of the edges do not exceed. Infinite
+/// for cells without area, 0 where there is no inner edge.
+struct AreaRatios {
+  double largest = 0, of_99_percent = 0;
+};
+
+/// Of a mesh that is whole on this rank and names existing nodes. Linear in time and memory.
+AreaRatios area_ratios(const Mesh& whole_mesh);
+
 /// Of a mesh that is whole on this rank and names existing nodes. `geometry` is what it was made from, the domain to the left of every chain;
 /// without it no corner is excepted. Linear in time and memory.
 ShapeStatistics shape_statistics(const Mesh& whole_mesh, std::span<const Chain> geometry);

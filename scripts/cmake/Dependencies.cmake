@@ -11,6 +11,8 @@ pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
 find_package(GDAL REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(EXPAT REQUIRED)
+find_package(ZLIB REQUIRED)
 
 # Debian's p4est and cgns carry neither CMake packages nor pkg-config files.
 function(quadloop_find_library target header library)

@@ -112,7 +112,7 @@ class Plot(unittest.TestCase):
         self.assertIn(PALE_BLUE, self.small("--window=0.5,0.500001,0.5,0.500001")[2])
 
     def test_other_colours(self):
-        for options in (["--colour-by", "block"], ["--colour-by", "quality"], ["--field", "density"], ["--field", "pressure"]):
+        for options in (["--colour-by", "block"], ["--color-by", "block"], ["--colour-by", "quality"], ["--field", "density"], ["--field", "pressure"]):
             self.assertNotIn(PALE_ORANGE, self.small(*options)[2], options)
 
     def test_the_same_bytes_twice_and_on_ranks(self):
@@ -124,7 +124,8 @@ class Plot(unittest.TestCase):
 
     def test_refusals(self):
         self.refused(1, ".png, .svg or .pdf", "a.mesh", "-o", "a.jpg")
-        self.refused(1, "give a .mesh, .cgns, .su2 or .msh file", "a.vtk", "-o", "a.png")
+        self.refused(1, "give a .mesh, .cgns, .vtu, .su2 or .msh file", "a.vtk", "-o", "a.png")
+        self.refused(1, "do you mean 'a.mesh'", "a", "-o", "a.png")
         self.refused(1, "none.mesh", "none.mesh", "-o", "a.png")
         self.refused(1, "window is empty", "a.mesh", "-o", "a.png", "--window=1,1,0,1")
         self.refused(1, "no cell lies in the window", "a.mesh", "-o", "a.png", "--window=5,6,0,1")

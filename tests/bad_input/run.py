@@ -60,6 +60,8 @@ def check_success(program, mpirun, ranks):
                 yield f"{arguments}: exit status {result.returncode}, stderr {result.stderr!r}"
             if ("--quiet" in arguments) != (result.stdout == ""):
                 yield f"{arguments}: stdout {result.stdout!r}"
+            if "mesh" in arguments and "--help" in arguments and not all(flag in result.stdout for flag in ("--quiet", "--verbose")):
+                yield f"{arguments}: not every flag is listed"
             if "--version" in arguments and len(result.stdout.splitlines()) != 1:
                 yield f"{arguments}: one line, from one rank, not {result.stdout!r}"
 

@@ -31,7 +31,9 @@ std::vector<SplitDemand> random_demands(int count) {
   for (int i = 0; i < count; ++i) {
     const int level = static_cast<int>(random() % 12);
     const std::int64_t size = std::int64_t{1} << (Quadrant::unit_level - level);
-    const auto coordinate = [&](std::int64_t trees) { return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(trees * tree_edge)) / size * size; };
+    const auto coordinate = [&](std::int64_t trees) {
+      return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(trees * tree_edge)) / size * size;
+    };
     const Quadrant leaf{coordinate(3), coordinate(2), level};
     demands.push_back({leaf, static_cast<std::uint32_t>(random()) & ((2U << level) - 1)});
   }
@@ -40,7 +42,8 @@ std::vector<SplitDemand> random_demands(int count) {
 
 std::vector<SplitDemand> share_of(const std::vector<SplitDemand>& all) {
   std::vector<SplitDemand> share;
-  for (std::size_t i = static_cast<std::size_t>(world().rank()); i < all.size(); i += static_cast<std::size_t>(world().size())) share.push_back(all[i]);
+  for (std::size_t i = static_cast<std::size_t>(world().rank()); i < all.size(); i += static_cast<std::size_t>(world().size()))
+    share.push_back(all[i]);
   return share;
 }
 

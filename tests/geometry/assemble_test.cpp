@@ -53,7 +53,16 @@ TEST(Assemble, SaysWhatALonelyOutlineEncloses) {
   Warnings warnings;
   assembled({reversed(square("airfoil", {0, 0}, 1))}, &warnings);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("far field"), std::string::npos);
+  EXPECT_NE(warnings[0].find("geometry.far_field"), std::string::npos);
+}
+
+TEST(Assemble, SaysNothingOfADomainThatIsKnown) {
+  Warnings warnings;
+  AssembleOptions options;
+  options.domain_is_known = true;
+  const Geometry g = assemble({reversed(square("fore", {0, 0}, 1)), square("aft", {5, 0}, 1)}, options, warnings);
+  EXPECT_EQ(g.loop_count(), 2);
+  EXPECT_TRUE(warnings.empty());
 }
 
 TEST(Assemble, JoinsOpenChains) {

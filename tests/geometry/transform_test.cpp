@@ -28,7 +28,7 @@ TEST(Transform, ScalesThenTurnsThenMoves) {
 
 TEST(FarField, EnclosesTheGeometryAroundItsCentre) {
   std::vector<Chain> chains{square("body", {3, 4}, 1)};
-  add_far_field(chains, 10, "case.toml:3");
+  add_far_field(chains, far_field_box(chains, 10, "case.toml:3"), "case.toml:3");
   ASSERT_EQ(chains.size(), 2u);
   EXPECT_EQ(chains[1].name, "farfield");
   EXPECT_EQ(chains[1].points, (std::vector<Point>{{-7, -6}, {13, -6}, {13, 14}, {-7, 14}}));
@@ -36,14 +36,14 @@ TEST(FarField, EnclosesTheGeometryAroundItsCentre) {
 
 TEST(FarField, RefusesATooSmallOne) {
   std::vector<Chain> chains{square("body", {3, 4}, 1)};
-  const std::string message = refusal([&] { add_far_field(chains, 1, "case.toml:3"); });
+  const std::string message = refusal([&] { add_far_field(chains, far_field_box(chains, 1, "case.toml:3"), "case.toml:3"); });
   EXPECT_EQ(message.find("case.toml:3"), 0u) << message;
   EXPECT_NE(message.find("does not enclose"), std::string::npos) << message;
 }
 
 TEST(FarField, RefusesASecondOne) {
   std::vector<Chain> chains{square("farfield", {3, 4}, 1)};
-  EXPECT_NE(refusal([&] { add_far_field(chains, 9, "case.toml:3"); }).find("already"), std::string::npos);
+  EXPECT_NE(refusal([&] { add_far_field(chains, far_field_box(chains, 9, "case.toml:3"), "case.toml:3"); }).find("already"), std::string::npos);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "io/native_file.hpp"
 #include "io/su2_file.hpp"
 #include "io/tree_file.hpp"
+#include "io/vtu_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -84,6 +85,19 @@ TEST(MshFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   expect_same_mesh(loaded, sample.mesh);
   EXPECT_EQ(loaded.block_names, std::vector<std::string>{"domain"});
   EXPECT_TRUE(loaded.warnings.empty());
+}
+
+TEST(VtuFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
+  const TemporaryFolder folder;
+  const Sample sample;
+  write_vtu(world(), sample.own, folder.file("many.vtu"), &sample.own_solution);
+  if (!world().is_root()) return;
+  write_vtu(sample.alone, sample.mesh, folder.file("one.vtu"), &sample.solution);
+  EXPECT_TRUE(test::bytes_of(folder.file("many.vtu")) == test::bytes_of(folder.file("one.vtu")));
+  const LoadedMesh loaded = read_vtu(folder.file("many.vtu"));
+  expect_same_mesh(loaded, sample.mesh);
+  expect_same_solution(loaded, sample.solution);
+  EXPECT_EQ(loaded.solution->names, sample.solution.names);
 }
 
 TEST(CgnsFile, ComesBackAsTheNativeFileDoes) {

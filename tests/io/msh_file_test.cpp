@@ -87,6 +87,8 @@ TEST(MshReader, NamesWhatHasNoName) {
   std::string no_groups = replaced(replaced(old_house, "2 7 1", "2 0 1"), "9 1 10", "0 1 10");
   for (int i = 0; i < 4; ++i) no_groups = replaced(no_groups, "1 2 8 ", "1 2 0 ");
   EXPECT_EQ(boundary_names(check.of(no_groups)), (std::vector<std::string>{"boundary_1", "boundary_2", "boundary_3"}));
+  EXPECT_NE(check.of(no_groups).warnings.back().find("m.msh: 3 curves are in no physical group; their boundaries are called boundary_"),
+            std::string::npos);
   EXPECT_EQ(check.of(replaced(no_groups, "2 9 1 40", "2 0 1 40")).block_names, std::vector<std::string>{"domain"});
 }
 

@@ -25,6 +25,7 @@ class Probe {
     char* arguments[] = {program.data(), path.data(), nullptr};
     EXPECT_EQ(posix_spawn(&process_, SOLVER_PROBE, nullptr, nullptr, arguments, variables.data()), 0);
   }
+  void stop() const { kill(process_, SIGSTOP); }
   void end_by(int signal_number) const {
     kill(process_, signal_number);
     int status = 0;
@@ -35,6 +36,20 @@ class Probe {
  private:
   pid_t process_ = 0;
 };
+
+/// By the kernel alone: quadloop cannot act here.
+TEST(EndedWithGuard, TheSolverItself) {
+  const CycleFolder folder;
+  folder.script("echo $PPID > guard; echo $$ > self; while :; do sleep 0.1; done");
+  const Probe probe(folder);
+  const pid_t guard = test::written_process(folder.file("guard")), solver = test::written_process(folder.file("self"));
+  ASSERT_GT(guard, 0);
+  ASSERT_GT(solver, 0);
+  probe.stop();
+  kill(guard, SIGKILL);
+  EXPECT_TRUE(test::vanishes(solver));
+  probe.end_by(SIGKILL);
+}
 
 class EndedWithQuadloop : public testing::TestWithParam<int> {};
 

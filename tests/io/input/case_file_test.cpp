@@ -93,6 +93,8 @@ TEST_F(CaseFile, SetErrorsNameTheirText) {
   EXPECT_NE(refused([&] { read("a = 1\n", {"a.b=2"}); }).find("--set a.b=2"), std::string::npos);
   EXPECT_NE(refused([&] { read("a = 1\n", {"a..b=2"}); }).find("not a key"), std::string::npos);
   EXPECT_NE(refused([&] { read("[[s]]\n", {"s.4.x=2"}); }).find("--set s.4.x=2"), std::string::npos);
+  EXPECT_EQ(refused([&] { read("a = 1\n", {"s.0.x=2"}).tables("s"); }),
+            "--set s.0.x=2: 's' has nothing in the case file that --set could change; write a [[s]] there first (the first is number 0)");
 }
 
 TEST_F(CaseFile, NamesTheLineThatIsNotToml) {
@@ -100,6 +102,22 @@ TEST_F(CaseFile, NamesTheLineThatIsNotToml) {
   EXPECT_EQ(refused([&] { read("a = 1\na = 2\n"); }).find("case.toml:2: "), 0u);
   EXPECT_EQ(refused([&] { read_case((folder_.path() / "none.toml").string()); }).find("none.toml: cannot be opened"), 0u);
   EXPECT_NE(refused([&] { read_case(folder_.path().string()); }).find("folder"), std::string::npos);
+}
+
+TEST_F(CaseFile, HintsAtMissingQuotes) {
+  const auto ends_in = [&](const std::string& text, const std::string& end) {
+    const std::string said = refused([&] { read(text); });
+    EXPECT_TRUE(said.ends_with(end)) << said;
+  };
+  ends_in("a = 1\n[boundary.*]\n", "; quote it: [boundary.\"*\"]");
+  ends_in("[boundary.isl_?]\n", "; quote it: [boundary.\"*\"]");
+  ends_in("a = 1\nbc = wall # here\n", "; put text in quotes: \"wall\"");
+  ends_in("bc=farfield\r\n", "; put text in quotes: \"farfield\"");
+  ends_in("bc = none", "; put text in quotes: \"none\"");
+  ends_in("formats = [mesh, cgns]\n", "; put text in quotes: \"mesh\"");
+  ends_in("a = 0,1\n", ")");
+  ends_in("a = true x\n", ")");
+  ends_in("[\"is_*\"\n", ")");
 }
 
 }  // namespace

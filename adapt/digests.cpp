@@ -1,4 +1,4 @@
-#include "app/digests.hpp"
+#include "adapt/digests.hpp"
 
 #include <bit>
 #include <optional>
@@ -71,6 +71,13 @@ std::uint64_t case_digest(const MeshOptions& options) {
     digest.add(static_cast<std::uint64_t>(size.root->trees_y));
   }
   digest.add(options.snap);
+  return digest.value();
+}
+
+std::uint64_t text_digest(const std::string& text) {
+  WordDigest digest;
+  digest.add(static_cast<std::uint64_t>(text.size()));
+  for (const char c : text) digest.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
   return digest.value();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "mesher/base/communicator.hpp"
 #include "mesher/mesh/build_mesh.hpp"
@@ -10,6 +11,9 @@ namespace quadloop {
 
 /// A number that changes with every setting that the mesh depends on, beside the geometry.
 std::uint64_t case_digest(const MeshOptions& options);
+
+/// A number that changes with any character of a text.
+std::uint64_t text_digest(const std::string& text);
 
 /// A number that changes with any node's coordinates and does not depend on the number of ranks. *Collective.*
 std::uint64_t coordinate_digest(const Communicator& comm, const Mesh& mesh);

@@ -1,0 +1,83 @@
+#include "adapt/cycle_folders.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A fault of the disk as ours.
+template <class Work>
+void on_disk(const std::string& path, const Work& work) {
+  try {
+    work();
+  } catch (const fs::filesystem_error& fault) {
+    throw OutputError(path + ": cannot be written: " + fault.code().message());
+  }
+}
+
+/// What was written in a folder outlives a loss of power only then.
+void bring_to_disk(const fs::path& path, int flags) {
+  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+CycleFolders::CycleFolders(const Communicator& comm, std::string folder) : comm_{comm}, folder_{std::move(folder)} {}
+
+std::string CycleFolders::whole(int cycle) const { return fmt::format("{}/cycle_{:02}", folder_, cycle); }
+
+int CycleFolders::open(bool resume) {
+  int cycles = 0;
+  comm_.together([&] {
+    if (!comm_.is_root()) return;
+    on_disk(folder_, [&] {
+      if (fs::exists(folder_) && !fs::is_directory(folder_)) throw InputError(folder_ + ": is a file, but a folder is wanted; name another one");
+      fs::create_directories(folder_);
+      if (!resume && !fs::is_empty(folder_)) {
+        throw InputError(folder_ + ": is not empty; --resume goes on with the run in it, or name another folder with -o");
+      }
+      while (fs::is_directory(whole(cycles))) ++cycles;
+      fs::remove_all(under_way(cycles));
+    });
+  });
+  return static_cast<int>(comm_.maximum(std::int64_t{cycles}));
+}
+
+void CycleFolders::begin(int cycle) {
+  comm_.together([&] {
+    if (!comm_.is_root()) return;
+    on_disk(under_way(cycle), [&] {
+      fs::remove_all(under_way(cycle));
+      fs::create_directory(under_way(cycle));
+    });
+  });
+}
+
+void CycleFolders::finish(int cycle) {
+  comm_.together([&] {
+    if (!comm_.is_root()) return;
+    on_disk(whole(cycle), [&] {
+      for (const fs::directory_entry& entry : fs::directory_iterator(under_way(cycle))) {
+        if (entry.is_regular_file()) bring_to_disk(entry.path(), O_RDONLY);
+      }
+      bring_to_disk(under_way(cycle), O_RDONLY | O_DIRECTORY);
+      fs::rename(under_way(cycle), whole(cycle));
+      bring_to_disk(folder_, O_RDONLY | O_DIRECTORY);
+    });
+  });
+}
+
+}  // namespace quadloop

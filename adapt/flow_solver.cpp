@@ -1,0 +1,108 @@
+#include "adapt/flow_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "adapt/euler/solve_euler.hpp"
+#include "adapt/remesh.hpp"
+#include "io/mesh_file.hpp"
+#include "io/native_file.hpp"
+#include "io/output_file.hpp"
+#include "io/solution_file.hpp"
+#include "io/variable_names.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+const std::array<const char*, 4> euler_names{"density", "x_velocity", "y_velocity", "pressure"};
+
+/// The four variables of the built-in solver, row by row; none without a starting state.
+std::vector<double> states_of(const std::optional<Solution>& start) {
+  std::vector<double> states;
+  if (!start) return states;
+  const std::size_t width = start->names.size(), rows = start->values.size() / width;
+  std::array<std::size_t, 4> columns{};
+  for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = variable(start->names, euler_names[i], "the starting state");
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (const std::size_t column : columns) states.push_back(start->values[row * width + column]);
+  }
+  return states;
+}
+
+SolvedFlow solve(const Communicator& comm, EulerOptions options, const Mesh& mesh, const std::optional<Solution>& start) {
+  SolvedFlow flow;
+  options.progress = [&](const EulerProgress& p) {
+    flow.notes.push_back(fmt::format("iteration {}: residual {:.3e}, cl {:.6f}, cd {:.6f}", p.iteration, p.residual, p.cl, p.cd));
+  };
+  EulerResult result = solve_euler(comm, mesh, options, states_of(start));
+  if (!result.converged) flow.warnings.push_back("the solver did not reach its tolerance or end time within its iterations");
+  flow.solution.constants = {static_cast<double>(result.iterations), result.time, options.mach};
+  flow.solution.names.assign(euler_names.begin(), euler_names.end());
+  flow.solution.values = std::move(result.states);
+  flow.cl = result.cl;
+  flow.cd = result.cd;
+  flow.residual = result.residual;
+  return flow;
+}
+
+/// The mesh in the format that the user's solver reads. *Collective.*
+void write_for(const Communicator& comm, const Mesh& mesh, const std::optional<Solution>& start, const std::string& native, const std::string& path) {
+  if (path == native) return;
+  OutputSet outputs(comm);
+  write_mesh(outputs, mesh, path, start ? &*start : nullptr);
+  outputs.commit();
+}
+
+/// The rows of this rank's owned nodes from those of all nodes, which the root holds. *Collective.*
+std::vector<double> rows_of_owned(const Communicator& comm, const Mesh& mesh, const std::vector<double>& rows, std::size_t width) {
+  const auto owned = comm.all_gather(static_cast<std::int64_t>(mesh.owned_nodes));
+  std::vector<std::vector<double>> out(static_cast<std::size_t>(comm.size()));
+  std::size_t begin = 0;
+  for (std::size_t rank = 0; comm.is_root() && rank < out.size(); ++rank) {
+    const std::size_t end = begin + static_cast<std::size_t>(owned[rank]) * width;
+    out[rank].assign(rows.begin() + static_cast<std::ptrdiff_t>(begin), rows.begin() + static_cast<std::ptrdiff_t>(end));
+    begin = end;
+  }
+  return std::move(comm.exchange(out)[0]);
+}
+
+SolvedFlow solve(const Communicator& comm, const CommandSolver& solver, const Mesh& mesh, const std::optional<Solution>& start,
+                 const std::string& folder, int cycle) {
+  const std::filesystem::path place = std::filesystem::absolute(folder);
+  const SolverFiles files{
+      place, (place / solver.mesh).string(), (place / solver.solution).string(), solver.case_folder, solver.ranks > 0 ? solver.ranks : comm.size(),
+      cycle};
+  const std::string native = (place / "mesh.mesh").string();
+  write_for(comm, mesh, start, native, files.mesh);
+  run_solver(comm, solver.command, files);
+  SolvedFlow flow;
+  Solution whole;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    try {
+      LoadedSolution left = read_solution(files.solution);
+      require_same_mesh(left, read_native(native).mesh);
+      whole = std::move(left.solution);
+    } catch (const InputError& fault) {
+      throw SolverError(solver_message(solver.command, files, std::string("left no solution for its mesh: ") + fault.what()));
+    }
+  });
+  flow.solution = share_solution(comm, whole);
+  flow.solution.values = rows_of_owned(comm, mesh, whole.values, flow.solution.names.size());
+  return flow;
+}
+
+}  // namespace
+
+SolvedFlow solve_flow(const Communicator& comm, const FlowSolver& solver, const Mesh& mesh, const std::optional<Solution>& start,
+                      const std::string& folder, int cycle) {
+  if (const auto* options = std::get_if<EulerOptions>(&solver)) return solve(comm, *options, mesh, start);
+  return solve(comm, std::get<CommandSolver>(solver), mesh, start, folder, cycle);
+}
+
+}  // namespace quadloop

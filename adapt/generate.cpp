@@ -1,0 +1,39 @@
+#include "adapt/generate.hpp"
+
+#include <fmt/format.h>
+
+#include "adapt/digests.hpp"
+#include "mesher/base/log.hpp"
+#include "mesher/delaunay/tie_order.hpp"
+
+namespace quadloop {
+
+namespace {
+
+void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result) {
+  SmoothOptions options = input.smooth;
+  if (options.sweeps == 0) return;
+  options.geometry = &input.geometry;
+  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
+  if (input.mesh.type == MeshType::delaunay) {
+    options.delaunay = [&lattice, finest = result.report.finest_allowed](Point p) { return tie_rank(lattice, finest, p); };
+  }
+  const SmoothReport report = smooth_mesh(comm, result.mesh, options);
+  log::detail(fmt::format("smoothed: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}", report.moves, report.free_nodes,
+                          report.sweeps, report.worst_cost_after, report.worst_cost_before));
+}
+
+}  // namespace
+
+GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded) {
+  GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}};
+  MeshResult& result = generated.result;
+  generated.smoothing.begin("smooth");
+  smooth(comm, input, result);
+  generated.smoothing.end();
+  result.tree.attributes.case_digest = input.digest;
+  result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);
+  return generated;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,180 @@
+#include "adapt/loop.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "adapt/cycle_folders.hpp"
+#include "adapt/transfer/transfer.hpp"
+#include "io/cgns_file.hpp"
+#include "io/native_file.hpp"
+#include "io/output_file.hpp"
+#include "io/tree_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/timer.hpp"
+#include "mesher/mesh/quality.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// What a cycle leaves to the next one, as its files have it.
+struct Left {
+  SolvedMesh solved;
+  AdaptationPlan plan;
+};
+
+/// From the root rank. *Collective.*
+void write_text(const Communicator& comm, const std::string& path, const std::string& text) {
+  OutputSet outputs(comm);
+  const StagedFile staged = outputs.stage(path);
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    OutputFile file(staged);
+    file.write(text);
+    file.close();
+  });
+  outputs.commit();
+}
+
+class AdaptiveRun {
+ public:
+  AdaptiveRun(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, const CycleReport& report)
+      : comm_{comm}, case_{adaptive}, folders_{comm, folder}, report_{report} {}
+
+  void run(bool resume) {
+    const int first = folders_.open(resume);
+    std::optional<Left> left;
+    if (first > 0) {
+      require_same_case(first - 1);
+      if (first <= case_.adapt.cycles) left = left_in(folders_.whole(first - 1));
+    }
+    for (int cycle = first; cycle <= case_.adapt.cycles; ++cycle) left = run_cycle(cycle, left);
+  }
+
+ private:
+  void require_same_case(int cycle) const {
+    comm_.together([&] {
+      const std::string path = folders_.whole(cycle) + "/record.json";
+      std::ifstream file(path);
+      const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+      if (case_digest_in(text) == case_.digest) return;
+      throw InputError(path +
+                       ": is of another case, or the case, its geometry or a --set has changed since; resume with the same, or take another folder");
+    });
+  }
+
+  Left left_in(const std::string& folder) const {
+    const std::string path = folder + "/mesh.mesh";
+    LoadedMesh whole;
+    comm_.together([&] {
+      if (!comm_.is_root()) return;
+      whole = read_native(path);
+      if (!whole.solution) throw InputError(path + ": holds no solution; a whole cycle has one");
+    });
+    Left left{spread_solved(comm_, whole, read_tree(comm_, folder + "/mesh.tree.h5")), {}};
+    left.plan = plan_adaptation(comm_, case_.mesh, case_.adapt, left.solved);
+    return left;
+  }
+
+  Left run_cycle(int cycle, const std::optional<Left>& before) {
+    StageTimes times;
+    const std::string folder = folders_.under_way(cycle);
+    folders_.begin(cycle);
+    times.begin("mesh");
+    const CarriedMesh carried =
+        before ? carry_over(comm_, case_.mesh, before->plan, before->solved) : CarriedMesh{generate_mesh(comm_, case_.mesh), {}, 0, {}};
+    const MeshResult& result = carried.generated.result;
+    times.begin("write");
+    std::optional<Solution> start;
+    if (before) start = carried.start;
+    write_start(folder, result, start);
+    times.begin("solve");
+    const SolvedFlow flow = solve_flow(comm_, case_.solver, result.mesh, start, folder, cycle);
+    times.begin("write");
+    write_solved(folder, result.mesh, flow.solution);
+    times.begin("adapt");
+    Left left = left_in(folder);
+    times.end();
+    const CycleRecord record = record_of(cycle, carried, flow, left.plan, times);
+    std::vector<std::string> warnings = result.report.warnings;
+    warnings.insert(warnings.end(), flow.warnings.begin(), flow.warnings.end());
+    warnings.insert(warnings.end(), left.plan.warnings.begin(), left.plan.warnings.end());
+    write_text(comm_, folder + "/log.txt", log_text(record, flow.notes, warnings));
+    write_text(comm_, folder + "/record.json", json_text(record));
+    folders_.finish(cycle);
+    report_(record, warnings);
+    return left;
+  }
+
+  void write_start(const std::string& folder, const MeshResult& result, const std::optional<Solution>& start) const {
+    OutputSet outputs(comm_);
+    write_native(outputs, result.mesh, folder + "/mesh.mesh", start ? &*start : nullptr);
+    write_tree(outputs, result.tree, folder + "/mesh.tree.h5");
+    outputs.commit();
+  }
+
+  void write_solved(const std::string& folder, const Mesh& mesh, const Solution& solution) const {
+    OutputSet outputs(comm_);
+    write_native(outputs, mesh, folder + "/mesh.mesh", &solution);
+    write_cgns(outputs, mesh, folder + "/mesh.cgns", &solution);
+    outputs.commit();
+  }
+
+  CycleRecord record_of(int cycle, const CarriedMesh& carried, const SolvedFlow& flow, const AdaptationPlan& plan, const StageTimes& times) const {
+    const QualitySummary quality = summarise_quality(comm_, carried.generated.result.mesh);
+    CycleRecord record;
+    record.cycle = cycle;
+    record.case_digest = case_.digest;
+    record.nodes = quality.counts.nodes;
+    record.triangles = quality.counts.triangles;
+    record.quads = quality.counts.quads;
+    record.leaves = carried.generated.result.report.leaves;
+    record.worst_angle = quality.smallest_degrees;
+    record.mean = plan.mean;
+    record.deviation = plan.deviation;
+    record.refined = plan.refined;
+    record.coarsened = plan.coarsened;
+    record.outside = carried.outside;
+    record.drift = carried.drift;
+    record.cl = flow.cl;
+    record.cd = flow.cd;
+    record.residual = flow.residual;
+    for (const auto& [stage, seconds] : times.stages()) add_seconds(record.seconds, stage, comm_.maximum(seconds));
+    return record;
+  }
+
+  static void add_seconds(std::vector<std::pair<std::string, double>>& all, const std::string& stage, double seconds) {
+    for (auto& [name, sum] : all) {
+      if (name != stage) continue;
+      sum += seconds;
+      return;
+    }
+    all.emplace_back(stage, seconds);
+  }
+
+  static std::string log_text(const CycleRecord& record, const std::vector<std::string>& notes, const std::vector<std::string>& warnings) {
+    std::string text = fmt::format("cycle {}: {} nodes, {} triangles, {} quads, smallest angle {:.1f}\n", record.cycle, record.nodes,
+                                   record.triangles, record.quads, record.worst_angle);
+    for (const std::string& line : notes) text += line + "\n";
+    for (const std::string& line : warnings) text += "warning: " + line + "\n";
+    text += fmt::format("marks for the next cycle: {} leaves to be split, {} to go\n", record.refined, record.coarsened);
+    for (const auto& [stage, seconds] : record.seconds) text += fmt::format("{} {:.2f} s\n", stage, seconds);
+    return text;
+  }
+
+  const Communicator& comm_;
+  const AdaptiveCase& case_;
+  CycleFolders folders_;
+  const CycleReport& report_;
+};
+
+}  // namespace
+
+void run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume, const CycleReport& report) {
+  AdaptiveRun(comm, adaptive, folder, report).run(resume);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,77 @@
+#include "adapt/sensor/indicator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapt/sensor/cells_of_leaves.hpp"
+#include "adapt/sensor/node_gradients.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+template <class T>
+T change(std::span<const T> of_nodes, NodeId from, NodeId to) {
+  return of_nodes[static_cast<std::size_t>(to.value())] - of_nodes[static_cast<std::size_t>(from.value())];
+}
+
+/// Raises each cell's value to the largest of its edges. `of_edge(from, to)` must have the same bits as `of_edge(to, from)`: the cells on both sides
+/// of an edge see it in different directions, and so do different ranks. Absolute values of a change do, and products of two changes.
+template <class OfEdge>
+void raise_by_edges(const Mesh& mesh, const OfEdge& of_edge, std::vector<double>& of_cells) {
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
+    double& value = of_cells[static_cast<std::size_t>(cell)];
+    value = std::max(value, of_edge(from, to));
+  });
+}
+
+void raise_by_field(const Communicator& comm, const Mesh& mesh, const ScaledField& field, Indicator kind, std::vector<double>& of_cells) {
+  const std::span<const double> values(field.values);
+  const std::span<const Point> points(mesh.points);
+  const auto unless_rounding = [&](double difference) { return difference > field.rounding ? difference : 0; };
+  const auto difference = [&](NodeId from, NodeId to) { return unless_rounding(std::abs(change(values, from, to))); };
+  switch (kind) {
+    case Indicator::difference: raise_by_edges(mesh, difference, of_cells); break;
+    case Indicator::gradient: {
+      const auto slope = [&](NodeId from, NodeId to) { return difference(from, to) / length(change(points, from, to)); };
+      raise_by_edges(mesh, slope, of_cells);
+      break;
+    }
+    case Indicator::hessian: {
+      const std::vector<Point> of_nodes = node_gradients(comm, mesh, values);
+      const std::span<const Point> gradients(of_nodes);
+      const auto bend = [&](NodeId from, NodeId to) { return unless_rounding(std::abs(dot(change(gradients, from, to), change(points, from, to)))); };
+      raise_by_edges(mesh, bend, of_cells);
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves, std::span<const NodeField> fields,
+                                   Indicator kind) {
+  const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
+  std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(), 0);
+  for (const NodeField& field : fields) {
+    check_field(comm, mesh, field, FieldSign::any);
+    const ScaledField scaled = scaled_by_range(comm, mesh, field);
+    if (!scaled.constant) raise_by_field(comm, mesh, scaled, kind, of_cells);
+  }
+  return cells_of_leaves.largest(comm, of_cells);
+}
+
+std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves, const NodeField& error) {
+  const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
+  check_field(comm, mesh, error, FieldSign::not_negative);
+  const std::vector<double> values = with_copies(comm, mesh, error);
+  std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(), 0);
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t cell) {
+    double& value = of_cells[static_cast<std::size_t>(cell)];
+    value = std::max(value, values[static_cast<std::size_t>(from.value())]);
+  });
+  return cells_of_leaves.largest(comm, of_cells);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,95 @@
+#include "adapt/sensor/thresholds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "adapt/sensor/cells_of_leaves.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/reproducible_sum.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// As if each indicator were at least `floor`: a threshold above it means the same either way.
+double refine_threshold_from(double logarithm, double floor) {
+  const double threshold = std::pow(10, logarithm);
+  return threshold < floor ? -1 : threshold;  // all leaves lie above it, those of indicator 0 too
+}
+
+double coarsen_threshold_from(double logarithm, double floor) {
+  const double threshold = std::pow(10, logarithm);
+  return threshold > floor ? threshold : 0;
+}
+
+/// The thresholds of each kind of rule, where the indicators differ.
+struct ByRule {
+  const OrderedValues& values;
+  const IndicatorStatistics& statistics;
+
+  Thresholds operator()(const DeviationRule& rule) const {
+    const double mean = statistics.mean, deviation = statistics.deviation;
+    return {refine_threshold_from(mean + rule.refine * deviation, statistics.floor),
+            coarsen_threshold_from(mean - rule.coarsen * deviation, statistics.floor)};
+  }
+  Thresholds operator()(const FractionRule& rule) const { return {values.refine_threshold(rule.refine), values.coarsen_threshold(rule.coarsen)}; }
+  Thresholds operator()(const NodesRule& rule) const {
+    return {Thresholds{}.refine, coarsen_threshold_from(statistics.mean - rule.coarsen * statistics.deviation, statistics.floor)};
+  }
+};
+
+}  // namespace
+
+IndicatorStatistics statistics_of(const Communicator& comm, const OrderedValues& values) {
+  IndicatorStatistics statistics;
+  const double largest = values.largest();
+  statistics.flat = largest - values.smallest() <= 1e-9 * largest;
+  if (largest == 0) return statistics;
+  statistics.floor = std::max(1e-6 * largest, std::numeric_limits<double>::denorm_min());
+  std::vector<double> terms;
+  for (const double value : values.own()) terms.push_back(std::log10(std::max(value, statistics.floor)));
+  const auto count = static_cast<double>(values.count());
+  statistics.mean = reproducible_sum(comm, terms) / count;
+  for (double& term : terms) term = (term - statistics.mean) * (term - statistics.mean);
+  statistics.deviation = std::sqrt(reproducible_sum(comm, terms) / count);
+  return statistics;
+}
+
+Thresholds thresholds_by(const ThresholdRule& rule, const OrderedValues& values, const IndicatorStatistics& statistics) {
+  return statistics.flat ? Thresholds{} : std::visit(ByRule{values, statistics}, rule);
+}
+
+std::vector<Mark> marks_above(std::span<const LeafRecord> leaves, std::span<const double> values, const Thresholds& thresholds) {
+  QUADLOOP_REQUIRE(leaves.size() == values.size(), "there must be one indicator for each leaf");
+  std::vector<Mark> marks(leaves.size(), Mark::keep);
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    if (!has_cells(leaves[i])) continue;
+    if (values[i] > thresholds.refine) {
+      marks[i] = Mark::refine;
+    } else if (values[i] < thresholds.coarsen) {
+      marks[i] = Mark::coarsen;
+    }
+  }
+  return marks;
+}
+
+void count_marks(const Communicator& comm, MarkedLeaves& marked) {
+  const auto count_of = [&](Mark mark) { return comm.sum(std::int64_t{std::count(marked.marks.begin(), marked.marks.end(), mark)}); };
+  marked.report.refined = count_of(Mark::refine);
+  marked.report.coarsened = count_of(Mark::coarsen);
+}
+
+MarkedLeaves mark_leaves(const Communicator& comm, std::span<const LeafRecord> leaves, std::span<const double> values, const ThresholdRule& rule) {
+  const OrderedValues ordered(comm, leaves, values);
+  const IndicatorStatistics statistics = statistics_of(comm, ordered);
+  MarkedLeaves marked;
+  marked.report.mean = statistics.mean;
+  marked.report.deviation = statistics.deviation;
+  marked.report.thresholds = thresholds_by(rule, ordered, statistics);
+  marked.marks = marks_above(leaves, values, marked.report.thresholds);
+  count_marks(comm, marked);
+  return marked;
+}
+
+}  // namespace quadloop

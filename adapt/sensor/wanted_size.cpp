@@ -1,0 +1,44 @@
+#include "adapt/sensor/wanted_size.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "adapt/sensor/cells_of_leaves.hpp"
+#include "adapt/sensor/thresholds.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/forest/lattice.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves, const NodeField& size) {
+  const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
+  check_field(comm, mesh, size, FieldSign::positive);
+  const std::vector<double> values = with_copies(comm, mesh, size);
+  std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(), std::numeric_limits<double>::infinity());
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t cell) {
+    double& value = of_cells[static_cast<std::size_t>(cell)];
+    value = std::min(value, values[static_cast<std::size_t>(from.value())]);
+  });
+  return cells_of_leaves.smallest(comm, of_cells);
+}
+
+int level_for_size(double tree_edge, double size) {
+  int level = 0;
+  for (double edge = tree_edge; edge > size && level < Quadrant::unit_level; edge *= 0.5) ++level;
+  return level;
+}
+
+MarkedLeaves mark_by_size(const Communicator& comm, const TreeRecord& tree, std::span<const double> sizes) {
+  QUADLOOP_REQUIRE(sizes.size() == tree.leaves.size(), "there must be one size for each leaf");
+  MarkedLeaves marked;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const LeafRecord& leaf = tree.leaves[i];
+    const int wanted = has_cells(leaf) ? level_for_size(tree.attributes.tree_edge, sizes[i]) : leaf.level;
+    marked.marks.push_back(wanted > leaf.level ? Mark::refine : wanted < leaf.level ? Mark::coarsen : Mark::keep);
+  }
+  count_marks(comm, marked);
+  return marked;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,71 @@
+#include "adapt/transfer/linear_values.hpp"
+
+#include <algorithm>
+
+namespace quadloop {
+
+namespace {
+
+void copy(std::span<const double> from, std::span<double> to) { std::copy(from.begin(), from.end(), to.begin()); }
+
+/// Of the three corners the one nearest to p, the first of equals: weights that grow from there lose the least.
+std::size_t nearest_corner(const std::array<Point, 3>& corners, Point p) {
+  std::size_t nearest = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (dot(corners[k] - p, corners[k] - p) < dot(corners[nearest] - p, corners[nearest] - p)) nearest = k;
+  }
+  return nearest;
+}
+
+void interpolate_on_nearest_side(const std::array<Point, 3>& corners, const std::array<std::span<const double>, 3>& at_corners, Point p,
+                                 std::span<double> values) {
+  std::size_t side = 0;
+  NearestOnSegment best = nearest_along_segment(corners[0], corners[1], p);
+  for (std::size_t k = 1; k < 3; ++k) {
+    const NearestOnSegment other = nearest_along_segment(corners[k], corners[(k + 1) % 3], p);
+    if (!(other.squared_distance < best.squared_distance)) continue;
+    best = other;
+    side = k;
+  }
+  interpolate_on_segment(at_corners[side], at_corners[(side + 1) % 3], best.parameter, values);
+}
+
+}  // namespace
+
+NearestOnSegment nearest_along_segment(Point a, Point b, Point p) {
+  const Point along = b - a;
+  const double square = dot(along, along);
+  const double parameter = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
+  const Point off = parameter == 1 ? b - p : a + parameter * along - p;
+  return {parameter, dot(off, off)};
+}
+
+void interpolate_on_segment(std::span<const double> at_a, std::span<const double> at_b, double parameter, std::span<double> values) {
+  if (parameter <= 0) return copy(at_a, values);
+  if (parameter >= 1) return copy(at_b, values);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const auto [low, high] = std::minmax(at_a[k], at_b[k]);
+    values[k] = std::clamp((1 - parameter) * at_a[k] + parameter * at_b[k], low, high);
+  }
+}
+
+void interpolate_in_triangle(const std::array<Point, 3>& corners, const std::array<std::span<const double>, 3>& at_corners, Point p,
+                             std::span<double> values) {
+  const std::size_t i = nearest_corner(corners, p), j = (i + 1) % 3, k = (i + 2) % 3;
+  if (p == corners[i]) return copy(at_corners[i], values);
+  const Point first = corners[j] - corners[i], second = corners[k] - corners[i], off = p - corners[i];
+  const double area = cross(first, second);
+  if (!(area > 0)) return interpolate_on_nearest_side(corners, at_corners, p, values);
+  double s = std::clamp(cross(off, second) / area, 0.0, 1.0), t = std::clamp(cross(first, off) / area, 0.0, 1.0);
+  if (s + t > 1) {
+    const double sum = s + t;
+    s /= sum;
+    t /= sum;
+  }
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const double a = at_corners[i][n], b = at_corners[j][n], c = at_corners[k][n];
+    values[n] = std::clamp(std::max(0.0, 1 - s - t) * a + s * b + t * c, std::min({a, b, c}), std::max({a, b, c}));
+  }
+}
+
+}  // namespace quadloop

@@ -1,0 +1,58 @@
+#include "adapt/transfer/mesh_integrals.hpp"
+
+#include <cmath>
+
+#include "mesher/base/reproducible_sum.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Of the node values that `value_of` gives. The halves of a quad make one term: sums cost more than terms.
+template <class ValueOf>
+double integral(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles, const ValueOf& value_of) {
+  std::vector<double> terms;
+  terms.reserve(triangles.size());
+  std::int64_t last_cell = -1;
+  for (const CellTriangle& triangle : triangles) {
+    const auto& [a, b, c] = triangle.nodes;
+    const double third = cross(mesh.point(b) - mesh.point(a), mesh.point(c) - mesh.point(a)) / 6;
+    const double term = third * (value_of(a) + value_of(b) + value_of(c));
+    if (triangle.number / 2 == last_cell) {
+      terms.back() += term;
+    } else {
+      terms.push_back(term);
+    }
+    last_cell = triangle.number / 2;
+  }
+  return reproducible_sum(comm, terms);
+}
+
+/// Over the nodes of all ranks.
+bool has_negative(const Communicator& comm, const NodeRows& rows, std::size_t column) {
+  bool negative = false;
+  for (std::size_t i = column; i < rows.values.size(); i += static_cast<std::size_t>(rows.width)) negative = negative || rows.values[i] < 0;
+  return comm.any(negative);
+}
+
+}  // namespace
+
+std::vector<double> integrate(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles, const NodeRows& rows) {
+  std::vector<double> integrals;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(rows.width); ++k) {
+    integrals.push_back(integral(comm, mesh, triangles, [&](NodeId node) { return rows.of(node)[k]; }));
+  }
+  return integrals;
+}
+
+std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles, const NodeRows& rows,
+                                    const std::vector<double>& of_values) {
+  std::vector<double> integrals = of_values;  // densities and pressures are their own absolute values
+  for (std::size_t k = 0; k < integrals.size(); ++k) {
+    if (!has_negative(comm, rows, k)) continue;
+    integrals[k] = integral(comm, mesh, triangles, [&](NodeId node) { return std::abs(rows.of(node)[k]); });
+  }
+  return integrals;
+}
+
+}  // namespace quadloop

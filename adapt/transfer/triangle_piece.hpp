@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "adapt/transfer/cell_triangles.hpp"
+#include "adapt/transfer/curve_shares.hpp"
+#include "adapt/transfer/node_rows.hpp"
+
+namespace quadloop {
+
+/// Triangles of any ranks, with nodes of their own numbering.
+struct TrianglePiece {
+  std::vector<Point> points;
+  NodeRows rows;
+  std::vector<CellTriangle> triangles;
+
+  std::array<Point, 3> corners(const CellTriangle& triangle) const {
+    const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(triangle.nodes[k].value())]; };
+    return {at(0), at(1), at(2)};
+  }
+};
+
+/// From all ranks the triangles that meet this rank's part of the plane, with the values at their nodes. *Collective.*
+TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, const Mesh& mesh, const NodeRows& rows,
+                           std::span<const CellTriangle> triangles);
+
+}  // namespace quadloop

@@ -1,0 +1,72 @@
+#include "app/case_input.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "adapt/digests.hpp"
+#include "adapt/restart.hpp"
+#include "io/input/geometry_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// An outline in the place of a case file is a likely slip.
+void require_case_file(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  for (const char* outline : {".geom", ".dat", ".dxf", ".geojson", ".shp", ".gpkg"}) {
+    if (suffix != outline) continue;
+    throw InputError(path + ": is an outline, not a case file; write a case file with file = \"" + path + "\" in its table [geometry]");
+  }
+}
+
+/// Another outline in the place of the case's, placed as the first of those; it may bring its own far field.
+void replace_geometry(const std::string& path, Settings& settings, Warnings& warnings) {
+  settings.files = {{path, path, settings.files.front().transform}};
+  if (!settings.far_field) return;
+  for (const Chain& chain : read_geometry(path, warnings)) {
+    if (chain.name == "farfield") settings.far_field.reset();
+    if (!settings.far_field) return;
+  }
+}
+
+}  // namespace
+
+void require_folder(const std::string& output) {
+  std::filesystem::path folder = std::filesystem::path(output).parent_path();
+  if (folder.empty()) folder = ".";
+  if (!std::filesystem::is_directory(folder)) throw OutputError(output + ": the folder '" + folder.string() + "' does not exist; create it first");
+  if (access(folder.c_str(), W_OK | X_OK) != 0) throw OutputError(output + ": the folder '" + folder.string() + "' cannot be written to");
+  if (std::filesystem::is_directory(output)) throw OutputError(output + ": is a folder; choose another name");
+}
+
+CaseInput load_case(const CaseArguments& arguments) {
+  require_case_file(arguments.case_path);
+  CaseInput input;
+  Settings& settings = input.settings;
+  settings = read_settings(arguments.case_path, arguments.assignments);
+  if (!arguments.geometry.empty()) {
+    Warnings told_again_below;
+    replace_geometry(arguments.geometry, settings, told_again_below);
+  }
+  Geometry geometry = load_geometry(settings, input.warnings, arguments.saved);
+  const MeshOptions options = mesh_options(settings, geometry);
+  for (std::string& warning : spacing_warnings(options, geometry)) input.warnings.push_back(std::move(warning));
+  input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth, case_digest(options)});
+  if (arguments.saved) keep_root(*arguments.saved, *input.mesh);
+  return input;
+}
+
+void show_warnings(bool is_root, bool all, const Warnings& warnings) {
+  constexpr std::size_t most_shown = 10;
+  if (!is_root) return;
+  const std::size_t shown = all ? warnings.size() : std::min(most_shown, warnings.size());
+  for (std::size_t i = 0; i < shown; ++i) log::warning(warnings[i]);
+  if (shown < warnings.size()) log::warning(std::to_string(warnings.size() - shown) + " more warnings; --verbose shows them");
+}
+
+}  // namespace quadloop

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapt/generate.hpp"
+#include "app/settings.hpp"
+
+namespace quadloop {
+
+/// What a command that meshes is told.
+struct CaseArguments {
+  std::string case_path;
+  std::vector<std::string> assignments;  ///< of --set
+  std::string geometry;                  ///< takes the place of the case's files; empty: the case's
+  std::optional<TreeAttributes> saved;   ///< of the tree that is restarted: its root stays
+};
+
+/// A case as it was read, with the geometry in place.
+struct CaseInput {
+  Settings settings;
+  std::optional<MeshInput> mesh;
+  Warnings warnings;
+};
+
+/// Reads case and geometry. On the calling rank alone. Throws InputError.
+CaseInput load_case(const CaseArguments& arguments);
+
+/// Throws OutputError where an output's folder is not there or cannot be written to: found out before an hour of meshing.
+void require_folder(const std::string& output);
+
+/// Warnings from the root rank: the first few, unless all are asked for.
+void show_warnings(bool is_root, bool all, const Warnings& warnings);
+
+}  // namespace quadloop

@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "adapt/digests.hpp"
+#include "adapt/loop.hpp"
+#include "app/case_input.hpp"
+#include "app/command.hpp"
+#include "app/solver_settings.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
+
+namespace quadloop {
+
+namespace {
+
+struct AdaptArguments {
+  std::string case_path, folder;
+  std::optional<int> cycles;
+  bool resume = false;
+  std::vector<std::string> assignments;
+};
+
+/// All that the run's files depend on but the number of cycles.
+std::uint64_t digest_of(const CaseInput& input) {
+  const std::string text = input.settings.text + fmt::format("geometry {:x}", input.mesh->geometry.digest());
+  return text_digest(text);
+}
+
+AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings) {
+  CaseInput input = load_case({arguments.case_path, arguments.assignments, {}, {}});
+  if (!input.settings.adapt) throw InputError(arguments.case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
+  warnings = std::move(input.warnings);
+  const std::uint64_t digest = digest_of(input);
+  const Settings& settings = input.settings;
+  FlowSolver solver = flow_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
+  AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), digest};
+  if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
+  return adaptive;
+}
+
+std::string line_of(const CycleRecord& record) {
+  std::string line = fmt::format("cycle {:>2}  {:>8} nodes  smallest angle {:>4.1f}", record.cycle, record.nodes, record.worst_angle);
+  if (record.cl) line += fmt::format("  cl {:.5f}  cd {:.5f}", *record.cl, *record.cd);
+  if (record.residual) line += fmt::format("  residual {:.1e}", *record.residual);
+  double seconds = 0;
+  for (const auto& stage : record.seconds) seconds += stage.second;
+  return line + fmt::format("  {:.1f} s", seconds);
+}
+
+void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
+  const Communicator& comm = context.comm;
+  std::optional<AdaptiveCase> adaptive;
+  Warnings warnings;
+  comm.together([&] { adaptive = adaptive_case(arguments, warnings); });
+  std::string folder = arguments.folder;
+  if (folder.empty()) folder = std::filesystem::path(arguments.case_path).stem().string() + ".adapt";
+  show_warnings(comm.is_root(), context.verbose, warnings);
+  std::set<std::string> told;
+  const CycleReport report = [&](const CycleRecord& record, const std::vector<std::string>& of_cycle) {
+    if (comm.is_root() && !context.quiet) std::cout << line_of(record) << std::endl;
+    Warnings fresh;
+    for (const std::string& warning : of_cycle) {
+      if (told.insert(warning).second) fresh.push_back(warning);
+    }
+    show_warnings(comm.is_root(), context.verbose, fresh);
+  };
+  run_adaptation(comm, *adaptive, folder, arguments.resume, report);
+  if (comm.is_root() && !context.quiet) std::cout << fmt::format("  wrote {}/cycle_00 to cycle_{:02}\n", folder, adaptive->adapt.cycles);
+}
+
+}  // namespace
+
+void add_adapt_command(CLI::App& app, CommandContext& context) {
+  auto arguments = std::make_shared<AdaptArguments>();
+  CLI::App* command = app.add_subcommand("adapt", "mesh, solve and adapt in turn, as a case file says");
+  command->add_option("case", arguments->case_path, "the case file (TOML)")->required()->type_name("CASE.toml");
+  command->add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")->type_name("DIR");
+  command->add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")->type_name("N")->check(CLI::Range(0, 10000));
+  command->add_flag("--resume", arguments->resume, "go on after the last whole cycle in the folder");
+  command->add_option("--set", arguments->assignments, "set a key of the case file, as in solver.mach=0.7; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->callback([&context, arguments] { context.run = [&context, arguments] { run_adapt(context, *arguments); }; });
+}
+
+}  // namespace quadloop

@@ -1,0 +1,116 @@
+#include "io/solution_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "io/mesh_file.hpp"
+#include "io/su2_csv_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double tolerance = 1e-6;  ///< of a local edge; solvers write coordinates with few digits
+
+void require_values(const LoadedMesh& loaded, const std::string& path) {
+  if (loaded.solution && !loaded.solution->names.empty()) return;
+  const bool vtu = std::filesystem::path(path).extension() == ".vtu";
+  throw InputError(path + ": holds a mesh without a solution; " +
+                   (vtu ? "let the solver save values at points (in ParaView: Cell Data to Point Data)"
+                        : "let the solver append its variables, a row of values for each node"));
+}
+
+/// For the formats whose reader has not looked.
+void require_finite(const Solution& solution, const std::string& path) {
+  const std::size_t width = solution.names.size();
+  for (std::size_t i = 0; i < solution.values.size(); ++i) {
+    if (std::isfinite(solution.values[i])) continue;
+    throw InputError(fmt::format("{}: {} is not finite at node {}: {}", path, solution.names[i % width], i / width + 1, solution.values[i]));
+  }
+}
+
+/// The cells with the nodes of each in ascending order, and so the cells: the same list for the same cells.
+template <std::size_t width>
+std::vector<std::array<NodeId, width>> in_one_order(std::vector<std::array<NodeId, width>> cells) {
+  for (auto& nodes : cells) std::sort(nodes.begin(), nodes.end());
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+template <std::size_t width>
+void require_same_cells(const std::string& path, const std::string& kind, const std::vector<std::array<NodeId, width>>& found,
+                        const std::vector<std::array<NodeId, width>>& wanted) {
+  if (found.size() != wanted.size()) {
+    throw InputError(
+        fmt::format("{}: has {} {}, the mesh {}; it is a solution of another mesh; solve on this one", path, found.size(), kind, wanted.size()));
+  }
+  const auto of_file = in_one_order(found), of_mesh = in_one_order(wanted);
+  const auto [at_file, at_mesh] = std::mismatch(of_file.begin(), of_file.end(), of_mesh.begin());
+  if (at_file == of_file.end()) return;
+  std::string nodes;
+  for (const NodeId node : *at_file) nodes += (nodes.empty() ? "" : " ") + std::to_string(node.value() + 1);
+  throw InputError(
+      fmt::format("{}: of its {} the one of nodes {} is not the mesh's; it is a solution of another mesh; solve on this one", path, kind, nodes));
+}
+
+/// The shortest edge at each node, squared.
+std::vector<double> shortest_edges(const Mesh& mesh) {
+  std::vector<double> shortest(mesh.points.size(), std::numeric_limits<double>::infinity());
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
+    const Point along = mesh.point(to) - mesh.point(from);
+    for (const NodeId node : {from, to}) {
+      double& least = shortest[static_cast<std::size_t>(node.value())];
+      least = std::min(least, dot(along, along));
+    }
+  });
+  return shortest;
+}
+
+void require_same_places(const LoadedSolution& solution, const Mesh& mesh) {
+  const std::vector<double> shortest = shortest_edges(mesh);
+  for (std::size_t i = 0; i < solution.points.size(); ++i) {
+    const Point p = solution.points[i], wanted = mesh.points[i];
+    if (dot(p - wanted, p - wanted) <= tolerance * tolerance * shortest[i]) continue;
+    throw InputError(
+        fmt::format("{}: node {} lies at ({}, {}), in the mesh at ({}, {}); it is a solution of another mesh, or its rows are in another "
+                    "order; solve on this mesh and keep its order of nodes",
+                    solution.path, i + 1, p.x, p.y, wanted.x, wanted.y));
+  }
+}
+
+}  // namespace
+
+LoadedSolution read_solution(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  if (suffix == ".csv") return read_su2_csv(path);
+  if (suffix != ".mesh" && suffix != ".cgns" && suffix != ".vtu") {
+    throw InputError(path + ": no solution is read from the format '" + suffix + "'; give a .mesh, .cgns, .vtu or .csv file");
+  }
+  LoadedMesh loaded = read_mesh(path);
+  require_values(loaded, path);
+  require_finite(*loaded.solution, path);
+  LoadedSolution result{path, std::move(*loaded.solution), static_cast<std::int64_t>(loaded.mesh.points.size()), {}, true, {}, {}};
+  result.points = std::move(loaded.mesh.points);
+  result.triangles = std::move(loaded.mesh.triangles);
+  result.quads = std::move(loaded.mesh.quads);
+  return result;
+}
+
+void require_same_mesh(const LoadedSolution& solution, const Mesh& whole) {
+  if (solution.nodes != static_cast<std::int64_t>(whole.points.size())) {
+    throw InputError(fmt::format("{}: holds values at {} nodes, the mesh has {}; it is a solution of another mesh; solve on this one", solution.path,
+                                 solution.nodes, whole.points.size()));
+  }
+  if (!solution.points.empty()) require_same_places(solution, whole);
+  if (!solution.has_cells) return;
+  require_same_cells(solution.path, "triangles", solution.triangles, whole.triangles);
+  require_same_cells(solution.path, "quads", solution.quads, whole.quads);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/loaded_mesh.hpp"
+
+namespace quadloop {
+
+/// A solution as a file gives it, whole on one rank, with what the file says of its mesh. Names are as they are written there (variable() finds one).
+struct LoadedSolution {
+  std::string path;
+  Solution solution;
+  std::int64_t nodes = 0;     ///< rows of the solution
+  std::vector<Point> points;  ///< empty where the file has no coordinates
+  bool has_cells = false;
+  std::vector<std::array<NodeId, 3>> triangles;
+  std::vector<std::array<NodeId, 4>> quads;
+};
+
+/// Reads .mesh, .cgns and .vtu with a solution, and .csv as SU2 leaves its restart file, on the calling rank alone. Throws InputError, also
+/// where the file holds no values at its nodes.
+LoadedSolution read_solution(const std::string& path);
+
+/// Throws InputError unless the solution's mesh is `whole`, a mesh that the rank holds whole: as many nodes, each within 1e-6 of the shortest cell
+/// edge at it, and the same cells in any order, as far as the file tells. Names the file, and the count, node (from 1) or cell that differs.
+void require_same_mesh(const LoadedSolution& solution, const Mesh& whole);
+
+}  // namespace quadloop

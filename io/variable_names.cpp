@@ -1,0 +1,78 @@
+#include "io/variable_names.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// What programs call the same thing, without letters' case, blanks and punctuation.
+const std::vector<std::vector<std::string_view>>& usual_names() {
+  static const std::vector<std::vector<std::string_view>> groups{{"density", "rho"},
+                                                                 {"pressure", "p", "staticpressure"},
+                                                                 {"temperature", "t", "statictemperature"},
+                                                                 {"mach", "machnumber", "ma"},
+                                                                 {"xvelocity", "velocityx", "u", "ux", "vx", "velocity0"},
+                                                                 {"yvelocity", "velocityy", "v", "uy", "vy", "velocity1"},
+                                                                 {"xmomentum", "momentumx", "rhou", "rhoux", "momentum0"},
+                                                                 {"ymomentum", "momentumy", "rhov", "rhouy", "momentum1"},
+                                                                 {"energy", "totalenergy", "energystagnationdensity", "rhoe", "e"}};
+  return groups;
+}
+
+std::string plain(std::string_view name) {
+  std::string result;
+  for (const char c : name) {
+    if (c >= 'A' && c <= 'Z') {
+      result += static_cast<char>(c - 'A' + 'a');
+    } else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || (static_cast<unsigned char>(c) & 0x80U) != 0) {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string list_of(std::span<const std::string> names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "none" : list;
+}
+
+bool are_aliases(const std::string& a, const std::string& b) {
+  const auto holds = [](const auto& group, const std::string& name) { return std::find(group.begin(), group.end(), name) != group.end(); };
+  const auto& groups = usual_names();
+  return std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return holds(group, a) && holds(group, b); });
+}
+
+/// The only name that fits; names.size() where there is none.
+template <class Fits>
+std::size_t only(std::span<const std::string> names, const std::string& wanted, const std::string& where, const Fits& fits) {
+  std::size_t found = names.size();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (!fits(names[k])) continue;
+    if (found == names.size()) {
+      found = k;
+    } else {
+      throw InputError(where + ": '" + wanted + "' may be " + names[found] + " or " + names[k] + "; name one of them as it is written");
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::size_t variable(std::span<const std::string> names, const std::string& wanted, const std::string& where) {
+  const auto exact = std::find(names.begin(), names.end(), wanted);
+  if (exact != names.end()) return static_cast<std::size_t>(exact - names.begin());
+  const std::string key = plain(wanted);
+  std::size_t found = only(names, wanted, where, [&](const std::string& name) { return plain(name) == key; });
+  if (found == names.size()) found = only(names, wanted, where, [&](const std::string& name) { return are_aliases(plain(name), key); });
+  if (found < names.size()) return found;
+  throw InputError(where + ": no variable '" + wanted + "' in the solution; it has: " + list_of(names));
+}
+
+}  // namespace quadloop

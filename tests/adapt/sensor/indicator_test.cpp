@@ -1,0 +1,156 @@
+// Indicators of leaves: worked out by hand, by brute force from their definition, and the same bits on any number of ranks.
+#include "adapt/sensor/indicator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesher/base/error.hpp"
+#include "tests/adapt/sensor/shared_leaves.hpp"
+#include "tests/mesh/grid_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::field_of;
+using test::world;
+using Leaves = std::vector<LeafRecord>;
+using Values = std::vector<double>;
+
+constexpr Indicator all_kinds[] = {Indicator::difference, Indicator::gradient, Indicator::hessian};
+
+double wave(std::int64_t, Point p) { return std::sin(7 * p.x) * std::cos(5 * p.y) + 0.3 * p.x; }
+double noise(std::int64_t node, Point) { return 1e5 * test::scattered(9, node, 0); }
+
+/// A square of one leaf beside a square of two triangles, which are two leaves; a leaf without cells between them.
+///     3---4---5
+///     |   | / |
+///     0---1---2
+Mesh two_squares() {
+  const auto node = [](std::int32_t number) { return NodeId{number}; };
+  Mesh mesh;
+  mesh.points = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}};
+  mesh.owned_nodes = 6;
+  mesh.quads = {{node(0), node(1), node(4), node(3)}};
+  mesh.triangles = {{node(1), node(2), node(5)}, {node(1), node(5), node(4)}};
+  return mesh;
+}
+
+Leaves leaves_of_two_squares() { return {test::leaf_with(0, 1), {}, test::leaf_with(1, 0), test::leaf_with(1, 0)}; }
+
+/// What all leaves of two_squares get from fields given node by node.
+Values of_two_squares(const std::vector<Values>& fields_by_node, Indicator kind) {
+  const Mesh mesh = two_squares(), part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
+  std::vector<NodeField> fields;
+  for (const Values& by_node : fields_by_node) {
+    fields.push_back(field_of(part, "q", [&](std::int64_t node, Point) { return by_node[static_cast<std::size_t>(node)]; }));
+  }
+  const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::uneven);
+  return test::joined(world(), leaf_indicator(world(), part, own, fields, kind));
+}
+
+TEST(Indicator, DifferenceIsTheLargestChangeOfAnEdge) {
+  EXPECT_EQ(of_two_squares({{0, 1, 4, 0, 1, 2}}, Indicator::difference), (Values{0.25, 0, 0.75, 0.25}));
+  EXPECT_EQ(of_two_squares({{4, 4, 4, 4, 4, 0}}, Indicator::difference), (Values{0, 0, 1, 1}));
+  EXPECT_EQ(of_two_squares({{0, 3, 3, 0, 3, 3}}, Indicator::difference), (Values{1, 0, 0, 0}));
+}
+
+TEST(Indicator, GradientIsTheChangeByLength) {
+  EXPECT_EQ(of_two_squares({{4, 2, 2, 4, 0, 4}}, Indicator::gradient), (Values{1, 0, 0.5, 1}));
+  EXPECT_EQ(of_two_squares({{0, 0, 1, 0, 1, 2}}, Indicator::gradient), (Values{0.5, 0, 2 * 0.5 / std::sqrt(2.0), 2 * 0.5 / std::sqrt(2.0)}));
+}
+
+TEST(Indicator, TakesTheLargestOfSeveralVariables) {
+  const Values up{0, 10, 10, 0, 10, 10}, peak{0, 0, 1, 0, 0, 0}, still{7, 7, 7, 7, 7, 7};
+  EXPECT_EQ(of_two_squares({peak, up}, Indicator::difference), (Values{1, 0, 1, 0}));
+  EXPECT_EQ(of_two_squares({up, still, peak}, Indicator::difference), (Values{1, 0, 1, 0}));
+  EXPECT_EQ(of_two_squares({still}, Indicator::difference), (Values{0, 0, 0, 0}));
+  EXPECT_EQ(of_two_squares({}, Indicator::difference), (Values{0, 0, 0, 0}));
+}
+
+TEST(Indicator, HessianIsTheChangeOfTheGradientAlongAnEdge) {
+  test::Grid strip{3, {3, 3}};
+  Mesh mesh = strip.mesh();
+  mesh.triangles.clear();
+  mesh.quads.clear();
+  for (std::int32_t i = 0; i < 3; ++i) mesh.quads.push_back({NodeId{i}, NodeId{i + 1}, NodeId{i + 5}, NodeId{i + 4}});
+  const Mesh part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
+  // x^2 at 0, 1, 2, 3 has range 9, cell gradients 1, 3, 5, nodal ones 1, 2, 4, 5. Nodes of no cell are not to matter: 0.
+  const NodeField field = field_of(part, "q", [](std::int64_t node, Point p) { return node < 8 ? p.x * p.x : 0; });
+  const Leaves leaves{test::leaf_with(0, 1), test::leaf_with(0, 1), test::leaf_with(0, 1)};
+  const Values found = test::joined(
+      world(), leaf_indicator(world(), part, test::share_of(leaves, test::Sharing::even), std::vector<NodeField>{field}, Indicator::hessian));
+  const Values expected{1.0 / 9, 2.0 / 9, 1.0 / 9};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-15);
+}
+
+TEST(Indicator, LinearFieldsHaveNoHessianAndOneGradient) {
+  test::for_each_distribution([](const test::Pieces& pieces) {
+    const Leaves own = test::share_of(test::leaves_of(pieces.whole, 4), test::Sharing::uneven);
+    for (const double level : {0.0, 1e5}) {
+      const NodeField linear = field_of(pieces.part, "q", [&](std::int64_t, Point p) { return level + 3 * p.x - 2 * p.y; });
+      const std::vector<NodeField> fields{linear};
+      for (const double value : leaf_indicator(world(), pieces.part, own, fields, Indicator::hessian)) EXPECT_EQ(value, 0);
+      for (const double value : leaf_indicator(world(), pieces.part, own, fields, Indicator::gradient))
+        EXPECT_LE(value, std::sqrt(13.0) / 5 * (1 + 1e-9));
+    }
+  });
+}
+
+TEST(Indicator, DoesNotKnowUnits) {
+  test::for_each_distribution([](const test::Pieces& pieces) {
+    const Leaves own = test::share_of(test::leaves_of(pieces.whole, 4), test::Sharing::even);
+    const auto indicator = [&](double factor, Indicator kind) {
+      const NodeField field = field_of(pieces.part, "q", [&](std::int64_t node, Point p) { return factor * wave(node, p); });
+      return leaf_indicator(world(), pieces.part, own, std::vector<NodeField>{field}, kind);
+    };
+    for (const Indicator kind : all_kinds) EXPECT_EQ(indicator(1, kind), indicator(0x1p20, kind));
+  });
+}
+
+TEST(Indicator, IsTheSameOnAnyNumberOfRanks) {
+  test::for_each_distribution([](const test::Pieces& pieces) {
+    const Leaves leaves = test::leaves_of(pieces.whole, 4);
+    const auto fields_of = [](const Mesh& mesh) { return std::vector<NodeField>{field_of(mesh, "a", wave), field_of(mesh, "b", noise)}; };
+    for (const Indicator kind : all_kinds) {
+      const Values whole = leaf_indicator(Communicator(MPI_COMM_SELF), pieces.whole, leaves, fields_of(pieces.whole), kind);
+      EXPECT_GT(*std::max_element(whole.begin(), whole.end()), 0);
+      for (const test::Sharing sharing : test::all_sharings) {
+        const Leaves own = test::share_of(leaves, sharing);
+        EXPECT_EQ(leaf_indicator(world(), pieces.part, own, fields_of(pieces.part), kind), test::share_of(whole, sharing));
+      }
+    }
+  });
+}
+
+TEST(Indicator, RefusesWhatIsNotFinite) {
+  const Mesh mesh = two_squares(), part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
+  const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::even);
+  const double bad = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<NodeField> fields{field_of(part, "density", wave),
+                                      field_of(part, "pressure", [&](std::int64_t node, Point) { return node == 4 ? bad : 1; })};
+  try {
+    leaf_indicator(world(), part, own, fields, Indicator::difference);
+    FAIL() << "nothing was refused";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("variable 'pressure': node 5 at (1, 1)", 0), 0U) << error.what();
+  }
+}
+
+TEST(LeafErrors, AreTheLargestAtTheLeafsNodes) {
+  const Mesh mesh = two_squares(), part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
+  const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::uneven);
+  const auto errors = [&](const Values& by_node) {
+    const NodeField field = field_of(part, "e", [&](std::int64_t node, Point) { return by_node[static_cast<std::size_t>(node)]; });
+    return test::joined(world(), leaf_errors(world(), part, own, field));
+  };
+  EXPECT_EQ(errors({5, 1, 2, 1, 3, 0}), (Values{5, 0, 2, 3}));
+  EXPECT_EQ(errors({0, 0, 0, 0, 0, 1e-9}), (Values{0, 0, 1e-9, 1e-9}));
+  EXPECT_THROW(errors({0, 0, 0, 0, -1e-9, 0}), InputError);
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,143 @@
+// Marks by each rule: worked out by hand, nothing where nothing differs, equal leaves alike, the same on any number of ranks.
+#include "adapt/sensor/thresholds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/adapt/sensor/shared_leaves.hpp"
+#include "tests/mesh/grid_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+using Values = std::vector<double>;
+using Marks = std::vector<Mark>;
+
+constexpr Mark down = Mark::coarsen, keep = Mark::keep, up = Mark::refine;
+
+/// The marks of all leaves; the values of leaves without cells are below 0 here.
+struct All {
+  Marks marks;
+  MarkReport report;
+};
+
+All mark_all(const Values& values, const ThresholdRule& rule, test::Sharing sharing = test::Sharing::uneven) {
+  Values own = test::share_of(values, sharing);
+  std::vector<LeafRecord> leaves;
+  for (double& value : own) {
+    leaves.push_back(value < 0 ? LeafRecord{} : test::leaf_with(2, 0));
+    value = std::max(value, 0.0);
+  }
+  const MarkedLeaves marked = mark_leaves(world(), leaves, own, rule);
+  return {test::joined(world(), marked.marks), marked.report};
+}
+
+TEST(Thresholds, DeviationIsThatOfTheLogarithms) {
+  // log10 0, 1, 2, 3: mean 1.5, deviation sqrt(5/4) = 1.118.
+  const All all = mark_all({1000, 1, 10, -1, 100}, DeviationRule{1, 0.5});
+  EXPECT_NEAR(all.report.mean, 1.5, 1e-15);
+  EXPECT_NEAR(all.report.deviation, std::sqrt(1.25), 1e-15);
+  EXPECT_NEAR(all.report.thresholds.refine, std::pow(10, 1.5 + std::sqrt(1.25)), 1e-10);
+  EXPECT_NEAR(all.report.thresholds.coarsen, std::pow(10, 1.5 - 0.5 * std::sqrt(1.25)), 1e-12);
+  EXPECT_EQ(all.marks, (Marks{up, down, keep, keep, keep}));
+  EXPECT_EQ(all.report.refined, 1);
+  EXPECT_EQ(all.report.coarsened, 1);
+  EXPECT_EQ(mark_all({1000, 1, 10, -1, 100}, DeviationRule{0.4, 1.4}).marks, (Marks{up, keep, keep, keep, up}));
+}
+
+TEST(Thresholds, SmallIndicatorsCountAsAMillionthOfTheLargest) {
+  // log10 -6, -6, 0, -3 of the largest, which is 8: mean -3.75, deviation 2.487.
+  const double log_largest = std::log10(8.0);
+  const All all = mark_all({0, 1e-12, 8, 8e-3}, DeviationRule{1, 0.5});
+  EXPECT_NEAR(all.report.mean, log_largest - 3.75, 1e-14);
+  EXPECT_NEAR(all.report.deviation, std::sqrt((2 * 2.25 * 2.25 + 3.75 * 3.75 + 0.75 * 0.75) / 4), 1e-14);
+  EXPECT_EQ(all.marks, (Marks{down, down, up, keep}));
+  // Where the threshold lies below the millionth no leaf lies below it, one of indicator 0 neither.
+  EXPECT_EQ(mark_all({0, 1e-12, 8, 8e-3}, DeviationRule{1, 1}).marks, (Marks{keep, keep, up, keep}));
+  // And all lie above it.
+  EXPECT_EQ(mark_all({0, 1e-12, 8, 8e-3}, DeviationRule{-1, 1}).marks, (Marks{up, up, up, up}));
+}
+
+TEST(Thresholds, WhatIsEqualIsNotMarked) {
+  const ThresholdRule rules[] = {DeviationRule{0, 0}, DeviationRule{}, FractionRule{0.5, 0.5}, NodesRule{0}};
+  for (const ThresholdRule& rule : rules) {
+    for (const double value : {0.0, 0.1, 1e-300, 1e300}) {
+      const All all = mark_all(Values(7, value), rule);
+      EXPECT_EQ(all.marks, Marks(7, keep)) << value;
+      EXPECT_EQ(all.report.refined + all.report.coarsened, 0);
+      EXPECT_TRUE(std::isfinite(all.report.mean) && std::isfinite(all.report.deviation));
+    }
+    EXPECT_EQ(mark_all({0.1, 0.1 * (1 + 1e-12), 0.1 * (1 - 1e-12)}, rule).marks, Marks(3, keep)) << "rounding is no difference";
+    EXPECT_EQ(mark_all({-1, 0.3, -1}, rule).marks, Marks(3, keep));
+    EXPECT_EQ(mark_all({-1, -1}, rule).marks, Marks(2, keep));
+    EXPECT_TRUE(mark_all({}, rule).marks.empty());
+  }
+}
+
+TEST(Thresholds, FractionCountsLeavesWithCells) {
+  const Values values{5, -1, 3, 9, 1, 7, -1, 2, 8, 4, 6, 10};
+  EXPECT_EQ(mark_all(values, FractionRule{0.2, 0.3}).marks, (Marks{keep, keep, down, up, down, keep, keep, down, keep, keep, keep, up}));
+  const All none = mark_all(values, FractionRule{0, 0});
+  EXPECT_EQ(none.report.refined + none.report.coarsened, 0);
+  const All all = mark_all(values, FractionRule{1, 1});  // refining comes first
+  EXPECT_EQ(all.report.refined, 10);
+  EXPECT_EQ(all.report.coarsened, 0);
+}
+
+TEST(Thresholds, FractionTreatsEqualLeavesAlike) {
+  EXPECT_EQ(mark_all({2, 3, 3, 1, 2, 1, 3, 1, 2, 2}, FractionRule{0.1, 0.1}).marks, (Marks{keep, up, up, down, keep, down, up, down, keep, keep}));
+  EXPECT_EQ(mark_all({0, 0, 0, 1, 0}, FractionRule{0.6, 0.2}).marks, (Marks{down, down, down, up, down}));
+}
+
+TEST(Thresholds, NodesRuleCoarsensAlone) {
+  const All all = mark_all({1, 10, 100, 1000}, NodesRule{0.5});
+  EXPECT_EQ(all.marks, (Marks{down, keep, keep, keep}));
+  EXPECT_EQ(all.report.thresholds.coarsen, mark_all({1, 10, 100, 1000}, DeviationRule{}).report.thresholds.coarsen);
+}
+
+/// As a caller does who wants a number of nodes: more leaves by a larger share.
+TEST(Thresholds, AShareCanBeBisected) {
+  Values values;
+  for (int i = 0; i < 500; ++i) values.push_back(std::pow(10, 3 * test::scattered(3, i, 0)));
+  const Values own = test::share_of(values, test::Sharing::even);
+  const std::vector<LeafRecord> leaves(own.size(), test::leaf_with(1, 0));
+  const OrderedValues ordered(world(), leaves, own);
+  for (const std::int64_t wanted : {1, 137, 499}) {
+    const double share = static_cast<double>(wanted) / 500;
+    MarkedLeaves marked{marks_above(leaves, own, {ordered.refine_threshold(share), 0}), {}};
+    count_marks(world(), marked);
+    EXPECT_EQ(marked.report.refined, wanted);
+    EXPECT_EQ(marked.report.coarsened, 0);
+  }
+}
+
+TEST(Thresholds, AreTheSameOnAnyNumberOfRanks) {
+  Values values;
+  for (int i = 0; i < 997; ++i) values.push_back(i % 7 == 0 ? -1 : std::pow(10, 5 * test::scattered(4, i % 400, 0)));
+  std::vector<LeafRecord> leaves;
+  Values whole;
+  for (const double value : values) {
+    leaves.push_back(value < 0 ? LeafRecord{} : test::leaf_with(2, 0));
+    whole.push_back(std::max(value, 0.0));
+  }
+  for (const ThresholdRule& rule : {ThresholdRule{DeviationRule{}}, ThresholdRule{FractionRule{0.15, 0.25}}, ThresholdRule{NodesRule{}}}) {
+    const MarkedLeaves expected = mark_leaves(Communicator(MPI_COMM_SELF), leaves, whole, rule);
+    EXPECT_GT(expected.report.coarsened, 0);
+    for (const test::Sharing sharing : test::all_sharings) {
+      const All found = mark_all(values, rule, sharing);
+      EXPECT_EQ(found.marks, expected.marks);
+      EXPECT_EQ(found.report.mean, expected.report.mean);
+      EXPECT_EQ(found.report.deviation, expected.report.deviation);
+      EXPECT_EQ(found.report.thresholds.refine, expected.report.thresholds.refine);
+      EXPECT_EQ(found.report.thresholds.coarsen, expected.report.thresholds.coarsen);
+      EXPECT_EQ(found.report.refined, expected.report.refined);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quadloop

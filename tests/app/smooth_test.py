@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""`quadloop smooth --geometry`: which outlines fit a mesh, what is said of those that do not, and the table at its end.
+
+    smooth_test.py QUADLOOP MPIRUN
+"""
+import math
+import sys
+import unittest
+
+from program import ProgramTest
+
+CASE = '[geometry]\nfile = "body.geom"\nfar_field = 4\n[spacing]\nmin = 0.05\nmax = 0.5\n[boundary.body]\nspacing = 0.1\n[smooth]\nsweeps = 0\n'
+
+
+def lens(shift=0.0, turned=False, name="body", digits=17):
+    """Two arcs that meet in sharp tips, clockwise (the domain outside) or, turned, the other way."""
+    arc = [(-1 + 2 * i / 40, 0.3 * math.sin(math.pi * i / 40)) for i in range(40)]
+    points = arc + [(-x, -y) for x, y in arc]
+    points = points[::-1] if turned else points
+    return f"1\n{name}\n{len(points)}\n" + "".join(f"{x + shift:.{digits}g} {y:.{digits}g}\n" for x, y in points)
+
+
+def nodes_of(mesh):
+    rows = mesh.decode().splitlines()
+    return [tuple(map(float, row.split())) for row in rows[2:2 + int(rows[1])]]
+
+
+class SmoothAlongAnOutline(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("case.toml", CASE)
+        self.write("body.geom", lens())
+        self.done("mesh", "case.toml", "-o", "cut", "--geometry-out", "whole.geom", "--quiet")
+
+    def smooth(self, *options, out="out.mesh", ranks=1):
+        stdout, stderr = self.done("smooth", "cut.mesh", "-o", out, *options, ranks=ranks)
+        return (self.folder / out).read_bytes(), stdout, stderr
+
+    def assert_same_places(self, mesh, other):
+        for (x, y), (u, v) in zip(nodes_of(mesh), nodes_of(other), strict=True):
+            self.assertLess(math.hypot(x - u, y - v), 1e-9)
+
+    def test_its_own_outline_in_silence(self):
+        free, _, _ = self.smooth()
+        along, _, stderr = self.smooth("--geometry", "whole.geom")
+        self.assertEqual(stderr, "")
+        self.assertNotEqual(along, free)
+
+    def test_the_body_alone_whichever_way_it_runs(self):
+        along, _, _ = self.smooth("--geometry", "whole.geom")
+        for turned in (False, True):
+            self.write("body.geom", lens(turned=turned))
+            on_one, _, _ = self.smooth("--geometry", "body.geom")
+            for ranks in (1, 2):
+                alone, _, stderr = self.smooth("--geometry", "body.geom", ranks=ranks)
+                self.assertEqual(alone, on_one)
+                self.assert_same_places(alone, along)  # but for rounding on the far field
+                self.assertEqual(stderr.count("warning"), 1, stderr)
+                self.assertIn("body.geom: lacks these boundaries of the mesh: 'farfield'; nodes there slide only where it is straight", stderr)
+
+    def test_a_rounded_outline(self):
+        self.write("rounded.geom", lens(digits=4))
+        _, _, stderr = self.smooth("--geometry", "rounded.geom")
+        self.assertRegex(stderr, r"rounded.geom: \d+ of \d+ nodes of the mesh's boundary 'body' lie off the outline, by up to .*e-05;")
+
+    def test_outlines_that_do_not_fit(self):
+        self.write("moved.geom", lens(shift=0.2))
+        self.write("other.geom", lens(name="wing"))
+        self.refused(1, ["moved.geom: the mesh's boundary 'body'", "its node (", "mesh --geometry-out"],
+                     "smooth", "cut.mesh", "-o", "out.mesh", "--geometry", "moved.geom")
+        self.refused(1, ["other.geom: has none of the mesh's boundaries, 'body', 'farfield', but 'wing'", "mesh --geometry-out"],
+                     "smooth", "cut.mesh", "-o", "out.mesh", "--geometry", "other.geom")
+        self.refused(1, ["no boundary farfield", "give the file that `mesh --geometry-out` wrote"], "check", "cut.mesh", "--geometry", "body.geom", "--quiet")
+        self.assertFalse((self.folder / "out.mesh").exists())
+
+    def test_the_table_tells_area_ratios_as_check_does(self):
+        _, table, _ = self.smooth("--geometry", "whole.geom")
+        rows = {line[:26].strip(): line[26:].split() for line in table.splitlines()}
+        for column, mesh in enumerate(("cut.mesh", "out.mesh")):
+            checked, _ = self.done("check", mesh)
+            for name in ("largest area ratio", "area ratio, 99 %"):
+                value = next(line.split()[-1] for line in checked.splitlines() if line.strip().startswith(name))
+                self.assertAlmostEqual(float(rows[name][column]), float(value), places=3)
+
+    def test_the_mesh_itself_may_be_overwritten(self):
+        wanted, _, _ = self.smooth()
+        self.done("smooth", "cut.mesh", "-o", "cut.mesh", "--quiet")
+        self.assertEqual((self.folder / "cut.mesh").read_bytes(), wanted)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

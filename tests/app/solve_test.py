@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""`quadloop solve`: the same bytes on any number of ranks, starts from what it wrote, names what it refuses.
+
+    solve_test.py QUADLOOP MPIRUN
+"""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+QUADLOOP, MPIRUN = (str(Path(program).resolve()) for program in sys.argv[1:3])
+
+CASE = """[geometry]
+file = "body.geom"
+far_field = 8
+[spacing]
+min = 0.05
+max = 1
+[boundary.body]
+bc = "wall"
+[mesh]
+type = "hybrid"
+[solver]
+mach = 0.4
+alpha = 3
+iterations = 200
+"""
+BODY = "1\nbody\n4\n-0.5 0\n0 0.1\n0.5 0\n0 -0.1\n"
+
+
+class SolveTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory(prefix="quadloop_solve_")
+        cls.folder = Path(cls.holder.name)
+        (cls.folder / "case.toml").write_text(CASE)
+        (cls.folder / "body.geom").write_text(BODY)
+        cls.run_quadloop("mesh", "case.toml", "-o", "m", ranks=1)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    @classmethod
+    def run_quadloop(cls, *arguments, ranks=1, status=0):
+        launcher = [MPIRUN, "-n", str(ranks)] if ranks > 1 else []
+        done = subprocess.run([*launcher, QUADLOOP, *arguments], cwd=cls.folder, capture_output=True, text=True)
+        assert done.returncode == status, f"{arguments}: {done.returncode}\n{done.stderr}"
+        return done
+
+    def test_the_same_bytes_on_any_number_of_ranks(self):
+        for ranks in (1, 2, 3, 5):
+            self.run_quadloop("solve", "case.toml", "m.mesh", "-o", f"flow{ranks}.mesh", "--set", "solver.iterations=8", ranks=ranks)
+            self.assertEqual((self.folder / f"flow{ranks}.mesh").read_bytes(), (self.folder / "flow1.mesh").read_bytes())
+
+    def test_converges_and_starts_from_its_own_flow(self):
+        first = self.run_quadloop("solve", "case.toml", "m.mesh", "-o", "flow.mesh")
+        self.assertNotIn("warning", first.stderr)
+        rows = {line.split()[0]: line.split()[1] for line in first.stdout.splitlines() if len(line.split()) == 2}
+        self.assertLess(float(rows["residual"]), 1e-8)
+        self.assertGreater(float(rows["cl"]), 0.1)
+        text = (self.folder / "flow.mesh").read_text()
+        self.assertIn("#names: density x_velocity y_velocity pressure", text)
+        again = self.run_quadloop("solve", "case.toml", "flow.mesh", "-o", "flow.cgns", "--set", "solver.tolerance=1e-7")
+        rows = {line.split()[0]: line.split()[1] for line in again.stdout.splitlines() if len(line.split()) == 2}
+        self.assertLess(int(rows["steps"]), 150)
+
+    def test_warns_where_it_does_not_get_there(self):
+        done = self.run_quadloop("solve", "case.toml", "m.mesh", "-o", "short.mesh", "--set", "solver.iterations=3")
+        self.assertIn("warning: the residual fell to", done.stderr)
+
+    def test_refusals_name_the_cure_and_leave_nothing(self):
+        for extra, words in ((["solver.machs=1"], "unknown key 'solver.machs'"), (["boundary.body.bc=none"], "[boundary.body] bc"),
+                             (["solver.kind='command'", "solver.command=['x']"], "built-in solver alone")):
+            settings = [word for assignment in extra for word in ("--set", assignment)]
+            done = self.run_quadloop("solve", "case.toml", "m.mesh", "-o", "no.mesh", *settings, status=1)
+            self.assertIn(words, done.stderr)
+            self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        done = self.run_quadloop("solve", "case.toml", "m.mesh", "-o", "no.su2", status=1)
+        self.assertIn("no place for the flow", done.stderr)
+        self.assertEqual([path.name for path in self.folder.glob("no.*")], [])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

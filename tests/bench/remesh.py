@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""How long one remesh takes after a change of about 5 % of the leaves, beside the same mesh made from scratch: NACA 0012 to about a million cells (the
+case of bench.py), an artificial field at its nodes, the 5 % of the leaves with the largest differences marked. Each pair runs `remesh`, then `mesh
+--tree` of the tree that it left, which is the same mesh; medians count. Reading and writing do not. Standard library only.
+
+    remesh.py --quadloop PROGRAM [--repeats N] [--finer F] [--require]
+
+--require  exit status 1 where remeshing takes more than 60 % of the time from scratch
+"""
+import argparse
+import math
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from bench import AIRFOIL, airfoil_options, machine
+
+GOAL = 0.6
+ADAPT = ['adapt.variable="height"', 'adapt.indicator="difference"', 'adapt.threshold="fraction"', "adapt.refine=0.05", "adapt.coarsen=0",
+         "adapt.min=0.00001"]
+
+
+def quadloop(program, command, settings, *words):
+    sets = [word for text in settings for word in ("--set", text)]
+    line = [str(word) for word in (program, command, AIRFOIL, *words, *sets)]
+    done = subprocess.run(line, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(line)}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def stages(table):
+    """{stage: seconds of the slowest rank}, but reading and writing."""
+    found = {name: float(slowest) for name, slowest in re.findall(r"^    (\w+) +([\d.]+) +[\d.]+$", table, re.M)}
+    return {name: seconds for name, seconds in found.items() if name not in ("read", "write")}
+
+
+def count(table, name):
+    return int(re.search(rf"^  {name} +(\d+)$", table, re.M)[1])
+
+
+def add_field(path):
+    """A smooth step across a circle, at every node of a native mesh without a solution."""
+    with open(path, encoding="ascii") as file:
+        next(file)
+        nodes = int(next(file))
+        heights = [math.tanh((math.hypot(*map(float, next(file).split())) - 4) / 0.5) for _ in range(nodes)]
+    with open(path, "a", encoding="ascii") as file:
+        file.write("#Number of constants\n0\n#Number of variables\n1\n#names: height\n")
+        file.writelines(f"{height!r}\n" for height in heights)
+
+
+def pair(program, settings, folder):
+    """The tables of one remesh, and of the mesh that it led to from scratch."""
+    first, again = folder / "first", folder / "again"
+    remeshed = quadloop(program, "remesh", [*settings, *ADAPT], "--tree", f"{first}.tree.h5", "--solution", f"{first}.mesh", "-o", again)
+    scratch = quadloop(program, "mesh", settings, "--tree", f"{again}.tree.h5", "-o", folder / "scratch")
+    if count(scratch, "nodes") != count(remeshed, "nodes"):
+        sys.exit("the mesh from scratch is not the mesh that remeshing led to")
+    return remeshed, scratch
+
+
+def medians(tables):
+    columns = [stages(table) for table in tables]
+    return {name: statistics.median(column[name] for column in columns) for name in columns[0]}
+
+
+def measure(program, finer, sweeps, repeats):
+    """Prints the stages of both and returns the median ratio of their times over the pairs."""
+    settings = [*airfoil_options(finer), f"smooth.sweeps={sweeps}", 'output.formats=["mesh"]']
+    with tempfile.TemporaryDirectory(prefix="quadloop_remesh_") as name:
+        folder = Path(name)
+        first = quadloop(program, "mesh", settings, "-o", folder / "first")
+        add_field(folder / "first.mesh")
+        pairs = [pair(program, settings, folder) for _ in range(repeats)]
+    remeshed, scratch = zip(*pairs)
+    ratio = statistics.median(sum(stages(r).values()) / sum(stages(s).values()) for r, s in pairs)
+    text = [", ".join(f"{stage} {seconds:.2f}" for stage, seconds in medians(tables).items()) for tables in (remeshed, scratch)]
+    print(f"| {sweeps} | {count(first, 'leaves')} | {count(remeshed[0], 'leaves')} | {text[0]} | {text[1]} | {ratio:.2f} |", flush=True)
+    return ratio
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quadloop", required=True)
+    parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--finer", type=float, default=4, help="every spacing divided by this; 4 makes about a million cells")
+    parser.add_argument("--require", action="store_true")
+    args = parser.parse_args()
+    print(f"{machine()}; median of {args.repeats} pairs\n\n| sweeps | leaves before | after | s of remesh | s from scratch | ratio |\n|---|---|---|---|---|---|")
+    ratios = [measure(args.quadloop, args.finer, sweeps, args.repeats) for sweeps in (0, 20)]
+    return 1 if args.require and max(ratios) > GOAL else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,110 @@
+"""What the tests of the adaptive loop share: a tiny case with a solver that can be told to fail, and folders compared. Standard library only."""
+import filecmp
+import json
+import subprocess
+from pathlib import Path
+
+from quadloop_runs import MPIRUN, ROOT, fail, run
+
+RING = ROOT / "cases" / "ring"
+
+# A ring of a wide step on a coarse mesh: a cycle takes a fraction of a second.
+TINY = """[geometry]
+file = "square.geom"
+[spacing]
+min = 0.25
+max = 0.5
+gradation = 1.5
+[boundary.frame]
+bc = "farfield"
+[adapt]
+cycles = 4
+variable = "height"
+threshold = "deviation"
+refine = 0.5
+coarsen = 0.5
+min = 0.03
+[solver]
+kind = "command"
+command = ["python3", "{case}/solver.py", "{mesh}", "{solution}"]
+timeout = 100
+"""
+
+
+def require(holds, message):
+    if not holds:
+        fail(message)
+
+
+def tiny_case(folder, solver=None, text=TINY):
+    """The case file of a tiny ring in `folder`; `solver` is the text of another solver.py."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "square.geom").write_text((RING / "square.geom").read_text())
+    (folder / "solver.py").write_text(solver or (RING / "solver.py").read_text().replace("0.01", "0.1"))
+    case = folder / "case.toml"
+    case.write_text(text)
+    return case
+
+
+def command_of(program, ranks, *words):
+    launcher = [MPIRUN, "-n", ranks] if ranks > 1 else []
+    return [str(word) for word in (*launcher, program, *words)]
+
+
+def adapt(program, case, folder, ranks=1, options=()):
+    return run(command_of(program, ranks, "adapt", case, "-o", folder, *options))
+
+
+def attempt(program, *words, ranks=1):
+    """(exit status, what stands on stderr) of a command that may fail."""
+    command = command_of(program, ranks, *words)
+    print("+", " ".join(command), flush=True)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    return done.returncode, done.stderr
+
+
+def expect_refusal(program, status, parts, *words, ranks=1):
+    found, message = attempt(program, *words, ranks=ranks)
+    require(found == status, f"exit status {found} instead of {status}: {message}")
+    for part in parts:
+        require(part in message, f"the message does not say '{part}': {message}")
+
+
+def files_in(folder):
+    """{path below `folder`: path} of all files."""
+    return {str(path.relative_to(folder)): path for path in sorted(Path(folder).rglob("*")) if not path.is_dir()}
+
+
+def without_times(path):
+    record = json.loads(path.read_text())
+    require(record.pop("seconds", None), f"{path} has no seconds")
+    return list(record.items())  # the order of the members counts
+
+
+def same_file(name, one, other):
+    if name.endswith("log.txt") or name.endswith("solver.log"):
+        return True
+    if name.endswith("record.json"):
+        return without_times(one) == without_times(other)
+    if name.endswith(".cgns"):
+        from run_ranks import arrays
+        return arrays(one) == arrays(other)
+    return filecmp.cmp(one, other, shallow=False)
+
+
+def require_same_folders(one, other, context):
+    """Byte for byte, but for what tells of time, and for .cgns array by array."""
+    left, right = files_in(one), files_in(other)
+    require(left, f"{one} is empty")
+    require(left.keys() == right.keys(), f"{context}: other files: {sorted(left.keys() ^ right.keys())[:6]}")
+    different = [name for name in left if not same_file(name, left[name], right[name])]
+    require(not different, f"{context}: {len(different)} files differ: {different[:6]}")
+
+
+def states(folder):
+    """{path: inode, time and size}: equal only where nobody has touched the files."""
+    found = {}
+    for name, path in files_in(folder).items():
+        state = path.stat()
+        found[name] = (state.st_ino, state.st_mtime_ns, state.st_size)
+    return found

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""The adaptive loop from end to end: the same folder on any number of ranks, and after being killed at any moment and resumed.
+
+    run_adapt.py --quadloop PROGRAM ranks --case CASE.toml [--ranks 1 2 3 5] [--cycles N] [--set KEY=VALUE ...]
+    run_adapt.py --quadloop PROGRAM tiny [--ranks 1 3]
+    run_adapt.py --quadloop PROGRAM kill [--times 20] [--ranks 1]
+"""
+import argparse
+import os
+import random
+import signal
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+from adapt_runs import adapt, command_of, files_in, require, require_same_folders, states, tiny_case
+
+
+def check_ranks(program, case, folder, ranks, options):
+    """Every file of every cycle."""
+    first = folder / f"on_{ranks[0]}"
+    for count in ranks:
+        made = folder / f"on_{count}"
+        adapt(program, case, made, count, options)
+        require_same_folders(first, made, f"{count} ranks against {ranks[0]}")
+    print(f"{len(files_in(first))} files the same on", ", ".join(map(str, ranks)), "ranks")
+
+
+def check_other_ranks_go_on(program, case, folder, ranks, cycles, options):
+    """A run begun on one number of ranks and resumed on another ends as one that was not broken off."""
+    made = folder / "changing"
+    for cycle in range(cycles + 1):
+        adapt(program, case, made, ranks[(cycle + 1) % len(ranks)], [*options, "--cycles", cycle, "--resume"])
+    require_same_folders(folder / f"on_{ranks[0]}", made, "other ranks in each cycle")
+
+
+def kill_session(leader):
+    """All at one blow, as when a machine goes down: mpirun gives each rank a process group of its own, but all stay in its session."""
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue  # ended meanwhile
+        if int(fields[3]) == leader:
+            try:
+                os.kill(int(stat.parent.name), signal.SIGKILL)
+            except ProcessLookupError:
+                continue
+
+
+def killed_after(command, seconds):
+    """Starts the command and kills it with all that it started after so long; whether it had ended before."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    try:
+        process.wait(timeout=seconds)
+        return True
+    except subprocess.TimeoutExpired:
+        kill_session(process.pid)
+        process.wait()
+        return False
+
+
+def whole_cycles(folder):
+    return sorted(path for path in folder.glob("cycle_*") if not path.name.endswith(".part"))
+
+
+def check_whole(folder, wanted):
+    """Cycles that bear their final name are whole and are those of the unbroken run."""
+    for cycle in whole_cycles(folder):
+        require_same_folders(wanted / cycle.name, cycle, f"{cycle.name} after a kill")
+
+
+def check_kill(program, case, folder, ranks, times, seed):
+    """`times` kills, each at a random moment of what is left of the run; a new run begins where one came to its end."""
+    wanted, chance = folder / "unbroken", random.Random(seed)
+    begin = time.monotonic()
+    adapt(program, case, wanted, ranks)
+    whole_time = time.monotonic() - begin
+    kills = run = 0
+    moments = []
+    while kills < times:
+        run += 1
+        made = folder / f"broken_{run}"
+        while True:
+            kept = {cycle: states(cycle) for cycle in whole_cycles(made)} if made.exists() else {}
+            # Early more often than late, so that a run is killed several times before it ends.
+            moment = whole_time * (0.1 + 0.9 * chance.random() ** 1.5)
+            ended = killed_after(command_of(program, ranks, "adapt", case, "-o", made, "--resume"), moment)
+            for cycle, before in kept.items():
+                require(states(cycle) == before, f"{cycle} was whole and has been touched")
+            if ended:
+                break
+            kills += 1
+            moments.append(len(whole_cycles(made)) if made.exists() else -1)
+            if made.exists():
+                check_whole(made, wanted)
+            if kills == times:
+                adapt(program, case, made, ranks, ["--resume"])
+                break
+        require_same_folders(wanted, made, f"resumed after kills on {ranks} ranks")
+    print(f"{kills} kills in {run} runs on {ranks} ranks, after so many whole cycles each:", *moments)
+    require(max(moments) > 0, "no kill came after the first cycle: the moments are badly chosen")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quadloop", required=True)
+    parser.add_argument("what", choices=("ranks", "tiny", "kill"))
+    parser.add_argument("--case", type=Path)
+    parser.add_argument("--ranks", type=int, nargs="+", default=[1])
+    parser.add_argument("--cycles", type=int, default=2)
+    parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--times", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    args = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="quadloop_adapt_") as name:
+        folder = Path(name)
+        settings = [word for assignment in args.set for word in ("--set", assignment)]
+        if args.what == "ranks":
+            check_ranks(args.quadloop, args.case, folder, args.ranks, [*settings, "--cycles", args.cycles])
+        elif args.what == "tiny":
+            case = tiny_case(folder / "case")
+            check_ranks(args.quadloop, case, folder, args.ranks, [*settings, "--cycles", args.cycles])
+            check_other_ranks_go_on(args.quadloop, case, folder, args.ranks, args.cycles, settings)
+        else:
+            check_kill(args.quadloop, tiny_case(folder / "case"), folder, args.ranks[0], args.times, args.seed)
+    print("good")
+
+
+if __name__ == "__main__":
+    main()

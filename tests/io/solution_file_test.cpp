@@ -1,0 +1,165 @@
+// Solutions that solvers leave: tables of SU2, the formats that carry a mesh, names of variables, and solutions of another mesh. On one rank alone.
+#include "io/solution_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "io/cgns_file.hpp"
+#include "io/native_file.hpp"
+#include "io/su2_csv_file.hpp"
+#include "io/variable_names.hpp"
+#include "io/vtu_file.hpp"
+#include "mesher/base/error.hpp"
+#include "tests/io/reader_check.hpp"
+#include "tests/io/sample_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::replaced;
+using test::TemporaryFolder;
+
+template <class Call>
+std::string refusal_of(const Call& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no refusal";
+}
+
+void expect_in(const std::string& text, const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << text << "\nlacks\n" << part; }
+
+LoadedSolution read_text(const std::string& text) {
+  const TemporaryFolder folder;
+  test::write_bytes(folder.file("s.csv"), text);
+  return read_solution(folder.file("s.csv"));
+}
+
+const std::string table = "\"PointID\",\"x\",\"y\",\"Density\",\"Momentum_x\"\n0, 0.0, 0, 1.0, 2e-1\n1, 1, 0.5, 3, -4\n2, 1, 2, 5, 6\n";
+
+TEST(Su2Csv, ReadsNamesCoordinatesAndRows) {
+  const LoadedSolution loaded = read_text(table);
+  EXPECT_EQ(loaded.nodes, 3);
+  EXPECT_EQ(loaded.solution.names, (std::vector<std::string>{"Density", "Momentum_x"}));
+  EXPECT_EQ(loaded.solution.values, (std::vector<double>{1, 0.2, 3, -4, 5, 6}));
+  EXPECT_EQ(loaded.points, (std::vector<Point>{{0, 0}, {1, 0.5}, {1, 2}}));
+  EXPECT_FALSE(loaded.has_cells);
+  EXPECT_EQ(read_text(test::with_crlf(table) + "\r\n").solution.values, loaded.solution.values);
+  EXPECT_EQ(read_text("rho\n1\n2\n").solution.values, (std::vector<double>{1, 2}));
+  EXPECT_TRUE(read_text("rho\n1\n2\n").points.empty());
+}
+
+TEST(Su2Csv, PointIdsSortTheRows) {
+  const LoadedSolution loaded = read_text(replaced(replaced(table, "\n0, ", "\n2, "), "\n2, 1,", "\n0, 1,"));
+  EXPECT_EQ(loaded.solution.values, (std::vector<double>{5, 6, 3, -4, 1, 0.2}));
+  EXPECT_EQ(loaded.points.at(0), (Point{1, 2}));
+}
+
+TEST(Su2Csv, RefusesByLine) {
+  const auto expect = [](const std::string& text, const std::string& says) { expect_in(refusal_of([&] { read_text(text); }), says); };
+  expect(replaced(table, "3, -4", "3, nan"), "s.csv:3: Momentum_x is not finite: nan");
+  expect(replaced(table, "3, -4", "3"), "s.csv:3: 4 values stand under 5 names");
+  expect(replaced(table, "3, -4", "3, -4, 7"), "s.csv:3: 6 values stand under 5 names");
+  expect(replaced(table, "3, -4", "three, -4"), "s.csv:3: expected a number for Density, found \"three\"");
+  expect(replaced(table, "\n2, 1, 2", "\n1, 1, 2"), "rows 2 and 3 have the same PointID 1");
+  expect(replaced(table, "\n2, 1, 2", "\n7, 1, 2"), "row 3 has the PointID 7");
+  expect("0,1,2\n", "s.csv:1: the first line must name the columns");
+  expect("\"PointID\",\"x\",\"y\"\n0,1,2\n", "s.csv:1: the table has no variables");
+  expect("\"x\",\"rho\"\n0,1\n", "only one of x and y");
+  expect("\"x\",\"y\",\"z\",\"rho\"\n0,1,2,3\n0,1,3,3\n", "s.csv:3: z is 3, before 2");
+  expect("rho\n", "no rows");
+  expect("", "s.csv:1: the file is empty");
+}
+
+/// A mesh with its solution in each format.
+class Formats : public testing::TestWithParam<std::string> {
+ public:
+  Mesh mesh = test::sample_mesh(4);
+  Solution solution = test::sample_solution(mesh);
+  TemporaryFolder folder;
+
+  std::string write(const Mesh& other, const Solution* values) const {
+    const std::string path = folder.file("s" + GetParam());
+    if (GetParam() == ".mesh") write_native(test::world(), other, path, values);
+    if (GetParam() == ".cgns") write_cgns(test::world(), other, path, values);
+    if (GetParam() == ".vtu") write_vtu(test::world(), other, path, values);
+    return path;
+  }
+};
+
+TEST_P(Formats, SolutionComesBackAndFitsItsMesh) {
+  const LoadedSolution loaded = read_solution(write(mesh, &solution));
+  EXPECT_EQ(loaded.solution.names, solution.names);
+  EXPECT_EQ(loaded.solution.values, solution.values);
+  EXPECT_EQ(loaded.nodes, mesh.owned_nodes);
+  EXPECT_TRUE(loaded.has_cells);
+  require_same_mesh(loaded, mesh);
+}
+
+TEST_P(Formats, AMeshWithoutSolutionIsRefused) {
+  const std::string path = write(mesh, nullptr);
+  const std::string said = refusal_of([&] { read_solution(path); });
+  expect_in(said, path + ": holds a mesh without a solution");
+}
+
+TEST_P(Formats, SolutionsOfOtherMeshesAreTold) {
+  const Mesh larger = test::sample_mesh(5);
+  const Solution its = test::sample_solution(larger);
+  expect_in(refusal_of([&] { require_same_mesh(read_solution(write(larger, &its)), mesh); }), "holds values at 18 nodes, the mesh has 15");
+  Mesh moved = mesh;
+  moved.points[7].y += 2e-6;
+  expect_in(refusal_of([&] { require_same_mesh(read_solution(write(moved, &solution)), mesh); }), "node 8 lies at");
+  moved.points[7].y = mesh.points[7].y + 0.5e-6;
+  require_same_mesh(read_solution(write(moved, &solution)), mesh);
+  Mesh flipped = mesh;  // the other diagonal
+  flipped.triangles[0] = {mesh.triangles[0][0], mesh.triangles[0][1], mesh.triangles[1][2]};
+  flipped.triangles[1] = {mesh.triangles[0][1], mesh.triangles[0][2], mesh.triangles[1][2]};
+  expect_in(refusal_of([&] { require_same_mesh(read_solution(write(flipped, &solution)), mesh); }), "of its triangles the one of nodes 6 7 11");
+  Mesh reordered = mesh;  // the same cells in another order, begun at other nodes
+  std::reverse(reordered.quads.begin(), reordered.quads.end());
+  for (auto& nodes : reordered.triangles) std::rotate(nodes.begin(), nodes.begin() + 1, nodes.end());
+  require_same_mesh(read_solution(write(reordered, &solution)), mesh);
+}
+
+INSTANTIATE_TEST_SUITE_P(SolutionFile, Formats, testing::Values(".mesh", ".cgns", ".vtu"), [](const auto& format) { return format.param.substr(1); });
+
+TEST(SolutionFile, OtherNumbersOfCellsAreTold) {
+  const Mesh mesh = test::sample_mesh(2);
+  LoadedSolution loaded{"s.vtu", test::sample_solution(mesh), mesh.owned_nodes, mesh.points, true, mesh.triangles, mesh.quads};
+  loaded.quads.pop_back();
+  expect_in(refusal_of([&] { require_same_mesh(loaded, mesh); }), "s.vtu: has 1 quads, the mesh 2");
+}
+
+TEST(SolutionFile, RefusesFormatsWithoutSolutions) {
+  expect_in(refusal_of([] { read_solution("a.su2"); }), "a.su2: no solution is read from the format '.su2'");
+  expect_in(refusal_of([] { read_solution("missing.csv"); }), "missing.csv: cannot be read");
+}
+
+TEST(VariableNames, FindsThemByUsualNames) {
+  const std::vector<std::string> su2{"Density", "Momentum_x", "Momentum_y", "Energy", "Pressure", "Mach"};
+  EXPECT_EQ(variable(su2, "Density", "s"), 0U);
+  EXPECT_EQ(variable(su2, "density", "s"), 0U);
+  EXPECT_EQ(variable(su2, "rho", "s"), 0U);
+  EXPECT_EQ(variable(su2, "y_momentum", "s"), 2U);
+  EXPECT_EQ(variable(su2, "mach_number", "s"), 5U);
+  const std::vector<std::string> ours{"density", "x_velocity", "y_velocity", "pressure"};
+  EXPECT_EQ(variable(ours, "VelocityX", "s"), 1U);
+  EXPECT_EQ(variable(ours, "v", "s"), 2U);
+  EXPECT_EQ(variable(std::vector<std::string>{"Velocity:0", "Velocity:1", "p"}, "y_velocity", "s"), 1U);
+  EXPECT_EQ(variable(std::vector<std::string>{"P", "p"}, "p", "s"), 1U);  // as it is written, first of all
+}
+
+TEST(VariableNames, RefusesWithAList) {
+  const std::vector<std::string> names{"rho", "Density", "p"};
+  expect_in(refusal_of([&] { variable(names, "mach", "s.vtu"); }), "s.vtu: no variable 'mach' in the solution; it has: rho, Density, p");
+  expect_in(refusal_of([&] { variable({}, "mach", "s.vtu"); }), "it has: none");
+  EXPECT_EQ(variable(names, "density", "s"), 1U);
+  expect_in(refusal_of([] { variable(std::vector<std::string>{"u", "Ux"}, "x_velocity", "s"); }), "'x_velocity' may be u or Ux");
+}
+
+}  // namespace
+}  // namespace quadloop
