@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
@@ -9,9 +8,9 @@
 
 #include "app/check_report.hpp"
 #include "app/command.hpp"
+#include "app/refusals.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
-#include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 
 namespace quadloop {
@@ -48,15 +47,6 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   return report;
 }
 
-[[noreturn]] void refuse(const CheckReport& report) {
-  const MeshFault& first = report.faults.front();
-  const std::size_t more = report.faults.size() - 1;
-  const std::string others = more == 0 ? "" : fmt::format("; {} fault{} more", more, more == 1 ? "" : "s");
-  const char* cure = first.rule == MeshRule::geometry ? "; give the file that `mesh --geometry-out` wrote" : "";
-  throw InputError(fmt::format("{}: invalid mesh: {}: {} at ({}, {}){}{}", report.file, name_of(first.rule), first.what, first.place.x, first.place.y,
-                               others, cure));
-}
-
 void check_on_root(const CommandContext& context, const CheckArguments& arguments) {
   const LoadedMesh loaded = read_mesh(arguments.input);
   for (const std::string& warning : loaded.warnings) log::warning(warning);
@@ -69,7 +59,7 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
   } else if (!context.quiet) {
     std::cout << report_text(report, context.verbose) << std::flush;
   }
-  if (!report.faults.empty()) refuse(report);
+  if (!report.faults.empty()) refuse_invalid(report.file, report.faults);
 }
 
 }  // namespace

@@ -8,10 +8,12 @@
 #include <optional>
 
 #include "app/command.hpp"
+#include "app/refusals.hpp"
 #include "app/smooth_report.hpp"
 #include "app/summary.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
+#include "io/tidy_mesh.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
@@ -76,6 +78,8 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     if (!arguments.geometry.empty()) loaded.geometry = read_outline(arguments.geometry, warnings);
     if (!context.comm.is_root()) return;
     loaded.whole = read_mesh(arguments.input);
+    tidy_mesh(loaded.whole, arguments.input);
+    require_sound_topology(loaded.whole, arguments.input);
     append(warnings, loaded.whole.warnings);
     if (loaded.geometry) {
       append(warnings, require_match(*loaded.geometry, loaded.whole.mesh, arguments.geometry));
@@ -83,7 +87,7 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     }
     loaded.order = space_filling_order(loaded.whole.mesh);
     if (loaded.whole.blocks > 1) loaded.pinned = interface_nodes(loaded.whole);
-    loaded.delaunay = loaded.whole.blocks == 1 && is_delaunay(loaded.whole.mesh);
+    loaded.delaunay = is_delaunay(loaded.whole.mesh, loaded.whole.triangle_to_block);
     if (loaded.whole.solution) warnings.push_back(arguments.input + ": the solution stays with its nodes, which move; it is that of the old mesh");
     append(warnings, losses_in(loaded.whole, arguments.output));
   });
@@ -126,20 +130,22 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
   options.pinned = scatter_nodes(comm, loaded.pinned, loaded.order);
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
   const Point centre = centre_of(comm, part);
+  if (loaded.delaunay) options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);
   if (loaded.delaunay) options.delaunay = [centre](Point p) { return tie_rank(centre, p); };
   times.begin("report");
   const ShapeReport before = report_shapes(comm, part, loaded.whole.mesh);
   times.begin("smooth");
   const SmoothReport smoothed = smooth_mesh(comm, part, options);
-  times.begin("write");
+  times.begin("check");
   gather_mesh(comm, part, loaded.order, loaded.whole.mesh);
+  comm.together([&] {
+    if (comm.is_root()) require_valid(loaded.whole, arguments.input);
+  });
+  times.begin("write");
   write(comm, loaded.whole, arguments.output);
   times.begin("report");
   const ShapeReport after = report_shapes(comm, part, loaded.whole.mesh);
   times.end();
-  if (comm.is_root() && smoothed.inverted_after > 0) {
-    log::warning(fmt::format("{} of {} inverted cells could not be untangled", smoothed.inverted_after, smoothed.inverted_before));
-  }
   const std::string stages = stage_table(comm, times.stages());
   if (!comm.is_root() || context.quiet) return;
   std::cout << comparison_table(before, after)

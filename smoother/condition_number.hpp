@@ -47,9 +47,9 @@ inline constexpr double flattest_sine = 1e-12;
 inline bool is_inverted(const CornerForm& c) { return !(c.jacobian > 0 && c.jacobian * c.jacobian > flattest_sine * flattest_sine * c.uu * c.vv); }
 
 /// Eq. 3.2: (1 - 1/CN)^2, between 0 and 1, or for an inverted corner 1 - J / reference, at least 1. `reference` is an area, the same for all
-/// corners that are compared.
+/// corners that are compared; 0 where all nodes are at one point, which costs what any flat corner costs.
 inline double corner_cost(const CornerForm& c, const CornerTarget& t, double reference) {
-  if (is_inverted(c)) return 1 - std::min(c.jacobian, 0.0) / reference;
+  if (is_inverted(c)) return c.jacobian < 0 ? 1 - c.jacobian / reference : 1;
   const double defect = 1 - inverse_condition(c, t);
   return defect * defect;
 }

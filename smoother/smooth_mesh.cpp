@@ -3,17 +3,21 @@
 #include <algorithm>
 #include <optional>
 
+#include "mesher/base/error.hpp"
 #include "mesher/geometry/predicates.hpp"
+#include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/restore_delaunay.hpp"
-#include "smoother/boundary_slide.hpp"
-#include "smoother/colouring.hpp"
-#include "smoother/untangle.hpp"
+#include "smoother/binary_unit.hpp"
+#include "smoother/sweeper.hpp"
 
 namespace quadloop {
 
 namespace {
 
-constexpr int free_rings = 3;  ///< of nodes round those of cells above the threshold that may come to move
+constexpr int free_rings = 3;            ///< of nodes round those of cells above the threshold that may come to move
+constexpr double cost_rounding = 1e-12;  ///< relative: by so much a cost seen from another corner may differ
+constexpr int pinned_rings = 2;          ///< round triangles that flips have made too bad; so many more each time
+constexpr int most_attempts = 5;
 
 template <std::size_t width>
 std::array<Point, width> corners_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes) {
@@ -37,6 +41,13 @@ double cost_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes, con
   return cell_cost(corners, ideal ? ideal_targets<width>() : stretched_targets<width>(targets[number].w1, targets[number].w2));
 }
 
+template <std::size_t width>
+double ideal_cost(const Mesh& mesh, const std::array<NodeId, width>& nodes) {
+  std::array<Point, width> points;
+  for (std::size_t k = 0; k < width; ++k) points[k] = mesh.point(nodes[k]);
+  return cell_cost(points, ideal_targets<width>());
+}
+
 struct WorstCell {
   double cost = 0;
   std::int64_t inverted = 0;
@@ -54,6 +65,11 @@ bool any_flagged(const std::vector<char>& flags, const Nodes& nodes) {
   return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[static_cast<std::size_t>(n.value())] != 0; });
 }
 
+template <class Nodes>
+void flag_all(const Nodes& nodes, std::vector<char>& flags) {
+  for (const NodeId node : nodes) flags[static_cast<std::size_t>(node.value())] = 1;
+}
+
 WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) { return {comm.maximum(worst.cost), comm.sum(worst.inverted)}; }
 
 /// Adds a cell to a rank's worst; those that other ranks have too count where their first node is owned.
@@ -62,29 +78,31 @@ void include(WorstCell& worst, const HaloMesh& mesh, NodeId first, double cost) 
   worst.inverted += cost >= 1 && first.value() < mesh.owned_nodes() ? 1 : 0;
 }
 
+/// Flags the nodes of cells that have a flagged one, so many times; `flags` count for owned nodes alone and are right for all. *Collective.*
+void grow(const HaloMesh& mesh, std::vector<char>& flags, int rings) {
+  for (int ring = 0; ring < rings; ++ring) {
+    mesh.exchange().update(flags);
+    const std::vector<char> before = flags;
+    mesh.for_each_cell([&](const auto& nodes) {
+      if (any_flagged(before, nodes)) flag_all(nodes, flags);
+    });
+  }
+  mesh.exchange().update(flags);
+}
+
 /// *Collective.*
 Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets, double threshold) {
   Survey result;
   std::vector<char>& near = result.near;
   near.assign(mesh.points().size(), 0);
-  const auto mark = [&](const auto& nodes) {
-    for (const NodeId node : nodes) near[static_cast<std::size_t>(node.value())] = 1;
-  };
   result.costs.reserve(mesh.points().size());
   mesh.for_each_cell([&](const auto& nodes) {
     const double cost = cost_of(mesh, nodes, targets, result.costs.size());
     include(result.worst, mesh, nodes[0], cost);
     result.costs.push_back(cost);
-    if (cost > threshold) mark(nodes);
+    if (cost > threshold) flag_all(nodes, near);
   });
-  for (int ring = 0; ring < free_rings; ++ring) {
-    mesh.exchange().update(near);
-    const std::vector<char> before = near;
-    mesh.for_each_cell([&](const auto& nodes) {
-      if (any_flagged(before, nodes)) mark(nodes);
-    });
-  }
-  mesh.exchange().update(near);
+  grow(mesh, near, free_rings);
   result.worst = over_ranks(comm, result.worst);
   return result;
 }
@@ -96,102 +114,6 @@ std::vector<std::int32_t> free_nodes(const Survey& surveyed, const HaloMesh& mes
   }
   return free;
 }
-
-/// Visits the nodes sweep by sweep.
-class Sweeper {
- public:
-  Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide, const SmoothOptions& options)
-      : comm_{comm}, mesh_{mesh}, stars_{stars}, slide_{slide}, options_{options}, solver_{make_node_solver(options.method)} {
-    const Colouring colouring = colour_nodes(comm, mesh, stars);
-    by_colour_.resize(static_cast<std::size_t>(colouring.count));
-    for (std::size_t i = 0; i < stars.size(); ++i) {
-      by_colour_[static_cast<std::size_t>(colouring.colour_of[static_cast<std::size_t>(stars.nodes()[i])])].push_back(i);
-    }
-    moved_at_.assign(mesh.points().size(), 0);
-    visited_at_.assign(stars.size(), -1);
-    worst_.assign(stars.size(), 0);
-    bad_.assign(mesh.points().size(), 0);
-  }
-
-  /// Returns the number of nodes moved over all ranks. *Collective.*
-  std::int64_t sweep() {
-    find_bad();
-    std::int64_t moves = 0;
-    for (const auto& nodes : by_colour_) {
-      ++clock_;
-      for (const std::size_t i : nodes) {
-        if (is_active(i) && is_stale(i)) moves += visit(i) ? 1 : 0;
-      }
-      share_moves();
-    }
-    return comm_.sum(moves);
-  }
-
- private:
-  std::int32_t node(std::size_t i) const { return stars_.nodes()[i]; }
-  std::int32_t moved_at(std::int32_t n) const { return moved_at_[static_cast<std::size_t>(n)]; }
-
-  /// Whether the node or one that it shares a cell with has moved since it was last visited.
-  bool is_stale(std::size_t i) const {
-    bool stale = moved_at(node(i)) >= visited_at_[i];
-    stars_.for_each_neighbour(i, [&](std::int32_t other) { stale = stale || moved_at(other) >= visited_at_[i]; });
-    return stale;
-  }
-
-  /// Flags the nodes of cells above the threshold, of other ranks too.
-  void find_bad() {
-    for (std::size_t i = 0; i < stars_.size(); ++i) {
-      if (!is_stale(i)) continue;
-      stars_.gather(i, star_);
-      bad_[static_cast<std::size_t>(node(i))] = star_.worst_cost(mesh_.points()[static_cast<std::size_t>(node(i))]) > options_.threshold ? 1 : 0;
-    }
-    mesh_.exchange().update(bad_);
-  }
-
-  bool is_active(std::size_t i) const {
-    bool active = bad_[static_cast<std::size_t>(node(i))] != 0;
-    stars_.for_each_neighbour(i, [&](std::int32_t other) { active = active || bad_[static_cast<std::size_t>(other)] != 0; });
-    return active;
-  }
-
-  bool visit(std::size_t i) {
-    stars_.gather(i, star_);
-    visited_at_[i] = clock_;
-    const std::int32_t n = node(i);
-    Point& p = mesh_.points()[static_cast<std::size_t>(n)];
-    const auto better = better_place(n, p);
-    if (!better) return false;
-    p = *better;
-    moved_at_[static_cast<std::size_t>(n)] = clock_;
-    return true;
-  }
-
-  std::optional<Point> better_place(std::int32_t n, Point p) {
-    if (slide_.freedom(n) == NodeFreedom::sliding) return slide_.improve(n, star_, options_.objective);
-    if (star_.cost(p, options_.objective).valid[0]) return solver_->improve(star_, p, options_.objective);
-    return untangle(star_, p);
-  }
-
-  void share_moves() {
-    const auto just_moved = [&](std::int32_t n) { return moved_at(n) == clock_; };
-    mesh_.exchange().update(mesh_.points(), just_moved);
-    mesh_.exchange().update(moved_at_, just_moved);
-  }
-
-  const Communicator& comm_;
-  HaloMesh& mesh_;
-  const NodeStars& stars_;
-  const BoundarySlide& slide_;
-  const SmoothOptions& options_;
-  std::unique_ptr<NodeSolver> solver_;
-  std::vector<std::vector<std::size_t>> by_colour_;
-  std::vector<std::int32_t> moved_at_;    ///< the clock when each node moved last
-  std::vector<std::int32_t> visited_at_;  ///< the clock when each free node was visited last
-  std::vector<double> worst_;
-  std::vector<char> bad_;
-  std::int32_t clock_ = 0;
-  Star star_;
-};
 
 /// The worst cell now; cells away from nodes that may have moved are as they were. *Collective.*
 WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets, const Survey& before) {
@@ -221,9 +143,19 @@ bool any_turns_right(const Mesh& mesh) {
                      [&](const auto& t) { return orientation(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])) <= 0; });
 }
 
-}  // namespace
+/// The worst of a mesh of triangles, each of which one rank has. *Collective.*
+WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
+  WorstCell worst;
+  for (const auto& nodes : mesh.triangles) {
+    const double cost = ideal_cost(mesh, nodes);
+    worst.cost = std::max(worst.cost, cost);
+    worst.inverted += cost >= 1 ? 1 : 0;
+  }
+  return over_ranks(comm, worst);
+}
 
-SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
+/// Sweeps, then flips; what the flips make of the worst cell is seen in the report. *Collective.*
+SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
   SmoothReport report;
   std::optional<OutlinePath> outline;
   if (options.geometry != nullptr) outline.emplace(*options.geometry);
@@ -232,20 +164,78 @@ SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptio
   const BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
   const Survey before = survey(comm, halo, targets, options.threshold);
   const NodeStars stars(halo, free_nodes(before, halo, slide), targets);
-  Sweeper sweeper(comm, halo, stars, slide, options);
+  Sweeper sweeper(comm, halo, stars, slide, options.method, options.objective, options.threshold);
   for (std::int64_t moves = 1; report.sweeps < options.sweeps && moves > 0; ++report.sweeps) {
     moves = sweeper.sweep();
     report.moves += moves;
   }
-  const WorstCell after = worst_cell(comm, halo, targets, before);
-  report.inverted_after = after.inverted;
+  WorstCell after = worst_cell(comm, halo, targets, before);
   const std::vector<char> moved = take_positions(halo, mesh);
-  const bool sound = report.inverted_after == 0 || !comm.any(any_turns_right(mesh));
-  if (options.delaunay && sound) restore_delaunay(comm, mesh, moved, options.delaunay);
+  const bool sound = after.inverted == 0 || !comm.any(any_turns_right(mesh));
+  if (options.delaunay && sound && report.moves > 0) {
+    restore_delaunay(comm, mesh, moved, options.delaunay, options.triangle_to_block);
+    after = worst_triangle(comm, mesh);
+  }
   report.free_nodes = comm.sum(static_cast<std::int64_t>(stars.size()));
   report.worst_cost_before = before.worst.cost;
   report.worst_cost_after = after.cost;
   report.inverted_before = before.worst.inverted;
+  report.inverted_after = after.inverted;
+  return report;
+}
+
+/// Flags owned nodes: those of triangles that cost more than `limit`, and some rings round them in the mesh as it was before flips. *Collective.*
+std::vector<char> nodes_near_worse(const Communicator& comm, const Mesh& flipped, const Mesh& before, double limit, int rings) {
+  const NodeOwners owners(comm, before.first_node);
+  std::vector<std::vector<std::int64_t>> to_owner(static_cast<std::size_t>(comm.size()));
+  for (const auto& nodes : flipped.triangles) {
+    if (ideal_cost(flipped, nodes) <= limit) continue;
+    for (const NodeId node : nodes) to_owner[static_cast<std::size_t>(owners.rank_of(flipped.global(node)))].push_back(flipped.global(node).value());
+  }
+  const HaloMesh halo(comm, before);
+  std::vector<char> near(halo.points().size(), 0);
+  for (const auto& from_rank : comm.exchange(to_owner)) {
+    for (const std::int64_t node : from_rank) near[static_cast<std::size_t>(node - before.first_node)] = 1;
+  }
+  grow(halo, near, rings);
+  near.resize(static_cast<std::size_t>(halo.owned_nodes()));
+  return near;
+}
+
+/// A flip to Delaunay raises the smallest angle but may raise the largest cost. Where that gets worse than it was, the nodes near the worse triangles
+/// are left where they were and the rest is smoothed again; in the end the whole mesh is left as it was. *Collective.*
+SmoothReport smooth_delaunay(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
+  QUADLOOP_REQUIRE(!comm.any(!options.targets.empty()), "flips would leave cells without targets");
+  const Mesh before = mesh;
+  SmoothOptions careful = options;
+  careful.pinned.resize(static_cast<std::size_t>(mesh.owned_nodes), 0);
+  for (int attempt = 1;; ++attempt) {
+    const SmoothReport report = smooth_once(comm, mesh, careful);
+    const double limit = (1 + cost_rounding) * report.worst_cost_before;
+    if (report.worst_cost_after <= limit) return report;
+    const std::vector<char> worse = nodes_near_worse(comm, mesh, before, limit, pinned_rings * attempt);
+    for (std::size_t node = 0; node < worse.size(); ++node) careful.pinned[node] |= worse[node];
+    if (attempt == most_attempts) careful.sweeps = 0;
+    mesh = before;
+  }
+}
+
+SmoothReport smooth_ordinary(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
+  return options.delaunay ? smooth_delaunay(comm, mesh, options) : smooth_once(comm, mesh, options);
+}
+
+}  // namespace
+
+SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
+  const BinaryUnit unit(comm, mesh);
+  if (unit.is_one()) return smooth_ordinary(comm, mesh, options);
+  SmoothOptions scaled_options = options;
+  std::optional<Geometry> scaled_geometry;
+  if (options.geometry != nullptr) scaled_options.geometry = &scaled_geometry.emplace(unit.into(*options.geometry));
+  if (options.delaunay) scaled_options.delaunay = [&](Point p) { return options.delaunay(unit.out_of(p)); };
+  for (Point& p : mesh.points) p = unit.into(p);
+  const SmoothReport report = smooth_ordinary(comm, mesh, scaled_options);
+  for (Point& p : mesh.points) p = unit.out_of(p);
   return report;
 }
 

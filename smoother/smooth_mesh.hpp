@@ -22,7 +22,8 @@ struct SmoothOptions {
   const Geometry* geometry = nullptr;      ///< the outline that boundary nodes slide along; without it they slide where the mesh's own is straight
   std::vector<char> pinned;                ///< a flag for each owned node that must stay, or none at all
   std::function<TieRank(Point)> delaunay;  ///< if set, the mesh is Delaunay under this order of nodes, and is made so again by flips in the end
-  std::vector<CellTarget> targets;         ///< the shape of each own cell, triangles, then quads; or none at all for ideal ones
+  std::vector<std::int32_t> triangle_to_block;  ///< of each own triangle, or none: flips keep edges between two blocks
+  std::vector<CellTarget> targets;  ///< the shape of each own cell, triangles, then quads; or none at all for ideal ones. Not with `delaunay`
 };
 
 /// What the smoother did, over all ranks.
@@ -34,8 +35,9 @@ struct SmoothReport {
 };
 
 /// Moves nodes to better the cells' shapes, T 3.7; connectivity stays but for the flips of a Delaunay mesh. The positions are the same bits on any
-/// number of ranks, those of the mesh's copies too. Neither the largest cost nor the smallest angle of the mesh gets worse; a mesh with inverted
-/// cells is untangled first. *Collective.*
+/// number of ranks, those of the mesh's copies too. Neither the largest cost nor the smallest angle of the mesh gets worse, after flips either: where
+/// they would make the largest cost worse, nodes near stay. A mesh with inverted cells is untangled as far as may be: whether any are left stands in
+/// the report. Lengths may be of any size that a double holds. *Collective.*
 SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options);
 
 }  // namespace quadloop

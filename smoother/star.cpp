@@ -98,7 +98,10 @@ double Star::worst_cost(Point p) const {
 
 double Star::inversion(Point p, double reference) const {
   double sum = 0;
-  for (const StarCorner& c : corners_) sum += std::max(0.0, -cross(c.q - p, c.r - p)) / reference;
+  for (const StarCorner& c : corners_) {
+    const double jacobian = cross(c.q - p, c.r - p);
+    if (jacobian < 0) sum -= jacobian / reference;  // so that 0 / 0 of a star that is one point adds nothing
+  }
   return sum;
 }
 

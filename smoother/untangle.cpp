@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <numbers>
 
 namespace quadloop {
 
@@ -47,34 +50,85 @@ Point mean_of_neighbours(const Star& star) {
   return (1 / static_cast<double>(star.corners().size())) * sum;
 }
 
+/// The place of largest least depth: a linear program in three unknowns, solved from above by its dual simplex method. Three half planes at a time
+/// hold the place; of all others the one that it lies least deep in takes the place of one of them, and the depth falls, until none is left that it
+/// lies less deep in. Each step looks at each half plane once; there are a few steps, and never more than a few times the half planes.
+class DeepestPlace {
+ public:
+  explicit DeepestPlace(std::vector<HalfPlane> planes) : planes_{std::move(planes)} {}
+
+  /// At least as deep as any of the guesses, wherever rounding ends the search.
+  Point find(std::initializer_list<Point> guesses) {
+    for (const Point guess : guesses) consider(guess);
+    Basis basis = far_away();
+    Held held{*equally_deep(basis[0], basis[1], basis[2]), basis[0].c};
+    for (std::size_t step = 0; step < steps_per_plane * planes_.size(); ++step) {
+      const HalfPlane& shallowest =
+          *std::min_element(planes_.begin(), planes_.end(), [&](const auto& a, const auto& b) { return a.depth(held.place) < b.depth(held.place); });
+      const auto next = exchange(basis, shallowest);
+      if (!next || !(next->depth < held.depth)) break;
+      held = *next;
+      consider(held.place);
+    }
+    return best_;
+  }
+
+ private:
+  static constexpr std::size_t steps_per_plane = 4;
+  using Basis = std::array<HalfPlane, 3>;
+  struct Held {
+    Point place;
+    double depth = 0;
+  };
+
+  /// Three half planes round everything, so deep that all others are met before.
+  Basis far_away() const {
+    double reach = 0;
+    for (const HalfPlane& plane : planes_) reach = std::max(reach, std::abs(plane.c));
+    const double c = reach > 0 ? 1e3 * reach : 1, s = std::numbers::sqrt3 / 2;
+    return {HalfPlane{{1, 0}, c}, HalfPlane{{-0.5, s}, c}, HalfPlane{{-0.5, -s}, c}};
+  }
+
+  /// Of the four half planes the three whose place lies deepest in all four; the basis becomes these.
+  std::optional<Held> exchange(Basis& basis, const HalfPlane& entering) const {
+    std::optional<Held> deepest;
+    Basis chosen = basis;
+    for (std::size_t leaving = 0; leaving < 3; ++leaving) {
+      Basis trial = basis;
+      trial[leaving] = entering;
+      const auto place = equally_deep(trial[0], trial[1], trial[2]);
+      if (!place) continue;
+      const double depth = std::min(entering.depth(*place), std::min({basis[0].depth(*place), basis[1].depth(*place), basis[2].depth(*place)}));
+      if (deepest && depth <= deepest->depth) continue;
+      deepest = Held{*place, depth};
+      chosen = trial;
+    }
+    basis = chosen;
+    return deepest;
+  }
+
+  void consider(Point candidate) {
+    const double depth = least_depth(planes_, candidate);
+    if (depth <= deepest_) return;
+    deepest_ = depth;
+    best_ = candidate;
+  }
+
+  std::vector<HalfPlane> planes_;
+  Point best_;
+  double deepest_ = -std::numeric_limits<double>::infinity();
+};
+
 }  // namespace
 
 Point deepest_point(const Star& star, Point p) {
-  std::vector<HalfPlane> planes;
   Star from_p;  // in coordinates from p, so that far from the origin nothing is lost
   for (StarCorner c : star.corners()) {
     c.q = c.q - p;
     c.r = c.r - p;
     from_p.add(c);
   }
-  planes = half_planes(from_p);
-  Point best;
-  double deepest = least_depth(planes, best);
-  const auto consider = [&](Point candidate) {
-    const double depth = least_depth(planes, candidate);
-    if (depth <= deepest) return;
-    deepest = depth;
-    best = candidate;
-  };
-  consider(mean_of_neighbours(from_p));
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    for (std::size_t j = i + 1; j < planes.size(); ++j) {
-      for (std::size_t k = j + 1; k < planes.size(); ++k) {
-        if (const auto candidate = equally_deep(planes[i], planes[j], planes[k])) consider(*candidate);
-      }
-    }
-  }
-  return p + best;
+  return p + DeepestPlace(half_planes(from_p)).find({Point{}, mean_of_neighbours(from_p)});
 }
 
 UntanglingRule::UntanglingRule(const Star& star, Point p)

@@ -6,13 +6,14 @@
 
 namespace quadloop {
 
-DelaunayPatch::DelaunayPatch(std::vector<Point> points, std::vector<TieRank> ranks, std::vector<Triangle> triangles, const std::vector<char>& open)
+DelaunayPatch::DelaunayPatch(std::vector<Point> points, std::vector<TieRank> ranks, std::vector<Triangle> triangles, const std::vector<char>& open,
+                             const std::vector<std::int32_t>& blocks)
     : points_{std::move(points)}, ranks_{std::move(ranks)}, triangles_{std::move(triangles)}, across_(3 * triangles_.size(), border) {
-  join(open);
+  join(open, blocks);
 }
 
 /// Finds the triangle across each edge.
-void DelaunayPatch::join(const std::vector<char>& open) {
+void DelaunayPatch::join(const std::vector<char>& open, const std::vector<std::int32_t>& blocks) {
   struct Named {
     std::int32_t low, high;
     Edge edge;
@@ -29,8 +30,10 @@ void DelaunayPatch::join(const std::vector<char>& open) {
   for (std::size_t i = 0; i < named.size(); ++i) {
     const bool paired = i + 1 < named.size() && named[i].low == named[i + 1].low && named[i].high == named[i + 1].high;
     if (paired) {
-      across(named[i].edge) = named[i + 1].edge;
-      across(named[i + 1].edge) = named[i].edge;
+      const Edge e = named[i].edge, f = named[i + 1].edge;
+      const bool flips = blocks.empty() || blocks[triangle_of(e)] == blocks[triangle_of(f)];
+      across(e) = flips ? f : border;
+      across(f) = flips ? e : border;
       ++i;
     } else if (open[triangle_of(named[i].edge)] != 0) {
       across(named[i].edge) = open_border;

@@ -11,14 +11,16 @@
 namespace quadloop {
 
 /// A triangulation of a part of the domain that is made constrained Delaunay by flips (Lawson 1977), with exact in-circle tests. Edges
-/// with one triangle stay. The result depends on nodes, ranks and such edges alone, not on the triangles at the beginning.
+/// with one triangle, or between two blocks, stay. The result depends on nodes, ranks and such edges alone, not on the triangles at the beginning.
 class DelaunayPatch {
  public:
   using Triangle = std::array<std::int32_t, 3>;
 
   /// Counter-clockwise triangles over the nodes, which edges shared by two of them join. Where `open` is set for a triangle, the domain may go on
-  /// across its edges that have no other triangle.
-  DelaunayPatch(std::vector<Point> points, std::vector<TieRank> ranks, std::vector<Triangle> triangles, const std::vector<char>& open);
+  /// across its edges that have no other triangle. Edges between triangles of two blocks stay as the border does; `blocks` has one for each triangle,
+  /// or none where all are of one block.
+  DelaunayPatch(std::vector<Point> points, std::vector<TieRank> ranks, std::vector<Triangle> triangles, const std::vector<char>& open,
+                const std::vector<std::int32_t>& blocks = {});
 
   void flip_to_delaunay();
 
@@ -37,7 +39,7 @@ class DelaunayPatch {
   Edge& across(Edge e) { return across_[static_cast<std::size_t>(e)]; }
   Edge across(Edge e) const { return across_[static_cast<std::size_t>(e)]; }
 
-  void join(const std::vector<char>& open);
+  void join(const std::vector<char>& open, const std::vector<std::int32_t>& blocks);
   bool should_flip(Edge e) const;
   bool positive(std::int32_t a, std::int32_t b, std::int32_t c) const;
   void flip(Edge e);

@@ -37,6 +37,7 @@ void RegionTriangulation::gather_nodes(std::span<const NumberedTriangle> triangl
   triangles_.reserve(triangles.size());
   for (const NumberedTriangle& t : triangles) {
     Triangle& nodes = triangles_.emplace_back();
+    blocks_.push_back(t.block);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto node = static_cast<std::size_t>(std::lower_bound(numbers_.begin(), numbers_.end(), t.nodes[k]) - numbers_.begin());
       nodes[k] = static_cast<std::int32_t>(node);
@@ -51,7 +52,7 @@ DelaunayPatch RegionTriangulation::make_patch(const StarHalo& halo, const std::f
   for (const Point& p : points_) ranks.push_back(rank_of(p));
   std::vector<char> open;
   for (const NumberedTriangle& t : halo.triangles()) open.push_back(halo.at_rim(t) ? 1 : 0);
-  return {points_, std::move(ranks), triangles_, open};
+  return {points_, std::move(ranks), triangles_, open, blocks_};
 }
 
 RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& halo, const DelaunayPatch& patch) const {
@@ -61,8 +62,8 @@ RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& h
     if (before == after) continue;
     put_smallest_first(before);
     put_smallest_first(after);
-    changes.before.emplace_back(before, halo.triangles()[i].number);
-    changes.after.push_back(after);
+    changes.before.push_back({before, {halo.triangles()[i].number, blocks_[i]}});
+    changes.after.emplace_back(after, blocks_[i]);
   }
   std::sort(changes.before.begin(), changes.before.end());
   std::sort(changes.after.begin(), changes.after.end());
@@ -71,18 +72,22 @@ RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& h
 
 /// A triangle may come back at another place of the patch.
 void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) {
-  std::vector<Triangle> before, made;
+  using InBlock = std::pair<Triangle, std::int32_t>;
+  std::vector<InBlock> before, made;
   std::vector<std::int64_t> first_freed(numbers_.size(), std::numeric_limits<std::int64_t>::max());  // around each node
-  for (const auto& [nodes, number] : changes.before) {
-    before.push_back(nodes);
-    if (std::binary_search(changes.after.begin(), changes.after.end(), nodes)) continue;
-    for (const std::int32_t node : nodes) first_freed[static_cast<std::size_t>(node)] = std::min(first_freed[static_cast<std::size_t>(node)], number);
-    if (halo.owns(number_of(nodes[0]))) freed_.push_back(number);
+  for (const auto& [nodes, gone] : changes.before) {
+    before.emplace_back(nodes, gone.block);
+    if (std::binary_search(changes.after.begin(), changes.after.end(), before.back())) continue;
+    for (const std::int32_t node : nodes) {
+      auto& first = first_freed[static_cast<std::size_t>(node)];
+      first = std::min(first, gone.number);
+    }
+    if (halo.owns(number_of(nodes[0]))) freed_.push_back(gone);
   }
   std::set_difference(changes.after.begin(), changes.after.end(), before.begin(), before.end(), std::back_inserter(made));
-  for (const Triangle& t : made) {
+  for (const auto& [t, block] : made) {
     if (!halo.owns(number_of(t[0]))) continue;
-    MadeTriangle triangle{first_freed[static_cast<std::size_t>(t[0])], {}, {}};
+    MadeTriangle triangle{first_freed[static_cast<std::size_t>(t[0])], {}, {}, block};
     for (std::size_t k = 0; k < 3; ++k) {
       triangle.nodes[k] = number_of(t[k]);
       triangle.points[k] = points_[static_cast<std::size_t>(t[k])];

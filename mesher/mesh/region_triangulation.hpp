@@ -13,7 +13,15 @@ struct MadeTriangle {
   std::int64_t near = 0;                ///< the lowest number of the triangles with its first node that are gone
   std::array<std::int64_t, 3> nodes{};  ///< over all ranks, the smallest first
   std::array<Point, 3> points;
+  std::int32_t block = 0;
   friend auto operator<=>(const MadeTriangle&, const MadeTriangle&) = default;
+};
+
+/// A triangle that is gone.
+struct FreedTriangle {
+  std::int64_t number = 0;
+  std::int32_t block = 0;
+  friend auto operator<=>(const FreedTriangle&, const FreedTriangle&) = default;
 };
 
 /// The constrained Delaunay triangulation of what a rank knows of a region, and how it differs from the triangles before. A triangle is this rank's
@@ -24,8 +32,7 @@ class RegionTriangulation {
 
   /// Whether triangles not at hand might change some around nodes that this rank owns. If so, the following are empty.
   bool uncertain() const { return uncertain_; }
-  /// The numbers of triangles that are gone.
-  const std::vector<std::int64_t>& freed() const { return freed_; }
+  const std::vector<FreedTriangle>& freed() const { return freed_; }
   const std::vector<MadeTriangle>& made() const { return made_; }
   /// Nodes of new triangles at the region's border: the triangles beyond it may no longer be Delaunay.
   const std::vector<std::int64_t>& outgrown() const { return outgrown_; }
@@ -35,8 +42,8 @@ class RegionTriangulation {
   using Edge = std::array<std::int32_t, 2>;
   /// What triangles at some places of the patch were, and what they are now; the smallest node first.
   struct Changes {
-    std::vector<std::pair<Triangle, std::int64_t>> before;  ///< with their numbers
-    std::vector<Triangle> after;
+    std::vector<std::pair<Triangle, FreedTriangle>> before;
+    std::vector<std::pair<Triangle, std::int32_t>> after;  ///< with their blocks
   };
 
   void gather_nodes(std::span<const NumberedTriangle> triangles);
@@ -53,10 +60,12 @@ class RegionTriangulation {
   std::vector<Point> points_;          ///< of each
   std::vector<char> core_;             ///< of each
   std::vector<Triangle> triangles_;    ///< at hand, before any flip
+  std::vector<std::int32_t> blocks_;   ///< of each; flips do not change them
   bool uncertain_ = false;
   std::vector<Triangle> new_triangles_;  ///< this rank's concern
   std::vector<MadeTriangle> made_;
-  std::vector<std::int64_t> freed_, outgrown_;
+  std::vector<FreedTriangle> freed_;
+  std::vector<std::int64_t> outgrown_;
 };
 
 }  // namespace quadloop

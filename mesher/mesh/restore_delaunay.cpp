@@ -30,9 +30,10 @@ std::vector<std::int64_t> nodes_around(const Mesh& mesh, const std::vector<char>
 /// The triangles around core nodes: no edge from one of these is at the border of the region, but for edges of the mesh's boundaries.
 class Region {
  public:
-  Region(const Communicator& comm, const Mesh& mesh)
+  Region(const Communicator& comm, const Mesh& mesh, const std::vector<std::int32_t>& triangle_to_block)
       : comm_{comm},
         mesh_{mesh},
+        blocks_{triangle_to_block},
         owners_(comm, mesh.first_node),
         exchange_(comm, owners_, mesh.owned_nodes, mesh.copies),
         first_triangle_{comm.exclusive_sum(static_cast<std::int64_t>(mesh.triangles.size()))},
@@ -64,9 +65,9 @@ class Region {
  private:
   std::vector<NumberedTriangle> own_triangles() const {
     std::vector<NumberedTriangle> triangles;
-    std::int64_t number = first_triangle_;
-    for (const auto& nodes : mesh_.triangles) {
-      NumberedTriangle t{number++, {}, {}, {}};
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const auto& nodes = mesh_.triangles[i];
+      NumberedTriangle t{first_triangle_ + static_cast<std::int64_t>(i), {}, {}, blocks_.empty() ? 0 : blocks_[i], {}};
       for (std::size_t k = 0; k < 3; ++k) t.core[k] = has_flag(core_, nodes[k]) ? 1 : 0;
       if (t.core == std::array<char, 3>{}) continue;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -80,6 +81,7 @@ class Region {
 
   const Communicator& comm_;
   const Mesh& mesh_;
+  const std::vector<std::int32_t>& blocks_;
   NodeOwners owners_;
   NodeExchange exchange_;
   std::int64_t first_triangle_;
@@ -109,14 +111,21 @@ std::vector<Row> deliver(const Communicator& comm, const std::vector<Row>& rows,
   return received;
 }
 
-/// Puts the new triangles at the free places, both in an order that all ranks make together: the places by their numbers, the triangles by the
+template <class Row>
+std::vector<Row> of_block(const std::vector<Row>& rows, std::int32_t block) {
+  std::vector<Row> found;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(found), [&](const Row& row) { return row.block == block; });
+  return found;
+}
+
+/// Puts a block's new triangles at its free places, both in an order that all ranks make together: the places by their numbers, the triangles by the
 /// lowest number next to them before, so that they end up near it. *Collective.*
-void replace_triangles(const Communicator& comm, const RegionTriangulation& triangulation, Mesh& mesh) {
+void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle>& freed, std::vector<MadeTriangle> made, Mesh& mesh) {
   const auto size_of = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
-  QUADLOOP_REQUIRE(comm.sum(size_of(triangulation.freed())) == comm.sum(size_of(triangulation.made())), "flips keep the number of triangles");
+  QUADLOOP_REQUIRE(comm.sum(size_of(freed)) == comm.sum(size_of(made)), "flips keep the number of triangles");
   const Ranges triangles(comm, mesh.triangles.size());
-  std::vector<std::int64_t> places = deliver(comm, triangulation.freed(), [&](std::int64_t place) { return triangles.rank_of(place); });
-  std::vector<MadeTriangle> made = deliver(comm, triangulation.made(), [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
+  std::vector<FreedTriangle> places = deliver(comm, freed, [&](const FreedTriangle& t) { return triangles.rank_of(t.number); });
+  made = deliver(comm, made, [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
   std::sort(places.begin(), places.end());
   std::sort(made.begin(), made.end());
   const Ranges free_places(comm, places.size());
@@ -124,17 +133,24 @@ void replace_triangles(const Communicator& comm, const RegionTriangulation& tria
   made = deliver(comm, made, [&](const MadeTriangle&) { return free_places.rank_of(next++); });
   NodeTable nodes(mesh);
   for (std::size_t i = 0; i < made.size(); ++i) {
-    auto& triangle = mesh.triangles[static_cast<std::size_t>(places[i] - triangles.begin(comm.rank()))];
+    auto& triangle = mesh.triangles[static_cast<std::size_t>(places[i].number - triangles.begin(comm.rank()))];
     for (std::size_t k = 0; k < 3; ++k) triangle[k] = nodes.local(made[i].nodes[k], made[i].points[k]);
   }
 }
 
+std::int32_t number_of_blocks(const Communicator& comm, const std::vector<std::int32_t>& triangle_to_block) {
+  const auto last = std::max_element(triangle_to_block.begin(), triangle_to_block.end());
+  return static_cast<std::int32_t>(comm.maximum(std::int64_t{last == triangle_to_block.end() ? 0 : *last})) + 1;
+}
+
 }  // namespace
 
-void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved, const std::function<TieRank(Point)>& rank_of) {
+void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved, const std::function<TieRank(Point)>& rank_of,
+                      const std::vector<std::int32_t>& triangle_to_block) {
   QUADLOOP_REQUIRE(mesh.quads.empty() && moved.size() == mesh.points.size(), "triangles alone, and a flag for each point");
+  QUADLOOP_REQUIRE(triangle_to_block.empty() || triangle_to_block.size() == mesh.triangles.size(), "a block for each triangle, or none");
   if (!comm.any(std::find_if(moved.begin(), moved.end(), [](char flag) { return flag != 0; }) != moved.end())) return;
-  Region region(comm, mesh);
+  Region region(comm, mesh, triangle_to_block);
   std::vector<std::int64_t> joining = nodes_around(mesh, moved);
   std::optional<RegionTriangulation> triangulation;
   while (comm.any(!joining.empty())) {
@@ -142,7 +158,10 @@ void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<ch
     triangulation.emplace(region.triangulate(rank_of));
     joining = triangulation->outgrown();
   }
-  if (triangulation) replace_triangles(comm, *triangulation, mesh);
+  const std::int32_t blocks = triangulation ? number_of_blocks(comm, triangle_to_block) : 0;
+  for (std::int32_t block = 0; block < blocks; ++block) {
+    replace_triangles(comm, of_block(triangulation->freed(), block), of_block(triangulation->made(), block), mesh);
+  }
 }
 
 }  // namespace quadloop

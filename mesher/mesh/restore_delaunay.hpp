@@ -15,7 +15,10 @@ namespace quadloop {
 ///
 /// The triangles and their order do not depend on the number of ranks. Triangles that stay keep their places in the global order, new ones get
 /// those that become free. Points keep their numbers; copies of nodes that new triangles have are appended, and copies of no further use stay.
-/// Any distributed mesh will do. But for a look at each flag and triangle, work and messages grow with the number of nodes that moved.
-void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved, const std::function<TieRank(Point)>& rank_of);
+/// Where there are several blocks, `triangle_to_block` has an entry for each of this rank's triangles: edges between two blocks stay, and each
+/// place keeps its block. Any distributed mesh will do. But for a look at each flag and triangle, work and messages grow with the number of nodes
+/// that moved.
+void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved, const std::function<TieRank(Point)>& rank_of,
+                      const std::vector<std::int32_t>& triangle_to_block = {});
 
 }  // namespace quadloop

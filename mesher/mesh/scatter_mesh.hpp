@@ -26,6 +26,10 @@ Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& 
 template <class T>
 std::vector<T> scatter_nodes(const Communicator& comm, const std::vector<T>& of_whole, const MeshOrder& order);
 
+/// The same for each rank's triangles. *Collective.*
+template <class T>
+std::vector<T> scatter_triangles(const Communicator& comm, const std::vector<T>& of_whole, const MeshOrder& order);
+
 /// Puts the parts' positions and cells back into their places in the whole mesh on the root. *Collective.*
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole);
 
@@ -41,12 +45,22 @@ std::vector<T> scatter_evenly(const Communicator& comm, std::span<const T> value
 }
 
 template <class T>
-std::vector<T> scatter_nodes(const Communicator& comm, const std::vector<T>& of_whole, const MeshOrder& order) {
+std::vector<T> scatter_ordered(const Communicator& comm, const std::vector<T>& of_whole, const std::vector<std::int32_t>& order) {
   std::vector<T> ordered;
-  for (const std::int32_t node : order.nodes) {
-    if (!of_whole.empty()) ordered.push_back(of_whole[static_cast<std::size_t>(node)]);
+  for (const std::int32_t i : order) {
+    if (!of_whole.empty()) ordered.push_back(of_whole[static_cast<std::size_t>(i)]);
   }
   return scatter_evenly(comm, std::span<const T>(ordered));
+}
+
+template <class T>
+std::vector<T> scatter_nodes(const Communicator& comm, const std::vector<T>& of_whole, const MeshOrder& order) {
+  return scatter_ordered(comm, of_whole, order.nodes);
+}
+
+template <class T>
+std::vector<T> scatter_triangles(const Communicator& comm, const std::vector<T>& of_whole, const MeshOrder& order) {
+  return scatter_ordered(comm, of_whole, order.triangles);
 }
 
 }  // namespace quadloop

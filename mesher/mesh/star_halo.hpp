@@ -16,6 +16,7 @@ struct NumberedTriangle {
   std::int64_t number = 0;
   std::array<std::int64_t, 3> nodes{};
   std::array<Point, 3> points;
+  std::int32_t block = 0;
   std::array<char, 3> core{};  ///< a flag for each node: no triangle around it is missing from the region
 };
 

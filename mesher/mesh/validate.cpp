@@ -27,6 +27,20 @@ void for_each_boundary_edge(const Mesh& mesh, const Visit& visit) {
 /// Exactly, and as any solver will compute it.
 bool turns_left(Point a, Point b, Point c) { return cross(b - a, c - a) > 0 && orientation(a, b, c) > 0; }
 
+/// The first node that a cell has twice, if any.
+NodeId repeated_node(std::span<const NodeId> cell) {
+  for (std::size_t k = 1; k < cell.size(); ++k) {
+    const auto before = cell.first(k);
+    if (std::find(before.begin(), before.end(), cell[k]) != before.end()) return cell[k];
+  }
+  return {};
+}
+
+bool is_unused_node(const MeshFault& fault) { return fault.what.find("belongs to no cell") != std::string::npos; }
+
+/// Whether later rules have no meaning for what check_indices found.
+bool senseless(const Faults& faults) { return !std::all_of(faults.begin(), faults.end(), is_unused_node); }
+
 std::int32_t block_of(const Mesh& mesh, const CellBlocks& blocks, std::int32_t cell) {
   const auto at = static_cast<std::size_t>(cell);
   return at < mesh.triangles.size() ? blocks.of_triangle[at] : blocks.of_quad[at - mesh.triangles.size()];
@@ -103,6 +117,10 @@ void check_positive(const Mesh& mesh, Faults& faults) {
 
 void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const EdgeTable& table, Faults& faults) {
   const auto fault = [&](const std::string& what, NodeId node) { faults.push_back({MeshRule::conforming, what, mesh.point(node)}); };
+  for_each_cell(mesh, [&](std::span<const NodeId> cell) {
+    const NodeId node = repeated_node(cell);
+    if (node.valid()) fault("a cell has node " + std::to_string(node.value() + 1) + " twice", node);
+  });
   std::vector<std::array<NodeId, 2>> bounded;
   for_each_boundary_edge(mesh, [&](const BoundaryEdges& boundary, const std::array<NodeId, 2>& edge) {
     bounded.push_back(edge);
@@ -150,9 +168,7 @@ std::vector<OuterEdge> outer_edges(const Mesh& mesh, const EdgeTable& table) {
 std::vector<MeshFault> validate(const Mesh& mesh, const CellBlocks& blocks) {
   Faults faults;
   check_indices(mesh, faults);
-  const bool senseless =
-      std::any_of(faults.begin(), faults.end(), [](const MeshFault& f) { return f.what.find("belongs to no cell") == std::string::npos; });
-  if (senseless) return faults;
+  if (senseless(faults)) return faults;
   const EdgeTable table(mesh);
   check_coincident(mesh, faults);
   check_positive(mesh, faults);
@@ -160,6 +176,16 @@ std::vector<MeshFault> validate(const Mesh& mesh, const CellBlocks& blocks) {
   check_closed(mesh, table, faults);
   check_area(mesh, table, faults);
   check_overlap(mesh, table, faults);
+  return faults;
+}
+
+std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blocks) {
+  Faults faults;
+  check_indices(mesh, faults);
+  if (senseless(faults)) return faults;
+  const EdgeTable table(mesh);
+  check_conforming(mesh, blocks, table, faults);
+  check_closed(mesh, table, faults);
   return faults;
 }
 

@@ -15,7 +15,7 @@ enum class MeshRule {
   indices,     ///< connectivity names existing nodes; every node belongs to a cell; coordinates are finite; no boundary is empty
   coincident,  ///< no two nodes share a position
   positive,    ///< cells are strictly convex and counter-clockwise, exactly and in rounded arithmetic
-  conforming,  ///< an edge has two cells in opposite directions, or one cell and one boundary edge in its direction
+  conforming,  ///< no cell has a node twice; an edge has two cells in opposite directions, or one cell and one boundary edge in its direction
   closed,      ///< boundary edges form closed loops, none is listed twice
   area,        ///< the cells' areas add up to what the boundary encloses (relative 1e-10)
   overlap,     ///< cells go round an inner node once; boundary edges meet at shared nodes only
@@ -39,6 +39,9 @@ struct CellBlocks {
 /// All faults of a mesh that is whole on this rank, in the order of the rules; O(n log n). Where connectivity or coordinates make
 /// no sense the later rules are not looked at.
 std::vector<MeshFault> validate(const Mesh& mesh, const CellBlocks& blocks = {});
+
+/// Those of them alone that no movement of nodes can cure: of the rules indices, conforming and closed.
+std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blocks = {});
 
 /// Nodes where the boundary passes more than once (bow ties): allowed, but worth a figure. The mesh is valid.
 std::int64_t pinched_nodes(const Mesh& mesh);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What `quadloop smooth` owes its users: the same bytes on any number of ranks, from every format to every format the same positions, connectivity
-and tags as they were, a solution that stays with its nodes, blocks whose interface stands still, a Delaunay mesh that stays one.
+and tags as they were, a solution that stays with its nodes, blocks whose interface stands still, a Delaunay mesh that stays one. What has one cure is put
+right with a warning, what has none is refused: no invalid mesh is written.
 
     run_smooth.py --quadloop PROGRAM --case CASE.toml [--ranks 1 2 3 5]
 """
@@ -118,6 +119,87 @@ def check_blocks(program, folder):
     require(sections[10] == "2", "the blocks are gone")
 
 
+def write_native(path, nodes, blocks, boundaries):
+    """Blocks are lists of cells, numbered from 0."""
+    lines = [str(len(nodes)), *(f"{x!r} {y!r}" for x, y in nodes), str(len(blocks))]
+    for cells in blocks:
+        for width in (3, 4):
+            rows = [cell for cell in cells if len(cell) == width]
+            lines += [str(len(rows)), *(" ".join(str(node + 1) for node in row) for row in rows)]
+    lines.append(str(len(boundaries)))
+    for number, (name, edges) in enumerate(boundaries.items(), 1):
+        lines += [f"#Number of edges for boundary {number} ({name})", str(len(edges)), *(f"{a + 1} {b + 1}" for a, b in edges)]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def refused(program, given, *pieces):
+    """Exit status 1, each piece in the message, no output."""
+    made = given.with_name("refused_out.mesh")
+    done = subprocess.run([program, "smooth", given, "-o", made], capture_output=True, text=True, check=False)
+    require(done.returncode == 1 and not made.exists(), f"{given.name} is not refused, but ends with {done.returncode}: {done.stderr}")
+    for piece in pieces:
+        require(piece in done.stderr, f"{given.name}: '{piece}' is not in: {done.stderr}")
+
+
+def put_right(program, given, made, piece):
+    """`check` calls the mesh invalid, `smooth` says what it has put right and makes a valid one."""
+    run([program, "check", given], accept=(1,))
+    done = subprocess.run([program, "smooth", given, "-o", made], capture_output=True, text=True, check=True)
+    require(piece in done.stderr, f"{given.name}: '{piece}' is not in: {done.stderr}")
+    run([program, "check", made])
+
+
+def check_what_is_put_right(program, whole, folder):
+    mesh, wanted, made = NativeMesh(whole), folder / "wanted.mesh", folder / "mended.mesh"
+    smooth(program, whole, wanted)
+    given = folder / "clockwise.mesh"
+    write_native(given, mesh.nodes, [[cell[:1] + cell[:0:-1] for cell in mesh.cells]], mesh.boundaries)
+    put_right(program, given, made, f"{len(mesh.cells)} cells ran clockwise")
+    require(made.read_bytes() == wanted.read_bytes(), "turned cells are not what they were")
+    given = folder / "unused.mesh"
+    write_native(given, [*mesh.nodes, (0.1, 0.2)], [mesh.cells], mesh.boundaries)
+    put_right(program, given, made, "1 nodes that belong to no cell")
+    require(made.read_bytes() == wanted.read_bytes(), "a node of no cell has changed the mesh")
+    given = folder / "unbounded.mesh"
+    write_native(given, mesh.nodes, [mesh.cells], {name: edges[::2] for name, edges in mesh.boundaries.items()})
+    left_out = sum(len(edges) // 2 for edges in mesh.boundaries.values())
+    put_right(program, given, made, f"{left_out} edges of the outline belong to no boundary")
+    outline = {node for edges in mesh.boundaries.values() for edge in edges for node in edge}
+    require(all(NativeMesh(made).nodes[node] == mesh.nodes[node] for node in outline), "nodes of the outline have moved, as its edges were not listed")
+
+
+def check_refusals(program, whole, folder):
+    mesh, given = NativeMesh(whole), folder / "refused.mesh"
+    write_native(given, mesh.nodes, [[*mesh.cells, mesh.cells[5]]], mesh.boundaries)
+    refused(program, given, "conforming", "two cells in the same direction at (")
+    cell = mesh.cells[5]
+    write_native(given, mesh.nodes, [[*mesh.cells[:5], (cell[1], *cell[1:]), *mesh.cells[6:]]], mesh.boundaries)
+    refused(program, given, "conforming", f"a cell has node {cell[1] + 1} twice")
+    count, aside = len(mesh.nodes), 0.01
+    sheets = [*mesh.cells, *(tuple(node + count for node in cell) for cell in mesh.cells)]
+    both = {name: [*edges, *((a + count, b + count) for a, b in edges)] for name, edges in mesh.boundaries.items()}
+    write_native(given, [*mesh.nodes, *((x + aside, y + aside) for x, y in mesh.nodes)], [sheets], both)
+    refused(program, given, "overlap")
+    given.write_text(TWO_BLOCKS.replace("0.8 1.1", "2.5 1.1"))  # it stays, as it lies between two blocks
+    refused(program, given, "could not be untangled, the worst at (2", "--sweeps")
+
+
+def edges_between(mesh, count):
+    """Those that a cell among the first so many shares with one of the others."""
+    sides = [{frozenset((a, b)) for cell in cells for a, b in zip(cell, cell[1:] + cell[:1])} for cells in (mesh.cells[:count], mesh.cells[count:])]
+    return sides[0] & sides[1]
+
+
+def check_delaunay_blocks(program, whole, folder, ranks):
+    mesh, given = NativeMesh(whole), folder / "two_blocks.mesh"
+    left = [cell for cell in mesh.cells if sum(mesh.nodes[node][0] for node in cell) < 0.9]
+    right = [cell for cell in mesh.cells if sum(mesh.nodes[node][0] for node in cell) >= 0.9]
+    write_native(given, mesh.nodes, [left, right], mesh.boundaries)
+    before, after = NativeMesh(given), NativeMesh(same_on_ranks(program, given, folder, ranks))
+    require(edges_between(after, len(left)) == edges_between(before, len(left)), "the edges between two blocks have changed")
+    require({frozenset(cell) for cell in after.cells} != {frozenset(cell) for cell in before.cells}, "no edge was flipped; the test means nothing")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
@@ -138,6 +220,11 @@ def main():
                 same_on_ranks(args.quadloop, given, folder, args.ranks[:2], ["--method", "nlopt", "--objective", "thesis"])
             check_formats(args.quadloop, given, folder)
             check_solution(args.quadloop, given, folder)
+            if mesh_type == "hybrid":
+                check_what_is_put_right(args.quadloop, given, folder)
+                check_refusals(args.quadloop, given, folder)
+            else:
+                check_delaunay_blocks(args.quadloop, given, folder, args.ranks)
         check_blocks(args.quadloop, folder)
     print("good")
 

@@ -78,6 +78,22 @@ TEST(Validate, Conforming) {
   expect_fault(MeshRule::conforming, [](Mesh& m) { std::swap(m.boundaries[0].edges[0][0], m.boundaries[0].edges[0][1]); });
 }
 
+TEST(Validate, TopologyIsWhatMovingNodesCannotCure) {
+  Mesh mesh = square();
+  mesh.points[4] = {5, 5};  // inverted cells, which overlap
+  mesh.points[7] = mesh.points[8];
+  EXPECT_FALSE(validate(mesh).empty());
+  EXPECT_TRUE(validate_topology(mesh).empty());
+  mesh.triangles.push_back(mesh.triangles[0]);
+  EXPECT_TRUE(has(validate_topology(mesh), MeshRule::conforming));
+  mesh = square();
+  mesh.quads[0][2] = node(1);
+  const std::vector<MeshFault> faults = validate_topology(mesh);
+  ASSERT_TRUE(has(faults, MeshRule::conforming));
+  EXPECT_EQ(faults[0].what, "a cell has node 2 twice");
+  EXPECT_EQ(faults[0].place, (Point{1, 0}));
+}
+
 TEST(Validate, Closed) {
   expect_fault(MeshRule::closed, [](Mesh& m) { m.boundaries[0].edges.push_back(m.boundaries[0].edges[0]); });
 }

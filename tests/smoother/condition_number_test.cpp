@@ -48,6 +48,13 @@ TEST(CornerForm, HoldsTheProductsOfTheEdges) {
   EXPECT_EQ(form.jacobian, 14);
 }
 
+TEST(CellCost, OfACellThatIsOnePointIsThatOfAFlatOne) {
+  const Point p{0.3, -7};
+  EXPECT_EQ(cell_cost<3>({p, p, p}, ideal_targets<3>()), 1);
+  EXPECT_EQ(cell_cost<4>({p, p, p, p}, ideal_targets<4>()), 1);
+  EXPECT_EQ(cell_cost<3>({p, p + Point{1, 0}, p + Point{2, 0}}, ideal_targets<3>()), 1);
+}
+
 TEST(ConditionNumber, EquilateralTriangle) {
   const CornerForm form = corner_of({2, 0}, {1, std::numbers::sqrt3});
   EXPECT_NEAR(condition_number(form, equilateral_target()), 1, rounding);

@@ -9,129 +9,29 @@
 #include <numbers>
 #include <numeric>
 
-#include "mesher/mesh/delaunay_check.hpp"
 #include "mesher/mesh/quality.hpp"
-#include "mesher/mesh/restore_delaunay.hpp"
 #include "mesher/mesh/validate.hpp"
 #include "smoother/condition_number.hpp"
-#include "tests/mesh/grid_mesh.hpp"
-#include "tests/support/world.hpp"
+#include "tests/smoother/whole_meshes.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::circle;
+using test::disc;
+using test::expect_same_positions;
+using test::expect_same_report;
 using test::Grid;
+using test::jittered;
+using test::self;
+using test::smooth_both_ways;
+using test::Smoothed;
+using test::smoothed_alone;
+using test::tangled;
 using test::world;
 
 constexpr double rounding = 1e-12;
 constexpr double degrees_rounding = 1e-9;
-
-/// This rank alone; never freed, as MPI ends before what is static does.
-const Communicator& self() {
-  static const Communicator& held = *new Communicator(MPI_COMM_SELF);
-  return held;
-}
-
-Mesh jittered(const Grid& grid, double share, std::uint64_t seed = 3) {
-  Mesh mesh = grid.mesh();
-  test::jitter(grid, share, seed, mesh);
-  return mesh;
-}
-
-/// A fifth of the inner nodes go up to nine tenths of their shortest edge away, so that cells are inverted.
-Mesh tangled(const Grid& grid, std::uint64_t seed) {
-  Mesh mesh = jittered(grid, 0.15, seed);
-  std::vector<double> shortest(mesh.points.size(), std::numeric_limits<double>::infinity());
-  const auto look_at = [&](const auto& nodes) {
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const NodeId a = nodes[k], b = nodes[(k + 1) % nodes.size()];
-      const double edge = length(mesh.point(b) - mesh.point(a));
-      for (const NodeId node : {a, b})
-        shortest[static_cast<std::size_t>(node.value())] = std::min(shortest[static_cast<std::size_t>(node.value())], edge);
-    }
-  };
-  for (const auto& t : mesh.triangles) look_at(t);
-  for (const auto& q : mesh.quads) look_at(q);
-  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
-    if (!grid.inner(node) || test::scattered(seed, node, 4) > -0.6) continue;
-    const double turn = std::numbers::pi * test::scattered(seed, node, 5), reach = 0.45 * (1 + test::scattered(seed, node, 6));
-    Point& p = mesh.points[static_cast<std::size_t>(node)];
-    p = p + reach * shortest[static_cast<std::size_t>(node)] * Point{std::cos(turn), std::sin(turn)};
-  }
-  return mesh;
-}
-
-/// A polygon close to the unit circle: `vertices` of them, none a corner.
-Geometry circle(int vertices) {
-  std::vector<Boundary> boundaries(1);
-  boundaries[0].name = "circle";
-  std::vector<Point> points;
-  for (int k = 0; k < vertices; ++k) points.push_back({std::cos(2 * std::numbers::pi * k / vertices), std::sin(2 * std::numbers::pi * k / vertices)});
-  return {boundaries, points, {0, vertices}, std::vector<BoundaryId>(static_cast<std::size_t>(vertices), BoundaryId{0})};
-}
-
-/// Where the ray at an angle leaves the polygon.
-Point on_polygon(const Geometry& polygon, double radians) {
-  const double along = polygon.size() * (radians / (2 * std::numbers::pi) + (radians < 0 ? 1 : 0));
-  const auto k = static_cast<std::int32_t>(along) % polygon.size();
-  return polygon.point(k) + (along - std::floor(along)) * (polygon.point(polygon.next(k)) - polygon.point(k));
-}
-
-/// A grid bent to the disc inside the polygon, its boundary nodes somewhere on it.
-Mesh disc(const Grid& grid, const Geometry& polygon) {
-  Mesh mesh = grid.mesh();
-  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
-    const Point at = grid.place(node), p{2 * at.x - 1, 2 * at.y - 1};
-    const Point round{p.x * std::sqrt(1 - p.y * p.y / 2), p.y * std::sqrt(1 - p.x * p.x / 2)};
-    const Point by{test::scattered(5, node, 1), test::scattered(5, node, 2)};
-    const double angle = std::atan2(round.y, round.x) + 0.35 / grid.n * by.x;
-    mesh.points[static_cast<std::size_t>(node)] = grid.inner(node) ? round + 0.25 / grid.n * by : on_polygon(polygon, angle);
-  }
-  auto& boundaries = mesh.boundaries;
-  boundaries[0].name = "circle";
-  boundaries[0].edges.insert(boundaries[0].edges.end(), boundaries[1].edges.begin(), boundaries[1].edges.end());
-  boundaries.pop_back();
-  return mesh;
-}
-
-/// A whole mesh smoothed on one rank and on all, in one order.
-struct Smoothed {
-  MeshOrder order;
-  Mesh alone, part;
-  SmoothReport alone_report, report;
-};
-
-/// `options_for(part, order)` gives each communicator's options.
-template <class Options>
-Smoothed smooth_both_ways(const Mesh& mesh, const MeshOrder& order, const Options& options_for) {
-  Smoothed s{order, scatter_mesh(self(), mesh, order), scatter_mesh(world(), mesh, order), {}, {}};
-  s.alone_report = smooth_mesh(self(), s.alone, options_for(s.alone));
-  s.report = smooth_mesh(world(), s.part, options_for(s.part));
-  return s;
-}
-
-void expect_same_report(const SmoothReport& a, const SmoothReport& b) {
-  EXPECT_EQ(a.sweeps, b.sweeps);
-  EXPECT_EQ(a.free_nodes, b.free_nodes);
-  EXPECT_EQ(a.moves, b.moves);
-  EXPECT_EQ(a.worst_cost_before, b.worst_cost_before);
-  EXPECT_EQ(a.worst_cost_after, b.worst_cost_after);
-  EXPECT_EQ(a.inverted_before, b.inverted_before);
-  EXPECT_EQ(a.inverted_after, b.inverted_after);
-}
-
-template <class Options>
-void expect_same_positions(const Mesh& mesh, const Options& options_for) {
-  for (const MeshOrder& order : {space_filling_order(mesh), test::shuffled_order(mesh, 7)}) {
-    const Smoothed s = smooth_both_ways(mesh, order, options_for);
-    EXPECT_GT(s.report.moves, 0);
-    expect_same_report(s.report, s.alone_report);
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(s.part.points.size()); ++node) {
-      const std::int64_t number = s.part.global(NodeId{node}).value();
-      EXPECT_EQ(s.part.point(NodeId{node}), s.alone.points[static_cast<std::size_t>(number)]) << "node " << number;
-    }
-  }
-}
 
 TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanks) {
   for (const Method method : {Method::perturb, Method::nlopt}) {
@@ -168,31 +68,6 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksAlongAnOutline) {
   expect_same_positions(disc(Grid{10}, polygon), [&](const Mesh&) { return options; });
 }
 
-/// Any strict order of positions will do.
-TieRank rank_of(Point p) { return {-1, -1, std::abs(p.x) + std::abs(p.y), std::abs(p.x), p.x, p.y}; }
-
-TEST(SmoothMesh, IsTheSameDelaunayMeshOnAnyNumberOfRanks) {
-  Mesh mesh = jittered(Grid{12, {2, 1}, false}, 0.24);
-  restore_delaunay(self(), mesh, std::vector<char>(mesh.points.size(), 1), rank_of);
-  SmoothOptions options;
-  options.delaunay = rank_of;
-  expect_same_positions(mesh, [&](const Mesh&) { return options; });
-  const Smoothed s = smooth_both_ways(mesh, space_filling_order(mesh), [&](const Mesh&) { return options; });
-  EXPECT_TRUE(is_delaunay(s.alone));
-  auto own = s.part.triangles;
-  for (auto& t : own) {
-    for (NodeId& node : t) node = NodeId{static_cast<std::int32_t>(s.part.global(node).value())};
-  }
-  EXPECT_TRUE(world().all_gather_values(std::span<const std::array<NodeId, 3>>(own)) == s.alone.triangles);
-}
-
-/// Smooths a whole mesh on this rank.
-Mesh smoothed_alone(Mesh mesh, const SmoothOptions& options, SmoothReport* report = nullptr) {
-  const SmoothReport told = smooth_mesh(self(), mesh, options);
-  if (report != nullptr) *report = told;
-  return mesh;
-}
-
 void expect_never_worse(const Mesh& mesh, SmoothOptions options) {
   double worst = 1, sharpest = summarise_quality(self(), mesh).smallest_degrees;
   for (options.sweeps = 1; options.sweeps <= 8; ++options.sweeps) {
@@ -218,6 +93,31 @@ TEST(SmoothMesh, NeverGetsWorseFromSweepToSweep) {
   SmoothOptions options;
   options.geometry = &polygon;
   expect_never_worse(disc(Grid{10}, polygon), options);
+}
+
+/// In any unit that is a power of two the same bits, but for the exponent: also where squares of lengths, or their products, leave the range of
+/// doubles.
+TEST(SmoothMesh, LengthsMayBeOfAnySize) {
+  const Geometry polygon = circle(240);
+  const Mesh tangle = tangled(Grid{10}, 2), disc_mesh = disc(Grid{10}, polygon);
+  SmoothOptions options, along = options;
+  along.geometry = &polygon;
+  const Mesh wanted = smoothed_alone(tangle, options), wanted_disc = smoothed_alone(disc_mesh, along);
+  for (const int exponent : {-900, -500, -260, 100, 260, 500, 900}) {
+    const auto scaled = [&](Point p) { return Point{std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)}; };
+    const auto scaled_mesh = [&](Mesh mesh) {
+      std::transform(mesh.points.begin(), mesh.points.end(), mesh.points.begin(), scaled);
+      return mesh;
+    };
+    std::vector<Point> vertices(polygon.points().begin(), polygon.points().end());
+    std::transform(vertices.begin(), vertices.end(), vertices.begin(), scaled);
+    const Geometry scaled_polygon({polygon.boundaries()[0]}, vertices, {0, 240}, std::vector<BoundaryId>(240, BoundaryId{0}));
+    along.geometry = &scaled_polygon;
+    SmoothReport report;
+    EXPECT_TRUE(smoothed_alone(scaled_mesh(tangle), options, &report).points == scaled_mesh(wanted).points) << exponent;
+    EXPECT_EQ(report.inverted_after, 0) << exponent;
+    EXPECT_TRUE(smoothed_alone(scaled_mesh(disc_mesh), along).points == scaled_mesh(wanted_disc).points) << exponent;
+  }
 }
 
 TEST(SmoothMesh, BettersTheWorstCellAndTheSmallestAngle) {

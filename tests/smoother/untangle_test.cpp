@@ -67,6 +67,55 @@ TEST(DeepestPoint, IsDeeperThanAnyOther) {
   }
 }
 
+/// The largest least depth at which three of the lines meet, found by trying all threes.
+double depth_by_trial(const Star& star) {
+  double deepest = -std::numeric_limits<double>::infinity();
+  std::vector<std::pair<Point, double>> lines;
+  for (const StarCorner& c : star.corners()) {
+    const Point along = (1 / length(c.r - c.q)) * (c.r - c.q), n{-along.y, along.x};
+    lines.emplace_back(n, -dot(n, c.q));
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t k = 0; k < j; ++k) {
+        const Point u = lines[i].first - lines[j].first, v = lines[i].first - lines[k].first;
+        const double du = lines[j].second - lines[i].second, dv = lines[k].second - lines[i].second, w = cross(u, v);
+        if (std::abs(w) > 1e-12) deepest = std::max(deepest, depth(star, {(du * v.y - dv * u.y) / w, (u.x * dv - v.x * du) / w}));
+      }
+    }
+  }
+  return deepest;
+}
+
+TEST(DeepestPoint, IsTheBestOfAllWhereThreeLinesMeet) {
+  Random random(37);
+  int without_kernel = 0;
+  for (int i = 0; i < 400; ++i) {
+    std::vector<Point> polygon;
+    const int corners = 3 + i % 14;
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * std::numbers::pi * (k + (i % 2 == 0 ? 0.4 : 1.5) * uniform(random, -1, 1)) / corners, radius = uniform(random, 0.1, 2);
+      polygon.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    const Star star = test::fan_of(polygon);
+    const double best = depth_by_trial(star);
+    without_kernel += best < 0 ? 1 : 0;
+    EXPECT_NEAR(depth(star, deepest_point(star, 3 * test::random_direction(random))), best, 1e-10) << i;
+  }
+  EXPECT_GT(without_kernel, 50);
+}
+
+TEST(DeepestPoint, OfAHubWithManySpokesIsFoundAtOnce) {  // a test of all threes would take hours
+  const Point deep = deepest_point(test::fan_of(test::regular_polygon(4000, {0.3, 0.4})), {1.5, 0.4});
+  EXPECT_LT(length(deep - Point{0.3, 0.4}), 1e-9);
+}
+
+TEST(Untangle, AStarThatIsOnePointStays) {
+  Star star = test::fan_of({{1, 1}, {1, 1}, {1, 1}});
+  EXPECT_EQ(star.inversion({1, 1}, star.reference({1, 1})), 0);
+  EXPECT_EQ(untangle(star, {1, 1}), std::nullopt);
+}
+
 /// The sum of -J over the inverted corners, and their number.
 std::pair<double, int> tangle_of(const Star& star, Point p) {
   double sum = 0;

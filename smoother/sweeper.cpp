@@ -1,0 +1,87 @@
+#include "smoother/sweeper.hpp"
+
+#include "smoother/colouring.hpp"
+#include "smoother/untangle.hpp"
+
+namespace quadloop {
+
+Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide, Method method, Objective objective,
+                 double threshold)
+    : comm_{comm},
+      mesh_{mesh},
+      stars_{stars},
+      slide_{slide},
+      objective_{objective},
+      threshold_{threshold},
+      solver_{make_node_solver(method)},
+      moved_at_(mesh.points().size(), 0),
+      visited_at_(stars.size(), -1),
+      bad_(mesh.points().size(), 0) {
+  const Colouring colouring = colour_nodes(comm, mesh, stars);
+  by_colour_.resize(static_cast<std::size_t>(colouring.count));
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    by_colour_[static_cast<std::size_t>(colouring.colour_of[static_cast<std::size_t>(node(i))])].push_back(i);
+  }
+}
+
+std::int64_t Sweeper::sweep() {
+  find_bad();
+  std::int64_t moves = 0;
+  for (const auto& nodes : by_colour_) {
+    ++clock_;
+    for (const std::size_t i : nodes) {
+      if (is_active(i) && is_stale(i)) moves += visit(i) ? 1 : 0;
+    }
+    share_moves();
+  }
+  return comm_.sum(moves);
+}
+
+/// Whether the node or one that it shares a cell with has moved since it was last visited.
+bool Sweeper::is_stale(std::size_t i) const {
+  bool stale = moved_at(node(i)) >= visited_at_[i];
+  stars_.for_each_neighbour(i, [&](std::int32_t other) { stale = stale || moved_at(other) >= visited_at_[i]; });
+  return stale;
+}
+
+/// Flags the nodes of cells above the threshold, of other ranks too.
+void Sweeper::find_bad() {
+  for (std::size_t i = 0; i < stars_.size(); ++i) {
+    if (!is_stale(i)) continue;
+    stars_.gather(i, star_);
+    bad_[static_cast<std::size_t>(node(i))] = star_.worst_cost(mesh_.points()[static_cast<std::size_t>(node(i))]) > threshold_ ? 1 : 0;
+  }
+  mesh_.exchange().update(bad_);
+}
+
+bool Sweeper::is_active(std::size_t i) const {
+  bool active = bad_[static_cast<std::size_t>(node(i))] != 0;
+  stars_.for_each_neighbour(i, [&](std::int32_t other) { active = active || bad_[static_cast<std::size_t>(other)] != 0; });
+  return active;
+}
+
+bool Sweeper::visit(std::size_t i) {
+  stars_.gather(i, star_);
+  visited_at_[i] = clock_;
+  const std::int32_t n = node(i);
+  Point& p = mesh_.points()[static_cast<std::size_t>(n)];
+  const auto better = better_place(n, p);
+  if (!better) return false;
+  p = *better;
+  moved_at_[static_cast<std::size_t>(n)] = clock_;
+  return true;
+}
+
+std::optional<Point> Sweeper::better_place(std::int32_t n, Point p) {
+  if (slide_.freedom(n) == NodeFreedom::sliding) return slide_.improve(n, star_, objective_);
+  if (star_.cost(p, objective_).valid[0]) return solver_->improve(star_, p, objective_);
+  return untangle(star_, p);
+}
+
+void Sweeper::share_moves() {
+  const auto just_moved = [&](std::int32_t n) { return moved_at(n) == clock_; };
+  mesh_.exchange().update(mesh_.points(), just_moved);
+  mesh_.exchange().update(moved_at_, just_moved);
+}
+
+}  // namespace quadloop
