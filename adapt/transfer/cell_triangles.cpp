@@ -35,10 +35,9 @@ Point centre_of_nodes(const Communicator& comm, const Mesh& mesh) {
 }
 
 std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
-  std::size_t highest = 0;
-  for (std::size_t k = 1; k < 4; ++k) {
-    if (tie_rank(centre, mesh.point(quad[highest])) < tie_rank(centre, mesh.point(quad[k]))) highest = k;
-  }
+  std::array<TieRank, 4> ranks;
+  for (std::size_t k = 0; k < 4; ++k) ranks[k] = tie_rank(centre, mesh.point(quad[k]));
+  const auto highest = static_cast<std::size_t>(std::max_element(ranks.begin(), ranks.end()) - ranks.begin());
   const auto first = halves(quad, highest);
   if (turn_of(mesh, first[0]) > 0 && turn_of(mesh, first[1]) > 0) return first;
   const auto second = halves(quad, highest + 1);

@@ -4,12 +4,14 @@
 
 #include "adapt/transfer/cell_triangles.hpp"
 #include "adapt/transfer/curve_shares.hpp"
+#include "adapt/transfer/equal_points.hpp"
 #include "adapt/transfer/exchange_pieces.hpp"
 #include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate_points.hpp"
 #include "adapt/transfer/mesh_integrals.hpp"
 #include "adapt/transfer/nearest_boundary.hpp"
 #include "adapt/transfer/node_rows.hpp"
+#include "adapt/transfer/point_cells.hpp"
 #include "adapt/transfer/triangle_piece.hpp"
 
 namespace quadloop {
@@ -36,37 +38,113 @@ struct Answers {
   ForRanks<double> rows;
 };
 
-/// Answers all ranks' questions at once, so that the triangles are looked through once.
-void answer(const TrianglePiece& piece, const ForRanks<Point>& questions, Answers& answers) {
+/// The old mesh, and by which shares of the plane it is asked.
+struct OldMesh {
+  const Mesh& mesh;
+  const NodeRows& rows;
+  std::span<const CellTriangle> triangles;
+  const CurveShares& shares;
+};
+
+/// Old nodes with their rows, those of one share of the plane.
+struct NodeShare {
   std::vector<Point> points;
-  for (const auto& of_rank : questions) points.insert(points.end(), of_rank.begin(), of_rank.end());
-  const std::vector<std::int32_t> found = locate_points(piece, points);
-  std::vector<double> row(static_cast<std::size_t>(piece.rows.width));
-  std::size_t i = 0;
-  for (std::size_t rank = 0; rank < questions.size(); ++rank) {
-    for (const Point p : questions[rank]) {
-      const std::int32_t at = found[i++];
-      answers.inside[rank].push_back(at >= 0 ? 1 : 0);
-      if (at < 0) continue;
-      const CellTriangle& triangle = piece.triangles[static_cast<std::size_t>(at)];
-      const auto& [a, b, c] = triangle.nodes;
-      interpolate_in_triangle(piece.corners(triangle), {piece.rows.of(a), piece.rows.of(b), piece.rows.of(c)}, p, row);
-      answers.rows[rank].insert(answers.rows[rank].end(), row.begin(), row.end());
-    }
-  }
+  NodeRows rows;
+};
+
+template <class T>
+std::vector<T> joined(const ForRanks<T>& parts) {
+  std::vector<T> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
-Answers ask(const Communicator& comm, const CurveShares& shares, const TrianglePiece& piece, const Mesh& mesh) {
+NodeShare gather_nodes(const Communicator& comm, const OldMesh& old) {
+  const auto ranks = static_cast<std::size_t>(comm.size());
+  ForRanks<Point> points(ranks);
+  ForRanks<double> rows(ranks);
+  for (std::int32_t node = 0; node < old.mesh.owned_nodes; ++node) {
+    const Point p = old.mesh.point(NodeId{node});
+    const auto rank = static_cast<std::size_t>(old.shares.rank_of(p));
+    const auto row = old.rows.of(NodeId{node});
+    points[rank].push_back(p);
+    rows[rank].insert(rows[rank].end(), row.begin(), row.end());
+  }
+  return {joined(exchange_pieces(comm, std::move(points))), {old.rows.width, joined(exchange_pieces(comm, std::move(rows)))}};
+}
+
+/// Only triangles that may hold one of the points leave their rank.
+TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, std::span<const Point> points) {
+  const PointCells cells(comm, old.shares.grid(), points);
+  std::vector<CellTriangle> near;
+  for (const CellTriangle& triangle : old.triangles) {
+    Box box;
+    for (const NodeId node : triangle.nodes) box.include(old.mesh.point(node));
+    if (cells.meet(box)) near.push_back(triangle);
+  }
+  return gather_piece(comm, old.shares, old.mesh, old.rows, near);
+}
+
+/// The old mesh's values at points of this rank's share of the plane.
+class Found {
+ public:
+  /// *Collective.*
+  Found(const Communicator& comm, const OldMesh& old, std::span<const Point> points) : points_{points}, nodes_{gather_nodes(comm, old)} {
+    at_node_ = find_equal_points(nodes_.points, points);
+    std::vector<Point> moved;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (at_node_[i] < 0) moved.push_back(points[i]);
+    }
+    piece_ = gather_triangles(comm, old, moved);
+    in_triangle_ = locate_points(piece_, moved);
+  }
+
+  /// Fills the row of the next point; false where it lies outside the old mesh.
+  bool next(std::span<double> row) {
+    const std::size_t point = next_point_++;
+    if (const std::int32_t node = at_node_[point]; node >= 0) {
+      const auto values = nodes_.rows.of(NodeId{node});
+      std::copy(values.begin(), values.end(), row.begin());
+      return true;
+    }
+    const std::int32_t found = in_triangle_[next_moved_++];
+    if (found < 0) return false;
+    const CellTriangle& triangle = piece_.triangles[static_cast<std::size_t>(found)];
+    const auto& [a, b, c] = triangle.nodes;
+    interpolate_in_triangle(piece_.corners(triangle), {piece_.rows.of(a), piece_.rows.of(b), piece_.rows.of(c)}, points_[point], row);
+    return true;
+  }
+
+ private:
+  std::span<const Point> points_;
+  NodeShare nodes_;
+  TrianglePiece piece_;
+  std::vector<std::int32_t> at_node_;      ///< of each point the old node at its place, -1 for none
+  std::vector<std::int32_t> in_triangle_;  ///< of each of the others its triangle in the piece
+  std::size_t next_point_ = 0, next_moved_ = 0;
+};
+
+Answers ask(const Communicator& comm, const OldMesh& old, const Mesh& mesh) {
   const auto ranks = static_cast<std::size_t>(comm.size());
   Answers answers{ForRanks<std::int32_t>(ranks), ForRanks<char>(ranks), ForRanks<double>(ranks)};
   ForRanks<Point> questions(ranks);
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
     const Point p = mesh.point(NodeId{node});
-    const auto rank = static_cast<std::size_t>(shares.rank_of(p));
+    const auto rank = static_cast<std::size_t>(old.shares.rank_of(p));
     answers.asked[rank].push_back(node);
     questions[rank].push_back(p);
   }
-  answer(piece, exchange_pieces(comm, std::move(questions)), answers);
+  questions = exchange_pieces(comm, std::move(questions));
+  const std::vector<Point> points = joined(questions);
+  Found found(comm, old, points);
+  std::vector<double> row(static_cast<std::size_t>(old.rows.width));
+  for (std::size_t rank = 0; rank < ranks; ++rank) {
+    for (std::size_t i = 0; i < questions[rank].size(); ++i) {
+      const bool inside = found.next(row);
+      answers.inside[rank].push_back(inside ? 1 : 0);
+      if (inside) answers.rows[rank].insert(answers.rows[rank].end(), row.begin(), row.end());
+    }
+  }
   answers.inside = exchange_pieces(comm, std::move(answers.inside));
   answers.rows = exchange_pieces(comm, std::move(answers.rows));
   return answers;
@@ -142,11 +220,7 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, std::span<c
   const auto owned = [](const Mesh& mesh) { return std::span(mesh.points).first(static_cast<std::size_t>(mesh.owned_nodes)); };
   const CurveShares shares(comm, owned(old_mesh), owned(new_mesh));
   NewRows rows{static_cast<std::size_t>(width), std::vector<double>(owned(new_mesh).size() * static_cast<std::size_t>(width))};
-  std::vector<std::int32_t> outside;
-  {
-    const TrianglePiece piece = gather_piece(comm, shares, old_mesh, old_rows, triangles);
-    outside = take(ask(comm, shares, piece, new_mesh), rows);
-  }
+  const std::vector<std::int32_t> outside = take(ask(comm, {old_mesh, old_rows, triangles, shares}, new_mesh), rows);
   Transferred transferred;
   transferred.report.outside = comm.sum(static_cast<std::int64_t>(outside.size()));
   if (transferred.report.outside > 0) take_from_boundary(comm, old_mesh, old_rows, new_mesh, outside, rows);

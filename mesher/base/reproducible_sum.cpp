@@ -21,11 +21,16 @@ double reproducible_sum(const Communicator& comm, std::span<const double> values
   // Each value is high + low / 2^bits units of 2^(top - bits), and both parts of all of them fit into a 64-bit sum.
   const auto count = static_cast<std::uint64_t>(comm.sum(static_cast<std::int64_t>(values.size())));
   const int bits = 62 - static_cast<int>(std::bit_width(count)), top = std::ilogb(largest) + 1;
+  // 2^(bits - top) may be too large for a number: in two steps.
+  const double first_scale = std::ldexp(1, (bits - top) / 2), second_scale = std::ldexp(1, bits - top - (bits - top) / 2),
+               parts = std::ldexp(1, bits);
   std::int64_t high = 0, low = 0;
   for (const double value : values) {
-    const double scaled = std::ldexp(value, bits - top), whole = std::nearbyint(scaled);
-    high += static_cast<std::int64_t>(whole);
-    low += static_cast<std::int64_t>(std::nearbyint(std::ldexp(scaled - whole, bits)));
+    const double scaled = value * first_scale * second_scale;
+    const auto whole = static_cast<std::int64_t>(scaled);
+    const double rest = (scaled - static_cast<double>(whole)) * parts;
+    high += whole;
+    low += static_cast<std::int64_t>(rest + std::copysign(0.5, rest));
   }
   high = comm.sum(high);
   low = comm.sum(low);

@@ -16,11 +16,6 @@ std::int8_t zeros_of(std::int64_t line) {
 
 }  // namespace
 
-TieRank tie_rank(Point centre, Point position) {
-  const auto [nearer, farther] = std::minmax({std::abs(position.x - centre.x), std::abs(position.y - centre.y)});
-  return {-1, -1, farther, nearer, position.x, position.y};
-}
-
 TieRank tie_rank(const Lattice& lattice, int finest_level, Point position) {
   TieRank rank = tie_rank(lattice.box().centre(), position);
   const std::int64_t column = lattice.column_at(position.x), row = lattice.row_at(position.y);

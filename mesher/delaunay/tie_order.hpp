@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <compare>
 #include <cstdint>
 
@@ -22,6 +24,9 @@ struct TieRank {
 TieRank tie_rank(const Lattice& lattice, int finest_level, Point position);
 
 /// The same without a lattice: nodes farther from the centre of a box rank higher.
-TieRank tie_rank(Point centre, Point position);
+inline TieRank tie_rank(Point centre, Point position) {
+  const double across = std::abs(position.x - centre.x), up = std::abs(position.y - centre.y);
+  return {-1, -1, std::max(across, up), std::min(across, up), position.x, position.y};
+}
 
 }  // namespace quadloop

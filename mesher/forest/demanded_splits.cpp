@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 
 #include "mesher/base/error.hpp"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::size_t block = 16;
 constexpr std::uint8_t children_bits = 0xf, asked_bit = 0x10;
+constexpr std::uint64_t children_of_word = 0x0f0f0f0f0f0f0f0fULL;
 
 std::uint64_t spread(std::uint64_t bits) {
   bits &= 0xffffffffULL;
@@ -107,21 +109,35 @@ std::int32_t DemandedSplits::root(std::int64_t tree_x, std::int64_t tree_y) cons
 std::int32_t DemandedSplits::child(std::int32_t number, int k) const {
   const auto at = static_cast<std::size_t>(number);
   if ((masks_[at] >> k & 1) == 0) return none;
+  std::array<std::uint64_t, block / sizeof(std::uint64_t)> masks{};  // of the block, up to this one: whole words are counted at once
+  if (at % block != 0) std::memcpy(masks.data(), &masks_[at - at % block], at % block);
   std::int32_t before = children_before_[at / block];
-  for (std::size_t i = at - at % block; i < at; ++i) before += std::popcount(static_cast<unsigned>(masks_[i] & children_bits));
+  for (const std::uint64_t word : masks) before += std::popcount(word & children_of_word);
   before += std::popcount(static_cast<unsigned>(masks_[at]) & ((1U << k) - 1));
   return static_cast<std::int32_t>(roots_.size()) + before;
 }
 
-std::uint32_t DemandedSplits::levels_above(const Quadrant& leaf) const {
-  std::uint32_t levels = 0;
-  std::int32_t number = root(leaf.x >> Quadrant::unit_level, leaf.y >> Quadrant::unit_level);
-  for (int level = 0; number != none && level < leaf.level; ++level) {
-    if ((masks_[static_cast<std::size_t>(number)] & asked_bit) != 0) levels |= 1U << level;
-    const int shift = Quadrant::unit_level - 1 - level;
-    number = child(number, static_cast<int>(((leaf.x >> shift) & 1) | ((leaf.y >> shift) & 1) << 1));
+bool DemandedSplits::asked(std::int32_t number) const { return (masks_[static_cast<std::size_t>(number)] & asked_bit) != 0; }
+
+/// The steps that lead to this leaf too.
+void DemandPath::keep_above(const Quadrant& leaf) {
+  const auto different = static_cast<std::uint64_t>((leaf.x ^ last_.x) | (leaf.y ^ last_.y));
+  const int common = Quadrant::unit_level - static_cast<int>(std::bit_width(different));  // negative where even the trees are others
+  const int kept = std::min({static_cast<int>(steps_.size()), common + 1, leaf.level + 1});
+  steps_.resize(static_cast<std::size_t>(std::max(kept, 0)));
+  last_ = leaf;
+}
+
+std::uint32_t DemandPath::levels_above(const Quadrant& leaf) {
+  keep_above(leaf);
+  if (steps_.empty()) steps_.push_back({demanded_->root(leaf.x >> Quadrant::unit_level, leaf.y >> Quadrant::unit_level), 0});
+  while (true) {
+    const auto [number, levels] = steps_.back();
+    const int level = static_cast<int>(steps_.size()) - 1, shift = Quadrant::unit_level - 1 - level;
+    if (number == DemandedSplits::none || level == leaf.level) return levels;
+    const int k = static_cast<int>((leaf.x >> shift & 1) | (leaf.y >> shift & 1) << 1);
+    steps_.push_back({demanded_->child(number, k), levels | (demanded_->asked(number) ? 1U << level : 0U)});
   }
-  return levels;
 }
 
 }  // namespace quadloop

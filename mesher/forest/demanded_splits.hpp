@@ -35,8 +35,8 @@ class DemandedSplits {
   /// The number of child k of a split quadrant if it is split too, else none.
   std::int32_t child(std::int32_t number, int k) const;
 
-  /// As in SplitDemand, for the quadrants above a leaf: only those that were asked for themselves.
-  std::uint32_t levels_above(const Quadrant& leaf) const;
+  /// Whether this quadrant was asked for itself.
+  bool asked(std::int32_t number) const;
 
  private:
   using Key = std::uint64_t;  ///< place of a quadrant on the Morton curve over all trees, among those of its level
@@ -47,6 +47,27 @@ class DemandedSplits {
   std::vector<std::int32_t> children_before_;  ///< for each block of masks: split quadrants below the roots that come before the block's children
   std::vector<Key> roots_;
   int finest_ = 0;
+};
+
+/// The way down to one leaf after another: few steps for each where they come in the order of the curve.
+class DemandPath {
+ public:
+  /// The demands must outlive the path.
+  explicit DemandPath(const DemandedSplits& demanded) : demanded_{&demanded} {}
+
+  /// As in SplitDemand, for the quadrants above a leaf: only those that were asked for themselves.
+  std::uint32_t levels_above(const Quadrant& leaf);
+
+ private:
+  struct Step {
+    std::int32_t number = DemandedSplits::none;  ///< of the quadrant of this level
+    std::uint32_t levels = 0;                    ///< asked for above it
+  };
+  void keep_above(const Quadrant& leaf);
+
+  const DemandedSplits* demanded_;
+  Quadrant last_;
+  std::vector<Step> steps_;  ///< from the root of the last leaf's tree down, one a level
 };
 
 }  // namespace quadloop

@@ -12,7 +12,7 @@ Kernel::Point_2 exact(Point p) { return {p.x, p.y}; }
 
 }  // namespace
 
-int orientation(Point a, Point b, Point c) { return static_cast<int>(CGAL::orientation(exact(a), exact(b), exact(c))); }
+int exact_orientation(Point a, Point b, Point c) { return static_cast<int>(CGAL::orientation(exact(a), exact(b), exact(c))); }
 
 int in_circle(Point a, Point b, Point c, Point d) { return static_cast<int>(CGAL::side_of_oriented_circle(exact(a), exact(b), exact(c), exact(d))); }
 

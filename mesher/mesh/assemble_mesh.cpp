@@ -74,6 +74,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree&
   mesh.quads.reserve(cut.states.size());
   mesh.triangles.reserve(cut.states.size() / 2 + cut.triangles.size());
   Assembler assembler(geometry, graph, cut, numbers, mesh);
+  DemandPath demands(sizes.demanded());
   auto& leaves = result.tree.leaves;
   leaves.reserve(cut.states.size());
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
@@ -82,7 +83,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree&
     LeafRecord record = record_of(graph.leaf(leaf), sizes.wanted_level(graph.leaf(leaf)));
     record.triangles = static_cast<std::int32_t>(mesh.triangles.size() - triangles);
     record.quads = static_cast<std::int32_t>(mesh.quads.size() - quads);
-    record.adapted = sizes.demanded().levels_above(graph.leaf(leaf));
+    record.adapted = demands.levels_above(graph.leaf(leaf));
     record.mark = record.triangles + record.quads > 0 ? 1 : 0;
     leaves.push_back(record);
   }

@@ -62,7 +62,7 @@ TEST(DemandedSplits, NoneAskForNothing) {
   for (const DemandedSplits* splits : {&none, &empty}) {
     EXPECT_TRUE(splits->empty());
     EXPECT_EQ(splits->root(0, 0), DemandedSplits::none);
-    EXPECT_EQ(splits->levels_above({0, 0, 5}), 0U);
+    EXPECT_EQ(DemandPath(*splits).levels_above({0, 0, 5}), 0U);
     EXPECT_EQ(splits->finest_level(), 0);
   }
 }
@@ -81,10 +81,11 @@ TEST(DemandedSplits, HoldWhatWasAskedForAndAllAbove) {
     }
   }
   EXPECT_EQ(splits.finest_level(), deepest + 1);
+  DemandPath path(splits);
   for (const auto& [leaf, levels] : demands) {
     std::uint32_t expected = 0;
     for (int level = 0; level < leaf.level; ++level) expected |= asked.contains(place_of(leaf, level)) ? 1U << level : 0U;
-    EXPECT_EQ(splits.levels_above(leaf), expected);
+    EXPECT_EQ(path.levels_above(leaf), expected);
     for (int level = 0; level <= leaf.level; ++level) {
       const auto [l, x, y] = place_of(leaf, level);
       EXPECT_EQ(number_of(splits, {x, y, l}) != DemandedSplits::none, split.contains(place_of(leaf, level)));

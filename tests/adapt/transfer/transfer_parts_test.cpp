@@ -7,9 +7,11 @@
 
 #include "adapt/transfer/cell_triangles.hpp"
 #include "adapt/transfer/curve_shares.hpp"
+#include "adapt/transfer/equal_points.hpp"
 #include "adapt/transfer/exchange_pieces.hpp"
 #include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate_points.hpp"
+#include "adapt/transfer/point_cells.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -112,6 +114,45 @@ std::vector<Point> graded_points(int count, std::uint64_t seed) {
     points.push_back({size * x, size * y});
   }
   return points;
+}
+
+TEST(EqualPoints, AreFoundByTheirCoordinatesAlone) {
+  const std::vector<Point> known{{1, 2}, {0.0, 3}, {2, 1}, {1, 2}, {1, std::nextafter(2.0, 3.0)}};
+  const std::vector<Point> points{{2, 1}, {1, 2}, {1, 1}, {-0.0, 3}, {1, std::nextafter(2.0, 1.0)}, known[4]};
+  EXPECT_EQ(find_equal_points(known, points), (std::vector<std::int32_t>{2, 0, -1, 1, -1, 4}));
+  EXPECT_EQ(find_equal_points({}, points), std::vector<std::int32_t>(points.size(), -1));
+  const std::vector<Point> many = graded_points(5000, 7);
+  const std::vector<std::int32_t> found = find_equal_points(many, many);
+  for (std::size_t i = 0; i < many.size(); ++i) EXPECT_EQ(many[static_cast<std::size_t>(found[i])], many[i]);
+}
+
+TEST(PointCells, MeetEveryBoxThatHoldsAPoint) {
+  const std::vector<Point> everywhere = graded_points(6000, 40 + static_cast<std::uint64_t>(world().rank()));
+  std::vector<Point> own;
+  std::copy_if(everywhere.begin(), everywhere.end(), std::back_inserter(own), [](Point p) { return p.x > 0; });
+  const CurveGrid grid(world(), everywhere);
+  const PointCells cells(world(), grid, own);
+  const std::vector<Point> all = world().all_gather_values(std::span<const Point>(own));
+  int apart = 0;
+  for (const Point centre : graded_points(4000, 3)) {
+    const Point half{0.01 * std::abs(centre.x), 0.005 * std::abs(centre.y)};
+    const Box box{centre - half, centre + half};
+    const bool holds = std::any_of(all.begin(), all.end(), [&box](Point p) { return box.contains(p); });
+    EXPECT_TRUE(cells.meet(box) || !holds);
+    if (box.high.x < -0.1) {
+      EXPECT_FALSE(cells.meet(box));
+      ++apart;
+    }
+  }
+  EXPECT_GT(apart, 100);
+  for (const Point p : all) EXPECT_TRUE(cells.meet({p, p}));
+}
+
+TEST(PointCells, OfNoPointsMeetNothing) {
+  const std::vector<Point> points{{0, 0}, {1, 1}};
+  const CurveGrid grid(world(), points);
+  EXPECT_FALSE(PointCells(world(), grid, {}).meet({{0, 0}, {1, 1}}));
+  EXPECT_TRUE(PointCells(world(), grid, std::span(points).first(world().rank() == 0 ? 1 : 0)).meet({{0, 0}, {1, 1}}));
 }
 
 TEST(CurveShares, ABoxMeetsThePiecesOfItsPoints) {
