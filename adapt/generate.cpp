@@ -28,9 +28,10 @@ void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded) {
   GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}};
   MeshResult& result = generated.result;
-  generated.smoothing.begin("smooth");
+  generated.times.append(result.report.times);
+  generated.times.begin("smooth");
   smooth(comm, input, result);
-  generated.smoothing.end();
+  generated.times.end();
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);
   return generated;

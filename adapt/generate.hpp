@@ -24,7 +24,7 @@ struct MeshInput {
 /// A smoothed mesh and its tree record, complete but for what a file adds.
 struct GeneratedMesh {
   MeshResult result;
-  StageTimes smoothing;  ///< one stage, "smooth"
+  StageTimes times;  ///< those of the report, and "smooth"
 };
 
 /// Meshes and smooths; smoothing always begins with the mesh as it is cut, and a mesh of the Delaunay type ends with flips, under the order of nodes

@@ -85,7 +85,7 @@ class AdaptiveRun {
     folders_.begin(cycle);
     times.begin("mesh");
     const CarriedMesh carried =
-        before ? carry_over(comm_, case_.mesh, before->plan, before->solved) : CarriedMesh{generate_mesh(comm_, case_.mesh), {}, 0, {}};
+        before ? carry_over(comm_, case_.mesh, before->plan, before->solved) : CarriedMesh{generate_mesh(comm_, case_.mesh), {}, {}, 0, {}};
     const MeshResult& result = carried.generated.result;
     times.begin("write");
     std::optional<Solution> start;

@@ -63,12 +63,17 @@ SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, Tree
 }
 
 CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan, const SolvedMesh& old) {
-  CarriedMesh carried{generate_mesh(comm, input, DemandedSplits(comm, plan.demands)), {old.solution.constants, old.solution.names, {}}, 0, {}};
+  CarriedMesh carried;
+  carried.generated = generate_mesh(comm, input, DemandedSplits(comm, plan.demands));
+  carried.times.append(carried.generated.times);
+  carried.times.begin("transfer");
+  carried.start = {old.solution.constants, old.solution.names, {}};
   const auto& names = carried.start.names;
   Transferred transferred = transfer(comm, old.mesh, old.solution.values, static_cast<int>(names.size()), carried.generated.result.mesh);
   carried.start.values = std::move(transferred.values);
   carried.outside = transferred.report.outside;
   for (std::size_t i = 0; i < names.size(); ++i) carried.drift.emplace_back(names[i], transferred.report.drift[i]);
+  carried.times.end();
   return carried;
 }
 

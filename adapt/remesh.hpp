@@ -18,6 +18,7 @@ SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, Tree
 struct CarriedMesh {
   GeneratedMesh generated;
   Solution start;
+  StageTimes times;                                   ///< those of meshing, and "transfer"
   std::int64_t outside = 0;                           ///< new nodes outside the old mesh
   std::vector<std::pair<std::string, double>> drift;  ///< of each variable's integral
 };

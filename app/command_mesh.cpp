@@ -74,20 +74,6 @@ void write_outputs(const Communicator& comm, const MeshResult& result, const Pre
   outputs.commit();
 }
 
-StageSeconds stages_of(const StageTimes& ours, const GeneratedMesh& generated) {
-  StageSeconds seconds;
-  for (const auto& stage : ours.stages()) {
-    if (stage.first != "mesh") {
-      seconds.push_back(stage);
-      continue;
-    }
-    for (const StageTimes* times : {&generated.result.report.times, &generated.smoothing}) {
-      seconds.insert(seconds.end(), times->stages().begin(), times->stages().end());
-    }
-  }
-  return seconds;
-}
-
 /// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere), meshes, writes. Warnings
 /// come when all is done, so that a failure is one line.
 void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
@@ -101,15 +87,16 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   const MeshInput& input = *prepared.input.mesh;
   const DemandedSplits demanded(comm, saved ? standing_splits(*saved, input) : std::vector<SplitDemand>{});
   log::detail("meshing " + std::to_string(input.geometry.size()) + " segments");
-  times.begin("mesh");
+  times.end();
   const GeneratedMesh generated = generate_mesh(comm, input, demanded);
+  times.append(generated.times);
   times.begin("write");
   log::detail("writing " + prepared.input.settings.output_prefix + ".*");
   write_outputs(comm, generated.result, prepared, arguments.geometry_out);
   times.end();
   show_warnings(comm.is_root(), context.verbose, prepared.input.warnings);
   show_warnings(comm.is_root(), context.verbose, generated.result.report.warnings);
-  const std::string table = summary_table(comm, generated.result, stages_of(times, generated), prepared.files);
+  const std::string table = summary_table(comm, generated.result, times.stages(), prepared.files);
   if (!context.quiet) std::cout << table;
 }
 

@@ -86,8 +86,9 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   times.begin("adapt");
   const MeshInput& mesh = *input.mesh;
   const AdaptationPlan plan = input.settings.adapt ? plan_adaptation(comm, mesh, *input.settings.adapt, solved) : standing_plan(solved.tree, mesh);
-  times.begin("mesh");
+  times.end();
   const CarriedMesh carried = carry_over(comm, mesh, plan, solved);
+  times.append(carried.times);
   times.begin("write");
   write(comm, carried, files);
   times.end();

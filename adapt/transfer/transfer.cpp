@@ -53,7 +53,8 @@ struct NodeShare {
 };
 
 template <class T>
-std::vector<T> joined(const ForRanks<T>& parts) {
+std::vector<T> joined(ForRanks<T> parts) {
+  if (parts.size() == 1) return std::move(parts.front());
   std::vector<T> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
@@ -135,11 +136,15 @@ Answers ask(const Communicator& comm, const OldMesh& old, const Mesh& mesh) {
     questions[rank].push_back(p);
   }
   questions = exchange_pieces(comm, std::move(questions));
-  const std::vector<Point> points = joined(questions);
+  std::vector<std::size_t> counts;
+  for (const auto& of_rank : questions) counts.push_back(of_rank.size());
+  const std::vector<Point> points = joined(std::move(questions));
   Found found(comm, old, points);
   std::vector<double> row(static_cast<std::size_t>(old.rows.width));
   for (std::size_t rank = 0; rank < ranks; ++rank) {
-    for (std::size_t i = 0; i < questions[rank].size(); ++i) {
+    answers.inside[rank].reserve(counts[rank]);
+    answers.rows[rank].reserve(counts[rank] * row.size());
+    for (std::size_t i = 0; i < counts[rank]; ++i) {
       const bool inside = found.next(row);
       answers.inside[rank].push_back(inside ? 1 : 0);
       if (inside) answers.rows[rank].insert(answers.rows[rank].end(), row.begin(), row.end());

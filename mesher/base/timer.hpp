@@ -22,6 +22,11 @@ class StageTimes {
     stages_.back().second = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     running_ = false;
   }
+  /// The other's stages come after these.
+  void append(const StageTimes& other) {
+    end();
+    stages_.insert(stages_.end(), other.stages_.begin(), other.stages_.end());
+  }
   const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
 
  private:
