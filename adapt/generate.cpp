@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "adapt/digests.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/delaunay/tie_order.hpp"
@@ -9,6 +11,17 @@
 namespace quadloop {
 
 namespace {
+
+/// A leaf has the triangles that stand in the places of its own before.
+void count_triangles(const std::vector<std::int32_t>& standing, std::vector<LeafRecord>& leaves) {
+  auto place = standing.begin();
+  for (LeafRecord& leaf : leaves) {
+    const auto end = place + leaf.triangles;
+    leaf.triangles = std::accumulate(place, end, std::int32_t{0});
+    leaf.mark = leaf.triangles + leaf.quads > 0 ? 1 : 0;
+    place = end;
+  }
+}
 
 void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result) {
   SmoothOptions options = input.smooth;
@@ -18,7 +31,9 @@ void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result
   if (input.mesh.type == MeshType::delaunay) {
     options.delaunay = [&lattice, finest = result.report.finest_allowed](Point p) { return tie_rank(lattice, finest, p); };
   }
+  options.keep_places = input.mesh.type != MeshType::delaunay;
   const SmoothReport report = smooth_mesh(comm, result.mesh, options);
+  if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
   log::detail(fmt::format("smoothed: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}", report.moves, report.free_nodes,
                           report.sweeps, report.worst_cost_after, report.worst_cost_before));
 }

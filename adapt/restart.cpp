@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "adapt/sensor/cells_of_leaves.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -99,8 +100,13 @@ std::vector<SplitDemand> standing_splits(const TreeRecord& tree, const MeshInput
 
 ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks, int finest_level) {
   QUADLOOP_REQUIRE(marks.size() == tree.leaves.size(), "one mark for each leaf");
+  const bool coarsens = comm.any(std::find(marks.begin(), marks.end(), Mark::coarsen) != marks.end());
   std::vector<MarkedLeaf> own;
-  for (std::size_t i = 0; i < marks.size(); ++i) own.push_back({place_of(tree.leaves[i]), tree.leaves[i].adapted, marks[i]});
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const LeafRecord& leaf = tree.leaves[i];
+    const bool goes_along = coarsens && marks[i] == Mark::keep && !has_cells(leaf);  // has no values to keep it for: its siblings say
+    own.push_back({place_of(leaf), leaf.adapted, goes_along ? Mark::coarsen : marks[i]});
+  }
   const LeafRun run(comm, own);
   ChangedSplits changed;
   for (std::size_t i = 0; i < own.size(); ++i) {

@@ -12,6 +12,37 @@ void put_smallest_first(std::array<Node, 3>& nodes) {
   std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end()), nodes.end());
 }
 
+/// The triangles that are gone around each node.
+class GoneTriangles {
+ public:
+  struct Gone {
+    FreedTriangle triangle;
+    Point centroid;
+  };
+
+  void add(const std::array<std::int32_t, 3>& nodes, const Gone& gone) {
+    for (const std::int32_t node : nodes) around_.emplace_back(node, gone_.size());
+    gone_.push_back(gone);
+  }
+  void sort() { std::sort(around_.begin(), around_.end()); }
+
+  /// The number of the one of a block around the node that is nearest to a place; of several as near the lowest.
+  std::int64_t nearest(std::int32_t node, Point place, std::int32_t block) const {
+    std::pair best{std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max()};
+    for (auto at = std::lower_bound(around_.begin(), around_.end(), std::pair{node, std::size_t{0}}); at != around_.end() && at->first == node;
+         ++at) {
+      const auto& [triangle, centroid] = gone_[at->second];
+      const Point off = centroid - place;
+      if (triangle.block == block) best = std::min(best, {dot(off, off), triangle.number});
+    }
+    return best.second;
+  }
+
+ private:
+  std::vector<Gone> gone_;
+  std::vector<std::pair<std::int32_t, std::size_t>> around_;  ///< node, index
+};
+
 }  // namespace
 
 RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) {
@@ -70,24 +101,27 @@ RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& h
   return changes;
 }
 
+/// Its nodes come in an order that all ranks have, and so does the sum.
+Point RegionTriangulation::centroid(const Triangle& nodes) const {
+  const auto at = [&](std::size_t k) { return points_[static_cast<std::size_t>(nodes[k])]; };
+  return 1.0 / 3 * (at(0) + at(1) + at(2));
+}
+
 /// A triangle may come back at another place of the patch.
 void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) {
-  using InBlock = std::pair<Triangle, std::int32_t>;
-  std::vector<InBlock> before, made;
-  std::vector<std::int64_t> first_freed(numbers_.size(), std::numeric_limits<std::int64_t>::max());  // around each node
-  for (const auto& [nodes, gone] : changes.before) {
-    before.emplace_back(nodes, gone.block);
+  std::vector<std::pair<Triangle, std::int32_t>> before, made;
+  GoneTriangles gone;
+  for (const auto& [nodes, freed] : changes.before) {
+    before.emplace_back(nodes, freed.block);
     if (std::binary_search(changes.after.begin(), changes.after.end(), before.back())) continue;
-    for (const std::int32_t node : nodes) {
-      auto& first = first_freed[static_cast<std::size_t>(node)];
-      first = std::min(first, gone.number);
-    }
-    if (halo.owns(number_of(nodes[0]))) freed_.push_back(gone);
+    gone.add(nodes, {freed, centroid(nodes)});
+    if (halo.owns(number_of(nodes[0]))) freed_.push_back(freed);
   }
+  gone.sort();
   std::set_difference(changes.after.begin(), changes.after.end(), before.begin(), before.end(), std::back_inserter(made));
   for (const auto& [t, block] : made) {
     if (!halo.owns(number_of(t[0]))) continue;
-    MadeTriangle triangle{first_freed[static_cast<std::size_t>(t[0])], {}, {}, block};
+    MadeTriangle triangle{gone.nearest(t[0], centroid(t), block), {}, {}, block};
     for (std::size_t k = 0; k < 3; ++k) {
       triangle.nodes[k] = number_of(t[k]);
       triangle.points[k] = points_[static_cast<std::size_t>(t[k])];

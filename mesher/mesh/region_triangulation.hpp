@@ -10,7 +10,7 @@ namespace quadloop {
 
 /// A triangle that was not there before.
 struct MadeTriangle {
-  std::int64_t near = 0;                ///< the lowest number of the triangles with its first node that are gone
+  std::int64_t near = 0;                ///< the number of the nearest triangle, by their centroids, of those with its first node that are gone
   std::array<std::int64_t, 3> nodes{};  ///< over all ranks, the smallest first
   std::array<Point, 3> points;
   std::int32_t block = 0;
@@ -50,6 +50,7 @@ class RegionTriangulation {
   DelaunayPatch make_patch(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) const;
   Changes find_changes(const StarHalo& halo, const DelaunayPatch& patch) const;
   void compare(const StarHalo& halo, const Changes& changes);
+  Point centroid(const Triangle& nodes) const;
   void find_outgrown();
   std::vector<Edge> outer_edges() const;
 

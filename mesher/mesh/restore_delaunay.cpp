@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/node_table.hpp"
@@ -118,8 +119,8 @@ std::vector<Row> of_block(const std::vector<Row>& rows, std::int32_t block) {
   return found;
 }
 
-/// Puts a block's new triangles at its free places, both in an order that all ranks make together: the places by their numbers, the triangles by the
-/// lowest number next to them before, so that they end up near it. *Collective.*
+/// Puts a block's new triangles at its free places, both in an order that all ranks make together: the places by their numbers, the triangles by that
+/// of the one before that they are near to. *Collective.*
 void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle>& freed, std::vector<MadeTriangle> made, Mesh& mesh) {
   const auto size_of = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
   QUADLOOP_REQUIRE(comm.sum(size_of(freed)) == comm.sum(size_of(made)), "flips keep the number of triangles");
@@ -138,18 +139,40 @@ void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle
   }
 }
 
+/// Puts new triangles where those were that they are near to. *Collective.*
+std::vector<std::int32_t> insert_triangles(const Communicator& comm, std::vector<FreedTriangle> freed, std::vector<MadeTriangle> made, Mesh& mesh) {
+  const Ranges triangles(comm, mesh.triangles.size());
+  const std::int64_t first = triangles.begin(comm.rank());
+  freed = deliver(comm, freed, [&](const FreedTriangle& t) { return triangles.rank_of(t.number); });
+  made = deliver(comm, made, [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
+  std::sort(made.begin(), made.end());
+  std::vector<std::int32_t> standing(mesh.triangles.size(), 1);
+  for (const FreedTriangle& t : freed) standing[static_cast<std::size_t>(t.number - first)] = 0;
+  const auto before = std::exchange(mesh.triangles, {});
+  mesh.triangles.reserve(before.size() + made.size() - freed.size());
+  NodeTable nodes(mesh);
+  auto next = made.begin();
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (standing[i] == 1) mesh.triangles.push_back(before[i]);
+    for (; next != made.end() && next->near == first + static_cast<std::int64_t>(i); ++next, ++standing[i]) {
+      auto& triangle = mesh.triangles.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) triangle[k] = nodes.local(next->nodes[k], next->points[k]);
+    }
+  }
+  return standing;
+}
+
 std::int32_t number_of_blocks(const Communicator& comm, const std::vector<std::int32_t>& triangle_to_block) {
   const auto last = std::max_element(triangle_to_block.begin(), triangle_to_block.end());
   return static_cast<std::int32_t>(comm.maximum(std::int64_t{last == triangle_to_block.end() ? 0 : *last})) + 1;
 }
 
-}  // namespace
-
-void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved, const std::function<TieRank(Point)>& rank_of,
-                      const std::vector<std::int32_t>& triangle_to_block) {
+/// What changes round nodes that have moved; nothing where none has. *Collective.*
+std::optional<RegionTriangulation> changed_region(const Communicator& comm, const Mesh& mesh, const std::vector<char>& moved,
+                                                  const std::function<TieRank(Point)>& rank_of, const std::vector<std::int32_t>& triangle_to_block) {
   QUADLOOP_REQUIRE(mesh.quads.empty() && moved.size() == mesh.points.size(), "triangles alone, and a flag for each point");
   QUADLOOP_REQUIRE(triangle_to_block.empty() || triangle_to_block.size() == mesh.triangles.size(), "a block for each triangle, or none");
-  if (!comm.any(std::find_if(moved.begin(), moved.end(), [](char flag) { return flag != 0; }) != moved.end())) return;
+  if (!comm.any(std::find_if(moved.begin(), moved.end(), [](char flag) { return flag != 0; }) != moved.end())) return std::nullopt;
   Region region(comm, mesh, triangle_to_block);
   std::vector<std::int64_t> joining = nodes_around(mesh, moved);
   std::optional<RegionTriangulation> triangulation;
@@ -158,10 +181,25 @@ void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<ch
     triangulation.emplace(region.triangulate(rank_of));
     joining = triangulation->outgrown();
   }
-  const std::int32_t blocks = triangulation ? number_of_blocks(comm, triangle_to_block) : 0;
+  return triangulation;
+}
+
+}  // namespace
+
+void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved, const std::function<TieRank(Point)>& rank_of,
+                      const std::vector<std::int32_t>& triangle_to_block) {
+  const std::optional<RegionTriangulation> changed = changed_region(comm, mesh, moved, rank_of, triangle_to_block);
+  const std::int32_t blocks = changed ? number_of_blocks(comm, triangle_to_block) : 0;
   for (std::int32_t block = 0; block < blocks; ++block) {
-    replace_triangles(comm, of_block(triangulation->freed(), block), of_block(triangulation->made(), block), mesh);
+    replace_triangles(comm, of_block(changed->freed(), block), of_block(changed->made(), block), mesh);
   }
+}
+
+std::vector<std::int32_t> restore_delaunay_nearby(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved,
+                                                  const std::function<TieRank(Point)>& rank_of) {
+  const std::optional<RegionTriangulation> changed = changed_region(comm, mesh, moved, rank_of, {});
+  if (!changed) return std::vector<std::int32_t>(mesh.triangles.size(), 1);
+  return insert_triangles(comm, changed->freed(), changed->made(), mesh);
 }
 
 }  // namespace quadloop

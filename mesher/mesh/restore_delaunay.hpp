@@ -21,4 +21,10 @@ namespace quadloop {
 void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved, const std::function<TieRank(Point)>& rank_of,
                       const std::vector<std::int32_t>& triangle_to_block = {});
 
+/// The same for a mesh of one block, but a new triangle stands where a triangle that is gone stood, one that shares its first node and is nearest to
+/// it, so that what was known of places holds for their neighbourhood. Returns, for each of this rank's triangles before, how many stand in its
+/// place: 1 for those that stay. *Collective.*
+std::vector<std::int32_t> restore_delaunay_nearby(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved,
+                                                  const std::function<TieRank(Point)>& rank_of);
+
 }  // namespace quadloop

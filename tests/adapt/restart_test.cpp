@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "mesher/base/error.hpp"
@@ -120,6 +121,31 @@ TEST(Restart, RefiningThenCoarseningByTheSameMarksGivesTheTreeBack) {
     third = tree_of(input, changed_splits(world(), third, marks, finest).demands);
   }
   EXPECT_EQ(all_leaves(third), all_leaves(first));
+}
+
+/// As a sensor leaves them: no mark where there are no cells.
+std::vector<Mark> marks_of_cells(const TreeRecord& tree, Mark mark, const std::function<bool(const Quadrant&)>& where) {
+  std::vector<Mark> marks;
+  for (const LeafRecord& leaf : tree.leaves) marks.push_back(leaf.triangles + leaf.quads > 0 && where(place_of(leaf)) ? mark : Mark::keep);
+  return marks;
+}
+
+TEST(Restart, LeavesAtWallsGoBackThoughTheirSiblingsHaveNoCells) {
+  const MeshInput input = disc_input();
+  const auto everywhere = [](const Quadrant&) { return true; };
+  const TreeRecord first = tree_of(input, {});
+  TreeRecord tree = first;
+  for (int cycle = 0; cycle < 2; ++cycle) {
+    const auto marks = marks_of_cells(tree, Mark::refine, [](const Quadrant& q) { return q.level >= 6; });  // those at the disc
+    tree = tree_of(input, changed_splits(world(), tree, marks, finest).demands);
+  }
+  EXPECT_GT(world().sum(static_cast<std::int64_t>(tree.leaves.size())), 2 * world().sum(static_cast<std::int64_t>(first.leaves.size())));
+  const std::vector<Mark> nothing(tree.leaves.size(), Mark::keep);
+  EXPECT_EQ(all_leaves(tree_of(input, changed_splits(world(), tree, nothing, finest).demands)), all_leaves(tree));
+  for (int cycle = 0; cycle < 4; ++cycle) {
+    tree = tree_of(input, changed_splits(world(), tree, marks_of_cells(tree, Mark::coarsen, everywhere), finest).demands);
+  }
+  EXPECT_EQ(all_leaves(tree), all_leaves(first));
 }
 
 TEST(Restart, CoarseningNeverPassesTheCasesOwnTree) {

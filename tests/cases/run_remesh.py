@@ -182,6 +182,13 @@ def check_outline(program, case, folder, cycles, name, change, ranks):
             require_equal_files(f"{made}{suffix}", f"{made}_{count}{suffix}", f"{name} on {count} ranks")
 
 
+def check_own_triangles(program, case, folder, cycles, ranks, options):
+    """Flips after smoothing leave triangles with leaves beside them, so that marks made from a file are the loop's own."""
+    made = folder / f"delaunay_{ranks}"
+    remesh(program, case, cycles / "cycle_01" / "mesh.tree.h5", cycles / "cycle_01" / "mesh.mesh", made, ranks, options)
+    require_equal_files(cycles / "cycle_02" / "mesh.tree.h5", f"{made}.tree.h5", f"the loop and one pass with triangles on {ranks} ranks")
+
+
 def check_outlines(program, folder, ranks):
     case = tiny_case(folder / "airfoil", STEP, AIRFOIL_CASE)
     shutil.copy(AIRFOIL, case.with_name("airfoil.geom"))
@@ -190,6 +197,10 @@ def check_outlines(program, folder, ranks):
     adapt(program, case, cycles)
     check_outline(program, case, folder, cycles, "thicker", lambda x, y: (x, 1.02 * y), ranks[:2])
     check_outline(program, case, folder, cycles, "moved", lambda x, y: (x + 0.02, y + 0.01), ranks[:3])
+    delaunay = ["--set", "mesh.type=delaunay"]
+    adapt(program, case, folder / "delaunay_cycles", options=delaunay)
+    for count in ranks[:2]:
+        check_own_triangles(program, case, folder, folder / "delaunay_cycles", count, delaunay)
     moved_outline(folder / "far.geom", lambda x, y: (x + 6, y))
     last = cycles / "cycle_02"
     expect_refusal(program, 1, ["far field", "does not enclose"], "remesh", "--tree", last / "mesh.tree.h5", "--solution", last / "mesh.mesh", case,

@@ -201,6 +201,51 @@ TEST(RestoreDelaunay, SameOnAnyNumberOfRanks) {
   }
 }
 
+std::vector<std::array<NodeId, 3>> sorted(std::vector<std::array<NodeId, 3>> triangles) {
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+Point centroid(const Mesh& mesh, const std::array<NodeId, 3>& t) { return 1.0 / 3 * (mesh.point(t[0]) + mesh.point(t[1]) + mesh.point(t[2])); }
+
+/// Which of its nodes is farthest from its centroid, and how far.
+double reach(const Mesh& mesh, const std::array<NodeId, 3>& t) {
+  double farthest = 0;
+  for (const NodeId node : t) farthest = std::max(farthest, length(mesh.point(node) - centroid(mesh, t)));
+  return farthest;
+}
+
+/// Triangles that share a node are no farther apart than both reach.
+void expect_near(const Mesh& before, const Mesh& mesh, const std::vector<std::int32_t>& standing) {
+  std::size_t next = 0;
+  for (std::size_t place = 0; place < standing.size(); ++place) {
+    for (std::int32_t k = 0; k < standing[place]; ++k) {
+      const auto& then = before.triangles[place];
+      const auto& now = mesh.triangles.at(next++);
+      EXPECT_LE(length(centroid(mesh, then) - centroid(mesh, now)), 1.0001 * (reach(mesh, then) + reach(mesh, now)));
+    }
+  }
+  EXPECT_EQ(next, mesh.triangles.size());
+}
+
+TEST(RestoreDelaunayNearby, PutsTrianglesWhereOldOnesWere) {
+  const Communicator self(MPI_COMM_SELF);
+  const Mesh start = delaunay_mesh(self), start_part = delaunay_mesh(world());
+  for (const std::int64_t every : {1, 30, 200}) {
+    Mesh whole = start, part = start_part, elsewhere = start;
+    const Moves moves(start, every, 5);
+    const std::vector<char> moved = moves.apply(part);
+    const auto standing = restore_delaunay_nearby(self, whole, moves.apply(whole), rank_of);
+    const auto of_part = restore_delaunay_nearby(world(), part, moved, rank_of);
+    expect_same(gather(world(), part), whole);
+    EXPECT_EQ(world().all_gather_values(std::span<const std::int32_t>(of_part)), standing);
+    EXPECT_NE(std::count(standing.begin(), standing.end(), 0), 0);
+    expect_near(start, whole, standing);
+    restore_delaunay(self, elsewhere, moves.apply(elsewhere), rank_of);
+    EXPECT_TRUE(sorted(whole.triangles) == sorted(elsewhere.triangles));
+  }
+}
+
 TEST(RestoreDelaunay, LooksNoFartherThanItMust) {
   const Communicator self(MPI_COMM_SELF);
   const Mesh start = delaunay_mesh(self);
