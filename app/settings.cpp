@@ -68,7 +68,7 @@ void read_spacing_table(const CaseTable& root, Settings& settings) {
 
 void read_boundary_tables(const CaseTable& root, Settings& settings) {
   if (settings.far_field) {
-    settings.outline.rules.push_back({"farfield", {}, {}, "farfield", settings.far_field->where, false});  // unless the case says other
+    settings.outline.rules.push_back({"farfield", {}, {}, "farfield", settings.far_field->where, false, true});  // unless the case says other
   }
   const auto tables = root.table("boundary");
   if (!tables) return;

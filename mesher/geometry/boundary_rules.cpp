@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -14,6 +16,10 @@ void apply_rule(const BoundaryRule& rule, Boundary& boundary) {
   boundary.spacing = rule.spacing.value_or(boundary.spacing);
   boundary.corner_degrees = rule.corner_degrees.value_or(boundary.corner_degrees);
   boundary.condition = rule.condition.value_or(boundary.condition);
+}
+
+bool is_claimed(const std::vector<BoundaryRule>& rules, const std::string& name) {
+  return std::any_of(rules.begin(), rules.end(), [&name](const BoundaryRule& rule) { return rule.claims && rule.pattern == name; });
 }
 
 /// The first few names, for a user who mistyped one.
@@ -55,7 +61,7 @@ std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names,
       if (is_pattern(rule.pattern) != patterns) continue;
       bool found = false;
       for (Boundary& boundary : boundaries) {
-        if (!matches(rule.pattern, boundary.name)) continue;
+        if (!matches(rule.pattern, boundary.name) || (patterns && is_claimed(rules, boundary.name))) continue;
         apply_rule(rule, boundary);
         found = true;
       }

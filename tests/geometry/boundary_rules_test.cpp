@@ -38,5 +38,22 @@ TEST(BoundaryRules, RefuseWhatMatchesNothing) {
   EXPECT_NE(message.find("island_1"), std::string::npos) << message;
 }
 
+TEST(BoundaryRules, PatternsLeaveWhatIsClaimed) {
+  BoundaryRule pattern, ours, exact;
+  pattern.pattern = "*";
+  pattern.spacing = 0.1;
+  pattern.condition = "wall";
+  ours.pattern = "farfield";
+  ours.condition = "farfield";
+  ours.claims = true;
+  exact.pattern = "farfield";
+  exact.spacing = 2;
+  const auto boundaries = boundaries_by_rules({"wing", "farfield"}, {ours, pattern}, 30);
+  EXPECT_EQ(boundaries[0].condition, "wall");
+  EXPECT_EQ(boundaries[1].condition, "farfield");
+  EXPECT_EQ(boundaries[1].spacing, 0);
+  EXPECT_EQ(boundaries_by_rules({"wing", "farfield"}, {ours, pattern, exact}, 30)[1].spacing, 2);
+}
+
 }  // namespace
 }  // namespace quadloop
