@@ -88,7 +88,8 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     loaded.order = space_filling_order(loaded.whole.mesh);
     if (loaded.whole.blocks > 1) loaded.pinned = interface_nodes(loaded.whole);
     loaded.delaunay = is_delaunay(loaded.whole.mesh, loaded.whole.triangle_to_block);
-    if (loaded.whole.solution) warnings.push_back(arguments.input + ": the solution stays with its nodes, which move; it is that of the old mesh");
+    if (loaded.whole.solution && arguments.sweeps > 0)
+      warnings.push_back(arguments.input + ": the solution stays with its nodes, which move; it is that of the old mesh");
     append(warnings, losses_in(loaded.whole, arguments.output));
   });
   context.comm.broadcast(turned);
@@ -117,41 +118,63 @@ Point centre_of(const Communicator& comm, const Mesh& part) {
   return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)}, {comm.maximum(box.high.x), comm.maximum(box.high.y)}}.centre();
 }
 
-void run_smooth(const CommandContext& context, const SmoothArguments& arguments) {
-  const Communicator& comm = context.comm;
-  StageTimes times;
-  times.begin("read");
-  Loaded loaded = load(context, arguments);
-  Mesh part = scatter_mesh(comm, loaded.whole.mesh, loaded.order);
+SmoothOptions options_of(const Communicator& comm, const SmoothArguments& arguments, const Loaded& loaded, const Mesh& part) {
   SmoothOptions options;
   options.sweeps = arguments.sweeps;
   options.method = arguments.method == "nlopt" ? Method::nlopt : Method::perturb;
   options.objective = arguments.objective == "thesis" ? Objective::thesis : Objective::power;
   options.pinned = scatter_nodes(comm, loaded.pinned, loaded.order);
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
-  const Point centre = centre_of(comm, part);
-  if (loaded.delaunay) options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);
-  if (loaded.delaunay) options.delaunay = [centre](Point p) { return tie_rank(centre, p); };
+  if (!loaded.delaunay) return options;
+  options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);
+  options.delaunay = [centre = centre_of(comm, part)](Point p) { return tie_rank(centre, p); };
+  return options;
+}
+
+/// Refuses, on all ranks, a mesh that is not valid on the root. *Collective.*
+void require_valid_result(const Communicator& comm, const Loaded& loaded, const std::string& input) {
+  comm.together([&] {
+    if (comm.is_root()) require_valid(loaded.whole, input);
+  });
+}
+
+/// Smooths and writes; the text to be shown, on the root alone. *Collective.*
+std::string smooth_and_write(const Communicator& comm, const SmoothArguments& arguments, Loaded& loaded, StageTimes& times) {
+  Mesh part = scatter_mesh(comm, loaded.whole.mesh, loaded.order);
+  const SmoothOptions options = options_of(comm, arguments, loaded, part);
   times.begin("report");
   const ShapeReport before = report_shapes(comm, part, loaded.whole.mesh);
   times.begin("smooth");
   const SmoothReport smoothed = smooth_mesh(comm, part, options);
   times.begin("check");
   gather_mesh(comm, part, loaded.order, loaded.whole.mesh);
-  comm.together([&] {
-    if (comm.is_root()) require_valid(loaded.whole, arguments.input);
-  });
+  require_valid_result(comm, loaded, arguments.input);
   times.begin("write");
   write(comm, loaded.whole, arguments.output);
   times.begin("report");
   const ShapeReport after = report_shapes(comm, part, loaded.whole.mesh);
   times.end();
   const std::string stages = stage_table(comm, times.stages());
-  if (!comm.is_root() || context.quiet) return;
-  std::cout << comparison_table(before, after)
-            << fmt::format("  {:<24}{:>14}\n  {:<24}{:>14}\n  {:<24}{:>14}\n", "sweeps", smoothed.sweeps, "nodes that may move", smoothed.free_nodes,
-                           "moves", smoothed.moves)
-            << stages << "  wrote " << arguments.output << "\n";
+  if (!comm.is_root()) return {};
+  return comparison_table(before, after) +
+         fmt::format("  {:<24}{:>14}\n  {:<24}{:>14}\n  {:<24}{:>14}\n", "sweeps", smoothed.sweeps, "nodes that may move", smoothed.free_nodes,
+                     "moves", smoothed.moves) +
+         stages;
+}
+
+/// Without sweeps a mesh only changes its format, and its shapes are of no interest.
+void run_smooth(const CommandContext& context, const SmoothArguments& arguments) {
+  StageTimes times;
+  times.begin("read");
+  Loaded loaded = load(context, arguments);
+  std::string text;
+  if (arguments.sweeps == 0) {
+    require_valid_result(context.comm, loaded, arguments.input);
+    write(context.comm, loaded.whole, arguments.output);
+  } else {
+    text = smooth_and_write(context.comm, arguments, loaded, times);
+  }
+  if (context.comm.is_root() && !context.quiet) std::cout << text << "  wrote " << arguments.output << "\n";
 }
 
 }  // namespace

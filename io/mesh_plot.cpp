@@ -16,7 +16,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr Colour edge_ink{0.13, 0.17, 0.25};
+constexpr Colour edge_ink{0.13, 0.17, 0.25}, light_ink{0.93, 0.95, 1.0};
+constexpr double dim = 0.35;         ///< luminance of a colour on which dark edges would not be seen
 constexpr std::size_t batch = 4000;  // polygons or lines in one path
 constexpr double smallest = 1.3;     // pixels between two edges that are still drawn one by one
 constexpr double darkest = 0.42;     // share of ink that edges, or the shade in their place, give an area at most
@@ -85,7 +86,7 @@ class MeshPainter {
   MeshPainter(const Mesh& mesh, const PlotView& view, Canvas& canvas) : mesh_{mesh}, view_{view}, canvas_{canvas} {}
 
   void fill(const std::vector<std::size_t>& cells, const CellPaint& paint);
-  void stroke_edges(const std::vector<std::size_t>& cells, double strength);
+  void stroke_edges(const std::vector<std::size_t>& cells, Colour ink, double strength);
   void stroke_boundary(const BoundaryEdges& boundary, Colour colour);
 
  private:
@@ -127,7 +128,7 @@ void MeshPainter::add_line(NodeId a, NodeId b) {
 }
 
 /// Each edge once, by the thicker of its cells; the closer edges lie, the thinner and paler they are, so that a fine mesh does not turn black.
-void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double strength) {
+void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, Colour ink, double strength) {
   std::vector<Edge> edges;
   for (const std::size_t cell : cells) {
     for (const Edge& edge : edges_of(mesh_, cell, view_.scale())) {
@@ -148,7 +149,7 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double str
     const double opacity = strength * std::min(0.85, darkest * thickness / (2 * width));
     for (std::size_t i = 0; i < classes[k].size(); ++i) {
       add_line(edges[classes[k][i]].a, edges[classes[k][i]].b);
-      if ((i + 1) % batch == 0 || i + 1 == classes[k].size()) canvas_.stroke(edge_ink, opacity, width);
+      if ((i + 1) % batch == 0 || i + 1 == classes[k].size()) canvas_.stroke(ink, opacity, width);
     }
   }
 }
@@ -162,6 +163,17 @@ void MeshPainter::stroke_boundary(const BoundaryEdges& boundary, Colour colour) 
     add_line(boundary.edges[i][0], boundary.edges[i][1]);
     if ((i + 1) % batch == 0 || i + 1 == boundary.edges.size()) canvas_.stroke(colour, 1, width);
   }
+}
+
+/// The cells whose colour is too dark for dark edges, and the others.
+std::array<std::vector<std::size_t>, 2> by_luminance(const std::vector<std::size_t>& cells, const CellPaint& paint) {
+  std::array<std::vector<std::size_t>, 2> parts;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto& [red, green, blue] = paint.palette[paint.colours[i]];
+    const bool bright = 0.2126 * red + 0.7152 * green + 0.0722 * blue >= dim;
+    parts[bright ? 1 : 0].push_back(cells[i]);
+  }
+  return parts;
 }
 
 Colour boundary_colour(std::size_t i) {
@@ -209,7 +221,13 @@ std::string draw_mesh(const LoadedMesh& loaded, const PlotOptions& options, Plot
   canvas.clip(view.frame());
   MeshPainter painter(mesh, view, canvas);
   painter.fill(cells, paint);
-  painter.stroke_edges(cells, paint.bar ? 0.55 : 1);
+  if (paint.bar) {
+    const auto [dark, bright] = by_luminance(cells, paint);
+    painter.stroke_edges(dark, light_ink, 0.4);
+    painter.stroke_edges(bright, edge_ink, 0.55);
+  } else {
+    painter.stroke_edges(cells, edge_ink, 1);
+  }
   for (std::size_t i = 0; i < mesh.boundaries.size(); ++i) painter.stroke_boundary(mesh.boundaries[i], boundary_colour(i));
   canvas.unclip();
   view.draw_axes(canvas);
