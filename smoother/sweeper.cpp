@@ -17,7 +17,7 @@ Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& star
       moved_at_(mesh.points().size(), 0),
       visited_at_(stars.size(), -1),
       bad_(mesh.points().size(), 0) {
-  const Colouring colouring = colour_nodes(comm, mesh, stars);
+  const Colouring colouring = colour_stars(comm, mesh, stars);
   by_colour_.resize(static_cast<std::size_t>(colouring.count));
   for (std::size_t i = 0; i < stars.size(); ++i) {
     by_colour_[static_cast<std::size_t>(colouring.colour_of[static_cast<std::size_t>(node(i))])].push_back(i);

@@ -18,7 +18,7 @@ struct Coloured {
   Coloured(const Communicator& comm, const Mesh& whole, const MeshOrder& order, const std::vector<char>& is_free)
       : part{scatter_mesh(comm, whole, order)},
         halo(comm, part),
-        colouring{colour_nodes(comm, halo, NodeStars(halo, free_nodes(order, is_free), {}))} {}
+        colouring{colour_stars(comm, halo, NodeStars(halo, free_nodes(order, is_free), {}))} {}
 
   std::vector<std::int32_t> free_nodes(const MeshOrder& order, const std::vector<char>& is_free) const {
     std::vector<std::int32_t> nodes;
