@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 
-#include "adapt/digests.hpp"
 #include "adapt/loop.hpp"
 #include "app/case_input.hpp"
 #include "app/command.hpp"
@@ -26,20 +25,13 @@ struct AdaptArguments {
   std::vector<std::string> assignments;
 };
 
-/// All that the run's files depend on but the number of cycles.
-std::uint64_t digest_of(const CaseInput& input) {
-  const std::string text = input.settings.text + fmt::format("geometry {:x}", input.mesh->geometry.digest());
-  return text_digest(text);
-}
-
 AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings) {
   CaseInput input = load_case({arguments.case_path, arguments.assignments, {}, {}});
   if (!input.settings.adapt) throw InputError(arguments.case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
   warnings = std::move(input.warnings);
-  const std::uint64_t digest = digest_of(input);
   const Settings& settings = input.settings;
   FlowSolver solver = flow_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
-  AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), digest};
+  AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.values};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }
@@ -53,6 +45,12 @@ std::string line_of(const CycleRecord& record) {
   return line + fmt::format("  {:.1f} s", seconds);
 }
 
+std::string closing_line(const std::string& folder, int first, int last) {
+  if (first > last) return fmt::format("  all cycles are there already: {}/cycle_00 to cycle_{:02}\n", folder, last);
+  if (first == last) return fmt::format("  wrote {}/cycle_{:02}\n", folder, last);
+  return fmt::format("  wrote {}/cycle_{:02} to cycle_{:02}\n", folder, first, last);
+}
+
 void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const Communicator& comm = context.comm;
   std::optional<AdaptiveCase> adaptive;
@@ -62,7 +60,9 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   if (folder.empty()) folder = std::filesystem::path(arguments.case_path).stem().string() + ".adapt";
   show_warnings(comm.is_root(), context.verbose, warnings);
   std::set<std::string> told;
-  const CycleReport report = [&](const CycleRecord& record, const std::vector<std::string>& of_cycle) {
+  RunReport report;
+  report.warning = [&](const std::string& warning) { show_warnings(comm.is_root(), context.verbose, {warning}); };
+  report.cycle = [&](const CycleRecord& record, const std::vector<std::string>& of_cycle) {
     if (comm.is_root() && !context.quiet) std::cout << line_of(record) << std::endl;
     Warnings fresh;
     for (const std::string& warning : of_cycle) {
@@ -70,8 +70,8 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
     }
     show_warnings(comm.is_root(), context.verbose, fresh);
   };
-  run_adaptation(comm, *adaptive, folder, arguments.resume, report);
-  if (comm.is_root() && !context.quiet) std::cout << fmt::format("  wrote {}/cycle_00 to cycle_{:02}\n", folder, adaptive->adapt.cycles);
+  const int first = run_adaptation(comm, *adaptive, folder, arguments.resume, report);
+  if (comm.is_root() && !context.quiet) std::cout << closing_line(folder, first, adaptive->adapt.cycles);
 }
 
 }  // namespace

@@ -96,11 +96,6 @@ def check_folders(program, folder, ranks):
     adapt(program, case, made, ranks, ["--cycles", "1"])
     before = states(made)
     expect_refusal(program, 1, ["not empty", "--resume"], "adapt", case, "-o", made, ranks=ranks)
-    for assignment in ("adapt.refine=0.6", "spacing.min=0.2", "solver.timeout=99"):
-        expect_refusal(program, 1, ["record.json", "changed"], "adapt", case, "-o", made, "--resume", "--set", assignment, ranks=ranks)
-    outline = case.with_name("square.geom")
-    outline.write_text(outline.read_text().replace("1 1", "1 1.125"))
-    expect_refusal(program, 1, ["record.json", "geometry"], "adapt", case, "-o", made, "--resume", ranks=ranks)
     require(states(made) == before, "a refusal has touched the folder")
     a_file = folder / "a_file"
     a_file.write_text("")
