@@ -174,6 +174,18 @@ TEST(VariableNames, BlanksBecomeUnderscoresInEveryFormat) {
   for (const std::string& name : names) EXPECT_EQ(name.find_first_of(" \t"), std::string::npos) << name;
 }
 
+TEST(VariableNames, CgnsKeepsEachVariable) {
+  const TemporaryFolder folder;
+  const Mesh mesh = test::sample_mesh(5);
+  Solution solution = test::sample_solution(mesh);
+  const std::string of_40(40, 'a');
+  for (const auto& names : {std::vector<std::string>{of_40 + "1", of_40 + "2"}, {"density", "Density"}, {"a/b", "a_b"}}) {
+    solution.names = names;
+    write_cgns(test::world(), mesh, folder.file("a.cgns"), &solution);
+    EXPECT_EQ(read_solution(folder.file("a.cgns")).solution.values, solution.values) << names[0];
+  }
+}
+
 TEST(VariableNames, TwoOfOneNameAreRefused) {
   expect_in(refusal_of([] { read_text("h,h\n1,2\n"); }), "s.csv: two variables are named 'h'");
   const std::string both = refusal_of([] { read_text("wave height,b,wave_height\n1,2,3\n"); });
