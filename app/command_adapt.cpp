@@ -1,16 +1,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <set>
+#include <variant>
 
 #include "adapt/loop.hpp"
 #include "app/case_input.hpp"
 #include "app/command.hpp"
 #include "app/solver_settings.hpp"
+#include "io/input/case_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 
@@ -25,12 +29,28 @@ struct AdaptArguments {
   std::vector<std::string> assignments;
 };
 
+/// What would stop the loop after the first mesh, found out before it.
+void require_solver_files(const AdaptArguments& arguments, const CommandSolver& solver) {
+  const CaseTable table = *read_case(arguments.case_path, arguments.assignments).table("solver");
+  const std::string ending = std::filesystem::path(solver.mesh).extension(), of_solution = std::filesystem::path(solver.solution).extension();
+  const auto is_one_of = [](const std::string& text, std::initializer_list<const char*> all) {
+    return std::find(all.begin(), all.end(), text) != all.end();
+  };
+  if (!is_one_of(ending, {".mesh", ".cgns", ".vtu", ".su2", ".msh"}))
+    table.refuse("mesh", "is '" + solver.mesh + "', but meshes are written as .mesh, .cgns, .vtu, .su2 or .msh; end the name in one of these");
+  if (!is_one_of(of_solution, {".mesh", ".cgns", ".vtu", ".csv"}))
+    table.refuse("solution", "is '" + solver.solution + "', but solutions are read from .mesh, .cgns, .vtu and .csv; end the name in one of these");
+  if (solver.solution == solver.mesh || is_one_of(solver.solution, {"mesh.mesh", "mesh.cgns"}))
+    table.refuse("solution", "is '" + solver.solution + "', the name of a mesh that is given to the solver; write the solution to a file of its own");
+}
+
 AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings) {
   CaseInput input = load_case({arguments.case_path, arguments.assignments, {}, {}});
   if (!input.settings.adapt) throw InputError(arguments.case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
   warnings = std::move(input.warnings);
   const Settings& settings = input.settings;
   FlowSolver solver = flow_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
+  if (const auto* command = std::get_if<CommandSolver>(&solver)) require_solver_files(arguments, *command);
   AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.values};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
