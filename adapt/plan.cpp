@@ -6,6 +6,7 @@
 
 #include "adapt/mark_family.hpp"
 #include "adapt/restart.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -72,10 +73,19 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
   return fmt::format("{} lets none of the {} leaves above the threshold be split, of edges up to {}", bound, wanted, edge);
 }
 
+/// What is wrong with the field is told with its file. *Collective.*
+MarkFamily family_of(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved) {
+  try {
+    return {comm, options, solved};
+  } catch (const InputError& fault) {  // the same one on every rank
+    throw InputError(solved.file.empty() ? fault.what() : solved.file + ": " + fault.what());
+  }
+}
+
 }  // namespace
 
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options, const SolvedMesh& solved) {
-  const MarkFamily family(comm, options, solved);
+  const MarkFamily family = family_of(comm, options, solved);
   const NodeSearch search(comm, input, solved, family, finest_level(input, options));
   const ChangedSplits all = search.changes_at(1);
   ChangedSplits changes = all;

@@ -73,7 +73,9 @@ SolvedMesh read_cycle(const Communicator& comm, const std::string& folder) {
     whole = read_native(path);
     if (!whole.solution) throw InputError(path + ": holds no solution; a whole cycle has one");
   });
-  return spread_solved(comm, whole, read_tree(comm, folder + "/mesh.tree.h5"));
+  SolvedMesh solved = spread_solved(comm, whole, read_tree(comm, folder + "/mesh.tree.h5"));
+  solved.file = path;
+  return solved;
 }
 
 SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folder) {

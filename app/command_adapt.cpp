@@ -103,7 +103,7 @@ void add_adapt_command(CLI::App& app, CommandContext& context) {
   command->add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")->type_name("DIR");
   command->add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")->type_name("N")->check(CLI::Range(0, 10000));
   command->add_flag("--resume", arguments->resume, "go on after the last whole cycle in the folder");
-  command->add_option("--set", arguments->assignments, "set a key of the case file, as in solver.mach=0.7; may be repeated")
+  command->add_option("--set", arguments->assignments, "set a key of the case file, as in solver.mach=0.7; one or more")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->callback([&context, arguments] { context.run = [&context, arguments] { run_adapt(context, *arguments); }; });

@@ -86,8 +86,10 @@ def check_faults(program, folder, ranks):
         require_same_folders(unbroken, made, f"mended after {fault}")
     refused(program, case, folder / "late", "timeout", (3, ["cycle 1", "3 s", "timeout"]), ranks, ["--set", "solver.timeout=3"])
     case.with_name("fault").write_text("name")
-    expect_refusal(program, 1, ["adapt.variable", "height", "depth"], "adapt", case, "-o", folder / "name", ranks=ranks)
+    expect_refusal(program, 1, ["cycle_00.part/mesh.mesh: adapt.variable", "height", "depth"], "adapt", case, "-o", folder / "name", ranks=ranks)
     case.with_name("fault").unlink()
+    expect_refusal(program, 1, ["cycle_00.part/mesh.mesh", "height", "node "], "adapt", case, "-o", folder / "negative", "--set",
+                   'adapt.variable={ size = "height" }', ranks=ranks)
 
 
 def check_folders(program, folder, ranks):
