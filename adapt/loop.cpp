@@ -6,6 +6,7 @@
 #include "adapt/resume.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "io/cgns_file.hpp"
+#include "io/mesh_file.hpp"
 #include "io/native_file.hpp"
 #include "io/output_file.hpp"
 #include "io/tree_file.hpp"
@@ -115,6 +116,9 @@ class AdaptiveRun {
     OutputSet outputs(comm_);
     write_native(outputs, mesh, folder + "/mesh.mesh", &solution);
     write_cgns(outputs, mesh, folder + "/mesh.cgns", &solution);
+    for (const std::string& format : case_.formats) {
+      if (format != "mesh" && format != "cgns") write_mesh(outputs, mesh, folder + "/mesh." + format, &solution);
+    }
     outputs.commit();
   }
 

@@ -14,7 +14,8 @@ struct AdaptiveCase {
   MeshInput mesh;
   AdaptOptions adapt;
   FlowSolver solver;
-  CaseSettings settings;  ///< all that the run's files depend on, beside the outline
+  std::vector<std::string> formats;  ///< suffixes of mesh files that each cycle is to have too, beside .mesh and .cgns
+  CaseSettings settings;             ///< all that the run's files depend on, beside the outline
 };
 
 /// What a run tells its caller, on every rank.

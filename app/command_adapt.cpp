@@ -40,7 +40,7 @@ void require_solver_files(const AdaptArguments& arguments, const CommandSolver& 
     table.refuse("mesh", "is '" + solver.mesh + "', but meshes are written as .mesh, .cgns, .vtu, .su2 or .msh; end the name in one of these");
   if (!is_one_of(of_solution, {".mesh", ".cgns", ".vtu", ".csv"}))
     table.refuse("solution", "is '" + solver.solution + "', but solutions are read from .mesh, .cgns, .vtu and .csv; end the name in one of these");
-  if (solver.solution == solver.mesh || is_one_of(solver.solution, {"mesh.mesh", "mesh.cgns"}))
+  if (solver.solution == solver.mesh || std::filesystem::path(solver.solution).stem() == "mesh")
     table.refuse("solution", "is '" + solver.solution + "', the name of a mesh that is given to the solver; write the solution to a file of its own");
 }
 
@@ -51,7 +51,7 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings) 
   const Settings& settings = input.settings;
   FlowSolver solver = flow_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const auto* command = std::get_if<CommandSolver>(&solver)) require_solver_files(arguments, *command);
-  AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.values};
+  AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.formats, settings.values};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }

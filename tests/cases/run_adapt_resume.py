@@ -63,6 +63,18 @@ def check_mended_command(program, folder, ranks):
     require(status == 0 and not message, f"told again: exit status {status}: {message}")
 
 
+def check_formats(program, folder, ranks):
+    """Each cycle has the formats of [output] too; they may change on the way."""
+    case = tiny_case(folder / "formats")
+    made = folder / "of_formats"
+    adapt(program, case, made, ranks, ["--cycles", "0", "--set", 'output.formats=["vtu", "su2"]'])
+    status, message = attempt(program, "adapt", case, "-o", made, "--cycles", "1", "--resume", ranks=ranks)
+    require(status == 0 and 'output.formats was ["vtu", "su2"], is now not set' in message, f"exit status {status}: {message}")
+    found = [sorted(path.suffix for path in (made / cycle).glob("mesh.*")) for cycle in ("cycle_00", "cycle_01")]
+    require(found == [[".cgns", ".h5", ".mesh", ".su2", ".vtu"], [".cgns", ".h5", ".mesh"]], f"cycles hold {found}")
+    require('Name="height"' in (made / "cycle_00" / "mesh.vtu").read_text(), "the .vtu has no solution")
+
+
 def check_damage(program, folder, ranks):
     case = tiny_case(folder / "damage")
     whole = folder / "whole"
@@ -142,7 +154,7 @@ def main():
     parser.add_argument("--ranks", type=int, default=1)
     args = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="quadloop_resume_") as name:
-        for check in (check_changed_settings, check_mended_command, check_damage, check_begin_and_end, check_lock):
+        for check in (check_changed_settings, check_mended_command, check_formats, check_damage, check_begin_and_end, check_lock):
             check(args.quadloop, Path(name), args.ranks)
     print("good")
 
