@@ -17,8 +17,8 @@ struct ChangedSetting {
 
 std::vector<ChangedSetting> changed_settings(const CaseSettings& before, const CaseSettings& now);
 
-/// Whether a run may be gone on with after a change of this key: how a cycle's flow is reached and which files show it, not what is solved. A user mends the arguments of his
-/// solver after a failure, or gives it more steps; the cycles that are whole stay as they are.
+/// Whether a run may be gone on with after a change of this key: how a cycle's flow is reached and which files show it, not what is solved. A user
+/// mends the arguments of his solver after a failure, or gives it more steps; the cycles that are whole stay as they are.
 bool may_change_in_a_run(const std::string& key);
 
 /// A number that changes with the outline and with every setting that may not change in a run.
