@@ -2,8 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 
@@ -33,11 +36,39 @@ void bring_to_disk(const fs::path& path, int flags) {
   ::close(descriptor);
 }
 
+/// Empty, or but for what is left of a first cycle that failed.
+bool holds_nothing_whole(const fs::path& folder, const fs::path& first_under_way) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() != first_under_way.filename()) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 CycleFolders::CycleFolders(const Communicator& comm, std::string folder) : comm_{comm}, folder_{std::move(folder)} {}
 
 std::string CycleFolders::whole(int cycle) const { return fmt::format("{}/cycle_{:02}", folder_, cycle); }
+
+void CycleFolders::lock() {
+  lock_ = open_descriptor(folder_, O_RDONLY | O_DIRECTORY);
+  // Some file systems of networks have no such locks; a run without one is better than none.
+  if (::flock(lock_.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  throw InputError(folder_ + ": another run is at work in this folder; wait for its end, or name another folder with -o");
+}
+
+int CycleFolders::count_whole() const {
+  int cycles = 0;
+  while (fs::is_directory(whole(cycles))) ++cycles;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+    const std::string name = entry.path().filename();
+    int later = 0;
+    if (std::sscanf(name.c_str(), "cycle_%d", &later) != 1 || later <= cycles || fs::path(whole(later)).filename() != name) continue;
+    throw InputError(fmt::format("{}: is missing, but {} is there; bring it back, or remove the later cycles, and --resume makes them again",
+                                 whole(cycles), name));
+  }
+  return cycles;
+}
 
 int CycleFolders::open(bool resume) {
   int cycles = 0;
@@ -46,10 +77,11 @@ int CycleFolders::open(bool resume) {
     on_disk(folder_, [&] {
       if (fs::exists(folder_) && !fs::is_directory(folder_)) throw InputError(folder_ + ": is a file, but a folder is wanted; name another one");
       fs::create_directories(folder_);
-      if (!resume && !fs::is_empty(folder_)) {
+      lock();
+      if (!resume && !holds_nothing_whole(folder_, under_way(0))) {
         throw InputError(folder_ + ": is not empty; --resume goes on with the run in it, or name another folder with -o");
       }
-      while (fs::is_directory(whole(cycles))) ++cycles;
+      cycles = count_whole();
       fs::remove_all(under_way(cycles));
     });
   });

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "adapt/solver/descriptor.hpp"
 #include "mesher/base/communicator.hpp"
 
 namespace quadloop {
@@ -13,9 +14,12 @@ class CycleFolders {
   CycleFolders(const Communicator& comm, std::string folder);
 
   /// Makes the folder where there is none, and says how many whole cycles it holds, from cycle 0 on; what is left of one that is not whole goes.
-  /// Throws InputError where it is not empty and the run is not to be resumed, OutputError where it cannot be made.
+  /// From here to the end of this object, or of the process, no other run may work there; the lock leaves no file. Throws InputError where the
+  /// folder holds more than a first cycle that is not whole and the run is not to be resumed, where another run is at work in it, or where a
+  /// cycle is missing before a later one; OutputError where it cannot be made.
   int open(bool resume);
 
+  const std::string& folder() const { return folder_; }
   std::string whole(int cycle) const;
   std::string under_way(int cycle) const { return whole(cycle) + ".part"; }
 
@@ -25,8 +29,12 @@ class CycleFolders {
   void finish(int cycle);
 
  private:
+  void lock();
+  int count_whole() const;
+
   const Communicator& comm_;
   std::string folder_;
+  Descriptor lock_;  ///< on the root
 };
 
 }  // namespace quadloop

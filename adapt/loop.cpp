@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
 #include "adapt/cycle_folders.hpp"
+#include "adapt/resume.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "io/cgns_file.hpp"
+#include "io/mesh_file.hpp"
 #include "io/native_file.hpp"
 #include "io/output_file.hpp"
 #include "io/tree_file.hpp"
@@ -41,42 +39,40 @@ void write_text(const Communicator& comm, const std::string& path, const std::st
 
 class AdaptiveRun {
  public:
-  AdaptiveRun(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, const CycleReport& report)
+  AdaptiveRun(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, const RunReport& report)
       : comm_{comm}, case_{adaptive}, folders_{comm, folder}, report_{report} {}
 
-  void run(bool resume) {
+  int run(bool resume) {
     const int first = folders_.open(resume);
+    if (resume && first == 0) report_.warning(folders_.folder() + ": holds no whole cycle to go on after; the run begins with cycle 0");
     std::optional<Left> left;
-    if (first > 0) {
-      require_same_case(first - 1);
-      if (first <= case_.adapt.cycles) left = left_in(folders_.whole(first - 1));
-    }
+    if (first > 0) left = left_by_earlier_run(first - 1);
     for (int cycle = first; cycle <= case_.adapt.cycles; ++cycle) left = run_cycle(cycle, left);
+    return first;
   }
 
  private:
-  void require_same_case(int cycle) const {
-    comm_.together([&] {
-      const std::string path = folders_.whole(cycle) + "/record.json";
-      std::ifstream file(path);
-      const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-      if (case_digest_in(text) == case_.digest) return;
-      throw InputError(path +
-                       ": is of another case, or the case, its geometry or a --set has changed since; resume with the same, or take another folder");
-    });
+  /// A finished run is looked at too: whoever resumes it is told of damage.
+  Left left_by_earlier_run(int cycle) const {
+    const std::string folder = folders_.whole(cycle);
+    for (const std::string& warning : require_same_run(comm_, folder, record_of_case())) report_.warning(warning);
+    Left left{read_earlier_cycle(comm_, folder), {}};
+    if (cycle < case_.adapt.cycles) left.plan = plan_adaptation(comm_, case_.mesh, case_.adapt, left.solved);
+    return left;
   }
 
   Left left_in(const std::string& folder) const {
-    const std::string path = folder + "/mesh.mesh";
-    LoadedMesh whole;
-    comm_.together([&] {
-      if (!comm_.is_root()) return;
-      whole = read_native(path);
-      if (!whole.solution) throw InputError(path + ": holds no solution; a whole cycle has one");
-    });
-    Left left{spread_solved(comm_, whole, read_tree(comm_, folder + "/mesh.tree.h5")), {}};
+    Left left{read_cycle(comm_, folder), {}};
     left.plan = plan_adaptation(comm_, case_.mesh, case_.adapt, left.solved);
     return left;
+  }
+
+  CycleRecord record_of_case() const {
+    CycleRecord record;
+    record.geometry_digest = case_.mesh.geometry.digest();
+    record.case_digest = run_digest(case_.settings, record.geometry_digest);
+    record.settings = case_.settings;
+    return record;
   }
 
   Left run_cycle(int cycle, const std::optional<Left>& before) {
@@ -105,7 +101,7 @@ class AdaptiveRun {
     write_text(comm_, folder + "/log.txt", log_text(record, flow.notes, warnings));
     write_text(comm_, folder + "/record.json", json_text(record));
     folders_.finish(cycle);
-    report_(record, warnings);
+    report_.cycle(record, warnings);
     return left;
   }
 
@@ -120,14 +116,16 @@ class AdaptiveRun {
     OutputSet outputs(comm_);
     write_native(outputs, mesh, folder + "/mesh.mesh", &solution);
     write_cgns(outputs, mesh, folder + "/mesh.cgns", &solution);
+    for (const std::string& format : case_.formats) {
+      if (format != "mesh" && format != "cgns") write_mesh(outputs, mesh, folder + "/mesh." + format, &solution);
+    }
     outputs.commit();
   }
 
   CycleRecord record_of(int cycle, const CarriedMesh& carried, const SolvedFlow& flow, const AdaptationPlan& plan, const StageTimes& times) const {
     const QualitySummary quality = summarise_quality(comm_, carried.generated.result.mesh);
-    CycleRecord record;
+    CycleRecord record = record_of_case();
     record.cycle = cycle;
-    record.case_digest = case_.digest;
     record.nodes = quality.counts.nodes;
     record.triangles = quality.counts.triangles;
     record.quads = quality.counts.quads;
@@ -168,13 +166,13 @@ class AdaptiveRun {
   const Communicator& comm_;
   const AdaptiveCase& case_;
   CycleFolders folders_;
-  const CycleReport& report_;
+  const RunReport& report_;
 };
 
 }  // namespace
 
-void run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume, const CycleReport& report) {
-  AdaptiveRun(comm, adaptive, folder, report).run(resume);
+int run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume, const RunReport& report) {
+  return AdaptiveRun(comm, adaptive, folder, report).run(resume);
 }
 
 }  // namespace quadloop

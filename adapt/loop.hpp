@@ -14,15 +14,20 @@ struct AdaptiveCase {
   MeshInput mesh;
   AdaptOptions adapt;
   FlowSolver solver;
-  std::uint64_t digest = 0;  ///< of all that the run depends on but the number of cycles
+  std::vector<std::string> formats;  ///< suffixes of mesh files that each cycle is to have too, beside .mesh and .cgns
+  CaseSettings settings;             ///< all that the run's files depend on, beside the outline
 };
 
-/// What a run tells its caller after each cycle: its record, and what was dropped or not reached.
-using CycleReport = std::function<void(const CycleRecord&, const std::vector<std::string>& warnings)>;
+/// What a run tells its caller, on every rank.
+struct RunReport {
+  std::function<void(const CycleRecord&, const std::vector<std::string>& warnings)> cycle;  ///< after each: what was dropped or not reached
+  std::function<void(const std::string&)> warning;                                          ///< before the first
+};
 
 /// Runs the cycles 0 to adapt.cycles in `folder`: mesh, transfer of the last solution, solve, marks. Each cycle begins with what the last one left in
-/// its files, so that a run which was broken off and resumed ends with the same files as one that was not. `report` is called on every rank. Throws
-/// InputError, SolverError, OutputError; whole cycles then stay as they are. *Collective.*
-void run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume, const CycleReport& report);
+/// its files, so that a run which was broken off and resumed ends with the same files as one that was not. Returns the first cycle that it made;
+/// one more than adapt.cycles, or later, where all were there. Throws InputError, SolverError, OutputError; whole cycles then stay as they are.
+/// *Collective.*
+int run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume, const RunReport& report);
 
 }  // namespace quadloop

@@ -21,6 +21,8 @@ class MarkFamily {
 
   double mean() const { return statistics_.mean; }
   double deviation() const { return statistics_.deviation; }
+  /// Whether all leaves have the same indicator, which marks none.
+  bool flat() const { return statistics_.flat; }
 
  private:
   std::vector<Mark> size_marks(double at) const;

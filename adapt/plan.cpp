@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "adapt/mark_family.hpp"
 #include "adapt/restart.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -52,20 +55,51 @@ int finest_level(const MeshInput& input, const AdaptOptions& options) {
   return options.min ? lattice.finest_level(*options.min, "adapt.min") : lattice.finest_level(input.mesh.size.min);
 }
 
+/// Why a plan changes no leaf, for its user. `all` is what the rule marks by itself. *Collective.*
+std::string reason_for_standing(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved, const MarkFamily& family,
+                                const ChangedSplits& all) {
+  if (family.flat()) return fmt::format("{} is constant", options.variables.size() == 1 ? options.variables.front() : "each of adapt.variable");
+  if (all.refined + all.coarsened > 0) return fmt::format("adapt.max_nodes = {} leaves no room", options.max_nodes.value_or(0));
+  const std::vector<Mark> marks = family.marks(1);
+  const std::int64_t wanted = comm.sum(std::int64_t{std::count(marks.begin(), marks.end(), Mark::refine)});
+  if (wanted == 0 && options.source == AdaptOptions::Source::size) return "no leaf is larger than " + options.variables.front() + " asks for there";
+  if (wanted == 0) return "no leaf is above the threshold adapt.refine, and none below adapt.coarsen had been split by adaptation";
+  const std::string bound = options.min ? fmt::format("adapt.min = {}", *options.min) : "spacing.min, as adapt.min is not set,";
+  std::int8_t coarsest = Quadrant::unit_level;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i] == Mark::refine) coarsest = std::min(coarsest, solved.tree.leaves[i].level);
+  }
+  const double edge = solved.tree.attributes.tree_edge / static_cast<double>(std::int64_t{1} << comm.minimum(std::int64_t{coarsest}));
+  return fmt::format("{} lets none of the {} leaves above the threshold be split, of edges up to {}", bound, wanted, edge);
+}
+
+/// What is wrong with the field is told with its file. *Collective.*
+MarkFamily family_of(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved) {
+  try {
+    return {comm, options, solved};
+  } catch (const InputError& fault) {  // the same one on every rank
+    throw InputError(solved.file.empty() ? fault.what() : solved.file + ": " + fault.what());
+  }
+}
+
 }  // namespace
 
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options, const SolvedMesh& solved) {
-  const MarkFamily family(comm, options, solved);
+  const MarkFamily family = family_of(comm, options, solved);
   const NodeSearch search(comm, input, solved, family, finest_level(input, options));
-  ChangedSplits changes = search.changes_at(1);
+  const ChangedSplits all = search.changes_at(1);
+  ChangedSplits changes = all;
   AdaptationPlan plan;
   if (options.max_nodes) {
-    changes = search.within(*options.max_nodes, std::move(changes));
+    changes = search.within(*options.max_nodes, all);
     const std::int64_t nodes = search.nodes_after(changes);
     if (nodes > *options.max_nodes) {
       plan.warnings.push_back(
           fmt::format("the mesh has {} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them", nodes, *options.max_nodes));
     }
+  }
+  if (changes.refined + changes.coarsened == 0) {
+    plan.warnings.push_back("no leaf is marked, the mesh stays: " + reason_for_standing(comm, options, solved, family, all));
   }
   plan.demands = std::move(changes.demands);
   plan.mean = family.mean();

@@ -17,6 +17,7 @@ struct SolvedMesh {
   Mesh mesh;
   TreeRecord tree;
   Solution solution;
+  std::string file;  ///< where the solution was read, for messages
 };
 
 /// What the next tree is to be split at, and how that came about.

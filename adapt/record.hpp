@@ -6,12 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "adapt/case_settings.hpp"
+
 namespace quadloop {
 
 /// What record.json keeps of a cycle.
 struct CycleRecord {
   int cycle = 0;
-  std::uint64_t case_digest = 0;  ///< of all that the run depends on
+  std::uint64_t case_digest = 0, geometry_digest = 0;  ///< of all that the run depends on; of the outline alone
+  CaseSettings settings;                               ///< those that the cycle was made with
   std::int64_t nodes = 0, triangles = 0, quads = 0, leaves = 0;
   double worst_angle = 0;          ///< the smallest corner, degrees
   double mean = 0, deviation = 0;  ///< of log10 of the indicator
@@ -25,7 +28,13 @@ struct CycleRecord {
 /// One JSON object, a member a line; numbers are the shortest that read back as they are.
 std::string json_text(const CycleRecord& record);
 
-/// The digest in a record's text, if it has one.
-std::optional<std::uint64_t> case_digest_in(const std::string& json);
+/// What a record's text says of the case. Read line by line, as json_text writes it.
+struct RecordedCase {
+  std::uint64_t case_digest = 0, geometry_digest = 0;
+  CaseSettings settings;
+};
+
+/// Empty where the text is no whole record of ours.
+std::optional<RecordedCase> recorded_case(const std::string& json);
 
 }  // namespace quadloop

@@ -49,7 +49,7 @@ Solution share_solution(const Communicator& comm, const Solution& of_root) {
 SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, TreeRecord tree) {
   const MeshOrder order = order_of_file(whole.mesh);
   const Solution of_whole = whole.solution.value_or(Solution{});
-  SolvedMesh solved{scatter_mesh(comm, whole.mesh, order), std::move(tree), share_solution(comm, of_whole)};
+  SolvedMesh solved{scatter_mesh(comm, whole.mesh, order), std::move(tree), share_solution(comm, of_whole), {}};
   Solution& solution = solved.solution;
   const std::size_t width = solution.names.size(), rows = whole.mesh.points.size();
   solution.values.resize(static_cast<std::size_t>(solved.mesh.owned_nodes) * width);

@@ -1,17 +1,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <set>
+#include <variant>
 
-#include "adapt/digests.hpp"
 #include "adapt/loop.hpp"
 #include "app/case_input.hpp"
 #include "app/command.hpp"
 #include "app/solver_settings.hpp"
+#include "io/input/case_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 
@@ -26,20 +29,29 @@ struct AdaptArguments {
   std::vector<std::string> assignments;
 };
 
-/// All that the run's files depend on but the number of cycles.
-std::uint64_t digest_of(const CaseInput& input) {
-  const std::string text = input.settings.text + fmt::format("geometry {:x}", input.mesh->geometry.digest());
-  return text_digest(text);
+/// What would stop the loop after the first mesh, found out before it.
+void require_solver_files(const AdaptArguments& arguments, const CommandSolver& solver) {
+  const CaseTable table = *read_case(arguments.case_path, arguments.assignments).table("solver");
+  const std::string ending = std::filesystem::path(solver.mesh).extension(), of_solution = std::filesystem::path(solver.solution).extension();
+  const auto is_one_of = [](const std::string& text, std::initializer_list<const char*> all) {
+    return std::find(all.begin(), all.end(), text) != all.end();
+  };
+  if (!is_one_of(ending, {".mesh", ".cgns", ".vtu", ".su2", ".msh"}))
+    table.refuse("mesh", "is '" + solver.mesh + "', but meshes are written as .mesh, .cgns, .vtu, .su2 or .msh; end the name in one of these");
+  if (!is_one_of(of_solution, {".mesh", ".cgns", ".vtu", ".csv"}))
+    table.refuse("solution", "is '" + solver.solution + "', but solutions are read from .mesh, .cgns, .vtu and .csv; end the name in one of these");
+  if (solver.solution == solver.mesh || std::filesystem::path(solver.solution).stem() == "mesh")
+    table.refuse("solution", "is '" + solver.solution + "', the name of a mesh that is given to the solver; write the solution to a file of its own");
 }
 
 AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings) {
   CaseInput input = load_case({arguments.case_path, arguments.assignments, {}, {}});
   if (!input.settings.adapt) throw InputError(arguments.case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
   warnings = std::move(input.warnings);
-  const std::uint64_t digest = digest_of(input);
   const Settings& settings = input.settings;
   FlowSolver solver = flow_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
-  AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), digest};
+  if (const auto* command = std::get_if<CommandSolver>(&solver)) require_solver_files(arguments, *command);
+  AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.formats, settings.values};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }
@@ -53,6 +65,12 @@ std::string line_of(const CycleRecord& record) {
   return line + fmt::format("  {:.1f} s", seconds);
 }
 
+std::string closing_line(const std::string& folder, int first, int last) {
+  if (first > last) return fmt::format("  all cycles are there already: {}/cycle_00 to cycle_{:02}\n", folder, last);
+  if (first == last) return fmt::format("  wrote {}/cycle_{:02}\n", folder, last);
+  return fmt::format("  wrote {}/cycle_{:02} to cycle_{:02}\n", folder, first, last);
+}
+
 void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const Communicator& comm = context.comm;
   std::optional<AdaptiveCase> adaptive;
@@ -62,7 +80,9 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   if (folder.empty()) folder = std::filesystem::path(arguments.case_path).stem().string() + ".adapt";
   show_warnings(comm.is_root(), context.verbose, warnings);
   std::set<std::string> told;
-  const CycleReport report = [&](const CycleRecord& record, const std::vector<std::string>& of_cycle) {
+  RunReport report;
+  report.warning = [&](const std::string& warning) { show_warnings(comm.is_root(), context.verbose, {warning}); };
+  report.cycle = [&](const CycleRecord& record, const std::vector<std::string>& of_cycle) {
     if (comm.is_root() && !context.quiet) std::cout << line_of(record) << std::endl;
     Warnings fresh;
     for (const std::string& warning : of_cycle) {
@@ -70,8 +90,8 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
     }
     show_warnings(comm.is_root(), context.verbose, fresh);
   };
-  run_adaptation(comm, *adaptive, folder, arguments.resume, report);
-  if (comm.is_root() && !context.quiet) std::cout << fmt::format("  wrote {}/cycle_00 to cycle_{:02}\n", folder, adaptive->adapt.cycles);
+  const int first = run_adaptation(comm, *adaptive, folder, arguments.resume, report);
+  if (comm.is_root() && !context.quiet) std::cout << closing_line(folder, first, adaptive->adapt.cycles);
 }
 
 }  // namespace
@@ -83,7 +103,7 @@ void add_adapt_command(CLI::App& app, CommandContext& context) {
   command->add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")->type_name("DIR");
   command->add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")->type_name("N")->check(CLI::Range(0, 10000));
   command->add_flag("--resume", arguments->resume, "go on after the last whole cycle in the folder");
-  command->add_option("--set", arguments->assignments, "set a key of the case file, as in solver.mach=0.7; may be repeated")
+  command->add_option("--set", arguments->assignments, "set a key of the case file, as in solver.mach=0.7; one or more")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->callback([&context, arguments] { context.run = [&context, arguments] { run_adapt(context, *arguments); }; });

@@ -67,6 +67,9 @@ std::string carried_text(const CarriedMesh& carried) {
 
 void run_remesh(const CommandContext& context, const RemeshArguments& arguments) {
   const Communicator& comm = context.comm;
+  if (arguments.tree.empty()) {
+    throw UsageError("--tree is required: 'quadloop mesh' writes it beside the mesh, as PREFIX.tree.h5; see 'quadloop remesh --help'");
+  }
   StageTimes times;
   times.begin("read");
   TreeRecord tree = read_tree(comm, arguments.tree);
@@ -81,7 +84,8 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
     for (const std::string& file : files) require_folder(file);
     if (comm.is_root()) whole = solved_mesh(arguments);
   });
-  const SolvedMesh solved = spread_solved(comm, whole, std::move(tree));
+  SolvedMesh solved = spread_solved(comm, whole, std::move(tree));
+  solved.file = arguments.solution;
   require_own_mesh(comm, solved, arguments.solution, arguments.tree);
   times.begin("adapt");
   const MeshInput& mesh = *input.mesh;
@@ -105,13 +109,14 @@ void add_remesh_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<RemeshArguments>();
   CLI::App* command = app.add_subcommand("remesh", "one pass of the loop for a solution that was computed elsewhere");
   command->add_option("case", arguments->case_path, "the case file (TOML)")->required()->type_name("CASE.toml");
-  command->add_option("--tree", arguments->tree, "the tree of the mesh that was solved on")->required()->type_name("TREE.h5");
+  command->add_option("--tree", arguments->tree, "the tree of the mesh that was solved on: quadloop mesh writes it beside the mesh")
+      ->type_name("TREE.h5 REQUIRED");
   command->add_option("--solution", arguments->solution, "the solution at its nodes: .mesh, .cgns, .vtu, or .csv (SU2) with the mesh beside the tree")
       ->required()
       ->type_name("IN");
   command->add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")->type_name("NEW.geom");
   command->add_option("-o,--output", arguments->prefix, "what the output files begin with, instead of output.prefix")->type_name("PREFIX");
-  command->add_option("--set", arguments->assignments, "set a key of the case file, as in adapt.refine=0.5; may be repeated")
+  command->add_option("--set", arguments->assignments, "set a key of the case file, as in adapt.refine=0.5; one or more")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->callback([&context, arguments] { context.run = [&context, arguments] { run_remesh(context, *arguments); }; });

@@ -3,11 +3,14 @@
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <limits>
 #include <new>
-#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/closing.hpp"
 #include "app/command.hpp"
@@ -54,6 +57,28 @@ void answer(CLI::App& app, const CLI::ParseError& request, const Communicator& c
   throw UsageError(fmt::format("{}; see '{} --help'", request.what(), command));
 }
 
+/// Whether a word after an assignment is one more: table.key=value, which no path looks like.
+bool is_assignment(std::string_view word) {
+  const std::string_view key = word.substr(0, word.find('='));
+  return key.size() < word.size() && !key.starts_with('-') && key.find('.') != std::string_view::npos && key.find('/') == std::string_view::npos;
+}
+
+/// The command line, last word first as CLI11 takes it, with --set before each of the assignments that follow one: an option of many values would
+/// take the case file for one of them.
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words;
+  bool in_assignments = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool is_value = i > 1 && words.back() == "--set";
+    if (in_assignments && !is_value && is_assignment(word)) words.emplace_back("--set");
+    in_assignments = is_value || (in_assignments && is_assignment(word));
+    words.push_back(word);
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
 void run(int argc, char** argv, const Communicator& comm) {
   CLI::App app("quadloop: parallel 2D mesh generation from named outlines", "quadloop");
   CommandContext context{comm, false, false, {}};
@@ -76,7 +101,7 @@ void run(int argc, char** argv, const Communicator& comm) {
         fmt::format("With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n  --version", quiet, verbose));
   }
   try {
-    app.parse(argc, argv);
+    app.parse(words_of(argc, argv));
   } catch (const CLI::ParseError& request) {
     answer(app, request, comm);
     return;

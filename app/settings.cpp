@@ -200,7 +200,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   read_solver_table(root, settings.solver);
   read_output_table(root, case_path, settings);
   root.finish();
-  settings.text = root.canonical_text({"title", "output", "adapt.cycles"});
+  settings.values = root.values({"title", "output.prefix", "adapt.cycles", "solver.timeout", "solver.ranks"});
   return settings;
 }
 

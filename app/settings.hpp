@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapt/adapt_options.hpp"
@@ -31,7 +32,7 @@ struct FarField {
 /// A case file as each module wants it: the only place that knows the names of keys.
 struct Settings {
   std::string title;
-  std::string text;  ///< of all keys but those that no file of a cycle depends on
+  std::vector<std::pair<std::string, std::string>> values;  ///< of all keys but those that no file of a cycle depends on: dotted name, JSON
   std::vector<GeometryInput> files;
   std::optional<FarField> far_field;
   AssembleOptions outline;

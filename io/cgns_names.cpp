@@ -63,11 +63,12 @@ std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& nam
   return result;
 }
 
-std::string cgns_variable_name(const std::string& name) {
-  for (const auto& [ours, theirs] : variables) {
-    if (name == ours) return theirs;
+std::vector<std::string> cgns_variable_names(std::vector<std::string> names) {
+  for (std::string& name : names) {
+    const auto* const known = std::find_if(variables.begin(), variables.end(), [&](const auto& pair) { return name == pair.first; });
+    if (known != variables.end()) name = known->second;
   }
-  return cgns_boundary_names({name}).front();
+  return cgns_boundary_names(names);
 }
 
 std::string variable_name_of_cgns(const std::string& name) {

@@ -12,8 +12,9 @@ inline constexpr const char* full_name_descriptor = "FullName";
 /// uses. The same names always give the same answer.
 std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names);
 
-/// The SIDS name of a variable of ours ("x_velocity": "VelocityX"), or the name itself, cut to 32 characters; and back.
-std::string cgns_variable_name(const std::string& name);
+/// The SIDS names of variables of ours ("x_velocity": "VelocityX"), or the names themselves, cut to 32 characters and told apart as boundaries are;
+/// and back.
+std::vector<std::string> cgns_variable_names(std::vector<std::string> names);
 std::string variable_name_of_cgns(const std::string& name);
 
 /// The number of the BCType_t for Boundary::condition, and back ("none" for what has no word of ours).

@@ -144,8 +144,7 @@ class CgnsWriter {
   void write_solution(const Solution& solution) {
     const std::size_t width = solution.names.size();
     if (width == 0) return;
-    std::vector<std::string> names;
-    for (const std::string& name : solution.names) names.push_back(cgns_variable_name(name));
+    const std::vector<std::string> names = cgns_variable_names(solution.names);
     on_root([&] {
       sink_->begin_solution();
       sink_->begin_rows();

@@ -2,6 +2,7 @@
 
 #include "io/native_file.hpp"
 #include "io/text_output.hpp"
+#include "io/variable_names.hpp"
 
 namespace quadloop {
 
@@ -35,7 +36,7 @@ class NativeWriter {
     const std::vector<char> text = constants.take();
     head.append(text.begin(), text.end());
     head += "#Number of variables\n" + std::to_string(solution.names.size()) + "\n#names:";
-    for (const std::string& name : solution.names) head += " " + name;
+    for (const std::string& name : solution.names) head += " " + word_of(name);
     file_.write(head + "\n");
     write_real_rows(solution.values.data(), solution.names.size());
   }

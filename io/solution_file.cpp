@@ -9,6 +9,7 @@
 
 #include "io/mesh_file.hpp"
 #include "io/su2_csv_file.hpp"
+#include "io/variable_names.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/topology.hpp"
 
@@ -26,12 +27,15 @@ void require_values(const LoadedMesh& loaded, const std::string& path) {
                         : "let the solver append its variables, a row of values for each node"));
 }
 
-/// For the formats whose reader has not looked.
-void require_finite(const Solution& solution, const std::string& path) {
+/// Finite, and so small that differences, squares and integrals over the mesh are finite too.
+void require_usable(const Solution& solution, const std::string& path) {
+  constexpr double largest = 1e150;
   const std::size_t width = solution.names.size();
   for (std::size_t i = 0; i < solution.values.size(); ++i) {
-    if (std::isfinite(solution.values[i])) continue;
-    throw InputError(fmt::format("{}: {} is not finite at node {}: {}", path, solution.names[i % width], i / width + 1, solution.values[i]));
+    const double value = solution.values[i];
+    if (std::fabs(value) <= largest) continue;
+    const std::string fault = std::isfinite(value) ? fmt::format("is beyond {}", largest) : "is not finite";
+    throw InputError(fmt::format("{}: {} {} at node {}: {}", path, solution.names[i % width], fault, i / width + 1, value));
   }
 }
 
@@ -84,22 +88,31 @@ void require_same_places(const LoadedSolution& solution, const Mesh& mesh) {
   }
 }
 
-}  // namespace
-
-LoadedSolution read_solution(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension();
-  if (suffix == ".csv") return read_su2_csv(path);
-  if (suffix != ".mesh" && suffix != ".cgns" && suffix != ".vtu") {
-    throw InputError(path + ": no solution is read from the format '" + suffix + "'; give a .mesh, .cgns, .vtu or .csv file");
-  }
+LoadedSolution read_with_mesh(const std::string& path) {
   LoadedMesh loaded = read_mesh(path);
   require_values(loaded, path);
-  require_finite(*loaded.solution, path);
   LoadedSolution result{path, std::move(*loaded.solution), static_cast<std::int64_t>(loaded.mesh.points.size()), {}, true, {}, {}};
   result.points = std::move(loaded.mesh.points);
   result.triangles = std::move(loaded.mesh.triangles);
   result.quads = std::move(loaded.mesh.quads);
   return result;
+}
+
+}  // namespace
+
+LoadedSolution read_solution(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  require_solution_suffix(path);
+  LoadedSolution result = suffix == ".csv" ? read_su2_csv(path) : read_with_mesh(path);
+  result.solution.names = distinct_words(result.solution.names, path);
+  require_usable(result.solution, path);
+  return result;
+}
+
+void require_solution_suffix(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  if (suffix == ".mesh" || suffix == ".cgns" || suffix == ".vtu" || suffix == ".csv") return;
+  throw InputError(path + ": no solution is read from the format '" + suffix + "'; give a .mesh, .cgns, .vtu or .csv file");
 }
 
 void require_same_mesh(const LoadedSolution& solution, const Mesh& whole) {

@@ -9,7 +9,7 @@
 
 namespace quadloop {
 
-/// A solution as a file gives it, whole on one rank, with what the file says of its mesh. Names are as they are written there (variable() finds one).
+/// A solution as a file gives it, whole on one rank, with what the file says of its mesh. Names are words (distinct_words()); variable() finds one.
 struct LoadedSolution {
   std::string path;
   Solution solution;
@@ -21,8 +21,11 @@ struct LoadedSolution {
 };
 
 /// Reads .mesh, .cgns and .vtu with a solution, and .csv as SU2 leaves its restart file, on the calling rank alone. Throws InputError, also
-/// where the file holds no values at its nodes.
+/// where the file holds no values at its nodes, two variables of one name, or a value that is not finite or beyond 1e150.
 LoadedSolution read_solution(const std::string& path);
+
+/// Throws InputError unless the suffix is one that read_solution() knows; it lists them.
+void require_solution_suffix(const std::string& path);
 
 /// Throws InputError unless the solution's mesh is `whole`, a mesh that the rank holds whole: as many nodes, each within 1e-6 of the shortest cell
 /// edge at it, and the same cells in any order, as far as the file tells. Names the file, and the count, node (from 1) or cell that differs.

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "io/hdf5_handle.hpp"
+#include "io/tree_check.hpp"
 #include "io/tree_file.hpp"
 
 namespace quadloop {
@@ -38,7 +40,6 @@ class TreeSource {
       if (rows_of(dataset) != all) refuse(std::string("its dataset \"") + name + "\" has another length than \"x\"");
       if (begin < end) read_column(dataset, name, members, begin, result);
     });
-    for (const LeafRecord& leaf : result) refuse_impossible(leaf);
     return result;
   }
 
@@ -84,16 +85,6 @@ class TreeSource {
     }
   }
 
-  void refuse_impossible(const LeafRecord& leaf) const {
-    const auto on_lattice = [](std::int32_t at) { return at >= 0 && at < tree_lattice_edge; };
-    const bool good = leaf.tree_x >= 0 && leaf.tree_y >= 0 && on_lattice(leaf.x) && on_lattice(leaf.y) && leaf.level >= 0 &&
-                      leaf.level <= deepest_tree_level && leaf.triangles >= 0 && leaf.quads >= 0;
-    if (!good) {
-      refuse("holds an impossible leaf: tree (" + std::to_string(leaf.tree_x) + ", " + std::to_string(leaf.tree_y) + "), corner (" +
-             std::to_string(leaf.x) + ", " + std::to_string(leaf.y) + "), level " + std::to_string(leaf.level));
-    }
-  }
-
   QuietHdf5 quiet_;
   std::string path_;
   Hdf5Handle file_;
@@ -103,12 +94,17 @@ class TreeSource {
 
 TreeRecord read_tree(const Communicator& comm, const std::string& path) {
   TreeRecord tree;
+  std::optional<LeafRecord> before;
   comm.together([&] {
     const TreeSource source(path);
     tree.attributes = source.attributes();
     const std::int64_t all = source.leaves(), rank = comm.rank(), ranks = comm.size();
-    tree.leaves = source.read(all / ranks * rank + std::min(all % ranks, rank), all / ranks * (rank + 1) + std::min(all % ranks, rank + 1));
+    require_possible_attributes(tree.attributes, all, path);
+    const std::int64_t begin = all / ranks * rank + std::min(all % ranks, rank), end = all / ranks * (rank + 1) + std::min(all % ranks, rank + 1);
+    tree.leaves = source.read(begin, end);
+    if (begin > 0 && begin < end) before = source.read(begin - 1, begin).front();
   });
+  require_whole_tree(comm, tree, before, path);
   return tree;
 }
 

@@ -75,4 +75,28 @@ std::size_t variable(std::span<const std::string> names, const std::string& want
   throw InputError(where + ": no variable '" + wanted + "' in the solution; it has: " + list_of(names));
 }
 
+std::string word_of(const std::string& name) {
+  std::string word = name;
+  for (char& c : word) {
+    if (static_cast<unsigned char>(c) <= ' ' || c == '\x7f') c = '_';
+  }
+  return word;
+}
+
+std::vector<std::string> distinct_words(std::span<const std::string> names, const std::string& where) {
+  std::vector<std::string> words;
+  for (const std::string& name : names) {
+    const std::string word = name.empty() ? "v" + std::to_string(words.size() + 1) : word_of(name);
+    const auto same = std::find(words.begin(), words.end(), word);
+    if (same != words.end()) {
+      const std::string& other = names[static_cast<std::size_t>(same - words.begin())];
+      const std::string fault = other == name ? "two variables are named '" + name + "'"
+                                              : "the variables '" + other + "' and '" + name + "' are both '" + word + "', as blanks become '_'";
+      throw InputError(where + ": " + fault + "; give one of them another name");
+    }
+    words.push_back(word);
+  }
+  return words;
+}
+
 }  // namespace quadloop

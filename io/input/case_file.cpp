@@ -30,6 +30,35 @@ std::string kind_of(const toml::node& node) {
 
 std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
+/// A value as JSON on one line; 1 and 1.0 are the same number.
+std::string json_of(const toml::node& node) {
+  if (node.is_number()) return fmt::format("{}", *node.value<double>());
+  std::vector<std::string> parts;
+  if (const toml::array* list = node.as_array()) {
+    for (const toml::node& value : *list) parts.push_back(json_of(value));
+    return "[" + join(parts) + "]";
+  }
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, value] : *table) parts.push_back(json_of(toml::value<std::string>(std::string(key.str()))) + ": " + json_of(value));
+    return "{" + join(parts) + "}";
+  }
+  std::ostringstream text;
+  node.visit([&](const auto& value) { text << toml::json_formatter(value); });
+  return text.str();
+}
+
+void append_values(const toml::table& table, const std::string& above, const std::vector<std::string>& without,
+                   std::vector<std::pair<std::string, std::string>>& result) {
+  for (const auto& [key, node] : table) {
+    const std::string name = above + std::string(key.str());
+    if (std::find(without.begin(), without.end(), name) != without.end()) continue;
+    if (const toml::table* below = node.as_table())
+      append_values(*below, name + ".", without, result);
+    else
+      result.emplace_back(name, json_of(node));
+  }
+}
+
 }  // namespace
 
 bool Range::contains(double value) const {
@@ -144,18 +173,10 @@ std::vector<std::vector<double>> CaseTable::pairs(const std::string& key) const 
 
 bool CaseTable::is_table(const std::string& key) const { return has(key) && as_table(table_).get(key)->is_table(); }
 
-std::string CaseTable::canonical_text(const std::vector<std::string>& without) const {
-  toml::table table = as_table(table_);
-  for (const std::string& name : without) {
-    const std::size_t dot = name.find('.');
-    if (dot == std::string::npos)
-      table.erase(name);
-    else if (toml::table* within = table[name.substr(0, dot)].as_table())
-      within->erase(name.substr(dot + 1));
-  }
-  std::ostringstream text;
-  text << toml::json_formatter(table);
-  return text.str();
+std::vector<std::pair<std::string, std::string>> CaseTable::values(const std::vector<std::string>& without) const {
+  std::vector<std::pair<std::string, std::string>> result;
+  append_values(as_table(table_), "", without, result);
+  return result;
 }
 
 std::optional<CaseTable> CaseTable::table(const std::string& key) const {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quadloop {
@@ -53,9 +54,9 @@ class CaseTable {
   /// Where the key stands (this table, if it is absent), for messages of the caller's own.
   std::string place(const std::string& key) const;
   std::string place() const;
-  /// The table with all assignments, keys in alphabetical order, but for those of the dotted names given: the same for every way to write the same
-  /// case.
-  std::string canonical_text(const std::vector<std::string>& without) const;
+  /// All values below this table with all assignments, by their dotted names in alphabetical order, each value as JSON on one line; without the keys
+  /// and tables of the dotted names given. The same for every way to write the same case.
+  std::vector<std::pair<std::string, std::string>> values(const std::vector<std::string>& without) const;
   /// The dotted name of a key.
   std::string full_name(const std::string& key) const;
   [[noreturn]] void refuse(const std::string& key, const std::string& message) const;

@@ -54,7 +54,8 @@ def check_success(program, mpirun, ranks):
         for name, text in (("box.geom", cases.SQUARE), ("case.toml", cases.CASE)):
             with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                 file.write(text)
-        for arguments in (["mesh", "case.toml", "-o", "out", "--quiet"], ["mesh", "--help"], ["--version"], ["--help"], ["mesh", "--version"]):
+        several = ["mesh", "-o", "out", "--set", "spacing.max=0.5", "smooth.sweeps=3", "case.toml", "--quiet"]
+        for arguments in (["mesh", "case.toml", "-o", "out", "--quiet"], several, ["mesh", "--help"], ["--version"], ["--help"], ["mesh", "--version"]):
             result = run(program, mpirun, ranks, arguments, folder)
             if result.returncode != 0 or result.stderr:
                 yield f"{arguments}: exit status {result.returncode}, stderr {result.stderr!r}"

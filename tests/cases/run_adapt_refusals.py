@@ -86,8 +86,10 @@ def check_faults(program, folder, ranks):
         require_same_folders(unbroken, made, f"mended after {fault}")
     refused(program, case, folder / "late", "timeout", (3, ["cycle 1", "3 s", "timeout"]), ranks, ["--set", "solver.timeout=3"])
     case.with_name("fault").write_text("name")
-    expect_refusal(program, 1, ["adapt.variable", "height", "depth"], "adapt", case, "-o", folder / "name", ranks=ranks)
+    expect_refusal(program, 1, ["cycle_00.part/mesh.mesh: adapt.variable", "height", "depth"], "adapt", case, "-o", folder / "name", ranks=ranks)
     case.with_name("fault").unlink()
+    expect_refusal(program, 1, ["cycle_00.part/mesh.mesh", "height", "node "], "adapt", case, "-o", folder / "negative", "--set",
+                   'adapt.variable={ size = "height" }', ranks=ranks)
 
 
 def check_folders(program, folder, ranks):
@@ -96,11 +98,6 @@ def check_folders(program, folder, ranks):
     adapt(program, case, made, ranks, ["--cycles", "1"])
     before = states(made)
     expect_refusal(program, 1, ["not empty", "--resume"], "adapt", case, "-o", made, ranks=ranks)
-    for assignment in ("adapt.refine=0.6", "spacing.min=0.2", "solver.timeout=99"):
-        expect_refusal(program, 1, ["record.json", "changed"], "adapt", case, "-o", made, "--resume", "--set", assignment, ranks=ranks)
-    outline = case.with_name("square.geom")
-    outline.write_text(outline.read_text().replace("1 1", "1 1.125"))
-    expect_refusal(program, 1, ["record.json", "geometry"], "adapt", case, "-o", made, "--resume", ranks=ranks)
     require(states(made) == before, "a refusal has touched the folder")
     a_file = folder / "a_file"
     a_file.write_text("")
@@ -123,6 +120,10 @@ def check_case_files(program, folder, ranks):
     expect(["case.toml:", "command"], TINY[TINY.index("command ="):TINY.index("timeout")], "")
     expect(["case.toml:", "threshold", "max_nodes"], '"deviation"', '"nodes"')
     expect(["case.toml:", "min"], "min = 0.03", "min = 0")
+    for line, parts in (('mesh = "mesh.xyz"', ["solver.mesh", ".su2"]), ('solution = "s.dat"', ["solver.solution", ".csv"]),
+                        ('solution = "mesh.mesh"', ["solver.solution", "a file of its own"]),
+                        ('mesh = "a.mesh"\nsolution = "a.mesh"', ["solver.solution", "a file of its own"])):
+        expect(["case.toml:", *parts], "timeout = 100", line)
 
 
 def check_programs(program, folder, ranks):
@@ -133,7 +134,8 @@ def check_programs(program, folder, ranks):
     script.chmod(0o755)
     for number, (name, status, parts) in enumerate([("no_such_solver", 1, ["no_such_solver", "PATH"]), ("{case}/gone", 1, ["gone"]),
                                                     ("{case}/square.geom", 1, ["may not be run", "chmod"]),
-                                                    ("{case}/no_script", 3, ["cannot be started"]), ("{case", 1, ["{case"])]):
+                                                    ("{case}/no_script", 3, ["cannot be started"]), ("{case", 1, ["{case"]),
+                                                    ("python3 {case}/solver.py", 1, ["command is a list", '"python3", '])]):
         case.write_text(TINY.replace('"python3", ', f'"{name}", '))
         made = folder / f"program_{number}"
         expect_refusal(program, status, parts, "adapt", case, "-o", made, ranks=ranks)
@@ -149,13 +151,31 @@ def check_small_cap(program, folder, ranks):
     require("adapt.max_nodes" in message, f"no warning on stderr that the cap is too small: {message}")
 
 
+def check_standing(program, folder, ranks):
+    """A cycle that changes nothing says why, once."""
+    for name, words, parts in (("constant", ["adapt.variable=flat"], ["flat is constant"]), ("min", ["adapt.min=0.6"], ["adapt.min = 0.6", "edges up to 0.5"]),
+                               ("room", ["adapt.max_nodes=25"], ["adapt.max_nodes = 25 leaves no room"]),
+                               ("threshold", ["adapt.refine=90", "adapt.coarsen=90"], ["above the threshold adapt.refine"])):
+        solver = SOLVER.replace('"1", "#names: " + name, *map(repr, values)', '"2", "#names: height flat", *(f"{value!r} 1" for value in values)')
+        case = tiny_case(folder / "standing" / name, solver)
+        settings = [word for assignment in words for word in ("--set", assignment)]
+        made = folder / "standing" / name / "made"
+        status, message = attempt(program, "adapt", case, "-o", made, "--cycles", "2", *settings, ranks=ranks)
+        require(status == 0, f"exit status {status}: {message}")
+        for part in ("no leaf is marked", *parts):
+            require(message.count(part) == 1, f"the message does not say '{part}' once: {message}")
+            require(part in (made / "cycle_02" / "log.txt").read_text(), f"the log does not say '{part}'")
+    adapt(program, tiny_case(folder / "moving"), folder / "of_moving", ranks, ["--cycles", "0"])
+    require("no leaf" not in (folder / "of_moving" / "cycle_00" / "log.txt").read_text(), "a cycle with marks is said to have none")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
     parser.add_argument("--ranks", type=int, default=1)
     args = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="quadloop_refusals_") as name:
-        for check in (check_faults, check_folders, check_case_files, check_programs, check_small_cap):
+        for check in (check_faults, check_folders, check_case_files, check_programs, check_small_cap, check_standing):
             check(args.quadloop, Path(name), args.ranks)
     print("good")
 

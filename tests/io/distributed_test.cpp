@@ -2,6 +2,11 @@
 // own communicator of one.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
 #include "io/cgns_file.hpp"
 #include "io/msh_file.hpp"
 #include "io/native_file.hpp"
@@ -147,7 +152,7 @@ TEST(TreeFile, ComesBackInShares) {
     const LeafRecord& a = read.leaves[static_cast<std::size_t>(i)];
     const LeafRecord& b = all.leaves[static_cast<std::size_t>(first + i)];
     const bool same = a.tree_x == b.tree_x && a.tree_y == b.tree_y && a.x == b.x && a.y == b.y && a.level == b.level && a.wanted == b.wanted &&
-                      a.mark == b.mark && a.triangles == b.triangles && a.quads == b.quads;
+                      a.mark == b.mark && a.triangles == b.triangles && a.quads == b.quads && a.adapted == b.adapted;
     ASSERT_TRUE(same) << first + i;
   }
 }
@@ -159,6 +164,52 @@ TEST(TreeFile, RefusesWhatIsNoneOnAllRanks) {
   if (world().is_root()) test::write_bytes(folder.file("t.h5"), test::bytes_of(folder.file("t.h5")).substr(0, 1500));
   world().barrier();
   EXPECT_EQ(test::status_of([&] { read_tree(world(), folder.file("t.h5")); }), ExitStatus::bad_input);
+}
+
+/// The refusal of a sample tree of a hundred leaves after one change; the same on every rank, or "not one refusal".
+std::string refusal_of_tree(const std::function<void(TreeRecord& whole)>& change) {
+  const TemporaryFolder folder;
+  TreeRecord whole = test::sample_tree(100, 0, 1);
+  change(whole);
+  const std::int64_t count = static_cast<std::int64_t>(whole.leaves.size()), rank = world().rank(), ranks = world().size();
+  TreeRecord own{whole.attributes, {whole.leaves.begin() + count * rank / ranks, whole.leaves.begin() + count * (rank + 1) / ranks}};
+  write_tree(world(), own, folder.file("t.h5"));
+  std::string refusal;
+  try {
+    read_tree(world(), folder.file("t.h5"));
+  } catch (const InputError& error) {
+    refusal = error.what();
+  }
+  const auto hash = static_cast<std::int64_t>(std::hash<std::string>{}(refusal));
+  return world().minimum(hash) == world().maximum(hash) ? refusal : "not one refusal";
+}
+
+TEST(TreeFile, RefusesImpossibleLeavesAndAttributesByName) {
+  EXPECT_EQ(refusal_of_tree([](TreeRecord&) {}), "");
+  using Change = std::function<void(TreeRecord&)>;
+  const std::vector<std::pair<std::string, Change>> refused{
+      {"tree (0, 0) at (536870912, 0), level 1 has splits below itself", [](TreeRecord& t) { t.leaves[1].adapted = 2; }},
+      {"has splits below itself", [](TreeRecord& t) { t.leaves[60].adapted = 0x80000000; }},
+      {"wanted level 2", [](TreeRecord& t) { t.leaves[1].wanted = 2; }},
+      {"impossible level", [](TreeRecord& t) { t.leaves[50].level = 31; }},
+      {"beside the lattice", [](TreeRecord& t) { t.leaves[2].y += 1; }},
+      {"none of the trees", [](TreeRecord& t) { t.leaves[99].tree_x = 97; }},
+      {"below 0", [](TreeRecord& t) { t.leaves[7].quads = -1; }},
+      {"outside the domain, but has cells", [](TreeRecord& t) { t.leaves[1].mark = 0; }},
+      {"does not follow", [](TreeRecord& t) { std::swap(t.leaves[1], t.leaves[2]); }},
+      {"does not follow", [](TreeRecord& t) { t.leaves.erase(t.leaves.begin() + 2); }},
+      {"trees", [](TreeRecord& t) { t.leaves.erase(t.leaves.begin() + 50); }},
+      {"quadrilaterals", [](TreeRecord& t) { t.attributes.quads += 1; }},
+      {"triangles", [](TreeRecord& t) { t.leaves[1].triangles += 1; }},
+      {"1000000 by 1 trees", [](TreeRecord& t) { t.attributes.trees_x = 1000000; }},
+      {"gradation is nan", [](TreeRecord& t) { t.attributes.gradation = std::nan(""); }},
+      {"tree edge is -1", [](TreeRecord& t) { t.attributes.tree_edge = -1; }},
+      {"root lies at", [](TreeRecord& t) { t.attributes.root_y = std::numeric_limits<double>::infinity(); }}};
+  for (const auto& [part, change] : refused) {
+    const std::string refusal = refusal_of_tree(change);
+    EXPECT_NE(refusal.find(part), std::string::npos) << part << " is not in: " << refusal;
+    EXPECT_NE(refusal.find("t.h5: "), std::string::npos) << refusal;
+  }
 }
 
 }  // namespace

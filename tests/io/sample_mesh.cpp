@@ -113,11 +113,23 @@ TreeRecord sample_tree(std::int32_t leaves, int rank, int ranks) {
   tree.attributes.root_x = -0.1;
   tree.attributes.tree_edge = 20;
   tree.attributes.coordinate_digest = 0xFEDCBA9876543210;
-  const auto [begin, end] = share(static_cast<std::size_t>(leaves), rank, ranks);
-  for (std::size_t i = begin; i < end; ++i) {
-    const auto n = static_cast<std::int32_t>(i);
-    tree.leaves.push_back({n % 3, n % 5, n, 7 * n, static_cast<std::int8_t>(n % 30), 4, static_cast<std::int16_t>(n % 2), n % 4, n % 6});
+  const std::int32_t split = (leaves - 1) / 4 % 2 == 0 ? 1 : 2;  // the first tree has 4 or 16 leaves, the others one
+  const std::int32_t in_first = 1 << (2 * split), edge = std::int32_t{1} << (30 - split);
+  tree.attributes.trees_x = leaves - in_first + 1;
+  const auto leaf = [&](std::int32_t n) {
+    const auto mark = static_cast<std::int16_t>(n % 2);
+    const auto level = static_cast<std::int8_t>(n < in_first ? split : 0);
+    const std::int32_t x = (n & 1) + (n >> 1 & 2), y = (n >> 1 & 1) + (n >> 2 & 2);
+    const auto wanted = static_cast<std::int8_t>(level - n % 2 * (level > 0 ? 1 : 0));
+    return n < in_first ? LeafRecord{0, 0, x * edge, y * edge, level, wanted, mark, mark * (n % 4), mark * (n % 6), static_cast<std::uint32_t>(n % 2)}
+                        : LeafRecord{n - in_first + 1, 0, 0, 0, level, wanted, mark, mark * (n % 4), mark * (n % 6), 0};
+  };
+  for (std::int32_t n = 0; n < leaves; ++n) {
+    tree.attributes.triangles += leaf(n).triangles;
+    tree.attributes.quads += leaf(n).quads;
   }
+  const auto [begin, end] = share(static_cast<std::size_t>(leaves), rank, ranks);
+  for (std::size_t i = begin; i < end; ++i) tree.leaves.push_back(leaf(static_cast<std::int32_t>(i)));
   return tree;
 }
 

@@ -161,5 +161,43 @@ TEST(VariableNames, RefusesWithAList) {
   expect_in(refusal_of([] { variable(std::vector<std::string>{"u", "Ux"}, "x_velocity", "s"); }), "'x_velocity' may be u or Ux");
 }
 
+TEST(VariableNames, BlanksBecomeUnderscoresInEveryFormat) {
+  EXPECT_EQ(read_text("wave height,b\n1,2\n2,3\n").solution.names, (std::vector<std::string>{"wave_height", "b"}));
+  const TemporaryFolder folder;
+  const Mesh mesh = test::sample_mesh(5);
+  Solution solution = test::sample_solution(mesh);
+  for (std::string& name : solution.names) name = "of \tname " + name;
+  write_vtu(test::world(), mesh, folder.file("a.vtu"), &solution);
+  write_native(test::world(), mesh, folder.file("a.mesh"), &solution);
+  const auto names = read_solution(folder.file("a.vtu")).solution.names;
+  EXPECT_EQ(names, read_solution(folder.file("a.mesh")).solution.names);
+  for (const std::string& name : names) EXPECT_EQ(name.find_first_of(" \t"), std::string::npos) << name;
+}
+
+TEST(VariableNames, CgnsKeepsEachVariable) {
+  const TemporaryFolder folder;
+  const Mesh mesh = test::sample_mesh(5);
+  Solution solution = test::sample_solution(mesh);
+  const std::string of_40(40, 'a');
+  for (const auto& names : {std::vector<std::string>{of_40 + "1", of_40 + "2"}, {"density", "Density"}, {"a/b", "a_b"}}) {
+    solution.names = names;
+    write_cgns(test::world(), mesh, folder.file("a.cgns"), &solution);
+    EXPECT_EQ(read_solution(folder.file("a.cgns")).solution.values, solution.values) << names[0];
+  }
+}
+
+TEST(VariableNames, TwoOfOneNameAreRefused) {
+  expect_in(refusal_of([] { read_text("h,h\n1,2\n"); }), "s.csv: two variables are named 'h'");
+  const std::string both = refusal_of([] { read_text("wave height,b,wave_height\n1,2,3\n"); });
+  for (const char* part : {"s.csv", "'wave height'", "'wave_height'"}) expect_in(both, part);
+  EXPECT_EQ(read_text("h,H\n1,2\n").solution.names.size(), 2U);  // told apart by case where the name is exact
+}
+
+TEST(SolutionFile, ValuesThatOverflowAreRefused) {
+  EXPECT_EQ(read_text("h\n1e150\n-1e150\n").nodes, 2);
+  const std::string fault = refusal_of([] { read_text("h,g\n1,1\n2,-1.7e308\n"); });
+  for (const char* part : {"s.csv", "g is beyond 1e+150", "node 2", "-1.7e+308"}) expect_in(fault, part);
+}
+
 }  // namespace
 }  // namespace quadloop
