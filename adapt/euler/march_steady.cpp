@@ -116,6 +116,7 @@ class SteadyMarch {
     }
     if (stall_.stalls(result_.residual) && run_.residual.limiter_is_live()) {
       run_.residual.freeze_limiter();
+      shares_.restart();
       tell("the limiter's factors are kept from here on");
     }
     return false;

@@ -9,21 +9,23 @@ namespace quadloop::euler {
 /// A relative residual below which a flow has its shape: what comes later is no transient of the start.
 constexpr double developed = 0.05;
 
-/// Tells when the residual no longer falls because the limiter's factors swing to and fro.
+/// Tells when the residual falls slowly, as it does where the limiter's factors swing to and fro, or would if steps there were not small.
 class StallWatch {
  public:
   bool stalls(double residual) {
     best_.push_back(best_.empty() ? residual : std::min(best_.back(), residual));
     if (best_.size() % window != 0) return false;
     const double before = best_.size() > window ? best_[best_.size() - 1 - window] : std::numeric_limits<double>::infinity();
-    return residual < developed && best_.back() > 0.5 * before;
+    return residual < late && best_.back() > least_fall * before;
   }
 
   /// In the second half of all steps the residual did not halve: more of them are no cure.
-  bool is_slow() const { return best_.size() > 2 * window && best_.back() > 0.5 * best_[best_.size() / 2]; }
+  bool is_slow() const { return best_.size() > 4 * window && best_.back() > 0.5 * best_[best_.size() / 2]; }
 
  private:
-  static constexpr std::size_t window = 30;
+  static constexpr std::size_t window = 15;
+  static constexpr double least_fall = 0.3;  ///< in a window
+  static constexpr double late = 0.01;       ///< below it shocks stand where they will
   std::vector<double> best_;  ///< up to each step
 };
 

@@ -31,6 +31,11 @@ void StepShares::follow(const std::vector<Change>& change) {
   }
 }
 
+void StepShares::restart() {
+  std::fill(shares_.begin(), shares_.end(), 1.0);
+  forget();
+}
+
 void StepShares::forget() {
   std::fill(last_.begin(), last_.end(), Change{});
   std::fill(turns_.begin(), turns_.end(), std::int8_t{0});

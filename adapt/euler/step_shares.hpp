@@ -20,6 +20,9 @@ class StepShares {
   /// The changes before count no longer: the flow was set back.
   void forget();
 
+  /// All is learnt anew: the residual is another one.
+  void restart();
+
   const std::vector<double>& shares() const { return shares_; }  ///< of each owned node
 
  private:
