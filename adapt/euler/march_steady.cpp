@@ -20,6 +20,7 @@ constexpr double largest_cfl = 1000;    ///< first-order matrices do not bear ou
 constexpr double growth = 0.75;         ///< the CFL number grows as the residual falls, to this power
 constexpr double largest_share = 0.25;  ///< of its density or pressure that a node may gain or lose in a step
 constexpr double blown_up = 1000;       ///< a relative residual that no sound start reaches
+constexpr double exploding = 20;        ///< one that hardly any sound start reaches
 constexpr int most_retries = 8;         ///< after a flow blew up
 constexpr int most_returns = 8;         ///< after the residual rose: a flow that has no steady state may swing as it likes then
 
@@ -107,10 +108,11 @@ class SteadyMarch {
     limit_.recover();
     const bool frozen = run_.residual.limiter_is_frozen();
     if (best_.improves(result_.iterations, result_.residual, frozen)) best_states_ = run_.states;
-    if (rise_.rises(result_.residual, best_.residual) && ++returns_ <= most_returns) {
+    const bool explodes = result_.residual > exploding;
+    if ((explodes || rise_.rises(result_.residual, best_.residual)) && ++returns_ <= most_returns) {
       tell(fmt::format("the residual rose from {:.2e} at step {} to {:.2e}: back to that flow, with a smaller cfl", best_.residual, best_.iteration,
                        result_.residual));
-      limit_.lower(0.5);
+      limit_.lower(explodes ? 0.3 : 0.5);
       go_back();
       return true;
     }

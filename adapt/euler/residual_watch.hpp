@@ -16,7 +16,7 @@ class StallWatch {
     best_.push_back(best_.empty() ? residual : std::min(best_.back(), residual));
     if (best_.size() % window != 0) return false;
     const double before = best_.size() > window ? best_[best_.size() - 1 - window] : std::numeric_limits<double>::infinity();
-    return residual < late && best_.back() > least_fall * before;
+    return residual < developed && best_.back() > least_fall * before;
   }
 
   /// In the second half of all steps the residual did not halve: more of them are no cure.
@@ -25,8 +25,7 @@ class StallWatch {
  private:
   static constexpr std::size_t window = 15;
   static constexpr double least_fall = 0.3;  ///< in a window
-  static constexpr double late = 0.01;       ///< below it shocks stand where they will
-  std::vector<double> best_;  ///< up to each step
+  std::vector<double> best_;                 ///< up to each step
 };
 
 /// Tells when the residual of a developed flow has long been well above the best.

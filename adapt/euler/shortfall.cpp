@@ -10,7 +10,8 @@ std::string shortfall(const EulerResult& result, const EulerOptions& options) {
   }
   if (result.kept_iteration < result.iterations) {
     return fmt::format(
-        "the residual fell to {:.2e} at step {} and then rose to {:.2e}; the flow at step {} is kept. It may have no steady state: close blunt trailing "
+        "the residual fell to {:.2e} at step {} and then rose to {:.2e}; the flow at step {} is kept. It may have no steady state: close blunt "
+        "trailing "
         "edges, try a smaller solver.cfl, or set solver.tolerance to what was reached",
         result.residual, result.kept_iteration, result.last_residual, result.kept_iteration);
   }
