@@ -36,7 +36,7 @@ BEVEL = CASE.replace("body.geom", "bevel.geom").replace("far_field = 8", "far_fi
 
 
 def naca_2412_with_a_bevel(points=80):
-    """The outline whose blunt trailing edge is not closed, but its last point moved to (1, 0): a bevel shorter than spacing.min."""
+    """The outline whose blunt trailing edge is not closed, but drawn to the point (1, 0): bevels shorter than spacing.min."""
     def at(x, side):
         thickness = 0.6 * (0.2969 * x ** 0.5 - 0.126 * x - 0.3516 * x * x + 0.2843 * x ** 3 - 0.1015 * x ** 4)
         p, m = 0.4, 0.02
@@ -45,7 +45,7 @@ def naca_2412_with_a_bevel(points=80):
         angle = math.atan(slope)
         return x - side * thickness * math.sin(angle), camber + side * thickness * math.cos(angle)
     xs = [0.5 * (1 - math.cos(math.pi * i / points)) for i in range(points + 1)]
-    outline = [at(x, 1) for x in reversed(xs)] + [at(x, -1) for x in xs[1:-1]] + [(1.0, 0.0)]
+    outline = [(1.0, 0.0)] + [at(x, 1) for x in reversed(xs[:-1])] + [at(x, -1) for x in xs[1:-1]]
     return f"1\nbody\n{len(outline)}\n" + "".join(f"{x:.6f} {y:.6f}\n" for x, y in outline)
 
 
