@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 
+#include "adapt/euler/shortfall.hpp"
 #include "adapt/euler/solve_euler.hpp"
 #include "adapt/remesh.hpp"
 #include "io/mesh_file.hpp"
@@ -18,8 +19,6 @@
 namespace quadloop {
 
 namespace {
-
-const std::array<const char*, 4> euler_names{"density", "x_velocity", "y_velocity", "pressure"};
 
 /// The four variables of the built-in solver, row by row; none without a starting state.
 std::vector<double> states_of(const std::optional<Solution>& start) {
@@ -34,13 +33,13 @@ std::vector<double> states_of(const std::optional<Solution>& start) {
   return states;
 }
 
-SolvedFlow solve(const Communicator& comm, EulerOptions options, const Mesh& mesh, const std::optional<Solution>& start) {
+SolvedFlow solve(const Communicator& comm, EulerOptions options, const Mesh& mesh, const std::optional<Solution>& start, int cycle) {
   SolvedFlow flow;
   options.progress = [&](const EulerProgress& p) {
     flow.notes.push_back(fmt::format("iteration {}: residual {:.3e}, cl {:.6f}, cd {:.6f}", p.iteration, p.residual, p.cl, p.cd));
   };
   EulerResult result = solve_euler(comm, mesh, options, states_of(start));
-  if (!result.converged) flow.warnings.push_back("the solver did not reach its tolerance or end time within its iterations");
+  if (!result.converged) flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, shortfall(result, options)));
   flow.solution.constants = {static_cast<double>(result.iterations), result.time, options.mach};
   flow.solution.names.assign(euler_names.begin(), euler_names.end());
   flow.solution.values = std::move(result.states);
@@ -101,7 +100,7 @@ SolvedFlow solve(const Communicator& comm, const CommandSolver& solver, const Me
 
 SolvedFlow solve_flow(const Communicator& comm, const FlowSolver& solver, const Mesh& mesh, const std::optional<Solution>& start,
                       const std::string& folder, int cycle) {
-  if (const auto* options = std::get_if<EulerOptions>(&solver)) return solve(comm, *options, mesh, start);
+  if (const auto* options = std::get_if<EulerOptions>(&solver)) return solve(comm, *options, mesh, start, cycle);
   return solve(comm, std::get<CommandSolver>(solver), mesh, start, folder, cycle);
 }
 

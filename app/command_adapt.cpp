@@ -44,11 +44,14 @@ void require_solver_files(const AdaptArguments& arguments, const CommandSolver& 
     table.refuse("solution", "is '" + solver.solution + "', the name of a mesh that is given to the solver; write the solution to a file of its own");
 }
 
-AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings) {
+AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, std::string& note) {
   CaseInput input = load_case({arguments.case_path, arguments.assignments, {}, {}});
   if (!input.settings.adapt) throw InputError(arguments.case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
   warnings = std::move(input.warnings);
   const Settings& settings = input.settings;
+  require_known_variables(settings.solver, settings.adapt->variables, arguments.case_path);
+  const EulerOptions& flow = settings.solver.euler;
+  if (!settings.solver.given) note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach, flow.alpha);
   FlowSolver solver = flow_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const auto* command = std::get_if<CommandSolver>(&solver)) require_solver_files(arguments, *command);
   AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.formats, settings.values};
@@ -75,7 +78,9 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const Communicator& comm = context.comm;
   std::optional<AdaptiveCase> adaptive;
   Warnings warnings;
-  comm.together([&] { adaptive = adaptive_case(arguments, warnings); });
+  std::string note;
+  comm.together([&] { adaptive = adaptive_case(arguments, warnings, note); });
+  if (comm.is_root() && !note.empty()) log::information(note);
   std::string folder = arguments.folder;
   if (folder.empty()) folder = std::filesystem::path(arguments.case_path).stem().string() + ".adapt";
   show_warnings(comm.is_root(), context.verbose, warnings);

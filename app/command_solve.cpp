@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 
+#include "adapt/euler/shortfall.hpp"
 #include "adapt/euler/solve_euler.hpp"
 #include "app/command.hpp"
 #include "app/settings.hpp"
@@ -127,22 +128,13 @@ void write(const Communicator& comm, Problem& problem, const EulerResult& result
 
 EulerResult solve(const Communicator& comm, const Problem& problem, const Mesh& part) {
   EulerOptions options = euler_options(problem.settings.solver, problem.settings.outline.rules, part);
-  options.progress = [&comm](const EulerProgress& p) {
-    if (comm.is_root())
-      log::information(fmt::format("step {}: residual {:.2e}, cl {:.6f}, cd {:.6f}, time {:.6g}", p.iteration, p.residual, p.cl, p.cd, p.time));
+  const bool steady = options.time == EulerOptions::Time::steady;
+  options.progress = [&comm, steady](const EulerProgress& p) {
+    if (!comm.is_root()) return;
+    const std::string time = steady ? "" : fmt::format(", time {:.6g}", p.time);
+    log::information(fmt::format("step {}: residual {:.2e}, cl {:.6f}, cd {:.6f}{}", p.iteration, p.residual, p.cl, p.cd, time));
   };
   return solve_euler(comm, part, options, start_states(comm, problem));
-}
-
-void warn_unless_done(const EulerResult& result, const EulerOptions& options) {
-  if (result.converged) return;
-  if (options.time == EulerOptions::Time::accurate) {
-    log::warning(
-        fmt::format("time {:.6g} of {:.6g} was reached in {} steps; raise solver.iterations", result.time, options.end_time, result.iterations));
-  } else {
-    log::warning(fmt::format("the residual fell to {:.2e} of the first in {} steps, not to the tolerance {:.2e}; raise solver.iterations",
-                             result.residual, result.iterations, options.tolerance));
-  }
 }
 
 std::string result_table(std::int64_t nodes, const EulerResult& result, const EulerOptions& options) {
@@ -167,7 +159,7 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   const std::int64_t nodes = comm.sum(part.owned_nodes);
   if (!comm.is_root()) return;
   for (const std::string& warning : problem.warnings) log::warning(warning);
-  warn_unless_done(result, problem.settings.solver.euler);
+  if (!result.converged) log::warning(shortfall(result, problem.settings.solver.euler));
   if (context.quiet) return;
   std::cout << result_table(nodes, result, problem.settings.solver.euler) << stages << "  wrote " << arguments.output << "\n";
 }

@@ -1,8 +1,13 @@
 #include "app/solver_settings.hpp"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -52,6 +57,7 @@ void read_command_keys(const CaseTable& table, SolverSettings& settings) {
 void read_solver_table(const CaseTable& root, SolverSettings& settings) {
   const auto table = root.table("solver");
   if (!table) return;
+  settings.given = true;
   if (table->choice("kind", {"euler", "command"}) == "command") settings.kind = SolverSettings::Kind::command;
   read_euler_keys(*table, settings.euler);
   read_command_keys(*table, settings);
@@ -74,6 +80,15 @@ EulerOptions euler_options(const SolverSettings& settings, const std::vector<Bou
     options.boundaries.push_back(std::move(choice));
   }
   return options;
+}
+
+void require_known_variables(const SolverSettings& settings, const std::vector<std::string>& variables, const std::string& case_path) {
+  if (settings.kind != SolverSettings::Kind::euler) return;
+  for (const std::string& name : variables) {
+    if (std::find(euler_names.begin(), euler_names.end(), name) != euler_names.end()) continue;
+    throw InputError(fmt::format("{}: 'adapt.variable' names '{}', which the built-in solver does not write; it may be {}", case_path, name,
+                                 fmt::join(euler_names, ", ")));
+  }
 }
 
 FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules, const Geometry& geometry,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -48,6 +49,9 @@ struct EulerOptions {
   std::function<void(const EulerProgress&)> progress;  ///< called on every rank after every `progress_every` steps and at the end
   int progress_every = 50;
 };
+
+/// The variables of a state, as files name them.
+inline constexpr std::array<const char*, 4> euler_names{"density", "x_velocity", "y_velocity", "pressure"};
 
 /// Throws InputError that names the value and what it may be.
 void validate(const EulerOptions& options);

@@ -46,11 +46,15 @@ inline WaveSpeeds steadying_speeds(double along, double sound) {
   return {std::max(waves.fast, 0.2 * largest), std::max(waves.slow, 0.2 * largest), std::max(waves.middle, 0.1 * largest)};
 }
 
-/// The same with its eigenvalues replaced by their sizes, at the mean of two states. Returns the largest of them.
-inline double add_upwind_matrix(const Gas& gas, const State& left, const State& right, Point normal, double factor, Matrix4& sum) {
+/// The same with its eigenvalues replaced by their sizes, at the mean of two states. Returns the largest of them. `skewness` is what SkewEdge adds to
+/// an edge's flux in units of the flux along the edge; the middle wave, which answers for it where the flow crosses the edge slowly, is made larger
+/// by that much of the flow's speed.
+inline double add_upwind_matrix(const Gas& gas, const State& left, const State& right, Point normal, double factor, Matrix4& sum,
+                                double skewness = 0) {
   const RoeAverage mean = roe_average(gas, left, right);
   const double along = mean.x_velocity * normal.x + mean.y_velocity * normal.y, sound = mean.sound;
-  const WaveSpeeds waves = steadying_speeds(along, sound);
+  WaveSpeeds waves = steadying_speeds(along, sound);
+  waves.middle += skewness * std::sqrt(mean.x_velocity * mean.x_velocity + mean.y_velocity * mean.y_velocity);
   const UpwindPart by_pressure = upwind_part(waves, sound, 1, 0), by_momentum = upwind_part(waves, sound, 0, 1);
   add_matrix(gas, {mean.x_velocity, mean.y_velocity, mean.enthalpy, normal},
              {waves.middle, by_pressure.first, by_momentum.first, by_pressure.second, by_momentum.second}, factor, sum);

@@ -41,8 +41,14 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
       colours_{colour_nodes(comm, mesh)},
       diagonal_(mesh.nodes()),
       inverses_(static_cast<std::size_t>(mesh.owned_nodes())),
+      skewness_(mesh.edges().size(), 0.0),
       wave_sums_(mesh.nodes()) {
   lay_out();
+  for (const SkewEdge& skew : mesh.skew_edges()) {
+    const DualEdge& edge = mesh.edges()[skew.edge];
+    const double crosswise = std::sqrt(dot(skew.with_x, skew.with_x)) + std::sqrt(dot(skew.with_y, skew.with_y));
+    skewness_[skew.edge] = crosswise / (2 * std::sqrt(dot(edge.half, edge.half)) * edge.size);
+  }
 }
 
 void ImplicitSystem::lay_out() {
@@ -74,12 +80,12 @@ void ImplicitSystem::lay_out() {
   for (const DualEdge& edge : mesh_.edges()) slots_.push_back({take(edge.low, edge.high), take(edge.high, edge.low)});
 }
 
-void ImplicitSystem::assemble(const std::vector<State>& states, double cfl) {
+void ImplicitSystem::assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares) {
   for (Matrix4& block : diagonal_) block = {};
   std::fill(wave_sums_.begin(), wave_sums_.end(), 0.0);
   add_edges(states);
   add_faces(states);
-  invert_diagonal(cfl);
+  invert_diagonal(cfl, shares);
 }
 
 /// The flux from low to high changes by (A_low + |A|) / 2 with the low state and by (A_high - |A|) / 2 with the high one.
@@ -89,7 +95,7 @@ void ImplicitSystem::add_edges(const std::vector<State>& states) {
     const DualEdge& edge = edges[e];
     const auto low = static_cast<std::size_t>(edge.low), high = static_cast<std::size_t>(edge.high);
     Matrix4 upwind{};
-    const double half = 0.5 * edge.size, speed = add_upwind_matrix(model_.gas, states[low], states[high], edge.normal, half, upwind);
+    const double half = 0.5 * edge.size, speed = add_upwind_matrix(model_.gas, states[low], states[high], edge.normal, half, upwind, skewness_[e]);
     Matrix4 by_low = upwind, by_high{};
     add(upwind, -1, by_high);
     add_flux_matrix(model_.gas, states[low], edge.normal, half, by_low);
@@ -123,11 +129,11 @@ void ImplicitSystem::add_faces(const std::vector<State>& states) {
   }
 }
 
-void ImplicitSystem::invert_diagonal(double cfl) {
+void ImplicitSystem::invert_diagonal(double cfl, const std::vector<double>& shares) {
   for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
     using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
     Eigen::Map<Matrix> block(diagonal_[node].data());
-    block.diagonal().array() += wave_sums_[node] / cfl;  // the area over the time step
+    block.diagonal().array() += wave_sums_[node] / (cfl * shares[node]);  // the area over the time step
     Matrix4 inverse;
     Eigen::Map<Matrix>(inverse.data()) = block.inverse();
     store(inverse, 1, inverses_[node]);

@@ -19,8 +19,8 @@ class ImplicitSystem {
   /// Both must outlive it. *Collective.*
   ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model);
 
-  /// At these states, whose copies are up to date, with each node's own time step of this CFL number.
-  void assemble(const std::vector<State>& states, double cfl);
+  /// At these states, whose copies are up to date, with each node's own time step: of this CFL number times the owned node's share.
+  void assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares);
 
   /// That many sweeps, every second one through the colours backwards, from zero. `change` has an entry for each node. *Collective.*
   void relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change) const;
@@ -33,7 +33,7 @@ class ImplicitSystem {
   void lay_out();
   void add_edges(const std::vector<State>& states);
   void add_faces(const std::vector<State>& states);
-  void invert_diagonal(double cfl);
+  void invert_diagonal(double cfl, const std::vector<double>& shares);
   void relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual, std::vector<Change>& change) const;
 
   const DualMesh& mesh_;
@@ -47,6 +47,7 @@ class ImplicitSystem {
   std::vector<Slots> slots_;       ///< of each edge
   std::vector<Matrix4> diagonal_;  ///< of each node
   std::vector<Block> inverses_;    ///< of each owned node's diagonal block
+  std::vector<double> skewness_;   ///< of each edge: how large what SkewEdge adds to its flux may be, in units of the flux along the edge
   std::vector<double> wave_sums_;  ///< of each node: half the sum of largest wave speed times size over its faces
 };
 

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "adapt/euler/flow_run.hpp"
 #include "adapt/euler/implicit_system.hpp"
+#include "adapt/euler/residual_watch.hpp"
+#include "adapt/euler/step_shares.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/reproducible_sum.hpp"
@@ -19,7 +20,9 @@ constexpr double largest_cfl = 1000;    ///< first-order matrices do not bear ou
 constexpr double growth = 0.75;         ///< the CFL number grows as the residual falls, to this power
 constexpr double largest_share = 0.25;  ///< of its density or pressure that a node may gain or lose in a step
 constexpr double blown_up = 1000;       ///< a relative residual that no sound start reaches
-constexpr int most_retries = 8;
+constexpr double exploding = 20;        ///< one that hardly any sound start reaches
+constexpr int most_retries = 8;         ///< after a flow blew up
+constexpr int most_returns = 8;         ///< after the residual rose: a flow that has no steady state may swing as it likes then
 
 /// The change, made smaller where it would take too much of a node's density or pressure.
 State updated(const Gas& gas, const State& state, const Change& change) {
@@ -37,27 +40,14 @@ State updated(const Gas& gas, const State& state, const Change& change) {
   return state;
 }
 
-/// Tells when the residual no longer falls because the limiter's factors swing to and fro.
-class StallWatch {
- public:
-  bool stalls(double residual) {
-    best_ = std::min(best_, residual);
-    if (++steps_ % window != 0) return false;
-    const bool stalled = residual < late && best_ > 0.5 * best_before_;
-    best_before_ = best_;
-    return stalled;
-  }
-
- private:
-  static constexpr int window = 30;
-  static constexpr double late = 0.05;
-  double best_ = std::numeric_limits<double>::infinity(), best_before_ = std::numeric_limits<double>::infinity();
-  int steps_ = 0;
-};
-
 class SteadyMarch {
  public:
-  explicit SteadyMarch(const FlowRun& run) : run_{run}, system_(run.comm, run.mesh, run.model), change_(run.mesh.nodes()), sound_{run.states} {
+  explicit SteadyMarch(const FlowRun& run)
+      : run_{run},
+        system_(run.comm, run.mesh, run.model),
+        change_(run.mesh.nodes()),
+        shares_(static_cast<std::size_t>(run.mesh.owned_nodes())),
+        best_states_{run.states} {
     std::vector<State> uniform(run.mesh.nodes(), run.model.free_stream);
     reference_ = mass_residual(run, run.residual.evaluate(uniform));
     zero_ = rounding(run);
@@ -68,14 +58,14 @@ class SteadyMarch {
       const std::vector<Flux>& fluxes = run_.residual.evaluate(run_.states);
       measure(fluxes);
       if (!std::isfinite(result_.residual) || result_.residual > blown_up) {
-        go_back(fluxes);
+        give_up_or_retry(fluxes);
         continue;
       }
-      const double cfl = cfl_share_ * std::min(largest_cfl, run_.options.cfl * std::max(1.0, std::pow(result_.residual, -growth)));
       const bool ends = result_.converged || result_.iterations >= run_.options.iterations;
-      report(run_, result_, cfl, ends);
-      if (ends) return result_;
-      watch();
+      if (!ends && watch()) continue;
+      const double cfl = limit_.share() * std::min(largest_cfl, run_.options.cfl * std::max(1.0, std::pow(result_.residual, -growth)));
+      if (ends) return finish(cfl);
+      report(run_, result_, cfl, false);
       step(fluxes, cfl);
     }
   }
@@ -96,30 +86,66 @@ class SteadyMarch {
     result_.converged = is_zero || result_.residual <= run_.options.tolerance;
   }
 
-  /// To the best flow so far, to leave it in smaller steps.
-  void go_back(const std::vector<Flux>& fluxes) {
+  void give_up_or_retry(const std::vector<Flux>& fluxes) {
     if (++retries_ > most_retries || result_.iterations == 0) {
       throw SolverError(
           fmt::format("the flow solver failed after {} steps {}; look at the boundary conditions and the cells there, or try a smaller cfl",
                       result_.iterations, worst_place(run_, fluxes)));
     }
-    cfl_share_ *= 0.3;
-    run_.states = sound_;
+    limit_.lower(0.3);
+    go_back();
   }
 
-  void watch() {
-    if (result_.residual < best_) {
-      best_ = result_.residual;
-      sound_ = run_.states;
+  /// To the best flow so far, to leave it in smaller steps.
+  void go_back() {
+    run_.states = best_states_;
+    if (!best_.limiter_frozen) run_.residual.release_limiter();
+    shares_.forget();
+  }
+
+  /// Keeps the best flow. Tells whether the flow was set back to it, as it is on the way to a worse one.
+  bool watch() {
+    limit_.recover();
+    const bool frozen = run_.residual.limiter_is_frozen();
+    if (best_.improves(result_.iterations, result_.residual, frozen)) best_states_ = run_.states;
+    const bool explodes = result_.residual > exploding;
+    if ((explodes || rise_.rises(result_.residual, best_.residual)) && ++returns_ <= most_returns) {
+      tell(fmt::format("the residual rose from {:.2e} at step {} to {:.2e}: back to that flow, with a smaller cfl", best_.residual, best_.iteration,
+                       result_.residual));
+      limit_.lower(explodes ? 0.3 : 0.5);
+      go_back();
+      return true;
     }
-    if (!stall_.stalls(result_.residual) || !run_.residual.limiter_is_live()) return;
-    run_.residual.freeze_limiter();
-    if (run_.comm.is_root()) log::detail(fmt::format("step {}: the limiter's factors are kept from here on", result_.iterations));
+    if (stall_.stalls(result_.residual) && run_.residual.limiter_is_live()) {
+      run_.residual.freeze_limiter();
+      shares_.restart();
+      tell("the limiter's factors are kept from here on");
+    }
+    return false;
+  }
+
+  void tell(const std::string& what) const {
+    if (run_.comm.is_root()) log::detail(fmt::format("step {}: {}", result_.iterations, what));
+  }
+
+  /// The last flow, or the best where it was clearly better.
+  EulerResult finish(double cfl) {
+    result_.kept_iteration = result_.iterations;
+    result_.last_residual = result_.residual;
+    result_.stalled = stall_.is_slow();
+    if (!result_.converged && best_.keeps(result_.residual)) {
+      run_.states = best_states_;
+      result_.residual = best_.residual;
+      result_.kept_iteration = best_.iteration;
+    }
+    report(run_, result_, cfl, true);
+    return result_;
   }
 
   void step(const std::vector<Flux>& fluxes, double cfl) {
-    system_.assemble(run_.states, cfl);
+    system_.assemble(run_.states, cfl, shares_.shares());
     system_.relax(fluxes, sweeps, change_);
+    shares_.follow(change_);
     const auto owned = static_cast<std::size_t>(run_.mesh.owned_nodes());
     for (std::size_t node = 0; node < owned; ++node) run_.states[node] = updated(run_.model.gas, run_.states[node], change_[node]);
     ++result_.iterations;
@@ -128,13 +154,15 @@ class SteadyMarch {
   FlowRun run_;
   ImplicitSystem system_;
   std::vector<Change> change_;
+  StepShares shares_;
   EulerResult result_;
   StallWatch stall_;
+  RiseWatch rise_;
+  CflLimit limit_;
+  BestFlow best_;
+  std::vector<State> best_states_;
   double reference_ = 0, zero_ = 0;  ///< mass residuals: that which the tolerance is relative to; rounding
-  double best_ = std::numeric_limits<double>::infinity();
-  std::vector<State> sound_;  ///< where the residual was best
-  double cfl_share_ = 1;
-  int retries_ = 0;
+  int retries_ = 0, returns_ = 0;
 };
 
 }  // namespace

@@ -41,6 +41,7 @@ class Limiter {
 
   /// From now on the factors stay as they were in the last call.
   void freeze() { frozen_ = true; }
+  void release() { frozen_ = false; }
   bool frozen() const { return frozen_; }
 
  private:

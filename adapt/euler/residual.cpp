@@ -30,6 +30,10 @@ void Residual::freeze_limiter() {
   if (limiter_) limiter_->freeze();
 }
 
+void Residual::release_limiter() {
+  if (limiter_) limiter_->release();
+}
+
 const std::vector<Flux>& Residual::evaluate(std::vector<State>& states) {
   mesh_.exchange().update(states);
   least_squares_.compute(states, gradients_);

@@ -22,7 +22,9 @@ class Residual {
 
   /// From now on the limiter's factors stay as they are.
   void freeze_limiter();
+  void release_limiter();
   bool limiter_is_live() const { return limiter_ && !limiter_->frozen(); }
+  bool limiter_is_frozen() const { return limiter_ && limiter_->frozen(); }
 
  private:
   void add_edges(const std::vector<State>& states);
