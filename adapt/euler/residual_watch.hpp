@@ -14,18 +14,23 @@ class StallWatch {
  public:
   bool stalls(double residual) {
     best_.push_back(best_.empty() ? residual : std::min(best_.back(), residual));
-    if (best_.size() % window != 0) return false;
-    const double before = best_.size() > window ? best_[best_.size() - 1 - window] : std::numeric_limits<double>::infinity();
-    return residual < developed && best_.back() > least_fall * before;
+    return (residual < developed && falls_less(30, 0.5)) || (residual < settled && falls_less(15, 0.3));
   }
 
   /// In the second half of all steps the residual did not halve: more of them are no cure.
-  bool is_slow() const { return best_.size() > 4 * window && best_.back() > 0.5 * best_[best_.size() / 2]; }
+  bool is_slow() const { return best_.size() > 60 && best_.back() > 0.5 * best_[best_.size() / 2]; }
 
  private:
-  static constexpr std::size_t window = 15;
-  static constexpr double least_fall = 0.3;  ///< in a window
-  std::vector<double> best_;                 ///< up to each step
+  /// Below it the flow is near the end, so that factors that are kept are nearly those of the end.
+  static constexpr double settled = 3e-3;
+
+  /// Looked at once in so many steps: the best did not fall to that share of what it was.
+  bool falls_less(std::size_t window, double share) const {
+    if (best_.size() % window != 0 || best_.size() <= window) return false;
+    return best_.back() > share * best_[best_.size() - 1 - window];
+  }
+
+  std::vector<double> best_;  ///< up to each step
 };
 
 /// Tells when the residual of a developed flow has long been well above the best.

@@ -31,16 +31,18 @@ TEST(StepShares, StayWhereSwingsDieOutFast) {
 }
 
 TEST(StallWatch, TellsASlowFallFromAFastOne) {
-  StallWatch fast, slow, early;
-  double quick = 0.04, lame = 0.04;
-  bool fast_stalls = false, slow_stalls = false, early_stalls = false;
+  StallWatch fast, slow, early, waves;
+  double quick = 0.04, lame = 0.04, far = 0.04;
+  bool fast_stalls = false, slow_stalls = false, early_stalls = false, waves_stall = false;
   for (int step = 0; step < 100; ++step) {
     fast_stalls |= fast.stalls(quick *= 0.9);
     slow_stalls |= slow.stalls(lame *= 0.95);
+    if (step < 45) waves_stall |= waves.stalls(far *= 0.95);  // to 4e-3: waves in the far field, say
     early_stalls |= early.stalls(0.5);
   }
   EXPECT_FALSE(fast_stalls);
   EXPECT_TRUE(slow_stalls);
+  EXPECT_FALSE(waves_stall);
   EXPECT_FALSE(early_stalls);  // shocks still move
   EXPECT_FALSE(slow.is_slow());
   EXPECT_TRUE(early.is_slow());
