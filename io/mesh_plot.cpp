@@ -17,7 +17,7 @@ namespace quadloop {
 namespace {
 
 constexpr Colour edge_ink{0.13, 0.17, 0.25}, light_ink{0.93, 0.95, 1.0};
-constexpr double dim = 0.35;         ///< luminance of a colour on which dark edges would not be seen
+constexpr double dim = 0.2;         ///< luminance of a colour on which dark edges would not be seen
 constexpr std::size_t batch = 4000;  // polygons or lines in one path
 constexpr double smallest = 1.3;     // pixels between two edges that are still drawn one by one
 constexpr double darkest = 0.42;     // share of ink that edges, or the shade in their place, give an area at most
@@ -223,7 +223,7 @@ std::string draw_mesh(const LoadedMesh& loaded, const PlotOptions& options, Plot
   painter.fill(cells, paint);
   if (paint.bar) {
     const auto [dark, bright] = by_luminance(cells, paint);
-    painter.stroke_edges(dark, light_ink, 0.4);
+    painter.stroke_edges(dark, light_ink, 0.3);
     painter.stroke_edges(bright, edge_ink, 0.55);
   } else {
     painter.stroke_edges(cells, edge_ink, 1);
