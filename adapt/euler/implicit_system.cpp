@@ -38,7 +38,7 @@ void add_wall_matrix(const Gas& gas, const State& state, Point normal, double fa
 ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model)
     : mesh_{mesh},
       model_{model},
-      colours_{colour_nodes(comm, mesh)},
+      colours_{colour_edges(comm, mesh)},
       diagonal_(mesh.nodes()),
       inverses_(static_cast<std::size_t>(mesh.owned_nodes())),
       skewness_(mesh.edges().size(), 0.0),

@@ -38,7 +38,7 @@ class ImplicitSystem {
 
   const DualMesh& mesh_;
   const FlowModel& model_;
-  NodeColours colours_;
+  Colouring colours_;
   std::vector<std::int32_t> row_nodes_;     ///< the owned nodes, colour by colour
   std::vector<std::size_t> colour_starts_;  ///< into them
   std::vector<std::size_t> row_starts_;     ///< into the two lists that follow
