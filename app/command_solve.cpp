@@ -170,7 +170,9 @@ void add_solve_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<SolveArguments>();
   CLI::App* command = app.add_subcommand("solve", "run the built-in flow solver (2D Euler equations) on a mesh");
   command->add_option("case", arguments->case_path, "the case file (TOML)")->required()->type_name("CASE.toml");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh); a flow in it is started from")->required()->type_name("IN");
+  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh); a flow in it is started from")
+      ->required()
+      ->type_name("IN");
   command->add_option("-o,--output", arguments->output, "the mesh with the flow (.mesh or .cgns)")->required()->type_name("OUT");
   command->add_option("--set", arguments->assignments, "set a key of the case file, as in solver.mach=0.5; may be repeated")
       ->type_name("KEY=VALUE")

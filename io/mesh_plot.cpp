@@ -17,7 +17,7 @@ namespace quadloop {
 namespace {
 
 constexpr Colour edge_ink{0.13, 0.17, 0.25}, light_ink{0.93, 0.95, 1.0};
-constexpr double dim = 0.2;         ///< luminance of a colour on which dark edges would not be seen
+constexpr double dim = 0.2;          ///< luminance of a colour on which dark edges would not be seen
 constexpr std::size_t batch = 4000;  // polygons or lines in one path
 constexpr double smallest = 1.3;     // pixels between two edges that are still drawn one by one
 constexpr double darkest = 0.42;     // share of ink that edges, or the shade in their place, give an area at most

@@ -4,21 +4,13 @@
 #include <bit>
 #include <limits>
 
+#include "mesher/base/morton.hpp"
+
 namespace quadloop {
 
 namespace {
 
 constexpr int all_bits = 32;
-
-/// The bits of a number spread apart, a zero between each two.
-std::uint64_t spread_bits(std::uint32_t number) {
-  std::uint64_t bits = number;
-  bits = (bits | (bits << 16)) & 0x0000ffff0000ffffU;
-  bits = (bits | (bits << 8)) & 0x00ff00ff00ff00ffU;
-  bits = (bits | (bits << 4)) & 0x0f0f0f0f0f0f0f0fU;
-  bits = (bits | (bits << 2)) & 0x3333333333333333U;
-  return (bits | (bits << 1)) & 0x5555555555555555U;
-}
 
 /// Rounded down, and so in the order of the coordinates.
 std::uint32_t step_at(double offset, double scale) {
@@ -40,7 +32,7 @@ CurveGrid::CurveGrid(const Communicator& comm, std::span<const Point> points) {
 
 CurveGrid::Corner CurveGrid::corner_of(Point p) const { return {step_at(p.x - low_.x, scale_), step_at(p.y - low_.y, scale_)}; }
 
-std::uint64_t CurveGrid::key_at(Corner corner) { return spread_bits(corner.x) | (spread_bits(corner.y) << 1); }
+std::uint64_t CurveGrid::key_at(Corner corner) { return morton_key(corner.x, corner.y); }
 
 CurveGrid::Square CurveGrid::square_around(const Steps& steps) {
   const auto bits = static_cast<int>(std::bit_width((steps.low.x ^ steps.high.x) | (steps.low.y ^ steps.high.y)));

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/morton.hpp"
 
 namespace quadloop {
 
@@ -15,19 +16,10 @@ constexpr std::size_t block = 16;
 constexpr std::uint8_t children_bits = 0xf, asked_bit = 0x10;
 constexpr std::uint64_t children_of_word = 0x0f0f0f0f0f0f0f0fULL;
 
-std::uint64_t spread(std::uint64_t bits) {
-  bits &= 0xffffffffULL;
-  bits = (bits | (bits << 16)) & 0x0000ffff0000ffffULL;
-  bits = (bits | (bits << 8)) & 0x00ff00ff00ff00ffULL;
-  bits = (bits | (bits << 4)) & 0x0f0f0f0f0f0f0f0fULL;
-  bits = (bits | (bits << 2)) & 0x3333333333333333ULL;
-  return (bits | (bits << 1)) & 0x5555555555555555ULL;
-}
-
 /// Of the quadrant of this level that holds a place. No quadrant deeper than this is split: its coordinates in units of its size fit into 32 bits.
 std::uint64_t key_of(const Quadrant& place, int level) {
   const int shift = Quadrant::unit_level - level;
-  return spread(static_cast<std::uint64_t>(place.x >> shift)) | (spread(static_cast<std::uint64_t>(place.y >> shift)) << 1);
+  return morton_key(static_cast<std::uint32_t>(place.x >> shift), static_cast<std::uint32_t>(place.y >> shift));
 }
 
 void make_unique(std::vector<std::uint64_t>& keys) {
