@@ -5,6 +5,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "mesher/base/morton.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop {
@@ -21,25 +22,16 @@ struct GlobalEdge {
   std::int32_t boundary;
 };
 
-/// The bits of a number below 2^31 spread apart, a zero between each two.
-std::uint64_t spread_bits(std::uint64_t v) {
-  v = (v | (v << 16)) & 0x0000ffff0000ffffU;
-  v = (v | (v << 8)) & 0x00ff00ff00ff00ffU;
-  v = (v | (v << 4)) & 0x0f0f0f0f0f0f0f0fU;
-  v = (v | (v << 2)) & 0x3333333333333333U;
-  return (v | (v << 1)) & 0x5555555555555555U;
-}
-
 /// Places along the Morton curve over the box of all nodes.
 std::vector<std::uint64_t> curve_places(const Mesh& mesh) {
   Box box;
   for (const Point p : mesh.points) box.include(p);
   const double side = std::max(box.width(), box.height());
   constexpr double steps = (std::uint64_t{1} << 31) - 1;
-  const auto step = [&](double at, double low) { return static_cast<std::uint64_t>(side > 0 ? (at - low) / side * steps : 0); };
+  const auto step = [&](double at, double low) { return static_cast<std::uint32_t>(side > 0 ? (at - low) / side * steps : 0); };
   std::vector<std::uint64_t> places;
   places.reserve(mesh.points.size());
-  for (const Point p : mesh.points) places.push_back(spread_bits(step(p.x, box.low.x)) | (spread_bits(step(p.y, box.low.y)) << 1));
+  for (const Point p : mesh.points) places.push_back(morton_key(step(p.x, box.low.x), step(p.y, box.low.y)));
   return places;
 }
 
