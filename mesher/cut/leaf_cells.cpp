@@ -67,7 +67,7 @@ void LeafCellMaker::set_keys(const Quadrant& q, const Box& box, const CutLeaf& l
   keys_.clear();
   for (const CutLeaf::Node& node : leaf.nodes) {
     TieKey key = node.place < 8 ? lattice[static_cast<std::size_t>(node.place)] : TieKey{};
-    const auto [near, far] = std::minmax(std::abs(node.position.x - origin.x), std::abs(node.position.y - origin.y));
+    const auto [near, far] = std::minmax({std::abs(node.position.x - origin.x), std::abs(node.position.y - origin.y)});  // a list: values
     key.farther = far;
     key.nearer = near;
     keys_.push_back(key);
