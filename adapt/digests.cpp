@@ -56,6 +56,7 @@ std::uint64_t case_digest(const MeshOptions& options) {
   WordDigest digest;
   const SizeOptions& size = options.size;
   digest.add(static_cast<std::uint64_t>(options.type));
+  digest.add(static_cast<std::uint64_t>(options.quads));
   digest.add(size.min);
   digest.add(size.max);
   digest.add(size.gradation);

@@ -7,10 +7,13 @@
 #include "adapt/digests.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/delaunay/tie_order.hpp"
+#include "mesher/mesh/split_quads.hpp"
 
 namespace quadloop {
 
 namespace {
+
+constexpr double cost_at_hanging_nodes = 0.0945;  ///< Eq. 3.2, a little more than that of the right triangles there, whose legs are 1 and 2
 
 /// A leaf has the triangles that stand in the places of its own before.
 void count_triangles(const std::vector<std::int32_t>& standing, std::vector<LeafRecord>& leaves) {
@@ -23,17 +26,29 @@ void count_triangles(const std::vector<std::int32_t>& standing, std::vector<Leaf
   }
 }
 
+/// Moved nodes leave some parallelograms skew; those are divided too. *Collective.*
+void keep_parallelograms(const Communicator& comm, const std::function<TieRank(Point)>& rank, MeshResult& result) {
+  split_skew_quads(result.mesh, result.tree.leaves, rank);
+  result.tree.attributes.triangles = comm.sum(static_cast<std::int64_t>(result.mesh.triangles.size()));
+  result.tree.attributes.quads = comm.sum(static_cast<std::int64_t>(result.mesh.quads.size()));
+}
+
 void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result) {
   SmoothOptions options = input.smooth;
   if (options.sweeps == 0) return;
   options.geometry = &input.geometry;
   const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
-  if (input.mesh.type == MeshType::delaunay) {
-    options.delaunay = [&lattice, finest = result.report.finest_allowed](Point p) { return tie_rank(lattice, finest, p); };
+  const auto rank = [&lattice, finest = result.report.finest_allowed](Point p) { return tie_rank(lattice, finest, p); };
+  const bool parallel = input.mesh.type == MeshType::hybrid && input.mesh.quads == QuadChoice::parallel;
+  if (input.mesh.type == MeshType::delaunay) options.delaunay = rank;
+  if (parallel) {
+    options.level_lines = false;  // at its ends a moved line costs parallelograms
+    options.bad = cost_at_hanging_nodes;
   }
   options.keep_places = input.mesh.type != MeshType::delaunay;
   const SmoothReport report = smooth_mesh(comm, result.mesh, options);
   if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
+  if (parallel) keep_parallelograms(comm, rank, result);
   log::detail(fmt::format("smoothed: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}", report.moves, report.free_nodes,
                           report.sweeps, report.worst_cost_after, report.worst_cost_before));
 }

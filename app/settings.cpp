@@ -126,6 +126,7 @@ void read_mesh_table(const CaseTable& root, Settings& settings) {
   if (!table) return;
   const auto type = table->choice("type", {"hybrid", "delaunay"});
   if (type == "delaunay") settings.mesh.type = MeshType::delaunay;
+  if (table->choice("quads", {"all", "parallel"}) == "parallel") settings.mesh.quads = QuadChoice::parallel;
   settings.mesh.snap = table->number("snap", {0, 0.5, false, true}).value_or(settings.mesh.snap);
   if (const auto root_values = table->numbers("root", 5)) {
     const auto& r = *root_values;

@@ -6,8 +6,10 @@
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/node_exchange.hpp"
+#include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/restore_delaunay.hpp"
 #include "smoother/binary_unit.hpp"
+#include "smoother/level_lines.hpp"
 #include "smoother/sweeper.hpp"
 
 namespace quadloop {
@@ -58,6 +60,7 @@ struct Survey {
   WorstCell worst;
   std::vector<double> costs;  ///< of each cell of the halo mesh
   std::vector<char> near;     ///< a flag for each node: of a cell above the threshold, or some rings round those
+  std::vector<char> parallel;  ///< a flag for each node: of a parallelogram; right for owned nodes
 };
 
 template <class Nodes>
@@ -90,6 +93,17 @@ void grow(const HaloMesh& mesh, std::vector<char>& flags, int rings) {
   mesh.exchange().update(flags);
 }
 
+bool is_parallelogram(const std::array<Point, 4>& p) { return is_square(p) || skew_of(p) <= parallel_skew; }
+bool is_parallelogram(const std::array<Point, 3>&) { return false; }
+
+std::vector<char> nodes_of_parallelograms(const HaloMesh& mesh) {
+  std::vector<char> parallel(mesh.points().size(), 0);
+  mesh.for_each_cell([&](const auto& nodes) {
+    if (is_parallelogram(corners_of(mesh, nodes))) flag_all(nodes, parallel);
+  });
+  return parallel;
+}
+
 /// *Collective.*
 Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets, double threshold) {
   Survey result;
@@ -102,15 +116,32 @@ Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<
     result.costs.push_back(cost);
     if (cost > threshold) flag_all(nodes, near);
   });
+  result.parallel = nodes_of_parallelograms(mesh);
   grow(mesh, near, free_rings);
   result.worst = over_ranks(comm, result.worst);
   return result;
 }
 
-std::vector<std::int32_t> free_nodes(const Survey& surveyed, const HaloMesh& mesh, const BoundarySlide& slide) {
+/// Flags the nodes of cells that cost more than `bad` and so many rings round them; only those with a node near are looked at. Right for all nodes.
+/// *Collective.*
+std::vector<char> nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>& targets, const Survey& surveyed, double bad, int rings) {
+  std::vector<char> flags(mesh.points().size(), 0);
+  std::size_t number = 0;
+  mesh.for_each_cell([&](const auto& nodes) {
+    const std::size_t cell = number++;
+    if (any_flagged(surveyed.near, nodes) && cost_of(mesh, nodes, targets, cell) > bad) flag_all(nodes, flags);
+  });
+  grow(mesh, flags, rings);
+  return flags;
+}
+
+/// The nodes near that may move: those of no parallelogram, and the ones flagged in `yielding`.
+std::vector<std::int32_t> free_nodes(const Survey& surveyed, const HaloMesh& mesh, const BoundarySlide& slide, const std::vector<char>& yielding) {
   std::vector<std::int32_t> free;
   for (std::int32_t node = 0; node < mesh.owned_nodes(); ++node) {
-    if (surveyed.near[static_cast<std::size_t>(node)] != 0 && slide.freedom(node) != NodeFreedom::fixed) free.push_back(node);
+    const auto n = static_cast<std::size_t>(node);
+    const bool may_move = surveyed.near[n] != 0 && (surveyed.parallel[n] == 0 || yielding[n] != 0);
+    if (may_move && slide.freedom(node) != NodeFreedom::fixed) free.push_back(node);
   }
   return free;
 }
@@ -154,6 +185,26 @@ WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
   return over_ranks(comm, worst);
 }
 
+/// Rounds of sweeps: parallelograms stay in the first; in the next ones those yield that a bad cell touches, then those in rings round it, until no
+/// cell is bad. *Collective.*
+void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide, const std::vector<CellTarget>& targets, const Survey& surveyed,
+                     const SmoothOptions& options, SmoothReport& report) {
+  std::vector<char> yielding(halo.points().size(), 0);
+  for (int round = 0;; ++round) {
+    const NodeStars stars(halo, free_nodes(surveyed, halo, slide, yielding), targets);
+    Sweeper sweeper(comm, halo, stars, slide, options.method, options.objective, round == 0 ? options.threshold : options.bad);
+    std::int64_t moves = 1;
+    for (int sweep = 0; sweep < options.sweeps && moves > 0; ++sweep, ++report.sweeps) {
+      moves = sweeper.sweep();
+      report.moves += moves;
+    }
+    report.free_nodes = comm.sum(static_cast<std::int64_t>(stars.size()));
+    if (round == free_rings) return;
+    yielding = nodes_of_bad_cells(halo, targets, surveyed, options.bad, round);
+    if (!comm.any(std::find(yielding.begin(), yielding.end(), 1) != yielding.end())) return;
+  }
+}
+
 /// Sweeps, then flips; what the flips make of the worst cell is seen in the report. *Collective.*
 SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
   SmoothReport report;
@@ -162,13 +213,11 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
   HaloMesh halo(comm, mesh);
   const std::vector<CellTarget> targets = comm.any(!options.targets.empty()) ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
   const BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
-  const Survey before = survey(comm, halo, targets, options.threshold);
-  const NodeStars stars(halo, free_nodes(before, halo, slide), targets);
-  Sweeper sweeper(comm, halo, stars, slide, options.method, options.objective, options.threshold);
-  for (std::int64_t moves = 1; report.sweeps < options.sweeps && moves > 0; ++report.sweeps) {
-    moves = sweeper.sweep();
-    report.moves += moves;
-  }
+  Survey before = survey(comm, halo, targets, options.threshold);
+  const WorstCell first = before.worst;
+  const bool may_move_lines = options.level_lines && options.sweeps > 0 && targets.empty();
+  if (may_move_lines && move_level_lines(comm, halo, options.pinned, options.bad)) before = survey(comm, halo, targets, options.threshold);
+  sweep_in_rounds(comm, halo, slide, targets, before, options, report);
   WorstCell after = worst_cell(comm, halo, targets, before);
   const std::vector<char> moved = take_positions(halo, mesh);
   const bool sound = after.inverted == 0 || !comm.any(any_turns_right(mesh));
@@ -177,10 +226,9 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
     if (!options.keep_places) report.standing = restore_delaunay_nearby(comm, mesh, moved, options.delaunay);
     after = worst_triangle(comm, mesh);
   }
-  report.free_nodes = comm.sum(static_cast<std::int64_t>(stars.size()));
-  report.worst_cost_before = before.worst.cost;
+  report.worst_cost_before = first.cost;
   report.worst_cost_after = after.cost;
-  report.inverted_before = before.worst.inverted;
+  report.inverted_before = first.inverted;
   report.inverted_after = after.inverted;
   return report;
 }

@@ -7,6 +7,7 @@
 #include "mesher/mesh/assemble_mesh.hpp"
 #include "mesher/mesh/islands.hpp"
 #include "mesher/mesh/make_delaunay.hpp"
+#include "mesher/mesh/split_quads.hpp"
 
 namespace quadloop {
 
@@ -70,6 +71,9 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   if (options.type == MeshType::delaunay) {
     times.begin("delaunay");
     make_delaunay(comm, lattice, sizes.finest_level(), graph, cut, result.mesh, result.tree.leaves);
+  }
+  if (options.type == MeshType::hybrid && options.quads == QuadChoice::parallel) {
+    split_skew_quads(result.mesh, result.tree.leaves, [&](Point p) { return tie_rank(lattice, sizes.finest_level(), p); });
   }
   times.end();
 

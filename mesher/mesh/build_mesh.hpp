@@ -16,9 +16,13 @@ namespace quadloop {
 /// Which cells a mesh has: quadrilaterals where they fit and triangles, or triangles alone, constrained Delaunay over the whole domain.
 enum class MeshType { hybrid, delaunay };
 
+/// Which quadrilaterals a hybrid mesh keeps: all that are in good shape, or parallelograms alone, the others being divided.
+enum class QuadChoice { all, parallel };
+
 /// How a mesh is made from a geometry.
 struct MeshOptions {
   MeshType type = MeshType::hybrid;
+  QuadChoice quads = QuadChoice::all;
   SizeOptions size;
   double snap = 0.4;  ///< a lattice corner nearer to a crossing than this share of the local edge moves onto the boundary; 0 <= snap < 0.5
 };

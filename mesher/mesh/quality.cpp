@@ -61,6 +61,8 @@ double quality_of(std::span<const Point> cell) {
   return worst;
 }
 
+double skew_of(const std::array<Point, 4>& p) { return length(p[0] - p[1] + p[2] - p[3]) / std::sqrt(0.5 * cross(p[2] - p[0], p[3] - p[1])); }
+
 MeshCounts count(const Communicator& comm, const Mesh& mesh) {
   std::int64_t edges = 0;
   for (const BoundaryEdges& boundary : mesh.boundaries) edges += static_cast<std::int64_t>(boundary.edges.size());
