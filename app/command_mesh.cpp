@@ -96,8 +96,8 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   times.end();
   show_warnings(comm.is_root(), context.verbose, prepared.input.warnings);
   show_warnings(comm.is_root(), context.verbose, generated.result.report.warnings);
-  const std::string table = summary_table(comm, generated.result, times.stages(), prepared.files);
-  if (!context.quiet) std::cout << table;
+  const MeshSummary summary = summarise(comm, generated.result, times.stages(), prepared.files);
+  if (comm.is_root() && !context.quiet) std::cout << table_of(summary);
 }
 
 }  // namespace

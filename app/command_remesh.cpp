@@ -99,8 +99,8 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   show_warnings(comm.is_root(), context.verbose, input.warnings);
   show_warnings(comm.is_root(), context.verbose, carried.generated.result.report.warnings);
   show_warnings(comm.is_root(), context.verbose, plan.warnings);
-  const std::string table = summary_table(comm, carried.generated.result, times.stages(), files);
-  if (!context.quiet && comm.is_root()) std::cout << table << carried_text(carried);
+  const MeshSummary summary = summarise(comm, carried.generated.result, times.stages(), files);
+  if (!context.quiet && comm.is_root()) std::cout << table_of(summary) << carried_text(carried);
 }
 
 }  // namespace

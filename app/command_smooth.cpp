@@ -154,7 +154,7 @@ std::string smooth_and_write(const Communicator& comm, const SmoothArguments& ar
   times.begin("report");
   const ShapeReport after = report_shapes(comm, part, loaded.whole.mesh);
   times.end();
-  const std::string stages = stage_table(comm, times.stages());
+  const std::string stages = stage_table(stage_rows(comm, times.stages()));
   if (!comm.is_root()) return {};
   return comparison_table(before, after) +
          fmt::format("  {:<24}{:>14}\n  {:<24}{:>14}\n  {:<24}{:>14}\n", "sweeps", smoothed.sweeps, "nodes that may move", smoothed.free_nodes,

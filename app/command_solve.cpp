@@ -155,7 +155,7 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   times.begin("write");
   write(comm, problem, result, arguments.output);
   times.end();
-  const std::string stages = stage_table(comm, times.stages());
+  const std::string stages = stage_table(stage_rows(comm, times.stages()));
   const std::int64_t nodes = comm.sum(part.owned_nodes);
   if (!comm.is_root()) return;
   for (const std::string& warning : problem.warnings) log::warning(warning);

@@ -24,18 +24,6 @@ double peak_memory_mib() {
   return 0;
 }
 
-struct StageRow {
-  double slowest = 0, mean = 0;
-};
-
-StageRow over_ranks(const Communicator& comm, double seconds) {
-  const auto microseconds = static_cast<std::int64_t>(std::llround(seconds * 1e6));  // there is no floating-point sum, on purpose
-  return {comm.maximum(seconds), static_cast<double>(comm.sum(microseconds)) * 1e-6 / comm.size()};
-}
-
-std::string row(const std::string& name, const std::string& value) { return fmt::format("  {:<16}{:>14}\n", name, value); }
-std::string row(const std::string& name, std::int64_t value) { return row(name, std::to_string(value)); }
-
 std::string vanished_text(const std::vector<std::string>& boundaries) {
   constexpr std::size_t most_named = 10;
   if (boundaries.empty()) return {};
@@ -47,32 +35,75 @@ std::string vanished_text(const std::vector<std::string>& boundaries) {
 
 }  // namespace
 
-std::string stage_table(const Communicator& comm, const StageSeconds& seconds) {
-  std::string text = "  seconds              slowest          mean\n";
-  for (const auto& [stage, of_rank] : seconds) {
-    const StageRow row_of_stage = over_ranks(comm, of_rank);
-    text += fmt::format("    {:<14}{:>14.3f}{:>14.3f}\n", stage, row_of_stage.slowest, row_of_stage.mean);
+std::vector<StageRow> stage_rows(const Communicator& comm, const StageSeconds& seconds) {
+  StageSeconds of_rank;
+  for (const auto& [stage, added] : seconds) {
+    const auto known = std::find_if(of_rank.begin(), of_rank.end(), [&](const auto& row) { return row.first == stage; });
+    if (known == of_rank.end())
+      of_rank.emplace_back(stage, added);
+    else
+      known->second += added;
   }
+  std::vector<StageRow> rows;
+  for (const auto& [stage, sum] : of_rank) {
+    const auto microseconds = static_cast<std::int64_t>(std::llround(sum * 1e6));  // there is no floating-point sum, on purpose
+    rows.push_back({stage, comm.maximum(sum), static_cast<double>(comm.sum(microseconds)) * 1e-6 / comm.size()});
+  }
+  return rows;
+}
+
+std::string stage_table(const std::vector<StageRow>& stages) {
+  std::string text = "  seconds              slowest          mean\n";
+  for (const auto& [stage, slowest, mean] : stages) text += fmt::format("    {:<14}{:>14.3f}{:>14.3f}\n", stage, slowest, mean);
   return text;
 }
 
-std::string summary_table(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds, const std::vector<std::string>& files) {
-  const std::string stages = stage_table(comm, seconds);
+MeshSummary summarise(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds, const std::vector<std::string>& files) {
+  MeshSummary summary{{}, stage_rows(comm, seconds), files, result.report.boundaries_vanished};
   const QualitySummary quality = summarise_quality(comm, result.mesh);
   const double memory = comm.maximum(peak_memory_mib());
-  if (!comm.is_root()) return {};
+  if (!comm.is_root()) return summary;
 
   const TreeAttributes& counts = result.tree.attributes;
   const MeshReport& report = result.report;
-  std::string text = row("nodes", counts.nodes) + row("triangles", counts.triangles) + row("quads", counts.quads);
-  text += row("leaves", report.leaves) + row("cut leaves", report.cut_leaves);
-  text += row("levels", fmt::format("{} to {}", report.coarsest_level, report.finest_level));
-  text += row("worst quality", fmt::format("{:.3f}", quality.worst)) + row("mean quality", fmt::format("{:.3f}", quality.mean));
-  text += row("smallest angle", fmt::format("{:.2f} degrees", quality.smallest_degrees));
-  text += row("peak memory", fmt::format("{:.0f} MiB", memory)) + row("imbalance", fmt::format("{:.3f}", report.imbalance));
-  text += stages;
-  for (const std::string& file : files) text += fmt::format("  wrote {}\n", file);
-  return text + vanished_text(report.boundaries_vanished);
+  Figures& figures = summary.figures;
+  figures.add("nodes", counts.nodes);
+  figures.add("triangles", counts.triangles);
+  figures.add("quads", counts.quads);
+  figures.add("leaves", report.leaves);
+  figures.add("cut leaves", report.cut_leaves);
+  figures.add_raw("levels", fmt::format("{} to {}", report.coarsest_level, report.finest_level),
+                  json_list({json_of(report.coarsest_level), json_of(report.finest_level)}));
+  figures.add("worst quality", quality.worst, "{:.3f}");
+  figures.add("mean quality", quality.mean, "{:.3f}");
+  figures.add("smallest angle", quality.smallest_degrees, "{:.2f} degrees", "min_angle");
+  figures.add("peak memory", memory, "{:.0f} MiB", "peak_memory_mib");
+  figures.add("imbalance", report.imbalance, "{:.3f}");
+  return summary;
+}
+
+std::string table_of(const MeshSummary& summary) {
+  std::string text = summary.figures.table() + stage_table(summary.stages);
+  for (const std::string& file : summary.files) text += fmt::format("  wrote {}\n", file);
+  return text + vanished_text(summary.boundaries_vanished);
+}
+
+JsonObject record_of(const MeshSummary& summary) {
+  JsonObject json = summary.figures.record();
+  json.add("seconds", record_of(summary.stages));
+  json.add("boundaries_vanished", summary.boundaries_vanished);
+  return json;
+}
+
+JsonObject record_of(const std::vector<StageRow>& stages) {
+  JsonObject json;
+  for (const auto& [stage, slowest, mean] : stages) {
+    JsonObject row;
+    row.add("slowest", slowest);
+    row.add("mean", mean);
+    json.add(stage, row);
+  }
+  return json;
 }
 
 }  // namespace quadloop
