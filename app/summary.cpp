@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/shape_figures.hpp"
 
 namespace quadloop {
 
@@ -61,6 +62,7 @@ std::string stage_table(const std::vector<StageRow>& stages) {
 MeshSummary summarise(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds, const std::vector<std::string>& files) {
   MeshSummary summary{{}, stage_rows(comm, seconds), files, result.report.boundaries_vanished};
   const QualitySummary quality = summarise_quality(comm, result.mesh);
+  const ShapeFigures shape = shape_figures(comm, result.mesh);
   const double memory = comm.maximum(peak_memory_mib());
   if (!comm.is_root()) return summary;
 
@@ -77,6 +79,10 @@ MeshSummary summarise(const Communicator& comm, const MeshResult& result, const 
   figures.add("worst quality", quality.worst, "{:.3f}");
   figures.add("mean quality", quality.mean, "{:.3f}");
   figures.add("smallest angle", quality.smallest_degrees, "{:.2f} degrees", "min_angle");
+  figures.add("parallelograms", shape.parallelogram_share(), "{:.4f}", "parallelogram_share");
+  figures.add("inexact nodes", shape.inexact_share(), "{:.4f}", "inexact_node_share");
+  figures.add("area ratio", shape.area_ratio_max, "{:.3g}", "area_ratio_max");
+  figures.add("passage cells", shape.passage_cells);
   figures.add("peak memory", memory, "{:.0f} MiB", "peak_memory_mib");
   figures.add("imbalance", report.imbalance, "{:.3f}");
   return summary;

@@ -58,8 +58,8 @@ struct WorstCell {
 /// What has to be known before the first sweep: the worst cell, and the nodes that may come to move.
 struct Survey {
   WorstCell worst;
-  std::vector<double> costs;  ///< of each cell of the halo mesh
-  std::vector<char> near;     ///< a flag for each node: of a cell above the threshold, or some rings round those
+  std::vector<double> costs;   ///< of each cell of the halo mesh
+  std::vector<char> near;      ///< a flag for each node: of a cell above the threshold, or some rings round those
   std::vector<char> parallel;  ///< a flag for each node: of a parallelogram; right for owned nodes
 };
 
@@ -116,7 +116,7 @@ Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<
     result.costs.push_back(cost);
     if (cost > threshold) flag_all(nodes, near);
   });
-  result.parallel = nodes_of_parallelograms(mesh);
+  result.parallel = targets.empty() ? nodes_of_parallelograms(mesh) : std::vector<char>(mesh.points().size(), 0);
   grow(mesh, near, free_rings);
   result.worst = over_ranks(comm, result.worst);
   return result;
@@ -187,8 +187,8 @@ WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
 
 /// Rounds of sweeps: parallelograms stay in the first; in the next ones those yield that a bad cell touches, then those in rings round it, until no
 /// cell is bad. *Collective.*
-void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide, const std::vector<CellTarget>& targets, const Survey& surveyed,
-                     const SmoothOptions& options, SmoothReport& report) {
+void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide, const std::vector<CellTarget>& targets,
+                     const Survey& surveyed, const SmoothOptions& options, SmoothReport& report) {
   std::vector<char> yielding(halo.points().size(), 0);
   for (int round = 0;; ++round) {
     const NodeStars stars(halo, free_nodes(surveyed, halo, slide, yielding), targets);

@@ -73,7 +73,7 @@ void count_inexact_nodes(const HaloMesh& mesh, const std::vector<char>& on_bound
   for (std::size_t node = 0; node < sums.size(); ++node) {
     if (on_boundary[node] != 0) continue;
     ++figures.inner_nodes;
-    figures.skew_nodes += sums[node].is_exact() ? 0 : 1;
+    figures.inexact_nodes += sums[node].is_exact() ? 0 : 1;
   }
 }
 
@@ -197,7 +197,7 @@ ShapeFigures shape_figures(const Communicator& comm, const Mesh& mesh) {
   figures.quads = comm.sum(figures.quads);
   figures.parallelograms = comm.sum(figures.parallelograms);
   figures.inner_nodes = comm.sum(figures.inner_nodes);
-  figures.skew_nodes = comm.sum(figures.skew_nodes);
+  figures.inexact_nodes = comm.sum(figures.inexact_nodes);
   figures.area_ratio_max = largest_area_ratio(comm, halo);
   figures.passage_cells = comm.sum(count_passage_cells(halo, on_boundary));
   return figures;
