@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 
@@ -44,6 +45,11 @@ std::string unknown_option(const CLI::App& app) {
   return name + ": there is no such option" + guess_for(name, names);
 }
 
+bool is_file(const std::string& word) {
+  std::error_code ignored;  // a word too long for a path is none
+  return std::filesystem::exists(word, ignored);
+}
+
 }  // namespace
 
 std::vector<CLI::App*> commands_of(CLI::App& app) {
@@ -56,8 +62,9 @@ std::vector<std::string> words_of(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     const bool is_value = i > 1 && words.back() == "--set";
-    if (in_assignments && !is_value && is_assignment(word)) words.emplace_back("--set");
-    in_assignments = is_value || word.starts_with("--set=") || (in_assignments && is_assignment(word));
+    const bool is_one_more = in_assignments && !is_value && is_assignment(word) && !is_file(word);
+    if (is_one_more) words.emplace_back("--set");
+    in_assignments = is_value || is_one_more || word.starts_with("--set=");
     words.push_back(word);
   }
   std::reverse(words.begin(), words.end());

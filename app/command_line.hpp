@@ -17,7 +17,7 @@ namespace quadloop {
 std::vector<CLI::App*> commands_of(CLI::App& app);
 
 /// The command line, last word first as CLI11 takes it, with --set before each of the assignments that follow one: an option of many values would
-/// take the case file for one of them.
+/// take the case file for one of them. A word that names a file is the case file, whatever it looks like.
 std::vector<std::string> words_of(int argc, char** argv);
 
 /// Lets CLI11 say what it has to say (help, version) on the root rank; what is wrong becomes our own one line, a UsageError: an option or a command
