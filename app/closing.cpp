@@ -91,7 +91,7 @@ ExitStatus close_together(MPI_Comm comm, const Outcome& outcome) {
   const auto first = std::find_if(statuses.begin(), statuses.end(), [](int status) { return status != 0; });
   if (first == statuses.end()) {
     if (rank != 0 || print(outcome.record)) return ExitStatus::done;
-    say({ExitStatus::output_failed, "standard output cannot be written", {}});
+    say({ExitStatus::output_failed, "standard output cannot be written"});
     return ExitStatus::output_failed;
   }
   if (first - statuses.begin() == rank) say(outcome);

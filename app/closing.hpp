@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <string>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 
@@ -10,6 +11,9 @@ namespace quadloop {
 
 /// How one rank's work ended.
 struct Outcome {
+  Outcome() = default;
+  Outcome(ExitStatus how, std::string why) : status{how}, message{std::move(why)} {}
+
   ExitStatus status = ExitStatus::done;
   std::string message;  ///< one line, where the status is not `done`
   std::string record;   ///< for stdout: with `done` the root rank's is printed, else that of the rank that speaks

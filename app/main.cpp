@@ -79,14 +79,14 @@ Outcome guarded_run(int argc, char** argv, const Communicator& comm, CommandReco
   try {
     run(argc, argv, comm, record);
     std::cout.flush();
-    if (!std::cout) return {ExitStatus::output_failed, "standard output cannot be written", {}};
+    if (!std::cout) return {ExitStatus::output_failed, "standard output cannot be written"};
     return {};
   } catch (const Error& error) {
-    return {error.status(), error.what(), {}};
+    return {error.status(), error.what()};
   } catch (const std::bad_alloc&) {
-    return {ExitStatus::fault, "out of memory; use more ranks on more machines, or a larger spacing", {}};
+    return {ExitStatus::fault, "out of memory; use more ranks on more machines, or a larger spacing"};
   } catch (const std::exception& error) {
-    return {ExitStatus::fault, fmt::format("a fault of the program itself: {}", error.what()), {}};
+    return {ExitStatus::fault, fmt::format("a fault of the program itself: {}", error.what())};
   }
 }
 
