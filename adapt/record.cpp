@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <sstream>
 #include <string_view>
 
@@ -14,32 +13,10 @@ namespace {
 constexpr const char* settings_begin = "  \"case\": {";
 constexpr const char* settings_end = "  },";
 
-/// JSON has no infinities.
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (static_cast<unsigned char>(c) < ' ')
-      result += fmt::format("\\u{:04x}", static_cast<int>(c));
-    else
-      result += c;
-  }
-  return result + "\"";
-}
-
-std::string object(const std::vector<std::pair<std::string, double>>& members) {
-  std::string text;
-  for (const auto& [name, value] : members) text += (text.empty() ? "" : ", ") + quoted(name) + ": " + number(value);
-  return "{" + text + "}";
-}
-
-/// A member a line, so that it is read back without a parser of JSON.
-std::string settings_text(const CaseSettings& settings) {
-  std::string text;
-  for (const auto& [key, value] : settings) text += (text.empty() ? "\n    " : ",\n    ") + quoted(key) + ": " + value;
-  return std::string(settings_begin) + text + "\n" + settings_end + "\n";
+JsonObject object(const std::vector<std::pair<std::string, double>>& members) {
+  JsonObject json;
+  for (const auto& [name, value] : members) json.add(name, value);
+  return json;
 }
 
 std::optional<std::uint64_t> digest_in(const std::string& json, const std::string& name) {
@@ -53,7 +30,7 @@ std::optional<std::uint64_t> digest_in(const std::string& json, const std::strin
   return digest;
 }
 
-/// The text between the quotes that quoted() put there.
+/// The text between the quotes that JSON put there.
 std::string unquoted(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -81,27 +58,35 @@ CaseSettings settings_in(const std::string& json) {
 
 }  // namespace
 
-std::string json_text(const CycleRecord& record) {
-  std::string text = "{\n";
-  const auto member = [&](const char* name, const std::string& value) { text += fmt::format("  \"{}\": {},\n", name, value); };
-  member("cycle", std::to_string(record.cycle));
-  member("case_digest", fmt::format("\"{:016x}\"", record.case_digest));
-  member("geometry_digest", fmt::format("\"{:016x}\"", record.geometry_digest));
-  member("nodes", std::to_string(record.nodes));
-  member("triangles", std::to_string(record.triangles));
-  member("quads", std::to_string(record.quads));
-  member("leaves", std::to_string(record.leaves));
-  member("worst_angle", number(record.worst_angle));
-  member("indicator", object({{"mean", record.mean}, {"deviation", record.deviation}}));
-  member("refined", std::to_string(record.refined));
-  member("coarsened", std::to_string(record.coarsened));
-  member("outside", std::to_string(record.outside));
-  member("drift", object(record.drift));
+JsonObject figures_of(const CycleRecord& record) {
+  JsonObject json;
+  json.add("cycle", record.cycle);
+  json.add("case_digest", fmt::format("{:016x}", record.case_digest));
+  json.add("geometry_digest", fmt::format("{:016x}", record.geometry_digest));
+  json.add("nodes", record.nodes);
+  json.add("triangles", record.triangles);
+  json.add("quads", record.quads);
+  json.add("leaves", record.leaves);
+  json.add("worst_angle", record.worst_angle);
+  json.add("indicator", object({{"mean", record.mean}, {"deviation", record.deviation}}));
+  json.add("refined", record.refined);
+  json.add("coarsened", record.coarsened);
+  json.add("outside", record.outside);
+  json.add("drift", object(record.drift));
   for (const auto& [name, value] : {std::pair{"cl", record.cl}, {"cd", record.cd}, {"residual", record.residual}}) {
-    if (value) member(name, number(*value));
+    if (value) json.add(name, *value);
   }
-  text += settings_text(record.settings);
-  return text + "  \"seconds\": " + object(record.seconds) + "\n}\n";
+  return json;
+}
+
+JsonObject seconds_of(const CycleRecord& record) { return object(record.seconds); }
+
+std::string json_text(const CycleRecord& record) {
+  JsonObject settings, json = figures_of(record);
+  for (const auto& [key, value] : record.settings) settings.add_raw(key, value);
+  json.add_raw("case", settings.lines("  "));
+  json.add("seconds", seconds_of(record));
+  return json.lines() + "\n";
 }
 
 std::optional<RecordedCase> recorded_case(const std::string& json) {

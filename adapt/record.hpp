@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adapt/case_settings.hpp"
+#include "mesher/base/json.hpp"
 
 namespace quadloop {
 
@@ -24,6 +25,10 @@ struct CycleRecord {
   std::optional<double> cl, cd, residual;
   std::vector<std::pair<std::string, double>> seconds;
 };
+
+/// What the cycle came to, without its case and the seconds that it took.
+JsonObject figures_of(const CycleRecord& record);
+JsonObject seconds_of(const CycleRecord& record);
 
 /// One JSON object, a member a line; numbers are the shortest that read back as they are.
 std::string json_text(const CycleRecord& record);

@@ -2,14 +2,12 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "adapt/digests.hpp"
 #include "adapt/restart.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/log.hpp"
 
 namespace quadloop {
 
@@ -59,14 +57,6 @@ CaseInput load_case(const CaseArguments& arguments) {
   input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth, case_digest(options)});
   if (arguments.saved) keep_root(*arguments.saved, *input.mesh);
   return input;
-}
-
-void show_warnings(bool is_root, bool all, const Warnings& warnings) {
-  constexpr std::size_t most_shown = 10;
-  if (!is_root) return;
-  const std::size_t shown = all ? warnings.size() : std::min(most_shown, warnings.size());
-  for (std::size_t i = 0; i < shown; ++i) log::warning(warnings[i]);
-  if (shown < warnings.size()) log::warning(std::to_string(warnings.size() - shown) + " more warnings; --verbose shows them");
 }
 
 }  // namespace quadloop

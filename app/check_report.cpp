@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 
@@ -12,40 +11,6 @@ namespace quadloop {
 namespace {
 
 constexpr std::size_t most_listed = 20;
-
-/// Bytes of the UTF-8 character that `text` begins with; 0 where it is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text[0]);
-  const std::size_t length = first < 0x80                    ? 1
-                             : first >= 0xC2 && first < 0xE0 ? 2
-                             : first >= 0xE0 && first < 0xF0 ? 3
-                             : first >= 0xF0 && first < 0xF5 ? 4
-                                                             : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t k = 1; k < length; ++k) {
-    if ((static_cast<unsigned char>(text[k]) & 0xC0) != 0x80) return 0;
-  }
-  return length;
-}
-
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
-std::string number(std::int64_t value) { return fmt::format("{}", value); }
-
-/// `"name": value, ` pairs, in the order they are added.
-class JsonObject {
- public:
-  template <class Number>
-  void add(const char* name, Number value) {
-    add_raw(name, number(value));
-  }
-  void add_raw(const std::string& name, const std::string& value) {
-    text_ += fmt::format("{}{}: {}", text_.empty() ? "" : ", ", json_string(name), value);
-  }
-  std::string text() const { return "{" + text_ + "}"; }
-
- private:
-  std::string text_;
-};
 
 void add_fit(JsonObject& json, const GeometryFit& fit) {
   json.add("boundaries_dropped", fit.boundaries_dropped);
@@ -57,11 +22,9 @@ void add_fit(JsonObject& json, const GeometryFit& fit) {
 }
 
 std::string places_json(const std::vector<SharpPlace>& places) {
-  std::string text;
-  for (const auto& [place, degrees] : places) {
-    text += fmt::format("{}[{}, {}, {}]", text.empty() ? "" : ", ", number(place.x), number(place.y), number(degrees));
-  }
-  return "[" + text + "]";
+  std::vector<std::string> rows;
+  for (const auto& [place, degrees] : places) rows.push_back(json_of(std::vector{place.x, place.y, degrees}));
+  return json_list(rows);
 }
 
 void add_shape(JsonObject& json, const ShapeStatistics& shape) {
@@ -81,13 +44,15 @@ void add_shape(JsonObject& json, const ShapeStatistics& shape) {
   json.add_raw("passages", places_json(shape.passages));
 }
 
-std::string faults_json(const std::vector<MeshFault>& faults) {
-  std::string text;
+std::vector<JsonObject> faults_json(const std::vector<MeshFault>& faults) {
+  std::vector<JsonObject> rows;
   for (const MeshFault& fault : faults) {
-    text += fmt::format("{}{{\"rule\": \"{}\", \"what\": {}, \"place\": [{}, {}]}}", text.empty() ? "" : ", ", name_of(fault.rule),
-                        json_string(fault.what), number(fault.place.x), number(fault.place.y));
+    JsonObject& row = rows.emplace_back();
+    row.add("rule", name_of(fault.rule));
+    row.add("what", fault.what);
+    row.add("place", std::vector{fault.place.x, fault.place.y});
   }
-  return "[" + text + "]";
+  return rows;
 }
 
 template <class Value>
@@ -147,23 +112,6 @@ std::string faults_text(const std::vector<MeshFault>& faults, std::size_t most) 
 
 }  // namespace
 
-std::string json_string(std::string_view text) {
-  std::string quoted = "\"";
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    const auto byte = static_cast<unsigned char>(text[0]);
-    if (byte == '"' || byte == '\\') {
-      quoted += fmt::format("\\{}", text[0]);
-    } else if (byte < 0x20 || length == 0) {
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(byte));
-    } else {
-      quoted += text.substr(0, length);
-    }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
-  }
-  return quoted + "\"";
-}
-
 std::string report_text(const CheckReport& report, bool verbose) {
   const std::size_t most = verbose ? std::numeric_limits<std::size_t>::max() : most_listed;
   const QualitySummary& quality = report.quality;
@@ -177,19 +125,19 @@ std::string report_text(const CheckReport& report, bool verbose) {
   return text + faults_text(report.faults, most) + (report.faults.empty() ? "  valid\n" : "  INVALID\n");
 }
 
-std::string report_json(const CheckReport& report) {
+JsonObject report_record(const CheckReport& report) {
   JsonObject boundaries, json;
-  for (const auto& [name, edges] : report.boundaries) boundaries.add(name.c_str(), edges);
+  for (const auto& [name, edges] : report.boundaries) boundaries.add(name, edges);
   const QualitySummary& quality = report.quality;
-  json.add_raw("valid", report.faults.empty() ? "true" : "false");
-  json.add_raw("file", json_string(report.file));
-  json.add_raw("faults", faults_json(report.faults));
+  json.add("valid", report.faults.empty());
+  json.add("file", report.file);
+  json.add("faults", faults_json(report.faults));
   json.add("nodes", quality.counts.nodes);
   json.add("triangles", quality.counts.triangles);
   json.add("quads", quality.counts.quads);
-  json.add("blocks", std::int64_t{report.blocks});
+  json.add("blocks", report.blocks);
   json.add("boundary_edges", quality.counts.boundary_edges);
-  json.add_raw("boundaries", boundaries.text());
+  json.add("boundaries", boundaries);
   json.add("area", report.area);
   json.add("min_angle", quality.smallest_degrees);
   json.add("max_angle", quality.largest_degrees);
@@ -198,7 +146,7 @@ std::string report_json(const CheckReport& report) {
   json.add("mean_quality", quality.mean);
   json.add("pinched_nodes", report.pinched_nodes);
   if (report.fit) add_fit(json, *report.fit);
-  return json.text() + "\n";
+  return json;
 }
 
 }  // namespace quadloop

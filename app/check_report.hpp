@@ -2,9 +2,9 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "mesher/base/json.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/shape_statistics.hpp"
 #include "mesher/mesh/validate.hpp"
@@ -28,10 +28,7 @@ struct CheckReport {
 /// `verbose` lists all, and every place where the outline makes corners sharp.
 std::string report_text(const CheckReport& report, bool verbose);
 
-/// One JSON object on one line, with all faults. Numbers read back to the same double; one that is not finite is null.
-std::string report_json(const CheckReport& report);
-
-/// The text between quotes as JSON wants it. Bytes that are no UTF-8 are taken as Latin-1.
-std::string json_string(std::string_view text);
+/// The members of the record that --json prints, with all faults.
+JsonObject report_record(const CheckReport& report);
 
 }  // namespace quadloop

@@ -17,7 +17,10 @@ using Clock = std::chrono::steady_clock;
 constexpr int failure_note = 7;                             // the tag of "I have failed"
 constexpr auto patience = std::chrono::milliseconds(2000);  // how far apart ranks may come to the same error
 
+bool print(const std::string& record) { return std::fputs(record.c_str(), stdout) >= 0 && std::fflush(stdout) == 0; }
+
 void say(const Outcome& outcome) {
+  print(outcome.record);
   std::string line = "quadloop: error: " + outcome.message;
   for (char& c : line) c = c == '\n' || c == '\r' ? ' ' : c;
   fmt::print(stderr, "{}\n", line);
@@ -86,7 +89,11 @@ ExitStatus close_together(MPI_Comm comm, const Outcome& outcome) {
   receive_notes(comm, rank, statuses);
   MPI_Waitall(static_cast<int>(notes.size()), notes.data(), MPI_STATUSES_IGNORE);
   const auto first = std::find_if(statuses.begin(), statuses.end(), [](int status) { return status != 0; });
-  if (first == statuses.end()) return ExitStatus::done;
+  if (first == statuses.end()) {
+    if (rank != 0 || print(outcome.record)) return ExitStatus::done;
+    say({ExitStatus::output_failed, "standard output cannot be written"});
+    return ExitStatus::output_failed;
+  }
   if (first - statuses.begin() == rank) say(outcome);
   return static_cast<ExitStatus>(*first);
 }

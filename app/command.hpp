@@ -1,14 +1,28 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
+#include "app/closing.hpp"
 #include "mesher/base/communicator.hpp"
+#include "mesher/base/json.hpp"
 
 namespace CLI {
 class App;
 }
 
 namespace quadloop {
+
+/// What `--json` prints of a command: one object on one line. A failure has it too, with what was known by then.
+struct CommandRecord {
+  std::string command;
+  JsonObject figures;                        ///< what the table says, on the root rank
+  std::vector<std::string> warnings, files;  ///< all warnings; the files that were written
+};
+
+/// The record of a command that ended so: {"command", "status", "error", figures ..., "warnings", "files"}; "error" is null where there is none.
+std::string record_text(const CommandRecord& record, const Outcome& outcome);
 
 /// What every command is given, and where it leaves its work.
 ///
@@ -17,21 +31,29 @@ namespace quadloop {
 ///     context.run()                    does the work, *collectively*, and throws an Error of mesher/base/error.hpp
 ///
 /// Options live in a shared_ptr that the callback captures. `quiet` and `verbose` are known when `run` is called, not before.
-/// Results for the user go to stdout from the root rank, and not with `quiet`; logs go through mesher/base/log.hpp.
+/// Results for the user go to stdout from the rank and in the manner that `shows_table` says, and into `record` always; logs go through
+/// mesher/base/log.hpp, warnings through `warn`.
 struct CommandContext {
   const Communicator& comm;
   bool quiet = false;
   bool verbose = false;
+  bool json = false;
+  CommandRecord& record;
   std::function<void()> run;
+
+  /// Whether this rank prints the table for people.
+  bool shows_table() const { return comm.is_root() && !quiet && !json; }
+  /// From the root rank: the first few, unless `verbose`; all of them into the record, which with `quiet` is the only place.
+  void warn(const std::vector<std::string>& warnings) const;
 };
 
 void add_mesh_command(CLI::App& app, CommandContext& context);
 void add_adapt_command(CLI::App& app, CommandContext& context);
-void add_solve_command(CLI::App& app, CommandContext& context);
 void add_remesh_command(CLI::App& app, CommandContext& context);
 void add_smooth_command(CLI::App& app, CommandContext& context);
 void add_solve_command(CLI::App& app, CommandContext& context);
 void add_check_command(CLI::App& app, CommandContext& context);
 void add_plot_command(CLI::App& app, CommandContext& context);
+void add_convert_command(CLI::App& app, CommandContext& context);
 
 }  // namespace quadloop

@@ -68,6 +68,19 @@ std::string line_of(const CycleRecord& record) {
   return line + fmt::format("  {:.1f} s", seconds);
 }
 
+/// A cycle's figures and files join those of the run.
+void keep(const CycleRecord& record, const std::string& folder, std::vector<JsonObject>& cycles, CommandRecord& of_run) {
+  cycles.push_back(figures_of(record));
+  cycles.back().add("seconds", seconds_of(record));
+  of_run.figures = {};
+  of_run.figures.add("folder", folder);
+  of_run.figures.add("cycles", cycles);
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(fmt::format("{}/cycle_{:02}", folder, record.cycle))) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  of_run.files.insert(of_run.files.end(), files.begin(), files.end());
+}
+
 std::string closing_line(const std::string& folder, int first, int last) {
   if (first > last) return fmt::format("  all cycles are there already: {}/cycle_00 to cycle_{:02}\n", folder, last);
   if (first == last) return fmt::format("  wrote {}/cycle_{:02}\n", folder, last);
@@ -83,20 +96,24 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   if (comm.is_root() && !note.empty()) log::information(note);
   std::string folder = arguments.folder;
   if (folder.empty()) folder = std::filesystem::path(arguments.case_path).stem().string() + ".adapt";
-  show_warnings(comm.is_root(), context.verbose, warnings);
+  context.warn(warnings);
   std::set<std::string> told;
+  std::vector<JsonObject> cycles;
   RunReport report;
-  report.warning = [&](const std::string& warning) { show_warnings(comm.is_root(), context.verbose, {warning}); };
+  report.warning = [&](const std::string& warning) { context.warn({warning}); };
   report.cycle = [&](const CycleRecord& record, const std::vector<std::string>& of_cycle) {
-    if (comm.is_root() && !context.quiet) std::cout << line_of(record) << std::endl;
+    if (context.shows_table()) std::cout << line_of(record) << std::endl;
+    if (comm.is_root()) keep(record, folder, cycles, context.record);
     Warnings fresh;
     for (const std::string& warning : of_cycle) {
       if (told.insert(warning).second) fresh.push_back(warning);
     }
-    show_warnings(comm.is_root(), context.verbose, fresh);
+    context.warn(fresh);
   };
+  context.record.figures.add("folder", folder);
+  context.record.figures.add("cycles", cycles);
   const int first = run_adaptation(comm, *adaptive, folder, arguments.resume, report);
-  if (comm.is_root() && !context.quiet) std::cout << closing_line(folder, first, adaptive->adapt.cycles);
+  if (context.shows_table()) std::cout << closing_line(folder, first, adaptive->adapt.cycles);
 }
 
 }  // namespace

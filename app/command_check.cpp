@@ -11,7 +11,6 @@
 #include "app/refusals.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
-#include "mesher/base/log.hpp"
 
 namespace quadloop {
 
@@ -19,13 +18,12 @@ namespace {
 
 struct CheckArguments {
   std::string input, geometry;
-  bool json = false;
 };
 
-std::vector<Chain> load_chains(const std::string& path) {
+std::vector<Chain> load_chains(const CommandContext& context, const std::string& path) {
   std::vector<std::string> warnings;
   std::vector<Chain> chains = read_geometry(path, warnings);
-  for (const std::string& warning : warnings) log::warning(warning);
+  context.warn(warnings);
   return chains;
 }
 
@@ -49,16 +47,13 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
 
 void check_on_root(const CommandContext& context, const CheckArguments& arguments) {
   const LoadedMesh loaded = read_mesh(arguments.input);
-  for (const std::string& warning : loaded.warnings) log::warning(warning);
+  context.warn(loaded.warnings);
   std::vector<Chain> chains;
-  if (!arguments.geometry.empty()) chains = load_chains(arguments.geometry);
+  if (!arguments.geometry.empty()) chains = load_chains(context, arguments.geometry);
   CheckReport report = examine(loaded, arguments.geometry.empty() ? nullptr : &chains);
   report.file = arguments.input;
-  if (arguments.json) {
-    std::cout << report_json(report) << std::flush;
-  } else if (!context.quiet) {
-    std::cout << report_text(report, context.verbose) << std::flush;
-  }
+  context.record.figures = report_record(report);
+  if (context.shows_table()) std::cout << report_text(report, context.verbose) << std::flush;
   if (!report.faults.empty()) refuse_invalid(report.file, report.faults);
 }
 
@@ -69,7 +64,6 @@ void add_check_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand("check", "say whether a mesh is valid");
   command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")->required()->type_name("IN");
   command->add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")->type_name("FILE.geom");
-  command->add_flag("--json", arguments->json, "print one JSON object instead of a table");
   command->callback([&context, arguments] {
     context.run = [&context, arguments] {
       context.comm.together([&] {  // the root rank alone works; what it finds is every rank's exit status

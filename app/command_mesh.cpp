@@ -6,6 +6,7 @@
 #include "adapt/restart.hpp"
 #include "app/case_input.hpp"
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/summary.hpp"
 #include "io/input/geom_text.hpp"
 #include "io/mesh_file.hpp"
@@ -94,10 +95,12 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   log::detail("writing " + prepared.input.settings.output_prefix + ".*");
   write_outputs(comm, generated.result, prepared, arguments.geometry_out);
   times.end();
-  show_warnings(comm.is_root(), context.verbose, prepared.input.warnings);
-  show_warnings(comm.is_root(), context.verbose, generated.result.report.warnings);
+  context.warn(prepared.input.warnings);
+  context.warn(generated.result.report.warnings);
   const MeshSummary summary = summarise(comm, generated.result, times.stages(), prepared.files);
-  if (comm.is_root() && !context.quiet) std::cout << table_of(summary);
+  context.record.figures = record_of(summary);
+  context.record.files = summary.files;
+  if (context.shows_table()) std::cout << table_of(summary);
 }
 
 }  // namespace
@@ -109,7 +112,7 @@ void add_mesh_command(CLI::App& app, CommandContext& context) {
   command->add_option("-o,--output", arguments->prefix, "what the output files begin with, instead of output.prefix")->type_name("PREFIX");
   command->add_option("--type", arguments->type, "kind of mesh, instead of mesh.type: hybrid or delaunay")
       ->type_name("TYPE")
-      ->check(CLI::IsMember({"hybrid", "delaunay"}));
+      ->check(one_of({"hybrid", "delaunay"}));
   command->add_option("--tree", arguments->tree, "restart from the tree of an earlier run: what it wanted refined stays so")->type_name("TREE.h5");
   command->add_option("--geometry-out", arguments->geometry_out, "write the geometry as it is meshed")->type_name("OUT.geom");
   command->add_option("--set", arguments->assignments, "set a key of the case file, as in spacing.min=0.1; may be repeated")

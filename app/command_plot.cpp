@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "io/mesh_file.hpp"
 #include "io/mesh_plot.hpp"
 #include "io/output_file.hpp"
@@ -87,6 +88,7 @@ void run_plot(const CommandContext& context, const PlotArguments& arguments) {
     file.close();
   });
   outputs.commit();
+  context.record.files = {arguments.output};
 }
 
 }  // namespace
@@ -102,7 +104,7 @@ void add_plot_command(CLI::App& app, CommandContext& context) {
       ->add_option("--colour-by,--color-by", arguments->colouring,
                    "what the cells' colours tell: block, quality or type (the default); rank is refused, as a mesh file holds no ranks")
       ->type_name("WHAT")
-      ->check(CLI::IsMember({"block", "quality", "type", "rank"}))
+      ->check(one_of({"block", "quality", "type", "rank"}))
       ->excludes(field);
   command->add_option("--size", arguments->size, "pixels along the longer side: 1600")->type_name("N")->check(CLI::Range(400, 20000));
   command->callback([&context, arguments] { context.run = [&context, arguments] { run_plot(context, *arguments); }; });

@@ -59,10 +59,11 @@ void write(const Communicator& comm, const CarriedMesh& carried, const std::vect
   outputs.commit();
 }
 
-std::string carried_text(const CarriedMesh& carried) {
-  std::string text = fmt::format("  nodes outside the old mesh {:>7}\n", carried.outside);
-  for (const auto& [name, drift] : carried.drift) text += fmt::format("  drift of {:<18}{:>10.3e}\n", name, drift);
-  return text;
+Figures transfer_figures(const CarriedMesh& carried) {
+  Figures figures;
+  figures.add_raw("nodes outside the old mesh", std::to_string(carried.outside), json_of(carried.outside), "outside");
+  for (const auto& [name, drift] : carried.drift) figures.add("drift of " + name, drift, "{:.3e}");
+  return figures;
 }
 
 void run_remesh(const CommandContext& context, const RemeshArguments& arguments) {
@@ -96,11 +97,15 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   times.begin("write");
   write(comm, carried, files);
   times.end();
-  show_warnings(comm.is_root(), context.verbose, input.warnings);
-  show_warnings(comm.is_root(), context.verbose, carried.generated.result.report.warnings);
-  show_warnings(comm.is_root(), context.verbose, plan.warnings);
+  context.warn(input.warnings);
+  context.warn(carried.generated.result.report.warnings);
+  context.warn(plan.warnings);
   const MeshSummary summary = summarise(comm, carried.generated.result, times.stages(), files);
-  if (!context.quiet && comm.is_root()) std::cout << table_of(summary) << carried_text(carried);
+  const Figures of_transfer = transfer_figures(carried);
+  context.record.figures = record_of(summary);
+  context.record.figures.append(of_transfer.record());
+  context.record.files = files;
+  if (context.shows_table()) std::cout << table_of(summary) << of_transfer.table(27, 10);
 }
 
 }  // namespace

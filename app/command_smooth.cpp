@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-#include <mpi.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -8,6 +5,7 @@
 #include <optional>
 
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/refusals.hpp"
 #include "app/smooth_report.hpp"
 #include "app/summary.hpp"
@@ -15,7 +13,6 @@
 #include "io/mesh_file.hpp"
 #include "io/tidy_mesh.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/assemble.hpp"
 #include "mesher/mesh/delaunay_check.hpp"
@@ -95,21 +92,8 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   context.comm.broadcast(turned);
   if (loaded.geometry) loaded.geometry = with_loops_turned(*loaded.geometry, turned);
   loaded.delaunay = context.comm.any(loaded.delaunay);
-  if (context.comm.is_root()) {
-    for (const std::string& warning : warnings) log::warning(warning);
-  }
+  context.warn(warnings);
   return loaded;
-}
-
-/// The root alone, which has the whole mesh. *Collective.*
-void write(const Communicator& comm, const LoadedMesh& whole, const std::string& path) {
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    const Communicator alone(MPI_COMM_SELF);
-    OutputSet outputs(alone);
-    write_mesh(outputs, whole, path);
-    outputs.commit();
-  });
 }
 
 Point centre_of(const Communicator& comm, const Mesh& part) {
@@ -139,7 +123,8 @@ void require_valid_result(const Communicator& comm, const Loaded& loaded, const 
 }
 
 /// Smooths and writes; the text to be shown, on the root alone. *Collective.*
-std::string smooth_and_write(const Communicator& comm, const SmoothArguments& arguments, Loaded& loaded, StageTimes& times) {
+std::string smooth_and_write(const CommandContext& context, const SmoothArguments& arguments, Loaded& loaded, StageTimes& times) {
+  const Communicator& comm = context.comm;
   Mesh part = scatter_mesh(comm, loaded.whole.mesh, loaded.order);
   const SmoothOptions options = options_of(comm, arguments, loaded, part);
   times.begin("report");
@@ -150,16 +135,21 @@ std::string smooth_and_write(const Communicator& comm, const SmoothArguments& ar
   gather_mesh(comm, part, loaded.order, loaded.whole.mesh);
   require_valid_result(comm, loaded, arguments.input);
   times.begin("write");
-  write(comm, loaded.whole, arguments.output);
+  write_mesh_of_root(comm, loaded.whole, arguments.output);
   times.begin("report");
   const ShapeReport after = report_shapes(comm, part, loaded.whole.mesh);
   times.end();
-  const std::string stages = stage_table(stage_rows(comm, times.stages()));
+  const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   if (!comm.is_root()) return {};
-  return comparison_table(before, after) +
-         fmt::format("  {:<24}{:>14}\n  {:<24}{:>14}\n  {:<24}{:>14}\n", "sweeps", smoothed.sweeps, "nodes that may move", smoothed.free_nodes,
-                     "moves", smoothed.moves) +
-         stages;
+  Figures work;
+  work.add("sweeps", smoothed.sweeps);
+  work.add("nodes that may move", smoothed.free_nodes);
+  work.add("moves", smoothed.moves);
+  context.record.figures = work.record();
+  context.record.figures.add("before", record_of(before));
+  context.record.figures.add("after", record_of(after));
+  context.record.figures.add("seconds", record_of(stages));
+  return comparison_table(before, after) + work.table(24) + stage_table(stages);
 }
 
 /// Without sweeps a mesh only changes its format, and its shapes are of no interest.
@@ -170,11 +160,12 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
   std::string text;
   if (arguments.sweeps == 0) {
     require_valid_result(context.comm, loaded, arguments.input);
-    write(context.comm, loaded.whole, arguments.output);
+    write_mesh_of_root(context.comm, loaded.whole, arguments.output);
   } else {
-    text = smooth_and_write(context.comm, arguments, loaded, times);
+    text = smooth_and_write(context, arguments, loaded, times);
   }
-  if (context.comm.is_root() && !context.quiet) std::cout << text << "  wrote " << arguments.output << "\n";
+  context.record.files = {arguments.output};
+  if (context.shows_table()) std::cout << text << "  wrote " << arguments.output << "\n";
 }
 
 }  // namespace
@@ -189,10 +180,10 @@ void add_smooth_command(CLI::App& app, CommandContext& context) {
   command->add_option("--sweeps", arguments->sweeps, "how often each node is visited at most: 20")->type_name("N")->check(CLI::Range(0, 100000));
   command->add_option("--method", arguments->method, "how a node's place is looked for: perturb (the default) or nlopt")
       ->type_name("METHOD")
-      ->check(CLI::IsMember({"perturb", "nlopt"}));
+      ->check(one_of({"perturb", "nlopt"}));
   command->add_option("--objective", arguments->objective, "what is lowered: power (the default) or thesis (Eq. 3.4)")
       ->type_name("COST")
-      ->check(CLI::IsMember({"power", "thesis"}));
+      ->check(one_of({"power", "thesis"}));
   command->add_option("--geometry", arguments->geometry, "the outline that boundary nodes may slide along, as `mesh --geometry-out` wrote it")
       ->type_name("FILE.geom");
   command->callback([&context, arguments] { context.run = [&context, arguments] { run_smooth(context, *arguments); }; });

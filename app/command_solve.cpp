@@ -137,11 +137,15 @@ EulerResult solve(const Communicator& comm, const Problem& problem, const Mesh& 
   return solve_euler(comm, part, options, start_states(comm, problem));
 }
 
-std::string result_table(std::int64_t nodes, const EulerResult& result, const EulerOptions& options) {
-  std::string text = fmt::format("  {:<16}{:>14}\n  {:<16}{:>14}\n", "nodes", nodes, "steps", result.iterations);
-  if (options.time == EulerOptions::Time::accurate) text += fmt::format("  {:<16}{:>14.6g}\n", "time", result.time);
-  return text +
-         fmt::format("  {:<16}{:>14.3e}\n  {:<16}{:>14.6f}\n  {:<16}{:>14.6f}\n", "residual", result.residual, "cl", result.cl, "cd", result.cd);
+Figures result_figures(std::int64_t nodes, const EulerResult& result, const EulerOptions& options) {
+  Figures figures;
+  figures.add("nodes", nodes);
+  figures.add("steps", result.iterations);
+  if (options.time == EulerOptions::Time::accurate) figures.add("time", result.time, "{:.6g}");
+  figures.add("residual", result.residual, "{:.3e}");
+  figures.add("cl", result.cl, "{:.6f}");
+  figures.add("cd", result.cd, "{:.6f}");
+  return figures;
 }
 
 void run_solve(const CommandContext& context, const SolveArguments& arguments) {
@@ -155,13 +159,17 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   times.begin("write");
   write(comm, problem, result, arguments.output);
   times.end();
-  const std::string stages = stage_table(stage_rows(comm, times.stages()));
+  const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   const std::int64_t nodes = comm.sum(part.owned_nodes);
   if (!comm.is_root()) return;
-  for (const std::string& warning : problem.warnings) log::warning(warning);
-  if (!result.converged) log::warning(shortfall(result, problem.settings.solver.euler));
-  if (context.quiet) return;
-  std::cout << result_table(nodes, result, problem.settings.solver.euler) << stages << "  wrote " << arguments.output << "\n";
+  context.warn(problem.warnings);
+  if (!result.converged) context.warn({shortfall(result, problem.settings.solver.euler)});
+  const Figures figures = result_figures(nodes, result, problem.settings.solver.euler);
+  context.record.figures = figures.record();
+  context.record.figures.add("converged", result.converged);
+  context.record.figures.add("seconds", record_of(stages));
+  context.record.files = {arguments.output};
+  if (context.shows_table()) std::cout << figures.table() << stage_table(stages) << "  wrote " << arguments.output << "\n";
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace quadloop {
 
-void Figures::add(const std::string& name, std::int64_t count, const std::string& key) { add_raw(name, std::to_string(count), json_of(count), key); }
+void Figures::add(const std::string& name, std::int64_t count) { add_raw(name, std::to_string(count), json_of(count)); }
 
 void Figures::add(const std::string& name, double value, const char* pattern, const std::string& key) {
   add_raw(name, fmt::format(fmt::runtime(pattern), value), json_of(value), key);

@@ -12,7 +12,7 @@ namespace quadloop {
 /// `--json` prints, in full. A figure's key is its name in the table with "_" for each blank, unless another is given.
 class Figures {
  public:
-  void add(const std::string& name, std::int64_t count, const std::string& key = {});
+  void add(const std::string& name, std::int64_t count);
   /// `pattern` is how the table prints the value: "{:.2f} degrees".
   void add(const std::string& name, double value, const char* pattern, const std::string& key = {});
   /// `text` for the table; `json` for the record, JSON already.

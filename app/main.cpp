@@ -8,12 +8,11 @@
 #include <iostream>
 #include <limits>
 #include <new>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "app/closing.hpp"
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -31,64 +30,17 @@ class MpiGuard {
   MpiGuard& operator=(const MpiGuard&) = delete;
 };
 
-std::vector<CLI::App*> commands_of(CLI::App& app) {
-  return app.get_subcommands([](CLI::App*) { return true; });
-}
+constexpr const char* about_quiet = "print nothing but warnings and errors";
+constexpr const char* about_verbose = "print details, those of each rank too";
+constexpr const char* about_json = "print one JSON record instead of a table";
 
-/// What is wrong where no word of the command line is a command.
-std::string without_command(CLI::App& app) {
-  std::string commands;
-  for (const CLI::App* command : commands_of(app)) commands += (commands.empty() ? "" : ", ") + command->get_name();
-  const std::vector<std::string> words = app.remaining();
-  const bool names_one = !words.empty() && !words.front().starts_with('-');
-  const std::string fault = names_one ? "'" + words.front() + "' is no command" : "a command is missing";
-  return fmt::format("{}; the commands are: {}; see 'quadloop --help'", fault, commands);
-}
-
-/// Lets CLI11 say what it has to say (help, version) on the root rank; what is wrong becomes our own one line.
-void answer(CLI::App& app, const CLI::ParseError& request, const Communicator& comm) {
-  if (request.get_exit_code() == 0) {
-    if (comm.is_root()) app.exit(request, std::cout, std::cerr);
-    return;
-  }
-  if (app.get_subcommands().empty()) throw UsageError(without_command(app));
-  std::string command = "quadloop";
-  for (const CLI::App* subcommand : app.get_subcommands()) command += " " + subcommand->get_name();
-  throw UsageError(fmt::format("{}; see '{} --help'", request.what(), command));
-}
-
-/// Whether a word after an assignment is one more: table.key=value, which no path looks like.
-bool is_assignment(std::string_view word) {
-  const std::string_view key = word.substr(0, word.find('='));
-  return key.size() < word.size() && !key.starts_with('-') && key.find('.') != std::string_view::npos && key.find('/') == std::string_view::npos;
-}
-
-/// The command line, last word first as CLI11 takes it, with --set before each of the assignments that follow one: an option of many values would
-/// take the case file for one of them.
-std::vector<std::string> words_of(int argc, char** argv) {
-  std::vector<std::string> words;
-  bool in_assignments = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const bool is_value = i > 1 && words.back() == "--set";
-    if (in_assignments && !is_value && is_assignment(word)) words.emplace_back("--set");
-    in_assignments = is_value || (in_assignments && is_assignment(word));
-    words.push_back(word);
-  }
-  std::reverse(words.begin(), words.end());
-  return words;
-}
-
-void run(int argc, char** argv, const Communicator& comm) {
-  CLI::App app("quadloop: parallel 2D mesh generation from named outlines", "quadloop");
-  CommandContext context{comm, false, false, {}};
+void add_commands(CLI::App& app, CommandContext& context) {
   app.fallthrough();
   app.require_subcommand(1);
   app.set_version_flag("--version", "quadloop " QUADLOOP_VERSION);
-  const char* const quiet = "print nothing but warnings and errors";
-  const char* const verbose = "print details, those of each rank too";
-  app.add_flag("-q,--quiet", context.quiet, quiet);
-  app.add_flag("-v,--verbose", context.verbose, verbose);
+  app.add_flag("-q,--quiet", context.quiet, about_quiet);
+  app.add_flag("-v,--verbose", context.verbose, about_verbose);
+  app.add_flag("--json", context.json, about_json);
   add_mesh_command(app, context);
   add_smooth_command(app, context);
   add_adapt_command(app, context);
@@ -96,23 +48,36 @@ void run(int argc, char** argv, const Communicator& comm) {
   add_remesh_command(app, context);
   add_check_command(app, context);
   add_plot_command(app, context);
+  add_convert_command(app, context);
   for (CLI::App* command : commands_of(app)) {
     command->footer(
-        fmt::format("With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n  --version", quiet, verbose));
+        fmt::format("With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n"
+                    "  --json                      {}\n  --version",
+                    about_quiet, about_verbose, about_json));
   }
+}
+
+/// The command's name in `record` says that one was to run.
+void run(int argc, char** argv, const Communicator& comm, CommandRecord& record) {
+  CLI::App app("quadloop: parallel 2D mesh generation from named outlines", "quadloop");
+  CommandContext context{comm, false, false, false, record, {}};
+  add_commands(app, context);
   try {
     app.parse(words_of(argc, argv));
   } catch (const CLI::ParseError& request) {
+    for (const CLI::App* command : app.get_subcommands()) record.command = command->get_name();
     answer(app, request, comm);
+    record.command.clear();
     return;
   }
+  record.command = app.get_subcommands().front()->get_name();
   log::configure({comm.rank(), comm.size(), context.quiet, context.verbose});
   context.run();
 }
 
-Outcome guarded_run(int argc, char** argv, const Communicator& comm) {
+Outcome guarded_run(int argc, char** argv, const Communicator& comm, CommandRecord& record) {
   try {
-    run(argc, argv, comm);
+    run(argc, argv, comm, record);
     std::cout.flush();
     if (!std::cout) return {ExitStatus::output_failed, "standard output cannot be written"};
     return {};
@@ -123,6 +88,16 @@ Outcome guarded_run(int argc, char** argv, const Communicator& comm) {
   } catch (const std::exception& error) {
     return {ExitStatus::fault, fmt::format("a fault of the program itself: {}", error.what())};
   }
+}
+
+/// Runs the command, and makes its record where the command line asks for one, be it never so wrong.
+Outcome recorded_run(int argc, char** argv, const Communicator& comm) {
+  CommandRecord record;
+  Outcome outcome = guarded_run(argc, argv, comm, record);
+  const bool wanted = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;
+  const bool has_run = !record.command.empty() || outcome.status != ExitStatus::done;  // no help, no version
+  if (wanted && has_run) outcome.record = record_text(record, outcome);
+  return outcome;
 }
 
 /// Arrays of many megabytes come and go between the stages: kept, their pages need not be asked for and cleared again each time (a seventh of the
@@ -143,5 +118,5 @@ int main(int argc, char** argv) {
   quadloop::keep_freed_memory();
   const quadloop::MpiGuard mpi(argc, argv);
   const quadloop::Communicator comm(MPI_COMM_WORLD), closing(MPI_COMM_WORLD);
-  return static_cast<int>(close_together(closing.raw(), quadloop::guarded_run(argc, argv, comm)));
+  return static_cast<int>(close_together(closing.raw(), quadloop::recorded_run(argc, argv, comm)));
 }

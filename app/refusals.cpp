@@ -45,6 +45,14 @@ void refuse_invalid(const std::string& file, const std::vector<MeshFault>& fault
                                more_faults(faults.size() - 1), cure));
 }
 
+std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::string& file) {
+  const std::vector<MeshFault> faults = validate(loaded.mesh, blocks_of(loaded));
+  if (faults.empty()) return {};
+  const MeshFault& first = faults.front();
+  return {fmt::format("{}: is not valid, and is passed on as it is: {}: {} at ({}, {}){}", file, name_of(first.rule), first.what, first.place.x,
+                      first.place.y, more_faults(faults.size() - 1))};
+}
+
 void require_sound_topology(const LoadedMesh& loaded, const std::string& file) {
   const std::vector<MeshFault> faults = validate_topology(loaded.mesh, blocks_of(loaded));
   if (!faults.empty()) refuse_invalid(file, faults);

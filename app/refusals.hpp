@@ -11,6 +11,9 @@ namespace quadloop {
 /// Throws InputError with the first fault, its place, and how many more there are.
 [[noreturn]] void refuse_invalid(const std::string& file, const std::vector<MeshFault>& faults);
 
+/// A warning where a mesh that is passed on as it is is not valid: its first fault, and how many more there are. Otherwise empty.
+std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::string& file);
+
 /// Throws InputError for a mesh that no movement of its nodes can make valid.
 void require_sound_topology(const LoadedMesh& loaded, const std::string& file);
 

@@ -11,6 +11,7 @@
 #include "io/input/case_file.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/nearest_word.hpp"
 #include "mesher/forest/lattice.hpp"
 
 namespace quadloop {
@@ -168,7 +169,8 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
     for (const std::string& format : table->texts("formats")) {
       constexpr std::array known{"mesh", "cgns", "vtu", "su2", "msh"};
       if (std::find(known.begin(), known.end(), format) == known.end()) {
-        table->refuse("formats", fmt::format("holds '{}', but this version writes: mesh, cgns, vtu, su2, msh", format));
+        table->refuse("formats", fmt::format("holds '{}', but this version writes: mesh, cgns, vtu, su2, msh{}", format,
+                                             guess_for(format, {known.begin(), known.end()})));
       }
       if (std::find(settings.formats.begin(), settings.formats.end(), format) == settings.formats.end()) settings.formats.push_back(format);
     }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace quadloop {
 
 namespace {
@@ -23,6 +25,25 @@ std::string range_of(const Histogram& h, std::size_t i) {
 
 ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh& whole) {
   return {summarise_quality(comm, mesh), shape_histograms(comm, mesh), comm.is_root() ? area_ratios(whole) : AreaRatios{}};
+}
+
+JsonObject record_of(const ShapeReport& report) {
+  JsonObject json;
+  json.add("worst_quality", report.quality.worst);
+  json.add("mean_quality", report.quality.mean);
+  json.add("min_angle", report.quality.smallest_degrees);
+  json.add("max_angle", report.quality.largest_degrees);
+  json.add("area_ratio_max", report.areas.largest);
+  json.add("area_ratio_p99", report.areas.of_99_percent);
+  for (const Histogram& histogram : report.histograms) {
+    JsonObject bins;
+    bins.add("limits", histogram.limits);
+    bins.add("counts", histogram.counts);
+    std::string key = histogram.name;
+    std::replace(key.begin(), key.end(), ' ', '_');
+    json.add(key, bins);
+  }
+  return json;
 }
 
 std::string comparison_table(const ShapeReport& before, const ShapeReport& after) {

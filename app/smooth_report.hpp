@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/base/json.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/shape_statistics.hpp"
 #include "smoother/shape_histogram.hpp"
@@ -18,6 +19,9 @@ struct ShapeReport {
 
 /// `whole` is the same mesh, whole on the root rank. *Collective.*
 ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh& whole);
+
+/// The report as members of a record; each histogram as {"limits", "counts"}.
+JsonObject record_of(const ShapeReport& report);
 
 /// Worst and mean quality, angles, ratios of areas and histograms in two columns.
 std::string comparison_table(const ShapeReport& before, const ShapeReport& after);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/nearest_word.hpp"
 
 namespace quadloop {
 
@@ -86,8 +87,8 @@ void require_known_variables(const SolverSettings& settings, const std::vector<s
   if (settings.kind != SolverSettings::Kind::euler) return;
   for (const std::string& name : variables) {
     if (std::find(euler_names.begin(), euler_names.end(), name) != euler_names.end()) continue;
-    throw InputError(fmt::format("{}: 'adapt.variable' names '{}', which the built-in solver does not write; it may be {}", case_path, name,
-                                 fmt::join(euler_names, ", ")));
+    throw InputError(fmt::format("{}: 'adapt.variable' names '{}', which the built-in solver does not write; it may be {}{}", case_path, name,
+                                 fmt::join(euler_names, ", "), guess_for(name, {euler_names.begin(), euler_names.end()})));
   }
 }
 

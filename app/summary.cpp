@@ -48,7 +48,7 @@ std::vector<StageRow> stage_rows(const Communicator& comm, const StageSeconds& s
   std::vector<StageRow> rows;
   for (const auto& [stage, sum] : of_rank) {
     const auto microseconds = static_cast<std::int64_t>(std::llround(sum * 1e6));  // there is no floating-point sum, on purpose
-    rows.push_back({stage, comm.maximum(sum), static_cast<double>(comm.sum(microseconds)) * 1e-6 / comm.size()});
+    rows.push_back({stage, comm.maximum(sum), static_cast<double>(comm.sum(microseconds)) / 1e6 / comm.size()});
   }
   return rows;
 }

@@ -1,5 +1,8 @@
 #include "io/mesh_file.hpp"
 
+#include <mpi.h>
+
+#include <algorithm>
 #include <filesystem>
 
 #include "io/cgns_file.hpp"
@@ -14,15 +17,22 @@ namespace quadloop {
 namespace {
 
 std::string suffix_of(const std::string& path) { return std::filesystem::path(path).extension(); }
-
-bool is_known(const std::string& suffix) {
-  return suffix == ".mesh" || suffix == ".cgns" || suffix == ".vtu" || suffix == ".su2" || suffix == ".msh";
-}
-
 }  // namespace
 
+const std::vector<std::string>& mesh_formats() {
+  static const std::vector<std::string> formats{"mesh", "cgns", "vtu", "su2", "msh"};
+  return formats;
+}
+
+std::string mesh_format_of(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  const auto& formats = mesh_formats();
+  const auto found = std::find_if(formats.begin(), formats.end(), [&](const std::string& format) { return suffix == "." + format; });
+  return found == formats.end() ? "" : *found;
+}
+
 void require_readable_suffix(const std::string& path) {
-  if (is_known(suffix_of(path))) return;
+  if (!mesh_format_of(path).empty()) return;
   if (std::filesystem::exists(path + ".mesh")) throw InputError(path + ": is no mesh file; do you mean '" + path + ".mesh'?");
   throw InputError(path + ": no mesh is read from the format '" + suffix_of(path) + "'; give a .mesh, .cgns, .vtu, .su2 or .msh file");
 }
@@ -38,37 +48,49 @@ LoadedMesh read_mesh(const std::string& path) {
 }
 
 void require_writable_suffix(const std::string& path) {
-  if (is_known(suffix_of(path))) return;
+  if (!mesh_format_of(path).empty()) return;
   throw InputError(path + ": no mesh is written in the format '" + suffix_of(path) + "'; name a .mesh, .cgns, .vtu, .su2 or .msh file");
 }
 
-void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
-  const std::string suffix = suffix_of(path);
-  if (suffix == ".mesh") write_native(outputs, whole, path);
-  if (suffix == ".cgns") write_cgns(outputs, whole.mesh, path, whole.solution ? &*whole.solution : nullptr);
-  if (suffix == ".vtu") write_vtu(outputs, whole, path);
-  if (suffix == ".su2") write_su2(outputs, whole.mesh, path);
-  if (suffix == ".msh") write_msh(outputs, whole, path);
+void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path, const std::string& format) {
+  const std::string name = format.empty() ? mesh_format_of(path) : format;
+  if (name == "mesh") write_native(outputs, whole, path);
+  if (name == "cgns") write_cgns(outputs, whole.mesh, path, whole.solution ? &*whole.solution : nullptr);
+  if (name == "vtu") write_vtu(outputs, whole, path);
+  if (name == "su2") write_su2(outputs, whole.mesh, path);
+  if (name == "msh") write_msh(outputs, whole, path);
+}
+
+void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path, const std::string& format) {
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    const Communicator alone(MPI_COMM_SELF);
+    OutputSet outputs(alone);
+    write_mesh(outputs, whole, path, format);
+    outputs.commit();
+  });
 }
 
 void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
-  const std::string suffix = suffix_of(path);
-  if (suffix == ".mesh") write_native(outputs, mesh, path, solution);
-  if (suffix == ".cgns") write_cgns(outputs, mesh, path, solution);
-  if (suffix == ".vtu") write_vtu(outputs, mesh, path, solution);
-  if (suffix == ".su2") write_su2(outputs, mesh, path);
-  if (suffix == ".msh") write_msh(outputs, mesh, path);
+  const std::string format = mesh_format_of(path);
+  if (format == "mesh") write_native(outputs, mesh, path, solution);
+  if (format == "cgns") write_cgns(outputs, mesh, path, solution);
+  if (format == "vtu") write_vtu(outputs, mesh, path, solution);
+  if (format == "su2") write_su2(outputs, mesh, path);
+  if (format == "msh") write_msh(outputs, mesh, path);
 }
 
-std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path) {
-  const std::string suffix = suffix_of(path);
+std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path, const std::string& format) {
+  const std::string name = format.empty() ? mesh_format_of(path) : format;
+  const auto& boundaries = whole.mesh.boundaries;
   std::vector<std::string> losses;
-  if (whole.solution && (suffix == ".su2" || suffix == ".msh"))
-    losses.push_back(path + ": this format has no place for the solution, which is left out");
-  if (whole.solution && (suffix == ".cgns" || suffix == ".vtu") && !whole.solution->constants.empty()) {
+  if (whole.solution && (name == "su2" || name == "msh")) losses.push_back(path + ": this format has no place for the solution, which is left out");
+  if (whole.solution && (name == "cgns" || name == "vtu") && !whole.solution->constants.empty()) {
     losses.push_back(path + ": this format has no place for the solution's constants, which are left out");
   }
-  if (whole.blocks > 1 && (suffix == ".su2" || suffix == ".cgns")) losses.push_back(path + ": the blocks are written as one");
+  if (whole.blocks > 1 && (name == "su2" || name == "cgns")) losses.push_back(path + ": the blocks are written as one");
+  if (name != "cgns" && std::any_of(boundaries.begin(), boundaries.end(), [](const BoundaryEdges& b) { return b.condition != "none"; }))
+    losses.push_back(path + ": this format has no place for boundary conditions, which are left out");
   return losses;
 }
 

@@ -15,14 +15,23 @@ LoadedMesh read_mesh(const std::string& path);
 void require_readable_suffix(const std::string& path);
 void require_writable_suffix(const std::string& path);
 
-/// Writes a mesh that the set's only rank holds whole, with its solution and blocks as far as the format has a place for them. Throws OutputError.
-void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
+/// The formats that meshes are written in, by the suffix without its dot.
+const std::vector<std::string>& mesh_formats();
+/// That of the file's suffix; empty where it is none.
+std::string mesh_format_of(const std::string& path);
+
+/// Writes a mesh that the set's only rank holds whole, with its solution and blocks as far as the format has a place for them. The format is one of
+/// mesh_formats(), where none is named that of the suffix. Throws OutputError.
+void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path, const std::string& format = {});
+
+/// The same for the mesh that the root rank of `comm` holds, as the only file of a set. *Collective.* Throws OutputError on all ranks.
+void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path, const std::string& format = {});
 
 /// Writes a distributed mesh in the format that the suffix tells, with a solution where the format has a place for one. *Collective.* Throws
 /// OutputError on all ranks.
 void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr);
 
-/// What a format has no place for and the mesh has: one line each, with the file's name.
-std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path);
+/// What the format, or else that of the suffix, has no place for and the mesh has: one line each, with the file's name.
+std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path, const std::string& format = {});
 
 }  // namespace quadloop

@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "mesher/base/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -106,7 +107,9 @@ double TextScanner::real(std::string_view expected) {
   const std::string_view text = token(expected);
   double value = 0;
   if (!parse_real(text, value)) {
-    refuse("expected " + std::string(expected) + ", found \"" + std::string(text.substr(0, longest_quote)) + "\"");
+    const std::string comma = decimal_comma_in(text);
+    refuse("expected " + std::string(expected) + ", found \"" + std::string(text.substr(0, longest_quote)) + "\"" +
+           (comma.empty() ? "" : "; " + comma));
   }
   if (!std::isfinite(value)) refuse(std::string(expected) + " is not finite: " + std::string(text.substr(0, longest_quote)));
   return value;

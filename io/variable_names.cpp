@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/nearest_word.hpp"
 
 namespace quadloop {
 
@@ -72,7 +73,8 @@ std::size_t variable(std::span<const std::string> names, const std::string& want
   std::size_t found = only(names, wanted, where, [&](const std::string& name) { return plain(name) == key; });
   if (found == names.size()) found = only(names, wanted, where, [&](const std::string& name) { return are_aliases(plain(name), key); });
   if (found < names.size()) return found;
-  throw InputError(where + ": no variable '" + wanted + "' in the solution; it has: " + list_of(names));
+  throw InputError(where + ": no variable '" + wanted + "' in the solution; it has: " + list_of(names) +
+                   guess_for(wanted, {names.begin(), names.end()}));
 }
 
 std::string word_of(const std::string& name) {

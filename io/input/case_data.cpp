@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <charconv>
@@ -10,35 +11,59 @@
 #include <fstream>
 #include <sstream>
 
+#include "mesher/base/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
 
 namespace {
 
-/// Splits a dotted key; a part may stand in quotes and then hold dots: boundary."a.b".spacing.
-std::vector<std::string> split_key(const std::string& key, const std::string& place) {
-  std::vector<std::string> parts(1);
-  char quote = 0;
-  for (const char c : key) {
-    if (quote != 0) {
-      if (c == quote)
-        quote = 0;
-      else
-        parts.back() += c;
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '.') {
-      parts.emplace_back();
-    } else if (c != ' ') {
-      parts.back() += c;
-    }
-  }
-  for (const std::string& part : parts) {
-    if (part.empty() || quote != 0) throw InputError(place + ": '" + key + "' is not a key; write as in spacing.min=0.1");
-  }
-  return parts;
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(" \t");
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
+
+/// KEY=VALUE, the key split at its dots. A part may stand in quotes and then hold dots and more: boundary."a.b=c".spacing. Shells eat quotes, so
+/// a part without them may be a pattern or hold blanks as well.
+struct Assignment {
+  std::vector<std::string> parts{{}};
+  std::string value;
+  bool has_value = false;
+  bool has_slash = false;  ///< outside quotes, in the key
+
+  explicit Assignment(std::string_view text) {
+    char quote = 0;
+    bool was_quoted = false;
+    const auto end_part = [&] {
+      if (!was_quoted) parts.back() = trimmed(parts.back());
+      was_quoted = false;
+    };
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const char c = text[i];
+      if (quote == 0 && c == '=') {
+        has_value = true;
+        value = text.substr(i + 1);
+        break;
+      }
+      if (quote == 0 && c == '.') {
+        end_part();
+        parts.emplace_back();
+      } else if (c == quote || (quote == 0 && (c == '"' || c == '\''))) {
+        if (quote == 0) parts.back() = trimmed(parts.back());
+        quote = quote == 0 ? c : '\0';
+        was_quoted = true;
+      } else if (quote != 0 || !was_quoted || c != ' ') {
+        parts.back() += c;
+        has_slash = has_slash || (quote == 0 && c == '/');
+      }
+    }
+    end_part();
+  }
+
+  bool has_key() const {
+    return std::none_of(parts.begin(), parts.end(), [](const std::string& part) { return part.empty(); });
+  }
+};
 
 /// The value as TOML, or as the plain text that it is.
 toml::table parse_value(const std::string& text) {
@@ -75,7 +100,7 @@ std::string row_of(const std::string& text, std::uint32_t number) {
   return row;
 }
 
-/// The two slips that beginners make, told from the row that is not TOML: a pattern or a text without quotes.
+/// The slips that beginners make, told from the row that is not TOML: a pattern or a text without quotes, a decimal comma.
 std::string hint_for(const std::string& row) {
   const auto begin = row.find_first_not_of(" \t");
   if (begin == std::string::npos) return "";
@@ -85,8 +110,10 @@ std::string hint_for(const std::string& row) {
   }
   const auto equals = row.find('=', begin);
   const auto value = equals == std::string::npos ? equals : row.find_first_not_of(" \t[", equals + 1);
-  if (value == std::string::npos || std::isalpha(static_cast<unsigned char>(row[value])) == 0) return "";
+  if (value == std::string::npos) return "";
+  if (const std::string comma = decimal_comma_in(trimmed(row.substr(value, row.find('#', value) - value))); !comma.empty()) return "; " + comma;
   const std::string word = row.substr(value, row.find_first_of(" \t\r,]#", value) - value);
+  if (std::isalpha(static_cast<unsigned char>(row[value])) == 0) return "";
   return word == "true" || word == "false" ? "" : "; put text in quotes: \"" + word + "\"";
 }
 
@@ -123,18 +150,24 @@ void parse_case(CaseTable::Data& data, const std::string& path) {
   }
 }
 
-void assign(CaseTable::Data& data, const std::string& assignment) {
-  const std::string place = "--set " + assignment;
-  const auto equals = assignment.find('=');
-  if (equals == std::string::npos) throw InputError(place + ": has no '='; write as in spacing.min=0.1");
-  const std::vector<std::string> parts = split_key(assignment.substr(0, equals), place);
+bool is_assignment(std::string_view word) {
+  const Assignment assignment(word);
+  return assignment.has_value && assignment.has_key() && !assignment.has_slash && !word.starts_with('-');
+}
+
+void assign(CaseTable::Data& data, const std::string& text) {
+  const std::string place = "--set " + text;
+  const Assignment assignment(text);
+  const std::vector<std::string>& parts = assignment.parts;
+  if (!assignment.has_value) throw InputError(place + ": has no '='; write as in spacing.min=0.1");
+  if (!assignment.has_key()) throw InputError(place + ": its key has an empty part; write as in spacing.min=0.1");
   toml::node* node = &data.root;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) node = step_down(*node, parts[i], place);
-  const toml::table parsed = parse_value(assignment.substr(equals + 1));
+  const toml::table parsed = parse_value(assignment.value);
   toml::table* table = node->as_table();
   if (table == nullptr) throw InputError(fmt::format("{}: there is no table to hold '{}'; its parent is not one", place, parts.back()));
   parsed.get("value")->visit([&](const auto& value) { table->insert_or_assign(parts.back(), value); });
-  data.assigned[fmt::format("{}", fmt::join(parts, "."))] = assignment;
+  data.assigned[fmt::format("{}", fmt::join(parts, "."))] = text;
 }
 
 }  // namespace quadloop

@@ -7,7 +7,9 @@
 #include <sstream>
 
 #include "io/input/case_data.hpp"
+#include "mesher/base/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/nearest_word.hpp"
 
 namespace quadloop {
 
@@ -100,7 +102,8 @@ class Lookup {
     return result;
   }
   [[noreturn]] void refuse(const std::string& wanted, const toml::node& node) const {
-    table_.refuse(key_, fmt::format("must be {}, not {}", wanted, kind_of(node)));
+    const std::string comma = node.is_string() ? decimal_comma_in(*node.value<std::string>()) : "";
+    table_.refuse(key_, fmt::format("must be {}, not {}{}", wanted, kind_of(node), comma.empty() ? "" : "; " + comma));
   }
 
  private:
@@ -130,7 +133,7 @@ std::optional<std::string> CaseTable::text(const std::string& key) const {
 std::optional<std::string> CaseTable::choice(const std::string& key, const std::vector<std::string>& words) const {
   const auto word = text(key);
   if (word && std::find(words.begin(), words.end(), *word) == words.end()) {
-    refuse(key, fmt::format("is '{}', but must be one of: {}", *word, join(words)));
+    refuse(key, fmt::format("is '{}', but must be one of: {}{}", *word, join(words), guess_for(*word, words)));
   }
   return word;
 }
@@ -224,7 +227,8 @@ void CaseTable::finish() const {
     first_key = key.str();
   }
   if (first == nullptr) return;
-  throw InputError(fmt::format("{}: unknown key '{}'; known here: {}", place(first_key), full_name(first_key), join(*known_)));
+  throw InputError(
+      fmt::format("{}: unknown key '{}'; known here: {}{}", place(first_key), full_name(first_key), join(*known_), guess_for(first_key, *known_)));
 }
 
 std::string CaseTable::place(const std::string& key) const {

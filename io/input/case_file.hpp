@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -67,6 +68,9 @@ class CaseTable {
   std::string path_;
   std::shared_ptr<std::vector<std::string>> known_;
 };
+
+/// Whether a word of the command line is KEY=VALUE, its key a path of TOML keys: neither an option nor the path of a file.
+bool is_assignment(std::string_view word);
 
 /// Reads a case file (TOML) and lays `assignments` ("spacing.min=0.1", as --set has them) over it, in their order. A value is
 /// TOML, or a plain text where it is not. Throws InputError "file:line: ...". On the calling rank alone.

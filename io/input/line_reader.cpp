@@ -11,6 +11,7 @@
 #include <optional>
 #include <sstream>
 
+#include "mesher/base/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -18,6 +19,8 @@ namespace quadloop {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == ','; }
+
+constexpr std::string_view between_numbers = " \t\r\f\v;";  // of a row whose commas are decimal ones
 
 std::string read_whole(const std::string& path) {
   if (std::filesystem::is_directory(path)) throw InputError(path + ": is a folder; name a file");
@@ -64,6 +67,7 @@ bool LineReader::next() {
       while (i < row_.size() && !is_blank(row_[i])) ++i;
       if (i > begin) words_.push_back(row_.substr(begin, i - begin));
     }
+    if (words_.size() > 2) refuse_decimal_commas();
     if (!words_.empty()) return true;
   }
   return false;
@@ -71,6 +75,23 @@ bool LineReader::next() {
 
 void LineReader::require_next(const std::string& expected) {
   if (!next()) refuse(fmt::format("the file ends here, but {} is missing; it may have been cut off", expected));
+}
+
+void LineReader::refuse_decimal_commas() const {
+  if (row_.find(',') == std::string_view::npos) return;
+  std::vector<std::string_view> numbers;
+  for (std::size_t i = row_.find_first_not_of(between_numbers); i < row_.size(); i = row_.find_first_not_of(between_numbers, i)) {
+    const std::size_t end = std::min(row_.find_first_of(between_numbers, i), row_.size());
+    numbers.push_back(row_.substr(i, end - i));
+    i = end;
+  }
+  std::string fault;
+  for (const std::string_view number : numbers) {
+    const std::string here = decimal_comma_in(number);
+    if (here.empty() && !number_of(number)) return;
+    if (fault.empty()) fault = here;
+  }
+  if (numbers.size() == 2 && !fault.empty()) refuse(fault);
 }
 
 double LineReader::real(std::size_t word) const {

@@ -34,6 +34,9 @@ class LineReader {
   [[noreturn]] void refuse(const std::string& message) const;
 
  private:
+  /// A row of two coordinates, each with a decimal comma, must not pass for four words.
+  void refuse_decimal_commas() const;
+
   std::string path_, text_;
   std::size_t at_ = 0;
   std::int64_t line_ = 0;

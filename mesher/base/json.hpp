@@ -13,6 +13,8 @@ namespace quadloop {
 /// The text between quotes as JSON wants it. Bytes that are no UTF-8 are taken as Latin-1.
 std::string json_of(std::string_view text);
 
+inline std::string json_of(const char* text) { return json_of(std::string_view(text)); }
+
 /// The shortest text that reads back to the same double; null where it is not finite.
 std::string json_of(double value);
 
@@ -35,10 +37,7 @@ class JsonObject {
  public:
   template <class Value>
   void add(std::string_view name, const Value& value) {
-    if constexpr (std::convertible_to<const Value&, std::string_view>)
-      add_raw(name, json_of(std::string_view(value)));
-    else
-      add_raw(name, json_of(value));
+    add_raw(name, json_of(value));
   }
   /// A value that is JSON already.
   void add_raw(std::string_view name, std::string_view value) { members_.push_back(json_of(name) + ": " + std::string(value)); }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/nearest_word.hpp"
 
 namespace quadloop {
 
@@ -66,7 +67,7 @@ std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names,
         found = true;
       }
       if (!found && rule.must_match) {
-        const char* hint = rule.pattern == "farfield" ? "; geometry.far_field adds a far field" : "";
+        const std::string hint = rule.pattern == "farfield" ? "; geometry.far_field adds a far field" : guess_for(rule.pattern, names);
         throw InputError(fmt::format("{}: no boundary of the geometry matches '{}'; it has: {}{}", rule.where, rule.pattern, shown(names), hint));
       }
     }

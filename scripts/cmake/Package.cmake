@@ -7,5 +7,6 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/quadloopConfig.cmake.in
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/quadloopConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/quadloopConfig.cmake" "${PROJECT_BINARY_DIR}/quadloopConfigVersion.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/Dependencies.cmake" DESTINATION "${package_folder}")
-install(FILES LICENSE README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-install(DIRECTORY cases DESTINATION "${CMAKE_INSTALL_DATADIR}/quadloop")
+# What the README links, where its links find it.
+install(FILES LICENSE README.md CONTRIBUTING.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(DIRECTORY docs cases DESTINATION "${CMAKE_INSTALL_DOCDIR}" PATTERN __pycache__ EXCLUDE)

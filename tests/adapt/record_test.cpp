@@ -26,6 +26,38 @@ TEST(Record, ItsCaseComesBack) {
   EXPECT_TRUE(recorded_case(json_text({}))->settings.empty());
 }
 
+TEST(Record, ItsBytesStay) {
+  CycleRecord record = sample();
+  record.nodes = 7;
+  record.worst_angle = 30.5;
+  record.deviation = 1.0 / 0.0;
+  record.drift = {{"density", -1e-17}};
+  record.cl = 0.25;
+  EXPECT_EQ(json_text(record), R"({
+  "cycle": 3,
+  "case_digest": "0123456789abcdef",
+  "geometry_digest": "fedcba9876543210",
+  "nodes": 7,
+  "triangles": 0,
+  "quads": 0,
+  "leaves": 0,
+  "worst_angle": 30.5,
+  "indicator": {"mean": 0, "deviation": null},
+  "refined": 0,
+  "coarsened": 0,
+  "outside": 0,
+  "drift": {"density": -1e-17},
+  "cl": 0.25,
+  "case": {
+    "adapt.refine": 0.5,
+    "boundary.is \"a\" \\ b.spacing": 2,
+    "solver.command": ["a, b", "\"{mesh}\": "]
+  },
+  "seconds": {"mesh": 0.25}
+}
+)");
+}
+
 TEST(Record, NoPartOfOneIsWhole) {
   const std::string text = json_text(sample());
   for (std::size_t length = 0; length < text.size(); ++length) EXPECT_FALSE(recorded_case(text.substr(0, length)).has_value()) << length;

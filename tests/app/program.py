@@ -17,9 +17,9 @@ class ProgramTest(unittest.TestCase):
     def write(self, name, text):
         (self.folder / name).write_text(text)
 
-    def run_program(self, *arguments, ranks=1):
+    def run_program(self, *arguments, ranks=1, stdout=subprocess.PIPE):
         launcher = [MPIRUN, "-n", str(ranks)] if ranks > 1 else []
-        return subprocess.run([*launcher, QUADLOOP, *arguments], cwd=self.folder, capture_output=True, text=True)
+        return subprocess.run([*launcher, QUADLOOP, *arguments], cwd=self.folder, stdout=stdout, stderr=subprocess.PIPE, text=True)
 
     def done(self, *arguments, ranks=1):
         """What the program says on stdout and on stderr where it ends well."""

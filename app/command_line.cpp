@@ -1,0 +1,96 @@
+#include "app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include "io/input/case_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/nearest_word.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// What is wrong where no word of the command line is a command.
+std::string without_command(CLI::App& app) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : commands_of(app)) commands.push_back(command->get_name());
+  const std::vector<std::string> words = app.remaining();
+  const bool names_one = !words.empty() && !words.front().starts_with('-');
+  const std::string fault = names_one ? "'" + words.front() + "' is no command" : "a command is missing";
+  return fmt::format("{}; the commands are: {}{}", fault, fmt::join(commands, ", "), names_one ? guess_for(words.front(), commands) : "");
+}
+
+void append_options(const CLI::App& app, std::vector<std::string>& names) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+}
+
+/// What is wrong with the first word that looks like an option and is none; empty where all are known.
+std::string unknown_option(const CLI::App& app) {
+  const std::vector<std::string> words = app.remaining(true);
+  const auto unknown = std::find_if(words.begin(), words.end(), [](const std::string& word) { return word.size() > 1 && word.starts_with('-'); });
+  if (unknown == words.end() || *unknown == "--") return {};
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands()) append_options(*command, names);
+  append_options(app, names);
+  const std::string name = unknown->substr(0, unknown->find('='));
+  return name + ": there is no such option" + guess_for(name, names);
+}
+
+bool is_file(const std::string& word) {
+  std::error_code ignored;  // a word too long for a path is none
+  return std::filesystem::exists(word, ignored);
+}
+
+}  // namespace
+
+std::vector<CLI::App*> commands_of(CLI::App& app) {
+  return app.get_subcommands([](CLI::App*) { return true; });
+}
+
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words;
+  bool in_assignments = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool is_value = i > 1 && words.back() == "--set";
+    const bool is_one_more = in_assignments && !is_value && is_assignment(word) && !is_file(word);
+    if (is_one_more) words.emplace_back("--set");
+    in_assignments = is_value || is_one_more || word.starts_with("--set=");
+    words.push_back(word);
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
+void answer(CLI::App& app, const CLI::ParseError& request, const Communicator& comm) {
+  if (request.get_exit_code() == 0) {
+    if (comm.is_root()) app.exit(request, std::cout, std::cerr);
+    return;
+  }
+  std::string command = "quadloop";
+  for (const CLI::App* subcommand : app.get_subcommands()) command += " " + subcommand->get_name();
+  std::string fault = unknown_option(app);
+  if (fault.empty()) fault = app.get_subcommands().empty() ? without_command(app) : request.what();
+  throw UsageError(fmt::format("{} '{} --help'", fault + (fault.ends_with('?') ? " See" : "; see"), command));
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  const std::string all = fmt::format("{{{}}}", fmt::join(words, ","));
+  return CLI::Validator(
+      [words, all](std::string& word) {
+        if (std::find(words.begin(), words.end(), word) != words.end()) return std::string();
+        return fmt::format("'{}' is not in {}{}", word, all, guess_for(word, words));
+      },
+      all);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""`quadloop convert`: the same mesh in another format, to the bit, its solution with it; what a format cannot hold is said.
+
+    convert_test.py QUADLOOP MPIRUN
+"""
+import itertools
+import json
+import sys
+import unittest
+
+from program import ProgramTest
+
+GEOMETRY = "2\nbox\n4\n-4 -4\n6 -4\n6 4\n-4 4\nmy-wall\n3\n0 0\n1 0.2\n1 -0.2\n"
+CASE = '[geometry]\nfile = "a.geom"\n[spacing]\nmin = 0.25\nmax = 2\n[output]\nformats = ["mesh"]\n'
+TWO_BLOCKS = """#Number of grid points
+6
+0 0
+1 0
+2 0
+2 1
+1 1
+0 1
+#Number of blocks
+2
+#Number of triangular elements
+2
+1 2 5
+1 5 6
+#Number of quadrilateral elements
+0
+#Number of triangular elements
+0
+#Number of quadrilateral elements
+1
+2 3 4 5
+#Number of boundaries
+1
+#Number of edges for boundary 1 (wall)
+6
+1 2
+2 3
+3 4
+4 5
+5 6
+6 1
+"""
+
+
+def with_solution(mesh):
+    """Values that no short decimal holds."""
+    nodes = int(mesh.split("\n")[1])
+    rows = "".join(f"{(i + 1) / 7 + 1e-9!r} {(i + 1) / 3e300!r} {-(i + 0.5) / 9!r}\n" for i in range(nodes))
+    return mesh + "#Number of constants\n0\n#Number of variables\n3\n#names: density pressure my_field\n" + rows
+
+
+class Convert(ProgramTest):
+    def mesh(self, kind):
+        self.write("a.geom", GEOMETRY)
+        self.write("case.toml", CASE)
+        self.done("mesh", "case.toml", "-o", "a", "--type", kind, "-q")
+        return (self.folder / "a.mesh").read_text()
+
+    def converted(self, source, target, *options):
+        """The warnings."""
+        return self.done("convert", source, target, "-q", *options)[1]
+
+    def bytes_of(self, name):
+        return (self.folder / name).read_bytes()
+
+    def chains(self, kind):
+        """Through all formats that hold a solution, then through the others. Every pair is in tests/io/mesh_file_test.cpp."""
+        text = self.mesh(kind)
+        self.write("solved.mesh", with_solution(text))
+        for first, second in itertools.pairwise(("solved.mesh", "a.cgns", "a.vtu", "back.mesh")):
+            self.assertEqual(self.converted(first, second), "")
+        self.assertEqual(self.bytes_of("back.mesh"), self.bytes_of("solved.mesh"))
+        self.assertIn("no place for the solution", self.converted("solved.mesh", "a.su2"))
+        for first, second in itertools.pairwise(("a.su2", "a.msh", "back.mesh")):
+            self.assertEqual(self.converted(first, second), "")
+        self.assertEqual(self.bytes_of("back.mesh"), text.encode())
+
+    def test_hybrid_meshes(self):
+        self.chains("hybrid")
+
+    def test_delaunay_meshes(self):
+        self.chains("delaunay")
+
+    def test_blocks(self):
+        self.write("a.mesh", TWO_BLOCKS)
+        for name in ("vtu", "msh"):
+            self.assertEqual(self.converted("a.mesh", f"b.{name}"), "")
+            self.converted(f"b.{name}", "back.mesh")
+            self.assertEqual(self.bytes_of("back.mesh"), TWO_BLOCKS.encode())
+        self.assertIn("the blocks are written as one", self.converted("a.mesh", "b.cgns"))
+
+    def test_constants_are_lost_with_a_warning(self):
+        self.write("a.mesh", TWO_BLOCKS + "#Number of constants\n1\n7\n#Number of variables\n0\n")
+        self.assertIn("solution's constants", self.converted("a.mesh", "b.vtu"))
+
+    def test_conditions_are_lost_with_a_warning(self):
+        self.write("a.geom", GEOMETRY)
+        self.write("case.toml", CASE.replace('"mesh"]', '"cgns"]') + '[boundary."*"]\nbc = "wall"\n')
+        self.done("mesh", "case.toml", "-o", "a", "-q")
+        self.assertIn("boundary conditions", self.converted("a.cgns", "b.mesh"))
+        self.assertEqual(self.converted("a.cgns", "b.cgns"), "")
+
+    def test_a_mesh_that_is_not_valid_stays_as_it_is(self):
+        inverted = TWO_BLOCKS.replace("2 3 4 5\n", "5 4 3 2\n").replace("1 5 6\n", "6 5 1\n")
+        self.write("a.mesh", inverted)
+        self.assertIn("is not valid, and is passed on as it is", self.converted("a.mesh", "b.mesh"))
+        self.assertEqual(self.bytes_of("b.mesh").decode(), inverted)
+
+    def test_a_format_by_name(self):
+        self.write("a.mesh", TWO_BLOCKS)
+        self.converted("a.mesh", "b.su2")
+        for name in ("b", "b.x", "c.mesh"):
+            self.converted("a.mesh", name, "--format", "su2")
+            self.assertEqual(self.bytes_of(name), self.bytes_of("b.su2"))
+
+    def test_the_same_bytes_on_ranks(self):
+        self.write("first.mesh", with_solution(self.mesh("hybrid")))
+        for name in ("mesh", "vtu", "su2", "msh"):
+            self.converted("first.mesh", f"a.{name}")
+            self.done("convert", "first.mesh", f"b.{name}", "-q", ranks=3)
+            self.assertEqual(self.bytes_of(f"a.{name}"), self.bytes_of(f"b.{name}"))
+
+    def test_table_and_record(self):
+        self.write("a.mesh", TWO_BLOCKS)
+        table, _ = self.done("convert", "a.mesh", "b.vtu")
+        self.assertRegex(table, r"(?s)nodes +6\n.*triangles +2\n.*quads +1\n.*wrote b.vtu")
+        record = json.loads(self.done("convert", "a.mesh", "b.vtu", "--json")[0])
+        self.assertEqual((record["nodes"], record["blocks"], record["files"]), (6, 2, ["b.vtu"]))
+
+    def test_refusals(self):
+        self.write("a.mesh", TWO_BLOCKS)
+        self.write("short.mesh", TWO_BLOCKS[:-4])
+        self.refused(1, ["short.mesh:"], "convert", "short.mesh", "b.vtu")
+        self.refused(1, ["none.mesh"], "convert", "none.mesh", "b.vtu")
+        self.refused(1, ["b.xyz", ".su2", "--format"], "convert", "a.mesh", "b.xyz")
+        self.refused(1, ["a.xyz"], "convert", "a.xyz", "b.mesh")
+        self.refused(2, ["'vtk'", "do you mean 'vtu'?"], "convert", "a.mesh", "b", "--format", "vtk")
+        self.refused(2, ["output is required"], "convert", "a.mesh")
+        self.refused(4, ["none/b.vtu"], "convert", "a.mesh", "none/b.vtu")
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["a.mesh", "short.mesh"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,66 @@
+// What stands behind messages and records: guesses for mistyped words, decimal commas, JSON. On one rank alone.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "mesher/base/decimal_comma.hpp"
+#include "mesher/base/json.hpp"
+#include "mesher/base/nearest_word.hpp"
+
+namespace quadloop {
+namespace {
+
+TEST(NearestWord, IsOneSlipForEachThirdOfTheWord) {
+  const std::vector<std::string> words{"--window", "--output", "mesh", "min", "max"};
+  EXPECT_EQ(nearest_word("--widow", words), "--window");
+  EXPECT_EQ(nearest_word("--outptu", words), "--output");
+  EXPECT_EQ(nearest_word("MEHS", words), "mesh");
+  EXPECT_EQ(nearest_word("mim", words), "min");
+  EXPECT_EQ(nearest_word("mi", words), "min");
+  EXPECT_EQ(nearest_word("m", words), "");
+  EXPECT_EQ(nearest_word("", words), "");
+  EXPECT_EQ(nearest_word("--nonsense", words), "");
+  EXPECT_EQ(guess_for("mesg", words), "; do you mean 'mesh'?");
+  EXPECT_EQ(guess_for("solver", words), "");
+}
+
+TEST(DecimalComma, IsTheOnlyOneOfANumber) {
+  EXPECT_EQ(decimal_comma_in("0,5"), "0,5: a decimal comma; write 0.5");
+  EXPECT_EQ(decimal_comma_in("-1,25e-3"), "-1,25e-3: a decimal comma; write -1.25e-3");
+  EXPECT_EQ(decimal_comma_in("+1,5D2"), "+1,5D2: a decimal comma; write +1.5D2");
+  for (const char* word : {"", "0.5", "1,", ",5", "1,2,3", "1.5,2", "a,b", "1,2x", "5"}) EXPECT_EQ(decimal_comma_in(word), "") << word;
+}
+
+TEST(Json, NumbersAreShortAndFinite) {
+  EXPECT_EQ(json_of(0.1), "0.1");
+  EXPECT_EQ(json_of(1.0), "1");
+  EXPECT_EQ(json_of(1.0 / 3), "0.3333333333333333");
+  EXPECT_EQ(json_of(std::numeric_limits<double>::infinity()), "null");
+  EXPECT_EQ(json_of(std::numeric_limits<double>::quiet_NaN()), "null");
+  EXPECT_EQ(json_of(std::numeric_limits<std::int64_t>::min()), "-9223372036854775808");
+  EXPECT_EQ(json_of(std::vector{1.5, 2.0}), "[1.5, 2]");
+  EXPECT_EQ(json_of(std::optional<double>()), "null");
+  EXPECT_EQ(json_of(true), "true");
+}
+
+TEST(Json, TextsAreEscapedAndLatinBytesAreLetters) {
+  EXPECT_EQ(json_of("a \"b\" \\ \n"), R"("a \"b\" \\ \u000a")");
+  EXPECT_EQ(json_of("\xC3\xA9"), "\"\xC3\xA9\"");
+  EXPECT_EQ(json_of("\xE9"), R"("\u00e9")");
+  EXPECT_EQ(json_of(std::vector<std::string>{"a", "b"}), R"(["a", "b"])");
+}
+
+TEST(Json, ObjectsKeepTheOrderOfTheirMembers) {
+  JsonObject inner, object, more;
+  EXPECT_EQ(object.text(), "{}");
+  EXPECT_EQ(object.lines("  "), "{\n  }");
+  object.add("b", "x");
+  object.add("a", inner);
+  more.add_raw("c", "[1]");
+  object.append(more);
+  EXPECT_EQ(object.text(), R"({"b": "x", "a": {}, "c": [1]})");
+  EXPECT_EQ(object.lines("  "), "{\n    \"b\": \"x\",\n    \"a\": {},\n    \"c\": [1]\n  }");
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,103 @@
+// Every pair of formats: what both have a place for comes through to the bit, and what is lost is said. On one rank alone.
+#include "io/mesh_file.hpp"
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <cmath>
+
+#include "tests/io/sample_mesh.hpp"
+
+namespace quadloop {
+namespace {
+
+enum class Kind { hybrid, triangles };
+
+bool holds_solution(const std::string& format) { return format == "mesh" || format == "cgns" || format == "vtu"; }
+
+/// A mesh with coordinates that need all digits, as a file gives it.
+LoadedMesh sample(Kind kind, bool solved) {
+  LoadedMesh loaded;
+  Mesh& mesh = loaded.mesh = test::sample_mesh(7);
+  for (Point& p : mesh.points) p = {p.x / 3 + 1e-17, std::sqrt(p.y) - 1e-300};
+  mesh.boundaries[1].name = "far-field";
+  if (kind == Kind::triangles) {
+    for (const auto& [a, b, c, d] : mesh.quads) {
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    }
+    mesh.quads.clear();
+  }
+  loaded.triangle_to_block.assign(mesh.triangles.size(), 0);
+  loaded.quad_to_block.assign(mesh.quads.size(), 0);
+  if (solved) loaded.solution = test::sample_solution(mesh);
+  return loaded;
+}
+
+LoadedMesh through_file(const LoadedMesh& loaded, const std::string& path) {
+  const Communicator alone(MPI_COMM_SELF);
+  write_mesh_of_root(alone, loaded, path);
+  LoadedMesh back = read_mesh(path);
+  EXPECT_TRUE(back.warnings.empty()) << back.warnings.front();
+  return back;
+}
+
+void expect_same_cells(const Mesh& back, const Mesh& mesh) {
+  EXPECT_EQ(back.points, mesh.points);
+  EXPECT_EQ(back.triangles, mesh.triangles);
+  EXPECT_EQ(back.quads, mesh.quads);
+  ASSERT_EQ(back.boundaries.size(), mesh.boundaries.size());
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+    EXPECT_EQ(back.boundaries[b].name, mesh.boundaries[b].name);
+    EXPECT_EQ(back.boundaries[b].edges, mesh.boundaries[b].edges);
+  }
+}
+
+/// From a file in the one format to one in the other.
+void convert_and_compare(const LoadedMesh& loaded, const std::string& first, const std::string& second) {
+  const test::TemporaryFolder folder;
+  const LoadedMesh between = through_file(loaded, folder.file("a." + first));
+  const LoadedMesh back = through_file(between, folder.file("b." + second));
+  expect_same_cells(back.mesh, loaded.mesh);
+  const bool carried = loaded.solution && holds_solution(first), kept = carried && holds_solution(second);
+  ASSERT_EQ(back.solution.has_value(), kept);
+  if (kept) {
+    EXPECT_EQ(back.solution->names, loaded.solution->names);
+    EXPECT_EQ(back.solution->values, loaded.solution->values);
+    EXPECT_EQ(back.solution->constants.empty(), first != "mesh" || second != "mesh");
+  }
+  const std::string condition = first == "cgns" && second == "cgns" ? "wall" : "none";
+  EXPECT_EQ(back.mesh.boundaries[0].condition, condition);
+  const std::size_t losses =
+      (first == "cgns" && second != "cgns" ? 1U : 0U) + (carried && !kept ? 1U : 0U) + (kept && first == "mesh" && second != "mesh" ? 1U : 0U);
+  EXPECT_EQ(losses_in(between, folder.file("b." + second)).size(), losses);
+}
+
+TEST(MeshFile, EveryPairOfFormatsKeepsTheMesh) {
+  for (const Kind kind : {Kind::hybrid, Kind::triangles}) {
+    for (const bool solved : {false, true}) {
+      const LoadedMesh loaded = sample(kind, solved);
+      for (const std::string& first : mesh_formats()) {
+        for (const std::string& second : mesh_formats()) {
+          SCOPED_TRACE(first + " to " + second + (solved ? ", solved" : ""));
+          convert_and_compare(loaded, first, second);
+        }
+      }
+    }
+  }
+}
+
+TEST(MeshFile, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {
+  const test::TemporaryFolder folder;
+  const LoadedMesh loaded = sample(Kind::hybrid, false);
+  const Communicator alone(MPI_COMM_SELF);
+  write_mesh_of_root(alone, loaded, folder.file("a.su2"));
+  for (const char* name : {"b", "b.xyz", "b.mesh"}) {
+    write_mesh_of_root(alone, loaded, folder.file(name), "su2");
+    EXPECT_EQ(test::bytes_of(folder.file(name)), test::bytes_of(folder.file("a.su2")));
+  }
+  EXPECT_EQ(losses_in(sample(Kind::hybrid, true), folder.file("b.mesh"), "su2").size(), 2U);
+}
+
+}  // namespace
+}  // namespace quadloop
