@@ -27,7 +27,7 @@ std::string places_json(const std::vector<SharpPlace>& places) {
   return json_list(rows);
 }
 
-void add_shape(JsonObject& json, const ShapeStatistics& shape) {
+void add_shape(JsonObject& json, const ShapeStatistics& shape, const ShapeFigures& figures) {
   json.add("corners", shape.corners);
   json.add("corners_below_15", shape.corners_below_15);
   json.add("corners_below_25", shape.corners_below_25);
@@ -40,6 +40,9 @@ void add_shape(JsonObject& json, const ShapeStatistics& shape) {
   json.add("area_ratio_max", shape.area_ratio_max);
   json.add("area_ratio_p99", shape.area_ratio_p99);
   json.add("quad_share", shape.quad_share);
+  json.add("parallelogram_share", figures.parallelogram_share());
+  json.add("inexact_node_share", figures.inexact_share());
+  json.add("passage_cells", figures.passage_cells);
   json.add_raw("sharp_places", places_json(shape.sharp_places));
   json.add_raw("passages", places_json(shape.passages));
 }
@@ -85,10 +88,12 @@ std::string outline_corners_text(const ShapeStatistics& shape, bool verbose) {
          row("corners in passages", shape.corners_in_passages) + (verbose ? places_text(shape.passages) : "");
 }
 
-std::string shape_text(const ShapeStatistics& shape, bool with_geometry, bool verbose) {
+std::string shape_text(const ShapeStatistics& shape, const ShapeFigures& figures, bool with_geometry, bool verbose) {
   return row("corners below 15 degrees", shape.corners_below_15) + row("corners below 26", shape.corners_below_26) +
          row("corners above 150", shape.corners_above_150) + (with_geometry ? outline_corners_text(shape, verbose) : "") +
-         row("largest area ratio", shape.area_ratio_max) + row("area ratio, 99 %", shape.area_ratio_p99) + row("share of quads", shape.quad_share);
+         row("largest area ratio", shape.area_ratio_max) + row("area ratio, 99 %", shape.area_ratio_p99) + row("share of quads", shape.quad_share) +
+         row("parallelograms", figures.parallelogram_share()) + row("inexact nodes", figures.inexact_share()) +
+         row("passage cells", figures.passage_cells);
 }
 
 std::string fit_text(const GeometryFit& fit) {
@@ -119,7 +124,7 @@ std::string report_text(const CheckReport& report, bool verbose) {
   text += row("blocks", report.blocks) + row("boundary edges", quality.counts.boundary_edges);
   text += boundaries_text(report.boundaries, most);
   text += row("area", report.area) + row("smallest angle", quality.smallest_degrees) + row("largest angle", quality.largest_degrees);
-  text += shape_text(report.shape, report.fit.has_value(), verbose);
+  text += shape_text(report.shape, report.figures, report.fit.has_value(), verbose);
   text += row("worst quality", quality.worst) + row("mean quality", quality.mean) + row("pinched nodes", report.pinched_nodes);
   if (report.fit) text += fit_text(*report.fit);
   return text + faults_text(report.faults, most) + (report.faults.empty() ? "  valid\n" : "  INVALID\n");
@@ -141,7 +146,7 @@ JsonObject report_record(const CheckReport& report) {
   json.add("area", report.area);
   json.add("min_angle", quality.smallest_degrees);
   json.add("max_angle", quality.largest_degrees);
-  add_shape(json, report.shape);
+  add_shape(json, report.shape, report.figures);
   json.add("worst_quality", quality.worst);
   json.add("mean_quality", quality.mean);
   json.add("pinched_nodes", report.pinched_nodes);

@@ -6,6 +6,7 @@
 
 #include "mesher/base/json.hpp"
 #include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/shape_figures.hpp"
 #include "mesher/mesh/shape_statistics.hpp"
 #include "mesher/mesh/validate.hpp"
 
@@ -18,6 +19,7 @@ struct CheckReport {
   std::vector<std::pair<std::string, std::int64_t>> boundaries;  ///< name and number of edges
   QualitySummary quality;
   ShapeStatistics shape;
+  ShapeFigures figures;
   double area = 0;
   std::int64_t pinched_nodes = 0;
   std::optional<GeometryFit> fit;  ///< its faults are in `faults` too

@@ -35,6 +35,7 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   for (const BoundaryEdges& boundary : mesh.boundaries) report.boundaries.emplace_back(boundary.name, boundary.edges.size());
   report.quality = summarise_quality(Communicator(MPI_COMM_SELF), mesh);
   report.shape = shape_statistics(mesh, chains == nullptr ? std::span<const Chain>() : std::span(*chains));
+  report.figures = shape_figures(Communicator(MPI_COMM_SELF), mesh);
   report.area = area_of(mesh);
   report.pinched_nodes = pinched_nodes(mesh);
   report.faults = validate(mesh, {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block});

@@ -60,14 +60,14 @@ std::string stage_table(const std::vector<StageRow>& stages) {
 }
 
 MeshSummary summarise(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds, const std::vector<std::string>& files) {
-  MeshSummary summary{{}, stage_rows(comm, seconds), files, result.report.boundaries_vanished};
+  MeshSummary summary{{}, shape_figures(comm, result.mesh), stage_rows(comm, seconds), files, result.report.boundaries_vanished};
   const QualitySummary quality = summarise_quality(comm, result.mesh);
-  const ShapeFigures shape = shape_figures(comm, result.mesh);
   const double memory = comm.maximum(peak_memory_mib());
   if (!comm.is_root()) return summary;
 
   const TreeAttributes& counts = result.tree.attributes;
   const MeshReport& report = result.report;
+  const ShapeFigures& shape = summary.shape;
   Figures& figures = summary.figures;
   figures.add("nodes", counts.nodes);
   figures.add("triangles", counts.triangles);

@@ -7,6 +7,7 @@
 #include "app/figures.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/mesh/build_mesh.hpp"
+#include "mesher/mesh/shape_figures.hpp"
 
 namespace quadloop {
 
@@ -27,6 +28,7 @@ std::string stage_table(const std::vector<StageRow>& stages);
 /// What `mesh` and `remesh` say at their end.
 struct MeshSummary {
   Figures figures;  ///< counts, quality, memory, imbalance; a further figure of the mesh is one more `add`
+  ShapeFigures shape;
   std::vector<StageRow> stages;
   std::vector<std::string> files;
   std::vector<std::string> boundaries_vanished;

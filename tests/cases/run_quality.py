@@ -17,6 +17,7 @@ from pathlib import Path
 from outline import read_outline
 from quadloop_runs import beside_the_checkout, fail, mesh_case, run, skip
 
+PARALLELOGRAMS, QUADS, QUADS_WHERE_PARALLEL = 0.85, 0.65, 0.64  # shares: smoothed; of the cells; of the cells with mesh.quads = "parallel"
 BELOW_26, LARGEST_RATIO, USUAL_RATIO = 0.01, 50, 4.5  # share of corners; area ratio of neighbours: any, 99 percent
 LARGEST_RATIO_SMOOTHED = 10
 MOST_OF_A_COAST = 0.001
@@ -70,6 +71,14 @@ def smoothed_limits(said, before, args):
         ("mean quality, smoothed", said["mean_quality"], ">=", before["mean_quality"])]
 
 
+def parallel_limits(smoothed, split):
+    return [("share of parallelograms", smoothed["parallelogram_share"], ">=", PARALLELOGRAMS),
+            ("share of quads, smoothed", smoothed["quad_share"], ">=", QUADS),
+            ("share of parallelograms where the others are divided", split["parallelogram_share"], ">=", 1),
+            ("share of quads there", split["quad_share"], ">=", QUADS_WHERE_PARALLEL),
+            ("share of inexact nodes there", split["inexact_node_share"], "<=", smoothed["inexact_node_share"] / 2)]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
@@ -78,6 +87,7 @@ def main():
     parser.add_argument("--smoothed", type=float, nargs=2)
     parser.add_argument("--fractal", action="store_true")
     parser.add_argument("--quads", type=float, default=0)
+    parser.add_argument("--parallel", action="store_true", help="few smoothed quads are skew, and with mesh.quads = \"parallel\" none")
     parser.add_argument("--type", choices=("hybrid", "delaunay"), default="hybrid")
     parser.add_argument("--offsets", type=int, default=8)
     parser.add_argument("--borrow")
@@ -98,6 +108,9 @@ def main():
             for said in (cut, smoothed):
                 print(root, {key: said[key] for key in ("min_angle_made", "max_angle_made", "corners_of_outline", "area_ratio_max", "quad_share")})
             limits = fractal_limits(cut, smoothed) if args.fractal else cut_limits(cut, args) + smoothed_limits(smoothed, cut, args)
+            if args.parallel:
+                split = shapes_of(args.quadloop, case, prefix, here + ["--set", 'mesh.quads="parallel"'])
+                limits += parallel_limits(smoothed, split)
             found = shortfalls_of(limits)
             if found:
                 fail(f"root {root}: {'; '.join(found)}")
