@@ -47,14 +47,14 @@ LoadedMesh solved_mesh(const RemeshArguments& arguments) {
   return whole;
 }
 
-void write(const Communicator& comm, const CarriedMesh& carried, const std::vector<std::string>& files) {
+void write(const Communicator& comm, const CarriedMesh& carried, const std::vector<std::string>& files, double gamma) {
   OutputSet outputs(comm);
   const MeshResult& result = carried.generated.result;
   for (const std::string& file : files) {
     if (std::filesystem::path(file).extension() == ".h5")
       write_tree(outputs, result.tree, file);
     else
-      write_mesh(outputs, result.mesh, file, &carried.start);
+      write_mesh(outputs, result.mesh, file, &carried.start, gamma);
   }
   outputs.commit();
 }
@@ -94,7 +94,7 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   const CarriedMesh carried = carry_over(comm, mesh, plan, solved);
   times.append(carried.times);
   times.begin("write");
-  write(comm, carried, files);
+  write(comm, carried, files, input.settings.solver.euler.gamma);
   times.end();
   show_warnings(comm.is_root(), context.verbose, input.warnings);
   show_warnings(comm.is_root(), context.verbose, carried.generated.result.report.warnings);

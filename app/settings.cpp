@@ -165,9 +165,9 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
   if (table->has("formats")) {
     settings.formats.clear();
     for (const std::string& format : table->texts("formats")) {
-      constexpr std::array known{"mesh", "cgns", "vtu", "su2", "msh"};
+      constexpr std::array known{"mesh", "cgns", "vtu", "su2", "msh", "csv"};
       if (std::find(known.begin(), known.end(), format) == known.end()) {
-        table->refuse("formats", fmt::format("holds '{}', but this version writes: mesh, cgns, vtu, su2, msh", format));
+        table->refuse("formats", fmt::format("holds '{}', but this version writes: mesh, cgns, vtu, su2, msh, csv", format));
       }
       if (std::find(settings.formats.begin(), settings.formats.end(), format) == settings.formats.end()) settings.formats.push_back(format);
     }
@@ -206,7 +206,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
 
 std::string format_suffix_of(const std::string& prefix) {
   const std::string suffix = std::filesystem::path(prefix).extension();
-  for (const char* known : {".mesh", ".cgns", ".vtu", ".su2", ".msh", ".h5"}) {
+  for (const char* known : {".mesh", ".cgns", ".vtu", ".su2", ".msh", ".csv", ".h5"}) {
     if (suffix == known) return suffix;
   }
   return {};

@@ -5,6 +5,7 @@
 #include "io/cgns_file.hpp"
 #include "io/msh_file.hpp"
 #include "io/native_file.hpp"
+#include "io/su2_csv_file.hpp"
 #include "io/su2_file.hpp"
 #include "io/vtu_file.hpp"
 #include "mesher/base/error.hpp"
@@ -42,6 +43,11 @@ void require_writable_suffix(const std::string& path) {
   throw InputError(path + ": no mesh is written in the format '" + suffix_of(path) + "'; name a .mesh, .cgns, .vtu, .su2 or .msh file");
 }
 
+bool holds_solution(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".mesh" || suffix == ".cgns" || suffix == ".vtu";
+}
+
 void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
   const std::string suffix = suffix_of(path);
   if (suffix == ".mesh") write_native(outputs, whole, path);
@@ -51,20 +57,20 @@ void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& 
   if (suffix == ".msh") write_msh(outputs, whole, path);
 }
 
-void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
+void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution, double gamma) {
   const std::string suffix = suffix_of(path);
   if (suffix == ".mesh") write_native(outputs, mesh, path, solution);
   if (suffix == ".cgns") write_cgns(outputs, mesh, path, solution);
   if (suffix == ".vtu") write_vtu(outputs, mesh, path, solution);
   if (suffix == ".su2") write_su2(outputs, mesh, path);
   if (suffix == ".msh") write_msh(outputs, mesh, path);
+  if (suffix == ".csv" && solution != nullptr) write_su2_csv(outputs, mesh, path, *solution, gamma);
 }
 
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path) {
   const std::string suffix = suffix_of(path);
   std::vector<std::string> losses;
-  if (whole.solution && (suffix == ".su2" || suffix == ".msh"))
-    losses.push_back(path + ": this format has no place for the solution, which is left out");
+  if (whole.solution && !holds_solution(path)) losses.push_back(path + ": this format has no place for the solution, which is left out");
   if (whole.solution && (suffix == ".cgns" || suffix == ".vtu") && !whole.solution->constants.empty()) {
     losses.push_back(path + ": this format has no place for the solution's constants, which are left out");
   }

@@ -15,12 +15,15 @@ LoadedMesh read_mesh(const std::string& path);
 void require_readable_suffix(const std::string& path);
 void require_writable_suffix(const std::string& path);
 
+/// Whether the format that the suffix tells has a place for a solution beside the mesh.
+bool holds_solution(const std::string& path);
+
 /// Writes a mesh that the set's only rank holds whole, with its solution and blocks as far as the format has a place for them. Throws OutputError.
 void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
 
-/// Writes a distributed mesh in the format that the suffix tells, with a solution where the format has a place for one. *Collective.* Throws
-/// OutputError on all ranks.
-void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr);
+/// Writes a distributed mesh in the format that the suffix tells, with a solution where the format has a place for one. A .csv holds the solution
+/// alone (write_su2_csv(), which wants `gamma`), and is not written without one. *Collective.* Throws OutputError on all ranks.
+void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr, double gamma = 1.4);
 
 /// What a format has no place for and the mesh has: one line each, with the file's name.
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path);
