@@ -30,7 +30,8 @@ std::optional<Columns> columns_of(std::span<const std::string> names, const std:
 
 /// A name that is read back as that of a variable: no comma or quote, no number, no coordinate.
 std::string column_name(std::string name) {
-  std::replace_if(name.begin(), name.end(), [](char c) { return c == ',' || c == '"'; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == ',' || c == '"'; }, '_');
   double number = 0;
   if (name.empty() || parse_real(name, number)) name = "v" + name;
   std::string key = name;
@@ -38,9 +39,10 @@ std::string column_name(std::string name) {
   return key == "x" || key == "y" || key == "z" || key == "pointid" ? name + "_" : name;
 }
 
-/// Which columns a solution makes: SU2's four conservative variables in front where it has them or what they follow from, then all others as they are.
+/// Which columns a solution makes: SU2's four conservative variables in front where it has them or what they follow from, then all others as they
+/// are.
 struct CsvTable {
-  std::optional<Columns> made_from;   ///< density, velocity and pressure, of which the first four columns are computed
+  std::optional<Columns> made_from;  ///< density, velocity and pressure, of which the first four columns are computed
   std::vector<std::size_t> as_they_are;
   std::vector<std::string> names;
 
