@@ -99,6 +99,13 @@ def check_damage(program, folder, ranks):
                                "--cycles", cycles, ranks=ranks)
                 require(states(made) == before, f"{name}: a refusal has touched the folder")
                 shutil.rmtree(made)
+    made = folder / "moved"
+    shutil.copytree(whole, made)
+    lines = (made / "cycle_02" / "mesh.mesh").read_text().splitlines()
+    lines[42] = " ".join(repr(float(number) + 1e-9) for number in lines[42].split())
+    (made / "cycle_02" / "mesh.mesh").write_text("\n".join(lines) + "\n")
+    expect_refusal(program, 1, ["cycle_02/mesh.mesh: its nodes do not lie where", "remove the folder"], "adapt", case, "-o", made, "--resume",
+                   "--cycles", "3", ranks=ranks)
     made = folder / "gap"
     shutil.copytree(whole, made)
     shutil.rmtree(made / "cycle_01")
