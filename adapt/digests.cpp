@@ -82,7 +82,7 @@ std::uint64_t text_digest(const std::string& text) {
   return digest.value();
 }
 
-std::uint64_t coordinate_digest(const Communicator& comm, const Mesh& mesh) {
+std::uint64_t digest_of_owned(const Mesh& mesh) {
   std::uint64_t sum = 0;
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
     WordDigest of_node;
@@ -90,6 +90,11 @@ std::uint64_t coordinate_digest(const Communicator& comm, const Mesh& mesh) {
     of_node.add(mesh.point(NodeId{node}));
     sum += of_node.value();
   }
+  return sum;
+}
+
+std::uint64_t coordinate_digest(const Communicator& comm, const Mesh& mesh) {
+  const std::uint64_t sum = digest_of_owned(mesh);
   // Modulo 2^64 over all ranks, in two halves: a signed 64-bit sum may not overflow.
   const auto low = static_cast<std::uint64_t>(comm.sum(static_cast<std::int64_t>(sum & 0xffffffffULL)));
   const auto high = static_cast<std::uint64_t>(comm.sum(static_cast<std::int64_t>(sum >> 32)));

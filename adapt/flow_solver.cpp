@@ -20,6 +20,9 @@ namespace quadloop {
 
 namespace {
 
+/// Where a cycle's mesh stands in any case.
+std::string native_in(const std::string& folder) { return (std::filesystem::path(folder) / "mesh.mesh").string(); }
+
 /// The four variables of the built-in solver, row by row; none without a starting state.
 std::vector<double> states_of(const std::optional<Solution>& start) {
   std::vector<double> states;
@@ -49,11 +52,13 @@ SolvedFlow solve(const Communicator& comm, EulerOptions options, const Mesh& mes
   return flow;
 }
 
-/// The mesh in the format that the user's solver reads. *Collective.*
-void write_for(const Communicator& comm, const Mesh& mesh, const std::optional<Solution>& start, const std::string& native, const std::string& path) {
-  if (path == native) return;
+/// The mesh in the format that the user's solver reads, and the starting state beside it where that has no place for one. *Collective.*
+void write_for(const Communicator& comm, const Mesh& mesh, const std::optional<Solution>& start, const SolverFiles& files, double gamma) {
   OutputSet outputs(comm);
-  write_mesh(outputs, mesh, path, start ? &*start : nullptr);
+  const Solution* state = start ? &*start : nullptr;
+  const bool is_native = files.mesh == native_in(files.folder);
+  if (!is_native) write_mesh(outputs, mesh, files.mesh, state);
+  if (files.state != files.mesh) write_mesh(outputs, mesh, files.state, state, gamma);
   outputs.commit();
 }
 
@@ -73,11 +78,10 @@ std::vector<double> rows_of_owned(const Communicator& comm, const Mesh& mesh, co
 SolvedFlow solve(const Communicator& comm, const CommandSolver& solver, const Mesh& mesh, const std::optional<Solution>& start,
                  const std::string& folder, int cycle) {
   const std::filesystem::path place = std::filesystem::absolute(folder);
-  const SolverFiles files{
-      place, (place / solver.mesh).string(), (place / solver.solution).string(), solver.case_folder, solver.ranks > 0 ? solver.ranks : comm.size(),
-      cycle};
-  const std::string native = (place / "mesh.mesh").string();
-  write_for(comm, mesh, start, native, files.mesh);
+  const int ranks = solver.ranks > 0 ? solver.ranks : comm.size();
+  const SolverFiles files{place, (place / solver.mesh).string(),   (place / solver.solution).string(), solver.case_folder, ranks,
+                          cycle, (place / solver.state()).string()};
+  write_for(comm, mesh, start, files, solver.gamma);
   run_solver(comm, solver.command, files);
   SolvedFlow flow;
   Solution whole;
@@ -85,7 +89,7 @@ SolvedFlow solve(const Communicator& comm, const CommandSolver& solver, const Me
     if (!comm.is_root()) return;
     try {
       LoadedSolution left = read_solution(files.solution);
-      require_same_mesh(left, read_native(native).mesh);
+      require_same_mesh(left, read_native(native_in(files.folder)).mesh);
       whole = std::move(left.solution);
     } catch (const InputError& fault) {
       throw SolverError(solver_message(solver.command, files, std::string("left no solution for its mesh: ") + fault.what()));
@@ -97,6 +101,13 @@ SolvedFlow solve(const Communicator& comm, const CommandSolver& solver, const Me
 }
 
 }  // namespace
+
+std::string CommandSolver::state() const { return holds_solution(mesh) ? mesh : std::filesystem::path(mesh).replace_extension(".csv").string(); }
+
+double gamma_of(const FlowSolver& solver) {
+  if (const auto* options = std::get_if<EulerOptions>(&solver)) return options->gamma;
+  return std::get<CommandSolver>(solver).gamma;
+}
 
 SolvedFlow solve_flow(const Communicator& comm, const FlowSolver& solver, const Mesh& mesh, const std::optional<Solution>& start,
                       const std::string& folder, int cycle) {

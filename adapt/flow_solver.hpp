@@ -17,9 +17,16 @@ struct CommandSolver {
   std::string mesh = "mesh.mesh", solution = "solution.mesh";
   int ranks = 0;  ///< 0: as many as quadloop runs on
   std::string case_folder;
+  double gamma = 1.4;  ///< ratio of specific heats of the starting state, where its format wants it
+
+  /// The file that the starting state stands in: that of the mesh where its format has a place for it, else a .csv beside it.
+  std::string state() const;
 };
 
 using FlowSolver = std::variant<EulerOptions, CommandSolver>;
+
+/// The ratio of specific heats of the solver's gas.
+double gamma_of(const FlowSolver& solver);
 
 /// A flow on a mesh, and what the solver said of it.
 struct SolvedFlow {

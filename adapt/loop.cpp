@@ -42,13 +42,15 @@ class AdaptiveRun {
   AdaptiveRun(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, const RunReport& report)
       : comm_{comm}, case_{adaptive}, folders_{comm, folder}, report_{report} {}
 
-  int run(bool resume) {
+  RunEnd run(bool resume) {
     const int first = folders_.open(resume);
     if (resume && first == 0) report_.warning(folders_.folder() + ": holds no whole cycle to go on after; the run begins with cycle 0");
     std::optional<Left> left;
     if (first > 0) left = left_by_earlier_run(first - 1);
-    for (int cycle = first; cycle <= case_.adapt.cycles; ++cycle) left = run_cycle(cycle, left);
-    return first;
+    int next = first;
+    const auto stands = [&] { return left && next <= case_.adapt.cycles && !left->plan.changes_mesh(); };
+    for (; next <= case_.adapt.cycles && !stands(); ++next) left = run_cycle(next, left);
+    return {first, next - 1, stands()};
   }
 
  private:
@@ -57,7 +59,10 @@ class AdaptiveRun {
     const std::string folder = folders_.whole(cycle);
     for (const std::string& warning : require_same_run(comm_, folder, record_of_case())) report_.warning(warning);
     Left left{read_earlier_cycle(comm_, folder), {}};
-    if (cycle < case_.adapt.cycles) left.plan = plan_adaptation(comm_, case_.mesh, case_.adapt, left.solved);
+    if (cycle >= case_.adapt.cycles) return left;
+    left.plan = plan_adaptation(comm_, case_.mesh, case_.adapt, left.solved);
+    if (left.plan.changes_mesh()) return left;
+    for (const std::string& warning : left.plan.warnings) report_.warning(warning);
     return left;
   }
 
@@ -117,7 +122,7 @@ class AdaptiveRun {
     write_native(outputs, mesh, folder + "/mesh.mesh", &solution);
     write_cgns(outputs, mesh, folder + "/mesh.cgns", &solution);
     for (const std::string& format : case_.formats) {
-      if (format != "mesh" && format != "cgns") write_mesh(outputs, mesh, folder + "/mesh." + format, &solution);
+      if (format != "mesh" && format != "cgns") write_mesh(outputs, mesh, folder + "/mesh." + format, &solution, gamma_of(case_.solver));
     }
     outputs.commit();
   }
@@ -171,7 +176,7 @@ class AdaptiveRun {
 
 }  // namespace
 
-int run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume, const RunReport& report) {
+RunEnd run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume, const RunReport& report) {
   return AdaptiveRun(comm, adaptive, folder, report).run(resume);
 }
 

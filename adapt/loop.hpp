@@ -24,10 +24,16 @@ struct RunReport {
   std::function<void(const std::string&)> warning;                                          ///< before the first
 };
 
-/// Runs the cycles 0 to adapt.cycles in `folder`: mesh, transfer of the last solution, solve, marks. Each cycle begins with what the last one left in
-/// its files, so that a run which was broken off and resumed ends with the same files as one that was not. Returns the first cycle that it made;
-/// one more than adapt.cycles, or later, where all were there. Throws InputError, SolverError, OutputError; whole cycles then stay as they are.
+/// Which cycles a run made, and whether it came to its end before adapt.cycles because the last one marks no leaf.
+struct RunEnd {
+  int first = 0, last = 0;  ///< first > last: all were there already
+  bool nothing_to_change = false;
+};
+
+/// Runs the cycles 0 to adapt.cycles in `folder`: mesh, transfer of the last solution, solve, marks. It ends before with a cycle that marks no leaf:
+/// the next one would solve on the same mesh again. Each cycle begins with what the last one left in its files, so that a run which was broken off
+/// and resumed ends with the same files as one that was not. Throws InputError, SolverError, OutputError; whole cycles then stay as they are.
 /// *Collective.*
-int run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume, const RunReport& report);
+RunEnd run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume, const RunReport& report);
 
 }  // namespace quadloop

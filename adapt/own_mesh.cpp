@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "adapt/digests.hpp"
 #include "adapt/restart.hpp"
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "mesher/base/error.hpp"
@@ -33,13 +34,13 @@ Lattice lattice_of(const TreeAttributes& a) {
   return {{low, low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge}}, a.trees_x, a.trees_y};
 }
 
+}  // namespace
+
 void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, const std::string& shown, const std::string& tree) {
   if (of_mesh.nodes == of_tree.nodes && of_mesh.triangles == of_tree.triangles && of_mesh.quads == of_tree.quads) return;
   throw InputError(fmt::format("{}: is of another mesh than {}: {} nodes, {} triangles, {} quads, but the tree's mesh has {}, {}, {}", shown, tree,
                                of_mesh.nodes, of_mesh.triangles, of_mesh.quads, of_tree.nodes, of_tree.triangles, of_tree.quads));
 }
-
-}  // namespace
 
 void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown, const std::string& tree) {
   constexpr double reach = 2;
@@ -62,6 +63,12 @@ void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const 
                       shown, tree, left[i], bottom[i], box.centre().x, box.centre().y));
     }
   });
+}
+
+void require_untouched_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown, const std::string& tree) {
+  require_own_mesh(comm, solved, shown, tree);
+  if (coordinate_digest(comm, solved.mesh) == solved.tree.attributes.coordinate_digest) return;
+  throw InputError(fmt::format("{}: its nodes do not lie where those of the mesh of {} lie", shown, tree));
 }
 
 }  // namespace quadloop

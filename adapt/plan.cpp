@@ -98,14 +98,14 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
           fmt::format("the mesh has {} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them", nodes, *options.max_nodes));
     }
   }
-  if (changes.refined + changes.coarsened == 0) {
+  plan.refined = changes.refined;
+  plan.coarsened = changes.coarsened;
+  if (!plan.changes_mesh()) {
     plan.warnings.push_back("no leaf is marked, the mesh stays: " + reason_for_standing(comm, options, solved, family, all));
   }
   plan.demands = std::move(changes.demands);
   plan.mean = family.mean();
   plan.deviation = family.deviation();
-  plan.refined = changes.refined;
-  plan.coarsened = changes.coarsened;
   return plan;
 }
 

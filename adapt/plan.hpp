@@ -26,6 +26,9 @@ struct AdaptationPlan {
   double mean = 0, deviation = 0;    ///< of log10 of the indicator; 0 for sizes
   std::int64_t refined = 0, coarsened = 0;
   std::vector<std::string> warnings;
+
+  /// Without a mark that takes effect the next mesh would be the last one again.
+  bool changes_mesh() const { return refined + coarsened > 0; }
 };
 
 /// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where the number of nodes is bounded or wanted;

@@ -81,7 +81,7 @@ SolvedMesh read_cycle(const Communicator& comm, const std::string& folder) {
 SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folder) {
   try {
     SolvedMesh solved = read_cycle(comm, folder);
-    require_own_mesh(comm, solved, folder + "/mesh.mesh", folder + "/mesh.tree.h5");
+    require_untouched_mesh(comm, solved, folder + "/mesh.mesh", folder + "/mesh.tree.h5");
     comm.together([&] {
       if (comm.is_root()) require_cgns(folder + "/mesh.cgns", read_native(folder + "/mesh.mesh").mesh);
     });

@@ -42,6 +42,9 @@ void require_solver_files(const AdaptArguments& arguments, const CommandSolver& 
     table.refuse("solution", "is '" + solver.solution + "', but solutions are read from .mesh, .cgns, .vtu and .csv; end the name in one of these");
   if (solver.solution == solver.mesh || std::filesystem::path(solver.solution).stem() == "mesh")
     table.refuse("solution", "is '" + solver.solution + "', the name of a mesh that is given to the solver; write the solution to a file of its own");
+  if (solver.solution == solver.state())
+    table.refuse("solution", "is '" + solver.solution + "', where the starting state stands that belongs to " + solver.mesh +
+                                 "; write the solution to a file of its own");
 }
 
 AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, std::string& note) {
@@ -81,7 +84,8 @@ void keep(const CycleRecord& record, const std::string& folder, std::vector<Json
   of_run.files.insert(of_run.files.end(), files.begin(), files.end());
 }
 
-std::string closing_line(const std::string& folder, int first, int last) {
+std::string closing_line(const std::string& folder, const RunEnd& end) {
+  const auto& [first, last, nothing_to_change] = end;
   if (first > last) return fmt::format("  all cycles are there already: {}/cycle_00 to cycle_{:02}\n", folder, last);
   if (first == last) return fmt::format("  wrote {}/cycle_{:02}\n", folder, last);
   return fmt::format("  wrote {}/cycle_{:02} to cycle_{:02}\n", folder, first, last);
@@ -112,8 +116,11 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   };
   context.record.figures.add("folder", folder);
   context.record.figures.add("cycles", cycles);
-  const int first = run_adaptation(comm, *adaptive, folder, arguments.resume, report);
-  if (context.shows_table()) std::cout << closing_line(folder, first, adaptive->adapt.cycles);
+  const RunEnd end = run_adaptation(comm, *adaptive, folder, arguments.resume, report);
+  if (comm.is_root()) context.record.figures.add("nothing_to_change", end.nothing_to_change);
+  if (!context.shows_table()) return;
+  if (end.nothing_to_change) std::cout << fmt::format("  cycle {} marks no leaf: there is nothing left to change, and no further cycle\n", end.last);
+  std::cout << closing_line(folder, end);
 }
 
 }  // namespace

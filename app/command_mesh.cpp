@@ -49,6 +49,8 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   prepared.input = load_case(of_case);
   Settings& settings = prepared.input.settings;
   if (!arguments.prefix.empty()) settings.output_prefix = arguments.prefix;
+  if (std::erase(settings.formats, "csv") > 0)
+    prepared.input.warnings.push_back("output.formats: a .csv holds a solution alone, and a new mesh has none; it is left out");
   for (const std::string& format : settings.formats) prepared.files.push_back(settings.output_prefix + "." + format);
   if (!arguments.geometry_out.empty()) prepared.files.push_back(arguments.geometry_out);
   prepared.files.push_back(settings.output_prefix + ".tree.h5");

@@ -8,6 +8,7 @@
 
 #include "adapt/own_mesh.hpp"
 #include "adapt/remesh.hpp"
+#include "adapt/tree_mesh.hpp"
 #include "app/case_input.hpp"
 #include "app/command.hpp"
 #include "app/summary.hpp"
@@ -16,6 +17,7 @@
 #include "io/solution_file.hpp"
 #include "io/tree_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
 
 namespace quadloop {
@@ -27,34 +29,69 @@ struct RemeshArguments {
   std::vector<std::string> assignments;
 };
 
-/// Where the mesh of a tree is: beside it, under the same name.
-std::string mesh_beside(const std::string& tree) {
+/// Where the mesh of a tree may be: beside it, under the same name.
+std::vector<std::string> files_beside(const std::string& tree) {
   const std::string ending = ".tree.h5";
   const bool named = tree.size() > ending.size() && tree.ends_with(ending);
   const std::string prefix = named ? tree.substr(0, tree.size() - ending.size()) : tree;
-  for (const char* suffix : {".mesh", ".cgns"}) {
-    if (std::filesystem::exists(prefix + suffix)) return prefix + suffix;
-  }
-  throw InputError(tree + ": its mesh is not beside it, but the solution's file has no cells; put it there as " + prefix + ".mesh");
+  return {prefix + ".mesh", prefix + ".cgns"};
 }
 
-/// The solution's own mesh where its file has one, else the tree's. On the calling rank alone.
-LoadedMesh solved_mesh(const RemeshArguments& arguments) {
+/// The one that is there, for a solution without cells.
+std::string mesh_beside(const std::string& tree) {
+  const std::vector<std::string> files = files_beside(tree);
+  for (const std::string& file : files) {
+    if (std::filesystem::exists(file)) return file;
+  }
+  throw InputError(tree + ": its mesh is not beside it, but the solution's file has no cells; put it there as " + files.front());
+}
+
+/// The solution's own mesh where its file has one, else the one beside the tree; of the tree's size. On the calling rank alone.
+LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
   LoadedSolution solution = read_solution(arguments.solution);
   LoadedMesh whole = read_mesh(solution.has_cells ? arguments.solution : mesh_beside(arguments.tree));
   require_same_mesh(solution, whole.mesh);
+  const auto count = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
+  require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0}, tree, arguments.solution, arguments.tree);
   whole.solution = std::move(solution.solution);
   return whole;
 }
 
-void write(const Communicator& comm, const CarriedMesh& carried, const std::vector<std::string>& files) {
+/// The cases that the tree may have been made from: this one, and where --geometry names another outline the one with its own. Where that cannot be
+/// read it is no matter. On every rank.
+std::vector<MeshInput> former_inputs(const RemeshArguments& arguments, const TreeRecord& tree, const CaseInput& input) {
+  std::vector<MeshInput> inputs{*input.mesh};
+  if (arguments.geometry.empty()) return inputs;
+  try {
+    inputs.push_back(*load_case({arguments.case_path, arguments.assignments, {}, tree.attributes}).mesh);
+  } catch (const InputError& fault) {
+    log::detail(std::string("the case's own outline is not at hand: ") + fault.what());
+  }
+  return inputs;
+}
+
+/// Compares the mesh that the solution came with to the tree's own, and settles on one of them. Returns warnings. *Collective.*
+Warnings settle(const Communicator& comm, const RemeshArguments& arguments, const TreeRecord& tree, const CaseInput& input, LoadedMesh& whole) {
+  const std::vector<MeshInput> inputs = former_inputs(arguments, tree, input);
+  const TreeMesh own = mesh_of_tree(comm, tree, whole.mesh, files_beside(arguments.tree), inputs);
+  comm.together([&] {
+    if (comm.is_root()) settle_mesh(own, whole, arguments.solution);
+  });
+  if (own.known) return {};
+  return {
+      fmt::format("{}: its nodes cannot be compared with those of the tree's own mesh, as case or outline have changed since; keep that mesh "
+                  "beside the tree, as {}",
+                  arguments.solution, files_beside(arguments.tree).front())};
+}
+
+void write(const Communicator& comm, const CarriedMesh& carried, const std::vector<std::string>& files, double gamma) {
   OutputSet outputs(comm);
   const MeshResult& result = carried.generated.result;
   for (const std::string& file : files) {
     if (std::filesystem::path(file).extension() == ".h5")
       write_tree(outputs, result.tree, file);
     else
-      write_mesh(outputs, result.mesh, file, &carried.start);
+      write_mesh(outputs, result.mesh, file, &carried.start, gamma);
   }
   outputs.commit();
 }
@@ -83,8 +120,10 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
     for (const std::string& format : input.settings.formats) files.push_back(prefix + "." + format);
     files.push_back(prefix + ".tree.h5");
     for (const std::string& file : files) require_folder(file);
-    if (comm.is_root()) whole = solved_mesh(arguments);
+    if (comm.is_root()) whole = solved_mesh(arguments, tree.attributes);
   });
+  times.begin("compare");
+  const Warnings doubts = settle(comm, arguments, tree, input, whole);
   SolvedMesh solved = spread_solved(comm, whole, std::move(tree));
   solved.file = arguments.solution;
   require_own_mesh(comm, solved, arguments.solution, arguments.tree);
@@ -95,8 +134,9 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   const CarriedMesh carried = carry_over(comm, mesh, plan, solved);
   times.append(carried.times);
   times.begin("write");
-  write(comm, carried, files);
+  write(comm, carried, files, input.settings.solver.euler.gamma);
   times.end();
+  context.warn(doubts);
   context.warn(input.warnings);
   context.warn(carried.generated.result.report.warnings);
   context.warn(plan.warnings);

@@ -42,8 +42,7 @@ struct Problem {
 
 void require_outputs(const std::string& output) {
   require_writable_suffix(output);
-  const std::string suffix = std::filesystem::path(output).extension();
-  if (suffix != ".mesh" && suffix != ".cgns") throw InputError(output + ": this format has no place for the flow; name a .mesh or .cgns file");
+  if (!holds_solution(output)) throw InputError(output + ": this format has no place for the flow; name a .mesh, .cgns or .vtu file");
 }
 
 /// Where a mesh brings density, velocity and pressure along.
@@ -181,7 +180,7 @@ void add_solve_command(CLI::App& app, CommandContext& context) {
   command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh); a flow in it is started from")
       ->required()
       ->type_name("IN");
-  command->add_option("-o,--output", arguments->output, "the mesh with the flow (.mesh or .cgns)")->required()->type_name("OUT");
+  command->add_option("-o,--output", arguments->output, "the mesh with the flow (.mesh, .cgns or .vtu)")->required()->type_name("OUT");
   command->add_option("--set", arguments->assignments, "set a key of the case file, as in solver.mach=0.5; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);

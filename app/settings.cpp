@@ -80,6 +80,7 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
     rule.where = fmt::format("{}: [{}]", table.place(), tables->full_name(name));
     rule.spacing = table.number("spacing", Range::positive());
     rule.corner_degrees = table.number("corner", {0, 180});
+    rule.corner_spacing = table.number("corner_spacing", Range::positive());
     rule.condition = table.choice("bc", {"wall", "farfield", "inflow", "outflow", "symmetry", "interface", "none"});
     if (const auto pressure = table.number("pressure", Range::positive())) {
       if (rule.condition != "outflow") table.refuse("pressure", "needs bc = \"outflow\" in the same table; elsewhere there is none to set");
@@ -167,9 +168,9 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
   if (table->has("formats")) {
     settings.formats.clear();
     for (const std::string& format : table->texts("formats")) {
-      constexpr std::array known{"mesh", "cgns", "vtu", "su2", "msh"};
+      constexpr std::array known{"mesh", "cgns", "vtu", "su2", "msh", "csv"};
       if (std::find(known.begin(), known.end(), format) == known.end()) {
-        table->refuse("formats", fmt::format("holds '{}', but this version writes: mesh, cgns, vtu, su2, msh{}", format,
+        table->refuse("formats", fmt::format("holds '{}', but this version writes: mesh, cgns, vtu, su2, msh, csv{}", format,
                                              guess_for(format, {known.begin(), known.end()})));
       }
       if (std::find(settings.formats.begin(), settings.formats.end(), format) == settings.formats.end()) settings.formats.push_back(format);
@@ -209,7 +210,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
 
 std::string format_suffix_of(const std::string& prefix) {
   const std::string suffix = std::filesystem::path(prefix).extension();
-  for (const char* known : {".mesh", ".cgns", ".vtu", ".su2", ".msh", ".h5"}) {
+  for (const char* known : {".mesh", ".cgns", ".vtu", ".su2", ".msh", ".csv", ".h5"}) {
     if (suffix == known) return suffix;
   }
   return {};
@@ -238,7 +239,10 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
   MeshOptions options = settings.mesh;
   const double side = std::max(geometry.box().width(), geometry.box().height());
   double smallest = side;
-  for (std::int32_t s = 0; s < geometry.size(); ++s) smallest = std::min(smallest, geometry.spacing_of(s));
+  for (std::int32_t s = 0; s < geometry.size(); ++s) {
+    smallest = std::min(smallest, geometry.spacing_of(s));
+    if (const double at_corner = geometry.corner_spacing_of(s); at_corner > 0) smallest = std::min(smallest, at_corner);
+  }
   for (const Source& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
   const double wanted_min = std::max(smallest / 2, std::ldexp(side, -20));  // leaf sizes halve: so there is one at most as large as asked for
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
@@ -246,6 +250,31 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
   options.size.min = settings.min.value_or(std::min(wanted_min, max));
   return options;
 }
+
+namespace {
+
+/// A corner spacing that is out of reach, or of a boundary without a sharp corner.
+Warnings corner_warnings(const Geometry& geometry, double min) {
+  std::vector<char> has_corner(geometry.boundaries().size(), 0);
+  for (std::int32_t v = 0; v < geometry.size(); ++v) {
+    if (geometry.corner_spacing_of(v) == 0) continue;
+    for (const std::int32_t segment : {geometry.previous(v), v}) has_corner[static_cast<std::size_t>(geometry.boundary_of(segment).value())] = 1;
+  }
+  Warnings warnings;
+  for (std::size_t b = 0; b < has_corner.size(); ++b) {
+    const Boundary& boundary = geometry.boundaries()[b];
+    if (boundary.corner_spacing > 0 && has_corner[b] == 0) {
+      warnings.push_back(fmt::format("boundary '{}' has no corner for its corner_spacing = {}: it turns by more than its corner = {} degrees nowhere",
+                                     boundary.name, boundary.corner_spacing, boundary.corner_degrees));
+    } else if (boundary.corner_spacing > 0 && boundary.corner_spacing < min) {
+      warnings.push_back(fmt::format("boundary '{}' asks for a corner_spacing of {}, but spacing.min = {} ends the refinement before", boundary.name,
+                                     boundary.corner_spacing, min));
+    }
+  }
+  return warnings;
+}
+
+}  // namespace
 
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
   Warnings warnings;
@@ -257,6 +286,7 @@ Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) 
           fmt::format("boundary '{}' asks for a spacing of {}, but spacing.min = {} ends the refinement before", b.name, b.spacing, min));
     }
   }
+  for (std::string& warning : corner_warnings(geometry, min)) warnings.push_back(std::move(warning));
   for (const Source& source : options.size.sources) {
     if (source.spacing < min) {
       warnings.push_back(fmt::format("{}: this [[source]] asks for a spacing of {}, but spacing.min = {} ends the refinement before", source.where,

@@ -60,7 +60,8 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings, const std::
 /// if that is larger), min the smallest spacing that it asks for, but no less than 2^-20 of that side.
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
 
-/// One line for each boundary and source whose spacing is smaller than leaves may be, and for each source outside the root of the trees.
+/// One line for each boundary, sharp corner's boundary and source whose spacing is smaller than leaves may be, for each boundary with a corner
+/// spacing and without a sharp corner, and for each source outside the root of the trees.
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry);
 
 }  // namespace quadloop

@@ -100,6 +100,7 @@ FlowSolver flow_solver(const SolverSettings& settings, const std::vector<Boundar
     return euler_options(settings, rules, named);
   }
   CommandSolver solver = settings.command;
+  solver.gamma = settings.euler.gamma;
   solver.case_folder = std::filesystem::absolute(case_path).parent_path().string();
   return solver;
 }

@@ -8,6 +8,7 @@
 #include "io/cgns_file.hpp"
 #include "io/msh_file.hpp"
 #include "io/native_file.hpp"
+#include "io/su2_csv_file.hpp"
 #include "io/su2_file.hpp"
 #include "io/vtu_file.hpp"
 #include "mesher/base/error.hpp"
@@ -52,6 +53,11 @@ void require_writable_suffix(const std::string& path) {
   throw InputError(path + ": no mesh is written in the format '" + suffix_of(path) + "'; name a .mesh, .cgns, .vtu, .su2 or .msh file");
 }
 
+bool holds_solution(const std::string& path) {
+  const std::string format = mesh_format_of(path);
+  return format == "mesh" || format == "cgns" || format == "vtu";
+}
+
 void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path, const std::string& format) {
   const std::string name = format.empty() ? mesh_format_of(path) : format;
   if (name == "mesh") write_native(outputs, whole, path);
@@ -71,13 +77,14 @@ void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const
   });
 }
 
-void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
+void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution, double gamma) {
   const std::string format = mesh_format_of(path);
   if (format == "mesh") write_native(outputs, mesh, path, solution);
   if (format == "cgns") write_cgns(outputs, mesh, path, solution);
   if (format == "vtu") write_vtu(outputs, mesh, path, solution);
   if (format == "su2") write_su2(outputs, mesh, path);
   if (format == "msh") write_msh(outputs, mesh, path);
+  if (path.ends_with(".csv") && solution != nullptr) write_su2_csv(outputs, mesh, path, *solution, gamma);
 }
 
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path, const std::string& format) {

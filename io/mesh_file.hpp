@@ -27,9 +27,12 @@ void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& 
 /// The same for the mesh that the root rank of `comm` holds, as the only file of a set. *Collective.* Throws OutputError on all ranks.
 void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path, const std::string& format = {});
 
-/// Writes a distributed mesh in the format that the suffix tells, with a solution where the format has a place for one. *Collective.* Throws
-/// OutputError on all ranks.
-void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr);
+/// Whether the format that the suffix tells has a place for a solution beside the mesh.
+bool holds_solution(const std::string& path);
+
+/// Writes a distributed mesh in the format that the suffix tells, with a solution where the format has a place for one. A .csv holds the solution
+/// alone (write_su2_csv(), which wants `gamma`), and is not written without one. *Collective.* Throws OutputError on all ranks.
+void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr, double gamma = 1.4);
 
 /// What the format, or else that of the suffix, has no place for and the mesh has: one line each, with the file's name.
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path, const std::string& format = {});

@@ -17,8 +17,6 @@ namespace quadloop {
 
 namespace {
 
-constexpr double tolerance = 1e-6;  ///< of a local edge; solvers write coordinates with few digits
-
 void require_values(const LoadedMesh& loaded, const std::string& path) {
   if (loaded.solution && !loaded.solution->names.empty()) return;
   const bool vtu = std::filesystem::path(path).extension() == ".vtu";
@@ -47,20 +45,18 @@ std::vector<std::array<NodeId, width>> in_one_order(std::vector<std::array<NodeI
   return cells;
 }
 
+/// Empty where the cells are the same, in whatever order.
 template <std::size_t width>
-void require_same_cells(const std::string& path, const std::string& kind, const std::vector<std::array<NodeId, width>>& found,
-                        const std::vector<std::array<NodeId, width>>& wanted) {
-  if (found.size() != wanted.size()) {
-    throw InputError(
-        fmt::format("{}: has {} {}, the mesh {}; it is a solution of another mesh; solve on this one", path, found.size(), kind, wanted.size()));
-  }
+std::string cell_difference(const std::string& kind, const std::vector<std::array<NodeId, width>>& found,
+                            const std::vector<std::array<NodeId, width>>& wanted) {
+  if (found.size() != wanted.size())
+    return fmt::format("has {} {}, the mesh {}; it is a solution of another mesh; solve on this one", found.size(), kind, wanted.size());
   const auto of_file = in_one_order(found), of_mesh = in_one_order(wanted);
   const auto [at_file, at_mesh] = std::mismatch(of_file.begin(), of_file.end(), of_mesh.begin());
-  if (at_file == of_file.end()) return;
+  if (at_file == of_file.end()) return {};
   std::string nodes;
   for (const NodeId node : *at_file) nodes += (nodes.empty() ? "" : " ") + std::to_string(node.value() + 1);
-  throw InputError(
-      fmt::format("{}: of its {} the one of nodes {} is not the mesh's; it is a solution of another mesh; solve on this one", path, kind, nodes));
+  return fmt::format("of its {} the one of nodes {} is not the mesh's; it is a solution of another mesh; solve on this one", kind, nodes);
 }
 
 /// The shortest edge at each node, squared.
@@ -76,16 +72,16 @@ std::vector<double> shortest_edges(const Mesh& mesh) {
   return shortest;
 }
 
-void require_same_places(const LoadedSolution& solution, const Mesh& mesh) {
-  const std::vector<double> shortest = shortest_edges(mesh);
-  for (std::size_t i = 0; i < solution.points.size(); ++i) {
-    const Point p = solution.points[i], wanted = mesh.points[i];
-    if (dot(p - wanted, p - wanted) <= tolerance * tolerance * shortest[i]) continue;
-    throw InputError(
-        fmt::format("{}: node {} lies at ({}, {}), in the mesh at ({}, {}); it is a solution of another mesh, or its rows are in another "
-                    "order; solve on this mesh and keep its order of nodes",
-                    solution.path, i + 1, p.x, p.y, wanted.x, wanted.y));
-  }
+std::string place_difference(const LoadedSolution& solution, const Mesh& mesh) {
+  const std::vector<char> elsewhere = nodes_elsewhere(solution.points, mesh);
+  const auto first = std::find(elsewhere.begin(), elsewhere.end(), 1);
+  if (first == elsewhere.end()) return {};
+  const auto i = static_cast<std::size_t>(first - elsewhere.begin());
+  const Point p = solution.points[i], wanted = mesh.points[i];
+  return fmt::format(
+      "node {} lies at ({}, {}), in the mesh at ({}, {}); it is a solution of another mesh, or its rows are in another order; solve on this mesh "
+      "and keep its order of nodes",
+      i + 1, p.x, p.y, wanted.x, wanted.y);
 }
 
 LoadedSolution read_with_mesh(const std::string& path) {
@@ -115,15 +111,35 @@ void require_solution_suffix(const std::string& path) {
   throw InputError(path + ": no solution is read from the format '" + suffix + "'; give a .mesh, .cgns, .vtu or .csv file");
 }
 
-void require_same_mesh(const LoadedSolution& solution, const Mesh& whole) {
-  if (solution.nodes != static_cast<std::int64_t>(whole.points.size())) {
-    throw InputError(fmt::format("{}: holds values at {} nodes, the mesh has {}; it is a solution of another mesh; solve on this one", solution.path,
-                                 solution.nodes, whole.points.size()));
+std::vector<char> nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {
+  const std::vector<double> shortest = shortest_edges(mesh);
+  std::vector<char> elsewhere(points.size(), 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point way = points[i] - mesh.points[i];
+    elsewhere[i] = dot(way, way) <= solution_tolerance * solution_tolerance * shortest[i] ? 0 : 1;
   }
-  if (!solution.points.empty()) require_same_places(solution, whole);
-  if (!solution.has_cells) return;
-  require_same_cells(solution.path, "triangles", solution.triangles, whole.triangles);
-  require_same_cells(solution.path, "quads", solution.quads, whole.quads);
+  return elsewhere;
+}
+
+bool same_cells_in_any_order(const Mesh& one, const Mesh& other) {
+  return in_one_order(one.triangles) == in_one_order(other.triangles) && in_one_order(one.quads) == in_one_order(other.quads);
+}
+
+std::string difference(const LoadedSolution& solution, const Mesh& whole) {
+  if (solution.nodes != static_cast<std::int64_t>(whole.points.size())) {
+    return fmt::format("holds values at {} nodes, the mesh has {}; it is a solution of another mesh; solve on this one", solution.nodes,
+                       whole.points.size());
+  }
+  std::string found = solution.points.empty() ? "" : place_difference(solution, whole);
+  if (!solution.has_cells) return found;
+  if (found.empty()) found = cell_difference("triangles", solution.triangles, whole.triangles);
+  if (found.empty()) found = cell_difference("quads", solution.quads, whole.quads);
+  return found;
+}
+
+void require_same_mesh(const LoadedSolution& solution, const Mesh& whole) {
+  const std::string found = difference(solution, whole);
+  if (!found.empty()) throw InputError(solution.path + ": " + found);
 }
 
 }  // namespace quadloop

@@ -49,32 +49,30 @@ bool are_aliases(const std::string& a, const std::string& b) {
   return std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return holds(group, a) && holds(group, b); });
 }
 
-/// The only name that fits; names.size() where there is none.
 template <class Fits>
-std::size_t only(std::span<const std::string> names, const std::string& wanted, const std::string& where, const Fits& fits) {
-  std::size_t found = names.size();
+std::vector<std::size_t> all_that(std::span<const std::string> names, const Fits& fits) {
+  std::vector<std::size_t> found;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (!fits(names[k])) continue;
-    if (found == names.size()) {
-      found = k;
-    } else {
-      throw InputError(where + ": '" + wanted + "' may be " + names[found] + " or " + names[k] + "; name one of them as it is written");
-    }
+    if (fits(names[k])) found.push_back(k);
   }
   return found;
 }
 
 }  // namespace
 
-std::size_t variable(std::span<const std::string> names, const std::string& wanted, const std::string& where) {
-  const auto exact = std::find(names.begin(), names.end(), wanted);
-  if (exact != names.end()) return static_cast<std::size_t>(exact - names.begin());
+std::vector<std::size_t> variables_like(std::span<const std::string> names, const std::string& wanted) {
   const std::string key = plain(wanted);
-  std::size_t found = only(names, wanted, where, [&](const std::string& name) { return plain(name) == key; });
-  if (found == names.size()) found = only(names, wanted, where, [&](const std::string& name) { return are_aliases(plain(name), key); });
-  if (found < names.size()) return found;
-  throw InputError(where + ": no variable '" + wanted + "' in the solution; it has: " + list_of(names) +
-                   guess_for(wanted, {names.begin(), names.end()}));
+  std::vector<std::size_t> found = all_that(names, [&](const std::string& name) { return name == wanted; });
+  if (found.empty()) found = all_that(names, [&](const std::string& name) { return plain(name) == key; });
+  if (found.empty()) found = all_that(names, [&](const std::string& name) { return are_aliases(plain(name), key); });
+  return found;
+}
+
+std::size_t variable(std::span<const std::string> names, const std::string& wanted, const std::string& where) {
+  const std::vector<std::size_t> found = variables_like(names, wanted);
+  if (found.size() == 1 || (!found.empty() && names[found.front()] == wanted)) return found.front();
+  if (found.empty()) throw InputError(where + ": no variable '" + wanted + "' in the solution; it has: " + list_of(names) + guess_for(wanted, {names.begin(), names.end()}));
+  throw InputError(where + ": '" + wanted + "' may be " + names[found[0]] + " or " + names[found[1]] + "; name one of them as it is written");
 }
 
 std::string word_of(const std::string& name) {

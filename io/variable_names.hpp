@@ -12,6 +12,9 @@ namespace quadloop {
 /// ...). Throws an InputError that begins with `where` and lists the names where none is it, or several are.
 std::size_t variable(std::span<const std::string> names, const std::string& wanted, const std::string& where);
 
+/// The places of all names that may be this variable, by the first of these ways that finds any; more than one where it cannot be told.
+std::vector<std::size_t> variables_like(std::span<const std::string> names, const std::string& wanted);
+
 /// A name as one word, which the native format can hold: each blank and control character becomes "_".
 std::string word_of(const std::string& name);
 

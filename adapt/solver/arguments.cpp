@@ -16,6 +16,7 @@ using Values = std::vector<std::pair<std::string_view, std::string>>;
 
 Values values_of(const SolverFiles& files) {
   return {{"mesh", files.mesh},
+          {"state", files.state},
           {"solution", files.solution},
           {"case", files.case_folder},
           {"ranks", std::to_string(files.ranks)},

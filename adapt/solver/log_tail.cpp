@@ -1,6 +1,7 @@
 #include "adapt/solver/log_tail.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 
 namespace quadloop {
@@ -18,6 +19,13 @@ std::string end_of_file(const std::string& path) {
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(file.gcount()));
   return bytes;
+}
+
+bool says_something(const std::string& line) {
+  return std::any_of(line.begin(), line.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return std::isalnum(byte) != 0 || byte >= 0x80U;  // above ASCII: part of a letter in UTF-8
+  });
 }
 
 bool inside_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }  // UTF-8
@@ -43,19 +51,16 @@ std::string shown(std::string line, std::size_t length) {
 
 }  // namespace
 
-std::vector<std::string> last_lines(const std::string& path, std::size_t lines, std::size_t length) {
+std::string last_line(const std::string& path, std::size_t length) {
   const std::string bytes = end_of_file(path);
-  std::vector<std::string> found;
-  for (std::size_t end = bytes.size(); found.size() < lines;) {
-    const std::size_t before = end == 0 ? std::string::npos : bytes.find_last_of("\r\n", end - 1);
+  for (std::size_t end = bytes.size(); end > 0;) {
+    const std::size_t before = bytes.find_last_of("\r\n", end - 1);
     const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-    const std::string line = shown(bytes.substr(begin, end - begin), length);
-    if (!line.empty()) found.push_back(line);
-    if (before == std::string::npos) break;
-    end = before;
+    const std::string line = bytes.substr(begin, end - begin);
+    if (says_something(line)) return shown(line, length);
+    end = before == std::string::npos ? 0 : before;
   }
-  std::reverse(found.begin(), found.end());
-  return found;
+  return {};
 }
 
 }  // namespace quadloop

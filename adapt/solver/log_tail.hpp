@@ -2,13 +2,12 @@
 
 #include <cstddef>
 #include <string>
-#include <vector>
 
 namespace quadloop {
 
-/// The last lines of a file that are not blank, oldest first: at most `lines` of them, each cut to `length` bytes. Only the file's end is read,
-/// whatever its size. Carriage returns end a line as well (progress is shown so); other control characters become '?'. Nothing where the file
-/// cannot be read.
-std::vector<std::string> last_lines(const std::string& path, std::size_t lines = 5, std::size_t length = 200);
+/// The last line of a file that says something, with a letter or a digit in it, cut to `length` bytes. Of a Python traceback that is the error
+/// itself; rulers as mpirun prints are passed over. Only the file's end is read, whatever its size. Carriage returns end a line as well (progress is
+/// shown so); other control characters become '?'. Empty where there is no such line, or the file cannot be read.
+std::string last_line(const std::string& path, std::size_t length = 200);
 
 }  // namespace quadloop

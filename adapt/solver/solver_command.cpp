@@ -128,12 +128,10 @@ std::string solver_log(const SolverFiles& files) { return std::filesystem::path(
 
 std::string solver_message(const SolverCommand& command, const SolverFiles& files, const std::string& fault) {
   const std::string program = command.arguments.empty() ? "" : command.arguments.front();
-  std::string message = "the solver '" + program + "' of cycle " + std::to_string(files.cycle) + " " + fault + "; ";
-  const std::vector<std::string> lines = last_lines(solver_log(files));
-  if (lines.empty()) return message + "it wrote nothing to its log, " + solver_log(files);
-  message += solver_log(files) + " ends: ";
-  for (std::size_t i = 0; i < lines.size(); ++i) message += (i == 0 ? "" : " | ") + lines[i];
-  return message;
+  const std::string message = "the solver '" + program + "' of cycle " + std::to_string(files.cycle) + " " + fault + "; ";
+  const std::string last = last_line(solver_log(files));
+  if (last.empty()) return message + "it wrote nothing to its log, " + solver_log(files);
+  return message + solver_log(files) + " ends: " + last;
 }
 
 void run_solver(const Communicator& comm, const SolverCommand& command, const SolverFiles& files) {

@@ -21,17 +21,18 @@ struct SolverFiles {
   std::string case_folder;  ///< where the case file is
   int ranks = 1;            ///< of the solver, for {ranks}
   int cycle = 0;
+  std::string state = {};  ///< where the starting state stands, from cycle 1 on; may be that of the mesh
 };
 
-/// The arguments with {mesh}, {solution}, {case}, {ranks} and {cycle} filled in, anywhere in an argument. A name in braces that is none of these
-/// is an InputError; {{name}} stands for {name} itself. Other braces stand as they are.
+/// The arguments with {mesh}, {state}, {solution}, {case}, {ranks} and {cycle} filled in, anywhere in an argument. A name in braces that is none of
+/// these is an InputError; {{name}} stands for {name} itself. Other braces stand as they are.
 std::vector<std::string> filled(const SolverCommand& command, const SolverFiles& files);
 
 /// Where the solver's standard output and error go: solver.log in the cycle's folder.
 std::string solver_log(const SolverFiles& files);
 
-/// The message `fault` with what a user needs to find its cause: which solver and cycle, the log, and the log's last lines. For what is wrong
-/// with the solution that it wrote, too.
+/// The message `fault` with what a user needs to find its cause: which solver and cycle, the log, and the log's last line; the rest stands
+/// there. For what is wrong with the solution that it wrote, too.
 std::string solver_message(const SolverCommand& command, const SolverFiles& files, const std::string& fault);
 
 /// Runs the solver once, after removing an old solution: the root starts it and waits for its end, and the other ranks sleep meanwhile. All

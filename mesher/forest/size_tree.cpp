@@ -32,8 +32,12 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
   if (options.gap) gap_test_.emplace(g);
   for (std::int32_t s = 0; s < g.size(); ++s) {
     spacing_.push_back(g.spacing_of(s));
+    corner_spacing_.push_back(g.corner_spacing_of(s));
+    if (corner_spacing_.back() > 0) corners_.push_back(s);
     turning_.push_back(g.kept(s) ? 0 : std::llround(g.turn_degrees(s) / turning_unit));
   }
+  Node whole;
+  whole.corners_end = static_cast<std::int32_t>(corners_.size());
   for (int ty = 0; ty < lattice.trees_y(); ++ty) {
     for (int tx = 0; tx < lattice.trees_x(); ++tx) {
       Node root;
@@ -45,6 +49,7 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
         if (outline.meets(s, box)) segments_.push_back(s);
       }
       root.segments_end = static_cast<std::int32_t>(segments_.size());
+      take_corners(root, whole, box);
       judge(root, box);
       roots_.push_back(static_cast<std::int32_t>(nodes_.size()));
       nodes_.push_back(root);
@@ -81,6 +86,7 @@ void SizeTree::grow(std::int32_t node) {
       if (outline_->meets(s, box)) segments_.push_back(s);
     }
     child.segments_end = static_cast<std::int32_t>(segments_.size());
+    take_corners(child, parent, box);
     judge(child, box);
     nodes_.push_back(child);
   }
@@ -88,6 +94,20 @@ void SizeTree::grow(std::int32_t node) {
        n = nodes_[static_cast<std::size_t>(n)].parent) {
     nodes_[static_cast<std::size_t>(n)].deepest_split = parent.place.level;
   }
+}
+
+/// Those of the parent's corners that touch the node. A corner on a lattice line touches the leaves on both its sides, so that mirror images agree.
+void SizeTree::take_corners(Node& node, const Node& parent, const Box& box) {
+  node.corners_begin = static_cast<std::int32_t>(corners_.size());
+  for (std::int32_t i = parent.corners_begin; i < parent.corners_end; ++i) {
+    const std::int32_t vertex = corners_[static_cast<std::size_t>(i)];
+    if (box.contains(outline_->geometry().point(vertex))) corners_.push_back(vertex);
+  }
+  node.corners_end = static_cast<std::int32_t>(corners_.size());
+}
+
+std::span<const std::int32_t> SizeTree::corners_of(const Node& node) const {
+  return {corners_.data() + node.corners_begin, static_cast<std::size_t>(node.corners_end - node.corners_begin)};
 }
 
 /// What can be said of a node's leaves without splitting it.
@@ -101,6 +121,10 @@ void SizeTree::judge(Node& node, const Box& box) const {
     if (!meets(source, box)) continue;
     node.plain = false;
     finest = std::max(finest, level_for(source.spacing));
+  }
+  for (const std::int32_t vertex : corners_of(node)) {
+    node.plain = false;
+    finest = std::max(finest, level_for(corner_spacing_[static_cast<std::size_t>(vertex)]));
   }
   node.finest = static_cast<std::int8_t>(finest);
 }
@@ -133,6 +157,8 @@ bool SizeTree::wants_split(const Node& node) {
   for (const Source& source : options_->sources) {
     if (size > source.spacing && meets(source, box)) return true;
   }
+  const auto too_large_for = [&](std::int32_t vertex) { return size > corner_spacing_[static_cast<std::size_t>(vertex)]; };
+  if (std::ranges::any_of(corners_of(node), too_large_for)) return true;
   const std::span<const std::int32_t> inside(segments_.data() + node.segments_begin,
                                              static_cast<std::size_t>(node.segments_end - node.segments_begin));
   if (inside.empty()) return false;

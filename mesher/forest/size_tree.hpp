@@ -46,10 +46,11 @@ class SizeTree {
     std::int32_t parent = -1;
     std::int32_t children = unknown;  ///< index of the first of four, or one of the two below
     std::int32_t segments_begin = 0, segments_end = 0;
-    bool plain = false;                            ///< nothing inside asks for leaves finer than `max` does; no leaf made by a demand
-    std::int8_t finest = 0;                        ///< no leaf inside is deeper than this level; it may be reached or not
-    std::int32_t demanded = DemandedSplits::none;  ///< its number there
-    std::int32_t deepest_split = -1;               ///< level of the deepest split node known at or below this one
+    std::int32_t corners_begin = 0, corners_end = 0;  ///< those with a size of their own that it touches
+    bool plain = false;                               ///< nothing inside asks for leaves finer than `max` does; no leaf made by a demand
+    std::int8_t finest = 0;                           ///< no leaf inside is deeper than this level; it may be reached or not
+    std::int32_t demanded = DemandedSplits::none;     ///< its number there
+    std::int32_t deepest_split = -1;                  ///< level of the deepest split node known at or below this one
     static constexpr std::int32_t unknown = -2, leaf = -1;
   };
   /// One step of the path from the root to the quadrant last asked for.
@@ -62,6 +63,8 @@ class SizeTree {
   std::int32_t root_of(const Quadrant& q) const;
   bool is_split(std::int32_t node);
   void grow(std::int32_t node);
+  void take_corners(Node& node, const Node& parent, const Box& box);
+  std::span<const std::int32_t> corners_of(const Node& node) const;
   void judge(Node& node, const Box& box) const;
   bool in_domains_box(const Quadrant& q) const;
   std::int64_t gap_to_domain(const Quadrant& q) const;
@@ -81,8 +84,9 @@ class SizeTree {
   const DemandedSplits* demanded_;
   Unresolved unresolved_;
   std::optional<GapTest> gap_test_;
-  std::vector<double> spacing_;        ///< of each segment
-  std::vector<std::int64_t> turning_;  ///< of each vertex, in 2^-20 degrees, 0 where it is kept as a corner
+  std::vector<double> spacing_;         ///< of each segment
+  std::vector<double> corner_spacing_;  ///< of each vertex, 0 where it asks for none
+  std::vector<std::int64_t> turning_;   ///< of each vertex, in 2^-20 degrees, 0 where it is kept as a corner
   int finest_of_case_;
   int finest_;  ///< of case and demands
   int coarsest_;
@@ -90,6 +94,7 @@ class SizeTree {
   std::int64_t slope_;                    ///< (g-1)/2 in units of 2^-20
   std::vector<Node> nodes_;
   std::vector<std::int32_t> segments_;
+  std::vector<std::int32_t> corners_;
   std::vector<std::int32_t> found_;
   std::vector<std::pair<BoundaryId, std::int64_t>> turned_;  ///< of the quadrant looked at
   std::int32_t cursor_ = -1;                                 ///< node last asked for

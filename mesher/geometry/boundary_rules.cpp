@@ -17,6 +17,7 @@ void apply_rule(const BoundaryRule& rule, Boundary& boundary) {
   boundary.spacing = rule.spacing.value_or(boundary.spacing);
   boundary.corner_degrees = rule.corner_degrees.value_or(boundary.corner_degrees);
   boundary.condition = rule.condition.value_or(boundary.condition);
+  boundary.corner_spacing = rule.corner_spacing.value_or(boundary.corner_spacing);
 }
 
 bool is_claimed(const std::vector<BoundaryRule>& rules, const std::string& name) {

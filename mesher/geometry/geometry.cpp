@@ -68,6 +68,15 @@ double Geometry::spacing_of(std::int32_t segment) const {
   return wanted > 0 ? wanted : length(point(next(segment)) - point(segment));
 }
 
+double Geometry::corner_spacing_of(std::int32_t v) const {
+  double least = 0;
+  for (const BoundaryId b : {boundary_of(previous(v)), boundary_of(v)}) {
+    const double wanted = boundary(b).corner_spacing;
+    if (wanted > 0 && (least == 0 || wanted < least) && turn_degrees(v) > boundary(b).corner_degrees) least = wanted;
+  }
+  return least;
+}
+
 std::uint64_t Geometry::digest() const {
   Digest digest;
   for (const Boundary& b : boundaries_) {
@@ -75,6 +84,7 @@ std::uint64_t Geometry::digest() const {
     digest.add(b.condition);
     digest.add(b.spacing);
     digest.add(b.corner_degrees);
+    if (b.corner_spacing > 0) digest.add(b.corner_spacing);  // without it trees from before there was such a thing stay good
   }
   for (const Point p : points_) {
     digest.add(p.x);

@@ -24,6 +24,7 @@ struct Boundary {
   double spacing = 0;              ///< length wanted along it; 0: the geometry's own point spacing
   double corner_degrees = 30;      ///< a point that turns by more is kept as a node; 180 keeps none
   std::string condition = "none";  ///< wall | farfield | inflow | outflow | symmetry | interface | none
+  double corner_spacing = 0;       ///< size wanted of the leaves at its sharp corners; 0: that of any other place
 };
 
 /// The outline of the domain: simple closed loops that do not meet, each walked with the domain to its left, made of named
@@ -60,6 +61,10 @@ class Geometry {
   double turn_degrees(std::int32_t v) const;
   /// The length that the segment asks of the leaves which hold it: its boundary's spacing, else its own length.
   double spacing_of(std::int32_t segment) const;
+
+  /// The length that a sharp corner asks of the leaves which touch it: the smaller one of the boundaries that meet there and by whose
+  /// `corner_degrees` the outline turns too far to be smooth. 0 at all other vertices, also where two boundaries merely meet.
+  double corner_spacing_of(std::int32_t v) const;
 
   /// A number that changes with any coordinate, name or setting of the geometry.
   std::uint64_t digest() const;

@@ -41,6 +41,30 @@ class MeshWarnings(ProgramTest):
         self.assertEqual(warnings.count("\n"), 1)
         self.assertIn("case.toml:6: this [[source]] lies outside the root, which reaches from (0, 0) to (8, 8)", warnings)
 
+    def test_sharp_corners_are_refined_and_stay_so_in_a_restart(self):
+        kite = "2\n" + BOX + "kite\n4\n2 4\n4 4.5\n6 4\n4 3.5\n"
+        case = CASE.replace("min = 0.5", "min = 0.02").replace("max = 1", "max = 1\ncurvature = 40") + "[boundary.kite]\nspacing = 0.5\n"
+        plain = self.mesh(kite, case)[0]
+        table, warnings = self.mesh(kite, case + "corner_spacing = 0.06\ncorner = 100\n")
+        self.assertEqual(warnings, "")
+        levels = [next(row for row in text.splitlines() if "levels" in row).split()[-1] for text in (plain, table)]
+        self.assertEqual(levels, ["4", "8"])  # 8 / 2^8 = 0.031 is the next below 0.06
+        tree, mesh = ((self.folder / name).read_bytes() for name in ("a.tree.h5", "a.mesh"))
+        for ranks in (1, 3):
+            self.done("mesh", "case.toml", "-o", "again", "--tree", "a.tree.h5", ranks=ranks)
+            self.assertEqual((self.folder / "again.mesh").read_bytes(), mesh)
+            self.assertEqual((self.folder / "again.tree.h5").read_bytes(), tree)
+        _, warnings = self.mesh(kite, case + "corner_spacing = 0.06\ncorner = 170\n")
+        self.assertIn("boundary 'kite' has no corner for its corner_spacing = 0.06", warnings)
+        _, warnings = self.mesh(kite, case + "corner_spacing = 0.01\n")
+        self.assertIn("boundary 'kite' asks for a corner_spacing of 0.01, but spacing.min = 0.02", warnings)
+
+    def test_a_new_mesh_has_no_solution_for_a_csv(self):
+        table, warnings = self.mesh("1\n" + BOX, CASE + '[output]\nformats = ["mesh", "csv"]\n')
+        self.assertIn("a .csv holds a solution alone", warnings)
+        self.assertNotIn("a.csv", table)
+        self.assertFalse((self.folder / "a.csv").exists())
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -86,6 +86,16 @@ class SolveTest(unittest.TestCase):
         rows = {line.split()[0]: line.split()[1] for line in again.stdout.splitlines() if len(line.split()) == 2}
         self.assertLess(int(rows["steps"]), 150)
 
+    def test_every_format_with_a_place_for_the_flow_is_written(self):
+        for suffix in ("mesh", "cgns", "vtu"):
+            done = self.run_quadloop("solve", "case.toml", "m.mesh", "-o", f"each.{suffix}", "--set", "solver.iterations=2")
+            self.assertIn(f"wrote each.{suffix}", done.stdout)
+        vtu = (self.folder / "each.vtu").read_text()
+        for name in ("density", "x_velocity", "y_velocity", "pressure"):
+            self.assertIn(f'Name="{name}"', vtu)
+        again = self.run_quadloop("solve", "case.toml", "each.vtu", "-o", "again.mesh", "--set", "solver.iterations=2")
+        self.assertNotIn("starts afresh", again.stderr)
+
     def test_a_bevelled_trailing_edge_does_not_lose_the_flow(self):
         (self.folder / "bevel.toml").write_text(BEVEL)
         (self.folder / "bevel.geom").write_text(naca_2412_with_a_bevel())

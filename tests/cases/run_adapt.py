@@ -14,7 +14,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from adapt_runs import adapt, command_of, files_in, require, require_same_folders, states, tiny_case
+from adapt_runs import TINY, adapt, command_of, expect_refusal, files_in, require, require_same_folders, states, tiny_case
 
 
 def check_ranks(program, case, folder, ranks, options):
@@ -33,6 +33,37 @@ def check_other_ranks_go_on(program, case, folder, ranks, cycles, options):
     for cycle in range(cycles + 1):
         adapt(program, case, made, ranks[(cycle + 1) % len(ranks)], [*options, "--cycles", cycle, "--resume"])
     require_same_folders(folder / f"on_{ranks[0]}", made, "other ranks in each cycle")
+
+
+# Reads .su2 and, from cycle 1 on, the state beside it; leaves SU2's four variables.
+SU2_SOLVER = """import csv, math, sys
+from pathlib import Path
+mesh, state, solution, cycle = sys.argv[1:5]
+lines = Path(mesh).read_text().splitlines()
+first = next(i for i, line in enumerate(lines) if line.startswith("NPOIN="))
+nodes = [tuple(map(float, line.split()[:2])) for line in lines[first + 1:first + 1 + int(lines[first].split("=")[1])]]
+assert Path(state).exists() == (cycle != "0"), state
+if cycle != "0":
+    header, *rows = csv.reader(Path(state).open())
+    assert header == ["PointID", "x", "y", "Density", "Momentum_x", "Momentum_y", "Energy"], header
+    assert [(float(row[1]), float(row[2])) for row in rows] == nodes and [int(row[0]) for row in rows] == list(range(len(nodes)))
+    assert all(1 <= float(row[3]) <= 2 and abs(float(row[6]) - 2.5) < 1e-12 for row in rows)
+with open(solution, "w") as out:
+    out.write('"PointID","x","y","Density","Momentum_x","Momentum_y","Energy"\\n')
+    for i, (x, y) in enumerate(nodes):
+        out.write(f"{i}, {x!r}, {y!r}, {1.5 + 0.5 * math.tanh((math.hypot(x, y) - 0.6) / 0.1)!r}, 0.1, 0, 2.5\\n")
+"""
+
+
+def check_state(program, folder, ranks):
+    """A solver that reads .su2 is given the last flow as SU2's restart file, the same on any number of ranks."""
+    text = TINY.replace('"{mesh}", "{solution}"]', '"{mesh}", "{state}", "{solution}", "{cycle}"]\nmesh = "flow.su2"\nsolution = "restart_flow.csv"')
+    case = tiny_case(folder / "su2", SU2_SOLVER, text.replace('"height"', '"density"'))
+    check_ranks(program, case, folder / "su2", ranks, ["--cycles", "2"])
+    found = [(folder / "su2" / f"on_{ranks[0]}" / f"cycle_{cycle:02}" / "flow.csv").exists() for cycle in (0, 1, 2)]
+    require(found == [False, True, True], f"the state is there in cycles {found}")
+    expect_refusal(program, 1, ["solver.solution", "starting state", "flow.su2"], "adapt", case, "-o", folder / "su2" / "never", "--set",
+                   "solver.solution=flow.csv")
 
 
 def kill_session(leader):
@@ -122,6 +153,7 @@ def main():
         elif args.what == "tiny":
             case = tiny_case(folder / "case")
             check_ranks(args.quadloop, case, folder, args.ranks, [*settings, "--cycles", args.cycles])
+            check_state(args.quadloop, folder, args.ranks)
             check_other_ranks_go_on(args.quadloop, case, folder, args.ranks, args.cycles, settings)
         else:
             check_kill(args.quadloop, tiny_case(folder / "case"), folder, args.ranks[0], args.times, args.seed)

@@ -5,6 +5,7 @@ the same end as a run without the fault.
     run_adapt_refusals.py --quadloop PROGRAM [--ranks 1]
 """
 import argparse
+import json
 import tempfile
 from pathlib import Path
 
@@ -146,13 +147,13 @@ def check_small_cap(program, folder, ranks):
     case = tiny_case(folder / "cap")
     status, message = attempt(program, "adapt", case, "-o", folder / "capped", "--cycles", "1", "--set", "adapt.max_nodes=20", ranks=ranks)
     require(status == 0, f"exit status {status} for a cap below the case's own nodes: {message}")
-    log = (folder / "capped" / "cycle_01" / "log.txt").read_text()
+    log = (folder / "capped" / "cycle_00" / "log.txt").read_text()
     require("adapt.max_nodes" in log, f"the log does not warn that the cap is too small: {log}")
     require("adapt.max_nodes" in message, f"no warning on stderr that the cap is too small: {message}")
 
 
 def check_standing(program, folder, ranks):
-    """A cycle that changes nothing says why, once."""
+    """A cycle that changes nothing says why, once, and ends the run: its mesh is not solved on again, by --resume neither."""
     for name, words, parts in (("constant", ["adapt.variable=flat"], ["flat is constant"]), ("min", ["adapt.min=0.6"], ["adapt.min = 0.6", "edges up to 0.5"]),
                                ("room", ["adapt.max_nodes=25"], ["adapt.max_nodes = 25 leaves no room"]),
                                ("threshold", ["adapt.refine=90", "adapt.coarsen=90"], ["above the threshold adapt.refine"])):
@@ -164,7 +165,15 @@ def check_standing(program, folder, ranks):
         require(status == 0, f"exit status {status}: {message}")
         for part in ("no leaf is marked", *parts):
             require(message.count(part) == 1, f"the message does not say '{part}' once: {message}")
-            require(part in (made / "cycle_02" / "log.txt").read_text(), f"the log does not say '{part}'")
+            require(part in (made / "cycle_00" / "log.txt").read_text(), f"the log does not say '{part}'")
+        require([path.name for path in made.iterdir()] == ["cycle_00"], f"the same mesh is solved on again: {sorted(made.iterdir())}")
+        record = json.loads((made / "cycle_00" / "record.json").read_text())
+        require((record["refined"], record["coarsened"]) == (0, 0), f"the record says {record}")
+        before = states(made)
+        printed = adapt(program, case, made, ranks, ["--cycles", "3", "--resume", *settings])
+        for part in ("cycle 0 marks no leaf", "all cycles are there already", "cycle_00 to cycle_00"):
+            require(part in printed, f"--resume does not say '{part}': {printed}")
+        require(states(made) == before, "--resume has touched a run that was at its end")
     adapt(program, tiny_case(folder / "moving"), folder / "of_moving", ranks, ["--cycles", "0"])
     require("no leaf" not in (folder / "of_moving" / "cycle_00" / "log.txt").read_text(), "a cycle with marks is said to have none")
 

@@ -67,12 +67,13 @@ def check_formats(program, folder, ranks):
     """Each cycle has the formats of [output] too; they may change on the way."""
     case = tiny_case(folder / "formats")
     made = folder / "of_formats"
-    adapt(program, case, made, ranks, ["--cycles", "0", "--set", 'output.formats=["vtu", "su2"]'])
+    adapt(program, case, made, ranks, ["--cycles", "0", "--set", 'output.formats=["vtu", "su2", "csv"]'])
     status, message = attempt(program, "adapt", case, "-o", made, "--cycles", "1", "--resume", ranks=ranks)
-    require(status == 0 and 'output.formats was ["vtu", "su2"], is now not set' in message, f"exit status {status}: {message}")
+    require(status == 0 and 'output.formats was ["vtu", "su2", "csv"], is now not set' in message, f"exit status {status}: {message}")
     found = [sorted(path.suffix for path in (made / cycle).glob("mesh.*")) for cycle in ("cycle_00", "cycle_01")]
-    require(found == [[".cgns", ".h5", ".mesh", ".su2", ".vtu"], [".cgns", ".h5", ".mesh"]], f"cycles hold {found}")
+    require(found == [[".cgns", ".csv", ".h5", ".mesh", ".su2", ".vtu"], [".cgns", ".h5", ".mesh"]], f"cycles hold {found}")
     require('Name="height"' in (made / "cycle_00" / "mesh.vtu").read_text(), "the .vtu has no solution")
+    require((made / "cycle_00" / "mesh.csv").read_text().startswith('"PointID","x","y","height"\n0,'), "the .csv has no solution")
 
 
 def check_damage(program, folder, ranks):
@@ -98,6 +99,13 @@ def check_damage(program, folder, ranks):
                                "--cycles", cycles, ranks=ranks)
                 require(states(made) == before, f"{name}: a refusal has touched the folder")
                 shutil.rmtree(made)
+    made = folder / "moved"
+    shutil.copytree(whole, made)
+    lines = (made / "cycle_02" / "mesh.mesh").read_text().splitlines()
+    lines[42] = " ".join(repr(float(number) + 1e-9) for number in lines[42].split())
+    (made / "cycle_02" / "mesh.mesh").write_text("\n".join(lines) + "\n")
+    expect_refusal(program, 1, ["cycle_02/mesh.mesh: its nodes do not lie where", "remove the folder"], "adapt", case, "-o", made, "--resume",
+                   "--cycles", "3", ranks=ranks)
     made = folder / "gap"
     shutil.copytree(whole, made)
     shutil.rmtree(made / "cycle_01")

@@ -4,12 +4,14 @@
     run_remesh.py --quadloop PROGRAM [--ranks 1 2 3 5]
 """
 import argparse
+import math
+import random
 import re
 import shutil
 import tempfile
 from pathlib import Path
 
-from adapt_runs import RING, adapt, command_of, expect_refusal, require, tiny_case
+from adapt_runs import RING, adapt, attempt, command_of, expect_refusal, require, tiny_case
 from quadloop_runs import ROOT, NativeMesh, run
 
 AIRFOIL = ROOT / "cases" / "naca0012" / "naca0012.geom"
@@ -126,8 +128,8 @@ def check_other_mesh(program, case, cycles, folder):
     shifted = folder / "shifted.mesh"
     moved = [f"{float(x) + 0.7!r} {y}" for x, y in (row.split() for row in lines[2:count + 2])]
     shifted.write_text("\n".join([*lines[:2], *moved, *lines[count + 2:]]) + "\n")
-    expect(["shifted.mesh", "another mesh", "leaf"], old / "mesh.tree.h5", shifted)
-    expect(["shifted.mesh", "another mesh", "leaf"], folder / "alone.tree.h5", shifted)
+    expect(["shifted.mesh", "another mesh", "node 1 lies"], old / "mesh.tree.h5", shifted)
+    expect(["shifted.mesh", "another mesh", "node 1 lies"], folder / "alone.tree.h5", shifted)
     not_finite = folder / "not_finite.mesh"
     not_finite.write_text("\n".join([*lines[:-1], "nan"]) + "\n")
     expect([f"height at node {count}", "not finite"], old / "mesh.tree.h5", not_finite)
@@ -143,6 +145,83 @@ def check_other_mesh(program, case, cycles, folder):
     expect(["height", "node 42", "not finite"], old / "mesh.tree.h5", in_cgns)
     expect(["gone.mesh"], old / "mesh.tree.h5", folder / "gone.mesh")
     expect(["gone.tree.h5"], folder / "gone.tree.h5", old / "mesh.mesh")
+
+
+def with_nodes(mesh, path, change):
+    """The mesh with its solution, its nodes where change(number, place) puts them, as text."""
+    lines = mesh.read_text().splitlines()
+    nodes = NativeMesh(mesh).nodes
+    lines[2:len(nodes) + 2] = [change(i, place) for i, place in enumerate(nodes)]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def displaced(mesh, folder):
+    """(file, what a refusal says of it): nodes a little off or far off; inside the ring's square [-1, 1]^2 the boundary nodes are known by their place."""
+    nodes = NativeMesh(mesh).nodes
+    inner = [i for i, (x, y) in enumerate(nodes) if max(abs(x), abs(y)) < 0.99]
+    edge = min(math.dist(nodes[i], nodes[k]) for i in range(len(nodes)) for k in range(i))
+    chosen, chance = inner[len(inner) // 2], random.Random(1)
+
+    def off(i, dx, dy):
+        return f"{nodes[i][0] + dx!r} {nodes[i][1] + dy!r}"
+
+    def far(i, _):
+        return off(i, *(chance.uniform(-2 * edge, 2 * edge) for _ in "xy")) if i in set_of_inner else off(i, 0, 0)
+
+    set_of_inner = set(inner)
+    swapped = {chosen: chosen + 1, chosen + 1: chosen}
+    return [(with_nodes(mesh, folder / "one_node.mesh", lambda i, _: off(i, 1e-3 * edge, 0) if i == chosen else off(i, 0, 0)),
+             [f"node {chosen + 1} lies at", "worse than they were"]),
+            (with_nodes(mesh, folder / "all_nodes.mesh", lambda i, _: off(i, 1e-3 * edge, 2e-3 * edge)), ["node 1 lies at", "off its outline"]),
+            (with_nodes(mesh, folder / "far.mesh", far), ["lies at", "invalid"]),
+            (with_nodes(mesh, folder / "swapped.mesh", lambda i, _: off(swapped.get(i, i), 0, 0)), [f"node {chosen + 1} lies at", "nor is it"])]
+
+
+def check_displaced(program, case, cycles, folder, ranks):
+    """Nodes elsewhere are refused: with the tree's mesh beside it, or made anew, also for a changed outline; where that is out of reach, invalid cells."""
+    old, alone = cycles / "cycle_01", folder / "alone.tree.h5"
+    square = folder / "same_square.geom"
+    square.write_text("1\nframe\n5\n-1 -1\n0.5 -1\n1 -1\n1 1\n-1 1\n")
+    files = displaced(old / "mesh.mesh", folder)
+    for solution, parts in files:
+        for tree, options in ((old / "mesh.tree.h5", []), (alone, []), (alone, ["--geometry", square])):
+            expect_refusal(program, 1, [solution.name, "another mesh", *parts], "remesh", "--tree", tree, "--solution", solution, case, "-o", folder / "never",
+                           *options, ranks=ranks if tree == alone else 1)
+    require(not list(folder.glob("never*")), "a refusal has left files")
+    changed = ["--set", "spacing.gradation=1.4"]
+    refused = ["remesh", "--tree", alone, "--solution", folder / "far.mesh", case, "-o", folder / "never", *changed]
+    expect_refusal(program, 1, ["far.mesh: is no mesh of this tree", "give the mesh that was written with the tree"], *refused)
+    for solution, doubt in ((old / "mesh.mesh", False), (folder / "one_node.mesh", True)):
+        status, said = attempt(program, "remesh", "--tree", alone, "--solution", solution, case, "-o", folder / "doubtful", *changed)
+        require(status == 0 and ("cannot be compared" in said) == doubt, f"{solution.name} under a changed case: exit status {status}: {said}")
+
+
+def check_few_digits(program, case, cycles, folder):
+    """A solver that writes nine digits, with the tree's mesh at hand or not: the same next mesh, to the last bit."""
+    old = cycles / "cycle_01"
+    short = with_nodes(old / "mesh.mesh", folder / "nine_digits.mesh", lambda _, place: f"{place[0]:.9g} {place[1]:.9g}")
+    require(mesh_of(short) != mesh_of(old / "mesh.mesh"), "nine digits are enough here")
+    for tree in (old / "mesh.tree.h5", folder / "alone.tree.h5"):
+        made = folder / f"nine_digits_{tree.stem}"
+        remesh(program, case, tree, short, made)
+        require_equal_files(f"{folder}/pass_1.mesh", f"{made}.mesh", "nine digits")
+
+
+def check_smoothed(program, case, folder, mesh_type, objective, outline):
+    """What `quadloop smooth` has made of the tree's mesh is a mesh of it too; its nodes moved once more are not."""
+    words = ["--set", f"mesh.type={mesh_type}"]
+    raw, smooth = folder / f"raw_{mesh_type}", folder / f"smooth_{mesh_type}_{objective}"
+    run([program, "mesh", case, "-o", raw, *words, "--set", "smooth.sweeps=0"])
+    geometry = ["--geometry", outline] if outline else []
+    run([program, "smooth", f"{raw}.mesh", "-o", f"{smooth}.mesh", "--objective", objective, *geometry])
+    require(mesh_of(f"{raw}.mesh") != mesh_of(f"{smooth}.mesh"), "nothing was smoothed")
+    solution = Path(f"{smooth}_solved.mesh")
+    run(["python3", case.with_name("solver.py"), f"{smooth}.mesh", solution])
+    remesh(program, case, f"{raw}.tree.h5", solution, f"{smooth}_next", options=[*words, "--set", "smooth.sweeps=0"])
+    nodes = NativeMesh(solution).nodes
+    moved = with_nodes(solution, Path(f"{smooth}_moved.mesh"), lambda i, _: f"{nodes[i][0] + 1e-4!r} {nodes[i][1]!r}")
+    expect_refusal(program, 1, [moved.name, "lies at"], "remesh", "--tree", f"{raw}.tree.h5", "--solution", moved, case, "-o", folder / "never", *words)
 
 
 def moved_outline(path, change):
@@ -195,6 +274,8 @@ def check_outlines(program, folder, ranks):
     run([program, "mesh", case, "-o", folder / "first", "--geometry-out", folder / "whole.geom"])
     cycles = folder / "airfoil_cycles"
     adapt(program, case, cycles)
+    for mesh_type, objective, outline in (("hybrid", "power", folder / "whole.geom"), ("hybrid", "thesis", None), ("delaunay", "power", folder / "whole.geom")):
+        check_smoothed(program, case, folder, mesh_type, objective, outline)
     check_outline(program, case, folder, cycles, "thicker", lambda x, y: (x, 1.02 * y), ranks[:2])
     check_outline(program, case, folder, cycles, "moved", lambda x, y: (x + 0.02, y + 0.01), ranks[:3])
     delaunay = ["--set", "mesh.type=delaunay"]
@@ -230,6 +311,8 @@ def main():
         check_formats(args.quadloop, case, cycles, folder)
         check_standing(args.quadloop, case, cycles, folder, args.ranks)
         check_other_mesh(args.quadloop, case, cycles, folder)
+        check_displaced(args.quadloop, case, cycles, folder, args.ranks[-2])
+        check_few_digits(args.quadloop, case, cycles, folder)
         check_outside_the_root(args.quadloop, case, cycles, folder)
         check_outlines(args.quadloop, folder, args.ranks)
     print("good")

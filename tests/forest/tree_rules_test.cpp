@@ -193,5 +193,52 @@ TEST(TreeRules, GapsAreResolvedButCornersAreNot) {
   EXPECT_GE(fine.lattice.edge(at_frame_corner), 0.1) << "the two sides of a corner are no gap; gradation from the bars allows 0.125 there";
 }
 
+/// A kite whose tip at the origin, on lattice lines, turns by 150 degrees or so; its two boundaries merely meet in the bend at its widest point
+/// below.
+Geometry kite_in_square(double corner_degrees) {
+  const std::vector<Point> points{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, 0}, {-0.5, -0.13}, {-0.77, -0.18}, {-0.77, 0.13}, {-0.5, 0.13}};
+  std::vector<BoundaryId> boundary(4, BoundaryId{0});
+  boundary.resize(9, BoundaryId{1});
+  boundary[4] = BoundaryId{2};
+  return {{{"frame", 0.5, 30, "none"}, {"kite", 0.5, corner_degrees, "wall", 0.01}, {"below", 0.5, 140, "wall"}}, points, {0, 4, 9}, boundary};
+}
+
+/// The edges of the largest and of the smallest leaf that touch a point.
+std::pair<double, double> edges_at(const Tree& tree, Point p) {
+  std::pair<double, double> edges{0, 10};
+  for (const Quadrant& q : tree.leaves) {
+    if (!tree.lattice.box_of(q).contains(p)) continue;
+    edges = {std::max(edges.first, tree.lattice.edge(q.level)), std::min(edges.second, tree.lattice.edge(q.level))};
+  }
+  return edges;
+}
+
+TEST(TreeRules, SharpCornersRefineAllLeavesThatTouchThem) {
+  const Geometry geometry = kite_in_square(120);
+  const Tree tree(geometry, options_with(0.001, 0.5, 1.5));
+  EXPECT_LE(edges_at(tree, {0, 0}).first, 0.01) << "the tip lies where four leaves meet: mirror images must agree";
+  EXPECT_GT(edges_at(tree, {0, 0}).second, 0.004);
+  EXPECT_GT(edges_at(tree, {-0.5, -0.13}).second, 0.05) << "two boundaries meet there, but the outline hardly turns";
+  EXPECT_GT(edges_at(tree, {-0.77, 0.13}).second, 0.05) << "it turns by less than 'corner'";
+  EXPECT_GT(edges_at(tree, {1, 1}).second, 0.05) << "the frame asks for nothing at its corners";
+  const Geometry with_all_corners = kite_in_square(30);
+  EXPECT_LE(edges_at(Tree(with_all_corners, options_with(0.001, 0.5, 1.5)), {-0.77, 0.13}).first, 0.01);
+  EXPECT_GT(edges_at(Tree(with_all_corners, options_with(0.04, 0.5, 1.5)), {0, 0}).second, 0.04) << "min bounds it";
+}
+
+TEST(TreeRules, CornerSpacingCountsInTheDigestOnlyWhereItIsSet) {
+  Geometry with = kite_in_square(120);
+  std::vector<Boundary> boundaries(with.boundaries().begin(), with.boundaries().end());
+  const auto digest_with = [&](double corner_spacing) {
+    boundaries[1].corner_spacing = corner_spacing;
+    std::vector<BoundaryId> boundary;
+    for (std::int32_t v = 0; v < with.size(); ++v) boundary.push_back(with.boundary_of(v));
+    return Geometry(boundaries, {with.points().begin(), with.points().end()}, {0, 4, 9}, boundary).digest();
+  };
+  EXPECT_EQ(digest_with(0.01), with.digest());
+  EXPECT_NE(digest_with(0.02), with.digest());
+  EXPECT_NE(digest_with(0), with.digest());
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -10,6 +10,7 @@
 #include "io/cgns_file.hpp"
 #include "io/msh_file.hpp"
 #include "io/native_file.hpp"
+#include "io/su2_csv_file.hpp"
 #include "io/su2_file.hpp"
 #include "io/tree_file.hpp"
 #include "io/vtu_file.hpp"
@@ -103,6 +104,23 @@ TEST(VtuFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   expect_same_mesh(loaded, sample.mesh);
   expect_same_solution(loaded, sample.solution);
   EXPECT_EQ(loaded.solution->names, sample.solution.names);
+}
+
+TEST(Su2Csv, SameBytesOnAnyNumberOfRanksAndComesBack) {
+  const TemporaryFolder folder;
+  const Sample sample;
+  OutputSet many(world());
+  write_su2_csv(many, sample.own, folder.file("many.csv"), sample.own_solution);
+  many.commit();
+  if (!world().is_root()) return;
+  OutputSet one(sample.alone);
+  write_su2_csv(one, sample.mesh, folder.file("one.csv"), sample.solution);
+  one.commit();
+  EXPECT_TRUE(test::bytes_of(folder.file("many.csv")) == test::bytes_of(folder.file("one.csv")));
+  const LoadedSolution loaded = read_solution(folder.file("many.csv"));
+  EXPECT_EQ(loaded.points, sample.mesh.points);
+  EXPECT_EQ(loaded.solution.names, sample.solution.names);
+  EXPECT_EQ(loaded.solution.values, sample.solution.values);
 }
 
 TEST(CgnsFile, ComesBackAsTheNativeFileDoes) {

@@ -75,6 +75,45 @@ TEST(Su2Csv, RefusesByLine) {
   expect("", "s.csv:1: the file is empty");
 }
 
+/// What comes back of the sample mesh with a row of these values at each node.
+LoadedSolution through_csv(const std::vector<std::string>& names, const std::vector<double>& row, std::string* header = nullptr) {
+  const Mesh mesh = test::sample_mesh(2);
+  Solution solution{{}, names, {}};
+  for (std::size_t node = 0; node < mesh.points.size(); ++node) solution.values.insert(solution.values.end(), row.begin(), row.end());
+  const TemporaryFolder folder;
+  OutputSet outputs(test::world());
+  write_su2_csv(outputs, mesh, folder.file("s.csv"), solution, 1.5);
+  outputs.commit();
+  const std::string text = test::bytes_of(folder.file("s.csv"));
+  if (header != nullptr) *header = text.substr(0, text.find('\n'));
+  LoadedSolution loaded = read_solution(folder.file("s.csv"));
+  require_same_mesh(loaded, mesh);
+  loaded.solution.values.resize(loaded.solution.names.size());  // those of the first node
+  return loaded;
+}
+
+TEST(Su2Csv, IsWrittenWithConservativeVariablesInFront) {
+  std::string header;
+  const LoadedSolution made = through_csv({"nut", "pressure", "density", "y_velocity", "x_velocity"}, {7, 3, 2, -1, 0.5}, &header);
+  EXPECT_EQ(header, R"("PointID","x","y","Density","Momentum_x","Momentum_y","Energy","nut")");
+  EXPECT_EQ(made.solution.values, (std::vector<double>{2, 1, -2, 3 / 0.5 + 0.5 * 2 * 1.25, 7}));
+}
+
+TEST(Su2Csv, KeepsTheBitsOfSu2sOwnVariables) {
+  const double third = 1.0 / 3, tiny = 5e-324;
+  std::string header;
+  const LoadedSolution kept =
+      through_csv({"Mach", "Density", "Energy", "Momentum_x", "Momentum_y", "Pressure"}, {0.1, third, 1e150, -tiny, 0.1, 3}, &header);
+  EXPECT_EQ(header, R"("PointID","x","y","Density","Momentum_x","Momentum_y","Energy","Mach","Pressure")");
+  EXPECT_EQ(kept.solution.values, (std::vector<double>{third, -tiny, 0.1, 1e150, 0.1, 3}));
+}
+
+TEST(Su2Csv, KeepsOtherVariablesUnderNamesThatAreReadBack) {
+  const LoadedSolution kept = through_csv({"height", "x", "a,b", "a_b", "12", "PointID"}, {1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(kept.solution.names, (std::vector<std::string>{"height", "x_", "a_b", "a_b_", "v12", "PointID_"}));
+  EXPECT_EQ(kept.solution.values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+}
+
 /// A mesh with its solution in each format.
 class Formats : public testing::TestWithParam<std::string> {
  public:

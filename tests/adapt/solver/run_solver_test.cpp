@@ -42,11 +42,21 @@ TEST(RunSolver, RunsOnceWithItsArgumentsAndKeepsItsLog) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("x")));
 }
 
-TEST(RunSolver, StatusIsToldWithTheLastLines) {
+TEST(RunSolver, StatusIsToldWithTheLastLine) {
   const CycleFolder folder;
   const SolverCommand command = folder.script("for i in 1 2 3 4 5 6 7; do echo line $i; done; echo density is negative >&2; exit 7");
-  EXPECT_EQ(failure(command, folder), "the solver '{case}/solver.sh' of cycle 4 ended with exit status 7; " + folder.file("solver.log") +
-                                          " ends: line 4 | line 5 | line 6 | line 7 | density is negative");
+  EXPECT_EQ(failure(command, folder),
+            "the solver '{case}/solver.sh' of cycle 4 ended with exit status 7; " + folder.file("solver.log") + " ends: density is negative");
+}
+
+TEST(RunSolver, OfATracebackTheErrorIsTold) {
+  const CycleFolder folder;
+  const SolverCommand command = folder.script(
+      "printf 'Traceback (most recent call last):\\n  File \"solver.py\", line 3, in <module>\\n    solve(mesh)\\n    ~~~~~^^^^^^\\n"
+      "ValueError: the density is negative\\n-------\\n\\n' >&2; exit 1");
+  const std::string message = failure(command, folder);
+  EXPECT_TRUE(holds(message, folder.file("solver.log") + " ends: ValueError: the density is negative")) << message;
+  EXPECT_FALSE(holds(message, "Traceback")) << message;
 }
 
 TEST(RunSolver, SignalIsNamed) {
