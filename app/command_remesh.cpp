@@ -13,6 +13,7 @@
 #include "app/summary.hpp"
 #include "io/mesh_file.hpp"
 #include "io/output_file.hpp"
+#include "io/output_path.hpp"
 #include "io/solution_file.hpp"
 #include "io/tree_file.hpp"
 #include "mesher/base/error.hpp"
@@ -81,7 +82,7 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
     const std::string prefix = arguments.prefix.empty() ? input.settings.output_prefix : arguments.prefix;
     for (const std::string& format : input.settings.formats) files.push_back(prefix + "." + format);
     files.push_back(prefix + ".tree.h5");
-    for (const std::string& file : files) require_folder(file);
+    for (const std::string& file : files) require_possible_output(file);
     if (comm.is_root()) whole = solved_mesh(arguments);
   });
   SolvedMesh solved = spread_solved(comm, whole, std::move(tree));

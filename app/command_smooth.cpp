@@ -75,6 +75,7 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   context.comm.together([&] {
     require_readable_suffix(arguments.input);
     require_writable_suffix(arguments.output);
+    require_possible_output(arguments.output);
     if (!arguments.geometry.empty()) loaded.geometry = read_outline(arguments.geometry, warnings);
     if (!context.comm.is_root()) return;
     loaded.whole = read_mesh(arguments.input);

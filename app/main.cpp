@@ -14,6 +14,7 @@
 
 #include "app/closing.hpp"
 #include "app/command.hpp"
+#include "io/interruption.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -142,6 +143,7 @@ void keep_freed_memory() {
 int main(int argc, char** argv) {
   quadloop::keep_freed_memory();
   const quadloop::MpiGuard mpi(argc, argv);
+  quadloop::remove_temporaries_when_killed();
   const quadloop::Communicator comm(MPI_COMM_WORLD), closing(MPI_COMM_WORLD);
   return static_cast<int>(close_together(closing.raw(), quadloop::guarded_run(argc, argv, comm)));
 }
