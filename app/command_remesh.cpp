@@ -33,8 +33,9 @@ std::string mesh_beside(const std::string& tree) {
   const std::string ending = ".tree.h5";
   const bool named = tree.size() > ending.size() && tree.ends_with(ending);
   const std::string prefix = named ? tree.substr(0, tree.size() - ending.size()) : tree;
+  std::error_code no_such_file;
   for (const char* suffix : {".mesh", ".cgns"}) {
-    if (std::filesystem::exists(prefix + suffix)) return prefix + suffix;
+    if (std::filesystem::exists(prefix + suffix, no_such_file)) return prefix + suffix;
   }
   throw InputError(tree + ": its mesh is not beside it, but the solution's file has no cells; put it there as " + prefix + ".mesh");
 }

@@ -17,6 +17,7 @@
 #include "io/interruption.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/input_file.hpp"
 #include "mesher/base/log.hpp"
 
 namespace quadloop {
@@ -107,6 +108,7 @@ void run(int argc, char** argv, const Communicator& comm) {
     answer(app, request, comm);
     return;
   }
+  allow_piped_input(comm.size() == 1);
   log::configure({comm.rank(), comm.size(), context.quiet, context.verbose});
   context.run();
 }

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <utility>
 
 namespace quadloop {
@@ -84,6 +85,9 @@ void remove_temporaries_when_killed() {
   owner_process = ::getpid();
   owner_thread = ::pthread_self();
   ::signal(SIGXFSZ, SIG_IGN);
+  std::atexit([] {  // where a library ends the process
+    if (::getpid() == owner_process) remove_registered_temporaries();
+  });
   for (const int number : requests) handle(number);
   for (const int number : crashes) handle(number);
 }

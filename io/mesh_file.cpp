@@ -1,6 +1,7 @@
 #include "io/mesh_file.hpp"
 
 #include <filesystem>
+#include <system_error>
 
 #include "io/cgns_file.hpp"
 #include "io/msh_file.hpp"
@@ -23,7 +24,8 @@ bool is_known(const std::string& suffix) {
 
 void require_readable_suffix(const std::string& path) {
   if (is_known(suffix_of(path))) return;
-  if (std::filesystem::exists(path + ".mesh")) throw InputError(path + ": is no mesh file; do you mean '" + path + ".mesh'?");
+  std::error_code no_such_file;
+  if (std::filesystem::exists(path + ".mesh", no_such_file)) throw InputError(path + ": is no mesh file; do you mean '" + path + ".mesh'?");
   throw InputError(path + ": no mesh is read from the format '" + suffix_of(path) + "'; give a .mesh, .cgns, .vtu, .su2 or .msh file");
 }
 

@@ -91,10 +91,12 @@ void require_possible_output(const std::string& path) { output_target(path); }
 
 void bring_to_disk(const std::string& path, const std::string& shown) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0 && errno == EACCES) return;  // what somebody else left for himself alone
   if (descriptor < 0) refuse_output(shown, errno);
   const int reason = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
-  if (reason != 0 && reason != EINVAL && reason != EBADF) refuse_output(shown, reason);  // both: a file system that knows no fsync here
+  const bool unknown_here = reason == EINVAL || reason == EBADF || reason == ENOSYS || reason == ENOTSUP;  // to the file system
+  if (reason != 0 && !unknown_here) refuse_output(shown, reason);
 }
 
 }  // namespace quadloop
