@@ -67,9 +67,7 @@ class QuietHdf5 {
 
  private:
   /// Called by HDF5 for each of its calls that fails, with the account of what led to it.
-  static herr_t note(hid_t account, void* self) {
-    return H5Ewalk2(account, H5E_WALK_UPWARD, &QuietHdf5::read_entry, self);
-  }
+  static herr_t note(hid_t account, void* self) { return H5Ewalk2(account, H5E_WALK_UPWARD, &QuietHdf5::read_entry, self); }
   static herr_t read_entry(unsigned, const H5E_error2_t* entry, void* self) {
     constexpr std::string_view label = "errno = ";
     const std::string_view text = entry->desc == nullptr ? "" : entry->desc;

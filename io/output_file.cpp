@@ -37,8 +37,8 @@ FolderId id_of(const std::string& folder, const std::string& shown) {
   return {found.st_dev, found.st_ino};
 }
 
-/// Gives files their names, one after another. Ended before all have theirs, it puts back what stood there before, where the file system can keep that
-/// (as hard links).
+/// Gives files their names, one after another. Ended before all have theirs, it puts back what stood there before, where the file system can keep
+/// that (as hard links).
 class Renaming {
  public:
   Renaming() = default;

@@ -111,8 +111,7 @@ void parse_case(CaseTable::Data& data, const std::string& path) {
     std::string what(error.description());
     for (char& c : what) c = c == '\n' ? ' ' : c;
     const toml::source_position at = error.source().begin;
-    throw InputError(
-        fmt::format("{}:{}: {}; correct this line (column {}){}", path, at.line, what, at.column, hint_for(row_of(text, at.line))));
+    throw InputError(fmt::format("{}:{}: {}; correct this line (column {}){}", path, at.line, what, at.column, hint_for(row_of(text, at.line))));
   }
 }
 

@@ -53,7 +53,8 @@ struct stat require_readable_kind(const std::string& path, bool pipes) {
   struct stat found = {};
   if (::stat(path.c_str(), &found) != 0) refuse_opening(path, errno);
   if (S_ISDIR(found.st_mode)) throw InputError(path + ": is a folder; name a file in it");
-  if (S_ISFIFO(found.st_mode) && !pipes) throw InputError(path + ": is a pipe, which cannot be read here; save what it gives as a file and name that");
+  if (S_ISFIFO(found.st_mode) && !pipes)
+    throw InputError(path + ": is a pipe, which cannot be read here; save what it gives as a file and name that");
   if (!S_ISREG(found.st_mode) && !S_ISFIFO(found.st_mode)) throw InputError(path + ": is a device, not a file; name a file");
   return found;
 }

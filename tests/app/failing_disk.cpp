@@ -1,4 +1,5 @@
-// Loaded before the C library (LD_PRELOAD): calls of the system on files whose path has ".part" in it, as outputs on their way have, fail or are slow.
+// Loaded before the C library (LD_PRELOAD): calls of the system on files whose path has ".part" in it, as outputs on their way have, fail or are
+// slow.
 //   QUADLOOP_DISK_CALL    write, fsync, close or rename
 //   QUADLOOP_DISK_FULL    the number of the first such call that fails with ENOSPC; all later ones fail too
 //   QUADLOOP_DISK_DELAY   milliseconds before each such call

@@ -88,27 +88,28 @@ class Together(FilesTest):
 
     SPACINGS = ["spacing.max=0.5", "spacing.max=0.25"]
 
-    def check_one_wins(self, ranks, call, delay):
+    def check_one_wins(self, ranks, call, *delays):
+        """The one that is slow would be overtaken."""
         wanted = []
         for number, spacing in enumerate(self.SPACINGS):
             self.done("mesh", "case.toml", "-o", f"alone{number}", "--set", spacing)
             wanted.append(self.bytes_of_set(self.folder / f"alone{number}"))
         self.assertNotEqual(*wanted)
         for _ in range(3):
-            runs = [self.mesh("--set", spacing, ranks=ranks, environment=disk(call, delay=delay)) for spacing in self.SPACINGS]
+            runs = [self.mesh("--set", spacing, ranks=ranks, environment=disk(call, delay=delay)) for spacing, delay in zip(self.SPACINGS, delays)]
             for run in runs:
                 self.assertEqual(self.ended(run), (0, ""))
             self.assertIn(self.bytes_of_set(self.out / "a"), wanted)
             self.assertEqual(self.names(), sorted("a" + suffix for suffix in SUFFIXES))
 
     def test_while_they_are_written(self):
-        self.check_one_wins(1, "write", 1)
+        self.check_one_wins(1, "write", 1, 2)
 
     def test_while_they_are_renamed(self):
-        self.check_one_wins(1, "rename", 40)
+        self.check_one_wins(1, "rename", 200, 1)
 
     def test_on_three_ranks(self):
-        self.check_one_wins(3, "rename", 40)
+        self.check_one_wins(3, "rename", 200, 1)
 
 
 class FullDisk(FilesTest):
