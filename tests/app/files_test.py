@@ -88,28 +88,31 @@ class Together(FilesTest):
 
     SPACINGS = ["spacing.max=0.5", "spacing.max=0.25"]
 
-    def check_one_wins(self, ranks, call, *delays):
-        """The one that is slow would be overtaken."""
+    def one_wins(self, runs):
         wanted = []
         for number, spacing in enumerate(self.SPACINGS):
             self.done("mesh", "case.toml", "-o", f"alone{number}", "--set", spacing)
             wanted.append(self.bytes_of_set(self.folder / f"alone{number}"))
         self.assertNotEqual(*wanted)
-        for _ in range(3):
-            runs = [self.mesh("--set", spacing, ranks=ranks, environment=disk(call, delay=delay)) for spacing, delay in zip(self.SPACINGS, delays)]
-            for run in runs:
-                self.assertEqual(self.ended(run), (0, ""))
-            self.assertIn(self.bytes_of_set(self.out / "a"), wanted)
-            self.assertEqual(self.names(), sorted("a" + suffix for suffix in SUFFIXES))
+        for run in runs:
+            self.assertEqual(self.ended(run), (0, ""))
+        self.assertIn(self.bytes_of_set(self.out / "a"), wanted)
+        self.assertEqual(self.names(), sorted("a" + suffix for suffix in SUFFIXES))
 
     def test_while_they_are_written(self):
-        self.check_one_wins(1, "write", 1, 2)
+        for _ in range(3):
+            self.one_wins([self.mesh("--set", spacing, environment=disk("write", delay=1)) for spacing in self.SPACINGS])
 
     def test_while_they_are_renamed(self):
-        self.check_one_wins(1, "rename", 200, 1)
-
-    def test_on_three_ranks(self):
-        self.check_one_wins(3, "rename", 200, 1)
+        """The first is slow from its first name on, and must not be overtaken."""
+        for ranks in (1, 3):
+            first = self.mesh("--set", self.SPACINGS[0], ranks=ranks, environment=disk("rename", delay=800))
+            limit = time.monotonic() + SECONDS
+            while "a.mesh" not in self.names() and time.monotonic() < limit:
+                time.sleep(0.01)
+            self.one_wins([first, self.mesh("--set", self.SPACINGS[1], ranks=ranks)])
+            for name in self.names():
+                (self.out / name).unlink()
 
 
 class FullDisk(FilesTest):
