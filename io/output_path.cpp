@@ -53,8 +53,9 @@ void require_folder(const std::string& folder, const std::string& shown) {
   struct stat found = {};
   const bool there = ::stat(folder.c_str(), &found) == 0;
   if (!there && errno != ENOENT && errno != ENOTDIR) refuse_output(shown, errno);
-  if (!there || !S_ISDIR(found.st_mode)) throw OutputError(shown + ": the folder '" + folder + "' does not exist; create it first");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw OutputError(shown + ": the folder '" + folder + "' cannot be written to");
+  if (!there || !S_ISDIR(found.st_mode))
+    throw OutputError(shown + ": cannot be written: the folder '" + folder + "' does not exist; create it first");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw OutputError(shown + ": cannot be written: you may not write to the folder '" + folder + "'");
 }
 
 /// A link to a file that is not there yet is followed too, as a shell does.
