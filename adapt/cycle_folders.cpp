@@ -3,13 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
 
+#include "io/output_path.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -24,16 +24,8 @@ void on_disk(const std::string& path, const Work& work) {
   try {
     work();
   } catch (const fs::filesystem_error& fault) {
-    throw OutputError(path + ": cannot be written: " + fault.code().message());
+    refuse_output(path, fault.code().value());
   }
-}
-
-/// What was written in a folder outlives a loss of power only then.
-void bring_to_disk(const fs::path& path, int flags) {
-  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
 }
 
 /// Empty, or but for what is left of a first cycle that failed.
@@ -93,7 +85,7 @@ void CycleFolders::begin(int cycle) {
     if (!comm_.is_root()) return;
     on_disk(under_way(cycle), [&] {
       fs::remove_all(under_way(cycle));
-      fs::create_directory(under_way(cycle));
+      if (!fs::create_directory(under_way(cycle))) refuse_output(under_way(cycle), EEXIST);
     });
   });
 }
@@ -103,11 +95,11 @@ void CycleFolders::finish(int cycle) {
     if (!comm_.is_root()) return;
     on_disk(whole(cycle), [&] {
       for (const fs::directory_entry& entry : fs::directory_iterator(under_way(cycle))) {
-        if (entry.is_regular_file()) bring_to_disk(entry.path(), O_RDONLY);
+        if (entry.is_regular_file()) bring_to_disk(entry.path(), entry.path());
       }
-      bring_to_disk(under_way(cycle), O_RDONLY | O_DIRECTORY);
+      bring_to_disk(under_way(cycle), whole(cycle));
       fs::rename(under_way(cycle), whole(cycle));
-      bring_to_disk(folder_, O_RDONLY | O_DIRECTORY);
+      bring_to_disk(folder_, whole(cycle));
     });
   });
 }

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "adapt/own_mesh.hpp"
 #include "adapt/remesh.hpp"
@@ -12,6 +10,7 @@
 #include "io/native_file.hpp"
 #include "io/tree_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/input_file.hpp"
 
 namespace quadloop {
 
@@ -21,12 +20,17 @@ std::string cure_of(const std::string& folder) {
   return "; bring the file back, or remove the folder " + folder + ", and --resume makes that cycle again";
 }
 
+std::string text_of_record(const std::string& path, const std::string& folder) {
+  try {
+    return read_input(path);
+  } catch (const InputError&) {
+    throw InputError(path + ": is missing or cannot be read" + cure_of(folder));
+  }
+}
+
 RecordedCase record_in(const std::string& folder) {
   const std::string path = folder + "/record.json";
-  std::ifstream file(path);
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file && text.empty()) throw InputError(path + ": is missing or cannot be read" + cure_of(folder));
-  const auto recorded = recorded_case(text);
+  const auto recorded = recorded_case(text_of_record(path, folder));
   if (!recorded) throw InputError(path + ": is no whole record of a cycle" + cure_of(folder));
   return *recorded;
 }

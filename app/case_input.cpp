@@ -1,7 +1,6 @@
 #include "app/case_input.hpp"
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <filesystem>
 
 #include "adapt/digests.hpp"
@@ -33,14 +32,6 @@ void replace_geometry(const std::string& path, Settings& settings, Warnings& war
 }
 
 }  // namespace
-
-void require_folder(const std::string& output) {
-  std::filesystem::path folder = std::filesystem::path(output).parent_path();
-  if (folder.empty()) folder = ".";
-  if (!std::filesystem::is_directory(folder)) throw OutputError(output + ": the folder '" + folder.string() + "' does not exist; create it first");
-  if (access(folder.c_str(), W_OK | X_OK) != 0) throw OutputError(output + ": the folder '" + folder.string() + "' cannot be written to");
-  if (std::filesystem::is_directory(output)) throw OutputError(output + ": is a folder; choose another name");
-}
 
 CaseInput load_case(const CaseArguments& arguments) {
   require_case_file(arguments.case_path);

@@ -27,7 +27,5 @@ struct CaseInput {
 /// Reads case and geometry. On the calling rank alone. Throws InputError.
 CaseInput load_case(const CaseArguments& arguments);
 
-/// Throws OutputError where an output's folder is not there or cannot be written to: found out before an hour of meshing.
-void require_folder(const std::string& output);
 
 }  // namespace quadloop

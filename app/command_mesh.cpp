@@ -14,6 +14,7 @@
 #include "io/input/geom_text.hpp"
 #include "io/mesh_file.hpp"
 #include "io/output_file.hpp"
+#include "io/output_path.hpp"
 #include "io/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -54,7 +55,7 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   for (const std::string& format : settings.formats) prepared.files.push_back(settings.output_prefix + "." + format);
   if (!arguments.geometry_out.empty()) prepared.files.push_back(arguments.geometry_out);
   prepared.files.push_back(settings.output_prefix + ".tree.h5");
-  for (const std::string& file : prepared.files) require_folder(file);
+  for (const std::string& file : prepared.files) require_possible_output(file);
   return prepared;
 }
 

@@ -14,6 +14,7 @@
 #include "app/summary.hpp"
 #include "io/mesh_file.hpp"
 #include "io/output_file.hpp"
+#include "io/output_path.hpp"
 #include "io/solution_file.hpp"
 #include "io/tree_file.hpp"
 #include "mesher/base/error.hpp"
@@ -40,8 +41,9 @@ std::vector<std::string> files_beside(const std::string& tree) {
 /// The one that is there, for a solution without cells.
 std::string mesh_beside(const std::string& tree) {
   const std::vector<std::string> files = files_beside(tree);
+  std::error_code no_such_file;
   for (const std::string& file : files) {
-    if (std::filesystem::exists(file)) return file;
+    if (std::filesystem::exists(file, no_such_file)) return file;
   }
   throw InputError(tree + ": its mesh is not beside it, but the solution's file has no cells; put it there as " + files.front());
 }
@@ -119,7 +121,7 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
     const std::string prefix = arguments.prefix.empty() ? input.settings.output_prefix : arguments.prefix;
     for (const std::string& format : input.settings.formats) files.push_back(prefix + "." + format);
     files.push_back(prefix + ".tree.h5");
-    for (const std::string& file : files) require_folder(file);
+    for (const std::string& file : files) require_possible_output(file);
     if (comm.is_root()) whole = solved_mesh(arguments, tree.attributes);
   });
   times.begin("compare");

@@ -11,6 +11,7 @@
 #include "app/summary.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
+#include "io/output_path.hpp"
 #include "io/tidy_mesh.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
@@ -74,6 +75,7 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     require_writable_suffix(arguments.output);
     if (!arguments.geometry.empty()) loaded.geometry = read_outline(arguments.geometry, warnings);
     if (!context.comm.is_root()) return;
+    require_possible_output(arguments.output);
     loaded.whole = read_mesh(arguments.input);
     tidy_mesh(loaded.whole, arguments.input);
     require_sound_topology(loaded.whole, arguments.input);

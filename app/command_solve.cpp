@@ -14,6 +14,7 @@
 #include "app/settings.hpp"
 #include "app/summary.hpp"
 #include "io/mesh_file.hpp"
+#include "io/output_path.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
@@ -78,6 +79,7 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
                        ": 'solver.kind' is 'command', but 'quadloop solve' runs the built-in solver alone; set kind = \"euler\"");
     }
     if (!context.comm.is_root()) return;
+    require_possible_output(arguments.output);
     problem.whole = read_mesh(arguments.input);
     problem.warnings = problem.whole.warnings;
     problem.order = space_filling_order(problem.whole.mesh);

@@ -13,8 +13,10 @@
 #include "app/closing.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "io/interruption.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/input_file.hpp"
 #include "mesher/base/log.hpp"
 
 namespace quadloop {
@@ -71,6 +73,7 @@ void run(int argc, char** argv, const Communicator& comm, CommandRecord& record)
     return;
   }
   record.command = app.get_subcommands().front()->get_name();
+  allow_piped_input(comm.size() == 1);
   log::configure({comm.rank(), comm.size(), context.quiet, context.verbose});
   context.run();
 }
@@ -117,6 +120,7 @@ void keep_freed_memory() {
 int main(int argc, char** argv) {
   quadloop::keep_freed_memory();
   const quadloop::MpiGuard mpi(argc, argv);
+  quadloop::remove_temporaries_when_killed();
   const quadloop::Communicator comm(MPI_COMM_WORLD), closing(MPI_COMM_WORLD);
   return static_cast<int>(close_together(closing.raw(), quadloop::recorded_run(argc, argv, comm)));
 }

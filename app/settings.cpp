@@ -219,7 +219,8 @@ std::string format_suffix_of(const std::string& prefix) {
 Geometry load_geometry(const Settings& settings, Warnings& warnings, const std::optional<TreeAttributes>& saved) {
   std::vector<Chain> chains;
   for (const GeometryInput& input : settings.files) {
-    if (!std::filesystem::exists(input.path)) {
+    std::error_code no_such_file;
+    if (!std::filesystem::exists(input.path, no_such_file)) {
       throw InputError(
           fmt::format("{}: there is no file '{}'; check the name, which is relative to the case file's folder", input.where, input.path));
     }

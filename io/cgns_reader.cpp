@@ -9,6 +9,7 @@
 #include "io/cgns_handle.hpp"
 #include "io/cgns_names.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/input_file.hpp"
 
 namespace quadloop {
 
@@ -270,6 +271,7 @@ class ZoneReader {
 }  // namespace
 
 LoadedMesh read_cgns(const std::string& path) {
+  require_input_file(path);
   const File file(path, path, CG_MODE_READ);
   int bases = 0, zones = 0, cell_dimension = 0, physical_dimension = 0;
   Name name{};

@@ -86,7 +86,14 @@ class CgnsSink {
 
   static std::unique_ptr<File> open(const StagedFile& staged) {
     cg_set_file_type(CG_FILE_HDF5);
-    return std::make_unique<File>(staged.temporary, staged.path, CG_MODE_WRITE);
+    try {
+      return std::make_unique<File>(staged.temporary, staged.path, CG_MODE_WRITE);
+    } catch (const OutputError&) {  // without the reason; a byte of our own may tell it
+      OutputFile probe(staged);
+      probe.write("?");
+      probe.close();
+      throw;
+    }
   }
   int id() const { return file_->id(); }
 

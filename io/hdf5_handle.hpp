@@ -4,8 +4,10 @@
 #include <hdf5.h>
 
 #include <array>
+#include <charconv>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -35,26 +37,49 @@ class Hdf5Handle {
   bool valid() const { return id_ >= 0; }
   /// Releases now; a file may tell only here that the disk is full.
   herr_t close() { return release_(std::exchange(id_, -1)); }
+  /// Never releases it.
+  void abandon() { id_ = -1; }
 
  private:
   hid_t id_ = -1;
   Release release_ = nullptr;
 };
 
-/// Keeps HDF5 from printing its own account of errors; what matters becomes one line of ours.
+/// Keeps HDF5 from printing its own account of errors, which becomes one line of ours, and from touching files again when the process ends: after a
+/// write that failed it would crash there. To be made before HDF5 is used in any other way.
 class QuietHdf5 {
  public:
   QuietHdf5() {
+    static const herr_t nothing_at_exit = H5dont_atexit();
+    static_cast<void>(nothing_at_exit);
     H5Eget_auto2(H5E_DEFAULT, &printer_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    listen();
   }
   ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, printer_, data_); }
   QuietHdf5(const QuietHdf5&) = delete;
   QuietHdf5& operator=(const QuietHdf5&) = delete;
 
+  /// Again, where another library has told HDF5 to be silent.
+  void listen() { H5Eset_auto2(H5E_DEFAULT, &QuietHdf5::note, this); }
+
+  /// The errno of the first call of the system that failed within HDF5; 0 where none is known.
+  int reason() const { return reason_; }
+
  private:
+  /// Called by HDF5 for each of its calls that fails, with the account of what led to it.
+  static herr_t note(hid_t account, void* self) { return H5Ewalk2(account, H5E_WALK_UPWARD, &QuietHdf5::read_entry, self); }
+  static herr_t read_entry(unsigned, const H5E_error2_t* entry, void* self) {
+    constexpr std::string_view label = "errno = ";
+    const std::string_view text = entry->desc == nullptr ? "" : entry->desc;
+    const std::size_t at = text.find(label);
+    int& reason = static_cast<QuietHdf5*>(self)->reason_;
+    if (reason == 0 && at != std::string_view::npos) std::from_chars(text.data() + at + label.size(), text.data() + text.size(), reason);
+    return 0;
+  }
+
   H5E_auto2_t printer_ = nullptr;
   void* data_ = nullptr;
+  int reason_ = 0;
 };
 
 /// How a number lies in memory, and in a file: little-endian whatever the machine.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 #include "io/cgns_file.hpp"
 #include "io/msh_file.hpp"
@@ -34,7 +35,8 @@ std::string mesh_format_of(const std::string& path) {
 
 void require_readable_suffix(const std::string& path) {
   if (!mesh_format_of(path).empty()) return;
-  if (std::filesystem::exists(path + ".mesh")) throw InputError(path + ": is no mesh file; do you mean '" + path + ".mesh'?");
+  std::error_code no_such_file;
+  if (std::filesystem::exists(path + ".mesh", no_such_file)) throw InputError(path + ": is no mesh file; do you mean '" + path + ".mesh'?");
   throw InputError(path + ": no mesh is read from the format '" + suffix_of(path) + "'; give a .mesh, .cgns, .vtu, .su2 or .msh file");
 }
 

@@ -1,82 +1,137 @@
 #include "io/output_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
-#include <cstring>
+#include <optional>
+#include <thread>
 #include <utility>
 
+#include "io/folder_lock.hpp"
+#include "io/interruption.hpp"
+#include "io/output_path.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
 
 namespace {
 
-constexpr mode_t readable_by_all = 0666;  // less the user's umask
+using Clock = std::chrono::steady_clock;
+constexpr auto patience = std::chrono::seconds(60);  // with another run that gives its files their names, which takes milliseconds
+constexpr auto between_attempts = std::chrono::milliseconds(5);
 
-[[noreturn]] void refuse(const std::string& path, int reason) {
-  std::string cure;
-  if (reason == ENOENT || reason == ENOTDIR) cure = "; create its folder first or name another output";
-  if (reason == EACCES || reason == EROFS) cure = "; name an output in a folder that you may write to";
-  if (reason == ENOSPC || reason == EDQUOT) cure = "; free some space or name an output elsewhere";
-  throw OutputError(path + ": cannot be written: " + std::strerror(reason) + cure);
-}
-
-int open_for_writing(const StagedFile& file, int flags) {
-  const int descriptor = ::open(file.temporary.c_str(), O_WRONLY | O_CLOEXEC | flags, readable_by_all);
-  if (descriptor < 0) refuse(file.path, errno);
+int open_for_appending(const StagedFile& file) {
+  const int descriptor = ::open(file.temporary.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor < 0) refuse_output(file.path, errno);
   return descriptor;
 }
 
-void close_descriptor(const StagedFile& file, int descriptor) {
-  if (::close(descriptor) != 0) refuse(file.path, errno);
-}
-
-/// A rename onto a folder fails only at the very end, so it is refused at the start.
-void refuse_folder(const std::string& path) {
+FolderId id_of(const std::string& folder, const std::string& shown) {
   struct stat found = {};
-  if (::stat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) refuse(path, EISDIR);
+  if (::stat(folder.c_str(), &found) != 0) refuse_output(shown, errno);
+  return {found.st_dev, found.st_ino};
 }
 
-void bring_to_disk(const StagedFile& file) {
-  const int descriptor = open_for_writing(file, 0);
-  const int reason = ::fsync(descriptor) == 0 ? 0 : errno;
-  close_descriptor(file, descriptor);
-  if (reason != 0 && reason != EINVAL) refuse(file.path, reason);  // EINVAL: a file system that knows no fsync
+/// Gives files their names, one after another. Ended before all have theirs, it puts back what stood there before, where the file system can keep
+/// that (as hard links).
+class Renaming {
+ public:
+  Renaming() = default;
+  ~Renaming() {
+    for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) undo(*step);
+  }
+  Renaming(const Renaming&) = delete;
+  Renaming& operator=(const Renaming&) = delete;
+
+  void rename(const StagedFile& staged, const std::string& target) {
+    Step step{target, staged.temporary + ".old", Before::lost};
+    if (::link(target.c_str(), step.saved.c_str()) == 0)
+      step.before = Before::saved;
+    else if (errno == ENOENT)
+      step.before = Before::nothing;
+    if (std::rename(staged.temporary.c_str(), target.c_str()) != 0) refuse_output(staged.path, errno);
+    steps_.push_back(std::move(step));
+  }
+  void keep() { steps_.clear(); }
+
+ private:
+  enum class Before { nothing, saved, lost };
+  struct Step {
+    std::string target, saved;
+    Before before;
+  };
+
+  static void undo(const Step& step) {
+    if (step.before == Before::saved) std::rename(step.saved.c_str(), step.target.c_str());
+    if (step.before == Before::nothing) ::unlink(step.target.c_str());
+  }
+
+  std::vector<Step> steps_;
+};
+
+/// Of all folders, in one order for every run; nothing where another run holds one of them.
+std::optional<std::vector<FolderLock>> lock_all(const std::map<FolderId, std::unique_ptr<StagingFolder>>& staging) {
+  std::vector<FolderLock> locks;
+  for (const auto& [id, folder] : staging) {
+    std::optional<FolderLock> lock = FolderLock::attempt(folder->parent());
+    if (!lock) return std::nullopt;
+    locks.push_back(std::move(*lock));
+  }
+  return locks;
 }
 
 }  // namespace
 
-OutputSet::~OutputSet() {
-  if (!comm_.is_root()) return;
-  for (const StagedFile& file : staged_) ::unlink(file.temporary.c_str());
+StagingFolder& OutputSet::staging_beside(const std::string& target, const std::string& shown) {
+  const std::string folder = folder_of(target);
+  std::unique_ptr<StagingFolder>& staging = staging_[id_of(folder, shown)];
+  if (!staging) staging = std::make_unique<StagingFolder>(folder, shown);
+  return *staging;
 }
 
 StagedFile OutputSet::stage(const std::string& path) {
-  StagedFile file{path, path + ".part"};
+  StagedFile file{path, {}};
   comm_.together([&] {
     if (!comm_.is_root()) return;
-    refuse_folder(path);
-    close_descriptor(file, open_for_writing(file, O_CREAT | O_TRUNC));
-    staged_.push_back(file);
+    const std::string target = output_target(path);
+    for (const Output& other : outputs_) {
+      if (other.target == target) throw OutputError(path + ": two outputs are to be written to this file; name another one");
+    }
+    file.temporary = staging_beside(target, path).new_file(path);
+    outputs_.push_back({file, target});
   });
   return file;
 }
 
 void OutputSet::commit() {
   comm_.together([&] {
-    for (const StagedFile& file : staged_) bring_to_disk(file);
-    for (const StagedFile& file : staged_) {
-      if (std::rename(file.temporary.c_str(), file.path.c_str()) != 0) refuse(file.path, errno);
-    }
-    staged_.clear();
+    for (const Output& output : outputs_) bring_to_disk(output.staged.temporary, output.staged.path);
+    if (!outputs_.empty()) put_in_place();
   });
 }
 
-OutputFile::OutputFile(StagedFile staged) : staged_{std::move(staged)}, descriptor_{open_for_writing(staged_, O_APPEND)} {}
+void OutputSet::put_in_place() {
+  for (const auto deadline = Clock::now() + patience; Clock::now() < deadline; std::this_thread::sleep_for(between_attempts)) {
+    const SignalsWait until_whole;
+    const auto locks = lock_all(staging_);
+    if (!locks) continue;
+    Renaming renaming;
+    for (const Output& output : outputs_) renaming.rename(output.staged, output.target);
+    renaming.keep();
+    outputs_.clear();
+    staging_.clear();
+    return;
+  }
+  throw OutputError(fmt::format("{}: another run has been writing in its folder for {} s; try again when that has ended",
+                                outputs_.front().staged.path, patience.count()));
+}
+
+OutputFile::OutputFile(StagedFile staged) : staged_{std::move(staged)}, descriptor_{open_for_appending(staged_)} {}
 
 OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -86,11 +141,13 @@ void OutputFile::write(std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor_, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) refuse(staged_.path, errno);
+    if (written < 0) refuse_output(staged_.path, errno);
     text.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
-void OutputFile::close() { close_descriptor(staged_, std::exchange(descriptor_, -1)); }
+void OutputFile::close() {
+  if (::close(std::exchange(descriptor_, -1)) != 0) refuse_output(staged_.path, errno);
+}
 
 }  // namespace quadloop

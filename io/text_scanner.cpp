@@ -1,18 +1,16 @@
 #include "io/text_scanner.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <utility>
 
 #include "mesher/base/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/input_file.hpp"
 
 namespace quadloop {
 
@@ -25,19 +23,6 @@ bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 const char* end_of_line(const char* at, const char* end) {
   const void* const found = std::memchr(at, '\n', static_cast<std::size_t>(end - at));
   return found == nullptr ? end : static_cast<const char*>(found);
-}
-
-std::string whole_file(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw InputError(path + ": cannot be read: it is a folder");
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) throw InputError(path + ": cannot be read: " + std::strerror(errno));
-  const std::streamoff size = file.tellg();
-  if (size < 0) throw InputError(path + ": cannot be read: not a regular file");
-  std::string text(static_cast<std::size_t>(size), '\0');
-  file.seekg(0);
-  if (!file.read(text.data(), size)) throw InputError(path + ": cannot be read to its end");
-  return text;
 }
 
 /// Fortran writes 1.0D-03; the text is changed in a copy, of this one token.
@@ -63,7 +48,7 @@ bool parse_c_real(std::string_view token, double& value) {
 
 bool parse_real(std::string_view token, double& value) { return parse_c_real(token, value) || parse_c_real(with_c_exponent(token), value); }
 
-TextScanner::TextScanner(std::string path, char comment) : path_{std::move(path)}, text_{whole_file(path_)}, comment_{comment} {
+TextScanner::TextScanner(std::string path, char comment) : path_{std::move(path)}, text_{read_input(path_)}, comment_{comment} {
   at_ = token_ = comments_begin_ = text_.data();
   end_ = at_ + text_.size();
 }

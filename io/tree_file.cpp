@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/hdf5_handle.hpp"
+#include "io/output_path.hpp"
 #include "io/row_stream.hpp"
 
 namespace quadloop {
@@ -45,7 +46,7 @@ class TreeSink {
 
   void close() {
     write_waiting();
-    datasets_.clear();
+    for (Hdf5Handle& dataset : datasets_) check(dataset.close() >= 0);
     check(file_.close() >= 0);
   }
 
@@ -57,8 +58,13 @@ class TreeSink {
     using type = T;
   };
 
-  void check(bool good) const {
-    if (!good) throw OutputError(shown_ + ": cannot be written; is the disk full?");
+  /// What failed stays as it is: HDF5 may crash on a file that it could not write.
+  void check(bool good) {
+    if (good) return;
+    for (Hdf5Handle& dataset : datasets_) dataset.abandon();
+    file_.abandon();
+    if (quiet_.reason() != 0) refuse_output(shown_, quiet_.reason());
+    throw OutputError(shown_ + ": cannot be written; is the disk full?");
   }
 
   template <class Member, std::size_t width>

@@ -5,6 +5,7 @@
 #include "io/hdf5_handle.hpp"
 #include "io/tree_check.hpp"
 #include "io/tree_file.hpp"
+#include "mesher/base/input_file.hpp"
 
 namespace quadloop {
 
@@ -14,6 +15,7 @@ namespace {
 class TreeSource {
  public:
   explicit TreeSource(const std::string& path) : path_{path} {
+    require_input_file(path);
     file_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     if (!file_.valid()) refuse("cannot be opened, or is no HDF5 file");
   }

@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "mesher/base/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/input_file.hpp"
 
 namespace quadloop {
 
@@ -134,19 +131,14 @@ std::string CaseTable::Data::place(const std::string& path, const toml::node* no
 
 void parse_case(CaseTable::Data& data, const std::string& path) {
   data.file = path;
-  if (std::filesystem::is_directory(path)) throw InputError(path + ": is a folder; name the case file in it");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("{}: cannot be opened ({}); check the name and its folder", path, std::strerror(errno)));
-  std::ostringstream text;
-  text << file.rdbuf();
+  const std::string text = read_input(path);
   try {
-    data.root = toml::parse(text.str());
+    data.root = toml::parse(text);
   } catch (const toml::parse_error& error) {
     std::string what(error.description());
     for (char& c : what) c = c == '\n' ? ' ' : c;
     const toml::source_position at = error.source().begin;
-    throw InputError(
-        fmt::format("{}:{}: {}; correct this line (column {}){}", path, at.line, what, at.column, hint_for(row_of(text.str(), at.line))));
+    throw InputError(fmt::format("{}:{}: {}; correct this line (column {}){}", path, at.line, what, at.column, hint_for(row_of(text, at.line))));
   }
 }
 

@@ -2,17 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <limits>
 #include <optional>
-#include <sstream>
 
 #include "mesher/base/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/input_file.hpp"
 
 namespace quadloop {
 
@@ -21,16 +18,6 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == ','; }
 
 constexpr std::string_view between_numbers = " \t\r\f\v;";  // of a row whose commas are decimal ones
-
-std::string read_whole(const std::string& path) {
-  if (std::filesystem::is_directory(path)) throw InputError(path + ": is a folder; name a file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("{}: cannot be opened ({}); check the name and its folder", path, std::strerror(errno)));
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (file.bad()) throw InputError(path + ": cannot be read to its end");
-  return std::move(text).str();
-}
 
 /// The number that is the whole word; infinite where it is too large for a double; nothing where it is no number.
 std::optional<double> number_of(std::string_view word) {
@@ -49,7 +36,7 @@ std::optional<double> number_of(std::string_view word) {
 
 }  // namespace
 
-LineReader::LineReader(const std::string& path) : path_{path}, text_{read_whole(path)} {
+LineReader::LineReader(const std::string& path) : path_{path}, text_{read_input(path)} {
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // the byte order mark of some editors
 }
 

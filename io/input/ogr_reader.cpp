@@ -4,10 +4,10 @@
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/input_file.hpp"
 
 namespace quadloop {
 
@@ -95,7 +95,7 @@ void read_layer(OGRLayer& layer, const std::string& path, Collector& collector) 
 }  // namespace
 
 std::vector<Chain> read_ogr(const std::string& path, std::vector<std::string>& warnings) {
-  if (!std::filesystem::exists(path)) throw InputError(path + ": there is no such file; check the name and its folder");
+  require_input_file(path);
   GDALAllRegister();
   const QuietGdal quiet;
   const GDALDatasetUniquePtr data(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));

@@ -87,6 +87,8 @@ CASES = [
             arguments=["mesh", "--set", "spacing.max=2", "spacing.min=-1", "case.toml", "-o", "out"]),
     Refusal("unknown --set key", ["--set spacing.foo=1:", "unknown key"], arguments=with_set("spacing.foo=1")),
     Refusal("--set without =", ["--set spacing.min:"], arguments=with_set("spacing.min")),
+    Refusal("case file without an end", ["/dev/zero: is a device"], arguments=["mesh", "/dev/zero", "-o", "out"]),
+    Refusal("name of the case file too long", ["File name too long"], arguments=["mesh", "x" * 300, "-o", "out"]),
     Refusal("missing case file", ["none.toml"], arguments=["mesh", "none.toml", "-o", "out"]),
 ]
 
@@ -108,6 +110,7 @@ OUTPUTS = [
     Refusal("missing folder", ["none/out"], OUTPUT_FAILED, arguments=["mesh", "case.toml", "-o", "none/out"]),
     Refusal("missing folder of the geometry", ["none/o.geom"], OUTPUT_FAILED,
             arguments=["mesh", "case.toml", "-o", "out", "--geometry-out", "none/o.geom"]),
+    Refusal("name too long", ["File name too long", "shorter name"], OUTPUT_FAILED, arguments=["mesh", "case.toml", "-o", "x" * 250]),
     Refusal("a folder in the way", ["taken.mesh"], OUTPUT_FAILED, arguments=["mesh", "case.toml", "-o", "taken"]),
 ]
 

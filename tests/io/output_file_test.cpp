@@ -2,10 +2,19 @@
 #include "io/output_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+#include <utility>
 
 #include "io/cgns_file.hpp"
+#include "io/folder_lock.hpp"
+#include "io/mesh_file.hpp"
 #include "io/native_file.hpp"
 #include "io/tree_file.hpp"
 #include "mesher/base/error.hpp"
@@ -18,10 +27,33 @@ namespace {
 using test::TemporaryFolder;
 using test::world;
 
-/// Puts a link to the device that is always full where the temporary will be written.
-void fill_disk(const std::string& path) {
-  if (world().is_root()) std::filesystem::create_symlink("/dev/full", path + ".part");
-  world().barrier();
+/// Lets no file of this process grow beyond a size, which fails as a full disk does; from one call to the next of the tests' own thread.
+class SmallFiles {
+ public:
+  explicit SmallFiles(rlim_t bytes) : handler_{std::signal(SIGXFSZ, SIG_IGN)} {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallFiles() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SmallFiles(const SmallFiles&) = delete;
+  SmallFiles& operator=(const SmallFiles&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit before_ = {};
+};
+
+std::string refusal_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
 }
 
 TEST(OutputSet, MissingFolderIsRefusedOnAllRanks) {
@@ -36,14 +68,80 @@ TEST(OutputSet, MissingFolderIsRefusedOnAllRanks) {
   EXPECT_EQ(test::files_in(folder.path()), 0U);
 }
 
-TEST(OutputSet, FullDiskLeavesNothingBehind) {
+TEST(OutputSet, FullDiskLeavesNothingBehindWhereverItIsMet) {
   const TemporaryFolder folder;
-  const Mesh own = test::share_of(test::sample_mesh(500), world().rank(), world().size());
-  fill_disk(folder.file("m.mesh"));
-  EXPECT_EQ(test::status_of([&] { write_native(world(), own, folder.file("m.mesh")); }), ExitStatus::output_failed);
+  const Mesh own = test::share_of(test::sample_mesh(50), world().rank(), world().size());
+  const TreeRecord tree = test::sample_tree(500, world().rank(), world().size());
+  for (const char* name : {"m.mesh", "m.cgns", "m.vtu", "m.su2", "m.msh", "m.h5"}) {
+    const std::string path = folder.file(name);
+    for (const rlim_t bytes : {0, 1, 100, 500, 800, 1500, 2100}) {
+      const SmallFiles full(bytes);
+      const std::string said = refusal_of([&] {
+        OutputSet outputs(world());
+        if (path.ends_with(".h5"))
+          write_tree(outputs, tree, path);
+        else
+          write_mesh(outputs, own, path);
+        outputs.commit();
+      });
+      world().barrier();
+      EXPECT_EQ(said.find(path + ": cannot be written: File too large"), 0U) << bytes << ": " << said;
+      EXPECT_EQ(test::files_in(folder.path()), 0U);
+      world().barrier();
+    }
+  }
+}
+
+TEST(OutputSet, OldFilesComeBackWhereOneCannotBeReplaced) {
+  const TemporaryFolder folder;
+  const std::string first = folder.file("a.mesh"), second = folder.file("b.mesh"), third = folder.file("c.mesh");
+  const Mesh own = test::share_of(test::sample_mesh(5), world().rank(), world().size());
+  if (world().is_root()) test::write_bytes(first, "old");
+  {
+    OutputSet outputs(world());
+    for (const std::string& path : {first, second, third}) write_native(outputs, own, path);
+    if (world().is_root()) std::filesystem::create_directory(third);
+    EXPECT_EQ(test::status_of([&] { outputs.commit(); }), ExitStatus::output_failed);
+  }
   world().barrier();
-  EXPECT_EQ(test::files_in(folder.path()), 0U);
-  EXPECT_TRUE(std::filesystem::exists("/dev/full"));
+  EXPECT_EQ(test::bytes_of(first), "old");
+  EXPECT_FALSE(std::filesystem::exists(second));
+  EXPECT_EQ(test::files_in(folder.path()), 2U);  // the first, and the folder in the way
+}
+
+TEST(OutputSet, TwoSetsOfTheSameFilesDoNotMeet) {
+  const TemporaryFolder folder;
+  const Mesh small = test::share_of(test::sample_mesh(5), world().rank(), world().size());
+  const Mesh large = test::share_of(test::sample_mesh(9), world().rank(), world().size());
+  write_native(world(), small, folder.file("small.mesh"));
+  write_native(world(), large, folder.file("large.mesh"));
+  OutputSet first(world()), second(world());
+  write_native(first, small, folder.file("m.mesh"));
+  write_native(second, large, folder.file("m.mesh"));
+  second.commit();
+  EXPECT_EQ(test::bytes_of(folder.file("m.mesh")), test::bytes_of(folder.file("large.mesh")));
+  world().barrier();
+  first.commit();
+  EXPECT_EQ(test::bytes_of(folder.file("m.mesh")), test::bytes_of(folder.file("small.mesh")));
+  EXPECT_EQ(test::files_in(folder.path()), 3U);
+}
+
+TEST(OutputSet, AHeldLockIsWaitedFor) {
+  const TemporaryFolder folder;
+  const Mesh own = test::share_of(test::sample_mesh(5), world().rank(), world().size());
+  std::thread other;
+  if (world().is_root()) {
+    auto lock = FolderLock::attempt(folder.path());
+    ASSERT_TRUE(lock);
+    EXPECT_FALSE(FolderLock::attempt(folder.path()));
+    other = std::thread([held = std::move(*lock), &folder] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      EXPECT_FALSE(std::filesystem::exists(folder.file("m.mesh")));
+    });
+  }
+  write_native(world(), own, folder.file("m.mesh"));
+  if (other.joinable()) other.join();
+  EXPECT_EQ(test::files_in(folder.path()), 1U);
 }
 
 TEST(OutputSet, OldFilesStandUntilTheCommit) {

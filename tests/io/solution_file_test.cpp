@@ -175,7 +175,7 @@ TEST(SolutionFile, OtherNumbersOfCellsAreTold) {
 
 TEST(SolutionFile, RefusesFormatsWithoutSolutions) {
   expect_in(refusal_of([] { read_solution("a.su2"); }), "a.su2: no solution is read from the format '.su2'");
-  expect_in(refusal_of([] { read_solution("missing.csv"); }), "missing.csv: cannot be read");
+  expect_in(refusal_of([] { read_solution("missing.csv"); }), "missing.csv: cannot be opened");
 }
 
 TEST(VariableNames, FindsThemByUsualNames) {
