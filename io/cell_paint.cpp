@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/nearest_word.hpp"
 #include "mesher/mesh/quality.hpp"
 
 namespace quadloop {
@@ -84,7 +85,7 @@ std::size_t column_of(const LoadedMesh& loaded, const std::string& field) {
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   std::string there;
   for (const std::string& name : names) there += (there.empty() ? "" : ", ") + name;
-  throw InputError("there is no field '" + field + "'; there are: " + there);
+  throw InputError("there is no field '" + field + "'; there are: " + there + guess_for(field, names));
 }
 
 CellPaint paint_field(const LoadedMesh& loaded, const std::vector<std::size_t>& cells, const std::string& field) {

@@ -152,7 +152,7 @@ void assign(CaseTable::Data& data, const std::string& text) {
   const Assignment assignment(text);
   const std::vector<std::string>& parts = assignment.parts;
   if (!assignment.has_value) throw InputError(place + ": has no '='; write as in spacing.min=0.1");
-  if (!assignment.has_key()) throw InputError(place + ": its key has an empty part; write as in spacing.min=0.1");
+  if (!assignment.has_key()) throw InputError(place + ": what stands before the '=' is not a key; write as in spacing.min=0.1");
   toml::node* node = &data.root;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) node = step_down(*node, parts[i], place);
   const toml::table parsed = parse_value(assignment.value);

@@ -55,7 +55,7 @@ class Assignments(ProgramTest):
 
     def test_refusals(self):
         self.refused(1, ["--set sorce=[]: unknown key 'sorce'", "do you mean 'source'?"], "mesh", "a.toml", "--set", "spacing.max=1", "sorce=[]")
-        self.refused(1, ["--set .x=1:", "empty part"], "mesh", "a.toml", "--set", ".x=1")
+        self.refused(1, ["--set .x=1:", "not a key"], "mesh", "a.toml", "--set", ".x=1")
         self.refused(1, ["source.1.spacing", "above 0"], "mesh", "a.toml", "--set", SOURCE.replace("0.5", "-1"))
 
 

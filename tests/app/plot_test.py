@@ -130,6 +130,7 @@ class Plot(unittest.TestCase):
         self.refused(1, "window is empty", "a.mesh", "-o", "a.png", "--window=1,1,0,1")
         self.refused(1, "no cell lies in the window", "a.mesh", "-o", "a.png", "--window=5,6,0,1")
         self.refused(1, "density, pressure", "a.mesh", "-o", "a.png", "--field", "mach")
+        self.refused(1, "do you mean 'pressure'?", "a.mesh", "-o", "a.png", "--field", "presure")
         self.refused(2, "four numbers", "a.mesh", "-o", "a.png", "--window=1,2,3")
         self.refused(2, "holds no ranks", "a.mesh", "-o", "a.png", "--colour-by", "rank")
         self.refused(2, "--colour-by", "a.mesh", "-o", "a.png", "--colour-by", "taste")

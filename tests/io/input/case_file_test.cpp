@@ -115,7 +115,8 @@ TEST_F(CaseFile, HintsAtMissingQuotes) {
   ends_in("bc=farfield\r\n", "; put text in quotes: \"farfield\"");
   ends_in("bc = none", "; put text in quotes: \"none\"");
   ends_in("formats = [mesh, cgns]\n", "; put text in quotes: \"mesh\"");
-  ends_in("a = 0,1\n", ")");
+  ends_in("a = 0,1\n", "; 0,1: a decimal comma; write 0.1");
+  ends_in("a = 0,1,2\n", ")");
   ends_in("a = true x\n", ")");
   ends_in("[\"is_*\"\n", ")");
 }
