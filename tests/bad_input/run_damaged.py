@@ -25,6 +25,7 @@ formats = ["mesh", "cgns", "vtu", "su2", "msh"]
 """
 OUTLINE = "2\nbox\n4\n0 0\n2 0\n2 1\n0 1\nwall\n4\n0.7 0.4\n0.7 0.6\n0.9 0.6\n0.9 0.4\n"
 SUFFIXES = ("cgns", "tree.h5", "mesh", "vtu", "su2", "msh")
+BY_LIBRARY = ("cgns", "tree.h5")  # the others, which are parsed here, are damaged by the thousand in tests/io/damaged_text_test
 LARGEST_MEMORY = 700 << 10  # KiB, of the program and of its child
 LARGEST_TIME = 25  # processor seconds: a child that loops is stopped after 5
 
@@ -78,7 +79,7 @@ def main():
             with open(os.path.join(folder, "whole." + suffix), "rb") as file:
                 whole = file.read()
             draw = random.Random(suffix)
-            for number in range(count):
+            for number in range(count if suffix in BY_LIBRARY else count // 5):
                 data = damaged(whole, draw)
                 with open(os.path.join(folder, name), "wb") as file:
                     file.write(data)
@@ -87,7 +88,7 @@ def main():
                 if fault:
                     print(f"{suffix}, damage {number}: {fault}")
                     failed += 1
-    print(f"{count} damaged files of {', '.join(suffixes)}: {failed} faults")
+    print(f"damaged files of {', '.join(suffixes)}: {failed} faults")
     return 1 if failed else 0
 
 
