@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 #include <utility>
 
 #include "io/cgns_handle.hpp"
+#include "io/name_index.hpp"
 
 namespace quadloop {
 
@@ -36,29 +36,16 @@ std::string shortened(const std::string& name, std::size_t length) {
 
 std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names) {
   // Sections stand in the zone and families in the base, beside these nodes.
-  std::set<std::string> used{"",
-                             ".",
-                             "..",
-                             "ZoneType",
-                             "GridCoordinates",
-                             "TRI_3",
-                             "QUAD_4",
-                             "ZoneBC",
-                             "ZoneGridConnectivity",
-                             "FlowSolution",
-                             "domain",
-                             "DataClass",
-                             "DimensionalUnits"};
+  DistinctNames distinct;
+  for (const char* used : {"", ".", "..", "ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "ZoneBC", "ZoneGridConnectivity", "FlowSolution",
+                           "domain", "DataClass", "DimensionalUnits"}) {
+    distinct.reserve(used);
+  }
   std::vector<std::string> result;
   for (std::string name : names) {
     std::replace(name.begin(), name.end(), '/', '_');
-    std::string candidate = shortened(name, longest_name);
-    for (int again = 2; used.contains(candidate); ++again) {
-      const std::string suffix = std::string("_").append(std::to_string(again));
-      candidate = shortened(name, longest_name - suffix.size()) + suffix;
-    }
-    used.insert(candidate);
-    result.push_back(candidate);
+    const auto with_suffix = [&](const std::string& suffix) { return shortened(name, longest_name - suffix.size()) + suffix; };
+    result.push_back(distinct.name(with_suffix(""), with_suffix));
   }
   return result;
 }

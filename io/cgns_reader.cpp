@@ -2,12 +2,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numeric>
+#include <optional>
+#include <unordered_map>
 
+#include "io/cgns_bars.hpp"
 #include "io/cgns_file.hpp"
 #include "io/cgns_handle.hpp"
 #include "io/cgns_names.hpp"
+#include "io/name_index.hpp"
+#include "io/pass_mesh.hpp"
+#include "io/separate_reader.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/input_file.hpp"
 
@@ -18,16 +22,46 @@ namespace {
 using File = CgnsFile<InputError>;
 using Name = std::array<char, 33>;
 
-/// The edges of one BAR_2 (or part of a MIXED) section, by their element numbers.
-struct Bars {
-  std::string section;
-  std::map<cgsize_t, std::array<NodeId, 2>> edges;
+/// The boundaries of all zones by their names, and what the base's families say of them.
+class CgnsBoundaries {
+ public:
+  BoundaryEdges& named(Mesh& mesh, const std::string& name, const std::string& condition) {
+    const auto [place, is_new] = names_.place_of(name);
+    if (is_new) mesh.boundaries.push_back({name, condition, {}});
+    return mesh.boundaries[static_cast<std::size_t>(place)];
+  }
+
+  std::string condition_of_family(const File& file, int base, const std::string& family) {
+    if (!families_) read_families(file, base);
+    const auto found = families_->find(family);
+    return found == families_->end() ? "none" : found->second;
+  }
+
+ private:
+  void read_families(const File& file, int base) {
+    families_.emplace();
+    int families = 0;
+    file.check(cg_nfamilies(file.id(), base, &families));
+    for (int f = 1; f <= families; ++f) {
+      Name name{}, condition{};
+      int conditions = 0, geometries = 0;
+      BCType_t type = BCTypeNull;
+      file.check(cg_family_read(file.id(), base, f, name.data(), &conditions, &geometries));
+      if (conditions == 0) continue;
+      file.check(cg_fambc_read(file.id(), base, f, 1, condition.data(), &type));
+      families_->emplace(name.data(), condition_of_cgns(type));
+    }
+  }
+
+  NameIndex names_;
+  std::optional<std::unordered_map<std::string, std::string>> families_;  ///< to conditions, once they are asked for
 };
 
 /// Reads one zone into the mesh; nodes are numbered after those that are already there.
 class ZoneReader {
  public:
-  ZoneReader(const File& file, int base, int zone, LoadedMesh& loaded) : file_{file}, base_{base}, zone_{zone}, loaded_{loaded} {}
+  ZoneReader(const File& file, int base, int zone, LoadedMesh& loaded, CgnsBoundaries& boundaries)
+      : file_{file}, base_{base}, zone_{zone}, loaded_{loaded}, boundaries_{boundaries} {}
 
   void read() {
     read_head();
@@ -56,6 +90,7 @@ class ZoneReader {
     loaded_.block_names.emplace_back(name.data());
     if (type != Unstructured) refuse("only unstructured zones can be read");
     nodes_ = size[0];
+    if (nodes_ < 1) refuse("it is said to have " + std::to_string(nodes_) + " nodes");
     first_node_ = loaded_.mesh.points.size();
     if (first_node_ + static_cast<std::size_t>(nodes_) > std::numeric_limits<std::int32_t>::max()) refuse("too many nodes for one rank");
   }
@@ -96,13 +131,13 @@ class ZoneReader {
     return row;
   }
 
-  void add_element(int type, cgsize_t element, const cgsize_t* numbers) {
+  void add_element(int type, std::int64_t element, const cgsize_t* numbers) {
     if (type == TRI_3) {
       loaded_.mesh.triangles.push_back(row_at<3>(numbers));
     } else if (type == QUAD_4) {
       loaded_.mesh.quads.push_back(row_at<4>(numbers));
     } else {
-      bars_.back().edges.emplace_hint(bars_.back().edges.end(), element, row_at<2>(numbers));
+      bars_.add(element, row_at<2>(numbers));
     }
   }
 
@@ -119,37 +154,48 @@ class ZoneReader {
       refuse("section " + std::string(name.data()) + " holds " + cg_ElementTypeName(type) + "; only TRI_3, QUAD_4, BAR_2 and MIXED can be read");
     }
     file_.check(cg_ElementDataSize(file_.id(), base_, zone_, section, &size));
+    const std::int64_t elements = std::int64_t{last} - first + 1;
+    if (first < 1 || elements < 1 || size < 0)
+      refuse("section " + std::string(name.data()) + " is said to hold the elements " + range_text(first, last));
+    bars_.begin_section(name.data());
     std::vector<cgsize_t> data(static_cast<std::size_t>(size));
-    bars_.push_back({name.data(), {}});
-    if (type == MIXED) {
-      std::vector<cgsize_t> offsets(static_cast<std::size_t>(last - first) + 2);
-      file_.check(cg_poly_elements_read(file_.id(), base_, zone_, section, data.data(), offsets.data(), nullptr));
-      add_mixed(data, first);
-    } else {
-      file_.check(cg_elements_read(file_.id(), base_, zone_, section, data.data(), nullptr));
-      const std::size_t width = width_of(type);
-      for (std::size_t i = 0; i + width <= data.size(); i += width) add_element(type, first++, data.data() + i);
-    }
+    const std::int64_t found = type == MIXED ? read_mixed(section, data, first) : read_rows(section, type, data, first);
+    if (found == elements) return;
+    refuse("section " + std::string(name.data()) + " holds " + std::to_string(found) + " elements, where its range " + range_text(first, last) +
+           " is of " + std::to_string(elements));
   }
 
-  /// Each element is its type, then its nodes.
-  void add_mixed(const std::vector<cgsize_t>& data, cgsize_t element) {
+  static std::string range_text(cgsize_t first, cgsize_t last) { return std::to_string(first) + " to " + std::to_string(last); }
+
+  /// How many elements the section holds.
+  std::int64_t read_rows(int section, int type, std::vector<cgsize_t>& data, std::int64_t element) {
+    file_.check(cg_elements_read(file_.id(), base_, zone_, section, data.data(), nullptr));
+    const std::size_t width = width_of(type);
+    for (std::size_t i = 0; i + width <= data.size(); i += width) add_element(type, element++, data.data() + i);
+    return static_cast<std::int64_t>(data.size() / width);
+  }
+
+  /// Each element is its type, then its nodes. Where each begins follows from that: the file's own offsets, of which the library does not tell how
+  /// many it is going to write, are left alone.
+  std::int64_t read_mixed(int section, std::vector<cgsize_t>& data, std::int64_t element) {
+    file_.check(cg_poly_elements_read(file_.id(), base_, zone_, section, data.data(), nullptr, nullptr));
+    const std::int64_t first = element;
     for (std::size_t i = 0; i < data.size();) {
-      const int type = static_cast<int>(data[i]);
-      const std::size_t width = width_of(type);
+      const std::size_t width = width_of(data[i]);
       if (width == 0 || i + width >= data.size()) refuse("a MIXED section holds an element that is no triangle, quad or bar");
-      add_element(type, element++, data.data() + i + 1);
+      add_element(data[i], element++, data.data() + i + 1);
       i += width + 1;
     }
+    return element - first;
   }
 
   void read_boundaries() {
     int count = 0;
+    bars_.sort();
     file_.check(cg_nbocos(file_.id(), base_, zone_, &count));
     for (int boundary = 1; boundary <= count; ++boundary) read_boundary(boundary);
-    for (Bars& bars : bars_) {
-      for (const auto& [element, edge] : bars.edges) boundary_named(bars.section, "none").edges.push_back(edge);
-    }
+    bars_.for_each_left(
+        [&](const std::string& section, const auto& edge) { boundaries_.named(loaded_.mesh, section, "none").edges.push_back(edge); });
   }
 
   /// A BC that names nodes instead of edges is passed over: its edges, if the file has them, come as a section.
@@ -166,26 +212,29 @@ class ZoneReader {
     file_.check(cg_boco_gridlocation_read(file_.id(), base_, zone_, boundary, &location));
     const bool of_elements = set == ElementRange || set == ElementList || location != Vertex;
     if (!of_elements) return;
+    const bool is_range = set == PointRange || set == ElementRange;
+    const std::string full = full_name(boundary, name.data());
+    if (count < 0 || (is_range && count != 2)) {
+      refuse("boundary " + full + " has " + std::to_string(count) + " numbers where " + (is_range ? "a range has 2" : "a list is"));
+    }
     std::vector<cgsize_t> elements(static_cast<std::size_t>(count));
     file_.check(cg_boco_read(file_.id(), base_, zone_, boundary, elements.data(), nullptr));
-    if (set == PointRange || set == ElementRange) {
-      const cgsize_t first = elements.at(0), last = elements.at(1);
-      elements.resize(static_cast<std::size_t>(std::max<cgsize_t>(0, last - first + 1)));
-      std::iota(elements.begin(), elements.end(), first);
-    }
-    BoundaryEdges& edges = boundary_named(full_name(boundary, name.data()), condition_of(boundary, type));
-    for (const cgsize_t element : elements) edges.edges.push_back(take_bar(element, edges.name));
+    BoundaryEdges& edges = boundaries_.named(loaded_.mesh, full, condition_of(boundary, type));
+    if (is_range) return take_range(elements[0], elements[1], edges);
+    for (const cgsize_t element : elements) take_bar(element, edges);
   }
 
-  std::array<NodeId, 2> take_bar(cgsize_t element, const std::string& boundary) {
-    for (Bars& bars : bars_) {
-      const auto found = bars.edges.find(element);
-      if (found == bars.edges.end()) continue;
-      const std::array<NodeId, 2> edge = found->second;
-      bars.edges.erase(found);
-      return edge;
+  void take_range(cgsize_t first, cgsize_t last, BoundaryEdges& edges) {
+    if (last < first) refuse("boundary " + edges.name + " is of the elements " + range_text(first, last) + ", which is no range");
+    for (std::int64_t element = first; element <= last; ++element) take_bar(element, edges);  // ends at the first that is no bar
+  }
+
+  void take_bar(std::int64_t element, BoundaryEdges& edges) {
+    const auto edge = bars_.take(element);
+    if (!edge) {
+      refuse("boundary " + edges.name + " names element " + std::to_string(element) + ", which is no BAR_2 or belongs to another boundary");
     }
-    refuse("boundary " + boundary + " names element " + std::to_string(element) + ", which is no BAR_2 or belongs to another boundary");
+    edges.edges.push_back(*edge);
   }
 
   std::string full_name(int boundary, const char* name) const {
@@ -204,29 +253,11 @@ class ZoneReader {
   }
 
   /// A BC of type FamilySpecified has its type with the family.
-  std::string condition_of(int boundary, BCType_t type) const {
+  std::string condition_of(int boundary, BCType_t type) {
     std::array<char, 660> family{};
     file_.check(cg_goto(file_.id(), base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", boundary, "end"));
     if (type != FamilySpecified || cg_famname_read(family.data()) != CG_OK) return condition_of_cgns(type);
-    int families = 0;
-    file_.check(cg_nfamilies(file_.id(), base_, &families));
-    for (int f = 1; f <= families; ++f) {
-      Name name{}, condition{};
-      int conditions = 0, geometries = 0;
-      BCType_t family_type = BCTypeNull;
-      file_.check(cg_family_read(file_.id(), base_, f, name.data(), &conditions, &geometries));
-      if (std::string(name.data()) != family.data() || conditions == 0) continue;
-      file_.check(cg_fambc_read(file_.id(), base_, f, 1, condition.data(), &family_type));
-      return condition_of_cgns(family_type);
-    }
-    return "none";
-  }
-
-  BoundaryEdges& boundary_named(const std::string& name, const std::string& condition) {
-    auto& boundaries = loaded_.mesh.boundaries;
-    const auto found = std::find_if(boundaries.begin(), boundaries.end(), [&](const auto& b) { return b.name == name; });
-    if (found != boundaries.end()) return *found;
-    return boundaries.emplace_back(BoundaryEdges{name, condition, {}});
+    return boundaries_.condition_of_family(file_, base_, family.data());
   }
 
   void read_solution() {
@@ -263,15 +294,13 @@ class ZoneReader {
   const File& file_;
   int base_, zone_;
   LoadedMesh& loaded_;
+  CgnsBoundaries& boundaries_;
   cgsize_t nodes_ = 0;
   std::size_t first_node_ = 0;
-  std::vector<Bars> bars_;
+  CgnsBars bars_;
 };
 
-}  // namespace
-
-LoadedMesh read_cgns(const std::string& path) {
-  require_input_file(path);
+LoadedMesh read_here(const std::string& path) {
   const File file(path, path, CG_MODE_READ);
   int bases = 0, zones = 0, cell_dimension = 0, physical_dimension = 0;
   Name name{};
@@ -281,11 +310,18 @@ LoadedMesh read_cgns(const std::string& path) {
   if (cell_dimension != 2) throw InputError(path + ": its cells are " + std::to_string(cell_dimension) + "D, not 2D");
   file.check(cg_nzones(file.id(), 1, &zones));
   LoadedMesh loaded;
+  CgnsBoundaries boundaries;
   loaded.blocks = 0;
-  for (int zone = 1; zone <= zones; ++zone) ZoneReader(file, 1, zone, loaded).read();
+  for (int zone = 1; zone <= zones; ++zone) ZoneReader(file, 1, zone, loaded, boundaries).read();
   if (zones == 0) throw InputError(path + ": holds no zone");
   loaded.mesh.owned_nodes = static_cast<std::int32_t>(loaded.mesh.points.size());
   return loaded;
+}
+
+}  // namespace
+
+LoadedMesh read_cgns(const std::string& path) {
+  return read_separately<LoadedMesh>(path, [&] { return read_here(path); });
 }
 
 }  // namespace quadloop

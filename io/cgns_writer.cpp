@@ -1,11 +1,14 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 
+#include "io/boundary_stream.hpp"
 #include "io/cgns_file.hpp"
 #include "io/cgns_handle.hpp"
 #include "io/cgns_names.hpp"
+#include "io/cgns_nodes.hpp"
 #include "io/row_stream.hpp"
 #include "mesher/base/error.hpp"
 
@@ -13,6 +16,7 @@ namespace quadloop {
 
 namespace {
 
+constexpr const char *base_name = "Base", *zone_name = "domain", *base_path = "/Base", *zone_path = "/Base/domain";
 constexpr std::int64_t rows_per_piece = std::int64_t{1} << 18;  // at most 4 MB of nodes or of quads
 constexpr std::int64_t largest_size = std::numeric_limits<cgsize_t>::max();
 
@@ -23,10 +27,10 @@ class CgnsSink {
 
   void begin_zone(std::int64_t nodes, std::int64_t cells) {
     const std::array<cgsize_t, 3> size{static_cast<cgsize_t>(nodes), static_cast<cgsize_t>(cells), 0};
-    file_->check(cg_base_write(id(), "Base", 2, 2, &base_));
+    file_->check(cg_base_write(id(), base_name, 2, 2, &base_));
     file_->check(cg_goto(id(), base_, "end"));
     file_->check(cg_dataclass_write(NormalizedByUnknownDimensional));  // the unit of length is the user's own
-    file_->check(cg_zone_write(id(), base_, "domain", size.data(), Unstructured, &zone_));
+    file_->check(cg_zone_write(id(), base_, zone_name, size.data(), Unstructured, &zone_));
   }
 
   void begin_rows() { next_row_ = 1; }
@@ -63,20 +67,6 @@ class CgnsSink {
     const cgsize_t first = next_element_;
     next_element_ += static_cast<cgsize_t>(nodes.size() / width);
     file_->check(cg_elements_partial_write(id(), base_, zone_, section_, first, next_element_ - 1, nodes.data()));
-  }
-
-  /// The boundary whose `edges` bars were put last: a BC over them and a family that says the same.
-  void put_condition(const std::string& name, const std::string& full_name, const std::string& condition, std::int64_t edges) {
-    const auto type = static_cast<BCType_t>(cgns_condition(condition));
-    const std::array<cgsize_t, 2> range{static_cast<cgsize_t>(next_element_ - edges), next_element_ - 1};
-    int family = 0, family_condition = 0, boundary = 0;
-    file_->check(cg_family_write(id(), base_, name.c_str(), &family));
-    file_->check(cg_fambc_write(id(), base_, family, "FamBC", type, &family_condition));
-    file_->check(cg_boco_write(id(), base_, zone_, name.c_str(), type, PointRange, 2, range.data(), &boundary));
-    file_->check(cg_boco_gridlocation_write(id(), base_, zone_, boundary, EdgeCenter));
-    file_->check(cg_goto(id(), base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", boundary, "end"));
-    file_->check(cg_famname_write(name.c_str()));
-    if (name != full_name) file_->check(cg_descriptor_write(full_name_descriptor, full_name.c_str()));
   }
 
   void close() { file_->close(); }
@@ -123,16 +113,68 @@ class CgnsSink {
   std::vector<double> column_;
 };
 
+/// The boundaries, on rank 0, once the rest of the file is written: for each a section of bars, a BC over them and a family that says the same.
+class BoundarySink {
+ public:
+  /// `first_element` is the number of the first bar.
+  BoundarySink(const StagedFile& staged, std::int64_t first_element)
+      : nodes_{staged}, base_{nodes_.at(base_path)}, zone_{nodes_.at(zone_path)}, next_{static_cast<cgsize_t>(first_element)} {}
+
+  void begin(const std::string& name, const BoundaryEdges& boundary, std::int64_t edges) {
+    const std::array<cgsize_t, 2> range{next_, next_ + static_cast<cgsize_t>(edges) - 1};
+    next_ = range[1] + 1;
+    const std::array<std::int32_t, 2> type_and_parents{BAR_2, 0};
+    const CgnsNodes::Node section = nodes_.add_integers(zone_, name, "Elements_t", type_and_parents);
+    nodes_.add_integers(section, "ElementRange", "IndexRange_t", range);
+    bars_.emplace(nodes_.add_array(section, "ElementConnectivity", "DataArray_t", 2 * edges));
+    put_condition(name, boundary, range);
+  }
+
+  /// Of the boundary that was begun last.
+  void put(std::span<const BoundaryStream::Edge> edges) {
+    std::vector<cgsize_t> ends;
+    ends.reserve(2 * edges.size());
+    for (const auto& [from, to] : edges) {
+      ends.push_back(static_cast<cgsize_t>(from + 1));
+      ends.push_back(static_cast<cgsize_t>(to + 1));
+    }
+    bars_->put(ends);
+  }
+
+  void close() {
+    bars_.reset();
+    for (CgnsNodes::Node* node : {&base_, &zone_, &conditions_}) *node = {};  // HDF5 keeps a file open as long as anything in it is
+    nodes_.close();
+  }
+
+ private:
+  void put_condition(const std::string& name, const BoundaryEdges& boundary, std::span<const cgsize_t, 2> range) {
+    const std::string type = cg_BCTypeName(static_cast<BCType_t>(cgns_condition(boundary.condition)));
+    const CgnsNodes::Node family = nodes_.add(base_, name, "Family_t");
+    nodes_.add_text(family, "FamBC", "FamilyBC_t", type);
+    if (!conditions_.valid()) conditions_ = nodes_.add(zone_, "ZoneBC", "ZoneBC_t");
+    const CgnsNodes::Node condition = nodes_.add_text(conditions_, name, "BC_t", type);
+    nodes_.add_integers(condition, "PointRange", "IndexRange_t", range, 1);
+    nodes_.add_text(condition, "GridLocation", "GridLocation_t", cg_GridLocationName(EdgeCenter));
+    nodes_.add_text(condition, "FamilyName", "FamilyName_t", name);
+    if (name != boundary.name) nodes_.add_text(condition, full_name_descriptor, "Descriptor_t", boundary.name);
+  }
+
+  CgnsNodes nodes_;
+  CgnsNodes::Node base_, zone_, conditions_;
+  std::optional<CgnsNodes::Array> bars_;
+  cgsize_t next_;
+};
+
 /// The collective side: every rank hands its rows over, rank 0 alone has a sink.
 class CgnsWriter {
  public:
-  CgnsWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path) : comm_{outputs.communicator()}, mesh_{mesh} {
+  CgnsWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path) : comm_{outputs.communicator()}, mesh_{mesh}, boundaries_{comm_, mesh} {
     counts_ = {comm_.sum(mesh.owned_nodes), comm_.sum(size_of(mesh.triangles)), comm_.sum(size_of(mesh.quads)), 0};
-    for (const BoundaryEdges& boundary : mesh.boundaries) edges_.push_back(comm_.sum(size_of(boundary.edges)));
     refuse_too_large(path);
-    const StagedFile staged = outputs.stage(path);
+    staged_ = outputs.stage(path);
     on_root([&] {
-      sink_ = std::make_unique<CgnsSink>(staged);
+      sink_ = std::make_unique<CgnsSink>(staged_);
       sink_->begin_zone(counts_.nodes, counts_.triangles + counts_.quads);
     });
   }
@@ -145,7 +187,6 @@ class CgnsWriter {
         [&](std::span<const Point> points) { sink_->put_coordinates(points); });
     write_section("TRI_3", TRI_3, std::span(mesh_.triangles), counts_.triangles);
     write_section("QUAD_4", QUAD_4, std::span(mesh_.quads), counts_.quads);
-    write_boundaries();
   }
 
   void write_solution(const Solution& solution) {
@@ -166,8 +207,24 @@ class CgnsWriter {
         [&](std::span<const double> values) { sink_->put_solution(values, names); });
   }
 
-  void close() {
-    on_root([&] { sink_->close(); });
+  /// Last of all: libcgns is done with the file.
+  void write_boundaries() {
+    std::unique_ptr<BoundarySink> sink;
+    std::vector<std::string> names;
+    on_root([&] {
+      sink_->close();
+      if (boundaries_.all_edges() == 0) return;
+      sink = std::make_unique<BoundarySink>(staged_, counts_.triangles + counts_.quads + 1);
+      names = cgns_boundary_names(names_of(mesh_.boundaries));
+    });
+    if (boundaries_.all_edges() == 0) return;
+    boundaries_.run(
+        [&](std::size_t n) {
+          const BoundaryEdges* const boundary = boundaries_.present()[n];
+          sink->begin(names[static_cast<std::size_t>(boundary - mesh_.boundaries.data())], *boundary, boundaries_.edges_of(n));
+        },
+        [&](std::span<const BoundaryStream::Edge> edges) { sink->put(edges); });
+    on_root([&] { sink->close(); });
   }
 
  private:
@@ -184,8 +241,7 @@ class CgnsWriter {
   }
 
   void refuse_too_large(const std::string& path) const {
-    std::int64_t elements = counts_.triangles + counts_.quads;
-    for (const std::int64_t edges : edges_) elements += edges;
+    const std::int64_t elements = counts_.triangles + counts_.quads + boundaries_.all_edges();
     if (counts_.nodes <= largest_size && elements <= largest_size && 3 * counts_.triangles <= largest_size && 4 * counts_.quads <= largest_size) {
       return;
     }
@@ -210,23 +266,18 @@ class CgnsWriter {
         [&](std::span<const cgsize_t> nodes) { sink_->put_elements(nodes, width); });
   }
 
-  void write_boundaries() {
-    std::vector<std::string> full_names;
-    for (const BoundaryEdges& boundary : mesh_.boundaries) full_names.push_back(boundary.name);
-    const std::vector<std::string> names = cgns_boundary_names(full_names);
-    for (std::size_t b = 0; b < names.size(); ++b) {
-      if (edges_[b] == 0) continue;
-      const BoundaryEdges& boundary = mesh_.boundaries[b];
-      write_section(names[b], BAR_2, std::span(boundary.edges), edges_[b]);
-      on_root([&] { sink_->put_condition(names[b], boundary.name, boundary.condition, edges_[b]); });
-    }
+  static std::vector<std::string> names_of(const std::vector<BoundaryEdges>& boundaries) {
+    std::vector<std::string> names;
+    for (const BoundaryEdges& boundary : boundaries) names.push_back(boundary.name);
+    return names;
   }
 
   const Communicator& comm_;
   const Mesh& mesh_;
   MeshCounts counts_;
-  std::vector<std::int64_t> edges_;  ///< of each boundary, over all ranks
-  std::unique_ptr<CgnsSink> sink_;   ///< on rank 0 only
+  BoundaryStream boundaries_;
+  StagedFile staged_;
+  std::unique_ptr<CgnsSink> sink_;  ///< on rank 0 only
 };
 
 }  // namespace
@@ -235,7 +286,7 @@ void write_cgns(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
   CgnsWriter writer(outputs, mesh, path);
   writer.write_mesh();
   if (solution != nullptr) writer.write_solution(*solution);
-  writer.close();
+  writer.write_boundaries();
 }
 
 void write_cgns(const Communicator& comm, const Mesh& mesh, const std::string& path, const Solution* solution) {

@@ -124,18 +124,15 @@ void add_outer_boundary(Mesh& mesh) {
 }  // namespace
 
 std::int32_t ForeignMesh::boundary_named(const std::string& name) {
-  auto& boundaries = loaded.mesh.boundaries;
-  const auto found = std::find_if(boundaries.begin(), boundaries.end(), [&](const auto& b) { return b.name == name; });
-  const auto index = static_cast<std::int32_t>(found - boundaries.begin());
-  if (found == boundaries.end()) boundaries.push_back({name, "none", {}});
-  return index;
+  const auto [number, is_new] = boundary_names.place_of(name);
+  if (is_new) loaded.mesh.boundaries.push_back({name, "none", {}});
+  return number;
 }
 
 std::int32_t ForeignMesh::block_named(const std::string& name) {
-  const auto found = std::find(loaded.block_names.begin(), loaded.block_names.end(), name);
-  const auto index = static_cast<std::int32_t>(found - loaded.block_names.begin());
-  if (found == loaded.block_names.end()) loaded.block_names.push_back(name);
-  return index;
+  const auto [number, is_new] = block_names.place_of(name);
+  if (is_new) loaded.block_names.push_back(name);
+  return number;
 }
 
 void drop_repeated(ForeignMesh& foreign, const std::string& path) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/loaded_mesh.hpp"
+#include "io/name_index.hpp"
 #include "io/text_scanner.hpp"
 
 namespace quadloop {
@@ -22,6 +23,7 @@ struct ForeignEdge {
 struct ForeignMesh {
   LoadedMesh loaded;
   std::vector<ForeignEdge> edges;
+  NameIndex boundary_names, block_names;  ///< of loaded.mesh.boundaries, and of loaded.block_names
 
   /// The index of the boundary or block of that name, which is added where there is none.
   std::int32_t boundary_named(const std::string& name);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Inside io/ only: the one header that names the HDF5 library. Ids never leave the tree file's sources; libcgns keeps its own.
+// Inside io/ only: the one header that names the HDF5 library. Ids never leave the sources of the tree file and of cgns_nodes; libcgns keeps its own.
 #include <hdf5.h>
 
 #include <array>

@@ -23,7 +23,7 @@ class MshWriter {
  public:
   /// `whole`, where given, is the mesh with its blocks, on one rank.
   MshWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path, const LoadedMesh* whole = nullptr)
-      : comm_{outputs.communicator()}, mesh_{mesh}, whole_{whole}, boundaries_{boundaries_with_edges(comm_, mesh)}, file_{outputs, path} {}
+      : comm_{outputs.communicator()}, mesh_{mesh}, whole_{whole}, boundaries_{comm_, mesh}, file_{outputs, path} {}
 
   void write_mesh() {
     file_.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
@@ -36,7 +36,7 @@ class MshWriter {
  private:
   std::int64_t total(const auto& rows) const { return comm_.sum(static_cast<std::int64_t>(rows.size())); }
   std::int32_t blocks() const { return whole_ != nullptr ? whole_->blocks : 1; }
-  std::int64_t surface(std::int32_t block) const { return static_cast<std::int64_t>(boundaries_.size()) + 1 + block; }
+  std::int64_t surface(std::int32_t block) const { return static_cast<std::int64_t>(boundaries_.present().size()) + 1 + block; }
   std::string block_name(std::int32_t block) const {
     const auto b = static_cast<std::size_t>(block);
     if (whole_ != nullptr && b < whole_->block_names.size()) return whole_->block_names[b];
@@ -46,7 +46,7 @@ class MshWriter {
   void write_names() {
     std::string text = "$PhysicalNames\n" + std::to_string(surface(blocks() - 1)) + "\n";
     std::int64_t group = 0;
-    for (const BoundaryEdges* boundary : boundaries_) text += "1 " + std::to_string(++group) + " " + quoted(boundary->name) + "\n";
+    for (const BoundaryEdges* boundary : boundaries_.present()) text += "1 " + std::to_string(++group) + " " + quoted(boundary->name) + "\n";
     for (std::int32_t block = 0; block < blocks(); ++block) text += "2 " + std::to_string(surface(block)) + " " + quoted(block_name(block)) + "\n";
     file_.write(text + "$EndPhysicalNames\n");
   }
@@ -63,11 +63,9 @@ class MshWriter {
   }
 
   void write_all_elements() {
-    std::int64_t elements = total(mesh_.triangles) + total(mesh_.quads);
-    for (const BoundaryEdges* boundary : boundaries_) elements += total(boundary->edges);
+    const std::int64_t elements = total(mesh_.triangles) + total(mesh_.quads) + boundaries_.all_edges();
     file_.write("$Elements\n" + std::to_string(elements) + "\n");
-    std::int64_t group = 0;
-    for (const BoundaryEdges* boundary : boundaries_) write_elements(msh_line, ++group, std::span(boundary->edges));
+    write_edges();
     for (std::int32_t block = 0; block < blocks(); ++block) {
       write_elements(msh_triangle, surface(block), cells_of(mesh_.triangles, &LoadedMesh::triangle_to_block, block));
       write_elements(msh_quad, surface(block), cells_of(mesh_.quads, &LoadedMesh::quad_to_block, block));
@@ -82,18 +80,34 @@ class MshWriter {
     return cells_of_block(cells, whole_->*cell_to_block, block);
   }
 
-  /// Each row: number, type, two tags (the group, and the curve or surface of the same number), nodes.
+  void write_edges() {
+    std::int64_t number = next_element_;
+    file_.write_boundaries(
+        boundaries_, 7, [](std::size_t) { return std::string(); },
+        [&](TextRows& text, std::size_t n, const BoundaryStream::Edge& edge) {
+          put_head(text, number++, msh_line, static_cast<std::int64_t>(n) + 1);
+          text.put(edge[0] + 1, ' ');
+          text.put(edge[1] + 1, '\n');
+        });
+    next_element_ += boundaries_.all_edges();
+  }
+
+  /// Number, type, two tags: the group, and the curve or surface of the same number. The nodes follow.
+  static void put_head(TextRows& text, std::int64_t number, int type, std::int64_t group) {
+    text.put(number, ' ');
+    text.put(type, ' ');
+    text.put(2, ' ');
+    text.put(group, ' ');
+    text.put(group, ' ');
+  }
+
   template <std::size_t width>
   void write_elements(int type, std::int64_t group, std::span<const std::array<NodeId, width>> rows) {
     const auto own = static_cast<std::int64_t>(rows.size());
     const std::int64_t number = next_element_ + comm_.exclusive_sum(own);
     next_element_ += comm_.sum(own);
     file_.write_rows(rows.size(), 5 + width, [&](TextRows& text, std::size_t i) {
-      text.put(number + static_cast<std::int64_t>(i), ' ');
-      text.put(type, ' ');
-      text.put(2, ' ');
-      text.put(group, ' ');
-      text.put(group, ' ');
+      put_head(text, number + static_cast<std::int64_t>(i), type, group);
       for (std::size_t k = 0; k < width; ++k) text.put(mesh_.global(rows[i][k]).value() + 1, k + 1 < width ? ' ' : '\n');
     });
   }
@@ -101,7 +115,7 @@ class MshWriter {
   const Communicator& comm_;
   const Mesh& mesh_;
   const LoadedMesh* whole_;
-  std::vector<const BoundaryEdges*> boundaries_;
+  BoundaryStream boundaries_;
   TextOutput file_;
   std::int64_t next_element_ = 1;
 };

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "io/name_index.hpp"
 #include "io/native_file.hpp"
 #include "io/text_scanner.hpp"
 #include "mesher/base/error.hpp"
@@ -80,11 +81,12 @@ class NativeReader {
     if (name.empty()) name = std::string("boundary_").append(std::to_string(number));
     read_rows("edges of boundary " + std::to_string(number) + " (" + name + ")", edges);
     auto& boundaries = loaded_.mesh.boundaries;
-    const auto same = std::find_if(boundaries.begin(), boundaries.end(), [&](const auto& b) { return b.name == name; });
-    if (same == boundaries.end()) {
+    const auto [place, is_new] = boundary_names_.place_of(name);
+    if (is_new) {
       boundaries.push_back({name, "none", std::move(edges)});
     } else {
-      same->edges.insert(same->edges.end(), edges.begin(), edges.end());
+      auto& same = boundaries[static_cast<std::size_t>(place)].edges;
+      same.insert(same.end(), edges.begin(), edges.end());
     }
   }
 
@@ -149,6 +151,7 @@ class NativeReader {
 
   TextScanner scan_;
   LoadedMesh loaded_;
+  NameIndex boundary_names_;
 };
 
 }  // namespace

@@ -74,13 +74,18 @@ class NativeWriter {
   }
 
   void write_boundaries() {
-    const std::vector<const BoundaryEdges*> present = boundaries_with_edges(comm_, mesh_);
-    file_.write("#Number of boundaries\n" + std::to_string(present.size()) + "\n");
-    int number = 0;
-    for (const BoundaryEdges* boundary : present) {
-      const std::string comment = "#Number of edges for boundary " + std::to_string(++number) + " (" + boundary->name + ")\n";
-      write_connectivity(comment, std::span(boundary->edges));
-    }
+    const BoundaryStream boundaries(comm_, mesh_);
+    file_.write("#Number of boundaries\n" + std::to_string(boundaries.present().size()) + "\n");
+    file_.write_boundaries(
+        boundaries, 2,
+        [&](std::size_t n) {
+          return "#Number of edges for boundary " + std::to_string(n + 1) + " (" + boundaries.present()[n]->name + ")\n" +
+                 std::to_string(boundaries.edges_of(n)) + "\n";
+        },
+        [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
+          text.put(edge[0] + 1, ' ');
+          text.put(edge[1] + 1, '\n');
+        });
   }
 
   const Communicator& comm_;

@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <span>
 
+#include "io/name_index.hpp"
 #include "io/su2_file.hpp"
 #include "io/text_output.hpp"
 
@@ -23,11 +23,10 @@ std::string marker_name(const std::string& name) {
 /// Each boundary's name as SU2 can hold it, all of them different.
 std::vector<std::string> marker_names(const std::vector<const BoundaryEdges*>& boundaries) {
   std::vector<std::string> names;
+  DistinctNames distinct;
   for (const BoundaryEdges* boundary : boundaries) {
     const std::string wanted = marker_name(boundary->name);
-    std::string name = wanted;
-    for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number) name = wanted + "_" + std::to_string(number);
-    names.push_back(name);
+    names.push_back(distinct.name(wanted, [&](const std::string& suffix) { return wanted + suffix; }));
   }
   return names;
 }
@@ -70,18 +69,16 @@ class Su2Writer {
   }
 
   void write_markers() {
-    const std::vector<const BoundaryEdges*> present = boundaries_with_edges(comm_, mesh_);
-    const std::vector<std::string> names = marker_names(present);
-    file_.write("NMARK= " + std::to_string(present.size()) + "\n");
-    for (std::size_t b = 0; b < present.size(); ++b) {
-      const auto& edges = present[b]->edges;
-      file_.write("MARKER_TAG= " + names[b] + "\nMARKER_ELEMS= " + std::to_string(total(edges)) + "\n");
-      file_.write_rows(edges.size(), 3, [&](TextRows& text, std::size_t i) {
-        text.put(vtk_line, ' ');
-        text.put(mesh_.global(edges[i][0]).value(), ' ');
-        text.put(mesh_.global(edges[i][1]).value(), '\n');
-      });
-    }
+    const BoundaryStream boundaries(comm_, mesh_);
+    const std::vector<std::string> names = marker_names(boundaries.present());
+    file_.write("NMARK= " + std::to_string(names.size()) + "\n");
+    file_.write_boundaries(
+        boundaries, 3, [&](std::size_t n) { return "MARKER_TAG= " + names[n] + "\nMARKER_ELEMS= " + std::to_string(boundaries.edges_of(n)) + "\n"; },
+        [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
+          text.put(vtk_line, ' ');
+          text.put(edge[0], ' ');
+          text.put(edge[1], '\n');
+        });
   }
 
   const Communicator& comm_;

@@ -21,12 +21,4 @@ void TextOutput::close() {
   });
 }
 
-std::vector<const BoundaryEdges*> boundaries_with_edges(const Communicator& comm, const Mesh& mesh) {
-  std::vector<const BoundaryEdges*> present;
-  for (const BoundaryEdges& boundary : mesh.boundaries) {
-    if (comm.any(!boundary.edges.empty())) present.push_back(&boundary);
-  }
-  return present;
-}
-
 }  // namespace quadloop

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/boundary_stream.hpp"
 #include "io/output_file.hpp"
 #include "io/row_stream.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -61,16 +62,42 @@ class TextOutput {
         });
   }
 
+  /// Rows that rank 0 alone makes.
+  template <class Put>
+  void write_root_rows(std::int64_t rows, std::size_t width, const Put& put) {
+    write_rows(static_cast<std::size_t>(comm_.is_root() ? rows : 0), width, put);
+  }
+
+  /// The edges of all boundaries: `head(n)` is the text before those of present()[n], `put(text, n, edge)` puts at most `width` numbers for one.
+  template <class Head, class Put>
+  void write_boundaries(const BoundaryStream& boundaries, std::size_t width, const Head& head, const Put& put) {
+    std::size_t under_way = 0;
+    std::string waiting;  // boundaries of a few edges each would be as many small writes
+    boundaries.run(
+        [&](std::size_t n) {
+          under_way = n;
+          waiting += head(n);
+        },
+        [&](std::span<const BoundaryStream::Edge> edges) {
+          TextRows rows(static_cast<std::int64_t>(edges.size()), width);
+          for (const BoundaryStream::Edge& edge : edges) put(rows, under_way, edge);
+          const std::vector<char> text = rows.take();
+          waiting.append(text.begin(), text.end());
+          if (waiting.size() < largest_wait) return;
+          file_->write(waiting);
+          waiting.clear();
+        });
+    write(waiting);
+  }
+
   void close();
 
  private:
   static constexpr std::int64_t rows_per_piece = std::int64_t{1} << 16;
+  static constexpr std::size_t largest_wait = std::size_t{1} << 20;  // bytes
 
   const Communicator& comm_;
   std::unique_ptr<OutputFile> file_;
 };
-
-/// The boundaries that have edges on any rank, in their order. *Collective.*
-std::vector<const BoundaryEdges*> boundaries_with_edges(const Communicator& comm, const Mesh& mesh);
 
 }  // namespace quadloop

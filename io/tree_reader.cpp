@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "io/hdf5_handle.hpp"
+#include "io/separate_reader.hpp"
 #include "io/tree_check.hpp"
 #include "io/tree_file.hpp"
 #include "mesher/base/input_file.hpp"
@@ -34,13 +35,22 @@ class TreeSource {
 
   std::int64_t leaves() const { return rows_of(open("x")); }
 
-  std::vector<LeafRecord> read(std::int64_t begin, std::int64_t end) const {
-    const std::int64_t all = leaves();
-    std::vector<LeafRecord> result(static_cast<std::size_t>(end - begin));
+  /// Refuses datasets that declare more rows than the file holds, before memory is taken for them.
+  void require_stored(std::int64_t leaves) const {
     for_each_tree_dataset([&](const char* name, const auto& members) {
       const Hdf5Handle dataset = open(name);
-      if (rows_of(dataset) != all) refuse(std::string("its dataset \"") + name + "\" has another length than \"x\"");
-      if (begin < end) read_column(dataset, name, members, begin, result);
+      if (rows_of(dataset) != leaves) refuse(std::string("its dataset \"") + name + "\" has another length than \"x\"");
+      if (!may_hold(dataset, static_cast<hsize_t>(leaves) * members.size())) {
+        refuse(std::string("its dataset \"") + name + "\" is said to have " + std::to_string(leaves) +
+               " rows, more than the file holds; it is cut short or damaged");
+      }
+    });
+  }
+
+  std::vector<LeafRecord> read(std::int64_t begin, std::int64_t end) const {
+    std::vector<LeafRecord> result(static_cast<std::size_t>(end - begin));
+    for_each_tree_dataset([&](const char* name, const auto& members) {
+      if (begin < end) read_column(open(name), name, members, begin, result);
     });
     return result;
   }
@@ -68,6 +78,14 @@ class TreeSource {
     return H5Sget_simple_extent_dims(space.id(), size.data(), nullptr) < 1 ? 0 : static_cast<std::int64_t>(size[0]);
   }
 
+  /// Whether what is stored can be as many numbers; filters pack at most 1032 bytes into one.
+  static bool may_hold(const Hdf5Handle& dataset, hsize_t numbers) {
+    const Hdf5Handle type(H5Dget_type(dataset.id()), H5Tclose), creation(H5Dget_create_plist(dataset.id()), H5Pclose);
+    const hsize_t largest_ratio = H5Pget_nfilters(creation.id()) == 0 ? 1 : 1100;
+    const hsize_t width = H5Tget_size(type.id());
+    return width > 0 && numbers <= H5Dget_storage_size(dataset.id()) * largest_ratio / width;
+  }
+
   template <class T, std::size_t width>
   void read_column(const Hdf5Handle& dataset, const char* name, const std::array<T LeafRecord::*, width>& members, std::int64_t first,
                    std::vector<LeafRecord>& leaves) const {
@@ -92,22 +110,39 @@ class TreeSource {
   Hdf5Handle file_;
 };
 
+/// What one rank takes from the file.
+struct TreeShare {
+  TreeRecord tree;
+  std::optional<LeafRecord> before;  ///< the last leaf of the rank before
+};
+
+template <class Pipe>
+void pass_fields(Pipe& pipe, TreeShare& share) {
+  pass(pipe, share.tree.attributes);
+  pass(pipe, share.tree.leaves);
+  pass(pipe, share.before);
+}
+
+TreeShare read_share(const std::string& path, std::int64_t rank, std::int64_t ranks) {
+  const TreeSource source(path);
+  TreeShare share;
+  share.tree.attributes = source.attributes();
+  const std::int64_t all = source.leaves();
+  require_possible_attributes(share.tree.attributes, all, path);
+  source.require_stored(all);
+  const std::int64_t begin = all / ranks * rank + std::min(all % ranks, rank), end = all / ranks * (rank + 1) + std::min(all % ranks, rank + 1);
+  share.tree.leaves = source.read(begin, end);
+  if (begin > 0 && begin < end) share.before = source.read(begin - 1, begin).front();
+  return share;
+}
+
 }  // namespace
 
 TreeRecord read_tree(const Communicator& comm, const std::string& path) {
-  TreeRecord tree;
-  std::optional<LeafRecord> before;
-  comm.together([&] {
-    const TreeSource source(path);
-    tree.attributes = source.attributes();
-    const std::int64_t all = source.leaves(), rank = comm.rank(), ranks = comm.size();
-    require_possible_attributes(tree.attributes, all, path);
-    const std::int64_t begin = all / ranks * rank + std::min(all % ranks, rank), end = all / ranks * (rank + 1) + std::min(all % ranks, rank + 1);
-    tree.leaves = source.read(begin, end);
-    if (begin > 0 && begin < end) before = source.read(begin - 1, begin).front();
-  });
-  require_whole_tree(comm, tree, before, path);
-  return tree;
+  TreeShare share;
+  comm.together([&] { share = read_separately<TreeShare>(path, [&] { return read_share(path, comm.rank(), comm.size()); }); });
+  require_whole_tree(comm, share.tree, share.before, path);
+  return std::move(share.tree);
 }
 
 }  // namespace quadloop

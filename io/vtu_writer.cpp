@@ -45,7 +45,7 @@ std::string text_array(const std::string& name, const std::vector<std::string>& 
 class VtuWriter {
  public:
   VtuWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
-      : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path}, boundaries_{boundaries_with_edges(comm_, mesh)} {}
+      : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path}, boundaries_{comm_, mesh} {}
 
   void write(const LoadedMesh* blocks, const Solution* solution) {
     write_head(blocks);
@@ -63,12 +63,9 @@ class VtuWriter {
   std::int64_t total(const auto& rows) const { return comm_.sum(static_cast<std::int64_t>(rows.size())); }
 
   void write_head(const LoadedMesh* blocks) {
-    std::int64_t cells = total(mesh_.triangles) + total(mesh_.quads);
+    const std::int64_t cells = total(mesh_.triangles) + total(mesh_.quads) + boundaries_.all_edges();
     std::vector<std::string> names;
-    for (const BoundaryEdges* boundary : boundaries_) {
-      cells += total(boundary->edges);
-      names.push_back(boundary->name);
-    }
+    for (const BoundaryEdges* boundary : boundaries_.present()) names.push_back(boundary->name);
     std::string head =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
     head += "<UnstructuredGrid>\n<FieldData>\n" + text_array("boundary_names", names);
@@ -88,12 +85,11 @@ class VtuWriter {
     file_.write("</DataArray>\n</Points>\n");
   }
 
-  /// `visit(rows, type)` for each kind of element.
+  /// `visit(rows, type)` for each kind of cell; the boundaries' edges follow them.
   template <class Visit>
   void for_each_kind(const Visit& visit) const {
     visit(mesh_.triangles, vtk_triangle);
     visit(mesh_.quads, vtk_quad);
-    for (const BoundaryEdges* boundary : boundaries_) visit(boundary->edges, vtk_line);
   }
 
   void write_cells() {
@@ -103,7 +99,21 @@ class VtuWriter {
         for (std::size_t k = 0; k < rows[i].size(); ++k) text.put(mesh_.global(rows[i][k]).value(), k + 1 < rows[i].size() ? ' ' : '\n');
       });
     });
+    file_.write_boundaries(
+        boundaries_, 2, [](std::size_t) { return std::string(); },
+        [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
+          text.put(edge[0], ' ');
+          text.put(edge[1], '\n');
+        });
     file_.write("</DataArray>\n" + array_tag("Int64", "offsets"));
+    write_offsets();
+    file_.write("</DataArray>\n" + array_tag("UInt8", "types"));
+    for_each_kind([&](const auto& rows, int type) { write_repeated(rows.size(), type); });
+    file_.write_root_rows(boundaries_.all_edges(), 1, [](TextRows& text, std::size_t) { text.put(vtk_line, '\n'); });
+    file_.write("</DataArray>\n</Cells>\n");
+  }
+
+  void write_offsets() {
     std::int64_t before = 0;
     for_each_kind([&]<class Row>(const std::vector<Row>& rows, int) {
       constexpr auto width = static_cast<std::int64_t>(std::tuple_size_v<Row>);
@@ -111,9 +121,8 @@ class VtuWriter {
       file_.write_rows(rows.size(), 1, [&](TextRows& text, std::size_t i) { text.put(first + width * (static_cast<std::int64_t>(i) + 1), '\n'); });
       before += width * total(rows);
     });
-    file_.write("</DataArray>\n" + array_tag("UInt8", "types"));
-    for_each_kind([&](const auto& rows, int type) { write_repeated(rows.size(), type); });
-    file_.write("</DataArray>\n</Cells>\n");
+    file_.write_root_rows(boundaries_.all_edges(), 1,
+                          [&](TextRows& text, std::size_t i) { text.put(before + 2 * (static_cast<std::int64_t>(i) + 1), '\n'); });
   }
 
   void write_repeated(std::size_t rows, std::int32_t number) {
@@ -137,8 +146,12 @@ class VtuWriter {
     file_.write(array_tag("Int32", "boundary"));
     write_repeated(mesh_.triangles.size(), 0);
     write_repeated(mesh_.quads.size(), 0);
-    std::int32_t number = 0;
-    for (const BoundaryEdges* boundary : boundaries_) write_repeated(boundary->edges.size(), ++number);
+    std::size_t number = 0;  // rows come in their order
+    std::int64_t end = 0;
+    file_.write_root_rows(boundaries_.all_edges(), 1, [&](TextRows& text, std::size_t i) {
+      while (static_cast<std::int64_t>(i) >= end) end += boundaries_.edges_of(number++);
+      text.put(number, '\n');
+    });
     file_.write("</DataArray>\n");
   }
 
@@ -147,14 +160,14 @@ class VtuWriter {
     for (const auto* cell_to_block : {&whole.triangle_to_block, &whole.quad_to_block}) {
       file_.write_rows(cell_to_block->size(), 1, [&](TextRows& text, std::size_t i) { text.put((*cell_to_block)[i] + 1, '\n'); });
     }
-    for (const BoundaryEdges* boundary : boundaries_) write_repeated(boundary->edges.size(), 0);
+    file_.write_root_rows(boundaries_.all_edges(), 1, [](TextRows& text, std::size_t) { text.put(0, '\n'); });
     file_.write("</DataArray>\n");
   }
 
   const Communicator& comm_;
   const Mesh& mesh_;
   TextOutput file_;
-  std::vector<const BoundaryEdges*> boundaries_;
+  BoundaryStream boundaries_;
 };
 
 }  // namespace

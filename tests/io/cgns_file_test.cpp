@@ -1,0 +1,151 @@
+// CGNS files that others write, whole and wrong, put together by the library and, where that refuses to write what is wrong, by HDF5. On one rank
+// alone.
+#include "io/cgns_file.hpp"
+
+#include <cgnslib.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "io/tree_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/validate.hpp"
+#include "tests/io/sample_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::TemporaryFolder;
+
+constexpr std::int32_t largest = std::numeric_limits<std::int32_t>::max();
+
+/// Puts other data, of a type and size that the file did not have, in the place of a dataset's; what is only declared is nowhere in the file.
+void replace_data(const std::string& path, const std::string& dataset, const std::vector<hsize_t>& size, const std::vector<std::int32_t>& numbers) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), space = H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr);
+  ASSERT_GE(H5Ldelete(file, dataset.c_str(), H5P_DEFAULT), 0) << dataset;
+  const hid_t data = H5Dcreate2(file, dataset.c_str(), H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const bool written = numbers.empty() || H5Dwrite(data, H5T_NATIVE_INT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0;
+  EXPECT_TRUE(written) << dataset;
+  H5Dclose(data);
+  H5Sclose(space);
+  H5Fclose(file);
+}
+
+/// A unit square of one quad and, to its right, two triangles; the edges below are bars 4 and 5, the boundary "wall".
+void write_sample(const std::string& path, bool mixed) {
+  int file = 0, base = 0, zone = 0, at = 0;
+  const std::array<cgsize_t, 3> size{6, 3, 0};
+  const std::array<double, 6> x{0, 1, 2, 0, 1, 2}, y{0, 0, 0, 1, 1, 1};
+  cg_set_file_type(CG_FILE_HDF5);
+  ASSERT_EQ(cg_open(path.c_str(), CG_MODE_WRITE, &file), CG_OK);
+  cg_base_write(file, "Base", 2, 2, &base);
+  cg_zone_write(file, base, "Zone", size.data(), Unstructured, &zone);
+  cg_coord_write(file, base, zone, RealDouble, "CoordinateX", x.data(), &at);
+  cg_coord_write(file, base, zone, RealDouble, "CoordinateY", y.data(), &at);
+  if (mixed) {
+    const std::array<cgsize_t, 19> elements{QUAD_4, 1, 2, 5, 4, TRI_3, 2, 3, 6, TRI_3, 2, 6, 5, BAR_2, 1, 2, BAR_2, 2, 3};
+    const std::array<cgsize_t, 6> offsets{0, 5, 9, 13, 16, 19};
+    EXPECT_EQ(cg_poly_section_write(file, base, zone, "All", MIXED, 1, 5, 0, elements.data(), offsets.data(), &at), CG_OK);
+  } else {
+    const std::array<cgsize_t, 4> quad{1, 2, 5, 4}, bars{1, 2, 2, 3};
+    const std::array<cgsize_t, 6> triangles{2, 3, 6, 2, 6, 5};
+    cg_section_write(file, base, zone, "Quads", QUAD_4, 1, 1, 0, quad.data(), &at);
+    cg_section_write(file, base, zone, "Triangles", TRI_3, 2, 3, 0, triangles.data(), &at);
+    cg_section_write(file, base, zone, "Bars", BAR_2, 4, 5, 0, bars.data(), &at);
+  }
+  EXPECT_EQ(cg_boco_write(file, base, zone, "wall", BCWall, PointRange, 2, std::array<cgsize_t, 2>{4, 5}.data(), &at), CG_OK);
+  cg_boco_gridlocation_write(file, base, zone, at, EdgeCenter);
+  ASSERT_EQ(cg_close(file), CG_OK);
+}
+
+/// The refusal of the sample after one change; "" where it is read.
+std::string refusal_after(const std::function<void(const std::string&)>& change, bool mixed = false) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("m.cgns");
+  write_sample(path, mixed);
+  change(path);
+  try {
+    read_cgns(path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The same, where the numbers of the boundary's range are others.
+std::string refusal_of_range(const std::vector<std::int32_t>& numbers) {
+  return refusal_after([&](const std::string& path) { replace_data(path, "/Base/Zone/ZoneBC/wall/PointRange/ data", {numbers.size(), 1}, numbers); });
+}
+
+void expect_in(const std::string& text, const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << text << "\nlacks\n" << part; }
+
+TEST(CgnsReader, ReadsSectionsOfOneKindAndMixedOnes) {
+  for (const bool mixed : {false, true}) {
+    const TemporaryFolder folder;
+    write_sample(folder.file("m.cgns"), mixed);
+    const LoadedMesh loaded = read_cgns(folder.file("m.cgns"));
+    EXPECT_EQ(loaded.mesh.quads.size(), 1U);
+    EXPECT_EQ(loaded.mesh.triangles.size(), 2U);
+    ASSERT_EQ(loaded.mesh.boundaries.size(), 1U);
+    EXPECT_EQ(loaded.mesh.boundaries[0].name, "wall");
+    EXPECT_EQ(loaded.mesh.boundaries[0].condition, "wall");
+    EXPECT_EQ(loaded.mesh.boundaries[0].edges, (std::vector<std::array<NodeId, 2>>{{NodeId{0}, NodeId{1}}, {NodeId{1}, NodeId{2}}}));
+  }
+}
+
+TEST(CgnsReader, RefusesRangesThatAreNone) {
+  expect_in(refusal_of_range({5, 1}), "m.cgns: zone Zone: boundary wall is of the elements 5 to 1, which is no range");
+  expect_in(refusal_of_range({4, largest}), "boundary wall names element 6, which is no BAR_2");
+  expect_in(refusal_of_range({1, largest}), "boundary wall names element 1, which is no BAR_2");
+  expect_in(refusal_of_range({4}), "m.cgns: ");
+  expect_in(refusal_of_range({-largest, largest}), "which is no BAR_2");
+}
+
+TEST(CgnsReader, RefusesSectionsThatDoNotHoldTheirRange) {
+  const auto refusal = [](const std::vector<std::int32_t>& range) {
+    return refusal_after([&](const std::string& path) { replace_data(path, "/Base/Zone/Bars/ElementRange/ data", {2}, range); });
+  };
+  for (const std::vector<std::int32_t>& range : {std::vector<std::int32_t>{5, 4}, {4, largest}, {4, 4}, {-3, largest}, {0, 1}}) {
+    expect_in(refusal(range), "m.cgns: ");
+  }
+}
+
+/// The library writes as many offsets as the file has, whatever the section's range: more than there is room for.
+TEST(CgnsReader, TakesNoOffsetsOfMixedSectionsThatItHasNoRoomFor) {
+  const std::vector<std::int32_t> offsets(100000, 0);
+  const std::string refusal =
+      refusal_after([&](const std::string& path) { replace_data(path, "/Base/Zone/All/ElementStartOffset/ data", {offsets.size()}, offsets); }, true);
+  EXPECT_EQ(refusal.find("crashed"), std::string::npos) << refusal;
+}
+
+TEST(CgnsReader, TakesNoMemoryForWhatIsOnlyDeclared) {
+  expect_in(refusal_after([](const std::string& path) { replace_data(path, "/Base/Zone/ data", {3, 1}, {largest, 3, 0}); }), "m.cgns: ");
+  expect_in(refusal_after([](const std::string& path) { replace_data(path, "/Base/Zone/Quads/ElementConnectivity/ data", {1U << 30}, {}); }),
+            "m.cgns: ");
+}
+
+TEST(TreeReader, RefusesMoreRowsThanTheFileHolds) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("t.h5");
+  write_tree(test::world(), test::sample_tree(100, 0, 1), path);
+  for (const char* name : {"x", "y", "tree", "level", "wanted", "mark", "triangles", "quads", "adapted"}) {
+    const bool pair = std::string(name) == "tree";
+    replace_data(path, name, pair ? std::vector<hsize_t>{1U << 28, 2} : std::vector<hsize_t>{1U << 28}, {});
+  }
+  std::string refusal;
+  try {
+    read_tree(test::world(), path);
+  } catch (const InputError& error) {
+    refusal = error.what();
+  }
+  expect_in(refusal, "t.h5: its dataset \"tree\" is said to have 268435456 rows, more than the file holds");
+}
+
+}  // namespace
+}  // namespace quadloop
