@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "adapt/mark_family.hpp"
 #include "adapt/restart.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/mesh_estimate.hpp"
 
 namespace quadloop {
 
@@ -20,13 +22,20 @@ class NodeSearch {
 
   ChangedSplits changes_at(double at) const { return changed_splits(comm_, solved_.tree, family_.marks(at), finest_); }
 
+  /// As many as no mesh has where the mesh would not be allowed.
   std::int64_t nodes_after(const ChangedSplits& changes) const {
-    return build_mesh(comm_, input_.geometry, input_.mesh, DemandedSplits(comm_, changes.demands)).tree.attributes.nodes;
+    try {
+      return build_mesh(comm_, input_.geometry, input_.mesh, DemandedSplits(comm_, changes.demands)).tree.attributes.nodes;
+    } catch (const TooManyCells&) {  // by an estimate that all ranks make
+      return beyond;
+    }
   }
+
+  bool allowed(const ChangedSplits& changes) const { return share_after(changes) <= 1; }
 
   /// The largest meshes within the cap, as far as they are found; the one of the fewest nodes where none is.
   ChangedSplits within(std::int64_t most, ChangedSplits all) const {
-    constexpr double enough = 0.95;
+    constexpr double enough = 0.95, enough_of_limit = 0.8;
     constexpr int most_steps = 24;
     if (nodes_after(all) <= most) return all;
     double low = -1, high = 1;
@@ -35,14 +44,21 @@ class NodeSearch {
       const double middle = 0.5 * (low + high);
       ChangedSplits tried = changes_at(middle);
       const std::int64_t nodes = nodes_after(tried);
+      const bool full = static_cast<double>(nodes) >= enough * static_cast<double>(most) || share_after(tried) >= enough_of_limit;
       (nodes <= most ? low : high) = middle;
       if (nodes <= most) best = std::move(tried);
-      if (nodes <= most && static_cast<double>(nodes) >= enough * static_cast<double>(most)) break;
+      if (nodes <= most && full) break;
     }
     return best;
   }
 
+  static constexpr std::int64_t beyond = std::numeric_limits<std::int64_t>::max();
+
  private:
+  double share_after(const ChangedSplits& changes) const {
+    return share_of(input_.mesh.limit, estimate_mesh(input_.geometry, input_.mesh, DemandedSplits(comm_, changes.demands)));
+  }
+
   const Communicator& comm_;
   const MeshInput& input_;
   const SolvedMesh& solved_;
@@ -90,10 +106,14 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   const ChangedSplits all = search.changes_at(1);
   ChangedSplits changes = all;
   AdaptationPlan plan;
+  const bool bounded = !search.allowed(all);
+  if (bounded) {
+    plan.warnings.emplace_back("the mesh is kept to what --max-cells or free memory allows: fewer leaves are refined than are marked");
+  }
+  if (options.max_nodes || bounded) changes = search.within(options.max_nodes.value_or(NodeSearch::beyond - 1), all);
   if (options.max_nodes) {
-    changes = search.within(*options.max_nodes, all);
     const std::int64_t nodes = search.nodes_after(changes);
-    if (nodes > *options.max_nodes) {
+    if (nodes > *options.max_nodes && nodes != NodeSearch::beyond) {
       plan.warnings.push_back(
           fmt::format("the mesh has {} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them", nodes, *options.max_nodes));
     }

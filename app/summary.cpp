@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "mesher/mesh/mesh_estimate.hpp"
 #include "mesher/mesh/quality.hpp"
 
 namespace quadloop {
@@ -65,11 +66,14 @@ std::string summary_table(const Communicator& comm, const MeshResult& result, co
   const TreeAttributes& counts = result.tree.attributes;
   const MeshReport& report = result.report;
   std::string text = row("nodes", counts.nodes) + row("triangles", counts.triangles) + row("quads", counts.quads);
+  text += row("cells, estimated", text_of_cells(report.estimate.cells));
   text += row("leaves", report.leaves) + row("cut leaves", report.cut_leaves);
   text += row("levels", fmt::format("{} to {}", report.coarsest_level, report.finest_level));
   text += row("worst quality", fmt::format("{:.3f}", quality.worst)) + row("mean quality", fmt::format("{:.3f}", quality.mean));
   text += row("smallest angle", fmt::format("{:.2f} degrees", quality.smallest_degrees));
-  text += row("peak memory", fmt::format("{:.0f} MiB", memory)) + row("imbalance", fmt::format("{:.3f}", report.imbalance));
+  text += row("peak memory", fmt::format("{:.0f} MiB", memory)) +
+          row("estimated", text_of_bytes(report.estimate.bytes / comm.size() + report.estimate.bytes_of_rank)) +
+          row("imbalance", fmt::format("{:.3f}", report.imbalance));
   text += stages;
   for (const std::string& file : files) text += fmt::format("  wrote {}\n", file);
   return text + vanished_text(report.boundaries_vanished);
