@@ -75,7 +75,9 @@ int finest_level(const MeshInput& input, const AdaptOptions& options) {
 std::string reason_for_standing(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved, const MarkFamily& family,
                                 const ChangedSplits& all) {
   if (family.flat()) return fmt::format("{} is constant", options.variables.size() == 1 ? options.variables.front() : "each of adapt.variable");
-  if (all.refined + all.coarsened > 0) return fmt::format("adapt.max_nodes = {} leaves no room", options.max_nodes.value_or(0));
+  if (all.refined + all.coarsened > 0)
+    return fmt::format("{} leaves no room",
+                       options.max_nodes ? fmt::format("adapt.max_nodes = {}", *options.max_nodes) : "--max-cells or free memory");
   const std::vector<Mark> marks = family.marks(1);
   const std::int64_t wanted = comm.sum(std::int64_t{std::count(marks.begin(), marks.end(), Mark::refine)});
   if (wanted == 0 && options.source == AdaptOptions::Source::size) return "no leaf is larger than " + options.variables.front() + " asks for there";

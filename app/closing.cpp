@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "mesher/base/progress.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -20,6 +22,7 @@ constexpr auto patience = std::chrono::milliseconds(2000);  // how far apart ran
 void say(const Outcome& outcome) {
   std::string line = "quadloop: error: " + outcome.message;
   for (char& c : line) c = c == '\n' || c == '\r' ? ' ' : c;
+  progress::clear();
   fmt::print(stderr, "{}\n", line);
   std::fflush(stderr);
 }

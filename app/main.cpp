@@ -19,6 +19,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/free_memory.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/base/progress.hpp"
 
 namespace quadloop {
 
@@ -125,6 +126,7 @@ void run(int argc, char** argv, const Communicator& comm) {
     return;
   }
   log::configure({comm.rank(), comm.size(), context.quiet, context.verbose});
+  if (comm.is_root() && !context.quiet) progress::show();
   context.run();
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/progress.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/restore_delaunay.hpp"
@@ -165,9 +166,12 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
   const Survey before = survey(comm, halo, targets, options.threshold);
   const NodeStars stars(halo, free_nodes(before, halo, slide), targets);
   Sweeper sweeper(comm, halo, stars, slide, options.method, options.objective, options.threshold);
+  progress::Stage stage("smoothing", options.sweeps, "sweeps");
   for (std::int64_t moves = 1; report.sweeps < options.sweeps && moves > 0; ++report.sweeps) {
     moves = sweeper.sweep();
     report.moves += moves;
+    stage.say("sweep " + std::to_string(report.sweeps + 1) + ", " + std::to_string(moves) + " nodes moved");
+    stage.advance(report.sweeps + 1);
   }
   WorstCell after = worst_cell(comm, halo, targets, before);
   const std::vector<char> moved = take_positions(halo, mesh);

@@ -4,6 +4,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/base/progress.hpp"
 #include "mesher/forest/refine_forest.hpp"
 #include "mesher/mesh/assemble_mesh.hpp"
 #include "mesher/mesh/islands.hpp"
@@ -71,7 +72,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   require_within(result.report.estimate, geometry, options, demanded);
 
   times.begin("refinement");
-  const LeafGraph graph = refine_forest(comm, sizes);
+  const LeafGraph graph = refine_forest(comm, sizes, result.report.estimate.leaves);
 
   times.begin("cutting");
   const CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap);
@@ -81,6 +82,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
 
   if (options.type == MeshType::delaunay) {
     times.begin("delaunay");
+    const progress::Stage stage("delaunay");
     make_delaunay(comm, domain.lattice, sizes.finest_level(), graph, cut, result.mesh, result.tree.leaves);
   }
   times.end();

@@ -18,7 +18,7 @@ void add_spacing(const SizeSettings& settings, double side, std::vector<CellDema
       {"spacing.max", settings.size.max, side, true, [](SizeSettings& s, double value) { s.size.max = std::max(value, s.size.min); }, {}});
   if (settings.size.curvature) {
     demands.push_back(
-        {"spacing.curvature", *settings.size.curvature, 360, true, [](SizeSettings& s, double value) { s.size.curvature = value; }, {}});
+        {"spacing.curvature", *settings.size.curvature, 180, true, [](SizeSettings& s, double value) { s.size.curvature = value; }, {}});
   }
   if (settings.size.gap) {
     demands.push_back({"spacing.gap", *settings.size.gap, 0, false, [](SizeSettings& s, double value) { s.size.gap = value; }, {}});
