@@ -109,7 +109,7 @@ void Stage::draw() {
   if (total_ > 0) line += formatted("  %3.0f %%", 100 * share);
   for (const std::string* text : {&text_, &then_}) line += text->empty() ? "" : "  " + *text;
   if (done_ > 0 && seconds > 0) line += "  " + rate_text(done_ / seconds) + " " + unit_ + "/s";
-  if (share > 0 && seconds > between_lines) line += "  " + duration_text(seconds * (1 - share) / share) + " left";
+  if (share > 0 && share < 1 && seconds > between_lines) line += "  " + duration_text(seconds * (1 - share) / share) + " left";
   line.resize(std::min(line.size(), columns() - 1));
   std::fprintf(stderr, "\r%s\033[K", line.c_str());
   std::fflush(stderr);

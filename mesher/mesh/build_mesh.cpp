@@ -68,8 +68,8 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
 
   times.begin("estimate");
   result.report.estimate = estimate_mesh(geometry, options.type, domain);
-  tell(result.report.estimate, comm.size(), demanded.empty());
   require_within(result.report.estimate, geometry, options, demanded);
+  tell(result.report.estimate, comm.size(), demanded.empty());
 
   times.begin("refinement");
   const LeafGraph graph = refine_forest(comm, sizes, result.report.estimate.leaves);
