@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "adapt/mark_family.hpp"
 #include "adapt/restart.hpp"
@@ -33,21 +34,21 @@ class NodeSearch {
 
   bool allowed(const ChangedSplits& changes) const { return share_after(changes) <= 1; }
 
-  /// The largest meshes within the cap, as far as they are found; the one of the fewest nodes where none is.
-  ChangedSplits within(std::int64_t most, ChangedSplits all) const {
-    constexpr double enough = 0.95, enough_of_limit = 0.8;
+  /// The largest meshes within the cap and within what is allowed, as far as they are found; the one of the fewest nodes where none is. Without a cap
+  /// estimates do.
+  ChangedSplits within(const std::optional<std::int64_t>& most, ChangedSplits all) const {
+    constexpr double enough = 0.95;
     constexpr int most_steps = 24;
-    if (nodes_after(all) <= most) return all;
+    if (filled(most, all) <= 1) return all;
     double low = -1, high = 1;
     ChangedSplits best = changes_at(low);
     for (int step = 0; step < most_steps; ++step) {
       const double middle = 0.5 * (low + high);
       ChangedSplits tried = changes_at(middle);
-      const std::int64_t nodes = nodes_after(tried);
-      const bool full = static_cast<double>(nodes) >= enough * static_cast<double>(most) || share_after(tried) >= enough_of_limit;
-      (nodes <= most ? low : high) = middle;
-      if (nodes <= most) best = std::move(tried);
-      if (nodes <= most && full) break;
+      const double share = filled(most, tried);
+      (share <= 1 ? low : high) = middle;
+      if (share <= 1) best = std::move(tried);
+      if (share <= 1 && share >= enough) break;
     }
     return best;
   }
@@ -55,6 +56,13 @@ class NodeSearch {
   static constexpr std::int64_t beyond = std::numeric_limits<std::int64_t>::max();
 
  private:
+  /// Of cap and limit, the share that is nearer to being used up; above 1: too many.
+  double filled(const std::optional<std::int64_t>& most, const ChangedSplits& changes) const {
+    const double of_limit = share_after(changes);
+    if (!most || of_limit > 1) return of_limit;
+    return std::max(of_limit, static_cast<double>(nodes_after(changes)) / static_cast<double>(*most));
+  }
+
   double share_after(const ChangedSplits& changes) const {
     return share_of(input_.mesh.limit, estimate_mesh(input_.geometry, input_.mesh, DemandedSplits(comm_, changes.demands)));
   }
@@ -112,7 +120,7 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   if (bounded) {
     plan.warnings.emplace_back("the mesh is kept to what --max-cells or free memory allows: fewer leaves are refined than are marked");
   }
-  if (options.max_nodes || bounded) changes = search.within(options.max_nodes.value_or(NodeSearch::beyond - 1), all);
+  if (options.max_nodes || bounded) changes = search.within(options.max_nodes, all);
   if (options.max_nodes) {
     const std::int64_t nodes = search.nodes_after(changes);
     if (nodes > *options.max_nodes && nodes != NodeSearch::beyond) {

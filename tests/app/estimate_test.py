@@ -2,6 +2,7 @@
 
     python3 estimate_test.py QUADLOOP MPIRUN
 """
+import json
 import math
 import re
 import resource
@@ -105,6 +106,18 @@ class Estimate(ProgramTest):
         case = self.case(geom(("box", square(1))), "min = 1e-6\nmax = 2e-6")
         self.refused(1, ["e+12 cells", "are free", "spacing.max = 2e-06", "--max-cells"], "mesh", case, "-o", "out")
         self.assertFalse((self.folder / "out.mesh").exists())
+
+    def test_adaptation_keeps_within_the_limit(self):
+        cells = []
+        for allowed in ("2400", "100000"):
+            warnings = self.done("adapt", str(CASES / "wedge/case.toml"), "-o", allowed, "--cycles", "1", "--max-cells", allowed)[1]
+            self.assertEqual("fewer leaves are refined than are marked" in warnings, allowed == "2400", warnings)
+            counts = [json.loads((self.folder / allowed / f"cycle_0{k}/record.json").read_text()) for k in (0, 1)]
+            cells.append([record["triangles"] + record["quads"] for record in counts])
+        self.assertEqual(cells[0][0], cells[1][0])
+        self.assertLess(cells[0][0], cells[0][1])
+        self.assertLess(cells[0][1], 2400 * FACTOR)
+        self.assertLess(cells[0][1], cells[1][1])
 
     def test_out_of_memory_is_one_line(self):
         case = self.case(geom(("box", square(1))), "min = 0.0005\nmax = 0.001")
