@@ -11,6 +11,7 @@
 #include "io/output_file.hpp"
 #include "io/tree_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/progress.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/mesh/quality.hpp"
 
@@ -84,6 +85,7 @@ class AdaptiveRun {
     StageTimes times;
     const std::string folder = folders_.under_way(cycle);
     folders_.begin(cycle);
+    progress::set_prefix(fmt::format("cycle {} of {}", cycle, case_.adapt.cycles));
     times.begin("mesh");
     const CarriedMesh carried =
         before ? carry_over(comm_, case_.mesh, before->plan, before->solved) : CarriedMesh{generate_mesh(comm_, case_.mesh), {}, {}, 0, {}};
@@ -106,6 +108,7 @@ class AdaptiveRun {
     write_text(comm_, folder + "/log.txt", log_text(record, flow.notes, warnings));
     write_text(comm_, folder + "/record.json", json_text(record));
     folders_.finish(cycle);
+    progress::set_prefix("");
     report_.cycle(record, warnings);
     return left;
   }

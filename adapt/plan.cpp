@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 #include "adapt/mark_family.hpp"
 #include "adapt/restart.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/mesh_estimate.hpp"
 
 namespace quadloop {
 
@@ -20,29 +23,50 @@ class NodeSearch {
 
   ChangedSplits changes_at(double at) const { return changed_splits(comm_, solved_.tree, family_.marks(at), finest_); }
 
+  /// As many as no mesh has where the mesh would not be allowed.
   std::int64_t nodes_after(const ChangedSplits& changes) const {
-    return build_mesh(comm_, input_.geometry, input_.mesh, DemandedSplits(comm_, changes.demands)).tree.attributes.nodes;
+    try {
+      return build_mesh(comm_, input_.geometry, input_.mesh, DemandedSplits(comm_, changes.demands)).tree.attributes.nodes;
+    } catch (const TooManyCells&) {  // by an estimate that all ranks make
+      return beyond;
+    }
   }
 
-  /// The largest meshes within the cap, as far as they are found; the one of the fewest nodes where none is.
-  ChangedSplits within(std::int64_t most, ChangedSplits all) const {
+  bool allowed(const ChangedSplits& changes) const { return share_after(changes) <= 1; }
+
+  /// The largest meshes within the cap and within what is allowed, as far as they are found; the one of the fewest nodes where none is. Without a cap
+  /// estimates do.
+  ChangedSplits within(const std::optional<std::int64_t>& most, ChangedSplits all) const {
     constexpr double enough = 0.95;
     constexpr int most_steps = 24;
-    if (nodes_after(all) <= most) return all;
+    if (filled(most, all) <= 1) return all;
     double low = -1, high = 1;
     ChangedSplits best = changes_at(low);
     for (int step = 0; step < most_steps; ++step) {
       const double middle = 0.5 * (low + high);
       ChangedSplits tried = changes_at(middle);
-      const std::int64_t nodes = nodes_after(tried);
-      (nodes <= most ? low : high) = middle;
-      if (nodes <= most) best = std::move(tried);
-      if (nodes <= most && static_cast<double>(nodes) >= enough * static_cast<double>(most)) break;
+      const double share = filled(most, tried);
+      (share <= 1 ? low : high) = middle;
+      if (share <= 1) best = std::move(tried);
+      if (share <= 1 && share >= enough) break;
     }
     return best;
   }
 
+  static constexpr std::int64_t beyond = std::numeric_limits<std::int64_t>::max();
+
  private:
+  /// Of cap and limit, the share that is nearer to being used up; above 1: too many.
+  double filled(const std::optional<std::int64_t>& most, const ChangedSplits& changes) const {
+    const double of_limit = share_after(changes);
+    if (!most || of_limit > 1) return of_limit;
+    return std::max(of_limit, static_cast<double>(nodes_after(changes)) / static_cast<double>(*most));
+  }
+
+  double share_after(const ChangedSplits& changes) const {
+    return share_of(input_.mesh.limit, estimate_mesh(input_.geometry, input_.mesh, DemandedSplits(comm_, changes.demands)));
+  }
+
   const Communicator& comm_;
   const MeshInput& input_;
   const SolvedMesh& solved_;
@@ -59,7 +83,9 @@ int finest_level(const MeshInput& input, const AdaptOptions& options) {
 std::string reason_for_standing(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved, const MarkFamily& family,
                                 const ChangedSplits& all) {
   if (family.flat()) return fmt::format("{} is constant", options.variables.size() == 1 ? options.variables.front() : "each of adapt.variable");
-  if (all.refined + all.coarsened > 0) return fmt::format("adapt.max_nodes = {} leaves no room", options.max_nodes.value_or(0));
+  if (all.refined + all.coarsened > 0)
+    return fmt::format("{} leaves no room",
+                       options.max_nodes ? fmt::format("adapt.max_nodes = {}", *options.max_nodes) : "--max-cells or free memory");
   const std::vector<Mark> marks = family.marks(1);
   const std::int64_t wanted = comm.sum(std::int64_t{std::count(marks.begin(), marks.end(), Mark::refine)});
   if (wanted == 0 && options.source == AdaptOptions::Source::size) return "no leaf is larger than " + options.variables.front() + " asks for there";
@@ -90,10 +116,14 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   const ChangedSplits all = search.changes_at(1);
   ChangedSplits changes = all;
   AdaptationPlan plan;
+  const bool bounded = !search.allowed(all);
+  if (bounded) {
+    plan.warnings.emplace_back("the mesh is kept to what --max-cells or free memory allows: fewer leaves are refined than are marked");
+  }
+  if (options.max_nodes || bounded) changes = search.within(options.max_nodes, all);
   if (options.max_nodes) {
-    changes = search.within(*options.max_nodes, all);
     const std::int64_t nodes = search.nodes_after(changes);
-    if (nodes > *options.max_nodes) {
+    if (nodes > *options.max_nodes && nodes != NodeSearch::beyond) {
       plan.warnings.push_back(
           fmt::format("the mesh has {} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them", nodes, *options.max_nodes));
     }

@@ -1,5 +1,6 @@
 #include "app/case_input.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 
@@ -7,6 +8,7 @@
 #include "adapt/restart.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/free_memory.hpp"
 
 namespace quadloop {
 
@@ -48,6 +50,22 @@ CaseInput load_case(const CaseArguments& arguments) {
   input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth, case_digest(options)});
   if (arguments.saved) keep_root(*arguments.saved, *input.mesh);
   return input;
+}
+
+void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells) {
+  command.add_option("--max-cells", max_cells, "the most cells that a mesh may have by estimate; without it as many as free memory holds")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+}
+
+MeshLimit mesh_limit(const Communicator& comm, const std::optional<double>& max_cells) {
+  MeshLimit limit;
+  limit.ranks = comm.size();
+  if (max_cells)
+    limit.cells = *max_cells;
+  else
+    limit.bytes = free_memory_of_all(comm);
+  return limit;
 }
 
 }  // namespace quadloop

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "mesher/base/progress.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -23,6 +25,7 @@ void say(const Outcome& outcome) {
   print(outcome.record);
   std::string line = "quadloop: error: " + outcome.message;
   for (char& c : line) c = c == '\n' || c == '\r' ? ' ' : c;
+  progress::clear();
   fmt::print(stderr, "{}\n", line);
   std::fflush(stderr);
 }

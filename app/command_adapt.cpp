@@ -27,6 +27,7 @@ struct AdaptArguments {
   std::optional<int> cycles;
   bool resume = false;
   std::vector<std::string> assignments;
+  std::optional<double> max_cells;
 };
 
 /// What would stop the loop after the first mesh, found out before it.
@@ -97,6 +98,7 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   Warnings warnings;
   std::string note;
   comm.together([&] { adaptive = adaptive_case(arguments, warnings, note); });
+  adaptive->mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
   if (comm.is_root() && !note.empty()) log::information(note);
   std::string folder = arguments.folder;
   if (folder.empty()) folder = std::filesystem::path(arguments.case_path).stem().string() + ".adapt";
@@ -132,6 +134,7 @@ void add_adapt_command(CLI::App& app, CommandContext& context) {
   command->add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")->type_name("DIR");
   command->add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")->type_name("N")->check(CLI::Range(0, 10000));
   command->add_flag("--resume", arguments->resume, "go on after the last whole cycle in the folder");
+  add_max_cells_option(*command, arguments->max_cells);
   command->add_option("--set", arguments->assignments, "set a key of the case file, as in solver.mach=0.7; one or more")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);

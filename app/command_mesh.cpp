@@ -27,6 +27,7 @@ namespace {
 struct MeshArguments {
   std::string case_path, prefix, type, tree, geometry_out;
   std::vector<std::string> assignments;
+  std::optional<double> max_cells;
 };
 
 /// What has to be known before the meshing starts; the same on every rank.
@@ -101,7 +102,8 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   if (!arguments.tree.empty()) saved = read_tree(comm, arguments.tree);
   Prepared prepared;
   comm.together([&] { prepared = prepare(arguments, saved); });
-  const MeshInput& input = *prepared.input.mesh;
+  MeshInput& input = *prepared.input.mesh;
+  input.mesh.limit = mesh_limit(comm, arguments.max_cells);
   const DemandedSplits demanded(comm, saved ? standing_splits(*saved, input) : std::vector<SplitDemand>{});
   log::detail("meshing " + std::to_string(input.geometry.size()) + " segments");
   times.end();
@@ -132,6 +134,7 @@ void add_mesh_command(CLI::App& app, CommandContext& context) {
       ->check(one_of({"hybrid", "delaunay"}));
   command->add_option("--tree", arguments->tree, "restart from the tree of an earlier run: what it wanted refined stays so")->type_name("TREE.h5");
   command->add_option("--geometry-out", arguments->geometry_out, "write the geometry as it is meshed")->type_name("OUT.geom");
+  add_max_cells_option(*command, arguments->max_cells);
   command->add_option("--set", arguments->assignments, "set a key of the case file, as in spacing.min=0.1; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);

@@ -28,6 +28,7 @@ namespace {
 struct RemeshArguments {
   std::string case_path, prefix, tree, solution, geometry;
   std::vector<std::string> assignments;
+  std::optional<double> max_cells;
 };
 
 /// Where the mesh of a tree may be: beside it, under the same name.
@@ -130,7 +131,8 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   solved.file = arguments.solution;
   require_own_mesh(comm, solved, arguments.solution, arguments.tree);
   times.begin("adapt");
-  const MeshInput& mesh = *input.mesh;
+  MeshInput& mesh = *input.mesh;
+  mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
   const AdaptationPlan plan = input.settings.adapt ? plan_adaptation(comm, mesh, *input.settings.adapt, solved) : standing_plan(solved.tree, mesh);
   times.end();
   const CarriedMesh carried = carry_over(comm, mesh, plan, solved);
@@ -163,6 +165,7 @@ void add_remesh_command(CLI::App& app, CommandContext& context) {
       ->type_name("IN");
   command->add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")->type_name("NEW.geom");
   command->add_option("-o,--output", arguments->prefix, "what the output files begin with, instead of output.prefix")->type_name("PREFIX");
+  add_max_cells_option(*command, arguments->max_cells);
   command->add_option("--set", arguments->assignments, "set a key of the case file, as in adapt.refine=0.5; one or more")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);

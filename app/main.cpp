@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <iostream>
 #include <limits>
@@ -16,17 +17,35 @@
 #include "io/interruption.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/free_memory.hpp"
 #include "mesher/base/input_file.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/base/progress.hpp"
 
 namespace quadloop {
 
 namespace {
 
-/// MPI from its beginning to its end.
+/// MPI's own way would be to print a paragraph and to end all ranks.
+void throw_mpi_error(MPI_Comm* /*unused*/, int* code, ...) {
+  int kind = MPI_SUCCESS, length = 0;
+  MPI_Error_class(*code, &kind);
+  if (kind == MPI_ERR_NO_MEM) throw std::bad_alloc();
+  std::array<char, MPI_MAX_ERROR_STRING> text{};
+  MPI_Error_string(*code, text.data(), &length);
+  throw Fault(std::string("MPI: ") + text.data());
+}
+
+/// MPI from its beginning to its end. Its errors are exceptions, also those of communicators made from the first one.
 class MpiGuard {
  public:
-  MpiGuard(int& argc, char**& argv) { MPI_Init(&argc, &argv); }
+  MpiGuard(int& argc, char**& argv) {
+    MPI_Init(&argc, &argv);
+    MPI_Errhandler handler = MPI_ERRHANDLER_NULL;
+    MPI_Comm_create_errhandler(throw_mpi_error, &handler);
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, handler);
+    MPI_Errhandler_free(&handler);
+  }
   ~MpiGuard() { MPI_Finalize(); }
   MpiGuard(const MpiGuard&) = delete;
   MpiGuard& operator=(const MpiGuard&) = delete;
@@ -75,6 +94,7 @@ void run(int argc, char** argv, const Communicator& comm, CommandRecord& record)
   record.command = app.get_subcommands().front()->get_name();
   allow_piped_input(comm.size() == 1);
   log::configure({comm.rank(), comm.size(), context.quiet, context.verbose});
+  if (comm.is_root() && !context.quiet) progress::show();
   context.run();
 }
 
@@ -87,7 +107,7 @@ Outcome guarded_run(int argc, char** argv, const Communicator& comm, CommandReco
   } catch (const Error& error) {
     return {error.status(), error.what()};
   } catch (const std::bad_alloc&) {
-    return {ExitStatus::fault, "out of memory; use more ranks on more machines, or a larger spacing"};
+    return {ExitStatus::bad_input, out_of_memory};
   } catch (const std::exception& error) {
     return {ExitStatus::fault, fmt::format("a fault of the program itself: {}", error.what())};
   }

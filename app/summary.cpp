@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "mesher/mesh/mesh_estimate.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/shape_figures.hpp"
 
@@ -72,6 +73,7 @@ MeshSummary summarise(const Communicator& comm, const MeshResult& result, const 
   figures.add("nodes", counts.nodes);
   figures.add("triangles", counts.triangles);
   figures.add("quads", counts.quads);
+  figures.add_raw("cells, estimated", text_of_cells(report.estimate.cells), json_of(std::round(report.estimate.cells)), "cells_estimated");
   figures.add("leaves", report.leaves);
   figures.add("cut leaves", report.cut_leaves);
   figures.add_raw("levels", fmt::format("{} to {}", report.coarsest_level, report.finest_level),
@@ -84,6 +86,8 @@ MeshSummary summarise(const Communicator& comm, const MeshResult& result, const 
   figures.add("area ratio", shape.area_ratio_max, "{:.3g}", "area_ratio_max");
   figures.add("passage cells", shape.passage_cells);
   figures.add("peak memory", memory, "{:.0f} MiB", "peak_memory_mib");
+  const double estimated = report.estimate.bytes / comm.size() + report.estimate.bytes_of_rank;
+  figures.add_raw("estimated", text_of_bytes(estimated), json_of(std::round(estimated / (1 << 20))), "estimated_memory_mib");
   figures.add("imbalance", report.imbalance, "{:.3f}");
   return summary;
 }

@@ -5,6 +5,7 @@
 #include <cairo.h>
 
 #include <cmath>
+#include <new>
 
 #include "mesher/base/error.hpp"
 
@@ -34,6 +35,7 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) n
 }
 
 void require_success(cairo_status_t status) {
+  if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
   if (status != CAIRO_STATUS_SUCCESS) throw Fault(std::string("the picture could not be drawn: ") + cairo_status_to_string(status));
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
+#include "mesher/base/progress.hpp"
 
 namespace quadloop {
 
@@ -40,6 +42,8 @@ struct RowStream {
   template <class T, class Make, class Consume>
   void take_all(const std::vector<std::int64_t>& pieces_of_rank, const Make& make, const Consume& consume) const {
     std::exception_ptr failure;
+    progress::Stage stage("writing", static_cast<double>(std::accumulate(pieces_of_rank.begin(), pieces_of_rank.end(), std::int64_t{0})), "pieces");
+    double pieces_done = 0;
     const auto attempt = [&](const auto& action) {
       try {
         if (!failure) action();
@@ -49,11 +53,13 @@ struct RowStream {
     };
     for (std::int64_t k = 0; k < pieces(); ++k) {
       attempt([&] { consume(std::span<const T>(make(begin_of(k), begin_of(k + 1)))); });
+      stage.advance(++pieces_done);
     }
     for (int from = 1; from < comm.size(); ++from) {
       for (std::int64_t k = 0; k < pieces_of_rank[static_cast<std::size_t>(from)]; ++k) {
         const std::vector<std::byte> bytes = comm.receive_bytes(from);
         attempt([&] { consume(std::span<const T>(detail::from_bytes<T>(bytes))); });
+        stage.advance(++pieces_done);
       }
     }
     if (failure) std::rethrow_exception(failure);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/progress.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/quality.hpp"
@@ -193,10 +194,13 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
   for (int round = 0;; ++round) {
     const NodeStars stars(halo, free_nodes(surveyed, halo, slide, yielding), targets);
     Sweeper sweeper(comm, halo, stars, slide, options.method, options.objective, round == 0 ? options.threshold : options.bad);
+    progress::Stage stage("smoothing", options.sweeps, "sweeps");
     std::int64_t moves = 1;
     for (int sweep = 0; sweep < options.sweeps && moves > 0; ++sweep, ++report.sweeps) {
       moves = sweeper.sweep();
       report.moves += moves;
+      stage.say("sweep " + std::to_string(sweep + 1) + ", " + std::to_string(moves) + " nodes moved");
+      stage.advance(sweep + 1);
     }
     report.free_nodes = comm.sum(static_cast<std::int64_t>(stars.size()));
     if (round == free_rings) return;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "adapt/euler/forces.hpp"
+#include "mesher/base/progress.hpp"
 #include "mesher/base/reproducible_sum.hpp"
 
 namespace quadloop::euler {
@@ -19,9 +20,23 @@ double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes) {
   return count > 0 ? std::sqrt(reproducible_sum(run.comm, squares) / count) : 0;
 }
 
+namespace {
+
+/// The caller's stage counts steps, or time where that is what ends the run.
+void tell_progress(const FlowRun& run, const EulerResult& result) {
+  progress::Stage* const stage = progress::current();
+  if (stage == nullptr) return;
+  stage->say(fmt::format("step {}  residual {:.1e}", result.iterations, result.residual));
+  stage->advance(run.options.time == EulerOptions::Time::steady ? result.iterations : result.time);
+}
+
+}  // namespace
+
 void report(const FlowRun& run, const EulerResult& result, double cfl, bool at_end) {
+  tell_progress(run, result);
   if (!run.options.progress || (!at_end && result.iterations % run.options.progress_every != 0)) return;
   const ForceCoefficients forces = wall_forces(run.comm, run.mesh, run.model, run.states, run.options.reference_length);
+  if (progress::Stage* stage = progress::current()) stage->say_then(fmt::format("cl {:.4f}  cd {:.5f}", forces.cl, forces.cd));
   run.options.progress({result.iterations, result.residual, forces.cl, forces.cd, result.time, cfl});
 }
 

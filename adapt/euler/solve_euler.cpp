@@ -6,6 +6,7 @@
 #include "adapt/euler/forces.hpp"
 #include "adapt/euler/vortex.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/progress.hpp"
 
 namespace quadloop {
 
@@ -44,7 +45,9 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
   std::vector<State> states = start_states(comm, mesh, dual, model, options, initial_states);
   Residual residual(dual, model, options);
   const FlowRun run{comm, options, dual, model, residual, states};
-  EulerResult result = options.time == EulerOptions::Time::steady ? march_to_steady(run) : march_in_time(run);
+  const bool steady = options.time == EulerOptions::Time::steady;
+  const progress::Stage stage("solving", steady ? options.iterations : options.end_time, steady ? "steps" : "units of time");
+  EulerResult result = steady ? march_to_steady(run) : march_in_time(run);
   const ForceCoefficients forces = wall_forces(comm, dual, model, states, options.reference_length);
   result.cl = forces.cl;
   result.cd = forces.cd;

@@ -17,6 +17,7 @@
 #include "adapt/solver/log_tail.hpp"
 #include "adapt/solver/program.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/progress.hpp"
 
 namespace quadloop {
 
@@ -136,6 +137,7 @@ std::string solver_message(const SolverCommand& command, const SolverFiles& file
 
 void run_solver(const Communicator& comm, const SolverCommand& command, const SolverFiles& files) {
   std::exception_ptr outcome;
+  const progress::Stage stage("the solver runs");
   try {
     if (comm.is_root()) run_here(command, files);
   } catch (...) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/input_file.hpp"
@@ -13,11 +14,17 @@ namespace quadloop {
 
 namespace {
 
+/// Where memory ends GDAL would call abort(). All else it keeps as its last message.
+void throw_out_of_memory(CPLErr kind, CPLErrorNum number, const char* message) {
+  if (kind == CE_Fatal && number == CPLE_OutOfMemory) throw std::bad_alloc();
+  CPLQuietErrorHandler(kind, number, message);
+}
+
 /// GDAL would print its own lines on stderr; its last message goes into ours instead.
 class QuietGdal {
  public:
   QuietGdal() {
-    CPLPushErrorHandler(CPLQuietErrorHandler);
+    CPLPushErrorHandler(throw_out_of_memory);
     CPLErrorReset();
   }
   ~QuietGdal() { CPLPopErrorHandler(); }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <new>
 #include <string>
 #include <thread>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/free_memory.hpp"
 
 namespace quadloop {
 
@@ -147,6 +149,9 @@ void Communicator::together(const std::function<void()>& local) const {
   } catch (const Error& error) {
     status = error.status();
     message = error.what();
+  } catch (const std::bad_alloc&) {
+    status = ExitStatus::bad_input;
+    message = out_of_memory;
   } catch (const std::exception& error) {
     status = ExitStatus::fault;
     message = error.what();

@@ -5,6 +5,8 @@
 
 #include <memory>
 
+#include "mesher/base/progress.hpp"
+
 namespace quadloop::log {
 
 namespace {
@@ -34,8 +36,19 @@ void configure(const Options& options) {
 }
 
 // The message is an argument, not the format: a file name may hold braces.
-void warning(const std::string& message) { logger().warn("{}", message); }
-void information(const std::string& message) { logger().info("{}", message); }
-void detail(const std::string& message) { logger().debug("{}", message); }
+void warning(const std::string& message) {
+  progress::clear();
+  logger().warn("{}", message);
+}
+
+void information(const std::string& message) {
+  progress::clear();
+  logger().info("{}", message);
+}
+
+void detail(const std::string& message) {
+  progress::clear();
+  logger().debug("{}", message);
+}
 
 }  // namespace quadloop::log

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/progress.hpp"
 #include "mesher/cut/opposed_chords.hpp"
 
 namespace quadloop {
@@ -44,7 +45,9 @@ class ForestCutter {
   /// Cuts all local leaves.
   void cut_all(const std::vector<LeafSnap>& snaps) {
     auto next = snaps.begin();
+    progress::Stage stage("cutting", graph_.local_end() - graph_.local_begin(), "leaves");
     for (std::int32_t leaf = graph_.local_begin(); leaf < graph_.local_end(); ++leaf) {
+      stage.advance(leaf - graph_.local_begin());
       const auto first = next;
       while (next != snaps.end() && next->leaf == leaf) ++next;
       const std::span<const LeafSnap> own(first, next);

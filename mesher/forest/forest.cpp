@@ -4,6 +4,10 @@
 #include <p4est_extended.h>
 
 #include <cmath>
+#include <cstdio>
+#include <new>
+#include <string>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 
@@ -21,11 +25,29 @@ struct Releaser {
 
 static_assert(P4EST_MAXLEVEL == Quadrant::unit_level, "lattice units are p4est's");
 
+/// The first line that p4est has logged of what ends it.
+std::string& last_words() {
+  static std::string words;
+  return words;
+}
+
+void keep_words(FILE*, const char*, int, int, int, int, const char* message) {
+  if (last_words().empty()) last_words() = message;
+}
+
+/// In the place of p4est's stack trace and abort(). Nothing is used after it but to be destroyed.
+void throw_for_p4est() {
+  const std::string words = std::exchange(last_words(), {});
+  if (words.find("lloc") != std::string::npos) throw std::bad_alloc();  // "Allocation", "Reallocation"
+  throw Fault("p4est: " + words);
+}
+
 /// p4est is to be set up once in a program.
-void quieten_p4est() {
+void set_up_p4est() {
   if (p4est_package_id >= 0) return;
-  sc_set_log_defaults(nullptr, nullptr, SC_LP_ERROR);
-  p4est_init(nullptr, SC_LP_ERROR);
+  sc_set_log_defaults(nullptr, keep_words, SC_LP_ERROR);
+  sc_set_abort_handler(throw_for_p4est);
+  p4est_init(keep_words, SC_LP_ERROR);
 }
 
 /// What p4est's callbacks reach through its user pointer.
@@ -70,7 +92,7 @@ struct Forest::Impl {
 };
 
 Forest::Forest(const Communicator& comm, const Lattice& lattice) : impl_{std::make_unique<Impl>()} {
-  quieten_p4est();
+  set_up_p4est();
   impl_->trees_x = lattice.trees_x();
   impl_->connectivity.reset(p4est_connectivity_new_brick(lattice.trees_x(), lattice.trees_y(), 0, 0));
   p4est_connectivity_t& trees = *impl_->connectivity;

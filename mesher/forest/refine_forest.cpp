@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 
+#include "mesher/base/progress.hpp"
+
 namespace quadloop {
 
 namespace {
 
 constexpr std::int64_t leaves_to_share = 64;    ///< for each rank, before the first partition
 constexpr std::int64_t leaves_to_judge = 4096;  ///< for each rank: enough to estimate the leaves to come well
+constexpr double quadrants_of_leaf = 4.0 / 3;   ///< leaves and what was split into them
 constexpr int last_levels = 3;                  ///< refined after the second partition, where such an estimate cannot be had
 constexpr int weight_unfinished = 16;           ///< of a leaf that is yet to be split, down those levels
 
@@ -100,11 +103,18 @@ int weight_at(const Quadrant& q, SizeTree& sizes, int stop) {
 
 }  // namespace
 
-LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes) {
+LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes, double expected_leaves) {
   Forest forest(comm, sizes.lattice());
+  progress::Stage stage("refinement", expected_leaves * quadrants_of_leaf / comm.size(), "quadrants");
+  double looked_at = 0;
   int refined = 1;
   for (const int stop : stops_of(comm, sizes)) {
-    forest.refine([&](const Quadrant& q) { return q.level >= refined && sizes.must_split(q); }, stop);
+    const auto must_split = [&](const Quadrant& q) {
+      if (q.level < refined) return false;
+      stage.advance(++looked_at);
+      return sizes.must_split(q);
+    };
+    forest.refine(must_split, stop);
     if (comm.size() > 1) forest.partition([&](const Quadrant& q) { return weight_at(q, sizes, stop); });
     refined = stop;
   }

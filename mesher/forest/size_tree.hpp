@@ -38,6 +38,8 @@ class SizeTree {
   std::span<const std::int32_t> segments_in(const Quadrant& q);
   /// The level at which case, geometry and demands alone would have stopped at this leaf's place.
   int wanted_level(const Quadrant& leaf);
+  /// A guess of how many leaves a quadrant that must be split will hold in the end, at least 1: good enough to tell where most are to be looked for.
+  double leaves_ahead(const Quadrant& q);
   const DemandedSplits& demanded() const { return *demanded_; }
 
  private:
@@ -72,6 +74,9 @@ class SizeTree {
   bool wants_split(const Node& node);
   bool turns_too_far(std::span<const std::int32_t> segments, const Box& box);
   std::int32_t deepest_node_at(const Quadrant& q);
+  int level_ahead(std::int32_t node);
+  int level_of_outline(const Node& node) const;
+  double source_leaves(const Quadrant& q) const;
 
   Step& step_above(const Quadrant& q);
   void fill_near(Step& step, const std::vector<std::int32_t>& parents);
@@ -100,6 +105,7 @@ class SizeTree {
   std::int32_t cursor_ = -1;                                 ///< node last asked for
   std::vector<Step> path_;
   std::vector<std::int32_t> roots_;
+  std::vector<std::int8_t> levels_ahead_;  ///< of nodes, as far as they were asked for; 0: not yet
 };
 
 }  // namespace quadloop

@@ -1,5 +1,6 @@
 #include "mesher/mesh/assemble_mesh.hpp"
 
+#include "mesher/base/progress.hpp"
 #include "mesher/mesh/number_nodes.hpp"
 
 namespace quadloop {
@@ -77,7 +78,9 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree&
   DemandPath demands(sizes.demanded());
   auto& leaves = result.tree.leaves;
   leaves.reserve(cut.states.size());
+  progress::Stage stage("cells", graph.local_end() - graph.local_begin(), "leaves");
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+    stage.advance(leaf - graph.local_begin());
     const auto triangles = mesh.triangles.size(), quads = mesh.quads.size();
     assembler.add(leaf);
     LeafRecord record = record_of(graph.leaf(leaf), sizes.wanted_level(graph.leaf(leaf)));

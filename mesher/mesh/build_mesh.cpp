@@ -3,10 +3,13 @@
 #include <algorithm>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
+#include "mesher/base/progress.hpp"
 #include "mesher/forest/refine_forest.hpp"
 #include "mesher/mesh/assemble_mesh.hpp"
 #include "mesher/mesh/islands.hpp"
 #include "mesher/mesh/make_delaunay.hpp"
+#include "mesher/mesh/mesh_estimate.hpp"
 #include "mesher/mesh/split_quads.hpp"
 
 namespace quadloop {
@@ -43,6 +46,16 @@ void describe_tree(const Communicator& comm, const Geometry& geometry, const Lat
   a.quads = comm.sum(static_cast<std::int64_t>(result.mesh.quads.size()));
 }
 
+/// Of a large mesh that is the first of its run it is worth a line.
+void tell(const MeshEstimate& estimate, int ranks, bool first) {
+  constexpr double large = 1e6;
+  const std::string text = "about " + text_of_cells(estimate.cells) + " cells, " + text_of_bytes(total_bytes(estimate, ranks)) + " of memory";
+  if (first && estimate.cells >= large)
+    log::information(text);
+  else
+    log::detail(text);
+}
+
 }  // namespace
 
 MeshResult build_mesh(const Communicator& comm, const Geometry& given, const MeshOptions& options, const DemandedSplits& demanded) {
@@ -50,35 +63,36 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   StageTimes& times = result.report.times;
   times.begin("geometry");
   const Geometry geometry = without_small_islands(given, options.size.min, result.report);
-  const Lattice lattice = choose_root(geometry, options.size.root);
-  const ShiftedOutline outline(geometry);
-  const InsideTest inside(outline);
-  ResolutionTest resolution(lattice, outline, inside);
-  SizeTree sizes(
-      outline, lattice, options.size, [&](const Quadrant& q, std::span<const std::int32_t> segments) { return resolution.unresolved(q, segments); },
-      demanded);
+  SizedDomain domain(geometry, options.size, demanded);
+  SizeTree& sizes = domain.sizes;
   result.report.finest_allowed = sizes.finest_level();
 
+  times.begin("estimate");
+  result.report.estimate = estimate_mesh(geometry, options.type, domain);
+  require_within(result.report.estimate, geometry, options, demanded);
+  tell(result.report.estimate, comm.size(), demanded.empty());
+
   times.begin("refinement");
-  const LeafGraph graph = refine_forest(comm, sizes);
+  const LeafGraph graph = refine_forest(comm, sizes, result.report.estimate.leaves);
 
   times.begin("cutting");
-  const CutForest cut = cut_forest(comm, graph, sizes, outline, inside, options.snap);
+  const CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap);
 
   times.begin("mesh");
   assemble_mesh(comm, geometry, sizes, graph, cut, result);
 
   if (options.type == MeshType::delaunay) {
     times.begin("delaunay");
-    make_delaunay(comm, lattice, sizes.finest_level(), graph, cut, result.mesh, result.tree.leaves);
+    const progress::Stage stage("delaunay");
+    make_delaunay(comm, domain.lattice, sizes.finest_level(), graph, cut, result.mesh, result.tree.leaves);
   }
   if (options.type == MeshType::hybrid && options.quads == QuadChoice::parallel) {
-    split_skew_quads(result.mesh, result.tree.leaves, [&](Point p) { return tie_rank(lattice, sizes.finest_level(), p); });
+    split_skew_quads(result.mesh, result.tree.leaves, [&](Point p) { return tie_rank(domain.lattice, sizes.finest_level(), p); });
   }
   times.end();
 
   report_tree(comm, graph, cut, result.report);
-  describe_tree(comm, geometry, lattice, options, result);
+  describe_tree(comm, geometry, domain.lattice, options, result);
   return result;
 }
 

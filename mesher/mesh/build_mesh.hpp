@@ -1,9 +1,11 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
+#include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/forest/demanded_splits.hpp"
 #include "mesher/forest/size_options.hpp"
@@ -19,17 +21,40 @@ enum class MeshType { hybrid, delaunay };
 /// Which quadrilaterals a hybrid mesh keeps: all that are in good shape, or parallelograms alone, the others being divided.
 enum class QuadChoice { all, parallel };
 
+/// How much a mesh may cost.
+struct MeshLimit {
+  static constexpr double none = std::numeric_limits<double>::infinity();
+  double cells = none;
+  double bytes = none;  ///< of memory, over all ranks
+  int ranks = 1;        ///< that share it
+};
+
+/// What a mesh is expected to cost, before it is made.
+struct MeshEstimate {
+  double leaves = 0, cells = 0;
+  double bytes = 0;          ///< of memory, shared out over the ranks
+  double bytes_of_rank = 0;  ///< beside that, on each
+};
+
+/// Refuses a mesh that would have more cells than are allowed, or than memory holds.
+class TooManyCells : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// How a mesh is made from a geometry.
 struct MeshOptions {
   MeshType type = MeshType::hybrid;
   QuadChoice quads = QuadChoice::all;
   SizeOptions size;
   double snap = 0.4;  ///< a lattice corner nearer to a crossing than this share of the local edge moves onto the boundary; 0 <= snap < 0.5
+  MeshLimit limit;    ///< has no influence on the mesh, if there is one
 };
 
 /// What a user is told of a mesh's making. The numbers are over all ranks, the same on each.
 struct MeshReport {
   std::int64_t leaves = 0, cut_leaves = 0, islands_dropped = 0;
+  MeshEstimate estimate;  ///< as it was known before the meshing
   int coarsest_level = 0, finest_level = 0;
   int finest_allowed = 0;                        ///< level that no leaf may pass
   double imbalance = 1;                          ///< the heaviest rank's work over the mean, as the partition weighs it
@@ -45,7 +70,8 @@ struct MeshResult {
 };
 
 /// Meshes the domain of `geometry`: the mesh is a function of geometry, options and what adaptation has demanded of the tree. *Collective.* Throws
-/// InputError where the geometry cannot be meshed with these options.
+/// InputError where the geometry cannot be meshed with these options, TooManyCells where they
+/// ask for more than options.limit.
 MeshResult build_mesh(const Communicator& comm, const Geometry& geometry, const MeshOptions& options, const DemandedSplits& demanded = {});
 
 }  // namespace quadloop

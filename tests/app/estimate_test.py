@@ -1,0 +1,134 @@
+"""What is said of a mesh before it is made: cells and memory within a factor of 1.5, refusals that name the cause, and one line where memory ends.
+
+    python3 estimate_test.py QUADLOOP MPIRUN
+"""
+import json
+import math
+import re
+import resource
+import subprocess
+import unittest
+from pathlib import Path
+
+from program import QUADLOOP, ProgramTest
+
+CASES = Path(__file__).parents[2] / "cases"
+FACTOR = 1.5
+MESHED = ["catamaran_x_coarse", "catamaran_x_fine", "catamaran_y_coarse", "catamaran_y_fine", "dtc_bow", "gulf_of_mexico", "naca0012", "naca0012_aoa9",
+          "naca0012_m05", "naca0012_m08", "naca0012_shifted", "naca4412", "naca_design", "ring", "three_element", "vortex", "wedge"]
+
+
+def geom(*loops):
+    return f"{len(loops)}\n" + "".join(f"{name}\n{len(points)}\n" + "".join(f"{x!r} {y!r}\n" for x, y in points) for name, points in loops)
+
+
+def square(half):
+    return [(-half, -half), (half, -half), (half, half), (-half, half)]
+
+
+def koch(rounds):
+    points = [complex(math.cos(a), math.sin(a)) for a in (math.pi / 2, -math.pi / 6, -5 * math.pi / 6)]
+    for _ in range(rounds):
+        points = [q for a, b in zip(points, points[1:] + points[:1])
+                  for q in (a, a + (b - a) / 3, a + (b - a) / 3 * (1 + complex(0.5, math.sqrt(0.75))), a + 2 * (b - a) / 3)]
+    return [(p.real, p.imag) for p in points]
+
+
+CIRCLE = [(0.3 + 0.5 * math.cos(-math.pi * i / 1000), 0.2 + 0.5 * math.sin(-math.pi * i / 1000)) for i in range(2000)]
+BARS = geom(("box", square(3)), ("a", [(-1, 0.001), (-1, 0.5), (1, 0.5), (1, 0.001)]), ("b", [(-1, -0.5), (-1, -0.001), (1, -0.001), (1, -0.5)]))
+HARD = {
+    "fractal coast": (geom(("sea", square(4)), ("coast", koch(6))), 'min = 0.0005\nmax = 0.5\n[boundary.sea]\nspacing = 0.5'),
+    "points kept within leaves": (geom(("sea", square(4)), ("coast", koch(5))), 'min = 0.01\nmax = 0.5\n[boundary."*"]\nspacing = 0.2'),
+    "curvature alone": (geom(("box", square(10)), ("wall", CIRCLE)), 'min = 1e-6\nmax = 1.0\ncurvature = 0.5\n[boundary."*"]\nspacing = 1.0'),
+    "gap alone": (BARS, 'min = 1e-7\nmax = 0.5\ngap = 4\n[boundary."*"]\nspacing = 0.5'),
+    "tiny source": (geom(("box", square(1))), 'min = 1e-7\nmax = 0.1\n[boundary.box]\nspacing = 0.5\n[[source]]\nbox = [0.1, 0.1003, 0.1, 0.1003]\n'
+                                             'spacing = 1e-6'),
+    "line among large leaves": (geom(("box", square(1))), 'min = 1e-5\nmax = 0.1\n[boundary.box]\nspacing = 0.5\n[[source]]\n'
+                                                          'line = [-0.9, 0.1, 0.8, 0.11]\nspacing = 1e-4'),
+    "long and thin": (geom(("box", [(0, 0), (300, 0), (300, 1), (0, 1)])), 'min = 0.01\nmax = 0.05\n[boundary.box]\nspacing = 0.5'),
+    "slow gradation": (geom(("box", square(10)), ("wall", CIRCLE)), 'min = 1e-4\nmax = 1.0\ngradation = 1.15\n[boundary.wall]\nspacing = 0.01'),
+}
+FEW = 'min = {min}\nmax = {max}\ncurvature = {curvature}\n[boundary.box]\nspacing = 1\n[boundary.wall]\nspacing = {wall}\n[[source]]\ndisc = [5, 5, 1]\n' \
+      'spacing = {source}'
+
+
+class Estimate(ProgramTest):
+    def case(self, outline, spacing):
+        self.write("case.geom", outline)
+        self.write("case.toml", '[geometry]\nfile = "case.geom"\n[spacing]\n' + spacing + "\n")
+        return "case.toml"
+
+    def counts(self, case, kind, *more):
+        table = self.done("mesh", str(case), "-o", "out", "--type", kind, "--set", 'output.formats=["mesh"]', *more)[0]
+        number = lambda row: float(re.search(rf"^  {row} +([\d.e+]+)", table, re.M)[1])
+        return number("cells, estimated"), number("triangles") + number("quads"), number("estimated"), number("peak memory")
+
+    def near(self, estimated, true, what):
+        self.assertLess(max(estimated / true, true / estimated), FACTOR, f"{what}: estimated {estimated}, true {true}")
+
+    def test_cells_of_the_cases(self):
+        for name in MESHED:
+            for kind in ("hybrid", "delaunay"):
+                estimated, cells, *_ = self.counts(CASES / name / "case.toml", kind, "smooth.sweeps=0")
+                self.near(estimated, cells, f"{name}, {kind}")
+
+    def test_cells_where_they_are_hard_to_know(self):
+        for name, (outline, spacing) in HARD.items():
+            for kind in ("hybrid", "delaunay"):
+                estimated, cells, *_ = self.counts(self.case(outline, spacing), kind, "smooth.sweeps=0")
+                self.near(estimated, cells, f"{name}, {kind}")
+
+    def test_memory(self):
+        for kind in ("hybrid", "delaunay"):
+            *_, estimated, peak = self.counts(CASES / "gulf_of_mexico/case.toml", kind)
+            self.near(estimated, peak, kind)
+
+    def test_the_estimate_is_the_same_on_three_ranks(self):
+        says = [self.run_program("mesh", str(CASES / "gulf_of_mexico/case.toml"), "-o", "out", "--max-cells", "1000", ranks=ranks).stderr for ranks in (1, 3)]
+        cells = [re.search(r"about (\S+) cells", text)[1] for text in says]
+        self.assertEqual(cells[0], cells[1])
+
+    def test_the_cause_is_named_and_its_cure_fits(self):
+        usual = {"min": 1e-7, "max": 1, "curvature": 20, "wall": 0.1, "source": 1}
+        for key, setting, value in (("max", "spacing.max", 2e-6), ("wall", "boundary.wall.spacing", 1e-6), ("source", "[[source]] at case.toml:", 1e-6),
+                                    ("curvature", "spacing.curvature", 0.001)):
+            outline = geom(("box", square(10)), ("wall", CIRCLE))
+            case = self.case(outline, FEW.format(**{**usual, key: value}))
+            result = self.run_program("mesh", case, "-o", "out", "--max-cells", "30000")
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+            self.assertIn(f"{value:g} asks for most of them", result.stderr)
+            self.assertIn(setting, result.stderr)
+            fits = float(re.search(r"asks for most of them: (\S+) fits;", result.stderr)[1])
+            self.done("mesh", self.case(outline, FEW.format(**{**usual, key: fits})), "-o", "out", "--max-cells", "30000", "--quiet")
+
+    def test_a_million_million_cells_are_refused(self):
+        case = self.case(geom(("box", square(1))), "min = 1e-6\nmax = 2e-6")
+        self.refused(1, ["e+12 cells", "are free", "spacing.max = 2e-06", "--max-cells"], "mesh", case, "-o", "out")
+        self.assertFalse((self.folder / "out.mesh").exists())
+
+    def test_adaptation_keeps_within_the_limit(self):
+        cells = []
+        for allowed in ("2400", "100000"):
+            warnings = self.done("adapt", str(CASES / "wedge/case.toml"), "-o", allowed, "--cycles", "1", "--max-cells", allowed)[1]
+            self.assertEqual("fewer leaves are refined than are marked" in warnings, allowed == "2400", warnings)
+            counts = [json.loads((self.folder / allowed / f"cycle_0{k}/record.json").read_text()) for k in (0, 1)]
+            cells.append([record["triangles"] + record["quads"] for record in counts])
+        self.assertEqual(cells[0][0], cells[1][0])
+        self.assertLess(cells[0][0], cells[0][1])
+        self.assertLess(cells[0][1], 2400 * FACTOR)
+        self.assertLess(cells[0][1], cells[1][1])
+
+    def test_out_of_memory_is_one_line(self):
+        case = self.case(geom(("box", square(1))), "min = 0.0005\nmax = 0.001")
+        for mib in (450, 600):
+            limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (mib << 20, mib << 20))
+            result = subprocess.run([QUADLOOP, "mesh", case, "-o", "out", "--max-cells", "1e9", "--quiet"], cwd=self.folder, capture_output=True, text=True,
+                                    preexec_fn=limit)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
+            self.assertIn("out of memory", result.stderr)
+
+
+if __name__ == "__main__":
+    import sys
+    unittest.main(argv=sys.argv[:1])

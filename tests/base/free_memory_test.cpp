@@ -1,0 +1,61 @@
+// What may still be filled, as the system's own files tell it; the control groups' are made here.
+#include "mesher/base/free_memory.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Folder {
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories((path / name).parent_path());
+    std::ofstream(path / name) << text;
+  }
+  fs::path path = fs::temp_directory_path() / ("quadloop_groups_" + std::to_string(getpid()));
+};
+
+TEST(FreeMemory, IsKnownAndShared) {
+  EXPECT_GT(free_memory(), 0);
+  EXPECT_LT(free_memory(), 1e18);
+  EXPECT_GT(free_memory_of_all(test::world()), 0);
+}
+
+TEST(FreeMemory, AGroupLeavesItsLimitLessWhatItMustKeep) {
+  const Folder root;
+  root.write("job/memory.max", "1000\n");
+  root.write("job/memory.current", "700\n");
+  root.write("job/memory.stat", "anon 500\ninactive_file 150\n");
+  EXPECT_EQ(free_in_control_groups("0::/job\n", root.path), 450);
+}
+
+TEST(FreeMemory, TheGroupsAboveLimitItToo) {
+  const Folder root;
+  root.write("job/memory.max", "100\n");
+  root.write("job/memory.current", "70\n");
+  root.write("job/step/memory.max", "max\n");
+  root.write("job/step/memory.current", "10\n");
+  EXPECT_EQ(free_in_control_groups("0::/job/step\n", root.path), 30);
+}
+
+TEST(FreeMemory, TheOlderKindOfGroupsIsReadToo) {
+  const Folder root;
+  root.write("memory/job/memory.limit_in_bytes", "1000\n");
+  root.write("memory/job/memory.usage_in_bytes", "400\n");
+  EXPECT_EQ(free_in_control_groups("5:cpu,cpuacct:/other\n4:memory:/job\n0::/\n", root.path), 600);
+}
+
+TEST(FreeMemory, WithoutGroupsThereIsNoLimit) { EXPECT_TRUE(std::isinf(free_in_control_groups("0::/\n", "/nowhere"))); }
+
+}  // namespace
+}  // namespace quadloop
