@@ -12,6 +12,7 @@
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/geometry/assemble.hpp"
 
 namespace quadloop {
 
@@ -22,9 +23,13 @@ struct CheckArguments {
   bool json = false;
 };
 
-std::vector<Chain> load_chains(const std::string& path) {
-  std::vector<std::string> warnings;
+/// The outline as `mesh` would take it: joined, its loops turned. That of several blocks is no outline of one domain and stays as it is.
+std::vector<Chain> load_chains(const std::string& path, bool one_domain) {
+  Warnings warnings;
   std::vector<Chain> chains = read_geometry(path, warnings);
+  AssembleOptions options;
+  options.domain_is_known = true;
+  if (one_domain) chains = chains_of(assemble(std::move(chains), options, warnings));
   for (const std::string& warning : warnings) log::warning(warning);
   return chains;
 }
@@ -51,7 +56,7 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
   const LoadedMesh loaded = read_mesh(arguments.input);
   for (const std::string& warning : loaded.warnings) log::warning(warning);
   std::vector<Chain> chains;
-  if (!arguments.geometry.empty()) chains = load_chains(arguments.geometry);
+  if (!arguments.geometry.empty()) chains = load_chains(arguments.geometry, loaded.blocks == 1);
   CheckReport report = examine(loaded, arguments.geometry.empty() ? nullptr : &chains);
   report.file = arguments.input;
   if (arguments.json) {

@@ -1,5 +1,7 @@
 #include "mesher/mesh/build_mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "mesher/base/error.hpp"
@@ -7,6 +9,7 @@
 #include "mesher/mesh/assemble_mesh.hpp"
 #include "mesher/mesh/islands.hpp"
 #include "mesher/mesh/make_delaunay.hpp"
+#include "mesher/mesh/outline_losses.hpp"
 
 namespace quadloop {
 
@@ -49,6 +52,9 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   StageTimes& times = result.report.times;
   times.begin("geometry");
   const Geometry geometry = without_small_islands(given, options.size.min, result.report);
+  if (!options.may_vanish && !result.report.boundaries_vanished.empty()) {
+    refuse_vanished(given, result.report.boundaries_vanished, fmt::format("is smaller than spacing.min = {}", options.size.min));
+  }
   const Lattice lattice = choose_root(geometry, options.size.root);
   const ShiftedOutline outline(geometry);
   const InsideTest inside(outline);
@@ -66,6 +72,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
 
   times.begin("mesh");
   assemble_mesh(comm, geometry, sizes, graph, cut, result);
+  report_losses(comm, geometry, result.mesh, options.may_vanish, result.report);
 
   if (options.type == MeshType::delaunay) {
     times.begin("delaunay");
