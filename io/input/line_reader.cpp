@@ -17,7 +17,8 @@ namespace quadloop {
 
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == ','; }
+/// The old end-of-file character (0x1A) of DOS is a blank too.
+bool is_blank(char c) { return c == '\x1a' || c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == ','; }
 
 std::string read_whole(const std::string& path) {
   if (std::filesystem::is_directory(path)) throw InputError(path + ": is a folder; name a file");
