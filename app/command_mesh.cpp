@@ -103,6 +103,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   times.end();
   show_warnings(comm.is_root(), context.verbose, prepared.input.warnings);
   show_warnings(comm.is_root(), context.verbose, generated.result.report.warnings);
+  for (const std::string& file : prepared.files) show_warnings(comm.is_root(), true, renames_in(generated.result.mesh, file));
   const std::string table = summary_table(comm, generated.result, times.stages(), prepared.files);
   if (!context.quiet) std::cout << table;
 }

@@ -99,6 +99,7 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   show_warnings(comm.is_root(), context.verbose, input.warnings);
   show_warnings(comm.is_root(), context.verbose, carried.generated.result.report.warnings);
   show_warnings(comm.is_root(), context.verbose, plan.warnings);
+  for (const std::string& file : files) show_warnings(comm.is_root(), true, renames_in(carried.generated.result.mesh, file));
   const std::string table = summary_table(comm, carried.generated.result, times.stages(), files);
   if (!context.quiet && comm.is_root()) std::cout << table << carried_text(carried);
 }

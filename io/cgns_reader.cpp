@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "io/cgns_file.hpp"
 #include "io/cgns_handle.hpp"
@@ -207,18 +208,24 @@ class ZoneReader {
     std::array<char, 660> family{};
     file_.check(cg_goto(file_.id(), base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", boundary, "end"));
     if (type != FamilySpecified || cg_famname_read(family.data()) != CG_OK) return condition_of_cgns(type);
+    if (!families_) read_families();
+    const auto found = families_->find(family.data());
+    return found == families_->end() ? "none" : found->second;
+  }
+
+  void read_families() const {
+    families_.emplace();
     int families = 0;
     file_.check(cg_nfamilies(file_.id(), base_, &families));
     for (int f = 1; f <= families; ++f) {
       Name name{}, condition{};
       int conditions = 0, geometries = 0;
-      BCType_t family_type = BCTypeNull;
+      BCType_t type = BCTypeNull;
       file_.check(cg_family_read(file_.id(), base_, f, name.data(), &conditions, &geometries));
-      if (std::string(name.data()) != family.data() || conditions == 0) continue;
-      file_.check(cg_fambc_read(file_.id(), base_, f, 1, condition.data(), &family_type));
-      return condition_of_cgns(family_type);
+      if (conditions == 0) continue;
+      file_.check(cg_fambc_read(file_.id(), base_, f, 1, condition.data(), &type));
+      families_->emplace(name.data(), condition_of_cgns(type));
     }
-    return "none";
   }
 
   BoundaryEdges& boundary_named(const std::string& name, const std::string& condition) {
@@ -265,6 +272,7 @@ class ZoneReader {
   cgsize_t nodes_ = 0;
   std::size_t first_node_ = 0;
   std::vector<Bars> bars_;
+  mutable std::optional<std::map<std::string, std::string>> families_;  ///< of the base: family to condition, once it is asked for
 };
 
 }  // namespace

@@ -65,14 +65,15 @@ class CgnsSink {
     file_->check(cg_elements_partial_write(id(), base_, zone_, section_, first, next_element_ - 1, nodes.data()));
   }
 
-  /// The boundary whose `edges` bars were put last: a BC over them and a family that says the same.
+  /// The boundary whose `edges` bars were put last: a family that says what it is, and a BC over them that points to the family. VTK and ParaView show a
+  /// boundary only where its BC is given so, walls excepted.
   void put_condition(const std::string& name, const std::string& full_name, const std::string& condition, std::int64_t edges) {
     const auto type = static_cast<BCType_t>(cgns_condition(condition));
     const std::array<cgsize_t, 2> range{static_cast<cgsize_t>(next_element_ - edges), next_element_ - 1};
     int family = 0, family_condition = 0, boundary = 0;
     file_->check(cg_family_write(id(), base_, name.c_str(), &family));
     file_->check(cg_fambc_write(id(), base_, family, "FamBC", type, &family_condition));
-    file_->check(cg_boco_write(id(), base_, zone_, name.c_str(), type, PointRange, 2, range.data(), &boundary));
+    file_->check(cg_boco_write(id(), base_, zone_, name.c_str(), FamilySpecified, PointRange, 2, range.data(), &boundary));
     file_->check(cg_boco_gridlocation_write(id(), base_, zone_, boundary, EdgeCenter));
     file_->check(cg_goto(id(), base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", boundary, "end"));
     file_->check(cg_famname_write(name.c_str()));

@@ -1,8 +1,14 @@
 #include "io/mesh_file.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <numeric>
 
 #include "io/cgns_file.hpp"
+#include "io/cgns_names.hpp"
 #include "io/msh_file.hpp"
 #include "io/native_file.hpp"
 #include "io/su2_file.hpp"
@@ -17,6 +23,15 @@ std::string suffix_of(const std::string& path) { return std::filesystem::path(pa
 
 bool is_known(const std::string& suffix) {
   return suffix == ".mesh" || suffix == ".cgns" || suffix == ".vtu" || suffix == ".su2" || suffix == ".msh";
+}
+
+/// The boundaries' names as a file of the suffix has them.
+std::vector<std::string> names_in_file(const std::vector<std::string>& names, const std::string& suffix) {
+  if (suffix == ".su2") return su2_marker_names(names);
+  if (suffix == ".cgns") return cgns_boundary_names(names);
+  std::vector<std::string> written = names;
+  if (suffix == ".msh") std::transform(names.begin(), names.end(), written.begin(), msh_group_name);
+  return written;
 }
 
 }  // namespace
@@ -60,9 +75,21 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
   if (suffix == ".msh") write_msh(outputs, mesh, path);
 }
 
+std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path) {
+  std::vector<std::string> names;
+  for (const BoundaryEdges& boundary : mesh.boundaries) names.push_back(boundary.name);
+  const std::vector<std::string> written = names_in_file(names, suffix_of(path));
+  const auto first = std::mismatch(names.begin(), names.end(), written.begin());
+  if (first.first == names.end()) return {};
+  const auto kept = std::inner_product(names.begin(), names.end(), written.begin(), std::ptrdiff_t{0}, std::plus<>(), std::equal_to<>());
+  const std::ptrdiff_t renamed = static_cast<std::ptrdiff_t>(names.size()) - kept;
+  return {fmt::format("{}: {} boundar{} renamed, as this format cannot hold every name; the first, '{}', is '{}' there", path, renamed,
+                      renamed == 1 ? "y is" : "ies are", *first.first, *first.second)};
+}
+
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path) {
   const std::string suffix = suffix_of(path);
-  std::vector<std::string> losses;
+  std::vector<std::string> losses = renames_in(whole.mesh, path);
   if (whole.solution && (suffix == ".su2" || suffix == ".msh"))
     losses.push_back(path + ": this format has no place for the solution, which is left out");
   if (whole.solution && (suffix == ".cgns" || suffix == ".vtu") && !whole.solution->constants.empty()) {

@@ -22,7 +22,10 @@ void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& 
 /// OutputError on all ranks.
 void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr);
 
-/// What a format has no place for and the mesh has: one line each, with the file's name.
+/// One line that counts the boundaries whose names the format cannot hold, and says how the first is written; none where all are kept.
+std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path);
+
+/// What a format has no place for and the mesh has: one line each, with the file's name; renames among them.
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path);
 
 }  // namespace quadloop

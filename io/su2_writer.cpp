@@ -1,5 +1,6 @@
-#include <algorithm>
 #include <span>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "io/su2_file.hpp"
 #include "io/text_output.hpp"
@@ -18,18 +19,6 @@ std::string marker_name(const std::string& name) {
     if (!letter && !digit && !above_ascii && std::string_view("_-.+").find(c) == std::string_view::npos) c = '_';
   }
   return result;
-}
-
-/// Each boundary's name as SU2 can hold it, all of them different.
-std::vector<std::string> marker_names(const std::vector<const BoundaryEdges*>& boundaries) {
-  std::vector<std::string> names;
-  for (const BoundaryEdges* boundary : boundaries) {
-    const std::string wanted = marker_name(boundary->name);
-    std::string name = wanted;
-    for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number) name = wanted + "_" + std::to_string(number);
-    names.push_back(name);
-  }
-  return names;
 }
 
 class Su2Writer {
@@ -71,7 +60,9 @@ class Su2Writer {
 
   void write_markers() {
     const std::vector<const BoundaryEdges*> present = boundaries_with_edges(comm_, mesh_);
-    const std::vector<std::string> names = marker_names(present);
+    std::vector<std::string> own_names;
+    for (const BoundaryEdges* boundary : present) own_names.push_back(boundary->name);
+    const std::vector<std::string> names = su2_marker_names(own_names);
     file_.write("NMARK= " + std::to_string(present.size()) + "\n");
     for (std::size_t b = 0; b < present.size(); ++b) {
       const auto& edges = present[b]->edges;
@@ -90,6 +81,21 @@ class Su2Writer {
 };
 
 }  // namespace
+
+std::vector<std::string> su2_marker_names(const std::vector<std::string>& boundaries) {
+  std::vector<std::string> names;
+  std::unordered_set<std::string> used;
+  std::unordered_map<std::string, int> last_number;
+  for (const std::string& boundary : boundaries) {
+    const std::string wanted = marker_name(boundary);
+    std::string name = wanted;
+    for (int& number = last_number.try_emplace(wanted, 1).first->second; !used.insert(name).second;) {
+      name = wanted + "_" + std::to_string(++number);
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
 
 void write_su2(OutputSet& outputs, const Mesh& mesh, const std::string& path) { Su2Writer(outputs, mesh, path).write_mesh(); }
 

@@ -11,6 +11,12 @@ namespace quadloop {
 
 namespace bgi = boost::geometry::index;
 
+namespace {
+
+constexpr double largest_slope = 0.5;  ///< of the leaves' sizes: (g - 1) / 2 for the largest gradation g = 2
+
+}  // namespace
+
 double distance_to_segment(Point p, Point a, Point b) {
   const Point edge = b - a;
   const double squared = dot(edge, edge);
@@ -47,15 +53,22 @@ double CellReach::distance_to(std::int32_t cell, Point p) const {
   return inside ? 0 : nearest;
 }
 
-double CellReach::longest_within(Point p, double distance) {
-  if (cells_.empty()) build();
+double CellReach::size_within(Point p, double distance) const {
   const IndexBox around{{p.x - distance, p.y - distance}, {p.x + distance, p.y + distance}};
-  double longest = 0;
+  double size = 0;
   for (auto found = cells_.qbegin(bgi::intersects(around)); found != cells_.qend(); ++found) {
     const double here = longest_[static_cast<std::size_t>(found->second)];
-    if (here > longest && distance_to(found->second, p) <= distance) longest = here;
+    if (here > size) size = std::max(size, here - largest_slope * distance_to(found->second, p));
   }
-  if (longest > 0) return longest;
+  return size;
+}
+
+double CellReach::size_at(Point p, double enough) {
+  constexpr int farthest = 16;
+  if (cells_.empty()) build();
+  double size = 0;
+  for (int times = 1; times <= farthest && size < enough; times *= 2) size = size_within(p, times * enough);
+  if (size > 0) return size;
   const auto nearest = cells_.qbegin(bgi::nearest(IndexPoint(p.x, p.y), 1));
   return nearest == cells_.qend() ? 0 : longest_[static_cast<std::size_t>(nearest->second)];
 }

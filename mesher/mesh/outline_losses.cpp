@@ -58,7 +58,7 @@ void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, co
   const std::string& name = geometry.boundary(geometry.boundary_of(first)).name;
   report.warnings.push_back(
       fmt::format("boundary '{}': {} of {} kept corner{} of the outline {} no node of the mesh, the first at {}: several share a smallest leaf; make "
-                  "spacing.min smaller there, or 'corner' larger where they need not be kept",
+                  "spacing.min smaller, or 'corner' larger where they need not be kept",
                   name, report.corners_lost, kept.size(), kept.size() == 1 ? "" : "s", report.corners_lost == 1 ? "is" : "are",
                   text(geometry.point(first))));
 }

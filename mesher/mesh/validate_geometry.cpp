@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "mesher/mesh/cell_reach.hpp"
@@ -23,6 +24,7 @@ using IndexPoint = bg::model::point<double, 2, bg::cs::cartesian>;
 using IndexSegment = bg::model::segment<IndexPoint>;
 
 constexpr double sharp_degrees = 30;
+constexpr double fragments = 2;  ///< a leaf may be that much larger than what is left of it round a loop
 
 /// Segments that answer which of them is nearest.
 class SegmentSet {
@@ -147,10 +149,20 @@ class Comparison {
       for (const NodeId node : edge) {
         const auto [segment, away] = outline.segments.nearest(mesh_.point(node));
         fit_.boundary_node_distance = std::max(fit_.boundary_node_distance, away);
-        if (away > tolerance_ && node == edge[0]) fault("a node of boundary " + boundary.name + " lies off it", mesh_.point(node));
+        if (away > tolerance_ && node == edge[0] && !ends_beyond_joint(mesh_.point(node), away)) fault("a node of boundary " + boundary.name + " lies off it", mesh_.point(node));
         if (segment < outline.segment_chain.size()) met_[outline.segment_chain[segment]] = 1;
       }
     }
+  }
+
+  /// Where the joint of two boundaries is lost within a leaf, the edges of one end on the other.
+  bool ends_beyond_joint(Point p, double away) {
+    if (!all_segments_) {
+      all_segments_.emplace();
+      for (const Chain& chain : geometry_) for_each_segment(chain, [&](Point a, Point b) { all_segments_->add(a, b); });
+      all_segments_->build();
+    }
+    return all_segments_->nearest(p).second <= tolerance_ && away <= reach_.size_at(p, away);
   }
 
   /// No point of a loop that the mesh has is farther from its boundary there than the cells round it are long.
@@ -170,7 +182,7 @@ class Comparison {
     const auto& nodes = boundary.edges[edge];
     const std::int32_t cell = table_.cell_left_of(nodes[0], nodes[1]);
     if (away <= tolerance_ || (cell >= 0 && away <= longest_[static_cast<std::size_t>(cell)])) return;
-    if (away <= reach_.longest_within(p, away)) return;
+    if (away <= reach_.size_at(p, away)) return;
     fault("a point of boundary " + boundary.name + " is farther from the mesh than the cells there are long", p);
   }
 
@@ -183,8 +195,8 @@ class Comparison {
       Box box;
       for (const Point p : chain.points) box.include(p);
       const double size = std::max(box.width(), box.height());
-      const double cells = reach_.longest_within(box.centre(), length(box.high - box.low));
-      if (size <= cells) continue;
+      const double cells = reach_.size_at(box.centre(), size);
+      if (size <= fragments * cells) continue;
       fault(fmt::format("a loop of boundary {}, {:.6g} wide and {:.6g} high, is not in the mesh, where cells are {:.6g} long", chain.name, box.width(),
                         box.height(), cells),
             box.centre());
@@ -221,6 +233,7 @@ class Comparison {
   EdgeTable table_;
   std::vector<double> longest_;
   CellReach reach_;
+  std::optional<SegmentSet> all_segments_;  ///< of every boundary, once they are asked for
   Point centre_;
   double tolerance_ = 0;
   GeometryFit fit_;
