@@ -53,24 +53,36 @@ double CellReach::distance_to(std::int32_t cell, Point p) const {
   return inside ? 0 : nearest;
 }
 
-double CellReach::size_within(Point p, double distance) const {
+/// The largest of longest edge less `slope` times the distance, over the cells within `distance`; 0 where there are none.
+double CellReach::largest_within(Point p, double distance, double slope) const {
   const IndexBox around{{p.x - distance, p.y - distance}, {p.x + distance, p.y + distance}};
   double size = 0;
   for (auto found = cells_.qbegin(bgi::intersects(around)); found != cells_.qend(); ++found) {
     const double here = longest_[static_cast<std::size_t>(found->second)];
-    if (here > size) size = std::max(size, here - largest_slope * distance_to(found->second, p));
+    if (here <= size) continue;
+    const double away = distance_to(found->second, p);
+    if (away <= distance) size = std::max(size, here - slope * away);
   }
   return size;
+}
+
+double CellReach::longest_of_nearest(Point p) const {
+  const auto nearest = cells_.qbegin(bgi::nearest(IndexPoint(p.x, p.y), 1));
+  return nearest == cells_.qend() ? 0 : longest_[static_cast<std::size_t>(nearest->second)];
 }
 
 double CellReach::size_at(Point p, double enough) {
   constexpr int farthest = 16;
   if (cells_.empty()) build();
   double size = 0;
-  for (int times = 1; times <= farthest && size < enough; times *= 2) size = size_within(p, times * enough);
-  if (size > 0) return size;
-  const auto nearest = cells_.qbegin(bgi::nearest(IndexPoint(p.x, p.y), 1));
-  return nearest == cells_.qend() ? 0 : longest_[static_cast<std::size_t>(nearest->second)];
+  for (int times = 1; times <= farthest && size < enough; times *= 2) size = largest_within(p, times * enough, largest_slope);
+  return size > 0 ? size : longest_of_nearest(p);
+}
+
+double CellReach::longest_within(Point p, double distance) {
+  if (cells_.empty()) build();
+  const double longest = largest_within(p, distance, 0);
+  return longest > 0 ? longest : longest_of_nearest(p);
 }
 
 }  // namespace quadloop

@@ -22,13 +22,17 @@ class CellReach {
   /// times as far. Of the nearest cell the longest edge, where none is as near. Builds its index when first asked.
   double size_at(Point p, double enough);
 
+  /// The longest edge of the cells that come within `distance` of the point; of the nearest cell, where none does.
+  double longest_within(Point p, double distance);
+
  private:
   using IndexPoint = boost::geometry::model::point<double, 2, boost::geometry::cs::cartesian>;
   using IndexBox = boost::geometry::model::box<IndexPoint>;
   using Entry = std::pair<IndexBox, std::int32_t>;
 
   void build();
-  double size_within(Point p, double distance) const;
+  double largest_within(Point p, double distance, double slope) const;
+  double longest_of_nearest(Point p) const;
   double distance_to(std::int32_t cell, Point p) const;
 
   const Mesh& mesh_;

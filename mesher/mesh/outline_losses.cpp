@@ -56,7 +56,8 @@ void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, co
   }
   if (report.corners_lost == 0) return;
   const std::string& name = geometry.boundary(geometry.boundary_of(first)).name;
-  report.warnings.push_back(
+  report.warnings.insert(
+      report.warnings.begin(),  // before a list of islands
       fmt::format("boundary '{}': {} of {} kept corner{} of the outline {} no node of the mesh, the first at {}: several share a smallest leaf; make "
                   "spacing.min smaller, or 'corner' larger where they need not be kept",
                   name, report.corners_lost, kept.size(), kept.size() == 1 ? "" : "s", report.corners_lost == 1 ? "is" : "are",

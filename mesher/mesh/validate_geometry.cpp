@@ -24,7 +24,7 @@ using IndexPoint = bg::model::point<double, 2, bg::cs::cartesian>;
 using IndexSegment = bg::model::segment<IndexPoint>;
 
 constexpr double sharp_degrees = 30;
-constexpr double fragments = 2;  ///< a leaf may be that much larger than what is left of it round a loop
+constexpr double fragments = 2, loop_reach = 4;  ///< a leaf may be that much larger than its pieces, which lie within so many sizes of a loop
 
 /// Segments that answer which of them is nearest.
 class SegmentSet {
@@ -195,7 +195,7 @@ class Comparison {
       Box box;
       for (const Point p : chain.points) box.include(p);
       const double size = std::max(box.width(), box.height());
-      const double cells = reach_.size_at(box.centre(), size);
+      const double cells = reach_.longest_within(box.centre(), loop_reach * size);
       if (size <= fragments * cells) continue;
       fault(fmt::format("a loop of boundary {}, {:.6g} wide and {:.6g} high, is not in the mesh, where cells are {:.6g} long", chain.name, box.width(),
                         box.height(), cells),
