@@ -128,8 +128,8 @@ std::string shape_text(const ShapeStatistics& shape, bool with_geometry, bool ve
 }
 
 std::string fit_text(const GeometryFit& fit) {
-  return row("boundaries dropped", fit.boundaries_dropped) + row("loops dropped", fit.loops_dropped) +
-         row("sharp corners", fit.sharp_corners) + row("sharp corners lost", fit.sharp_corners_lost) + row("boundary node distance", fit.boundary_node_distance) +
+  return row("boundaries dropped", fit.boundaries_dropped) + row("loops dropped", fit.loops_dropped) + row("sharp corners", fit.sharp_corners) +
+         row("sharp corners lost", fit.sharp_corners_lost) + row("boundary node distance", fit.boundary_node_distance) +
          row("geometry distance", fit.geometry_distance) + row("geometry area error", fit.area_error);
 }
 

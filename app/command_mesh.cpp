@@ -119,7 +119,8 @@ void add_mesh_command(CLI::App& app, CommandContext& context) {
       ->type_name("TYPE")
       ->check(CLI::IsMember({"hybrid", "delaunay"}));
   command->add_option("--tree", arguments->tree, "restart from the tree of an earlier run: what it wanted refined stays so")->type_name("TREE.h5");
-  command->add_option("--geometry-out", arguments->geometry_out, "write the geometry as it is meshed, without the islands that are dropped")->type_name("OUT.geom");
+  command->add_option("--geometry-out", arguments->geometry_out, "write the geometry as it is meshed, without the islands that are dropped")
+      ->type_name("OUT.geom");
   command->add_option("--set", arguments->assignments, "set a key of the case file, as in spacing.min=0.1; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);

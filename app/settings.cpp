@@ -251,9 +251,10 @@ Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) 
   const Lattice lattice = choose_root(geometry, options.size.root);
   const Box root = lattice.box();
   if (const double finest = lattice.edge(lattice.finest_level(min)); finest > options.size.max) {
-    warnings.push_back(fmt::format("leaves stay at {}, above spacing.max = {}: sizes halve from the root's, and spacing.min = {} forbids the next one; "
-                                   "make spacing.min {} or less",
-                                   finest, options.size.max, min, finest / 2));
+    warnings.push_back(
+        fmt::format("leaves stay at {}, above spacing.max = {}: sizes halve from the root's, and spacing.min = {} forbids the next one; "
+                    "make spacing.min {} or less",
+                    finest, options.size.max, min, finest / 2));
   }
   for (const Boundary& b : geometry.boundaries()) {
     if (b.spacing > 0 && b.spacing < min) {

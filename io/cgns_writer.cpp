@@ -65,8 +65,8 @@ class CgnsSink {
     file_->check(cg_elements_partial_write(id(), base_, zone_, section_, first, next_element_ - 1, nodes.data()));
   }
 
-  /// The boundary whose `edges` bars were put last: a family that says what it is, and a BC over them that points to the family. VTK and ParaView show a
-  /// boundary only where its BC is given so, walls excepted.
+  /// The boundary whose `edges` bars were put last: a family that says what it is, and a BC over them that points to the family. VTK and ParaView
+  /// show a boundary only where its BC is given so, walls excepted.
   void put_condition(const std::string& name, const std::string& full_name, const std::string& condition, std::int64_t edges) {
     const auto type = static_cast<BCType_t>(cgns_condition(condition));
     const std::array<cgsize_t, 2> range{static_cast<cgsize_t>(next_element_ - edges), next_element_ - 1};

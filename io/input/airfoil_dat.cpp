@@ -64,8 +64,8 @@ class AirfoilRows {
     while (lines.next()) take(lines);
     if (rows_.empty()) lines.refuse("the file ends here, but the coordinates are missing");
     if (counts_ && rows_.size() != expected()) {
-      lines.refuse(fmt::format("the file has {} points, but its head says {} and {}; correct the counts, or complete the file", rows_.size(), counts_->x,
-                               counts_->y));
+      lines.refuse(fmt::format("the file has {} points, but its head says {} and {}; correct the counts, or complete the file", rows_.size(),
+                               counts_->x, counts_->y));
     }
   }
 
@@ -168,8 +168,8 @@ std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string
   if (airfoil.upper()) {
     rows = around(rows, *airfoil.upper());
   } else if (const std::size_t upper = second_surface(rows)) {
-    warnings.push_back(fmt::format("{}: both surfaces run from the leading edge, though the head has no counts; point {} begins the second", path,
-                                   upper + 1));
+    warnings.push_back(
+        fmt::format("{}: both surfaces run from the leading edge, though the head has no counts; point {} begins the second", path, upper + 1));
     rows = around(rows, upper);
   }
   warn_of_gap(rows, source, warnings);

@@ -101,9 +101,10 @@ void warn_of_degrees(const std::string& path, std::span<const Chain> chains, std
   if (chains.empty() || !are_degrees(box)) return;
   const Point middle = box.centre();
   const std::string name = std::filesystem::path(path).filename().string();
-  warnings.push_back(fmt::format("{}: its coordinates are degrees (longitude, latitude), and so all lengths of the case are; at latitude {:.1f} a degree "
-                                 "along x is {:.2f} of one along y. Project it first, as by 'ogr2ogr -t_srs EPSG:{} projected.gpkg {}' (metres)",
-                                 path, middle.y, std::cos(middle.y * std::numbers::pi / 180), utm_code(middle), name));
+  warnings.push_back(
+      fmt::format("{}: its coordinates are degrees (longitude, latitude), and so all lengths of the case are; at latitude {:.1f} a degree "
+                  "along x is {:.2f} of one along y. Project it first, as by 'ogr2ogr -t_srs EPSG:{} projected.gpkg {}' (metres)",
+                  path, middle.y, std::cos(middle.y * std::numbers::pi / 180), utm_code(middle), name));
 }
 
 bool is_in_degrees(const OGRLayer& layer) {

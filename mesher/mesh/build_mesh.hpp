@@ -20,7 +20,7 @@ enum class MeshType { hybrid, delaunay };
 struct MeshOptions {
   MeshType type = MeshType::hybrid;
   SizeOptions size;
-  double snap = 0.4;  ///< a lattice corner nearer to a crossing than this share of the local edge moves onto the boundary; 0 <= snap < 0.5
+  double snap = 0.4;        ///< a lattice corner nearer to a crossing than this share of the local edge moves onto the boundary; 0 <= snap < 0.5
   bool may_vanish = false;  ///< a boundary all of whose loops are smaller than the smallest leaf is dropped; otherwise it is refused
 };
 

@@ -87,8 +87,7 @@ std::vector<std::vector<double>> shares_of_area(const Mesh& mesh, Point centre) 
 std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
   std::vector<double> shares(geometry.boundaries().size(), 0);
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
-    shares[static_cast<std::size_t>(geometry.boundary_of(s).value())] +=
-        cross(geometry.point(s) - centre, geometry.point(geometry.next(s)) - centre);
+    shares[static_cast<std::size_t>(geometry.boundary_of(s).value())] += cross(geometry.point(s) - centre, geometry.point(geometry.next(s)) - centre);
   }
   return shares;
 }
@@ -116,9 +115,10 @@ std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
 void refuse_vanished(const Geometry& geometry, const std::vector<std::string>& vanished, const std::string& why) {
   const Box box = box_of_boundary(geometry, vanished.front());
   const std::string more = vanished.size() == 1 ? "" : fmt::format(", and with it {} other boundaries", vanished.size() - 1);
-  throw InputError(fmt::format("boundary '{}' near {}, {:.6g} wide and {:.6g} high, {} and would vanish from the mesh{}; make spacing.min smaller, or "
-                               "allow it by vanish = \"allow\" in [geometry]",
-                               vanished.front(), text(box.centre()), box.width(), box.height(), why, more));
+  throw InputError(
+      fmt::format("boundary '{}' near {}, {:.6g} wide and {:.6g} high, {} and would vanish from the mesh{}; make spacing.min smaller, or "
+                  "allow it by vanish = \"allow\" in [geometry]",
+                  vanished.front(), text(box.centre()), box.width(), box.height(), why, more));
 }
 
 void report_losses(const Communicator& comm, const Geometry& geometry, const Mesh& mesh, bool may_vanish, MeshReport& report) {

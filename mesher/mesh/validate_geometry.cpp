@@ -55,7 +55,7 @@ class SegmentSet {
 
 /// All chains of one name.
 struct NamedOutline {
-  std::vector<std::size_t> chains;        ///< which they are
+  std::vector<std::size_t> chains;         ///< which they are
   std::vector<std::size_t> segment_chain;  ///< of each segment
   SegmentSet segments;
 };
@@ -149,7 +149,8 @@ class Comparison {
       for (const NodeId node : edge) {
         const auto [segment, away] = outline.segments.nearest(mesh_.point(node));
         fit_.boundary_node_distance = std::max(fit_.boundary_node_distance, away);
-        if (away > tolerance_ && node == edge[0] && !ends_beyond_joint(mesh_.point(node), away)) fault("a node of boundary " + boundary.name + " lies off it", mesh_.point(node));
+        if (away > tolerance_ && node == edge[0] && !ends_beyond_joint(mesh_.point(node), away))
+          fault("a node of boundary " + boundary.name + " lies off it", mesh_.point(node));
         if (segment < outline.segment_chain.size()) met_[outline.segment_chain[segment]] = 1;
       }
     }
@@ -197,8 +198,8 @@ class Comparison {
       const double size = std::max(box.width(), box.height());
       const double cells = reach_.longest_within(box.centre(), loop_reach * size);
       if (size <= fragments * cells) continue;
-      fault(fmt::format("a loop of boundary {}, {:.6g} wide and {:.6g} high, is not in the mesh, where cells are {:.6g} long", chain.name, box.width(),
-                        box.height(), cells),
+      fault(fmt::format("a loop of boundary {}, {:.6g} wide and {:.6g} high, is not in the mesh, where cells are {:.6g} long", chain.name,
+                        box.width(), box.height(), cells),
             box.centre());
     }
   }

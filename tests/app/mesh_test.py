@@ -34,6 +34,16 @@ class MeshWarnings(ProgramTest):
         self.assertEqual(list(self.folder.glob("case.*")), [self.folder / "case.toml"])
         self.assertIn("and with it 1 other", self.run_program("mesh", "case.toml", "--set", "spacing.min=2", "spacing.max=2").stderr)
 
+    def test_a_boundary_that_vanishes_from_a_changed_outline_is_refused(self):
+        self.mesh("3\n" + BOX + ROCK.replace("2 2.1\n2.1 2.1\n2.1 2", "2 2.9\n2.9 2.9\n2.9 2"))
+        text = (self.folder / "a.mesh").read_text()
+        nodes = int(text.splitlines()[1])
+        self.write("solved.mesh", text + "#Number of constants\n0\n#Number of variables\n1\n" + "1\n" * nodes)
+        self.write("new.geom", "2\n" + BOX + ISLE.replace("isle", "rock"))
+        remesh = ["remesh", "case.toml", "--tree", "a.tree.h5", "--solution", "solved.mesh", "--geometry", "new.geom", "-o", "b"]
+        self.refused(1, ["boundary 'rock' near (3.05, 3.05)", 'vanish = "allow"'], *remesh)
+        self.assertIn("vanished, smaller than spacing.min: rock", self.done(*remesh, "--set", 'geometry.vanish="allow"')[0])
+
     def test_an_inlet_lost_between_two_walls_is_refused(self):
         wall = "wall open\n5\n1.07 0\n8 0\n8 8\n0 8\n0 0\nwall open\n2\n0 0\n1.05 0\n"
         self.write("a.geom", "3\n" + wall + "inlet open\n2\n1.05 0\n1.07 0\n")

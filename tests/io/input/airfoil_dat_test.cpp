@@ -41,7 +41,8 @@ class AirfoilDat : public ::testing::Test {
 
 TEST_F(AirfoilDat, PassesOverTextAfterThePoints) {
   for (const std::string& points : {selig, lednicer}) {
-    expect_airfoil(name + points + "\nWortmann, 1978\nt/c = 12 percent\n", {"2 rows beside the name that are no points of the airfoil", "'Wortmann, 1978'"});
+    expect_airfoil(name + points + "\nWortmann, 1978\nt/c = 12 percent\n",
+                   {"2 rows beside the name that are no points of the airfoil", "'Wortmann, 1978'"});
     expect_airfoil(name + points + "12 percent thick\n", {"1 row beside the name", "'12 percent thick'", "was passed over"});
     expect_airfoil(name + points + "x t\n0.5 0.12\n0.7 0.08\n", {"3 rows", "'x t'"});
     expect_airfoil(name + points + "\x1a\n", {});
@@ -65,9 +66,7 @@ TEST_F(AirfoilDat, PassesOverWordsBetweenTheSurfaces) {
   expect_airfoil(name + "3. 3.\nupper surface\n" + upper + "lower surface\n" + lower, {"2 rows", "'upper surface'"});
 }
 
-TEST_F(AirfoilDat, ReadsEveryOtherRowBlank) {
-  expect_airfoil(name + "\n1.0 0.0\n\n0.5 0.06\n\n0.0 0.0\n\n0.5 -0.06\n\n1.0 0.0\n", {});
-}
+TEST_F(AirfoilDat, ReadsEveryOtherRowBlank) { expect_airfoil(name + "\n1.0 0.0\n\n0.5 0.06\n\n0.0 0.0\n\n0.5 -0.06\n\n1.0 0.0\n", {}); }
 
 TEST_F(AirfoilDat, TakesTwoSurfacesWithoutCounts) {
   expect_airfoil(name + upper + "\n" + lower, {"both surfaces run from the leading edge", "point 4 begins the second"});

@@ -105,7 +105,8 @@ TEST_F(OgrReader, JoinsDxfArcsWhoseEndsDifferByRounding) {
 }
 
 TEST_F(OgrReader, ClosesADxfPolylineOfArcs) {  // bulges of 1: half circles
-  const std::string slot = "  0\nLWPOLYLINE\n  8\nslot\n 90\n4\n 70\n1\n 10\n0.1\n 20\n0.3\n 10\n2.1\n 20\n0.3\n 42\n1\n 10\n2.1\n 20\n1.3\n 10\n0.1\n 20\n1.3\n 42\n1\n";
+  const std::string slot =
+      "  0\nLWPOLYLINE\n  8\nslot\n 90\n4\n 70\n1\n 10\n0.1\n 20\n0.3\n 10\n2.1\n 20\n0.3\n 42\n1\n 10\n2.1\n 20\n1.3\n 10\n0.1\n 20\n1.3\n 42\n1\n";
   expect_joined(read("a.dxf", dxf_of(slot)), 1);
 }
 
