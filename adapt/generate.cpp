@@ -7,6 +7,7 @@
 #include "adapt/digests.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/delaunay/tie_order.hpp"
+#include "mesher/mesh/outline_losses.hpp"
 #include "mesher/mesh/split_quads.hpp"
 
 namespace quadloop {
@@ -62,6 +63,7 @@ GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, co
   generated.times.begin("smooth");
   smooth(comm, input, result);
   generated.times.end();
+  require_area(comm, input.geometry, result.report.area_dropped, result.mesh);
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);
   return generated;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <variant>
+
 #include "adapt/cycle_folders.hpp"
 #include "adapt/resume.hpp"
 #include "adapt/transfer/transfer.hpp"
@@ -103,6 +106,7 @@ class AdaptiveRun {
     times.end();
     const CycleRecord record = record_of(cycle, carried, flow, left.plan, times);
     std::vector<std::string> warnings = result.report.warnings;
+    if (!before) append_renames(result.mesh, warnings);
     warnings.insert(warnings.end(), flow.warnings.begin(), flow.warnings.end());
     warnings.insert(warnings.end(), left.plan.warnings.begin(), left.plan.warnings.end());
     write_text(comm_, folder + "/log.txt", log_text(record, flow.notes, warnings));
@@ -128,6 +132,18 @@ class AdaptiveRun {
       if (format != "mesh" && format != "cgns") write_mesh(outputs, mesh, folder + "/mesh." + format, &solution, gamma_of(case_.solver));
     }
     outputs.commit();
+  }
+
+  /// Of every file that a cycle's mesh is written to; said of the first cycle alone.
+  void append_renames(const Mesh& mesh, std::vector<std::string>& warnings) const {
+    std::vector<std::string> files{"mesh.cgns"};
+    for (const std::string& format : case_.formats) files.push_back("mesh." + format);
+    if (const auto* command = std::get_if<CommandSolver>(&case_.solver)) files.push_back(command->mesh);
+    std::sort(files.begin(), files.end());
+    files.erase(std::unique(files.begin(), files.end()), files.end());
+    for (const std::string& file : files) {
+      for (std::string& line : renames_in(mesh, file)) warnings.push_back(std::move(line));
+    }
   }
 
   CycleRecord record_of(int cycle, const CarriedMesh& carried, const SolvedFlow& flow, const AdaptationPlan& plan, const StageTimes& times) const {

@@ -14,6 +14,7 @@ constexpr std::size_t most_listed = 20;
 
 void add_fit(JsonObject& json, const GeometryFit& fit) {
   json.add("boundaries_dropped", fit.boundaries_dropped);
+  json.add("loops_dropped", fit.loops_dropped);
   json.add("sharp_corners", fit.sharp_corners);
   json.add("sharp_corners_lost", fit.sharp_corners_lost);
   json.add("boundary_node_distance", fit.boundary_node_distance);
@@ -97,7 +98,7 @@ std::string shape_text(const ShapeStatistics& shape, const ShapeFigures& figures
 }
 
 std::string fit_text(const GeometryFit& fit) {
-  return row("boundaries dropped", fit.boundaries_dropped) + row("sharp corners", fit.sharp_corners) +
+  return row("boundaries dropped", fit.boundaries_dropped) + row("loops dropped", fit.loops_dropped) + row("sharp corners", fit.sharp_corners) +
          row("sharp corners lost", fit.sharp_corners_lost) + row("boundary node distance", fit.boundary_node_distance) +
          row("geometry distance", fit.geometry_distance) + row("geometry area error", fit.area_error);
 }

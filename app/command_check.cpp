@@ -11,6 +11,7 @@
 #include "app/refusals.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
+#include "mesher/geometry/assemble.hpp"
 
 namespace quadloop {
 
@@ -20,9 +21,13 @@ struct CheckArguments {
   std::string input, geometry;
 };
 
-std::vector<Chain> load_chains(const CommandContext& context, const std::string& path) {
-  std::vector<std::string> warnings;
+/// The outline as `mesh` would take it: joined, its loops turned. That of several blocks is no outline of one domain and stays as it is.
+std::vector<Chain> load_chains(const CommandContext& context, const std::string& path, bool one_domain) {
+  Warnings warnings;
   std::vector<Chain> chains = read_geometry(path, warnings);
+  AssembleOptions options;
+  options.domain_is_known = true;
+  if (one_domain) chains = chains_of(assemble(std::move(chains), options, warnings));
   context.warn(warnings);
   return chains;
 }
@@ -50,7 +55,7 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
   const LoadedMesh loaded = read_mesh(arguments.input);
   context.warn(loaded.warnings);
   std::vector<Chain> chains;
-  if (!arguments.geometry.empty()) chains = load_chains(context, arguments.geometry);
+  if (!arguments.geometry.empty()) chains = load_chains(context, arguments.geometry, loaded.blocks == 1);
   CheckReport report = examine(loaded, arguments.geometry.empty() ? nullptr : &chains);
   report.file = arguments.input;
   context.record.figures = report_record(report);

@@ -19,6 +19,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
+#include "mesher/mesh/islands.hpp"
 
 namespace quadloop {
 
@@ -60,6 +61,12 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   return prepared;
 }
 
+/// The geometry as it was meshed: without the islands that were dropped.
+Geometry meshed_geometry(const MeshInput& input) {
+  MeshReport told_already;
+  return without_small_islands(input.geometry, input.mesh.size.min, told_already);
+}
+
 void write_geometry(OutputSet& outputs, const Geometry& geometry, const std::string& path) {
   const StagedFile staged = outputs.stage(path);
   const Communicator& comm = outputs.communicator();
@@ -77,7 +84,7 @@ void write_outputs(const Communicator& comm, const MeshResult& result, const Pre
   for (const std::string& format : settings.formats) {
     write_mesh(outputs, result.mesh, settings.output_prefix + "." + format);
   }
-  if (!geometry_out.empty()) write_geometry(outputs, prepared.input.mesh->geometry, geometry_out);
+  if (!geometry_out.empty()) write_geometry(outputs, meshed_geometry(*prepared.input.mesh), geometry_out);
   write_tree(outputs, result.tree, settings.output_prefix + ".tree.h5");
   outputs.commit();
 }
@@ -115,6 +122,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   times.end();
   context.warn(prepared.input.warnings);
   context.warn(generated.result.report.warnings);
+  for (const std::string& file : prepared.files) context.warn(renames_in(generated.result.mesh, file));
   const MeshSummary summary = summarise(comm, generated.result, times.stages(), prepared.files);
   context.warn(solver_warnings(prepared.input.settings, summary.shape));
   context.record.figures = record_of(summary);
@@ -133,7 +141,8 @@ void add_mesh_command(CLI::App& app, CommandContext& context) {
       ->type_name("TYPE")
       ->check(one_of({"hybrid", "delaunay"}));
   command->add_option("--tree", arguments->tree, "restart from the tree of an earlier run: what it wanted refined stays so")->type_name("TREE.h5");
-  command->add_option("--geometry-out", arguments->geometry_out, "write the geometry as it is meshed")->type_name("OUT.geom");
+  command->add_option("--geometry-out", arguments->geometry_out, "write the geometry as it is meshed, without the islands that are dropped")
+      ->type_name("OUT.geom");
   add_max_cells_option(*command, arguments->max_cells);
   command->add_option("--set", arguments->assignments, "set a key of the case file, as in spacing.min=0.1; may be repeated")
       ->type_name("KEY=VALUE")

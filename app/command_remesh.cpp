@@ -144,6 +144,7 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   context.warn(input.warnings);
   context.warn(carried.generated.result.report.warnings);
   context.warn(plan.warnings);
+  for (const std::string& file : files) context.warn(renames_in(carried.generated.result.mesh, file));
   const MeshSummary summary = summarise(comm, carried.generated.result, times.stages(), files);
   const Figures of_transfer = transfer_figures(carried);
   context.record.figures = record_of(summary);

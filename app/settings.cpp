@@ -48,6 +48,7 @@ void read_geometry_table(const CaseTable& root, const std::string& case_path, Se
   if (const auto width = table->number("far_field", Range::positive())) {
     settings.far_field = FarField{*width, fmt::format("{}: 'geometry.far_field'", table->place("far_field"))};
   }
+  settings.mesh.may_vanish = table->choice("vanish", {"error", "allow"}) == "allow";
   table->finish();
 }
 
@@ -245,10 +246,10 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
     if (const double at_corner = geometry.corner_spacing_of(s); at_corner > 0) smallest = std::min(smallest, at_corner);
   }
   for (const Source& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
-  const double wanted_min = std::max(smallest / 2, std::ldexp(side, -20));  // leaf sizes halve: so there is one at most as large as asked for
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
   options.size.max = max;
-  options.size.min = settings.min.value_or(std::min(wanted_min, max));
+  // Leaf sizes halve: so there is one at most as large as asked for.
+  options.size.min = settings.min.value_or(std::min(std::max(smallest / 2, std::ldexp(side, -20)), max / 2));
   return options;
 }
 
@@ -280,7 +281,14 @@ Warnings corner_warnings(const Geometry& geometry, double min) {
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
   Warnings warnings;
   const double min = options.size.min;
-  const Box root = choose_root(geometry, options.size.root).box();
+  const Lattice lattice = choose_root(geometry, options.size.root);
+  const Box root = lattice.box();
+  if (const double finest = lattice.edge(lattice.finest_level(min)); finest > options.size.max) {
+    warnings.push_back(
+        fmt::format("leaves stay at {}, above spacing.max = {}: sizes halve from the root's, and spacing.min = {} forbids the next one; "
+                    "make spacing.min {} or less",
+                    finest, options.size.max, min, finest / 2));
+  }
   for (const Boundary& b : geometry.boundaries()) {
     if (b.spacing > 0 && b.spacing < min) {
       warnings.push_back(

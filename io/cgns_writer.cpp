@@ -113,7 +113,8 @@ class CgnsSink {
   std::vector<double> column_;
 };
 
-/// The boundaries, on rank 0, once the rest of the file is written: for each a section of bars, a BC over them and a family that says the same.
+/// The boundaries, on rank 0, once the rest of the file is written: for each a section of bars, a family that says
+/// what it is, and a BC over the bars that points to the family: VTK and ParaView show a boundary only where its BC is given so, walls excepted.
 class BoundarySink {
  public:
   /// `first_element` is the number of the first bar.
@@ -153,7 +154,7 @@ class BoundarySink {
     const CgnsNodes::Node family = nodes_.add(base_, name, "Family_t");
     nodes_.add_text(family, "FamBC", "FamilyBC_t", type);
     if (!conditions_.valid()) conditions_ = nodes_.add(zone_, "ZoneBC", "ZoneBC_t");
-    const CgnsNodes::Node condition = nodes_.add_text(conditions_, name, "BC_t", type);
+    const CgnsNodes::Node condition = nodes_.add_text(conditions_, name, "BC_t", cg_BCTypeName(FamilySpecified));
     nodes_.add_integers(condition, "PointRange", "IndexRange_t", range, 1);
     nodes_.add_text(condition, "GridLocation", "GridLocation_t", cg_GridLocationName(EdgeCenter));
     nodes_.add_text(condition, "FamilyName", "FamilyName_t", name);

@@ -1,12 +1,16 @@
 #include "io/mesh_file.hpp"
 
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <numeric>
 #include <system_error>
 
 #include "io/cgns_file.hpp"
+#include "io/cgns_names.hpp"
 #include "io/msh_file.hpp"
 #include "io/native_file.hpp"
 #include "io/su2_csv_file.hpp"
@@ -19,6 +23,16 @@ namespace quadloop {
 namespace {
 
 std::string suffix_of(const std::string& path) { return std::filesystem::path(path).extension(); }
+
+/// The boundaries' names as a file of the format has them.
+std::vector<std::string> names_in_file(const std::vector<std::string>& names, const std::string& format) {
+  if (format == "su2") return su2_marker_names(names);
+  if (format == "cgns") return cgns_boundary_names(names);
+  std::vector<std::string> written = names;
+  if (format == "msh") std::transform(names.begin(), names.end(), written.begin(), msh_group_name);
+  return written;
+}
+
 }  // namespace
 
 const std::vector<std::string>& mesh_formats() {
@@ -89,10 +103,22 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
   if (path.ends_with(".csv") && solution != nullptr) write_su2_csv(outputs, mesh, path, *solution, gamma);
 }
 
+std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path, const std::string& format) {
+  std::vector<std::string> names;
+  for (const BoundaryEdges& boundary : mesh.boundaries) names.push_back(boundary.name);
+  const std::vector<std::string> written = names_in_file(names, format.empty() ? mesh_format_of(path) : format);
+  const auto first = std::mismatch(names.begin(), names.end(), written.begin());
+  if (first.first == names.end()) return {};
+  const auto kept = std::inner_product(names.begin(), names.end(), written.begin(), std::ptrdiff_t{0}, std::plus<>(), std::equal_to<>());
+  const std::ptrdiff_t renamed = static_cast<std::ptrdiff_t>(names.size()) - kept;
+  return {fmt::format("{}: {} boundar{} renamed, as this format cannot hold every name; the first, '{}', is '{}' there", path, renamed,
+                      renamed == 1 ? "y is" : "ies are", *first.first, *first.second)};
+}
+
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path, const std::string& format) {
   const std::string name = format.empty() ? mesh_format_of(path) : format;
   const auto& boundaries = whole.mesh.boundaries;
-  std::vector<std::string> losses;
+  std::vector<std::string> losses = renames_in(whole.mesh, path, name);
   if (whole.solution && (name == "su2" || name == "msh")) losses.push_back(path + ": this format has no place for the solution, which is left out");
   if (whole.solution && (name == "cgns" || name == "vtu") && !whole.solution->constants.empty()) {
     losses.push_back(path + ": this format has no place for the solution's constants, which are left out");

@@ -34,7 +34,11 @@ bool holds_solution(const std::string& path);
 /// alone (write_su2_csv(), which wants `gamma`), and is not written without one. *Collective.* Throws OutputError on all ranks.
 void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr, double gamma = 1.4);
 
-/// What the format, or else that of the suffix, has no place for and the mesh has: one line each, with the file's name.
+/// One line that counts the boundaries whose names the format, or else that of the suffix, cannot hold, and says how the first is written; none where all
+/// are kept.
+std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path, const std::string& format = {});
+
+/// What the format, or else that of the suffix, has no place for and the mesh has: one line each, with the file's name; renames among them.
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path, const std::string& format = {});
 
 }  // namespace quadloop

@@ -20,6 +20,9 @@ void write_msh(const Communicator& comm, const Mesh& mesh, const std::string& pa
 /// Writes a mesh that the set's only rank holds whole; its blocks are the physical surfaces. Throws OutputError.
 void write_msh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
 
+/// The name of the physical curve for a boundary of this name.
+std::string msh_group_name(std::string boundary);
+
 /// Reads a 2D mesh of Gmsh, MSH 2.2 or 4.1 text, on the calling rank alone. Nodes lie in a plane z = constant; those of no cell are
 /// left out. Physical surfaces become blocks, physical curves boundaries (of an element in several groups the first); without a
 /// physical group the block is "domain" and the boundary "boundary_<tag of the curve>", where a group has no name "physical_<tag>".

@@ -10,13 +10,7 @@ namespace {
 
 constexpr int msh_line = 1, msh_triangle = 2, msh_quad = 3;
 
-std::string quoted(std::string name) {
-  for (char& c : name) {
-    if (c == '"') c = '\'';
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  return '"' + name + '"';
-}
+std::string quoted(const std::string& name) { return '"' + msh_group_name(name) + '"'; }
 
 /// Groups are numbered 1, 2, ... over curves and surface together, as some readers know them by number alone.
 class MshWriter {
@@ -121,6 +115,14 @@ class MshWriter {
 };
 
 }  // namespace
+
+std::string msh_group_name(std::string boundary) {
+  for (char& c : boundary) {
+    if (c == '"') c = '\'';
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  return boundary;
+}
 
 void write_msh(OutputSet& outputs, const Mesh& mesh, const std::string& path) { MshWriter(outputs, mesh, path).write_mesh(); }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "io/loaded_mesh.hpp"
 #include "io/output_file.hpp"
@@ -16,6 +17,9 @@ void write_su2(OutputSet& outputs, const Mesh& mesh, const std::string& path);
 
 /// The same as an output of its own, in place when the function returns. *Collective.*
 void write_su2(const Communicator& comm, const Mesh& mesh, const std::string& path);
+
+/// The markers' names for boundaries of these names, all different; the same names always give the same answer.
+std::vector<std::string> su2_marker_names(const std::vector<std::string>& boundaries);
 
 /// Reads a 2D SU2 mesh on the calling rank alone: the keys in any order, those that are no part of the mesh passed over with their
 /// rows. Each marker becomes a boundary, those of the same name one; a file without markers gets the boundary "boundary". Cells are

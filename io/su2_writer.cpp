@@ -20,17 +20,6 @@ std::string marker_name(const std::string& name) {
   return result;
 }
 
-/// Each boundary's name as SU2 can hold it, all of them different.
-std::vector<std::string> marker_names(const std::vector<const BoundaryEdges*>& boundaries) {
-  std::vector<std::string> names;
-  DistinctNames distinct;
-  for (const BoundaryEdges* boundary : boundaries) {
-    const std::string wanted = marker_name(boundary->name);
-    names.push_back(distinct.name(wanted, [&](const std::string& suffix) { return wanted + suffix; }));
-  }
-  return names;
-}
-
 class Su2Writer {
  public:
   Su2Writer(OutputSet& outputs, const Mesh& mesh, const std::string& path) : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path} {}
@@ -70,7 +59,9 @@ class Su2Writer {
 
   void write_markers() {
     const BoundaryStream boundaries(comm_, mesh_);
-    const std::vector<std::string> names = marker_names(boundaries.present());
+    std::vector<std::string> own_names;
+    for (const BoundaryEdges* boundary : boundaries.present()) own_names.push_back(boundary->name);
+    const std::vector<std::string> names = su2_marker_names(own_names);
     file_.write("NMARK= " + std::to_string(names.size()) + "\n");
     file_.write_boundaries(
         boundaries, 3, [&](std::size_t n) { return "MARKER_TAG= " + names[n] + "\nMARKER_ELEMS= " + std::to_string(boundaries.edges_of(n)) + "\n"; },
@@ -87,6 +78,16 @@ class Su2Writer {
 };
 
 }  // namespace
+
+std::vector<std::string> su2_marker_names(const std::vector<std::string>& boundaries) {
+  std::vector<std::string> names;
+  DistinctNames distinct;
+  for (const std::string& boundary : boundaries) {
+    const std::string wanted = marker_name(boundary);
+    names.push_back(distinct.name(wanted, [&](const std::string& suffix) { return wanted + suffix; }));
+  }
+  return names;
+}
 
 void write_su2(OutputSet& outputs, const Mesh& mesh, const std::string& path) { Su2Writer(outputs, mesh, path).write_mesh(); }
 

@@ -4,12 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "io/input/line_reader.hpp"
 
 namespace quadloop {
 
 namespace {
+
+constexpr double blunt = 0.05;  ///< share of the chord that a trailing edge may be thick
+
+double chord_of(const std::vector<Point>& rows) {
+  Box box;
+  for (const Point p : rows) box.include(p);
+  return std::max(box.width(), box.height());
+}
 
 /// Two whole numbers from 2 on can only be the counts of a Lednicer file: coordinates are shares of the chord.
 bool are_counts(Point p) { return p.x >= 2 && p.y >= 2 && p.x == std::floor(p.x) && p.y == std::floor(p.y); }
@@ -21,9 +30,106 @@ Point read_point(const LineReader& lines) {
   return {lines.real(0), lines.real(1)};
 }
 
+bool is_point(const LineReader& lines) { return lines.words().size() == 2 && lines.is_number(0) && lines.is_number(1); }
+
 /// A file without a name begins with a point; "2412 63" is a name all the same.
-bool is_name(const LineReader& lines) {
-  return lines.words().size() != 2 || !lines.is_number(0) || !lines.is_number(1) || lines.row().find('.') == std::string_view::npos;
+bool is_name(const LineReader& lines) { return !is_point(lines) || lines.row().find('.') == std::string_view::npos; }
+
+/// Words alone are a remark; a row that begins with a number was meant to be a point. In the head a remark may begin with a number.
+bool is_remark(const LineReader& lines, bool in_head) { return !lines.is_number(0) || (in_head && lines.words().size() > 2 && !lines.is_number(1)); }
+
+/// "999. 999." divides the elements of a wing in several files of the collections.
+bool is_divider(Point p) { return p.x == p.y && p.x >= 999 && p.x < 1000; }
+
+/// Rows that are no points of the airfoil.
+struct PassedOver {
+  std::int64_t count = 0, first_line = 0;
+  std::string first_row;
+
+  void add(const LineReader& lines) {
+    if (count++ > 0) return;
+    first_line = lines.line();
+    const std::string_view last = lines.words().back();
+    first_row = {lines.words().front().data(), last.data() + last.size()};
+  }
+};
+
+/// The numbers of a file: its points in their order, and before them the counts where it is Lednicer's.
+class AirfoilRows {
+ public:
+  /// Reads to the end of the file. What stands in the head beside the name, between the surfaces as words, and after the last point is passed over.
+  explicit AirfoilRows(LineReader& lines) {
+    lines.require_next("the airfoil's name");
+    if (!is_name(lines)) add_point(lines);
+    while (lines.next()) take(lines);
+    if (rows_.empty()) lines.refuse("the file ends here, but the coordinates are missing");
+    if (counts_ && rows_.size() != expected()) {
+      lines.refuse(fmt::format("the file has {} points, but its head says {} and {}; correct the counts, or complete the file", rows_.size(),
+                               counts_->x, counts_->y));
+    }
+  }
+
+  std::vector<Point>& rows() { return rows_; }
+  std::optional<std::size_t> upper() const { return counts_ ? std::optional(static_cast<std::size_t>(counts_->x)) : std::nullopt; }
+
+  void warn(const std::string& path, std::vector<std::string>& warnings) const {
+    if (passed_.count == 0) return;
+    warnings.push_back(fmt::format("{}:{}: {} row{} beside the name that {} no point{} of the airfoil, the first '{}', {} passed over", path,
+                                   passed_.first_line, passed_.count, passed_.count == 1 ? "" : "s", passed_.count == 1 ? "is" : "are",
+                                   passed_.count == 1 ? "" : "s", passed_.first_row, passed_.count == 1 ? "was" : "were"));
+  }
+
+ private:
+  void take(const LineReader& lines) {
+    const bool after_gap = lines.line() - last_point_line_ > usual_step_ || ended_;
+    if (is_point(lines) && !(after_gap && is_whole())) return add_point(lines);
+    if (!is_whole() && !is_remark(lines, rows_.empty() && !counts_)) read_point(lines);  // refuses
+    passed_.add(lines);
+    ended_ = ended_ || is_whole();
+  }
+
+  void add_point(const LineReader& lines) {
+    const Point p = read_point(lines);
+    if (is_divider(p)) {
+      lines.refuse("this row divides the elements of a wing; give each element a file of its own, and [geometry] file = [...] all of them");
+    }
+    if (rows_.size() == 1) usual_step_ = lines.line() - last_point_line_;  // some files have every other row blank
+    last_point_line_ = lines.line();
+    if (rows_.empty() && !counts_ && are_counts(p)) {
+      counts_ = p;
+    } else {
+      rows_.push_back(p);
+    }
+  }
+
+  std::size_t expected() const { return static_cast<std::size_t>(counts_->x) + static_cast<std::size_t>(counts_->y); }
+
+  /// Whether the points go round the section: as many as the head says, or back to where they began.
+  bool is_whole() const {
+    if (counts_) return rows_.size() >= expected();
+    return rows_.size() >= 3 && length(rows_.back() - rows_.front()) <= blunt * chord_of(rows_);
+  }
+
+  std::optional<Point> counts_;
+  std::vector<Point> rows_;
+  PassedOver passed_;
+  std::int64_t last_point_line_ = 0, usual_step_ = 1;
+  bool ended_ = false;  ///< what follows is no part of the airfoil
+};
+
+/// Where the second of two surfaces begins that both run from the leading edge to the trailing edge, though no counts say so: the one step back over
+/// most of the chord. 0 where there is none.
+std::size_t second_surface(const std::vector<Point>& rows) {
+  constexpr double most = 0.8;
+  std::size_t found = 0;
+  if (rows.size() < 2) return 0;
+  const double chord = chord_of(rows);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i - 1].x - rows[i].x < most * chord) continue;
+    if (found > 0 || length(rows[i] - rows.front()) > blunt * chord) return 0;
+    found = i;
+  }
+  return found;
 }
 
 /// From the trailing edge over the upper side to the leading edge and back along the lower one, as Selig has it.
@@ -44,12 +150,9 @@ double area(const std::vector<Point>& points) {
 
 /// The trailing edge may be blunt, but a file with one side alone is not to pass in silence.
 void warn_of_gap(const std::vector<Point>& rows, const std::string& source, std::vector<std::string>& warnings) {
-  constexpr double blunt = 0.05;  // of the chord
   if (rows.size() < 2) return;
-  Box box;
-  for (const Point p : rows) box.include(p);
   const double gap = length(rows.back() - rows.front());
-  if (gap <= blunt * std::max(box.width(), box.height())) return;
+  if (gap <= blunt * chord_of(rows)) return;
   warnings.push_back(fmt::format("{}: the airfoil's first and last point, ({}, {}) and ({}, {}), are {:.3g} apart and were joined by a straight line",
                                  source, rows.front().x, rows.front().y, rows.back().x, rows.back().y, gap));
 }
@@ -58,23 +161,19 @@ void warn_of_gap(const std::vector<Point>& rows, const std::string& source, std:
 
 std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string>& warnings) {
   LineReader lines(path);
-  lines.require_next("the airfoil's name");
-  std::vector<Point> rows;
-  const std::string source = lines.place();
-  if (!is_name(lines)) rows.push_back(read_point(lines));
-  while (lines.next()) rows.push_back(read_point(lines));
-  if (rows.empty()) lines.refuse("the file ends here, but the coordinates are missing");
-  if (are_counts(rows.front())) {
-    const Point counts = rows.front();
-    rows.erase(rows.begin());
-    if (counts.x + counts.y != static_cast<double>(rows.size())) {
-      lines.refuse(fmt::format("the file has {} points, but its head says {} and {}; correct the counts, or complete the file", rows.size(), counts.x,
-                               counts.y));
-    }
-    rows = around(rows, static_cast<std::size_t>(counts.x));
+  AirfoilRows airfoil(lines);
+  std::vector<Point> rows = std::move(airfoil.rows());
+  const std::string source = path + ":1";
+  airfoil.warn(path, warnings);
+  if (airfoil.upper()) {
+    rows = around(rows, *airfoil.upper());
+  } else if (const std::size_t upper = second_surface(rows)) {
+    warnings.push_back(
+        fmt::format("{}: both surfaces run from the leading edge, though the head has no counts; point {} begins the second", path, upper + 1));
+    rows = around(rows, upper);
   }
-  if (rows.size() > 1 && rows.front() == rows.back()) rows.pop_back();
   warn_of_gap(rows, source, warnings);
+  if (rows.size() > 1 && rows.front() == rows.back()) rows.pop_back();
   if (area(rows) > 0) std::reverse(rows.begin(), rows.end());
   return {Chain{"airfoil", false, std::move(rows), source}};
 }

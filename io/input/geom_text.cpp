@@ -45,42 +45,6 @@ void append(std::string& text, Point p) {
   text += '\n';
 }
 
-const std::string& name_of(const Geometry& geometry, std::int32_t segment) { return geometry.boundary(geometry.boundary_of(segment)).name; }
-
-/// The first segment of a loop before which the boundary changes, or -1 where it never does.
-std::int32_t first_change(const Geometry& geometry, std::int32_t loop) {
-  for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {
-    if (geometry.boundary_of(v) != geometry.boundary_of(geometry.previous(v))) return v;
-  }
-  return -1;
-}
-
-/// Returns the number of entries written.
-std::int64_t append_loop(std::string& text, const Geometry& geometry, std::int32_t loop) {
-  const std::int32_t change = first_change(geometry, loop), begin = geometry.loop_start(loop), end = geometry.loop_start(loop + 1);
-  if (change < 0) {
-    text += fmt::format("{}\n{}\n", name_of(geometry, begin), end - begin);
-    for (std::int32_t v = begin; v < end; ++v) append(text, geometry.point(v));
-    return 1;
-  }
-  std::int64_t entries = 0;
-  std::int32_t v = change;
-  do {
-    const BoundaryId boundary = geometry.boundary_of(v);
-    std::string rows;
-    std::int32_t count = 1;
-    append(rows, geometry.point(v));
-    do {
-      v = geometry.next(v);
-      append(rows, geometry.point(v));
-      ++count;
-    } while (geometry.boundary_of(v) == boundary && v != change);
-    text += fmt::format("{} open\n{}\n", geometry.boundary(boundary).name, count) + rows;
-    ++entries;
-  } while (v != change);
-  return entries;
-}
-
 }  // namespace
 
 std::vector<Chain> read_geom(const std::string& path) {
@@ -98,10 +62,13 @@ std::vector<Chain> read_geom(const std::string& path) {
 }
 
 std::string geom_text(const Geometry& geometry) {
-  std::string entries;
-  std::int64_t count = 0;
-  for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) count += append_loop(entries, geometry, loop);
-  return fmt::format("# The domain lies to the left of each boundary.\n{}\n", count) + entries;
+  const std::vector<Chain> chains = chains_of(geometry);
+  std::string text = fmt::format("# The domain lies to the left of each boundary.\n{}\n", chains.size());
+  for (const Chain& chain : chains) {
+    text += fmt::format("{}{}\n{}\n", chain.name, chain.open ? " open" : "", chain.points.size());
+    for (const Point p : chain.points) append(text, p);
+  }
+  return text;
 }
 
 }  // namespace quadloop

@@ -15,7 +15,8 @@ namespace quadloop {
 
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == ','; }
+/// The old end-of-file character (0x1A) of DOS is a blank too.
+bool is_blank(char c) { return c == '\x1a' || c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == ','; }
 
 constexpr std::string_view between_numbers = " \t\r\f\v;";  // of a row whose commas are decimal ones
 

@@ -23,6 +23,8 @@ class LineReader {
   const std::vector<std::string_view>& words() const { return words_; }
   /// The row as it stands, without comment.
   std::string_view row() const { return row_; }
+  /// The row's number in the file, from 1 on.
+  std::int64_t line() const { return line_; }
   std::string place() const { return path_ + ":" + std::to_string(line_); }
 
   /// A word of the row as a finite number, with or without a Fortran exponent (1.0D-3), the same in every locale.

@@ -4,8 +4,12 @@
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 #include <new>
+#include <numbers>
+#include <span>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/input_file.hpp"
@@ -87,6 +91,35 @@ class Collector {
   std::int64_t left_out_ = 0;
 };
 
+/// A box of longitudes and latitudes, if it can be one: some programs write metres into files that declare degrees.
+bool are_degrees(const Box& box) { return box.low.x >= -360 && box.high.x <= 360 && box.low.y >= -90 && box.high.y <= 90; }
+
+/// The projection for the zone of 6 degrees that the box's middle lies in (UTM).
+int utm_code(Point middle) {
+  const int zone = std::clamp(static_cast<int>(std::floor((middle.x + 180) / 6)) + 1, 1, 60);
+  return (middle.y >= 0 ? 32600 : 32700) + zone;
+}
+
+/// Lengths in degrees are seldom meant: a spacing would be in degrees, and cells too narrow along x.
+void warn_of_degrees(const std::string& path, std::span<const Chain> chains, std::vector<std::string>& warnings) {
+  Box box;
+  for (const Chain& chain : chains) {
+    for (const Point p : chain.points) box.include(p);
+  }
+  if (chains.empty() || !are_degrees(box)) return;
+  const Point middle = box.centre();
+  const std::string name = std::filesystem::path(path).filename().string();
+  warnings.push_back(
+      fmt::format("{}: its coordinates are degrees (longitude, latitude), and so all lengths of the case are; at latitude {:.1f} a degree "
+                  "along x is {:.2f} of one along y. Project it first, as by 'ogr2ogr -t_srs EPSG:{} projected.gpkg {}' (metres)",
+                  path, middle.y, std::cos(middle.y * std::numbers::pi / 180), utm_code(middle), name));
+}
+
+bool is_in_degrees(const OGRLayer& layer) {
+  const OGRSpatialReference* reference = const_cast<OGRLayer&>(layer).GetSpatialRef();
+  return reference != nullptr && reference->IsGeographic() != 0;
+}
+
 void read_layer(OGRLayer& layer, const std::string& path, Collector& collector) {
   while (const auto feature = std::unique_ptr<OGRFeature>(layer.GetNextFeature())) {
     const OGRGeometry* geometry = feature->GetGeometryRef();
@@ -113,8 +146,14 @@ std::vector<Chain> read_ogr(const std::string& path, std::vector<std::string>& w
   std::vector<Chain> chains;
   Collector collector(chains);
   CPLErrorReset();
-  for (OGRLayer* layer : data->GetLayers()) read_layer(*layer, path, collector);
+  std::vector<Chain> in_degrees;
+  for (OGRLayer* layer : data->GetLayers()) {
+    const auto before = static_cast<std::ptrdiff_t>(chains.size());
+    read_layer(*layer, path, collector);
+    if (is_in_degrees(*layer)) in_degrees.insert(in_degrees.end(), chains.begin() + before, chains.end());
+  }
   if (chains.empty()) throw InputError(path + ": holds no lines and no polygons; a geometry needs closed outlines");
+  warn_of_degrees(path, in_degrees, warnings);
   if (collector.left_out() > 0) {
     warnings.push_back(fmt::format("{}: left out {} features that are neither lines nor polygons", path, collector.left_out()));
   }

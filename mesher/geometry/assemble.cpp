@@ -7,6 +7,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/join_chains.hpp"
+#include "mesher/geometry/rounded_ends.hpp"
 #include "mesher/geometry/validate.hpp"
 
 namespace quadloop {
@@ -78,6 +79,7 @@ void require_extent(const Geometry& g) {
 
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
   clean_chains(chains, warnings);
+  join_rounded_ends(chains, warnings);
   if (chains.empty()) throw InputError("the geometry has no boundary, so there is no domain to mesh; name a file with at least one closed outline");
   std::size_t size = 0;
   for (const Chain& chain : chains) size += chain.points.size();

@@ -26,6 +26,27 @@ class Digest {
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
 
+const std::string& name_of(const Geometry& geometry, std::int32_t segment) { return geometry.boundary(geometry.boundary_of(segment)).name; }
+
+/// The first segment of a loop before which the boundary changes, or -1 where it never does.
+std::int32_t first_change(const Geometry& geometry, std::int32_t loop) {
+  for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {
+    if (geometry.boundary_of(v) != geometry.boundary_of(geometry.previous(v))) return v;
+  }
+  return -1;
+}
+
+/// The stretch of one boundary that begins with segment `first` and ends where another begins.
+Chain open_chain(const Geometry& geometry, std::int32_t first) {
+  Chain chain{name_of(geometry, first), true, {geometry.point(first)}, {}};
+  std::int32_t v = first;
+  do {
+    v = geometry.next(v);
+    chain.points.push_back(geometry.point(v));
+  } while (geometry.boundary_of(v) == geometry.boundary_of(first));
+  return chain;
+}
+
 }  // namespace
 
 Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
@@ -93,6 +114,24 @@ std::uint64_t Geometry::digest() const {
   for (const std::int32_t start : loop_starts_) digest.add(static_cast<std::uint64_t>(start));
   for (const BoundaryId b : segment_boundary_) digest.add(static_cast<std::uint64_t>(b.value()));
   return digest.value();
+}
+
+std::vector<Chain> chains_of(const Geometry& geometry) {
+  std::vector<Chain> chains;
+  for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
+    const std::int32_t begin = geometry.loop_start(loop), end = geometry.loop_start(loop + 1), change = first_change(geometry, loop);
+    if (change < 0) {
+      const auto points = geometry.points().subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+      chains.push_back({name_of(geometry, begin), false, {points.begin(), points.end()}, {}});
+      continue;
+    }
+    std::int32_t v = change;
+    do {
+      chains.push_back(open_chain(geometry, v));
+      for (auto segments = chains.back().points.size() - 1; segments > 0; --segments) v = geometry.next(v);
+    } while (v != change);
+  }
+  return chains;
 }
 
 }  // namespace quadloop

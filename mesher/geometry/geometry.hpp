@@ -78,4 +78,8 @@ class Geometry {
   Box box_;
 };
 
+/// The outline as polylines, loop after loop: a closed chain where one boundary goes all the way round, else an open one for each stretch of a
+/// boundary, with the shared end points in both. The domain lies to their left.
+std::vector<Chain> chains_of(const Geometry& geometry);
+
 }  // namespace quadloop

@@ -1,5 +1,7 @@
 #include "mesher/mesh/build_mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "mesher/base/error.hpp"
@@ -10,6 +12,7 @@
 #include "mesher/mesh/islands.hpp"
 #include "mesher/mesh/make_delaunay.hpp"
 #include "mesher/mesh/mesh_estimate.hpp"
+#include "mesher/mesh/outline_losses.hpp"
 #include "mesher/mesh/split_quads.hpp"
 
 namespace quadloop {
@@ -63,6 +66,9 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   StageTimes& times = result.report.times;
   times.begin("geometry");
   const Geometry geometry = without_small_islands(given, options.size.min, result.report);
+  if (!options.may_vanish && !result.report.boundaries_vanished.empty()) {
+    refuse_vanished(given, result.report.boundaries_vanished, fmt::format("is smaller than spacing.min = {}", options.size.min));
+  }
   SizedDomain domain(geometry, options.size, demanded);
   SizeTree& sizes = domain.sizes;
   result.report.finest_allowed = sizes.finest_level();
@@ -80,6 +86,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
 
   times.begin("mesh");
   assemble_mesh(comm, geometry, sizes, graph, cut, result);
+  report_losses(comm, geometry, result.mesh, options.may_vanish, result.report);
 
   if (options.type == MeshType::delaunay) {
     times.begin("delaunay");

@@ -47,18 +47,21 @@ struct MeshOptions {
   MeshType type = MeshType::hybrid;
   QuadChoice quads = QuadChoice::all;
   SizeOptions size;
-  double snap = 0.4;  ///< a lattice corner nearer to a crossing than this share of the local edge moves onto the boundary; 0 <= snap < 0.5
-  MeshLimit limit;    ///< has no influence on the mesh, if there is one
+  double snap = 0.4;        ///< a lattice corner nearer to a crossing than this share of the local edge moves onto the boundary; 0 <= snap < 0.5
+  bool may_vanish = false;  ///< a boundary all of whose loops are smaller than the smallest leaf is dropped; otherwise it is refused
+  MeshLimit limit;          ///< has no influence on the mesh, if there is one
 };
 
 /// What a user is told of a mesh's making. The numbers are over all ranks, the same on each.
 struct MeshReport {
   std::int64_t leaves = 0, cut_leaves = 0, islands_dropped = 0;
   MeshEstimate estimate;  ///< as it was known before the meshing
+  double area_dropped = 0;        ///< of the loops dropped; below 0 for islands
+  std::int64_t corners_lost = 0;  ///< kept corners of the outline that are no nodes
   int coarsest_level = 0, finest_level = 0;
   int finest_allowed = 0;                        ///< level that no leaf may pass
   double imbalance = 1;                          ///< the heaviest rank's work over the mean, as the partition weighs it
-  std::vector<std::string> boundaries_vanished;  ///< names of those of which every loop was dropped
+  std::vector<std::string> boundaries_vanished;  ///< names of those that the mesh has no edge of
   std::vector<std::string> warnings;             ///< one line each: what was dropped or coarsened, and where
   StageTimes times;                              ///< of this rank
 };

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/outline_losses.hpp"
 
 namespace quadloop {
 
@@ -50,6 +51,7 @@ Geometry without_small_islands(const Geometry& g, double min, MeshReport& report
     if (box.width() >= min || box.height() >= min) continue;
     keep[static_cast<std::size_t>(loop)] = 0;  // loops nested in it are smaller still, so they go by the same rule
     ++report.islands_dropped;
+    report.area_dropped += area_of_loop(g, loop);
     std::ostringstream line;
     line.precision(12);
     line << "boundary " << g.boundary(g.boundary_of(g.loop_start(loop))).name << ": a loop near (" << box.centre().x << ", " << box.centre().y

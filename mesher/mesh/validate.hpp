@@ -50,12 +50,16 @@ std::int64_t pinched_nodes(const Mesh& mesh);
 struct GeometryFit {
   std::vector<MeshFault> faults;
   std::int64_t boundaries_dropped = 0;  ///< of the geometry, that the mesh lacks
+  std::int64_t loops_dropped = 0;       ///< loops, or open chains, on which no boundary node lies; a fault where they are longer than the cells there
   std::int64_t sharp_corners = 0;       ///< points where a closed boundary turns by more than 30 degrees, ends of open ones
   std::int64_t sharp_corners_lost = 0;  ///< of these, no mesh node
   double boundary_node_distance = 0;    ///< largest distance of a boundary node to its boundary
   double geometry_distance = 0;         ///< largest distance of a point of the geometry to its boundary in the mesh
   double area_error = 0;                ///< relative
 };
+
+/// What chords cut off, and small islands that are dropped, may make of the area in all, as a share; a mesh that misses more is not of its geometry.
+inline constexpr double largest_area_error = 0.05;
 
 /// Compares a valid mesh, whole on this rank, with the polylines it was made from. `tolerance` is relative to the mesh's extent.
 GeometryFit validate_geometry(const Mesh& mesh, std::span<const Chain> geometry, double tolerance = 1e-9);

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/point.hpp>
@@ -6,8 +8,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "mesher/mesh/cell_reach.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/validate_rules.hpp"
 
@@ -20,14 +24,7 @@ using IndexPoint = bg::model::point<double, 2, bg::cs::cartesian>;
 using IndexSegment = bg::model::segment<IndexPoint>;
 
 constexpr double sharp_degrees = 30;
-constexpr double largest_area_error = 0.05;
-
-double distance_to_segment(Point p, Point a, Point b) {
-  const Point edge = b - a;
-  const double squared = dot(edge, edge);
-  const double t = squared > 0 ? std::clamp(dot(p - a, edge) / squared, 0.0, 1.0) : 0.0;
-  return length(p - a - t * edge);
-}
+constexpr double fragments = 2, loop_reach = 4;  ///< a leaf may be that much larger than its pieces, which lie within so many sizes of a loop
 
 /// Segments that answer which of them is nearest.
 class SegmentSet {
@@ -58,7 +55,8 @@ class SegmentSet {
 
 /// All chains of one name.
 struct NamedOutline {
-  std::vector<Point> points;
+  std::vector<std::size_t> chains;         ///< which they are
+  std::vector<std::size_t> segment_chain;  ///< of each segment
   SegmentSet segments;
 };
 
@@ -70,11 +68,12 @@ void for_each_segment(const Chain& chain, const Visit& visit) {
 
 std::map<std::string, NamedOutline> outlines_of(std::span<const Chain> geometry) {
   std::map<std::string, NamedOutline> outlines;
-  for (const Chain& chain : geometry) {
-    NamedOutline& outline = outlines[chain.name];
-    for_each_segment(chain, [&](Point a, Point b) {
-      outline.points.push_back(a);
+  for (std::size_t c = 0; c < geometry.size(); ++c) {
+    NamedOutline& outline = outlines[geometry[c].name];
+    outline.chains.push_back(c);
+    for_each_segment(geometry[c], [&](Point a, Point b) {
       outline.segments.add(a, b);
+      outline.segment_chain.push_back(c);
     });
   }
   for (auto& [name, outline] : outlines) outline.segments.build();
@@ -109,7 +108,13 @@ std::vector<double> longest_edge_of_cells(const Mesh& mesh) {
 class Comparison {
  public:
   Comparison(const Mesh& mesh, std::span<const Chain> geometry, double tolerance)
-      : mesh_{mesh}, geometry_{geometry}, outlines_{outlines_of(geometry)}, table_{mesh}, longest_{longest_edge_of_cells(mesh)} {
+      : mesh_{mesh},
+        geometry_{geometry},
+        outlines_{outlines_of(geometry)},
+        met_(geometry.size(), 0),
+        table_{mesh},
+        longest_{longest_edge_of_cells(mesh)},
+        reach_{mesh, longest_} {
     Box box;
     for (const Point p : mesh.points) box.include(p);
     centre_ = box.centre();
@@ -130,6 +135,7 @@ class Comparison {
       compare_points(boundary, outline->second);
     }
     for (const auto& [name, outline] : outlines_) fit_.boundaries_dropped += present.contains(name) ? 0 : 1;
+    compare_loops();
     compare_corners();
     compare_area();
     return std::move(fit_);
@@ -141,25 +147,60 @@ class Comparison {
   void compare_nodes(const BoundaryEdges& boundary, const NamedOutline& outline) {
     for (const auto& edge : boundary.edges) {
       for (const NodeId node : edge) {
-        const double away = outline.segments.nearest(mesh_.point(node)).second;
+        const auto [segment, away] = outline.segments.nearest(mesh_.point(node));
         fit_.boundary_node_distance = std::max(fit_.boundary_node_distance, away);
-        if (away > tolerance_ && node == edge[0]) fault("a node of boundary " + boundary.name + " lies off it", mesh_.point(node));
+        if (away > tolerance_ && node == edge[0] && !ends_beyond_joint(mesh_.point(node), away))
+          fault("a node of boundary " + boundary.name + " lies off it", mesh_.point(node));
+        if (segment < outline.segment_chain.size()) met_[outline.segment_chain[segment]] = 1;
       }
     }
   }
 
-  /// No point of the geometry is farther from the mesh's boundary than the cell there is long.
+  /// Where the joint of two boundaries is lost within a leaf, the edges of one end on the other.
+  bool ends_beyond_joint(Point p, double away) {
+    if (!all_segments_) {
+      all_segments_.emplace();
+      for (const Chain& chain : geometry_) for_each_segment(chain, [&](Point a, Point b) { all_segments_->add(a, b); });
+      all_segments_->build();
+    }
+    return all_segments_->nearest(p).second <= tolerance_ && away <= reach_.size_at(p, away);
+  }
+
+  /// No point of a loop that the mesh has is farther from its boundary there than the cells round it are long.
   void compare_points(const BoundaryEdges& boundary, const NamedOutline& outline) {
     SegmentSet edges;
     for (const auto& edge : boundary.edges) edges.add(mesh_.point(edge[0]), mesh_.point(edge[1]));
     edges.build();
-    for (const Point p : outline.points) {
-      const auto [edge, away] = edges.nearest(p);
-      fit_.geometry_distance = std::max(fit_.geometry_distance, away);
-      const auto& nodes = boundary.edges[edge];
-      const std::int32_t cell = table_.cell_left_of(nodes[0], nodes[1]);
-      const double allowed = cell < 0 ? 0 : longest_[static_cast<std::size_t>(cell)];
-      if (away > std::max(allowed, tolerance_)) fault("a point of boundary " + boundary.name + " is farther from the mesh than a cell's edge", p);
+    for (const std::size_t c : outline.chains) {
+      if (met_[c] == 0) continue;
+      for (const Point p : geometry_[c].points) compare_point(boundary, edges, p);
+    }
+  }
+
+  void compare_point(const BoundaryEdges& boundary, const SegmentSet& edges, Point p) {
+    const auto [edge, away] = edges.nearest(p);
+    fit_.geometry_distance = std::max(fit_.geometry_distance, away);
+    const auto& nodes = boundary.edges[edge];
+    const std::int32_t cell = table_.cell_left_of(nodes[0], nodes[1]);
+    if (away <= tolerance_ || (cell >= 0 && away <= longest_[static_cast<std::size_t>(cell)])) return;
+    if (away <= reach_.size_at(p, away)) return;
+    fault("a point of boundary " + boundary.name + " is farther from the mesh than the cells there are long", p);
+  }
+
+  /// The mesher drops loops smaller than its smallest leaf, both ways; a larger one has to be in the mesh.
+  void compare_loops() {
+    for (std::size_t c = 0; c < geometry_.size(); ++c) {
+      const Chain& chain = geometry_[c];
+      if (met_[c] != 0 || chain.points.empty()) continue;
+      ++fit_.loops_dropped;
+      Box box;
+      for (const Point p : chain.points) box.include(p);
+      const double size = std::max(box.width(), box.height());
+      const double cells = reach_.longest_within(box.centre(), loop_reach * size);
+      if (size <= fragments * cells) continue;
+      fault(fmt::format("a loop of boundary {}, {:.6g} wide and {:.6g} high, is not in the mesh, where cells are {:.6g} long", chain.name,
+                        box.width(), box.height(), cells),
+            box.centre());
     }
   }
 
@@ -189,8 +230,11 @@ class Comparison {
   const Mesh& mesh_;
   std::span<const Chain> geometry_;
   std::map<std::string, NamedOutline> outlines_;
+  std::vector<char> met_;  ///< of each chain: a boundary node of its name lies on it
   EdgeTable table_;
   std::vector<double> longest_;
+  CellReach reach_;
+  std::optional<SegmentSet> all_segments_;  ///< of every boundary, once they are asked for
   Point centre_;
   double tolerance_ = 0;
   GeometryFit fit_;

@@ -3,6 +3,8 @@
 
     mesh_test.py QUADLOOP MPIRUN
 """
+import json
+import math
 import sys
 import unittest
 
@@ -11,6 +13,7 @@ from program import ProgramTest
 BOX, ISLE = "box\n4\n0 0\n8 0\n8 8\n0 8\n", "isle\n4\n3 3\n3 3.1\n3.1 3.1\n3.1 3\n"
 ROCK = "rock\n4\n5 5\n5 6\n6 6\n6 5\nrock\n4\n2 2\n2 2.1\n2.1 2.1\n2.1 2\n"
 CASE = '[geometry]\nfile = "a.geom"\n[spacing]\nmin = 0.5\nmax = 1\n'
+VANISH = CASE.replace("[spacing]", 'vanish = "allow"\n[spacing]')
 
 
 class MeshWarnings(ProgramTest):
@@ -24,11 +27,70 @@ class MeshWarnings(ProgramTest):
         self.assertEqual(warnings, "")
         self.assertNotIn("vanished", table)
 
-    def test_a_boundary_that_vanished_stands_at_the_end_of_the_table(self):
+    def test_a_boundary_that_vanishes_is_refused(self):
+        self.write("a.geom", "4\n" + BOX + ISLE + ROCK)
+        self.write("case.toml", CASE)
+        self.refused(1, ["boundary 'isle' near (3.05, 3.05), 0.1 wide and 0.1 high, is smaller than spacing.min = 0.5", 'vanish = "allow"'], "mesh", "case.toml")
+        self.assertEqual(list(self.folder.glob("case.*")), [self.folder / "case.toml"])
+        self.assertIn("and with it 1 other", self.run_program("mesh", "case.toml", "--set", "spacing.min=2", "spacing.max=2").stderr)
+
+    def test_a_boundary_that_vanishes_from_a_changed_outline_is_refused(self):
+        self.mesh("3\n" + BOX + ROCK.replace("2 2.1\n2.1 2.1\n2.1 2", "2 2.9\n2.9 2.9\n2.9 2"))
+        text = (self.folder / "a.mesh").read_text()
+        nodes = int(text.splitlines()[1])
+        self.write("solved.mesh", text + "#Number of constants\n0\n#Number of variables\n1\n" + "1\n" * nodes)
+        self.write("new.geom", "2\n" + BOX + ISLE.replace("isle", "rock"))
+        remesh = ["remesh", "case.toml", "--tree", "a.tree.h5", "--solution", "solved.mesh", "--geometry", "new.geom", "-o", "b"]
+        self.refused(1, ["boundary 'rock' near (3.05, 3.05)", 'vanish = "allow"'], *remesh)
+        self.assertIn("vanished, smaller than spacing.min: rock", self.done(*remesh, "--set", 'geometry.vanish="allow"')[0])
+
+    def test_an_inlet_lost_between_two_walls_is_refused(self):
+        wall = "wall open\n5\n1.07 0\n8 0\n8 8\n0 8\n0 0\nwall open\n2\n0 0\n1.05 0\n"
+        self.write("a.geom", "3\n" + wall + "inlet open\n2\n1.05 0\n1.07 0\n")
+        self.write("case.toml", CASE)
+        done = self.run_program("mesh", "case.toml")
+        if done.returncode == 0:  # kept as a short edge
+            self.assertIn("inlet", (self.folder / "case.mesh").read_text())
+        else:
+            self.assertIn("boundary 'inlet'", done.stderr)
+
+    def test_a_boundary_that_may_vanish_stands_at_the_end_of_the_table(self):
         for ranks in (1, 2):
-            table, warnings = self.mesh("4\n" + BOX + ISLE + ROCK, ranks=ranks)
+            table, warnings = self.mesh("4\n" + BOX + ISLE + ROCK, VANISH, ranks=ranks)
             self.assertEqual(table.splitlines()[-1].strip(), "boundaries that vanished, smaller than spacing.min: isle")
             self.assertEqual(warnings.count("was dropped"), 2)
+
+    def test_kept_corners_that_share_a_smallest_leaf(self):
+        comb = "".join(f"{3 + 0.02 * k:.2f} {3.26 if k % 2 else 3.24}\n" for k in range(30, -1, -1))
+        for ranks in (1, 3):
+            _, warnings = self.mesh("2\n" + BOX + "comb\n33\n" + comb + "3 4\n3.6 4\n", CASE.replace("0.5", "0.25"), ranks=ranks)
+            self.assertRegex(warnings, r"boundary 'comb': \d+ of 37 kept corners of the outline (is|are) no node of the mesh, the first at \(3")
+            self.assertIn("make spacing.min smaller", warnings)
+
+    def test_max_holds_where_min_is_left_open(self):
+        self.write("a.geom", "1\nbox\n4\n0 0\n3 0\n3 1\n0 1\n")
+        self.write("case.toml", '[geometry]\nfile = "a.geom"\n[spacing]\nmax = 0.05\n')
+        self.assertEqual(self.done("mesh", "case.toml")[1], "")
+        edges = json.loads(self.done("check", "case.mesh", "--json")[0])["boundary_edges"]
+        self.assertGreaterEqual(edges, 8 / 0.05)
+        _, warnings = self.done("mesh", "case.toml", "--set", "spacing.min=0.05")
+        self.assertIn("leaves stay at 0.0625, above spacing.max = 0.05", warnings)
+        self.assertIn("make spacing.min 0.03125 or less", warnings)
+
+    def test_leaves_too_coarse_for_the_area(self):
+        disc = "".join(f"{math.cos(math.tau * k / 99)} {math.sin(math.tau * k / 99)}\n" for k in range(99))
+        self.write("a.geom", "1\ndisc\n99\n" + disc)
+        self.write("case.toml", CASE.replace("0.5", "1"))
+        self.refused(1, ["boundary 'disc'", "10.0 percent off", "smaller spacing"], "mesh", "case.toml")
+
+    def test_names_that_a_format_cannot_hold(self):
+        geometry = "3\n" + BOX + ROCK.replace("rock", "bow%wave", 1).replace("rock", 'the"reef"')
+        _, warnings = self.mesh(geometry.replace("2 2.1\n2.1 2.1\n2.1 2", "2 2.9\n2.9 2.9\n2.9 2"), CASE + '[output]\nformats = ["su2", "msh", "mesh"]\n')
+        self.assertEqual(warnings.count("\n"), 2, warnings)
+        self.assertIn("a.su2: 2 boundaries are renamed, as this format cannot hold every name; the first, 'bow%wave', is 'bow_wave' there", warnings)
+        self.assertIn("a.msh: 1 boundary is renamed", warnings)
+        _, warnings = self.done("smooth", "a.mesh", "-o", "b.su2", "--sweeps", "0")
+        self.assertIn("b.su2: 2 boundaries are renamed", warnings)
 
     def test_a_lone_outline_that_runs_as_a_hole(self):
         _, warnings = self.mesh("1\nwing\n3\n0 0\n0 4\n4 0\n")

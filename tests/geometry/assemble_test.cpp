@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "mesher/base/error.hpp"
 #include "tests/geometry/outlines.hpp"
 
 namespace quadloop {
@@ -139,6 +140,29 @@ TEST(Assemble, NestsByExactSidesThroughVertices) {
   for (int ring = 1; ring <= 30; ++ring) chains.push_back(closed("diamond", {{-2.0 * ring, 0}, {0, -2.0 * ring}, {2.0 * ring, 0}, {0, 2.0 * ring}}));
   const Geometry g = assembled(chains);
   for (std::int32_t loop = 1; loop <= 30; ++loop) EXPECT_EQ(loop_area(g, loop) > 0, (31 - loop) % 2 == 0) << loop;
+}
+
+TEST(Assemble, JoinsEndsThatDifferByRounding) {
+  const double ulp = 4 * std::numeric_limits<double>::epsilon();  // of coordinates from 4 to 8
+  const Chain low{"low", true, {{0, 4}, {0, 0}, {8, 0}, {8, 4}}, "a:1"};
+  const auto with_end = [](double x) { return Chain{"high", true, {{x, 4}, {4, 8}, {0, 4}}, "a:2"}; };
+  Warnings warnings;
+  const Geometry geometry = assemble({low, with_end(8 - 3 * ulp)}, {}, warnings);
+  EXPECT_EQ(geometry.loop_count(), 1);
+  EXPECT_EQ(geometry.size(), 5);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].find("1 pair of chain ends differed by rounding"), 0u) << warnings[0];
+  EXPECT_NE(warnings[0].find("the first at (8, 4)"), std::string::npos) << warnings[0];
+  EXPECT_THROW(assemble({low, with_end(8 - 1e-13)}, {}, warnings), InputError) << "more than rounding";
+  const Chain third{"third", true, {{8 + ulp, 4}, {9, 9}, {10, 4}}, "a:3"};
+  EXPECT_THROW(assemble({low, with_end(8 - ulp), third}, {}, warnings), InputError) << "which of three?";
+}
+
+TEST(Assemble, ClosesAChainWhoseEndsDifferByRounding) {
+  Warnings warnings;
+  const Geometry geometry = assemble({{"ring", true, {{0.1, 0.3}, {1, 0}, {1, 1}, {0.1 + 1e-16, 0.3}}, "a:1"}}, {}, warnings);
+  EXPECT_EQ(geometry.size(), 3);
+  EXPECT_EQ(warnings.size(), 1u);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Thousands of small hard geometries: every one must end as a valid mesh or as a refusal that names a place, and none may hang.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -10,6 +11,7 @@
 #include "mesher/geometry/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/build_mesh.hpp"
+#include "mesher/mesh/outline_losses.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/topology.hpp"
 #include "mesher/mesh/validate.hpp"
@@ -39,6 +41,7 @@ MeshOptions random_options(shapes::Random& random) {
   const double snaps[] = {0, 0.001, 0.4, 0.4};
   options.snap = snaps[random() % 4];
   options.type = random() % 2 == 0 ? MeshType::delaunay : MeshType::hybrid;
+  options.may_vanish = true;
   return options;
 }
 
@@ -72,14 +75,18 @@ std::string delaunay_fault(const Mesh& mesh) {
   return "";
 }
 
-std::string mesh_fault(Mesh mesh, MeshType type) {
+/// What is dropped or coarsened by design has to pass the comparison with the geometry that was given.
+std::string mesh_fault(Mesh mesh, const Geometry& geometry, MeshType type) {
   std::erase_if(mesh.boundaries, [](const BoundaryEdges& b) { return b.edges.empty(); });
   for (const MeshFault& fault : validate(mesh)) return std::string(name_of(fault.rule)) + ": " + fault.what;
+  for (const MeshFault& fault : validate_geometry(mesh, chains_of(geometry)).faults) {
+    return fmt::format("geometry: {} at ({}, {})", fault.what, fault.place.x, fault.place.y);
+  }
   return type == MeshType::delaunay ? delaunay_fault(mesh) : "";
 }
 
 /// Smooths the mesh, boundary nodes along the geometry; empty where it stays valid and its worst cell and smallest angle get no worse.
-std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptions& options) {
+std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptions& options, double area_dropped) {
   SmoothOptions how;
   how.geometry = &geometry;
   const Lattice lattice = choose_root(geometry, options.size.root);
@@ -97,7 +104,8 @@ std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptio
     return "smoothed: the smallest angle has fallen from " + std::to_string(before.smallest_degrees) + " to " +
            std::to_string(after.smallest_degrees);
   }
-  const std::string wrong = mesh_fault(std::move(mesh), options.type);
+  require_area(test::world(), geometry, area_dropped, mesh);
+  const std::string wrong = mesh_fault(std::move(mesh), geometry, options.type);
   return wrong.empty() ? wrong : "smoothed: " + wrong;
 }
 
@@ -109,8 +117,9 @@ std::string outcome(const shapes::Shape& shape, const MeshOptions& options, doub
     how.default_corner_degrees = corner;
     const Geometry geometry = assemble(shape.chains, how, warnings);
     MeshResult result = build_mesh(test::world(), geometry, options);
-    const std::string wrong = mesh_fault(result.mesh, options.type);
-    return wrong.empty() ? smoothing_fault(result.mesh, geometry, options) : wrong;
+    require_area(test::world(), geometry, result.report.area_dropped, result.mesh);
+    const std::string wrong = mesh_fault(result.mesh, geometry, options.type);
+    return wrong.empty() ? smoothing_fault(result.mesh, geometry, options, result.report.area_dropped) : wrong;
   } catch (const InputError& error) {
     ++refused;
     const std::string message = error.what();

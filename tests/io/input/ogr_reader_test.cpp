@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -43,8 +44,24 @@ TEST_F(OgrReader, ReadsLinesAndPolygonsOfGeojson) {
   EXPECT_EQ(chains[2].name, "lake");
   EXPECT_EQ(chains[3].name, "lake");
   EXPECT_EQ(chains[4].name, "a") << "named by the layer";
+  ASSERT_EQ(warnings_.size(), 2u);
+  EXPECT_NE(warnings_[1].find("left out 1"), std::string::npos);
+}
+
+TEST_F(OgrReader, WarnsOfDegrees) {
+  const std::string isle = feature("", "Polygon", "[[[10,59],[11,59],[11,61],[10,59]]]");
+  read("fjord.geojson", collection(isle));
   ASSERT_EQ(warnings_.size(), 1u);
-  EXPECT_NE(warnings_[0].find("left out 1"), std::string::npos);
+  for (const char* piece : {"fjord.geojson: its coordinates are degrees", "at latitude 60.0", "0.50 of one along y",
+                            "ogr2ogr -t_srs EPSG:32632 projected.gpkg fjord.geojson"}) {
+    EXPECT_NE(warnings_[0].find(piece), std::string::npos) << piece << " in " << warnings_[0];
+  }
+  warnings_.clear();
+  const std::string projected = R"("crs":{"type":"name","properties":{"name":"EPSG:32632"}},)";
+  read("fjord.geojson", R"({"type":"FeatureCollection",)" + projected + R"("features":[)" + isle + "]}");
+  EXPECT_TRUE(warnings_.empty()) << warnings_.front();
+  read("metres.geojson", collection(feature("", "Polygon", "[[[0,0],[900,0],[900,900],[0,0]]]")));
+  EXPECT_TRUE(warnings_.empty()) << warnings_.front();
 }
 
 std::string dxf_line(const std::string& layer, double x0, double y0, double x1, double y1) {
@@ -62,6 +79,35 @@ TEST_F(OgrReader, ReadsDxfLinesByLayer) {
   const Geometry geometry = assemble(chains, {}, warnings);
   EXPECT_EQ(geometry.size(), 3);
   EXPECT_EQ(geometry.boundaries().size(), 2u);
+}
+
+std::string dxf_arc(const std::string& layer, double x, double y, double radius, double from, double to) {
+  return fmt::format("  0\nARC\n  8\n{}\n 10\n{}\n 20\n{}\n 40\n{}\n 50\n{}\n 51\n{}\n", layer, x, y, radius, from, to);
+}
+
+std::string dxf_of(const std::string& entities) { return "  0\nSECTION\n  2\nENTITIES\n" + entities + "  0\nENDSEC\n  0\nEOF\n"; }
+
+void expect_joined(const std::vector<Chain>& chains, std::size_t boundaries) {
+  Warnings warnings;
+  const Geometry geometry = assemble(chains, {}, warnings);
+  ASSERT_EQ(geometry.loop_count(), 1);
+  EXPECT_EQ(geometry.boundaries().size(), boundaries);
+  for (std::int32_t v = 0; v < geometry.size(); ++v) EXPECT_GT(length(geometry.point(geometry.next(v)) - geometry.point(v)), 1e-3);
+  const bool told = std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) { return w.find("differed by rounding") < w.size(); });
+  EXPECT_TRUE(told) << fmt::format("{}", fmt::join(warnings, "; "));
+}
+
+TEST_F(OgrReader, JoinsDxfArcsWhoseEndsDifferByRounding) {
+  const std::string slot = dxf_line("wall", 0.1, 0.3, 2.1, 0.3) + dxf_arc("end", 2.1, 0.8, 0.5, 270, 90) + dxf_line("wall", 2.1, 1.3, 0.1, 1.3) +
+                           dxf_arc("end", 0.1, 0.8, 0.5, 90, 270);
+  expect_joined(read("a.dxf", dxf_of(slot)), 2);
+  expect_joined(read("b.dxf", dxf_of(dxf_arc("a", 0.3, 0.7, 1.1, 10, 200) + dxf_arc("b", 0.3, 0.7, 1.1, 200, 10))), 2);
+}
+
+TEST_F(OgrReader, ClosesADxfPolylineOfArcs) {  // bulges of 1: half circles
+  const std::string slot =
+      "  0\nLWPOLYLINE\n  8\nslot\n 90\n4\n 70\n1\n 10\n0.1\n 20\n0.3\n 10\n2.1\n 20\n0.3\n 42\n1\n 10\n2.1\n 20\n1.3\n 10\n0.1\n 20\n1.3\n 42\n1\n";
+  expect_joined(read("a.dxf", dxf_of(slot)), 1);
 }
 
 TEST_F(OgrReader, RefusesWhatItCannotRead) {

@@ -91,7 +91,7 @@ TEST_F(SettingsTest, SizesFollowTheGeometryWhereTheyAreNotGiven) {
   const Settings coarse = read("far_field = 16\n[spacing]\nmin = 5\n");
   EXPECT_EQ(mesh_options(coarse, load(coarse)).size.max, 5);
   const Settings fine = read("far_field = 16\n[spacing]\nmax = 0.5\n");
-  EXPECT_EQ(mesh_options(fine, load(fine)).size.min, 0.5);  // not larger than max
+  EXPECT_EQ(mesh_options(fine, load(fine)).size.min, 0.25);  // sizes halve: so there is a leaf no larger than max
 }
 
 TEST_F(SettingsTest, EachFileHasItsOwnPlace) {

@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""CGNS as other programs read it: every boundary's BC points to a family, which says what it is; VTK's reader then shows them all.
+
+    cgns_test.py QUADLOOP MPIRUN
+"""
+import sys
+import unittest
+
+import h5py
+
+from program import ProgramTest
+
+CONDITIONS = {"a": ("wall", "BCWall"), "b": ("inflow", "BCInflow"), "c": ("symmetry", "BCSymmetryPlane"), "d": ("none", "UserDefined"),
+              "farfield": ("farfield", "BCFarfield")}
+
+
+def text_of(node):
+    return bytes(node[" data"][()].astype("uint8")).decode().strip("\0 ")
+
+
+class CgnsBoundaries(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        squares = [("a", -1, -1), ("b", 1, -1), ("c", 1, 1), ("d", -1, 1)]
+        loops = [f"{name}\n4\n{x - .4} {y - .4}\n{x - .4} {y + .4}\n{x + .4} {y + .4}\n{x + .4} {y - .4}\n" for name, x, y in squares]
+        self.write("a.geom", "4\n" + "".join(loops))
+        tables = "".join(f'[boundary.{name}]\nbc = "{condition}"\n' for name, (condition, _) in CONDITIONS.items())
+        self.write("a.toml", '[geometry]\nfile = "a.geom"\nfar_field = 3\n[spacing]\nmin = 0.2\nmax = 0.5\n' + tables)
+        self.done("mesh", "a.toml", "-o", "m")
+        self.path = str(self.folder / "m.cgns")
+
+    def test_each_condition_stands_with_its_family(self):
+        with h5py.File(self.path) as file:
+            base = file["Base"]
+            conditions = base["domain/ZoneBC"]
+            self.assertEqual({name for name in conditions if name != " data"}, set(CONDITIONS))
+            for name, (_, wanted) in CONDITIONS.items():
+                self.assertEqual(text_of(conditions[name]), "FamilySpecified")
+                self.assertEqual(text_of(conditions[name]["FamilyName"]), name)
+                self.assertEqual(text_of(base[name]["FamBC"]), wanted)
+
+    def test_we_read_the_conditions_back(self):
+        """A mesh of all conditions goes through .cgns and comes out with the same families."""
+        self.done("smooth", "m.cgns", "-o", "again.cgns", "--sweeps", "0")
+        with h5py.File(self.folder / "again.cgns") as file:
+            self.assertEqual({name: text_of(file["Base"][name]["FamBC"]) for name in CONDITIONS}, {n: c for n, (_, c) in CONDITIONS.items()})
+
+    def test_vtk_shows_every_boundary(self):
+        try:
+            from vtkmodules.vtkIOCGNSReader import vtkCGNSReader
+        except ImportError:
+            print("SKIPPED in cgns_test.py: python3-vtk9 is not installed, so nobody looks through VTK's reader", file=sys.stderr)
+            self.skipTest("needs python3-vtk9")
+        reader = vtkCGNSReader()
+        reader.SetFileName(self.path)
+        reader.UpdateInformation()
+        reader.LoadBndPatchOn()
+        reader.EnableAllBases()
+        reader.EnableAllFamilies()
+        reader.Update()
+        zone = reader.GetOutput().GetBlock(0).GetBlock(0)
+        patches = next(zone.GetBlock(i) for i in range(zone.GetNumberOfBlocks()) if zone.GetBlock(i).IsA("vtkMultiBlockDataSet"))
+        shown = {patches.GetMetaData(i).Get(patches.NAME()): patches.GetBlock(i).GetNumberOfCells() for i in range(patches.GetNumberOfBlocks())
+                 if patches.GetBlock(i) is not None}
+        self.assertEqual(set(shown), set(CONDITIONS))
+        self.assertTrue(all(cells > 0 for cells in shown.values()), shown)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
