@@ -3,6 +3,7 @@ import numpy as np
 
 SHARP = np.radians(30)  # a point of the outline that turns by more is a corner
 ON_OUTLINE = 1e-9  # of the outline's extent
+SQUARES = 64  # of the grid, each way, in which nodes look for their segments
 
 
 def check(mesh, geometry, corners):
@@ -34,16 +35,34 @@ def segments(chains):
 
 
 def distances(nodes, a, b):
-    """From each node to the nearest segment, a few nodes at a time."""
+    """From each node to the nearest segment: the nearest of those whose boxes reach into the node's square of a grid, if any do, else of all."""
+    low, edge = nodes.min(axis=0), max(float(np.ptp(nodes, axis=0).max()) / SQUARES, np.finfo(float).tiny)
+
+    def square_of(points):
+        return np.clip(np.floor((points - low) / edge), -1, SQUARES + 1).astype(np.int64)
+    first, last = square_of(np.minimum(a, b) - 1e-3 * edge), square_of(np.maximum(a, b) + 1e-3 * edge)
+    reaching = {}
+    for segment, ((x0, y0), (x1, y1)) in enumerate(zip(first.tolist(), last.tolist())):
+        for x in range(x0, x1 + 1):
+            for y in range(y0, y1 + 1):
+                reaching.setdefault((x, y), []).append(segment)
+    together = {}
+    for node, square in enumerate(map(tuple, square_of(nodes).tolist())):
+        together.setdefault(square, []).append(node)
+    result = np.empty(len(nodes))
+    for square, members in together.items():
+        near = reaching.get(square, slice(None))
+        result[members] = nearest(nodes[members], a[near], b[near])
+    return result
+
+
+def nearest(nodes, a, b):
     along = b - a
-    square = np.maximum((along * along).sum(axis=1), np.finfo(float).tiny)
-    result = []
-    for part in np.array_split(nodes, max(1, len(nodes) * len(a) // 4_000_000)):
-        to_node = part[:, None, :] - a
-        share = np.clip((to_node * along).sum(axis=2) / square, 0, 1)
-        off = to_node - share[:, :, None] * along
-        result.append(np.sqrt((off * off).sum(axis=2).min(axis=1)))
-    return np.concatenate(result)
+    lengths = np.maximum((along * along).sum(axis=1), np.finfo(float).tiny)
+    to_node = nodes[:, None, :] - a
+    share = np.clip((to_node * along).sum(axis=2) / lengths, 0, 1)
+    off = to_node - share[:, :, None] * along
+    return np.sqrt((off * off).sum(axis=2).min(axis=1))
 
 
 def sharp_corners(closed, points):

@@ -82,10 +82,11 @@ def covers(mesh, boundary):
         for k in range(cells.shape[1]):
             ends = zip(cells[:, k].tolist(), cells[:, (k + 1) % cells.shape[1]].tolist())
             cell_beside.update({edge: cell for edge, cell in zip(ends, cells)})
+    boxes = [(mesh.points[cells].min(axis=1), mesh.points[cells].max(axis=1)) for cells in mesh.kinds()]
     for edge in first_edges(boundary):
         middle = mesh.points[list(edge)].mean(axis=0)
         place = middle + 0.01 * (mesh.points[cell_beside[edge]].mean(axis=0) - middle)
-        times = sum(cells_over(mesh.points, cells, place) for cells in mesh.kinds())
+        times = sum(cells_over(mesh.points, cells, box, place) for cells, box in zip(mesh.kinds(), boxes))
         if times != 1:
             yield (edge[0] + 1, edge[1] + 1), times
 
@@ -108,11 +109,13 @@ def first_edges(boundary):
                 stack += leaving.get(node, [])
 
 
-def cells_over(points, cells, place):
+def cells_over(points, cells, boxes, place):
     """How many cells hold the place in their inside."""
-    inside = np.ones(len(cells), dtype=bool)
+    low, high = boxes
+    near = cells[(low[:, 0] < place[0]) & (place[0] < high[:, 0]) & (low[:, 1] < place[1]) & (place[1] < high[:, 1])]
+    inside = np.ones(len(near), dtype=bool)
     width = cells.shape[1]
     for k in range(width):
-        u, v = points[cells[:, (k + 1) % width]] - points[cells[:, k]], place - points[cells[:, k]]
+        u, v = points[near[:, (k + 1) % width]] - points[near[:, k]], place - points[near[:, k]]
         inside &= u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] > 0
     return int(inside.sum())
