@@ -222,9 +222,7 @@ TEST(TraceLoops, ALoopThatTouchesItselfTwiceIsSplitTwice) {
   expect_traced(places, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {4, 5}, {5, 6}, {6, 0}, {5, 7}, {7, 8}, {8, 9}, {9, 5}}, expected);
 }
 
-TEST(TraceLoops, EdgesThatDoNotCloseAreNoLoops) {
-  EXPECT_EQ(traced({{0, 0}, {1, 0}, {1, 1}}, {{0, 1}, {1, 2}}), std::nullopt);
-}
+TEST(TraceLoops, EdgesThatDoNotCloseAreNoLoops) { EXPECT_EQ(traced({{0, 0}, {1, 0}, {1, 1}}, {{0, 1}, {1, 2}}), std::nullopt); }
 
 TEST(LeafCutter, AnIslandThatTouchesASideIsAHoleOfTheLeaf) {
   const Points sea{{-2, -2}, {3, -2}, {3, 3}, {-2, 3}}, island{{0, 0.5}, {0.5, 0.75}, {0.5, 0.25}};
@@ -254,7 +252,8 @@ TEST(LeafCutter, PointsFromWhichAChordWouldStrayAreKept) {
 TEST(LeafCutter, OfShortChordsLessIsAskedThanOfLongOnes) {
   // Once the bay's head is kept, its mouth lies 0.26 from the chords to the leaf's sides: they follow it too; 0.2 of a chord is the other limit.
   const Cut cut = cut_bay(0.4, 0.2);
-  const std::vector<std::pair<Point, Point>> expected{{{0, 0.5}, {0.4, 0.5}}, {{0.4, 0.5}, {0.5, 0.9}}, {{0.5, 0.9}, {0.6, 0.5}}, {{0.6, 0.5}, {1, 0.5}}};
+  const std::vector<std::pair<Point, Point>> expected{
+      {{0, 0.5}, {0.4, 0.5}}, {{0.4, 0.5}, {0.5, 0.9}}, {{0.5, 0.9}, {0.6, 0.5}}, {{0.6, 0.5}, {1, 0.5}}};
   const auto chords = chords_of(cut);
   ASSERT_EQ(chords.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_LT(length(chords[i].second - expected[i].second), 1e-15);
