@@ -354,12 +354,13 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWithTargets) {
 }
 
 /// The seeds are shared out among the ranks.
-void expect_untangled(Method method) {
+void expect_untangled(Method method, Objective objective = Objective::power) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     if (static_cast<int>(seed) % world().size() != world().rank()) continue;
     const Mesh before = tangled(Grid{20}, seed);
     SmoothOptions options;
     options.method = method;
+    options.objective = objective;
     SmoothReport report;
     const Mesh after = smoothed_alone(before, options, &report);
     EXPECT_GT(report.inverted_before, 0) << "seed " << seed;
@@ -372,6 +373,7 @@ void expect_untangled(Method method) {
 
 TEST(SmoothMesh, UntanglesWithPerturbations) { expect_untangled(Method::perturb); }
 TEST(SmoothMesh, UntanglesWithNlopt) { expect_untangled(Method::nlopt); }
+TEST(SmoothMesh, UntanglesByTheThesissObjective) { expect_untangled(Method::perturb, Objective::thesis); }
 
 }  // namespace
 }  // namespace quadloop
