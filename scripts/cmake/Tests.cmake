@@ -42,12 +42,17 @@ function(quadloop_test_program name)
   target_link_libraries(${name} PRIVATE quadloop_test_support ${TEST_LIBRARIES})
 endfunction()
 
-# quadloop_test(NAME SOURCES ... LIBRARIES ... [LABEL normal|full] [TIMEOUT seconds]): a GoogleTest program on one rank, also under sanitizers.
+# quadloop_test(NAME SOURCES ... LIBRARIES ... [LABEL normal|full] [TIMEOUT seconds]): a GoogleTest program on one rank; a quick one also
+# under sanitizers.
 function(quadloop_test name)
   cmake_parse_arguments(TEST "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   quadloop_test_program(${name} SOURCES ${TEST_SOURCES} LIBRARIES ${TEST_LIBRARIES})
   add_test(NAME ${name} COMMAND ${name})
-  quadloop_label_test(${name} LABEL "${TEST_LABEL}" TIMEOUT "${TEST_TIMEOUT}" SANITIZE)
+  set(sanitize SANITIZE)
+  if(TEST_LABEL)
+    set(sanitize "")
+  endif()
+  quadloop_label_test(${name} LABEL "${TEST_LABEL}" TIMEOUT "${TEST_TIMEOUT}" ${sanitize})
 endfunction()
 
 # quadloop_mpi_test(NAME RANKS 1 2 3 ... SOURCES ... LIBRARIES ... [LABEL normal|full] [TIMEOUT seconds]): one ctest NAME.RANKS for

@@ -214,8 +214,9 @@ TEST(SmoothMesh, CornersStayAlsoWhereBoundariesMeetOnAStraightSide) {
   Mesh mesh = jittered(grid, 0.24);
   auto& wall = mesh.boundaries[0].edges;  // the edges of node 4, in the middle of the south side
   const auto leaving = std::find_if(wall.begin(), wall.end(), [](const auto& e) { return e[0] == NodeId{4}; });
-  mesh.boundaries.push_back({"inflow", "inflow", {*leaving}});
+  BoundaryEdges inflow{"inflow", "inflow", {*leaving}};
   wall.erase(leaving);
+  mesh.boundaries.push_back(std::move(inflow));
   const Mesh after = smoothed_alone(mesh, {});
   for (const std::int32_t node : {0, 8, 72, 80, 4, 5}) EXPECT_EQ(after.point(NodeId{node}), mesh.point(NodeId{node})) << node;
 }
