@@ -6,7 +6,8 @@
 
 namespace quadloop {
 
-double blended_cost(double largest, double mean) {
+double nodal_cost(double largest, double mean) {
+  if (largest > 1) return largest * largest;
   const double blend = (std::tanh(5 * (largest - 1)) + 1) / 2;
   return blend * largest + (1 - blend) * mean;
 }
@@ -50,7 +51,8 @@ StarCost<places> Star::evaluate(const Eigen::Array<double, places, 1>& x, const 
   cost.largest_cotangent = cotangents;
   cost.objective = squares;
   if (objective == Objective::thesis) {
-    for (int k = 0; k < places; ++k) cost.objective[k] = blended_cost(defects[k] * defects[k], costs[k] / static_cast<double>(corners_.size()));
+    for (int k = 0; k < places; ++k)
+      cost.objective[k] = quadloop::nodal_cost(defects[k] * defects[k], costs[k] / static_cast<double>(corners_.size()));
   }
   return cost;
 }
@@ -86,7 +88,7 @@ double Star::cost_and_gradient(Point p, Objective objective, Point& gradient) co
   const double count = static_cast<double>(corners_.size()), t = std::tanh(5 * (largest - 1)), blend = (t + 1) / 2;
   const double blend_slope = 2.5 * (1 - t * t);
   gradient = (blend_slope * (largest - sum / count) + blend) * largest_gradient + ((1 - blend) / count) * sum_gradient;
-  return blended_cost(largest, sum / count);
+  return quadloop::nodal_cost(largest, sum / count);
 }
 
 double Star::worst_cost(Point p) const {
@@ -94,6 +96,16 @@ double Star::worst_cost(Point p) const {
   double worst = 0;
   for (const StarCorner& c : corners_) worst = std::max(worst, corner_cost(corner_form(p, c.q, c.r), c.target, area));
   return worst;
+}
+
+double Star::nodal_cost(Point p, double reference) const {
+  double sum = 0, largest = 0;
+  for (const StarCorner& c : corners_) {
+    const double cost = corner_cost(corner_form(p, c.q, c.r), c.target, reference);
+    sum += cost;
+    largest = std::max(largest, cost);
+  }
+  return quadloop::nodal_cost(largest, sum / static_cast<double>(corners_.size()));
 }
 
 double Star::inversion(Point p, double reference) const {

@@ -20,7 +20,8 @@ struct StarCorner {
   CellAngle angle = CellAngle::all;
 };
 
-/// How the corners' costs become the cost of their node. thesis: Eq. 3.4. power: the sum of the squared costs.
+/// How the corners' costs become the cost of their node. thesis: Eq. 3.4, see nodal_cost. power: the sum of the squared costs, where no corner is
+/// inverted; the sum of -J counts where some are.
 enum class Objective { thesis, power };
 
 /// What a node's star would be worth with the node at each of several places, evaluated together.
@@ -53,6 +54,9 @@ class Star {
   /// The largest corner cost with the node at p, Eq. 3.2; 1 or more where a corner is inverted.
   double worst_cost(Point p) const;
 
+  /// Eq. 3.4 with the node at p, whether the star is valid there or not; J over `reference`, an area.
+  double nodal_cost(Point p, double reference) const;
+
   /// The sum of -J over inverted corners, over `reference`; zero if the star is valid.
   double inversion(Point p, double reference) const;
   /// A flag for each corner that is not inverted.
@@ -68,7 +72,8 @@ class Star {
   std::vector<StarCorner> corners_;
 };
 
-/// Eq. 3.4 from the largest and the mean cost, where no corner is inverted.
-double blended_cost(double largest, double mean);
+/// Eq. 3.4 from the largest and the mean of the corners' costs. Up to 1 a blend of the two; above, where a corner is inverted, (1 - J)^2 with the
+/// smallest J of all, whose corner costs 1 - J (Eq. 3.2): the largest cost, squared.
+double nodal_cost(double largest, double mean);
 
 }  // namespace quadloop

@@ -75,7 +75,7 @@ bool Sweeper::visit(std::size_t i) {
 std::optional<Point> Sweeper::better_place(std::int32_t n, Point p) {
   if (slide_.freedom(n) == NodeFreedom::sliding) return slide_.improve(n, star_, objective_);
   if (star_.cost(p, objective_).valid[0]) return solver_->improve(star_, p, objective_);
-  return untangle(star_, p);
+  return untangle(star_, p, objective_);
 }
 
 void Sweeper::share_moves() {

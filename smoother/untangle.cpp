@@ -131,8 +131,8 @@ Point deepest_point(const Star& star, Point p) {
   return p + DeepestPlace(half_planes(from_p)).find({Point{}, mean_of_neighbours(from_p)});
 }
 
-UntanglingRule::UntanglingRule(const Star& star, Point p)
-    : star_{star}, reference_{star.reference(p)}, sound_{star.sound_corners(p)}, now_{tangle(p)} {}
+UntanglingRule::UntanglingRule(const Star& star, Point p, Objective objective)
+    : star_{star}, objective_{objective}, reference_{star.reference(p)}, sound_{star.sound_corners(p)}, now_{tangle(p)} {}
 
 UntanglingRule::Tangle UntanglingRule::tangle(Point p) const {
   const auto sound = star_.sound_corners(p);
@@ -147,8 +147,13 @@ bool UntanglingRule::accepts(Point to) const {
   return tangle(to) < now_;
 }
 
-std::optional<Point> untangle(const Star& star, Point p) {
-  const UntanglingRule rule(star, p);
+bool UntanglingRule::prefers(Point a, Point b) const {
+  if (objective_ == Objective::thesis) return star_.nodal_cost(a, reference_) < star_.nodal_cost(b, reference_);
+  return tangle(a) < tangle(b);
+}
+
+std::optional<Point> untangle(const Star& star, Point p, Objective objective) {
+  const UntanglingRule rule(star, p, objective);
   const double edge = std::sqrt(star.reference(p));
   const Point deep = deepest_point(star, p), mean = mean_of_neighbours(star);
   std::vector<Point> candidates{deep, mean};
@@ -161,13 +166,8 @@ std::optional<Point> untangle(const Star& star, Point p) {
     }
   }
   std::optional<Point> best;
-  UntanglingRule::Tangle least;
   for (const Point candidate : candidates) {
-    if (!rule.accepts(candidate)) continue;
-    const auto tangle = rule.tangle(candidate);
-    if (best && !(tangle < least)) continue;
-    best = candidate;
-    least = tangle;
+    if (rule.accepts(candidate) && (!best || rule.prefers(candidate, *best))) best = candidate;
   }
   return best;
 }
@@ -184,11 +184,11 @@ std::vector<int> ranked_places(const Star& star, Point p, Objective objective, c
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return cost.objective[a] < cost.objective[b]; });
     return order;
   }
-  const UntanglingRule rule(star, p);
+  const UntanglingRule rule(star, p, objective);
   for (int k = 0; k < Star::batch; ++k) {
     if (rule.accepts({x[k], y[k]})) order.push_back(k);
   }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rule.tangle({x[a], y[a]}) < rule.tangle({x[b], y[b]}); });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rule.prefers({x[a], y[a]}, {x[b], y[b]}); });
   return order;
 }
 

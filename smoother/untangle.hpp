@@ -8,10 +8,12 @@
 namespace quadloop {
 
 /// Whether a star with inverted corners is better with its node elsewhere: no sound corner is lost, and the sum of -J over the inverted ones falls.
+/// Of two such places the better one is that of the smaller sum or, by the thesis's objective, of the smaller cost by Eq. 3.4.
 class UntanglingRule {
  public:
-  UntanglingRule(const Star& star, Point p);
+  UntanglingRule(const Star& star, Point p, Objective objective);
   bool accepts(Point to) const;
+  bool prefers(Point a, Point b) const;
   /// What falls: the sum of -J, then the number of inverted corners.
   struct Tangle {
     double inversion = 0;
@@ -22,13 +24,14 @@ class UntanglingRule {
 
  private:
   const Star& star_;
+  Objective objective_;
   double reference_;
   std::vector<char> sound_;
   Tangle now_;
 };
 
-/// A better place for a node whose star has inverted corners; none if no candidate is.
-std::optional<Point> untangle(const Star& star, Point p);
+/// A better place for a node whose star has inverted corners, the best of some by UntanglingRule; none if no candidate is.
+std::optional<Point> untangle(const Star& star, Point p, Objective objective);
 
 /// The place where the smallest distance from the lines through the opposite edges, to their left, is largest: inside all corners if any place is
 /// (Freitag and Plassmann 2000). The star must go all round its node.

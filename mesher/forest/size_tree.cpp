@@ -16,7 +16,7 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
                    const DemandedSplits& demanded)
     : outline_{&outline},
       lattice_{&lattice},
-      options_{&options},
+      options_{options},
       demanded_{&demanded},
       unresolved_{std::move(unresolved)},
       finest_of_case_{lattice.finest_level(options.min)},
@@ -117,7 +117,7 @@ void SizeTree::judge(Node& node, const Box& box) const {
   node.plain = !holds_outline && !demanded && !made_by_demand;
   int finest = holds_outline || demanded ? finest_ : coarsest_;
   if (made_by_demand) finest = std::max(finest, node.place.level);
-  for (const Source& source : options_->sources) {
+  for (const Source& source : options_.sources) {
     if (!meets(source, box)) continue;
     node.plain = false;
     finest = std::max(finest, level_for(source.spacing));
@@ -154,7 +154,7 @@ bool SizeTree::wants_split(const Node& node) {
   if (q.level < coarsest_ && in_domains_box(q)) return true;
   if (node.plain) return false;
   const double size = lattice_->edge(q.level);
-  for (const Source& source : options_->sources) {
+  for (const Source& source : options_.sources) {
     if (size > source.spacing && meets(source, box)) return true;
   }
   const auto too_large_for = [&](std::int32_t vertex) { return size > corner_spacing_[static_cast<std::size_t>(vertex)]; };
@@ -165,8 +165,8 @@ bool SizeTree::wants_split(const Node& node) {
   for (const std::int32_t s : inside) {
     if (size > spacing_[static_cast<std::size_t>(s)]) return true;
   }
-  if (options_->curvature && turns_too_far(inside, box)) return true;
-  if (gap_test_ && gap_test_->narrower(inside, box, *options_->gap * size)) return true;
+  if (options_.curvature && turns_too_far(inside, box)) return true;
+  if (gap_test_ && gap_test_->narrower(inside, box, *options_.gap * size)) return true;
   return unresolved_(q, inside);
 }
 
@@ -185,7 +185,7 @@ bool SizeTree::turns_too_far(std::span<const std::int32_t> segments, const Box& 
       known->second += turning_[static_cast<std::size_t>(v)];
     }
   }
-  const auto allowed = std::llround(*options_->curvature / turning_unit);
+  const auto allowed = std::llround(*options_.curvature / turning_unit);
   return std::any_of(turned_.begin(), turned_.end(), [&](const auto& entry) { return entry.second > allowed; });
 }
 

@@ -1,6 +1,7 @@
 # How tests are registered. `quick` tests make up the core that runs in a few minutes, `normal` ones belong to every full check,
-# `full` ones take long.
+# `full` ones take long. `sanitize`, beside one of these: run under the sanitizers too, by `scripts/test --full`.
 include_guard(GLOBAL)
+string(FIND "${CMAKE_CXX_FLAGS}" "-fsanitize=" QUADLOOP_SANITIZED) # -1: no sanitizer
 
 # The environment of every test: the same settings that scripts/mpirun gives its users, for programs that run alone too.
 set(QUADLOOP_TEST_ENVIRONMENT
@@ -9,13 +10,13 @@ set(QUADLOOP_TEST_ENVIRONMENT
     OMPI_MCA_rmaps_base_oversubscribe=1
     OMPI_MCA_btl_base_warn_component_unused=0
     OMPI_MCA_btl_vader_single_copy_mechanism=none
-    UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
-    ASAN_OPTIONS=detect_leaks=0) # Open MPI keeps memory of its own to the end
+    UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1:exitcode=99 # no status of the program's own
+    ASAN_OPTIONS=detect_leaks=0:detect_stack_use_after_return=1:exitcode=99:handle_abort=1) # Open MPI keeps memory of its own to the end
 set(QUADLOOP_MPIRUN "${PROJECT_SOURCE_DIR}/scripts/mpirun")
 
-# quadloop_label_test(NAME LABEL quick|normal|full TIMEOUT seconds RANKS n): what every ctest of ours carries.
+# quadloop_label_test(NAME LABEL quick|normal|full TIMEOUT seconds RANKS n [SANITIZE]): what every ctest of ours carries.
 function(quadloop_label_test name)
-  cmake_parse_arguments(TEST "" "LABEL;TIMEOUT;RANKS" "" ${ARGN})
+  cmake_parse_arguments(TEST "SANITIZE" "LABEL;TIMEOUT;RANKS" "" ${ARGN})
   if(NOT TEST_LABEL)
     set(TEST_LABEL quick)
   endif()
@@ -24,6 +25,12 @@ function(quadloop_label_test name)
   endif()
   if(NOT TEST_RANKS)
     set(TEST_RANKS 1)
+  endif()
+  if(TEST_SANITIZE)
+    list(APPEND TEST_LABEL sanitize)
+  endif()
+  if(NOT QUADLOOP_SANITIZED EQUAL -1)
+    math(EXPR TEST_TIMEOUT "5 * ${TEST_TIMEOUT}")
   endif()
   set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABEL}" TIMEOUT ${TEST_TIMEOUT} PROCESSORS ${TEST_RANKS}
                                           ENVIRONMENT "${QUADLOOP_TEST_ENVIRONMENT}")
@@ -35,21 +42,30 @@ function(quadloop_test_program name)
   target_link_libraries(${name} PRIVATE quadloop_test_support ${TEST_LIBRARIES})
 endfunction()
 
-# quadloop_test(NAME SOURCES ... LIBRARIES ... [LABEL normal|full] [TIMEOUT seconds]): a GoogleTest program on one rank.
+# quadloop_test(NAME SOURCES ... LIBRARIES ... [LABEL normal|full] [TIMEOUT seconds]): a GoogleTest program on one rank; a quick one also
+# under sanitizers.
 function(quadloop_test name)
   cmake_parse_arguments(TEST "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   quadloop_test_program(${name} SOURCES ${TEST_SOURCES} LIBRARIES ${TEST_LIBRARIES})
   add_test(NAME ${name} COMMAND ${name})
-  quadloop_label_test(${name} LABEL "${TEST_LABEL}" TIMEOUT "${TEST_TIMEOUT}")
+  set(sanitize SANITIZE)
+  if(TEST_LABEL)
+    set(sanitize "")
+  endif()
+  quadloop_label_test(${name} LABEL "${TEST_LABEL}" TIMEOUT "${TEST_TIMEOUT}" ${sanitize})
 endfunction()
 
 # quadloop_mpi_test(NAME RANKS 1 2 3 ... SOURCES ... LIBRARIES ... [LABEL normal|full] [TIMEOUT seconds]): one ctest NAME.RANKS for
-# each number of ranks; the timeout makes a deadlock a failure.
+# each number of ranks; the timeout makes a deadlock a failure. On one rank and on three under sanitizers too.
 function(quadloop_mpi_test name)
   cmake_parse_arguments(TEST "" "LABEL;TIMEOUT" "RANKS;SOURCES;LIBRARIES" ${ARGN})
   quadloop_test_program(${name} SOURCES ${TEST_SOURCES} LIBRARIES ${TEST_LIBRARIES})
   foreach(ranks IN LISTS TEST_RANKS)
     add_test(NAME ${name}.${ranks} COMMAND "${QUADLOOP_MPIRUN}" -n ${ranks} $<TARGET_FILE:${name}>)
-    quadloop_label_test(${name}.${ranks} LABEL "${TEST_LABEL}" TIMEOUT "${TEST_TIMEOUT}" RANKS ${ranks})
+    set(sanitize "")
+    if(ranks EQUAL 1 OR ranks EQUAL 3)
+      set(sanitize SANITIZE)
+    endif()
+    quadloop_label_test(${name}.${ranks} LABEL "${TEST_LABEL}" TIMEOUT "${TEST_TIMEOUT}" RANKS ${ranks} ${sanitize})
   endforeach()
 endfunction()

@@ -148,6 +148,28 @@ TEST(Restart, LeavesAtWallsGoBackThoughTheirSiblingsHaveNoCells) {
   EXPECT_EQ(all_leaves(tree), all_leaves(first));
 }
 
+/// One cycle of a mark on every leaf.
+TreeRecord all_marked(const MeshInput& input, const TreeRecord& tree, Mark mark) {
+  const ChangedSplits changed = changed_splits(world(), tree, std::vector<Mark>(tree.leaves.size(), mark), finest);
+  const std::int64_t leaves = world().sum(static_cast<std::int64_t>(tree.leaves.size()));
+  EXPECT_EQ(mark == Mark::refine ? changed.refined : changed.coarsened, leaves);
+  return tree_of(input, changed.demands);
+}
+
+/// Where a quadrant was split twice over, one cycle of marks takes back the last of the two splits, and no more. The case's own leaves are all of one
+/// size, so that gradation asks for nothing.
+TEST(Restart, CoarseningGoesBackALevelEachCycle) {
+  MeshInput input = disc_input();
+  input.mesh.size.min = input.mesh.size.max = 0.125;
+  const TreeRecord first = tree_of(input, {}), second = all_marked(input, first, Mark::refine), third = all_marked(input, second, Mark::refine);
+  const auto leaves = all_leaves(first).size();
+  EXPECT_EQ(all_leaves(second).size(), 4 * leaves);
+  EXPECT_EQ(all_leaves(third).size(), 16 * leaves);
+  const TreeRecord fourth = all_marked(input, third, Mark::coarsen);
+  EXPECT_EQ(all_leaves(fourth), all_leaves(second));
+  EXPECT_EQ(all_leaves(all_marked(input, fourth, Mark::coarsen)), all_leaves(first));
+}
+
 TEST(Restart, CoarseningNeverPassesTheCasesOwnTree) {
   const MeshInput input = disc_input();
   const TreeRecord first = tree_of(input, {});

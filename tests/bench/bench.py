@@ -4,25 +4,24 @@ Delaunay, and the high-resolution Gulf of Mexico. Each run is repeated, the medi
 
     bench.py --quadloop PROGRAM [--repeats N] [--update docs/performance.md] [--require]
 
---update   puts the figures into the file, between its two markers
+--update   puts the figures into the file, between this script's two markers
 --require  exit status 1 where a goal is missed
 """
 import argparse
 import os
-import platform
 import re
 import statistics
 import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
-from datetime import date
 from pathlib import Path
+
+from figures import add_update, tell
 
 ROOT = Path(__file__).resolve().parents[2]
 AIRFOIL = ROOT / "cases" / "naca0012" / "case.toml"
 GULF = ROOT / "cases" / "gulf_of_mexico" / "high.toml"
-BEGIN, END = "<!-- figures: written by scripts/bench -->", "<!-- end of figures -->"
 
 
 @dataclass
@@ -32,6 +31,7 @@ class Run:
     smoothing: float  # seconds
     to_file: float    # seconds of all stages but smoothing, the CGNS file written
     peak: int         # bytes that the process held at most; of one rank
+    cut_share: float  # of the leaves, those that the outline runs through
 
 
 def airfoil_options(finer):
@@ -54,31 +54,26 @@ def run_once(quadloop, case, assignments, ranks, folder):
 
 
 def understand(table, peak):
-    counts = {name: int(value) for name, value in re.findall(r"^  (nodes|triangles|quads) +(\d+)$", table, re.M)}
+    counts = {name: int(value) for name, value in re.findall(r"^  (triangles|quads|leaves|cut leaves) +(\d+)$", table, re.M)}
     stages = {name: float(slowest) for name, slowest in re.findall(r"^    (\w+) +([\d.]+) +[\d.]+$", table, re.M)}
     total = sum(stages.values())
     smoothing = stages.get("smooth", 0.0)
-    return Run(counts["triangles"] + counts["quads"], total - smoothing - stages["write"], smoothing, total - smoothing, peak)
+    return Run(counts["triangles"] + counts["quads"], total - smoothing - stages["write"], smoothing, total - smoothing, peak,
+               counts["cut leaves"] / counts["leaves"])
 
 
 def measure(quadloop, case, assignments, ranks, repeats):
     with tempfile.TemporaryDirectory(prefix="quadloop_bench_") as folder:
         runs = [run_once(quadloop, case, assignments, ranks, folder) for _ in range(repeats)]
     median = lambda field: statistics.median(getattr(run, field) for run in runs)
-    return Run(runs[0].cells, median("in_memory"), median("smoothing"), median("to_file"), median("peak"))
-
-
-def machine():
-    model = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
-    memory = int(re.search(r"MemTotal: +(\d+)", Path("/proc/meminfo").read_text())[1]) / 2**20
-    return f"{model[1] if model else platform.machine()}, {os.cpu_count()} cores, {memory:.0f} GiB, {platform.system()} {platform.release()}"
+    return Run(runs[0].cells, median("in_memory"), median("smoothing"), median("to_file"), median("peak"), runs[0].cut_share)
 
 
 def table_row(name, ranks, run):
     memory = f"{run.peak / run.cells:.0f}" if ranks == 1 else ""
     smoothing = f"{run.smoothing:.2f}" if run.smoothing > 0 else ""
     return (f"| {name} | {ranks} | {run.cells} | {run.in_memory:.2f} | {run.cells / run.in_memory / 1e6:.2f} | "
-            f"{run.to_file:.2f} | {run.cells / run.to_file / 1e6:.2f} | {smoothing} | {memory} |")
+            f"{run.to_file:.2f} | {run.cells / run.to_file / 1e6:.2f} | {smoothing} | {memory} | {100 * run.cut_share:.1f} % |")
 
 
 def goals(runs):
@@ -102,25 +97,20 @@ def goals(runs):
 
 
 def report(runs, results, repeats):
-    lines = [f"{machine()}; {date.today()}; median of {repeats} runs of `scripts/bench`.", "",
-             "| mesh | ranks | cells | s in memory | M cells/s | s to CGNS | M cells/s | s of smoothing | bytes/cell |",
-             "|---|---|---|---|---|---|---|---|---|"]
+    lines = [f"median of {repeats} runs.", "",
+             "| mesh | ranks | cells | s in memory | M cells/s | s to CGNS | M cells/s | s of smoothing | bytes/cell | leaves cut |",
+             "|---|---|---|---|---|---|---|---|---|---|"]
     lines += [table_row(name, ranks, run) for (name, ranks), run in runs.items()]
     lines += ["", "| goal | figure | bound | |", "|---|---|---|---|"]
     lines += [f"| {what} | {figure:.2f} | {bound} | {'met' if met else 'missed'} |" for what, figure, bound, met in results]
     return "\n".join(lines)
 
 
-def put_between_markers(path, text):
-    before, rest = path.read_text().split(BEGIN)
-    path.write_text(f"{before}{BEGIN}\n{text}\n{END}{rest.split(END)[1]}")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True, type=Path)
     parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--update", type=Path)
+    add_update(parser)
     parser.add_argument("--require", action="store_true")
     args = parser.parse_args()
     cut = ["smooth.sweeps=0"]
@@ -134,10 +124,7 @@ def main():
         runs[name, ranks] = measure(args.quadloop, case, assignments, ranks, args.repeats)
         print(table_row(name, ranks, runs[name, ranks]), file=sys.stderr, flush=True)
     results = goals(runs)
-    text = report(runs, results, args.repeats)
-    print(text)
-    if args.update:
-        put_between_markers(args.update, text)
+    tell(report(runs, results, args.repeats), "bench.py", args.update)
     return 1 if args.require and not all(met for *_, met in results) else 0
 
 

@@ -2,9 +2,10 @@
 """Smoothing against Gmsh's Relocate2D on the same mesh file: NACA 0012, triangles alone, about as many nodes as asked for. Gmsh is told that the
 surface is a plane, as it would otherwise lose the positions. Nothing is compared where gmsh is not installed.
 
-    smooth_against_gmsh.py --quadloop PROGRAM [--finer 4]
+    smooth_against_gmsh.py --quadloop PROGRAM [--finer 4] [--update docs/performance.md]
 
---finer  divides every spacing of the case cases/naca0012 (4: a million nodes, some two minutes)
+--update  puts the figures into the file, between this script's two markers
+--finer   divides every spacing of the case cases/naca0012 (4: a million nodes, some two minutes)
 """
 import argparse
 import json
@@ -14,6 +15,8 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from figures import add_update, tell
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "naca0012" / "case.toml"
 
@@ -49,11 +52,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True, type=Path)
     parser.add_argument("--finer", type=float, default=4)
+    add_update(parser)
     args = parser.parse_args()
     if shutil.which("gmsh") is None:
         print("gmsh is not installed; nothing to compare with")
         return
-    quadloop = args.quadloop.resolve()
+    quadloop, version = args.quadloop.resolve(), run(["gmsh", "--version"], ".").strip()
     spacings = {"spacing.min": 0.002, "spacing.max": 0.08, "boundary.airfoil.spacing": 0.005}
     sets = [word for key, value in spacings.items() for word in ("--set", f"{key}={value / args.finer!r}")]
     with tempfile.TemporaryDirectory(prefix="quadloop_gmsh_") as name:
@@ -64,11 +68,13 @@ def main():
         theirs = float(re.search(r"Done optimizing mesh \(Wall ([\d.]+)s", run(["gmsh", "relocate.geo", "-nopopup", "-parse_and_exit", "-v", "4"], folder))[1])
         ours = float(re.search(r"^    smooth +([\d.]+)", run([quadloop, "smooth", "given.msh", "-o", "ours.msh"], folder), re.M)[1])
         shapes = {path: shape(quadloop, path, folder) for path in ("given.msh", "gmsh.msh", "ours.msh")}
-    print(f"{shapes['given.msh']['nodes']} nodes, {shapes['given.msh']['triangles']} triangles\n")
-    print("| | s | worst quality | mean quality | smallest angle | largest angle | valid |\n|---|---|---|---|---|---|---|")
-    print(row("as cut", "", shapes["given.msh"]), row("Gmsh Relocate2D", f"{theirs:.2f}", shapes["gmsh.msh"]),
-          row("quadloop smooth", f"{ours:.2f}", shapes["ours.msh"]), sep="\n")
-    print(f"\n{theirs / ours:.1f} times as fast as Gmsh (wanted: 5); worst cell {'better' if shapes['ours.msh']['worst_quality'] > shapes['gmsh.msh']['worst_quality'] else 'worse'}")
+    better = shapes["ours.msh"]["worst_quality"] > shapes["gmsh.msh"]["worst_quality"]
+    lines = [f"Gmsh {version}; {shapes['given.msh']['nodes']} nodes, {shapes['given.msh']['triangles']} triangles.", "",
+             "| | s | worst quality | mean quality | smallest angle | largest angle | valid |", "|---|---|---|---|---|---|---|",
+             row("as cut", "", shapes["given.msh"]), row("Gmsh Relocate2D", f"{theirs:.2f}", shapes["gmsh.msh"]),
+             row("quadloop smooth", f"{ours:.2f}", shapes["ours.msh"]), "",
+             f"{theirs / ours:.1f} times as fast as Gmsh; goal: 5. Worst cell {'better' if better else 'worse'}."]
+    tell("\n".join(lines), "smooth_against_gmsh.py", args.update)
 
 
 if __name__ == "__main__":

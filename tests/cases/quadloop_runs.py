@@ -8,6 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 MPIRUN = ROOT / "scripts" / "mpirun"
+JUDGE = ROOT / "tests" / "judge" / "judge.py"
 SKIPPED = 77
 
 
@@ -36,6 +37,12 @@ def mesh_case(quadloop, case, prefix, ranks=1, options=()):
     """Meshes a case into PREFIX.*; more than one rank runs under mpirun."""
     launcher = [MPIRUN, "-n", str(ranks)] if ranks > 1 else []
     run([*launcher, quadloop, "mesh", case, "-o", prefix, *options])
+
+
+def judge_mesh(prefix, geometry=None, corners=False, delaunay=False):
+    """The tests' own judge looks at PREFIX.mesh, and that PREFIX.cgns holds the same; with an outline, that the boundaries are its."""
+    options = ["--geometry", geometry] * (geometry is not None) + ["--corners"] * corners + ["--delaunay"] * delaunay
+    run([sys.executable, "-B", JUDGE, f"{prefix}.mesh", "--same", f"{prefix}.cgns", *options])
 
 
 def beside_the_checkout(variable, relative):

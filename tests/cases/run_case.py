@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""One case from end to end: mesh it, let `quadloop check` and, where they are at hand, an independent judge and cgnscheck look at
-what came out, and compare with the case's expected values (expected.toml: nodes, triangles, quads, boundaries, area, digest).
+"""One case from end to end: mesh it, let `quadloop check`, the tests' own judge (tests/judge) and, where they are at hand, another judge and
+cgnscheck look at what came out, and compare with the case's expected values (expected.toml: nodes, triangles, quads, boundaries, area, digest).
 
     run_case.py --quadloop PROGRAM --case CASE.toml [--type delaunay] [--keeps-corners] [--ranks N] [--borrow FILE.geom] [--write-expected]
 
@@ -15,7 +15,7 @@ import tempfile
 import tomllib
 from pathlib import Path
 
-from quadloop_runs import NativeMesh, beside_the_checkout, digest, fail, mesh_case, run, skip
+from quadloop_runs import NativeMesh, beside_the_checkout, digest, fail, judge_mesh, mesh_case, run, skip
 
 AREA_TOLERANCE = 1e-12  # relative; the areas are sums of the same doubles, added up in the order of the file
 
@@ -28,16 +28,16 @@ def borrowed_case(case, geometry_name, work):
     return Path(shutil.copy(case, work))
 
 
-def judge(prefix, geometry, keeps_corners, mesh_type):
+def another_judge(prefix, geometry, keeps_corners, mesh_type):
     script = beside_the_checkout("QUADLOOP_MESHCHECK", "tools/meshcheck.py")
     if script is None:
-        print("no independent judge at hand: `quadloop check` alone has looked at the mesh")
+        print("no other judge at hand")
         return
     kind = ["--delaunay"] if mesh_type == "delaunay" else []
     said = json.loads(run([sys.executable, script, f"{prefix}.mesh", "--geometry", geometry, "--json", *kind], accept=(0, 1)))
     print({key: said[key] for key in sorted(said) if key not in ("valid", "broken")})
     if not said["valid"]:
-        fail(f"the judge: {said['broken']}")
+        fail(f"the other judge: {said['broken']}")
     if said["boundaries_dropped"] != 0:
         fail(f"{said['boundaries_dropped']} boundaries dropped")
     if keeps_corners and said["sharp_corners_lost"] != 0:
@@ -90,7 +90,8 @@ def main():
         prefix, geometry = work / "out", work / "as_meshed.geom"
         mesh_case(args.quadloop, case, prefix, args.ranks, ["--geometry-out", geometry, "--type", args.type])
         run([args.quadloop, "check", f"{prefix}.mesh", "--geometry", geometry])
-        judge(prefix, geometry, args.keeps_corners, args.type)
+        judge_mesh(prefix, geometry, args.keeps_corners, args.type == "delaunay")
+        another_judge(prefix, geometry, args.keeps_corners, args.type)
         check_cgns(prefix)
         found = values_of(prefix)
     # case.toml has its values in expected.toml, medium.toml in expected_medium.toml

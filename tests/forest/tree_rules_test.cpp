@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "mesher/forest/refine_forest.hpp"
@@ -89,12 +90,14 @@ TEST_P(Gradation, NoLeafIsTooLargeForAWantedOne) {
 }
 
 TEST_P(Gradation, TouchingLeavesDifferByOneLevelAtMost) {
-  const Geometry geometry = circle_in_square(0.02);
-  const Tree tree(geometry, options_with(0.01, 0.5, GetParam()));
-  for (const Quadrant& a : tree.leaves) {
-    for (const Quadrant& b : tree.leaves) {
-      if (chebyshev_gap(a, b) == 0) {
-        EXPECT_LE(std::abs(a.level - b.level), 1);
+  const Geometry even = circle_in_square(0.02), uneven = circle_in_square(0.05, 0.06);
+  for (const Geometry* geometry : {&even, &uneven}) {
+    const Tree tree(*geometry, options_with(0.01, 0.5, GetParam()));
+    for (const Quadrant& a : tree.leaves) {
+      for (const Quadrant& b : tree.leaves) {
+        if (chebyshev_gap(a, b) == 0) {
+          EXPECT_LE(std::abs(a.level - b.level), 1);
+        }
       }
     }
   }
@@ -102,16 +105,100 @@ TEST_P(Gradation, TouchingLeavesDifferByOneLevelAtMost) {
 
 INSTANTIATE_TEST_SUITE_P(Values, Gradation, testing::Values(1.25, 1.5, 2.0));
 
-TEST(TreeRules, TheTreeIsTheSmallest) {
-  // No four sibling leaves could be one: something asks for each split.
-  const Geometry geometry = circle_in_square(0.02);
-  Tree tree(geometry, options_with(0.01, 0.5, 1.5));
-  int squeezed = 0;
-  for (const Quadrant& q : tree.leaves) {
-    const Quadrant parent{q.x & ~(q.size() * 2 - 1), q.y & ~(q.size() * 2 - 1), q.level - 1};
-    if (q.level > 1 && q.x == parent.x && q.y == parent.y && !tree.sizes.must_split(parent)) ++squeezed;
+/// Whether the leaf r lies on side s of q (0 the bottom, counter-clockwise) and is finer.
+bool finer_on_side(const Quadrant& q, const Quadrant& r, int s) {
+  if (r.level <= q.level) return false;
+  const bool beside_x = r.x < q.x + q.size() && q.x < r.x + r.size(), beside_y = r.y < q.y + q.size() && q.y < r.y + r.size();
+  switch (s) {
+    case 0: return beside_x && r.y + r.size() == q.y;
+    case 1: return beside_y && r.x == q.x + q.size();
+    case 2: return beside_x && r.y == q.y + q.size();
+    default: return beside_y && r.x + r.size() == q.x;
   }
-  EXPECT_LT(squeezed, 16) << "only leaves between finer ones may be split beyond what size and gradation ask";
+}
+
+bool is_squeezed(const Quadrant& q, const std::vector<Quadrant>& leaves) {
+  std::array<bool, 4> finer{};
+  for (const Quadrant& r : leaves) {
+    for (int s = 0; s < 4; ++s) finer[static_cast<std::size_t>(s)] |= finer_on_side(q, r, s);
+  }
+  return (finer[0] && finer[2]) || (finer[1] && finer[3]);
+}
+
+void split_by_size(const Quadrant& q, SizeTree& sizes, std::vector<Quadrant>& leaves) {
+  if (q.level >= 1 && !sizes.must_split(q)) {
+    leaves.push_back(q);
+    return;
+  }
+  for (int k = 0; k < 4; ++k) split_by_size(q.child(k), sizes, leaves);
+}
+
+using Places = std::vector<std::array<std::int64_t, 3>>;
+Places sorted_places(const std::vector<Quadrant>& leaves) {
+  Places places;
+  for (const Quadrant& q : leaves) places.push_back({q.x, q.y, q.level});
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+/// What sizes and gradation ask for, then leaves between finer ones split, one after another, until there is none.
+std::vector<Quadrant> smallest_tree(Tree& tree) {
+  std::vector<Quadrant> leaves;
+  for (int ty = 0; ty < tree.lattice.trees_y(); ++ty) {
+    for (int tx = 0; tx < tree.lattice.trees_x(); ++tx)
+      split_by_size({std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0}, tree.sizes, leaves);
+  }
+  for (std::size_t i = 0; i < leaves.size();) {
+    const Quadrant q = leaves[i];
+    if (!is_squeezed(q, leaves)) {
+      ++i;
+      continue;
+    }
+    leaves[i] = q.child(0);
+    for (int k = 1; k < 4; ++k) leaves.push_back(q.child(k));
+    i = 0;
+  }
+  return leaves;
+}
+
+/// The leaves of the wanted tree, of which those of the tree are parts.
+std::vector<Quadrant> wanted_leaves(Tree& tree) {
+  std::vector<Quadrant> wanted;
+  for (const Quadrant& q : tree.leaves) {
+    const int level = tree.sizes.wanted_level(q);
+    const std::int64_t mask = ~((std::int64_t{1} << (Quadrant::unit_level - level)) - 1);
+    wanted.push_back({q.x & mask, q.y & mask, level});
+  }
+  return wanted;
+}
+
+/// Whether sizes or gradation forbid a leaf here: a wanted one lies in it, or is too small and too near.
+bool is_forbidden(const Quadrant& q, const std::vector<Quadrant>& wanted, double slope) {
+  return std::any_of(wanted.begin(), wanted.end(), [&](const Quadrant& w) {
+    const bool too_near = static_cast<double>(q.size() - w.size()) > slope * static_cast<double>(chebyshev_gap(q, w));
+    return (q.contains(w) && w.level > q.level) || too_near;
+  });
+}
+
+/// Nothing is split but what sizes and gradation ask for, and leaves between two finer ones, in the end and one after another.
+TEST_P(Gradation, TheTreeIsTheSmallest) {
+  const Geometry even = circle_in_square(0.02), uneven = circle_in_square(0.05, 0.06);
+  int squeezed = 0;
+  for (const Geometry* geometry : {&even, &uneven}) {
+    Tree tree(*geometry, options_with(0.01, 0.5, GetParam()));
+    EXPECT_EQ(sorted_places(tree.leaves), sorted_places(smallest_tree(tree)));
+    const std::vector<Quadrant> wanted = wanted_leaves(tree);
+    for (const Quadrant& q : tree.leaves) {
+      const Quadrant parent{q.x & ~(q.size() * 2 - 1), q.y & ~(q.size() * 2 - 1), q.level - 1};
+      if (q.level <= 1 || q.x != parent.x || q.y != parent.y) continue;
+      const bool forbidden = is_forbidden(parent, wanted, (GetParam() - 1) / 2);
+      EXPECT_EQ(forbidden, tree.sizes.must_split(parent));
+      if (forbidden) continue;
+      ++squeezed;
+      EXPECT_TRUE(is_squeezed(parent, tree.leaves)) << parent.x << ", " << parent.y << ", level " << parent.level;
+    }
+  }
+  EXPECT_EQ(squeezed, GetParam() == 1.25 ? 0 : GetParam() == 1.5 ? 11 : 6);
 }
 
 TEST(TreeRules, NoLeafLiesBetweenFinerOnes) {

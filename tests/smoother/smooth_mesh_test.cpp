@@ -214,8 +214,9 @@ TEST(SmoothMesh, CornersStayAlsoWhereBoundariesMeetOnAStraightSide) {
   Mesh mesh = jittered(grid, 0.24);
   auto& wall = mesh.boundaries[0].edges;  // the edges of node 4, in the middle of the south side
   const auto leaving = std::find_if(wall.begin(), wall.end(), [](const auto& e) { return e[0] == NodeId{4}; });
-  mesh.boundaries.push_back({"inflow", "inflow", {*leaving}});
+  BoundaryEdges inflow{"inflow", "inflow", {*leaving}};
   wall.erase(leaving);
+  mesh.boundaries.push_back(std::move(inflow));
   const Mesh after = smoothed_alone(mesh, {});
   for (const std::int32_t node : {0, 8, 72, 80, 4, 5}) EXPECT_EQ(after.point(NodeId{node}), mesh.point(NodeId{node})) << node;
 }
@@ -354,12 +355,13 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWithTargets) {
 }
 
 /// The seeds are shared out among the ranks.
-void expect_untangled(Method method) {
+void expect_untangled(Method method, Objective objective = Objective::power) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     if (static_cast<int>(seed) % world().size() != world().rank()) continue;
     const Mesh before = tangled(Grid{20}, seed);
     SmoothOptions options;
     options.method = method;
+    options.objective = objective;
     SmoothReport report;
     const Mesh after = smoothed_alone(before, options, &report);
     EXPECT_GT(report.inverted_before, 0) << "seed " << seed;
@@ -372,6 +374,7 @@ void expect_untangled(Method method) {
 
 TEST(SmoothMesh, UntanglesWithPerturbations) { expect_untangled(Method::perturb); }
 TEST(SmoothMesh, UntanglesWithNlopt) { expect_untangled(Method::nlopt); }
+TEST(SmoothMesh, UntanglesByTheThesissObjective) { expect_untangled(Method::perturb, Objective::thesis); }
 
 }  // namespace
 }  // namespace quadloop

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "tests/smoother/stars.hpp"
@@ -72,11 +73,44 @@ TEST(Star, ObjectivesAreTheirFormulas) {
   });
 }
 
-TEST(BlendedCost, ByHand) {
-  EXPECT_NEAR(blended_cost(1, 0.5), 0.75, rounding);  // tanh 0 = 0: half of each
-  EXPECT_NEAR(blended_cost(0.3, 0.3), 0.3, rounding);
+TEST(NodalCost, ByHand) {
+  EXPECT_NEAR(nodal_cost(1, 0.5), 0.75, rounding);  // tanh 0 = 0: half of each
+  EXPECT_NEAR(nodal_cost(0.3, 0.3), 0.3, rounding);
   const double blend = 1 / (1 + std::exp(2.0));  // (tanh(-1) + 1) / 2
-  EXPECT_NEAR(blended_cost(0.8, 0.2), blend * 0.8 + (1 - blend) * 0.2, rounding);
+  EXPECT_NEAR(nodal_cost(0.8, 0.2), blend * 0.8 + (1 - blend) * 0.2, rounding);
+}
+
+TEST(NodalCost, OfAnInvertedCornerIsItsOwnSquared) {
+  // c = 1 - J with J < 0, so (1 - J)^2 = c^2, whatever the mean.
+  for (const double mean : {0.1, 0.9, 1.5}) EXPECT_EQ(nodal_cost(1.5, mean), 2.25);
+  EXPECT_GT(nodal_cost(std::nextafter(1.0, 2.0), 0), nodal_cost(1, 1)) << "an inverted corner costs more than any flat one";
+}
+
+TEST(Star, NodalCostOfAnInvertedStarByHand) {
+  const Star star = test::fan_of({{1, 0}, {0, 1}, {-1, 0}, {0, -1}});
+  // From (2, 0) J is -1 twice and 3 twice: over 5, the smallest is -0.2.
+  EXPECT_NEAR(star.nodal_cost({2, 0}, 5), 1.2 * 1.2, rounding);
+  // From (2, 1) it is -2, 0, 4 and 2: one inverted, one flat.
+  EXPECT_NEAR(star.nodal_cost({2, 1}, 5), 1.4 * 1.4, rounding);
+  EXPECT_GT(star.nodal_cost({0.5, 0.5}, 5), 0.5) << "flat: half of 1 and half of the mean";
+  EXPECT_LT(star.nodal_cost({0.5, 0.5}, 5), 1);
+}
+
+TEST(Star, NodalCostIsEquation34) {
+  int inverted = 0;
+  for_each_star([&](const Star& star, Random& random) {
+    const Point p = near_centre(random, 1.5);
+    const double reference = star.reference({0, 0});
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const StarCorner& c : star.corners()) smallest = std::min(smallest, cross(c.q - p, c.r - p) / reference);
+    if (is_valid(star, p)) {
+      EXPECT_NEAR(star.nodal_cost(p, reference), star.cost(p, Objective::thesis).objective[0], rounding);
+    } else if (smallest < 0) {
+      ++inverted;
+      EXPECT_NEAR(star.nodal_cost(p, reference), std::pow(1 - smallest, 2), rounding * std::pow(1 - smallest, 2));
+    }
+  });
+  EXPECT_GT(inverted, 50);
 }
 
 TEST(Star, ThesisObjectiveOfARightAngledStarByHand) {

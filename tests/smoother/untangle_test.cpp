@@ -113,7 +113,7 @@ TEST(DeepestPoint, OfAHubWithManySpokesIsFoundAtOnce) {  // a test of all threes
 TEST(Untangle, AStarThatIsOnePointStays) {
   Star star = test::fan_of({{1, 1}, {1, 1}, {1, 1}});
   EXPECT_EQ(star.inversion({1, 1}, star.reference({1, 1})), 0);
-  EXPECT_EQ(untangle(star, {1, 1}), std::nullopt);
+  EXPECT_EQ(untangle(star, {1, 1}, Objective::power), std::nullopt);
 }
 
 /// The sum of -J over the inverted corners, and their number.
@@ -136,7 +136,10 @@ void expect_untangled(const Star& star, Point from, Point to) {
   }
 }
 
-TEST(Untangle, OnlyLowersTheTangle) {
+class UntangleBy : public testing::TestWithParam<Objective> {};
+INSTANTIATE_TEST_SUITE_P(Objectives, UntangleBy, testing::Values(Objective::power, Objective::thesis));
+
+TEST_P(UntangleBy, OnlyLowersTheTangle) {
   Random random(32);
   int tangled = 0, better = 0;
   for (int i = 0; i < 500; ++i) {
@@ -144,7 +147,7 @@ TEST(Untangle, OnlyLowersTheTangle) {
     const Point p = uniform(random, 0.3, 2) * test::random_direction(random);
     if (star.cost(p, Objective::power).valid[0]) continue;
     ++tangled;
-    const auto to = untangle(star, p);
+    const auto to = untangle(star, p, GetParam());
     if (!to) continue;
     ++better;
     expect_untangled(star, p, *to);
@@ -161,7 +164,7 @@ TEST(Untangle, OnlyLowersTheTangleWhereNothingMakesTheStarValid) {
     const StarCorner first = star.corners()[0];
     star.add({first.r, first.q, first.target, first.angle});  // a corner that is sound only where the first is not
     const Point p = uniform(random, 0, 2) * test::random_direction(random);
-    const auto to = untangle(star, p);
+    const auto to = untangle(star, p, Objective::power);
     if (!to) continue;
     ++better;
     expect_untangled(star, p, *to);
@@ -175,20 +178,43 @@ TEST(Untangle, BringsANodeBackInside) {
   for (int i = 0; i < 300; ++i) {
     const Star star = test::random_star(random, static_cast<Cells>(i % 3));
     const Point p = uniform(random, 1.6, 3) * test::random_direction(random);  // outside all cells
-    const auto to = untangle(star, p);
+    const auto to = untangle(star, p, Objective::power);
     ASSERT_TRUE(to);
     EXPECT_TRUE(star.cost(*to, Objective::power).valid[0]);
   }
 }
 
+/// Of a star that no place makes valid: by the thesis's objective the smallest J is raised, else the sum of the negative ones.
+TEST(Untangle, TheObjectiveSaysWhichPlaceIsBest) {
+  Random random(37);
+  int other = 0;
+  for (int i = 0; i < 300; ++i) {
+    Star star = test::random_star(random, Cells::triangles);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const StarCorner& c = star.corners()[k];
+      star.add({c.r, c.q, c.target, c.angle});  // a corner that is sound only where this one is not
+    }
+    const Point p = uniform(random, 0, 2) * test::random_direction(random);
+    const double reference = star.reference(p);
+    const auto by_sum = untangle(star, p, Objective::power), by_cost = untangle(star, p, Objective::thesis);
+    EXPECT_EQ(by_sum.has_value(), by_cost.has_value()) << "which places are acceptable does not hang on the objective";
+    if (!by_sum) continue;
+    const double cost = star.nodal_cost(*by_cost, reference), cost_by_sum = star.nodal_cost(*by_sum, reference);
+    EXPECT_LE(cost, cost_by_sum);
+    EXPECT_LE(tangle_of(star, *by_sum), tangle_of(star, *by_cost));
+    other += cost < cost_by_sum ? 1 : 0;
+  }
+  EXPECT_GT(other, 20);
+}
+
 TEST(Untangle, LeavesValidStarsAlone) {
   Random random(35);
-  for (int i = 0; i < 50; ++i) EXPECT_EQ(untangle(test::random_star(random, static_cast<Cells>(i % 3)), {0, 0}), std::nullopt);
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(untangle(test::random_star(random, static_cast<Cells>(i % 3)), {0, 0}, Objective::power), std::nullopt);
 }
 
 TEST(UntanglingRule, ByHand) {
   const Star star = test::fan_of({{1, 0}, {0, 1}, {-1, 0}, {0, -1}});
-  const UntanglingRule rule(star, {2, 0});
+  const UntanglingRule rule(star, {2, 0}, Objective::power);
   EXPECT_EQ(rule.tangle({2, 0}).inversion, 0.4);  // J is -1 twice, the mean squared edge 5
   EXPECT_EQ(rule.tangle({2, 0}).inverted, 2);
   EXPECT_TRUE(rule.accepts({1.5, 0}));
@@ -197,7 +223,28 @@ TEST(UntanglingRule, ByHand) {
   EXPECT_FALSE(rule.accepts({3, 0}));
   EXPECT_FALSE(rule.accepts({-1.1, 0})) << "the corners on the other side are lost";
   EXPECT_TRUE(rule.accepts({1, 0})) << "two flat corners are less than two inverted ones";
-  EXPECT_FALSE(UntanglingRule(star, {1, 0}).accepts({1, 1e-3})) << "one sound again, one inverted";
+  EXPECT_FALSE(UntanglingRule(star, {1, 0}, Objective::power).accepts({1, 1e-3})) << "one sound again, one inverted";
+}
+
+TEST(RankedPlaces, OfATangledStarTheLowestCostOfEquation34First) {
+  Random random(38);
+  int pairs = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Star star = test::random_star(random, static_cast<Cells>(i % 3));
+    const Point p = uniform(random, 1, 2) * test::random_direction(random);
+    if (star.cost(p, Objective::thesis).valid[0]) continue;
+    Star::Batch x, y;
+    for (int k = 0; k < Star::batch; ++k) {
+      x[k] = uniform(random, -1.5, 1.5);
+      y[k] = uniform(random, -1.5, 1.5);
+    }
+    const std::vector<int> order = ranked_places(star, p, Objective::thesis, x, y);
+    const double reference = star.reference(p);
+    for (std::size_t k = 0; k + 1 < order.size(); ++k, ++pairs) {
+      EXPECT_LE(star.nodal_cost({x[order[k]], y[order[k]]}, reference), star.nodal_cost({x[order[k + 1]], y[order[k + 1]]}, reference));
+    }
+  }
+  EXPECT_GT(pairs, 100);
 }
 
 TEST(RankedPlaces, AreAcceptedAndBestFirst) {
@@ -217,7 +264,7 @@ TEST(RankedPlaces, AreAcceptedAndBestFirst) {
     std::vector<char> listed(Star::batch, 0);
     for (const int k : order) listed[static_cast<std::size_t>(k)] = 1;
     const Acceptance acceptance(star.cost(p, Objective::power));
-    const UntanglingRule rule(star, p);
+    const UntanglingRule rule(star, p, Objective::power);
     const auto place = [&](int k) { return Point{x[k], y[k]}; };
     for (int k = 0; k < Star::batch; ++k) {
       const bool accepted = valid ? acceptance.accepts(star.cost(place(k), Objective::power), 0) : rule.accepts(place(k));

@@ -1,0 +1,195 @@
+"""Reads meshes and outlines for the judge: native files, CGNS files (as HDF5, with no help from libcgns), `.geom` files. Written from the
+formats' descriptions alone: it shares nothing with the program. numpy; h5py for CGNS."""
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+NODES_OF_ELEMENT = {3: 2, 5: 3, 7: 4}  # BAR_2, TRI_3, QUAD_4 of the SIDS
+
+
+class Unreadable(Exception):
+    """The file is not what its format demands."""
+
+
+def no_rows(width):
+    return np.empty((0, width), dtype=np.int64)
+
+
+@dataclass
+class Mesh:
+    """Nodes from 0; boundaries are directed edges (from, to) under their name."""
+    points: np.ndarray
+    triangles: np.ndarray = field(default_factory=lambda: no_rows(3))
+    quads: np.ndarray = field(default_factory=lambda: no_rows(4))
+    boundaries: dict = field(default_factory=dict)
+
+    def kinds(self):
+        return (self.triangles, self.quads)
+
+
+class Rows:
+    """The lines of a text file that hold values, and the comment before each."""
+
+    def __init__(self, path):
+        self.path_ = path
+        self.lines_ = [line.strip() for line in Path(path).read_text(encoding="utf-8").splitlines()]
+        self.at_ = 0
+        self.comment = ""
+
+    def next(self):
+        while self.at_ < len(self.lines_):
+            line = self.lines_[self.at_]
+            self.at_ += 1
+            if line.startswith("#"):
+                self.comment = line
+            elif line:
+                return line.split()
+        raise Unreadable(f"{self.path_} ends early")
+
+    def count(self):
+        words = self.next()
+        if len(words) != 1 or not words[0].isdigit():
+            raise Unreadable(f"{self.path_}:{self.at_}: '{' '.join(words)}' is no count")
+        return int(words[0])
+
+    def table(self, width, kind, count=None):
+        rows = [self.next() for _ in range(self.count() if count is None else count)]
+        if any(len(row) != width for row in rows):
+            raise Unreadable(f"{self.path_}: a row before line {self.at_} has not {width} values")
+        try:
+            return np.array(rows, dtype=object).astype(kind).reshape(-1, width)
+        except ValueError as error:
+            raise Unreadable(f"{self.path_}: before line {self.at_}: {error}") from error
+
+    def at_end(self):
+        return all(not line or line.startswith("#") for line in self.lines_[self.at_:])
+
+
+def read_native(path):
+    rows = Rows(path)
+    mesh = Mesh(rows.table(2, float))
+    triangles, quads = [], []
+    for _ in range(rows.count()):
+        triangles.append(rows.table(3, np.int64) - 1)
+        quads.append(rows.table(4, np.int64) - 1)
+    mesh.triangles = np.concatenate([no_rows(3), *triangles])
+    mesh.quads = np.concatenate([no_rows(4), *quads])
+    for number in range(1, rows.count() + 1):
+        count = rows.count()
+        named = re.search(r"boundary +\d+ +\((.*)\)$", rows.comment)
+        name = named[1] if named else f"boundary_{number}"
+        mesh.boundaries[name] = np.concatenate([mesh.boundaries.get(name, no_rows(2)), rows.table(2, np.int64, count) - 1])
+    if not rows.at_end():  # a solver's solution
+        rows.table(1, float)
+        rows.table(rows.count(), float, len(mesh.points))
+    if not rows.at_end():
+        raise Unreadable(f"{path} goes on after its end")
+    return checked(mesh, path)
+
+
+def text_of(node):
+    return "" if node is None or " data" not in node else bytes(node[" data"][()].astype(np.uint8)).decode().strip("\0 ")
+
+
+def children(node, label):
+    found = [child for child in node.values() if hasattr(child, "attrs") and child.attrs.get("label", b"").decode() == label]
+    return sorted(found, key=lambda child: child.name)
+
+
+def only_child(node, label, path):
+    found = children(node, label)
+    if len(found) != 1:
+        raise Unreadable(f"{path}: {node.name} has {len(found)} nodes {label}, not one")
+    return found[0]
+
+
+def short_name(node):
+    return node.name.rsplit("/", 1)[-1]
+
+
+def element_tables(zone, path):
+    """[first number, last number, type, rows] of each section, from the first on."""
+    tables = []
+    for section in children(zone, "Elements_t"):
+        kind = int(section[" data"][0])
+        if kind not in NODES_OF_ELEMENT:
+            raise Unreadable(f"{path}: section {short_name(section)} has elements of type {kind}")
+        first, last = (int(n) for n in np.ravel(section["ElementRange/ data"][()]))
+        rows = section["ElementConnectivity/ data"][()].astype(np.int64).reshape(-1, NODES_OF_ELEMENT[kind]) - 1
+        if last - first + 1 != len(rows):
+            raise Unreadable(f"{path}: section {short_name(section)} has {len(rows)} elements, its range is {first} to {last}")
+        tables.append((first, last, kind, rows))
+    tables.sort(key=lambda table: table[0])
+    if [t[0] for t in tables[1:]] != [t[1] + 1 for t in tables[:-1]] or (tables and tables[0][0] != 1):
+        raise Unreadable(f"{path}: the sections' ranges do not follow one another from 1 on")
+    return tables
+
+
+def numbers_of_condition(condition):
+    """The elements that a boundary condition names, by range or by list."""
+    if "PointRange" in condition:
+        first, last = (int(n) for n in np.ravel(condition["PointRange/ data"][()]))
+        return np.arange(first, last + 1)
+    return np.ravel(condition["PointList/ data"][()]).astype(np.int64)
+
+
+def read_boundaries(zone, tables, path):
+    """{name: edges}; each edge belongs to one condition."""
+    edges = np.concatenate([no_rows(2), *(t[3] for t in tables if t[2] == 3)])
+    numbers = np.concatenate([np.empty(0, dtype=np.int64), *(np.arange(t[0], t[1] + 1) for t in tables if t[2] == 3)])
+    boundaries, named = {}, [np.empty(0, dtype=np.int64)]
+    for condition in (c for group in children(zone, "ZoneBC_t") for c in children(group, "BC_t")):
+        wanted = numbers_of_condition(condition)
+        if not np.isin(wanted, numbers).all():
+            raise Unreadable(f"{path}: boundary {short_name(condition)} names elements that are no edges")
+        name = text_of(condition.get("FamilyName")) or short_name(condition)
+        boundaries[name] = np.concatenate([boundaries.get(name, no_rows(2)), edges[np.searchsorted(numbers, wanted)]])
+        named.append(wanted)
+    if not np.array_equal(np.sort(np.concatenate(named)), numbers):
+        raise Unreadable(f"{path}: some edges belong to no boundary condition, or to two")
+    return boundaries
+
+
+def read_cgns(path):
+    import h5py
+    with h5py.File(path, "r") as file:
+        base = only_child(file, "CGNSBase_t", path)
+        zone = only_child(base, "Zone_t", path)
+        nodes, cells = (int(n) for n in np.ravel(zone[" data"][()])[:2])
+        points = np.column_stack([zone[f"GridCoordinates/Coordinate{axis}/ data"][()] for axis in "XY"])
+        tables = element_tables(zone, path)
+        mesh = Mesh(points)
+        mesh.triangles = np.concatenate([no_rows(3), *(t[3] for t in tables if t[2] == 5)])
+        mesh.quads = np.concatenate([no_rows(4), *(t[3] for t in tables if t[2] == 7)])
+        mesh.boundaries = read_boundaries(zone, tables, path)
+    if (len(points), len(mesh.triangles) + len(mesh.quads)) != (nodes, cells):
+        raise Unreadable(f"{path}: the zone tells of {nodes} nodes and {cells} cells and holds other numbers of them")
+    return checked(mesh, path)
+
+
+def checked(mesh, path):
+    """The mesh, of whose tables no index leads out."""
+    for table in (mesh.triangles, mesh.quads, *mesh.boundaries.values()):
+        if table.size and (table.min() < 0 or table.max() >= len(mesh.points)):
+            raise Unreadable(f"{path}: a node that there is not, of {len(mesh.points)}")
+    return mesh
+
+
+def read_mesh(path):
+    readers = {".mesh": read_native, ".cgns": read_cgns}
+    suffix = Path(path).suffix
+    if suffix not in readers:
+        raise Unreadable(f"{path}: only {' and '.join(readers)} are judged")
+    return readers[suffix](path)
+
+
+def read_geometry(path):
+    """{name: [(closed, points)]} of a `.geom` file."""
+    rows = Rows(path)
+    chains = {}
+    for _ in range(rows.count()):
+        name, *kind = rows.next()
+        chains.setdefault(name, []).append((kind != ["open"], rows.table(2, float)))
+    return chains
