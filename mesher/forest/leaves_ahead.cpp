@@ -48,7 +48,7 @@ double SizeTree::leaves_ahead(const Quadrant& q) {
 double SizeTree::source_leaves(const Quadrant& q) const {
   const Box box = lattice_->box_of(q);
   double leaves = 0;
-  for (const Source& source : options_->sources) {
+  for (const Source& source : options_.sources) {
     const int deeper = level_for(source.spacing) - q.level;
     if (deeper > 0 && meets(source, box)) leaves += covered_share(source, box) * std::ldexp(1.0, 2 * deeper);
   }
@@ -64,7 +64,7 @@ int SizeTree::level_ahead(std::int32_t node) {
   int level = std::max(n.place.level + 1, level_of_outline(n));
   if (n.demanded != DemandedSplits::none) level = std::max(level, demanded_->finest_level());
   const Box box = lattice_->box_of(n.place);
-  for (const Source& source : options_->sources) {
+  for (const Source& source : options_.sources) {
     if (level < level_for(source.spacing) && meets(source, box)) level = level_for(source.spacing);
   }
   levels_ahead_[index] = static_cast<std::int8_t>(level);
@@ -80,8 +80,8 @@ int SizeTree::level_of_outline(const Node& node) const {
     spacing = std::min(spacing, spacing_[s]);
     turning += turning_[s];
   }
-  if (options_->curvature && turning > 0) {
-    const double turns = static_cast<double>(turning) * turning_unit / *options_->curvature;
+  if (options_.curvature && turning > 0) {
+    const double turns = static_cast<double>(turning) * turning_unit / *options_.curvature;
     spacing = std::min(spacing, lattice_->edge(node.place.level) / turns);
   }
   return level_for(spacing);
