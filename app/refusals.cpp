@@ -40,7 +40,7 @@ Point worst_place(const Mesh& mesh) {
 
 void refuse_invalid(const std::string& file, const std::vector<MeshFault>& faults) {
   const MeshFault& first = faults.front();
-  const char* cure = first.rule == MeshRule::geometry ? "; is it the geometry that was meshed, as `mesh --geometry-out` writes it?" : "";
+  const char* cure = first.rule == MeshRule::geometry ? "; the geometry has to be the one that was meshed, as `mesh --geometry-out` writes it" : "";
   throw InputError(fmt::format("{}: invalid mesh: {}: {} at ({}, {}){}{}", file, name_of(first.rule), first.what, first.place.x, first.place.y,
                                more_faults(faults.size() - 1), cure));
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 namespace quadloop {
 
@@ -108,7 +109,8 @@ class PointCapture {
     return c.side == edge.side && line(!edge.vertical(), edge.from) <= at && at <= line(!edge.vertical(), edge.to);
   }
 
-  /// The crossings of the point's own piece that lie on the edge and near it. False where another one lies between, or another kept point near.
+  /// The crossings of the point's own piece that lie on the edge and near it. False where another one lies between, or another kept point near, or
+  /// where what lies between point and crossing, which vanishes, holds a kept point or reaches far: a bay behind a narrow mouth.
   bool take_crossings(const LeafEdge& edge, std::int32_t vertex, const LeafTrace& view, const Piece& piece, Snap& snap) const {
     const Point p = geometry_.point(vertex);
     const double size = length_of(edge);
@@ -118,6 +120,7 @@ class PointCapture {
     for (const std::int32_t c : {piece.entry, piece.exit}) {
       const Crossing& crossing = view.crossing(c);
       if (!on_edge(edge, crossing) || length(crossing.position - p) >= crossing_reach * size) continue;
+      if (!may_vanish(between(view.vertices_of(piece), vertex, c == piece.entry), p, crossing_reach * size)) return false;
       snap.absorbed.push_back({crossing.segment, edge.vertical()});
       taken.push_back(c);
       low = std::min(low, along(crossing.position));
@@ -131,6 +134,17 @@ class PointCapture {
     const auto vertices = view.vertices_of(piece);
     return std::none_of(vertices.begin(), vertices.end(),
                         [&](std::int32_t v) { return v != vertex && geometry_.kept(v) && length(geometry_.point(v) - p) < crossing_reach * size; });
+  }
+
+  /// The vertices of a piece before one of them, or after it.
+  static std::span<const std::int32_t> between(std::span<const std::int32_t> vertices, std::int32_t vertex, bool before) {
+    const auto at = static_cast<std::size_t>(std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin());
+    return before ? vertices.first(at) : vertices.subspan(at + 1);
+  }
+
+  bool may_vanish(std::span<const std::int32_t> vertices, Point into, double reach) const {
+    return std::none_of(vertices.begin(), vertices.end(),
+                        [&](std::int32_t v) { return geometry_.kept(v) || length(geometry_.point(v) - into) >= reach; });
   }
 
   const LeafGraph& graph_;

@@ -74,6 +74,14 @@ class CheckAgrees(ProgramTest):
                 fit = self.expect_agreement(archipelago(seed), smallest, 2, kind, sweeps)
                 self.assertGreater(fit["loops_dropped"], 100)
 
+    def test_a_bay_behind_a_narrow_mouth(self):
+        """The mouth crosses a leaf's side beside a kept corner, which took both crossings along, and the bay with them."""
+        coast = [4.6j, 3.4 + 4.6j, 3.45 + 3.95j, 3.05 + 3.4j, 3.9 + 3.3j, 3.95 + 3.75j, 3.62 + 4.2j, 3.6 + 4.6j, 8 + 4.6j, 8 + 8j, 8j]
+        self.write("bay.geom", "1\n" + loop_text("coast", coast))
+        self.write("bay.toml", '[geometry]\nfile = "bay.geom"\n[spacing]\nmin = 1\nmax = 1\n[mesh]\nroot = [0, 0, 8, 1, 1]\n')
+        self.assertEqual(self.done("mesh", "bay.toml")[1], "")
+        self.assertEqual(json.loads(self.done("check", "bay.mesh", "--json", "--geometry", "bay.geom")[0])["sharp_corners_lost"], 0)
+
     def test_a_large_island_that_is_missing_is_a_fault(self):
         sea, rock = loop_text("sea", [0j, 40 + 0j, 40 + 40j, 40j]), loop_text("rock", [19 + 19j, 19 + 22j, 22 + 22j, 22 + 19j])
         self.expect_agreement("1\n" + sea, 0.25, 0.5, "hybrid", 0)

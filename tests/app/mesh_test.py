@@ -30,12 +30,13 @@ class MeshWarnings(ProgramTest):
     def test_a_boundary_that_vanishes_is_refused(self):
         self.write("a.geom", "4\n" + BOX + ISLE + ROCK)
         self.write("case.toml", CASE)
-        self.refused(1, ["boundary 'isle' near (3.05, 3.05), 0.1 wide and 0.1 high, is smaller than spacing.min = 0.5", 'vanish = "allow"'], "mesh", "case.toml")
+        self.refused(1, ["boundary 'isle' near (3.05, 3.05), 0.1 wide and 0.1 high, is smaller than spacing.min = 0.5", 'vanish = "allow"'],
+                     "mesh", "case.toml")
         self.assertEqual(list(self.folder.glob("case.*")), [self.folder / "case.toml"])
         self.assertIn("and with it 1 other", self.run_program("mesh", "case.toml", "--set", "spacing.min=2", "spacing.max=2").stderr)
 
     def test_a_boundary_that_vanishes_from_a_changed_outline_is_refused(self):
-        self.mesh("3\n" + BOX + ROCK.replace("2 2.1\n2.1 2.1\n2.1 2", "2 2.9\n2.9 2.9\n2.9 2"))
+        self.mesh("3\n" + BOX + ROCK.replace("2.1", "2.9"))
         text = (self.folder / "a.mesh").read_text()
         nodes = int(text.splitlines()[1])
         self.write("solved.mesh", text + "#Number of constants\n0\n#Number of variables\n1\n" + "1\n" * nodes)
@@ -84,8 +85,8 @@ class MeshWarnings(ProgramTest):
         self.refused(1, ["boundary 'disc'", "10.0 percent off", "smaller spacing"], "mesh", "case.toml")
 
     def test_names_that_a_format_cannot_hold(self):
-        geometry = "3\n" + BOX + ROCK.replace("rock", "bow%wave", 1).replace("rock", 'the"reef"')
-        _, warnings = self.mesh(geometry.replace("2 2.1\n2.1 2.1\n2.1 2", "2 2.9\n2.9 2.9\n2.9 2"), CASE + '[output]\nformats = ["su2", "msh", "mesh"]\n')
+        rocks = ROCK.replace("rock", "bow%wave", 1).replace("rock", 'the"reef"').replace("2.1", "2.9")
+        _, warnings = self.mesh("3\n" + BOX + rocks, CASE + '[output]\nformats = ["su2", "msh", "mesh"]\n')
         self.assertEqual(warnings.count("\n"), 2, warnings)
         self.assertIn("a.su2: 2 boundaries are renamed, as this format cannot hold every name; the first, 'bow%wave', is 'bow_wave' there", warnings)
         self.assertIn("a.msh: 1 boundary is renamed", warnings)

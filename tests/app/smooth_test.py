@@ -70,7 +70,8 @@ class SmoothAlongAnOutline(ProgramTest):
                      "smooth", "cut.mesh", "-o", "out.mesh", "--geometry", "moved.geom")
         self.refused(1, ["other.geom: has none of the mesh's boundaries, 'body', 'farfield', but 'wing'", "mesh --geometry-out"],
                      "smooth", "cut.mesh", "-o", "out.mesh", "--geometry", "other.geom")
-        self.refused(1, ["no boundary farfield", "give the file that `mesh --geometry-out` wrote"], "check", "cut.mesh", "--geometry", "body.geom", "--quiet")
+        self.refused(1, ["no boundary farfield", "the geometry has to be the one that was meshed, as `mesh --geometry-out` writes it"],
+                     "check", "cut.mesh", "--geometry", "body.geom", "--quiet")
         self.assertFalse((self.folder / "out.mesh").exists())
 
     def test_the_table_tells_area_ratios_as_check_does(self):
