@@ -25,7 +25,8 @@ class SizeTree {
   /// Tells whether a leaf of this place, holding these segments, cannot be cut as it is.
   using Unresolved = std::function<bool(const Quadrant&, std::span<const std::int32_t>)>;
 
-  /// The arguments but the options must outlive the tree. `demanded` are split beside those that case and geometry ask to, also below the case's `min`.
+  /// The arguments but the options must outlive the tree. `demanded` are split beside those that case and geometry ask to, also below the case's
+  /// `min`.
   SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options, Unresolved unresolved, const DemandedSplits& demanded);
 
   const Lattice& lattice() const { return *lattice_; }

@@ -48,13 +48,15 @@ def check_formats(program, given, folder):
     """sweeps = 0 only rewrites the mesh: each format gives back the same text; smoothed, each the same positions."""
     wanted = folder / "wanted.mesh"
     smooth(program, given, wanted)
+    as_given, as_wanted = NativeMesh(given), NativeMesh(wanted)
     for form in FORMATS:
         other, back, smoothed = folder / f"other.{form}", folder / "back.mesh", folder / "smoothed.mesh"
         smooth(program, given, other, options=["--sweeps", "0"])
         smooth(program, other, back, options=["--sweeps", "0"])
-        require(NativeMesh(back).nodes == NativeMesh(given).nodes and NativeMesh(back).cells == NativeMesh(given).cells, f"{form} and back is another mesh")
+        given_back = NativeMesh(back)
+        require(given_back.nodes == as_given.nodes and given_back.cells == as_given.cells, f"{form} and back is another mesh")
         smooth(program, other, smoothed)
-        require(NativeMesh(smoothed).nodes == NativeMesh(wanted).nodes, f"from {form} the nodes come to other places")
+        require(NativeMesh(smoothed).nodes == as_wanted.nodes, f"from {form} the nodes come to other places")
 
 
 def check_solution(program, given, folder):
@@ -166,7 +168,8 @@ def check_what_is_put_right(program, whole, folder):
     put_right(program, given, made, f"{left_out} edges of the outline belong to no boundary")
     listed = {node for edges in mesh.boundaries.values() for edge in edges[::2] for node in edge}
     ends = [node for edges in mesh.boundaries.values() for edge in edges[1::2] for node in edge if node in listed]
-    require(all(NativeMesh(made).nodes[node] == mesh.nodes[node] for node in ends), "a node has moved where a listed edge meets one that is not")
+    nodes = NativeMesh(made).nodes
+    require(all(nodes[node] == mesh.nodes[node] for node in ends), "a node has moved where a listed edge meets one that is not")
 
 
 def check_refusals(program, whole, folder):
