@@ -13,7 +13,7 @@ from program import ProgramTest
 BOX = "box\n4\n0 0\n8 0\n8 8\n0 8\n"
 ROCK = "rock\n3\n5 5\n5 6.5\n6.5 5\n"
 ISLE = "isle\n4\n3 3\n3 3.1\n3.1 3.1\n3.1 3\n"
-CASE = '[geometry]\nfile = "a.geom"\n[spacing]\nmin = 0.5\nmax = 1\n[boundary.box]\nbc = "farfield"\n[boundary.rock]\nbc = "wall"\n[smooth]\nsweeps = 0\n'
+CASE = '[geometry]\nfile = "a.geom"\nvanish = "allow"\n[spacing]\nmin = 0.5\nmax = 1\n[boundary.box]\nbc = "farfield"\n[boundary.rock]\nbc = "wall"\n[smooth]\nsweeps = 0\n'
 LOOP = '[adapt]\ncycles = 1\n[solver]\nmach = 0.5\niterations = 2\n'
 
 

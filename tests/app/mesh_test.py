@@ -86,12 +86,19 @@ class MeshWarnings(ProgramTest):
 
     def test_names_that_a_format_cannot_hold(self):
         rocks = ROCK.replace("rock", "bow%wave", 1).replace("rock", 'the"reef"').replace("2.1", "2.9")
-        _, warnings = self.mesh("3\n" + BOX + rocks, CASE + '[output]\nformats = ["su2", "msh", "mesh"]\n')
+        _, warnings = self.mesh("3\n" + BOX + rocks, CASE + '[mesh]\nquads = "parallel"\n[output]\nformats = ["su2", "msh", "mesh"]\n')
         self.assertEqual(warnings.count("\n"), 2, warnings)
         self.assertIn("a.su2: 2 boundaries are renamed, as this format cannot hold every name; the first, 'bow%wave', is 'bow_wave' there", warnings)
         self.assertIn("a.msh: 1 boundary is renamed", warnings)
         _, warnings = self.done("smooth", "a.mesh", "-o", "b.su2", "--sweeps", "0")
         self.assertIn("b.su2: 2 boundaries are renamed", warnings)
+
+    def test_skew_quads_for_su2(self):
+        case = CASE.replace("min = 0.5", "min = 0.05") + '[output]\nformats = ["su2"]\n'
+        geometry = "2\n" + BOX + "wedge\n3\n5 5\n5.3 6.1\n6.2 5.4\n"
+        _, warnings = self.mesh(geometry, case)
+        self.assertRegex(warnings, r"a\.su2: \d+ % of the quads are skew, .* mesh\.quads = \"parallel\" divides them")
+        self.assertEqual(self.mesh(geometry, case + '[mesh]\nquads = "parallel"\n')[1], "")
 
     def test_a_lone_outline_that_runs_as_a_hole(self):
         _, warnings = self.mesh("1\nwing\n3\n0 0\n0 4\n4 0\n")

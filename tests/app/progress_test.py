@@ -20,13 +20,13 @@ BOX = "1\nbox\n4\n0 0\n1 0\n1 1\n0 1\n"
 CASE = """[geometry]
 file = "box.geom"
 [spacing]
-min = 0.0005
-max = 0.004
+min = 0.0002
+max = 0.002
 [boundary.box]
-spacing = 0.0005
+spacing = 0.0002
 [[source]]
 line = [0.1, 0.13, 0.9, 0.71]
-spacing = 0.0005
+spacing = 0.0002
 [output]
 formats = ["mesh"]
 """
