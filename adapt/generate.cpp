@@ -14,8 +14,6 @@ namespace quadloop {
 
 namespace {
 
-constexpr double cost_at_hanging_nodes = 0.0945;  ///< Eq. 3.2, a little more than that of the right triangles there, whose legs are 1 and 2
-
 /// A leaf has the triangles that stand in the places of its own before.
 void count_triangles(const std::vector<std::int32_t>& standing, std::vector<LeafRecord>& leaves) {
   auto place = standing.begin();
@@ -42,10 +40,7 @@ void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result
   const auto rank = [&lattice, finest = result.report.finest_allowed](Point p) { return tie_rank(lattice, finest, p); };
   const bool parallel = input.mesh.type == MeshType::hybrid && input.mesh.quads == QuadChoice::parallel;
   if (input.mesh.type == MeshType::delaunay) options.delaunay = rank;
-  if (parallel) {
-    options.level_lines = false;  // at its ends a moved line costs parallelograms
-    options.bad = cost_at_hanging_nodes;
-  }
+  if (parallel) options = sparing_parallelograms(options);
   options.keep_places = input.mesh.type != MeshType::delaunay;
   const SmoothReport report = smooth_mesh(comm, result.mesh, options);
   if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
@@ -60,10 +55,11 @@ GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, co
   GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}};
   MeshResult& result = generated.result;
   generated.times.append(result.report.times);
+  require_area(comm, input.geometry, result.report.area_dropped, result.mesh);
   generated.times.begin("smooth");
   smooth(comm, input, result);
   generated.times.end();
-  require_area(comm, input.geometry, result.report.area_dropped, result.mesh);
+  require_area(comm, input.geometry, result.report.area_dropped, result.mesh, true);
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);
   return generated;

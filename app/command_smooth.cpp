@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -18,6 +20,7 @@
 #include "mesher/geometry/assemble.hpp"
 #include "mesher/mesh/delaunay_check.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/shape_figures.hpp"
 #include "smoother/outline_match.hpp"
 #include "smoother/smooth_mesh.hpp"
 
@@ -124,16 +127,30 @@ void require_valid_result(const Communicator& comm, const Loaded& loaded, const 
   });
 }
 
+/// All quads were parallelograms, as node-centred solvers want them, and cells stay cells here.
+void warn_of_skew_quads(const CommandContext& context, const std::string& output, const ShapeFigures& figures) {
+  const std::int64_t skew = figures.quads - figures.parallelograms;
+  if (skew == 0) return;
+  context.warn(
+      {fmt::format("{}: {} of the {} quads, which were parallelograms, are none any more; smoothed by `mesh` with mesh.quads = \"parallel\" they "
+                   "would be divided",
+                   output, skew, figures.quads)});
+}
+
 /// Smooths and writes; the text to be shown, on the root alone. *Collective.*
 std::string smooth_and_write(const CommandContext& context, const SmoothArguments& arguments, Loaded& loaded, StageTimes& times) {
   const Communicator& comm = context.comm;
   Mesh part = scatter_mesh(comm, loaded.whole.mesh, loaded.order);
-  const SmoothOptions options = options_of(comm, arguments, loaded, part);
+  const ShapeFigures figures = shape_figures(comm, part);
+  const bool parallel = figures.quads > 0 && figures.parallelograms == figures.quads;
+  SmoothOptions options = options_of(comm, arguments, loaded, part);
+  if (parallel) options = sparing_parallelograms(options);
   times.begin("report");
   const ShapeReport before = report_shapes(comm, part, loaded.whole.mesh);
   times.begin("smooth");
   const SmoothReport smoothed = smooth_mesh(comm, part, options);
   times.begin("check");
+  if (parallel) warn_of_skew_quads(context, arguments.output, shape_figures(comm, part));
   gather_mesh(comm, part, loaded.order, loaded.whole.mesh);
   require_valid_result(comm, loaded, arguments.input);
   times.begin("write");

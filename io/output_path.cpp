@@ -37,8 +37,16 @@ std::string cure_of(int reason) {
   throw OutputError(path + ": is " + kind + ", not a file; choose another name");
 }
 
+/// A stream of the process, which a rename would not reach although it may be a file.
+bool is_stream(const std::string& path) {
+  const std::string normal = std::filesystem::path(path).lexically_normal().string();
+  return normal == "/dev/stdout" || normal == "/dev/stderr" || normal == "/dev/stdin" || normal.starts_with("/dev/fd/") ||
+         normal.starts_with("/proc/");
+}
+
 /// What stands at the path can be replaced by a file, or there is nothing.
 void require_file_or_nothing(const std::string& path) {
+  if (is_stream(path)) refuse_kind(path, "a stream of the process");
   struct stat found = {};
   if (::stat(path.c_str(), &found) != 0) {
     if (errno != ENOENT && errno != ENOTDIR) refuse_output(path, errno);

@@ -280,6 +280,13 @@ SmoothReport smooth_ordinary(const Communicator& comm, Mesh& mesh, const SmoothO
 
 }  // namespace
 
+SmoothOptions sparing_parallelograms(SmoothOptions options) {
+  constexpr double cost_at_hanging_nodes = 0.0945;  // Eq. 3.2, rounded up
+  options.level_lines = false;
+  options.bad = cost_at_hanging_nodes;
+  return options;
+}
+
 SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
   const BinaryUnit unit(comm, mesh);
   if (unit.is_one()) return smooth_ordinary(comm, mesh, options);

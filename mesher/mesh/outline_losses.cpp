@@ -92,7 +92,7 @@ std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
   return shares;
 }
 
-[[noreturn]] void refuse_area(const Communicator& comm, const Geometry& geometry, const Mesh& mesh, double error) {
+[[noreturn]] void refuse_area(const Communicator& comm, const Geometry& geometry, const Mesh& mesh, double error, bool smoothed) {
   const Point centre = geometry.box().centre();
   const std::vector<std::vector<double>> meshed = shares_of_area(mesh, centre);
   const std::vector<double> wanted = outline_shares(geometry, centre);
@@ -104,10 +104,12 @@ std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
     most = std::max(most, missed);
   }
   const std::string& name = geometry.boundaries()[worst].name;
+  const std::string cause =
+      smoothed ? "nodes have slid along it while smoothing, where it is narrow; set smooth.sweeps = 0, or" : "its leaves are too coarse there;";
   throw InputError(
-      fmt::format("boundary '{}' near {}: the area of the mesh is {:.1f} percent off that inside the outline, more than the {:.0f} allowed: its "
-                  "leaves are too coarse there; give [boundary.{}] a smaller spacing, set spacing.curvature, or make spacing.min or max smaller",
-                  name, text(box_of_boundary(geometry, name).centre()), 100 * error, 100 * largest_area_error, name));
+      fmt::format("boundary '{}' near {}: the area of the mesh is {:.1f} percent off that inside the outline, more than the {:.0f} allowed: {} "
+                  "give [boundary.{}] a smaller spacing, set spacing.curvature, or make spacing.min or max smaller",
+                  name, text(box_of_boundary(geometry, name).centre()), 100 * error, 100 * largest_area_error, cause, name));
 }
 
 }  // namespace
@@ -143,7 +145,7 @@ double area_of_loop(const Geometry& geometry, std::int32_t loop) {
   return twice / 2;
 }
 
-void require_area(const Communicator& comm, const Geometry& geometry, double dropped, const Mesh& mesh) {
+void require_area(const Communicator& comm, const Geometry& geometry, double dropped, const Mesh& mesh, bool smoothed) {
   std::vector<double> shares;
   for (const std::vector<double>& list : shares_of_area(mesh, geometry.box().centre())) shares.insert(shares.end(), list.begin(), list.end());
   const double meshed = reproducible_sum(comm, shares) / 2;
@@ -151,7 +153,7 @@ void require_area(const Communicator& comm, const Geometry& geometry, double dro
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) given += area_of_loop(geometry, loop);
   for (const double wanted : {given, given - dropped}) {
     const double error = std::abs(meshed - wanted) / std::abs(wanted);
-    if (!(error <= largest_area_error)) refuse_area(comm, geometry, mesh, error);
+    if (!(error <= largest_area_error)) refuse_area(comm, geometry, mesh, error, smoothed);
   }
 }
 

@@ -10,8 +10,8 @@ void report_losses(const Communicator& comm, const Geometry& geometry, const Mes
 
 /// Throws InputError on all ranks where the areas that the mesh and the outline enclose differ by more than largest_area_error: so coarse a mesh is
 /// none of that geometry. `dropped` is the area of the geometry's loops that were dropped (below 0 for islands); with and without them the area must
-/// fit. *Collective.*
-void require_area(const Communicator& comm, const Geometry& geometry, double dropped, const Mesh& mesh);
+/// fit. `smoothed` tells that the mesh fitted before its nodes moved. *Collective.*
+void require_area(const Communicator& comm, const Geometry& geometry, double dropped, const Mesh& mesh, bool smoothed = false);
 
 /// The signed area inside the loop: above 0 where its inside is domain.
 double area_of_loop(const Geometry& geometry, std::int32_t loop);

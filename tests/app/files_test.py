@@ -254,6 +254,13 @@ class Places(FilesTest):
                 self.assertEqual(self.names(), ["a.mesh"])
                 os.rmdir(self.out / "a.mesh") if says == "is a folder" else os.unlink(self.out / "a.mesh")
 
+    def test_a_stream_of_the_process_is_no_output(self):
+        self.done("mesh", "case.toml", "-o", "a", "--quiet")
+        with open(self.folder / "redirected", "w") as out:  # a file that a rename would replace
+            refused = self.run_program("convert", "a.mesh", "/dev/stdout", "--format", "vtu", stdout=out)
+        self.assertEqual(refused.returncode, 4)
+        self.assertIn("/dev/stdout: is a stream of the process", refused.stderr)
+
     def test_old_temporaries_are_no_trap(self):
         (self.folder / "victim").write_text("precious")
         (self.out / "a.mesh.part").symlink_to("../victim")

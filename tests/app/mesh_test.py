@@ -84,6 +84,14 @@ class MeshWarnings(ProgramTest):
         self.write("case.toml", CASE.replace("0.5", "1"))
         self.refused(1, ["boundary 'disc'", "10.0 percent off", "smaller spacing"], "mesh", "case.toml")
 
+    def test_nodes_that_slide_along_a_narrow_ring(self):
+        circle = lambda name, r, way: f"{name}\n100\n" + "".join(
+            f"{r * math.cos(math.tau * k / 100)} {r * math.sin(way * math.tau * k / 100)}\n" for k in range(100))
+        self.write("a.geom", "2\n" + circle("out", 1, 1) + circle("in", 0.99, -1))
+        self.write("case.toml", '[geometry]\nfile = "a.geom"\n[spacing]\nmin = 0.1\n[boundary."*"]\nspacing = 0.1\n[mesh]\ntype = "delaunay"\n')
+        self.refused(1, ["boundary '", "percent off", "set smooth.sweeps = 0"], "mesh", "case.toml")
+        self.done("mesh", "case.toml", "--set", "smooth.sweeps=0")
+
     def test_names_that_a_format_cannot_hold(self):
         rocks = ROCK.replace("rock", "bow%wave", 1).replace("rock", 'the"reef"').replace("2.1", "2.9")
         _, warnings = self.mesh("3\n" + BOX + rocks, CASE + '[mesh]\nquads = "parallel"\n[output]\nformats = ["su2", "msh", "mesh"]\n')

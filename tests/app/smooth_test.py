@@ -3,6 +3,7 @@
 
     smooth_test.py QUADLOOP MPIRUN
 """
+import json
 import math
 import sys
 import unittest
@@ -39,6 +40,14 @@ class SmoothAlongAnOutline(ProgramTest):
     def assert_same_places(self, mesh, other):
         for (x, y), (u, v) in zip(nodes_of(mesh), nodes_of(other), strict=True):
             self.assertLess(math.hypot(x - u, y - v), 1e-9)
+
+    def test_parallelograms_are_spared(self):
+        self.done("mesh", "case.toml", "-o", "parallel", "--quiet", "--set", 'mesh.quads="parallel"')
+        _, stderr = self.done("smooth", "parallel.mesh", "-o", "out.mesh", "--geometry", "whole.geom")
+        said = json.loads(self.done("check", "out.mesh", "--json")[0])
+        skew = round((1 - said["parallelogram_share"]) * said["quads"])
+        self.assertLess(skew, 0.05 * said["quads"])
+        self.assertEqual(f"out.mesh: {skew} of the {said['quads']} quads, which were parallelograms, are none any more" in stderr, skew > 0, stderr)
 
     def test_its_own_outline_in_silence(self):
         free, _, _ = self.smooth()
