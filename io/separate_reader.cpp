@@ -18,6 +18,7 @@
 #include <optional>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/input_file.hpp"
 
 namespace quadloop {
 
@@ -35,10 +36,9 @@ struct Allowance {
 Allowance allowance_for(rlim_t file_size) { return {5 + file_size / (rlim_t{1} << 19), (rlim_t{1} << 28) + 64 * file_size}; }
 
 rlim_t size_of_file(const std::string& path) {
+  require_input_file(path);
   struct stat about {};
   if (::stat(path.c_str(), &about) != 0) throw InputError(path + ": cannot be read: " + std::strerror(errno));
-  if (S_ISDIR(about.st_mode)) throw InputError(path + ": cannot be read: it is a folder");
-  if (!S_ISREG(about.st_mode)) throw InputError(path + ": cannot be read: not a regular file");
   return static_cast<rlim_t>(about.st_size);
 }
 
