@@ -10,10 +10,10 @@
 #include <set>
 #include <variant>
 
-#include "adapt/loop.hpp"
-#include "app/case_input.hpp"
+#include "adapt/loop/loop.hpp"
+#include "quadloop/case/case_input.hpp"
 #include "app/command.hpp"
-#include "app/solver_settings.hpp"
+#include "quadloop/case/solver_settings.hpp"
 #include "io/input/case_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"

@@ -6,12 +6,12 @@
 #include <memory>
 #include <span>
 
-#include "app/check_report.hpp"
+#include "app/report/check_report.hpp"
 #include "app/command.hpp"
-#include "app/refusals.hpp"
+#include "app/report/refusals.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
-#include "mesher/geometry/assemble.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 
 namespace quadloop {
 

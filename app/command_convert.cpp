@@ -6,8 +6,8 @@
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/figures.hpp"
-#include "app/refusals.hpp"
+#include "app/report/figures.hpp"
+#include "app/report/refusals.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 

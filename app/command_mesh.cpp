@@ -6,20 +6,20 @@
 #include <memory>
 #include <optional>
 
-#include "adapt/restart.hpp"
-#include "app/case_input.hpp"
+#include "adapt/remesh/restart.hpp"
+#include "quadloop/case/case_input.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/summary.hpp"
+#include "app/report/summary.hpp"
 #include "io/input/geom_text.hpp"
 #include "io/mesh_file.hpp"
-#include "io/output_file.hpp"
-#include "io/output_path.hpp"
-#include "io/tree_file.hpp"
+#include "io/files/output_file.hpp"
+#include "io/files/output_path.hpp"
+#include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/mesh/islands.hpp"
+#include "mesher/build/islands.hpp"
 
 namespace quadloop {
 

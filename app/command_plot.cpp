@@ -10,8 +10,8 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "io/mesh_file.hpp"
-#include "io/mesh_plot.hpp"
-#include "io/output_file.hpp"
+#include "io/plot/mesh_plot.hpp"
+#include "io/files/output_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 

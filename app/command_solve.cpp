@@ -8,13 +8,13 @@
 #include <iostream>
 #include <memory>
 
-#include "adapt/euler/shortfall.hpp"
-#include "adapt/euler/solve_euler.hpp"
+#include "flow/euler/shortfall.hpp"
+#include "flow/euler/solve_euler.hpp"
 #include "app/command.hpp"
-#include "app/settings.hpp"
-#include "app/summary.hpp"
+#include "quadloop/case/settings.hpp"
+#include "app/report/summary.hpp"
 #include "io/mesh_file.hpp"
-#include "io/output_path.hpp"
+#include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"

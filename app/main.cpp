@@ -14,11 +14,11 @@
 #include "app/closing.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "io/interruption.hpp"
+#include "io/files/interruption.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/free_memory.hpp"
-#include "mesher/base/input_file.hpp"
+#include "io/files/input_file.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/progress.hpp"
 

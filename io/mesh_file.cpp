@@ -9,13 +9,13 @@
 #include <numeric>
 #include <system_error>
 
-#include "io/cgns_file.hpp"
-#include "io/cgns_names.hpp"
-#include "io/msh_file.hpp"
-#include "io/native_file.hpp"
-#include "io/su2_csv_file.hpp"
-#include "io/su2_file.hpp"
-#include "io/vtu_file.hpp"
+#include "io/cgns/cgns_file.hpp"
+#include "io/cgns/cgns_names.hpp"
+#include "io/msh/msh_file.hpp"
+#include "io/native/native_file.hpp"
+#include "io/su2/su2_csv_file.hpp"
+#include "io/su2/su2_file.hpp"
+#include "io/vtu/vtu_file.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "io/loaded_mesh.hpp"
-#include "io/output_file.hpp"
+#include "io/loaded/loaded_mesh.hpp"
+#include "io/files/output_file.hpp"
 
 namespace quadloop {
 

@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "io/mesh_file.hpp"
-#include "io/su2_csv_file.hpp"
-#include "io/variable_names.hpp"
+#include "io/su2/su2_csv_file.hpp"
+#include "mesher/mesh/variable_names.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/topology.hpp"
 

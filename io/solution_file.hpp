@@ -1,24 +1,11 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "io/loaded_mesh.hpp"
+#include "io/loaded/loaded_solution.hpp"
 
 namespace quadloop {
-
-/// A solution as a file gives it, whole on one rank, with what the file says of its mesh. Names are words (distinct_words()); variable() finds one.
-struct LoadedSolution {
-  std::string path;
-  Solution solution;
-  std::int64_t nodes = 0;     ///< rows of the solution
-  std::vector<Point> points;  ///< empty where the file has no coordinates
-  bool has_cells = false;
-  std::vector<std::array<NodeId, 3>> triangles;
-  std::vector<std::array<NodeId, 4>> quads;
-};
 
 /// Reads .mesh, .cgns and .vtu with a solution, and .csv as SU2 leaves its restart file, on the calling rank alone. Throws InputError, also
 /// where the file holds no values at its nodes, two variables of one name, or a value that is not finite or beyond 1e150.

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <type_traits>
 
-#include "smoother/condition_number.hpp"
+#include "smoother/objective/condition_number.hpp"
 
 namespace quadloop {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/mesh/halo_mesh.hpp"
-#include "smoother/star.hpp"
+#include "smoother/objective/star.hpp"
 
 namespace quadloop {
 

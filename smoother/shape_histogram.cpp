@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "mesher/mesh/quality.hpp"
-#include "smoother/condition_number.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "smoother/objective/condition_number.hpp"
 
 namespace quadloop {
 

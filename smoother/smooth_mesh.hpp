@@ -8,7 +8,7 @@
 #include "mesher/delaunay/tie_order.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
-#include "smoother/node_solver.hpp"
+#include "smoother/node/node_solver.hpp"
 #include "smoother/node_stars.hpp"
 
 namespace quadloop {

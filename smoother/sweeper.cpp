@@ -1,7 +1,7 @@
 #include "smoother/sweeper.hpp"
 
 #include "smoother/colouring.hpp"
-#include "smoother/untangle.hpp"
+#include "smoother/node/untangle.hpp"
 
 namespace quadloop {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "smoother/boundary_slide.hpp"
+#include "smoother/outline/boundary_slide.hpp"
 #include "smoother/node_stars.hpp"
 
 namespace quadloop {

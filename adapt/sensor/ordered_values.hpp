@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
-#include "mesher/forest/tree_record.hpp"
+#include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop {
 

@@ -6,7 +6,7 @@
 #include "adapt/sensor/mark.hpp"
 #include "adapt/sensor/node_field.hpp"
 #include "mesher/base/communicator.hpp"
-#include "mesher/forest/tree_record.hpp"
+#include "mesher/mesh/tree_record.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {

@@ -7,9 +7,9 @@
 #include <charconv>
 #include <sstream>
 
-#include "mesher/base/decimal_comma.hpp"
+#include "io/text/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/input_file.hpp"
+#include "io/files/input_file.hpp"
 
 namespace quadloop {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "io/input/case_data.hpp"
-#include "mesher/base/decimal_comma.hpp"
+#include "io/text/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 

@@ -12,7 +12,7 @@
 #include <span>
 
 #include "mesher/base/error.hpp"
-#include "mesher/base/input_file.hpp"
+#include "io/files/input_file.hpp"
 
 namespace quadloop {
 

@@ -5,7 +5,7 @@
 #include <compare>
 #include <cstdint>
 
-#include "mesher/forest/lattice.hpp"
+#include "mesher/geometry/point.hpp"
 
 namespace quadloop {
 
@@ -20,10 +20,7 @@ struct TieRank {
   friend auto operator<=>(const TieRank&, const TieRank&) = default;
 };
 
-/// From a node's position alone.
-TieRank tie_rank(const Lattice& lattice, int finest_level, Point position);
-
-/// The same without a lattice: nodes farther from the centre of a box rank higher.
+/// From a node's position alone: nodes farther from the centre of a box rank higher.
 inline TieRank tie_rank(Point centre, Point position) {
   const double across = std::abs(position.x - centre.x), up = std::abs(position.y - centre.y);
   return {-1, -1, std::max(across, up), std::min(across, up), position.x, position.y};

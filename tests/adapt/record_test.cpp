@@ -1,5 +1,5 @@
 // What record.json keeps of a run's case, and which changes of it are told apart. On one rank alone.
-#include "adapt/record.hpp"
+#include "adapt/loop/record.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A tree read from its record gives itself again; marks change it by a level, and the same marks take back what they made.
-#include "adapt/restart.hpp"
+#include "adapt/remesh/restart.hpp"
 
 #include <gtest/gtest.h>
 

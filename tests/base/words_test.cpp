@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "mesher/base/decimal_comma.hpp"
+#include "io/text/decimal_comma.hpp"
 #include "mesher/base/json.hpp"
 #include "mesher/base/nearest_word.hpp"
 

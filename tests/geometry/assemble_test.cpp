@@ -1,4 +1,4 @@
-#include "mesher/geometry/assemble.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 
 #include <gtest/gtest.h>
 

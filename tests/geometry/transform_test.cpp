@@ -1,4 +1,4 @@
-#include "mesher/geometry/transform.hpp"
+#include "mesher/geometry/assemble/transform.hpp"
 
 #include <gtest/gtest.h>
 

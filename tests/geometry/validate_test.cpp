@@ -9,7 +9,7 @@
 #include <random>
 
 #include "mesher/base/error.hpp"
-#include "mesher/geometry/join_chains.hpp"
+#include "mesher/geometry/assemble/join_chains.hpp"
 #include "mesher/geometry/meeting_pairs.hpp"
 #include "tests/geometry/outlines.hpp"
 

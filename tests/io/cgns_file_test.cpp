@@ -1,6 +1,6 @@
 // CGNS files that others write, whole and wrong, put together by the library and, where that refuses to write what is wrong, by HDF5. On one rank
 // alone.
-#include "io/cgns_file.hpp"
+#include "io/cgns/cgns_file.hpp"
 
 #include <cgnslib.h>
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "io/tree_file.hpp"
+#include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 

@@ -17,9 +17,9 @@
 
 #include "io/mesh_file.hpp"
 #include "io/solution_file.hpp"
-#include "io/tidy_mesh.hpp"
+#include "io/loaded/tidy_mesh.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 

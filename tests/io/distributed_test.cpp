@@ -7,15 +7,15 @@
 #include <limits>
 #include <utility>
 
-#include "io/cgns_file.hpp"
-#include "io/msh_file.hpp"
-#include "io/native_file.hpp"
-#include "io/su2_csv_file.hpp"
-#include "io/su2_file.hpp"
-#include "io/tree_file.hpp"
-#include "io/vtu_file.hpp"
+#include "io/cgns/cgns_file.hpp"
+#include "io/msh/msh_file.hpp"
+#include "io/native/native_file.hpp"
+#include "io/su2/su2_csv_file.hpp"
+#include "io/su2/su2_file.hpp"
+#include "io/tree/tree_file.hpp"
+#include "io/vtu/vtu_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 

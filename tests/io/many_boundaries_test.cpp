@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/mesh_file.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 

@@ -1,11 +1,11 @@
 // The reader of Gmsh's files: what it accepts and puts right, and what it refuses by line. It works on one rank alone.
-#include "io/msh_file.hpp"
+#include "io/msh/msh_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"

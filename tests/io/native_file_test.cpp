@@ -1,10 +1,10 @@
 // The native reader: what it accepts, and what it refuses by line. It works on one rank alone.
-#include "io/native_file.hpp"
+#include "io/native/native_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
 
 namespace quadloop {

@@ -1,13 +1,13 @@
 // Directions of cells by their neighbours: alone, and by what a reader makes of them and of the boundary.
-#include "io/orient_cells.hpp"
+#include "io/loaded/orient_cells.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "io/su2_file.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "io/su2/su2_file.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 
 namespace quadloop {

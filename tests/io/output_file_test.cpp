@@ -1,5 +1,5 @@
 // Outputs appear whole or not at all, and every rank learns of a failure.
-#include "io/output_file.hpp"
+#include "io/files/output_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -12,11 +12,11 @@
 #include <thread>
 #include <utility>
 
-#include "io/cgns_file.hpp"
-#include "io/folder_lock.hpp"
+#include "io/cgns/cgns_file.hpp"
+#include "io/files/folder_lock.hpp"
 #include "io/mesh_file.hpp"
-#include "io/native_file.hpp"
-#include "io/tree_file.hpp"
+#include "io/native/native_file.hpp"
+#include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"

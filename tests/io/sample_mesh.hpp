@@ -3,10 +3,10 @@
 #include <functional>
 #include <string>
 
-#include "io/loaded_mesh.hpp"
+#include "io/loaded/loaded_mesh.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/forest/tree_record.hpp"
+#include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop::test {
 

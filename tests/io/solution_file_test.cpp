@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "io/cgns_file.hpp"
-#include "io/native_file.hpp"
-#include "io/su2_csv_file.hpp"
-#include "io/variable_names.hpp"
-#include "io/vtu_file.hpp"
+#include "io/cgns/cgns_file.hpp"
+#include "io/native/native_file.hpp"
+#include "io/su2/su2_csv_file.hpp"
+#include "mesher/mesh/variable_names.hpp"
+#include "io/vtu/vtu_file.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"

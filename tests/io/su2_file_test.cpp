@@ -1,9 +1,9 @@
 // The SU2 reader: what it accepts and puts right, and what it refuses by line. It works on one rank alone.
-#include "io/su2_file.hpp"
+#include "io/su2/su2_file.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"

@@ -1,11 +1,11 @@
 // What is put right in a mesh before it is smoothed, and what is left for others to report.
-#include "io/tidy_mesh.hpp"
+#include "io/loaded/tidy_mesh.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 
 namespace quadloop {
 namespace {

@@ -1,12 +1,12 @@
 // The VTU reader: what it accepts, in every encoding, and what it refuses by line; and that the writer's files come back. On one rank alone.
-#include "io/vtu_file.hpp"
+#include "io/vtu/vtu_file.hpp"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <sstream>
 
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"

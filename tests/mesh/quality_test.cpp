@@ -1,5 +1,5 @@
 // Figures against those worked out by hand, on any number of ranks.
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/check/quality.hpp"
 
 #include <gtest/gtest.h>
 

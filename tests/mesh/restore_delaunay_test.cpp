@@ -1,5 +1,5 @@
 // After nodes have moved the mesh is made Delaunay again, with the same triangles in the same order on any number of ranks.
-#include "mesher/mesh/restore_delaunay.hpp"
+#include "mesher/delaunay/restore_delaunay.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <numeric>
 #include <random>
 
-#include "mesher/geometry/assemble.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
-#include "mesher/mesh/build_mesh.hpp"
+#include "mesher/build/build_mesh.hpp"
 #include "mesher/mesh/node_table.hpp"
 #include "mesher/mesh/topology.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {

@@ -1,13 +1,13 @@
 // Figures against those of the whole mesh, worked out another way, on any number of ranks.
-#include "mesher/mesh/shape_figures.hpp"
+#include "mesher/mesh/check/shape_figures.hpp"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <set>
 
-#include "mesher/mesh/quality.hpp"
-#include "mesher/mesh/shape_statistics.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/shape_statistics.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 

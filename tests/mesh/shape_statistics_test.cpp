@@ -1,5 +1,5 @@
 // Distributions of shapes against those worked out by hand.
-#include "mesher/mesh/shape_statistics.hpp"
+#include "mesher/mesh/check/shape_statistics.hpp"
 
 #include <gtest/gtest.h>
 

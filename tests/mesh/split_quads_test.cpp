@@ -1,9 +1,9 @@
 // Quadrilaterals that are no parallelograms become two triangles in their leaf's place; mirror images are divided alike.
-#include "mesher/mesh/split_quads.hpp"
+#include "mesher/build/split_quads.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/check/quality.hpp"
 
 namespace quadloop {
 namespace {

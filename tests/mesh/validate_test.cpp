@@ -1,5 +1,5 @@
 // Each kind of fault is found where it is, by its own name, and a valid mesh has none.
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 
 #include <gtest/gtest.h>
 

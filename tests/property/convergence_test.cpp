@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesher/geometry/assemble.hpp"
-#include "mesher/mesh/build_mesh.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/build/build_mesh.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {

@@ -8,13 +8,13 @@
 #include <iostream>
 
 #include "mesher/base/error.hpp"
-#include "mesher/geometry/assemble.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
-#include "mesher/mesh/build_mesh.hpp"
-#include "mesher/mesh/outline_losses.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/build/build_mesh.hpp"
+#include "mesher/build/outline_losses.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/topology.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "smoother/smooth_mesh.hpp"
 #include "tests/property/shapes.hpp"
 #include "tests/support/world.hpp"

@@ -1,5 +1,5 @@
 // The weighted condition number and its cost, against values by hand and against the matrices of the thesis.
-#include "smoother/condition_number.hpp"
+#include "smoother/objective/condition_number.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 

@@ -1,5 +1,5 @@
 // What a solver proposes is better by the rule, for any star; perfect stars are left alone and displaced nodes come back.
-#include "smoother/node_solver.hpp"
+#include "smoother/node/node_solver.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Whether an outline belongs to a mesh, and which way its loops run there.
-#include "smoother/outline_match.hpp"
+#include "smoother/outline/outline_match.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Places on an outline, ways and chords between them, also across the first vertex of a loop.
-#include "smoother/outline_path.hpp"
+#include "smoother/outline/outline_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 
-#include "mesher/mesh/delaunay_check.hpp"
-#include "mesher/mesh/quality.hpp"
-#include "mesher/mesh/restore_delaunay.hpp"
+#include "mesher/mesh/check/delaunay_check.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/delaunay/restore_delaunay.hpp"
 #include "mesher/mesh/topology.hpp"
-#include "smoother/condition_number.hpp"
+#include "smoother/objective/condition_number.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 
 namespace quadloop {

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "mesher/mesh/quality.hpp"
-#include "mesher/mesh/validate.hpp"
-#include "smoother/condition_number.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/validate.hpp"
+#include "smoother/objective/condition_number.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 
 namespace quadloop {

@@ -1,5 +1,5 @@
 // What a star is worth: batches against single places, objectives against their formulas, gradients against differences.
-#include "smoother/star.hpp"
+#include "smoother/objective/star.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/check/quality.hpp"
 
 namespace quadloop::test {
 

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "smoother/star.hpp"
+#include "smoother/objective/star.hpp"
 
 namespace quadloop::test {
 

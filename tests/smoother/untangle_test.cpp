@@ -1,5 +1,5 @@
 // Inverted stars: the deepest place inside their polygon, and moves that lower the tangle without a new one.
-#include "smoother/untangle.hpp"
+#include "smoother/node/untangle.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/indicator.hpp"
 #include "adapt/sensor/thresholds.hpp"
-#include "mesher/geometry/assemble.hpp"
-#include "mesher/mesh/build_mesh.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/build/build_mesh.hpp"
 #include "tests/adapt/sensor/shared_leaves.hpp"
 #include "tests/support/world.hpp"
 

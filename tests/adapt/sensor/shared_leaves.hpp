@@ -8,7 +8,7 @@
 
 #include "adapt/sensor/node_field.hpp"
 #include "mesher/base/communicator.hpp"
-#include "mesher/forest/tree_record.hpp"
+#include "mesher/mesh/tree_record.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 

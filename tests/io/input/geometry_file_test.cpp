@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "io/input/geom_text.hpp"
-#include "mesher/geometry/assemble.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {

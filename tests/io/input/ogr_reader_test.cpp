@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "io/input/geometry_file.hpp"
-#include "mesher/geometry/assemble.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {

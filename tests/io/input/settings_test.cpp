@@ -1,8 +1,8 @@
-#include "app/settings.hpp"
+#include "quadloop/case/settings.hpp"
 
 #include <gtest/gtest.h>
 
-#include "adapt/digests.hpp"
+#include "mesher/generate/digests.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {
