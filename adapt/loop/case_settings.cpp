@@ -19,7 +19,9 @@ std::vector<ChangedSetting> changed_settings(const CaseSettings& before, const C
   return changed;
 }
 
-bool may_change_in_a_run(const std::string& key) { return key == "solver.command" || key == "solver.iterations" || key == "output.formats"; }
+bool may_change_in_a_run(const std::string& key) {
+  return key == "solver.command" || key == "solver.iterations" || key == "output.formats";
+}
 
 std::uint64_t run_digest(const CaseSettings& settings, std::uint64_t geometry_digest) {
   std::string text = fmt::format("geometry {:x}", geometry_digest);

@@ -38,7 +38,8 @@ bool holds_nothing_whole(const fs::path& folder, const fs::path& first_under_way
 
 }  // namespace
 
-CycleFolders::CycleFolders(const Communicator& comm, std::string folder) : comm_{comm}, folder_{std::move(folder)} {}
+CycleFolders::CycleFolders(const Communicator& comm, std::string folder)
+    : comm_{comm}, folder_{std::move(folder)} {}
 
 std::string CycleFolders::whole(int cycle) const { return fmt::format("{}/cycle_{:02}", folder_, cycle); }
 
@@ -46,7 +47,8 @@ void CycleFolders::lock() {
   lock_ = open_descriptor(folder_, O_RDONLY | O_DIRECTORY);
   // Some file systems of networks have no such locks; a run without one is better than none.
   if (::flock(lock_.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  throw InputError(folder_ + ": another run is at work in this folder; wait for its end, or name another folder with -o");
+  throw InputError(
+      folder_ + ": another run is at work in this folder; wait for its end, or name another folder with -o");
 }
 
 int CycleFolders::count_whole() const {
@@ -55,9 +57,13 @@ int CycleFolders::count_whole() const {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
     const std::string name = entry.path().filename();
     int later = 0;
-    if (std::sscanf(name.c_str(), "cycle_%d", &later) != 1 || later <= cycles || fs::path(whole(later)).filename() != name) continue;
-    throw InputError(fmt::format("{}: is missing, but {} is there; bring it back, or remove the later cycles, and --resume makes them again",
-                                 whole(cycles), name));
+    if (std::sscanf(name.c_str(), "cycle_%d", &later) != 1 || later <= cycles ||
+        fs::path(whole(later)).filename() != name)
+      continue;
+    throw InputError(
+        fmt::format("{}: is missing, but {} is there; bring it back, or remove the later cycles, and "
+                    "--resume makes them again",
+                    whole(cycles), name));
   }
   return cycles;
 }
@@ -67,11 +73,13 @@ int CycleFolders::open(bool resume) {
   comm_.together([&] {
     if (!comm_.is_root()) return;
     on_disk(folder_, [&] {
-      if (fs::exists(folder_) && !fs::is_directory(folder_)) throw InputError(folder_ + ": is a file, but a folder is wanted; name another one");
+      if (fs::exists(folder_) && !fs::is_directory(folder_))
+        throw InputError(folder_ + ": is a file, but a folder is wanted; name another one");
       fs::create_directories(folder_);
       lock();
       if (!resume && !holds_nothing_whole(folder_, under_way(0))) {
-        throw InputError(folder_ + ": is not empty; --resume goes on with the run in it, or name another folder with -o");
+        throw InputError(
+            folder_ + ": is not empty; --resume goes on with the run in it, or name another folder with -o");
       }
       cycles = count_whole();
       fs::remove_all(under_way(cycles));

@@ -7,15 +7,17 @@
 
 namespace quadloop {
 
-/// The folder of an adaptive run: DIR/cycle_00, cycle_01, ..., each put in place whole. Work goes on in DIR/cycle_K.part. Rank 0 alone touches the
-/// disk; all but the plain names are *collective*, and what fails is the same error on every rank.
+/// The folder of an adaptive run: DIR/cycle_00, cycle_01, ..., each put in place whole. Work goes on in
+/// DIR/cycle_K.part. Rank 0 alone touches the disk; all but the plain names are *collective*, and what fails
+/// is the same error on every rank.
 class CycleFolders {
  public:
   CycleFolders(const Communicator& comm, std::string folder);
 
-  /// Makes the folder where there is none, and says how many whole cycles it holds, from cycle 0 on; what is left of one that is not whole goes.
-  /// From here to the end of this object, or of the process, no other run may work there; the lock leaves no file. Throws InputError where the
-  /// folder holds more than a first cycle that is not whole and the run is not to be resumed, where another run is at work in it, or where a
+  /// Makes the folder where there is none, and says how many whole cycles it holds, from cycle 0 on; what is
+  /// left of one that is not whole goes. From here to the end of this object, or of the process, no other run
+  /// may work there; the lock leaves no file. Throws InputError where the folder holds more than a first
+  /// cycle that is not whole and the run is not to be resumed, where another run is at work in it, or where a
   /// cycle is missing before a later one; OutputError where it cannot be made.
   int open(bool resume);
 

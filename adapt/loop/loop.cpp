@@ -9,9 +9,9 @@
 #include "adapt/loop/resume.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "io/cgns/cgns_file.hpp"
+#include "io/files/output_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/native/native_file.hpp"
-#include "io/files/output_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
@@ -43,12 +43,15 @@ void write_text(const Communicator& comm, const std::string& path, const std::st
 
 class AdaptiveRun {
  public:
-  AdaptiveRun(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, const RunReport& report)
+  AdaptiveRun(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
+              const RunReport& report)
       : comm_{comm}, case_{adaptive}, folders_{comm, folder}, report_{report} {}
 
   RunEnd run(bool resume) {
     const int first = folders_.open(resume);
-    if (resume && first == 0) report_.warning(folders_.folder() + ": holds no whole cycle to go on after; the run begins with cycle 0");
+    if (resume && first == 0)
+      report_.warning(folders_.folder() +
+                      ": holds no whole cycle to go on after; the run begins with cycle 0");
     std::optional<Left> left;
     if (first > 0) left = left_by_earlier_run(first - 1);
     int next = first;
@@ -61,7 +64,8 @@ class AdaptiveRun {
   /// A finished run is looked at too: whoever resumes it is told of damage.
   Left left_by_earlier_run(int cycle) const {
     const std::string folder = folders_.whole(cycle);
-    for (const std::string& warning : require_same_run(comm_, folder, record_of_case())) report_.warning(warning);
+    for (const std::string& warning : require_same_run(comm_, folder, record_of_case()))
+      report_.warning(warning);
     Left left{read_earlier_cycle(comm_, folder), {}};
     if (cycle >= case_.adapt.cycles) return left;
     left.plan = plan_adaptation(comm_, case_.mesh, case_.adapt, left.solved);
@@ -90,8 +94,8 @@ class AdaptiveRun {
     folders_.begin(cycle);
     progress::set_prefix(fmt::format("cycle {} of {}", cycle, case_.adapt.cycles));
     times.begin("mesh");
-    const CarriedMesh carried =
-        before ? carry_over(comm_, case_.mesh, before->plan, before->solved) : CarriedMesh{generate_mesh(comm_, case_.mesh), {}, {}, 0, {}};
+    const CarriedMesh carried = before ? carry_over(comm_, case_.mesh, before->plan, before->solved)
+                                       : CarriedMesh{generate_mesh(comm_, case_.mesh), {}, {}, 0, {}};
     const MeshResult& result = carried.generated.result;
     times.begin("write");
     std::optional<Solution> start;
@@ -117,7 +121,8 @@ class AdaptiveRun {
     return left;
   }
 
-  void write_start(const std::string& folder, const MeshResult& result, const std::optional<Solution>& start) const {
+  void write_start(const std::string& folder, const MeshResult& result,
+                   const std::optional<Solution>& start) const {
     OutputSet outputs(comm_);
     write_native(outputs, result.mesh, folder + "/mesh.mesh", start ? &*start : nullptr);
     write_tree(outputs, result.tree, folder + "/mesh.tree.h5");
@@ -129,7 +134,8 @@ class AdaptiveRun {
     write_native(outputs, mesh, folder + "/mesh.mesh", &solution);
     write_cgns(outputs, mesh, folder + "/mesh.cgns", &solution);
     for (const std::string& format : case_.formats) {
-      if (format != "mesh" && format != "cgns") write_mesh(outputs, mesh, folder + "/mesh." + format, &solution, gamma_of(case_.solver));
+      if (format != "mesh" && format != "cgns")
+        write_mesh(outputs, mesh, folder + "/mesh." + format, &solution, gamma_of(case_.solver));
     }
     outputs.commit();
   }
@@ -146,7 +152,8 @@ class AdaptiveRun {
     }
   }
 
-  CycleRecord record_of(int cycle, const CarriedMesh& carried, const SolvedFlow& flow, const AdaptationPlan& plan, const StageTimes& times) const {
+  CycleRecord record_of(int cycle, const CarriedMesh& carried, const SolvedFlow& flow,
+                        const AdaptationPlan& plan, const StageTimes& times) const {
     const QualitySummary quality = summarise_quality(comm_, carried.generated.result.mesh);
     CycleRecord record = record_of_case();
     record.cycle = cycle;
@@ -164,11 +171,13 @@ class AdaptiveRun {
     record.cl = flow.cl;
     record.cd = flow.cd;
     record.residual = flow.residual;
-    for (const auto& [stage, seconds] : times.stages()) add_seconds(record.seconds, stage, comm_.maximum(seconds));
+    for (const auto& [stage, seconds] : times.stages())
+      add_seconds(record.seconds, stage, comm_.maximum(seconds));
     return record;
   }
 
-  static void add_seconds(std::vector<std::pair<std::string, double>>& all, const std::string& stage, double seconds) {
+  static void add_seconds(std::vector<std::pair<std::string, double>>& all, const std::string& stage,
+                          double seconds) {
     for (auto& [name, sum] : all) {
       if (name != stage) continue;
       sum += seconds;
@@ -177,12 +186,15 @@ class AdaptiveRun {
     all.emplace_back(stage, seconds);
   }
 
-  static std::string log_text(const CycleRecord& record, const std::vector<std::string>& notes, const std::vector<std::string>& warnings) {
-    std::string text = fmt::format("cycle {}: {} nodes, {} triangles, {} quads, smallest angle {:.1f}\n", record.cycle, record.nodes,
-                                   record.triangles, record.quads, record.worst_angle);
+  static std::string log_text(const CycleRecord& record, const std::vector<std::string>& notes,
+                              const std::vector<std::string>& warnings) {
+    std::string text =
+        fmt::format("cycle {}: {} nodes, {} triangles, {} quads, smallest angle {:.1f}\n", record.cycle,
+                    record.nodes, record.triangles, record.quads, record.worst_angle);
     for (const std::string& line : notes) text += line + "\n";
     for (const std::string& line : warnings) text += "warning: " + line + "\n";
-    text += fmt::format("marks for the next cycle: {} leaves to be split, {} to go\n", record.refined, record.coarsened);
+    text += fmt::format("marks for the next cycle: {} leaves to be split, {} to go\n", record.refined,
+                        record.coarsened);
     for (const auto& [stage, seconds] : record.seconds) text += fmt::format("{} {:.2f} s\n", stage, seconds);
     return text;
   }
@@ -195,7 +207,8 @@ class AdaptiveRun {
 
 }  // namespace
 
-RunEnd run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume, const RunReport& report) {
+RunEnd run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
+                      bool resume, const RunReport& report) {
   return AdaptiveRun(comm, adaptive, folder, report).run(resume);
 }
 

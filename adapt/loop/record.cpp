@@ -73,7 +73,8 @@ JsonObject figures_of(const CycleRecord& record) {
   json.add("coarsened", record.coarsened);
   json.add("outside", record.outside);
   json.add("drift", object(record.drift));
-  for (const auto& [name, value] : {std::pair{"cl", record.cl}, {"cd", record.cd}, {"residual", record.residual}}) {
+  for (const auto& [name, value] :
+       {std::pair{"cl", record.cl}, {"cd", record.cd}, {"residual", record.residual}}) {
     if (value) json.add(name, *value);
   }
   return json;

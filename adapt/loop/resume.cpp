@@ -7,10 +7,10 @@
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "io/cgns/cgns_file.hpp"
+#include "io/files/input_file.hpp"
 #include "io/native/native_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
-#include "io/files/input_file.hpp"
 
 namespace quadloop {
 
@@ -35,13 +35,15 @@ RecordedCase record_in(const std::string& folder) {
   return *recorded;
 }
 
-[[noreturn]] void refuse_another_case(const std::string& folder, const std::vector<ChangedSetting>& changes, bool same_geometry) {
+[[noreturn]] void refuse_another_case(const std::string& folder, const std::vector<ChangedSetting>& changes,
+                                      bool same_geometry) {
   std::string what = "the settings were read by another version of quadloop";
   if (!changes.empty())
     what = text_of(changes);
   else if (!same_geometry)
     what = "the outline in the files of geometry.file has changed";
-  throw InputError(folder + "/record.json: is of another case: " + what + "; resume with the same, or take another folder");
+  throw InputError(folder + "/record.json: is of another case: " + what +
+                   "; resume with the same, or take another folder");
 }
 
 /// The file for viewers must hold the same mesh.
@@ -53,18 +55,21 @@ void require_cgns(const std::string& path, const Mesh& whole) {
 
 }  // namespace
 
-std::vector<std::string> require_same_run(const Communicator& comm, const std::string& folder, const CycleRecord& now) {
+std::vector<std::string> require_same_run(const Communicator& comm, const std::string& folder,
+                                          const CycleRecord& now) {
   std::vector<std::string> warnings;
   comm.together([&] {
     const RecordedCase recorded = record_in(folder);
     std::vector<ChangedSetting> refused;
     for (const ChangedSetting& change : changed_settings(recorded.settings, now.settings)) {
       if (may_change_in_a_run(change.key))
-        warnings.push_back(text_of({change}) + "; the cycles up to " + std::filesystem::path(folder).filename().string() + " stay as they are");
+        warnings.push_back(text_of({change}) + "; the cycles up to " +
+                           std::filesystem::path(folder).filename().string() + " stay as they are");
       else
         refused.push_back(change);
     }
-    if (recorded.case_digest != now.case_digest) refuse_another_case(folder, refused, recorded.geometry_digest == now.geometry_digest);
+    if (recorded.case_digest != now.case_digest)
+      refuse_another_case(folder, refused, recorded.geometry_digest == now.geometry_digest);
   });
   return warnings;
 }

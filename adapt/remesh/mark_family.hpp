@@ -9,11 +9,13 @@
 
 namespace quadloop {
 
-/// Markings of one tree, from few leaves to many, in a row: at 1 the rule's own marks; towards 0 ever fewer leaves are refined, those of the smallest
-/// indicators dropping out first (sizes: all wanted sizes grow, up to sixteenfold); towards -1 ever more leaves are coarsened, in the end all.
+/// Markings of one tree, from few leaves to many, in a row: at 1 the rule's own marks; towards 0 ever fewer
+/// leaves are refined, those of the smallest indicators dropping out first (sizes: all wanted sizes grow, up
+/// to sixteenfold); towards -1 ever more leaves are coarsened, in the end all.
 class MarkFamily {
  public:
-  /// All arguments but the options must outlive the family. *Collective.* Throws InputError as plan_adaptation does.
+  /// All arguments but the options must outlive the family. *Collective.* Throws InputError as
+  /// plan_adaptation does.
   MarkFamily(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved);
 
   /// From -1 to 1. *Collective.*

@@ -4,10 +4,10 @@
 
 #include <array>
 
-#include "mesher/generate/digests.hpp"
 #include "adapt/remesh/restart.hpp"
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/quality.hpp"
 
 namespace quadloop {
@@ -36,18 +36,25 @@ Lattice lattice_of(const TreeAttributes& a) {
 
 }  // namespace
 
-void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, const std::string& shown, const std::string& tree) {
-  if (of_mesh.nodes == of_tree.nodes && of_mesh.triangles == of_tree.triangles && of_mesh.quads == of_tree.quads) return;
-  throw InputError(fmt::format("{}: is of another mesh than {}: {} nodes, {} triangles, {} quads, but the tree's mesh has {}, {}, {}", shown, tree,
-                               of_mesh.nodes, of_mesh.triangles, of_mesh.quads, of_tree.nodes, of_tree.triangles, of_tree.quads));
+void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, const std::string& shown,
+                    const std::string& tree) {
+  if (of_mesh.nodes == of_tree.nodes && of_mesh.triangles == of_tree.triangles &&
+      of_mesh.quads == of_tree.quads)
+    return;
+  throw InputError(fmt::format(
+      "{}: is of another mesh than {}: {} nodes, {} triangles, {} quads, but the tree's mesh has {}, {}, {}",
+      shown, tree, of_mesh.nodes, of_mesh.triangles, of_mesh.quads, of_tree.nodes, of_tree.triangles,
+      of_tree.quads));
 }
 
-void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown, const std::string& tree) {
+void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,
+                      const std::string& tree) {
   constexpr double reach = 2;
   require_counts(count(comm, solved.mesh), solved.tree.attributes, shown, tree);
   const CellsOfLeaves cells(comm, solved.mesh, solved.tree.leaves);
   const auto x = centres(solved.mesh, &Point::x), y = centres(solved.mesh, &Point::y);
-  const auto left = cells.smallest(comm, x), right = cells.largest(comm, x), bottom = cells.smallest(comm, y), top = cells.largest(comm, y);
+  const auto left = cells.smallest(comm, x), right = cells.largest(comm, x), bottom = cells.smallest(comm, y),
+             top = cells.largest(comm, y);
   const Lattice lattice = lattice_of(solved.tree.attributes);
   comm.together([&] {
     for (std::size_t i = 0; i < solved.tree.leaves.size(); ++i) {
@@ -55,17 +62,20 @@ void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const 
       const Quadrant q = place_of(solved.tree.leaves[i]);
       const Box box = lattice.box_of(q);
       const double far = reach * lattice.edge(q.level);
-      const bool near = left[i] > box.low.x - far && right[i] < box.high.x + far && bottom[i] > box.low.y - far && top[i] < box.high.y + far;
+      const bool near = left[i] > box.low.x - far && right[i] < box.high.x + far &&
+                        bottom[i] > box.low.y - far && top[i] < box.high.y + far;
       if (near) continue;
       throw InputError(
-          fmt::format("{}: is of another mesh than {}: a cell at ({}, {}) does not belong to the tree's leaf at ({}, {}); give the mesh that "
+          fmt::format("{}: is of another mesh than {}: a cell at ({}, {}) does not belong to the tree's leaf "
+                      "at ({}, {}); give the mesh that "
                       "was written with the tree",
                       shown, tree, left[i], bottom[i], box.centre().x, box.centre().y));
     }
   });
 }
 
-void require_untouched_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown, const std::string& tree) {
+void require_untouched_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,
+                            const std::string& tree) {
   require_own_mesh(comm, solved, shown, tree);
   if (coordinate_digest(comm, solved.mesh) == solved.tree.attributes.coordinate_digest) return;
   throw InputError(fmt::format("{}: its nodes do not lie where those of the mesh of {} lie", shown, tree));

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "adapt/remesh/adapt_options.hpp"
-#include "mesher/generate/generate.hpp"
 #include "adapt/sensor/mark.hpp"
 #include "io/loaded/loaded_mesh.hpp"
+#include "mesher/generate/generate.hpp"
 
 namespace quadloop {
 
-/// A mesh with its tree and what a solver left at its nodes. Cells stand in the order of the tree's leaves; the shares of leaves, cells and nodes
-/// that a rank has need not meet.
+/// A mesh with its tree and what a solver left at its nodes. Cells stand in the order of the tree's leaves;
+/// the shares of leaves, cells and nodes that a rank has need not meet.
 struct SolvedMesh {
   Mesh mesh;
   TreeRecord tree;
@@ -31,9 +31,10 @@ struct AdaptationPlan {
   bool changes_mesh() const { return refined + coarsened > 0; }
 };
 
-/// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where the number of nodes is bounded or wanted;
-/// the nodes are counted on the meshes themselves, unsmoothed. *Collective.* Throws InputError where the solution has no such variable, or one that
-/// is not finite.
-AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options, const SolvedMesh& solved);
+/// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where
+/// the number of nodes is bounded or wanted; the nodes are counted on the meshes themselves, unsmoothed.
+/// *Collective.* Throws InputError where the solution has no such variable, or one that is not finite.
+AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
+                               const SolvedMesh& solved);
 
 }  // namespace quadloop

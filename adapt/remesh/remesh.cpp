@@ -49,7 +49,8 @@ Solution share_solution(const Communicator& comm, const Solution& of_root) {
 SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, TreeRecord tree) {
   const MeshOrder order = order_of_file(whole.mesh);
   const Solution of_whole = whole.solution.value_or(Solution{});
-  SolvedMesh solved{scatter_mesh(comm, whole.mesh, order), std::move(tree), share_solution(comm, of_whole), {}};
+  SolvedMesh solved{
+      scatter_mesh(comm, whole.mesh, order), std::move(tree), share_solution(comm, of_whole), {}};
   Solution& solution = solved.solution;
   const std::size_t width = solution.names.size(), rows = whole.mesh.points.size();
   solution.values.resize(static_cast<std::size_t>(solved.mesh.owned_nodes) * width);
@@ -62,17 +63,20 @@ SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, Tree
   return solved;
 }
 
-CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan, const SolvedMesh& old) {
+CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan,
+                       const SolvedMesh& old) {
   CarriedMesh carried;
   carried.generated = generate_mesh(comm, input, DemandedSplits(comm, plan.demands));
   carried.times.append(carried.generated.times);
   carried.times.begin("transfer");
   carried.start = {old.solution.constants, old.solution.names, {}};
   const auto& names = carried.start.names;
-  Transferred transferred = transfer(comm, old.mesh, old.solution.values, static_cast<int>(names.size()), carried.generated.result.mesh);
+  Transferred transferred = transfer(comm, old.mesh, old.solution.values, static_cast<int>(names.size()),
+                                     carried.generated.result.mesh);
   carried.start.values = std::move(transferred.values);
   carried.outside = transferred.report.outside;
-  for (std::size_t i = 0; i < names.size(); ++i) carried.drift.emplace_back(names[i], transferred.report.drift[i]);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    carried.drift.emplace_back(names[i], transferred.report.drift[i]);
   carried.times.end();
   return carried;
 }

@@ -11,7 +11,8 @@ namespace quadloop {
 /// The root's solution on every rank, but for its values. *Collective.*
 Solution share_solution(const Communicator& comm, const Solution& of_root);
 
-/// The whole mesh on the root, its cells in the order of the tree's leaves, and its tree, spread over the ranks. *Collective.*
+/// The whole mesh on the root, its cells in the order of the tree's leaves, and its tree, spread over the
+/// ranks. *Collective.*
 SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, TreeRecord tree);
 
 /// A new mesh and the old one's solution on it.
@@ -24,7 +25,8 @@ struct CarriedMesh {
 };
 
 /// Meshes by the plan and carries the solution over. *Collective.*
-CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan, const SolvedMesh& old);
+CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan,
+                       const SolvedMesh& old);
 
 /// No marks: the tree stands, but for what case and geometry now ask for.
 AdaptationPlan standing_plan(const TreeRecord& tree, const MeshInput& input);

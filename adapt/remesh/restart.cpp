@@ -28,16 +28,19 @@ int child_number(const Quadrant& q) {
 /// This rank's leaves with those before and after them, as many as a family may reach beyond them.
 class LeafRun {
  public:
-  LeafRun(const Communicator& comm, std::vector<MarkedLeaf> own) : first_{comm.exclusive_sum(static_cast<std::int64_t>(own.size()))} {
+  LeafRun(const Communicator& comm, std::vector<MarkedLeaf> own)
+      : first_{comm.exclusive_sum(static_cast<std::int64_t>(own.size()))} {
     const auto count = static_cast<std::int64_t>(own.size());
     std::vector<Numbered> ends;
     for (std::int64_t i = 0; i < count; ++i) {
-      if (i < siblings - 1 || i >= count - (siblings - 1)) ends.push_back({first_ + i, own[static_cast<std::size_t>(i)]});
+      if (i < siblings - 1 || i >= count - (siblings - 1))
+        ends.push_back({first_ + i, own[static_cast<std::size_t>(i)]});
     }
     std::vector<MarkedLeaf> before, after;
     for (const Numbered& end : comm.all_gather_values(std::span<const Numbered>(ends))) {
       if (end.number < first_ && end.number >= first_ - (siblings - 1)) before.push_back(end.leaf);
-      if (end.number >= first_ + count && end.number < first_ + count + (siblings - 1)) after.push_back(end.leaf);
+      if (end.number >= first_ + count && end.number < first_ + count + (siblings - 1))
+        after.push_back(end.leaf);
     }
     begin_ = first_ - static_cast<std::int64_t>(before.size());
     leaves_ = std::move(before);
@@ -50,10 +53,12 @@ class LeafRun {
     const std::int64_t number = first_ + index;
     const Quadrant& q = at(number).leaf;
     const std::int64_t eldest = number - child_number(q);
-    if (eldest < begin_ || eldest + siblings > begin_ + static_cast<std::int64_t>(leaves_.size())) return false;
+    if (eldest < begin_ || eldest + siblings > begin_ + static_cast<std::int64_t>(leaves_.size()))
+      return false;
     for (std::int64_t k = 0; k < siblings; ++k) {
       const MarkedLeaf& sibling = at(eldest + k);
-      if (sibling.leaf.level != q.level || child_number(sibling.leaf) != k || sibling.mark != Mark::coarsen) return false;
+      if (sibling.leaf.level != q.level || child_number(sibling.leaf) != k || sibling.mark != Mark::coarsen)
+        return false;
     }
     return true;
   }
@@ -63,16 +68,20 @@ class LeafRun {
     std::int64_t number;
     MarkedLeaf leaf;
   };
-  const MarkedLeaf& at(std::int64_t number) const { return leaves_[static_cast<std::size_t>(number - begin_)]; }
+  const MarkedLeaf& at(std::int64_t number) const {
+    return leaves_[static_cast<std::size_t>(number - begin_)];
+  }
 
-  std::int64_t first_, begin_ = 0;  ///< numbers over all ranks of this rank's first leaf, and of the first here
+  std::int64_t first_,
+      begin_ = 0;  ///< numbers over all ranks of this rank's first leaf, and of the first here
   std::vector<MarkedLeaf> leaves_;
 };
 
 }  // namespace
 
 Quadrant place_of(const LeafRecord& leaf) {
-  return {(std::int64_t{leaf.tree_x} << Quadrant::unit_level) + leaf.x, (std::int64_t{leaf.tree_y} << Quadrant::unit_level) + leaf.y, leaf.level};
+  return {(std::int64_t{leaf.tree_x} << Quadrant::unit_level) + leaf.x,
+          (std::int64_t{leaf.tree_y} << Quadrant::unit_level) + leaf.y, leaf.level};
 }
 
 std::vector<SplitDemand> adapted_splits(const TreeRecord& tree) {
@@ -98,13 +107,15 @@ std::vector<SplitDemand> standing_splits(const TreeRecord& tree, const MeshInput
   return same_geometry && !same_case ? wanted_splits(tree) : adapted_splits(tree);
 }
 
-ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks, int finest_level) {
+ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks,
+                             int finest_level) {
   QUADLOOP_REQUIRE(marks.size() == tree.leaves.size(), "one mark for each leaf");
   const bool coarsens = comm.any(std::find(marks.begin(), marks.end(), Mark::coarsen) != marks.end());
   std::vector<MarkedLeaf> own;
   for (std::size_t i = 0; i < marks.size(); ++i) {
     const LeafRecord& leaf = tree.leaves[i];
-    const bool goes_along = coarsens && marks[i] == Mark::keep && !has_cells(leaf);  // has no values to keep it for: its siblings say
+    const bool goes_along = coarsens && marks[i] == Mark::keep &&
+                            !has_cells(leaf);  // has no values to keep it for: its siblings say
     own.push_back({place_of(leaf), leaf.adapted, goes_along ? Mark::coarsen : marks[i]});
   }
   const LeafRun run(comm, own);
@@ -131,8 +142,9 @@ ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, s
 void keep_root(const TreeAttributes& tree, MeshInput& input) {
   if (!input.mesh.size.root) {
     const Lattice lattice = choose_root(input.geometry, {});
-    const bool same = lattice.box().low == Point{tree.root_x, tree.root_y} && lattice.tree_edge() == tree.tree_edge &&
-                      lattice.trees_x() == tree.trees_x && lattice.trees_y() == tree.trees_y;
+    const bool same = lattice.box().low == Point{tree.root_x, tree.root_y} &&
+                      lattice.tree_edge() == tree.tree_edge && lattice.trees_x() == tree.trees_x &&
+                      lattice.trees_y() == tree.trees_y;
     if (same) return;
   }
   const Point low{tree.root_x, tree.root_y};
@@ -142,8 +154,10 @@ void keep_root(const TreeAttributes& tree, MeshInput& input) {
     const Point p = geometry.point(v);
     if (root.contains(p)) continue;
     throw InputError(
-        fmt::format("boundary {}: the point ({}, {}) lies outside the root of the saved tree, from ({}, {}) to ({}, {}); mesh without the tree",
-                    geometry.boundary(geometry.boundary_of(v)).name, p.x, p.y, root.low.x, root.low.y, root.high.x, root.high.y));
+        fmt::format("boundary {}: the point ({}, {}) lies outside the root of the saved tree, from ({}, {}) "
+                    "to ({}, {}); mesh without the tree",
+                    geometry.boundary(geometry.boundary_of(v)).name, p.x, p.y, root.low.x, root.low.y,
+                    root.high.x, root.high.y));
   }
   input.mesh.size.root = RootOptions{{tree.root_x, tree.root_y}, tree.tree_edge, tree.trees_x, tree.trees_y};
 }

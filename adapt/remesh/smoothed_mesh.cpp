@@ -19,13 +19,15 @@ namespace quadloop {
 
 namespace {
 
-/// What the smoother lowers, of one cell: the squared costs of its corners, those of a triangle being all the same.
+/// What the smoother lowers, of one cell: the squared costs of its corners, those of a triangle being all the
+/// same.
 template <std::size_t width>
 double squared_cost(const Mesh& mesh, const std::array<NodeId, width>& cell) {
   static const std::array<CornerTarget, width> targets = ideal_targets<width>();
   double sum = 0;
   for (std::size_t k = 0; k < (width == 3 ? 1 : width); ++k) {
-    const CornerForm corner = corner_form(mesh.point(cell[k]), mesh.point(cell[(k + 1) % width]), mesh.point(cell[(k + width - 1) % width]));
+    const CornerForm corner = corner_form(mesh.point(cell[k]), mesh.point(cell[(k + 1) % width]),
+                                          mesh.point(cell[(k + width - 1) % width]));
     const double cost = corner_cost(corner, targets[k], 1);
     sum += cost * cost;
   }
@@ -70,7 +72,8 @@ std::string cost_fault(const Mesh& before, const Mesh& found, const std::vector<
   std::vector<double> gain(before.points.size(), 0);
   const auto add = [&](const auto& cell) {
     const std::int32_t patch = patches.patch_of(cell);
-    if (patch >= 0) gain[static_cast<std::size_t>(patch)] += squared_cost(before, cell) - squared_cost(found, cell);
+    if (patch >= 0)
+      gain[static_cast<std::size_t>(patch)] += squared_cost(before, cell) - squared_cost(found, cell);
   };
   std::ranges::for_each(before.triangles, add);
   std::ranges::for_each(before.quads, add);
@@ -82,22 +85,30 @@ std::string cost_fault(const Mesh& before, const Mesh& found, const std::vector<
 
 /// Of a mesh whose edges have been flipped there are no cells to compare.
 std::string flip_fault(const Mesh& before, const Mesh& found) {
-  if (!before.quads.empty() || before.triangles.size() != found.triangles.size() || !is_delaunay(found)) return "its cells are others";
+  if (!before.quads.empty() || before.triangles.size() != found.triangles.size() || !is_delaunay(found))
+    return "its cells are others";
   double largest_before = 0, largest_after = 0;
-  for (const auto& cell : before.triangles) largest_before = std::max(largest_before, squared_cost(before, cell));
+  for (const auto& cell : before.triangles)
+    largest_before = std::max(largest_before, squared_cost(before, cell));
   for (const auto& cell : found.triangles) largest_after = std::max(largest_after, squared_cost(found, cell));
   return largest_after > largest_before ? "its worst cell is worse" : "";
 }
 
-std::string boundary_fault(const Mesh& before, const Mesh& found, const std::vector<char>& moved, const Geometry* outline) {
+std::string boundary_fault(const Mesh& before, const Mesh& found, const std::vector<char>& moved,
+                           const Geometry* outline) {
   std::optional<OutlinePath> curves;
   for (const BoundaryEdges& boundary : before.boundaries) {
     for (const auto& edge : boundary.edges) {
       const auto node = static_cast<std::size_t>(edge[0].value());
       if (moved[node] == 0) continue;
       if (outline != nullptr && !curves) curves.emplace(*outline);
-      const double reach = curves ? std::max(curves->tolerance(), solution_tolerance * length(before.point(edge[1]) - before.point(edge[0]))) : 0;
-      if (curves && curves->has(boundary.name) && std::isfinite(curves->distance(found.points[node], boundary.name, reach))) continue;
+      const double reach =
+          curves ? std::max(curves->tolerance(),
+                            solution_tolerance * length(before.point(edge[1]) - before.point(edge[0])))
+                 : 0;
+      if (curves && curves->has(boundary.name) &&
+          std::isfinite(curves->distance(found.points[node], boundary.name, reach)))
+        continue;
       return fmt::format("node {} of the boundary '{}' lies off its outline", node + 1, boundary.name);
     }
   }
@@ -113,7 +124,9 @@ std::string fault_of_smoothed(const Mesh& before, const Mesh& found, const Geome
   judged.points = found.points;
   judged.boundaries = before.boundaries;
   const std::vector<MeshFault> faults = validate(judged);
-  if (!faults.empty()) return fmt::format("it is invalid: {} at ({}, {})", faults.front().what, faults.front().place.x, faults.front().place.y);
+  if (!faults.empty())
+    return fmt::format("it is invalid: {} at ({}, {})", faults.front().what, faults.front().place.x,
+                       faults.front().place.y);
   const std::vector<char> moved = nodes_elsewhere(found.points, before);
   std::string fault = boundary_fault(before, judged, moved, outline);
   if (fault.empty()) fault = same_cells ? cost_fault(before, judged, moved) : flip_fault(before, judged);

@@ -70,36 +70,43 @@ std::string inner_row(std::string_view name, const Value& value) {
   return fmt::format("    {:<22}{:>16}\n", name, value);
 }
 
-std::string boundaries_text(const std::vector<std::pair<std::string, std::int64_t>>& boundaries, std::size_t most) {
+std::string boundaries_text(const std::vector<std::pair<std::string, std::int64_t>>& boundaries,
+                            std::size_t most) {
   std::string text;
   const std::size_t listed = std::min(boundaries.size(), most);
   for (std::size_t b = 0; b < listed; ++b) text += inner_row(boundaries[b].first, boundaries[b].second);
-  if (listed < boundaries.size()) text += fmt::format("    {} more; --verbose or --json shows them\n", boundaries.size() - listed);
+  if (listed < boundaries.size())
+    text += fmt::format("    {} more; --verbose or --json shows them\n", boundaries.size() - listed);
   return text;
 }
 
 std::string places_text(const std::vector<SharpPlace>& places) {
   std::string text;
-  for (const auto& [place, degrees] : places) text += inner_row(fmt::format("({}, {})", place.x, place.y), fmt::format("{:.6g}", degrees));
+  for (const auto& [place, degrees] : places)
+    text += inner_row(fmt::format("({}, {})", place.x, place.y), fmt::format("{:.6g}", degrees));
   return text;
 }
 
 std::string outline_corners_text(const ShapeStatistics& shape, bool verbose) {
-  return row("corners of the outline", shape.corners_of_outline) + (verbose ? places_text(shape.sharp_places) : "") +
+  return row("corners of the outline", shape.corners_of_outline) +
+         (verbose ? places_text(shape.sharp_places) : "") +
          row("corners in passages", shape.corners_in_passages) + (verbose ? places_text(shape.passages) : "");
 }
 
-std::string shape_text(const ShapeStatistics& shape, const ShapeFigures& figures, bool with_geometry, bool verbose) {
-  return row("corners below 15 degrees", shape.corners_below_15) + row("corners below 26", shape.corners_below_26) +
-         row("corners above 150", shape.corners_above_150) + (with_geometry ? outline_corners_text(shape, verbose) : "") +
-         row("largest area ratio", shape.area_ratio_max) + row("area ratio, 99 %", shape.area_ratio_p99) + row("share of quads", shape.quad_share) +
-         row("parallelograms", figures.parallelogram_share()) + row("inexact nodes", figures.inexact_share()) +
-         row("passage cells", figures.passage_cells);
+std::string shape_text(const ShapeStatistics& shape, const ShapeFigures& figures, bool with_geometry,
+                       bool verbose) {
+  return row("corners below 15 degrees", shape.corners_below_15) +
+         row("corners below 26", shape.corners_below_26) + row("corners above 150", shape.corners_above_150) +
+         (with_geometry ? outline_corners_text(shape, verbose) : "") +
+         row("largest area ratio", shape.area_ratio_max) + row("area ratio, 99 %", shape.area_ratio_p99) +
+         row("share of quads", shape.quad_share) + row("parallelograms", figures.parallelogram_share()) +
+         row("inexact nodes", figures.inexact_share()) + row("passage cells", figures.passage_cells);
 }
 
 std::string fit_text(const GeometryFit& fit) {
-  return row("boundaries dropped", fit.boundaries_dropped) + row("loops dropped", fit.loops_dropped) + row("sharp corners", fit.sharp_corners) +
-         row("sharp corners lost", fit.sharp_corners_lost) + row("boundary node distance", fit.boundary_node_distance) +
+  return row("boundaries dropped", fit.boundaries_dropped) + row("loops dropped", fit.loops_dropped) +
+         row("sharp corners", fit.sharp_corners) + row("sharp corners lost", fit.sharp_corners_lost) +
+         row("boundary node distance", fit.boundary_node_distance) +
          row("geometry distance", fit.geometry_distance) + row("geometry area error", fit.area_error);
 }
 
@@ -108,10 +115,13 @@ std::string faults_text(const std::vector<MeshFault>& faults, std::size_t most) 
   std::map<MeshRule, std::size_t> found;
   for (const MeshFault& fault : faults) {
     if (++found[fault.rule] > most) continue;
-    text += fmt::format("  BROKEN {}: {} at ({}, {})\n", name_of(fault.rule), fault.what, fault.place.x, fault.place.y);
+    text += fmt::format("  BROKEN {}: {} at ({}, {})\n", name_of(fault.rule), fault.what, fault.place.x,
+                        fault.place.y);
   }
   for (const auto& [rule, count] : found) {
-    if (count > most) text += fmt::format("  BROKEN {}: {} more faults; --verbose or --json shows them\n", name_of(rule), count - most);
+    if (count > most)
+      text += fmt::format("  BROKEN {}: {} more faults; --verbose or --json shows them\n", name_of(rule),
+                          count - most);
   }
   return text;
 }
@@ -121,12 +131,15 @@ std::string faults_text(const std::vector<MeshFault>& faults, std::size_t most) 
 std::string report_text(const CheckReport& report, bool verbose) {
   const std::size_t most = verbose ? std::numeric_limits<std::size_t>::max() : most_listed;
   const QualitySummary& quality = report.quality;
-  std::string text = row("nodes", quality.counts.nodes) + row("triangles", quality.counts.triangles) + row("quads", quality.counts.quads);
+  std::string text = row("nodes", quality.counts.nodes) + row("triangles", quality.counts.triangles) +
+                     row("quads", quality.counts.quads);
   text += row("blocks", report.blocks) + row("boundary edges", quality.counts.boundary_edges);
   text += boundaries_text(report.boundaries, most);
-  text += row("area", report.area) + row("smallest angle", quality.smallest_degrees) + row("largest angle", quality.largest_degrees);
+  text += row("area", report.area) + row("smallest angle", quality.smallest_degrees) +
+          row("largest angle", quality.largest_degrees);
   text += shape_text(report.shape, report.figures, report.fit.has_value(), verbose);
-  text += row("worst quality", quality.worst) + row("mean quality", quality.mean) + row("pinched nodes", report.pinched_nodes);
+  text += row("worst quality", quality.worst) + row("mean quality", quality.mean) +
+          row("pinched nodes", report.pinched_nodes);
   if (report.fit) text += fit_text(*report.fit);
   return text + faults_text(report.faults, most) + (report.faults.empty() ? "  valid\n" : "  INVALID\n");
 }

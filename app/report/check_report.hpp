@@ -26,8 +26,9 @@ struct CheckReport {
   std::vector<MeshFault> faults;
 };
 
-/// A table for people, angles in degrees. At most 20 boundaries and 20 faults of each rule are listed, and how many more there are is said;
-/// `verbose` lists all, and every place where the outline makes corners sharp.
+/// A table for people, angles in degrees. At most 20 boundaries and 20 faults of each rule are listed, and
+/// how many more there are is said; `verbose` lists all, and every place where the outline makes corners
+/// sharp.
 std::string report_text(const CheckReport& report, bool verbose);
 
 /// The members of the record that --json prints, with all faults.

@@ -24,7 +24,8 @@ std::string range_of(const Histogram& h, std::size_t i) {
 }  // namespace
 
 ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh& whole) {
-  return {summarise_quality(comm, mesh), shape_histograms(comm, mesh), comm.is_root() ? area_ratios(whole) : AreaRatios{}};
+  return {summarise_quality(comm, mesh), shape_histograms(comm, mesh),
+          comm.is_root() ? area_ratios(whole) : AreaRatios{}};
 }
 
 JsonObject record_of(const ShapeReport& report) {
@@ -48,7 +49,8 @@ JsonObject record_of(const ShapeReport& report) {
 
 std::string comparison_table(const ShapeReport& before, const ShapeReport& after) {
   std::string text = row("", "before", "after");
-  text += row("worst quality", before.quality.worst, after.quality.worst) + row("mean quality", before.quality.mean, after.quality.mean);
+  text += row("worst quality", before.quality.worst, after.quality.worst) +
+          row("mean quality", before.quality.mean, after.quality.mean);
   text += row("smallest angle, degrees", before.quality.smallest_degrees, after.quality.smallest_degrees);
   text += row("largest angle, degrees", before.quality.largest_degrees, after.quality.largest_degrees);
   text += row("largest area ratio", before.areas.largest, after.areas.largest);

@@ -30,9 +30,11 @@ std::string vanished_text(const std::vector<std::string>& boundaries) {
   constexpr std::size_t most_named = 10;
   if (boundaries.empty()) return {};
   const std::size_t named = std::min(most_named, boundaries.size());
-  const std::string more = named < boundaries.size() ? fmt::format(" and {} more", boundaries.size() - named) : "";
-  return fmt::format("  boundaries that vanished, smaller than spacing.min: {}{}\n",
-                     fmt::join(boundaries.begin(), boundaries.begin() + static_cast<std::ptrdiff_t>(named), ", "), more);
+  const std::string more =
+      named < boundaries.size() ? fmt::format(" and {} more", boundaries.size() - named) : "";
+  return fmt::format(
+      "  boundaries that vanished, smaller than spacing.min: {}{}\n",
+      fmt::join(boundaries.begin(), boundaries.begin() + static_cast<std::ptrdiff_t>(named), ", "), more);
 }
 
 }  // namespace
@@ -40,7 +42,8 @@ std::string vanished_text(const std::vector<std::string>& boundaries) {
 std::vector<StageRow> stage_rows(const Communicator& comm, const StageSeconds& seconds) {
   StageSeconds of_rank;
   for (const auto& [stage, added] : seconds) {
-    const auto known = std::find_if(of_rank.begin(), of_rank.end(), [&](const auto& row) { return row.first == stage; });
+    const auto known =
+        std::find_if(of_rank.begin(), of_rank.end(), [&](const auto& row) { return row.first == stage; });
     if (known == of_rank.end())
       of_rank.emplace_back(stage, added);
     else
@@ -48,20 +51,28 @@ std::vector<StageRow> stage_rows(const Communicator& comm, const StageSeconds& s
   }
   std::vector<StageRow> rows;
   for (const auto& [stage, sum] : of_rank) {
-    const auto microseconds = static_cast<std::int64_t>(std::llround(sum * 1e6));  // there is no floating-point sum, on purpose
-    rows.push_back({stage, comm.maximum(sum), static_cast<double>(comm.sum(microseconds)) / 1e6 / comm.size()});
+    const auto microseconds =
+        static_cast<std::int64_t>(std::llround(sum * 1e6));  // there is no floating-point sum, on purpose
+    rows.push_back(
+        {stage, comm.maximum(sum), static_cast<double>(comm.sum(microseconds)) / 1e6 / comm.size()});
   }
   return rows;
 }
 
 std::string stage_table(const std::vector<StageRow>& stages) {
   std::string text = "  seconds              slowest          mean\n";
-  for (const auto& [stage, slowest, mean] : stages) text += fmt::format("    {:<14}{:>14.3f}{:>14.3f}\n", stage, slowest, mean);
+  for (const auto& [stage, slowest, mean] : stages)
+    text += fmt::format("    {:<14}{:>14.3f}{:>14.3f}\n", stage, slowest, mean);
   return text;
 }
 
-MeshSummary summarise(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds, const std::vector<std::string>& files) {
-  MeshSummary summary{{}, shape_figures(comm, result.mesh), stage_rows(comm, seconds), files, result.report.boundaries_vanished};
+MeshSummary summarise(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds,
+                      const std::vector<std::string>& files) {
+  MeshSummary summary{{},
+                      shape_figures(comm, result.mesh),
+                      stage_rows(comm, seconds),
+                      files,
+                      result.report.boundaries_vanished};
   const QualitySummary quality = summarise_quality(comm, result.mesh);
   const double memory = comm.maximum(peak_memory_mib());
   if (!comm.is_root()) return summary;
@@ -73,7 +84,8 @@ MeshSummary summarise(const Communicator& comm, const MeshResult& result, const 
   figures.add("nodes", counts.nodes);
   figures.add("triangles", counts.triangles);
   figures.add("quads", counts.quads);
-  figures.add_raw("cells, estimated", text_of_cells(report.estimate.cells), json_of(std::round(report.estimate.cells)), "cells_estimated");
+  figures.add_raw("cells, estimated", text_of_cells(report.estimate.cells),
+                  json_of(std::round(report.estimate.cells)), "cells_estimated");
   figures.add("leaves", report.leaves);
   figures.add("cut leaves", report.cut_leaves);
   figures.add_raw("levels", fmt::format("{} to {}", report.coarsest_level, report.finest_level),
@@ -87,7 +99,8 @@ MeshSummary summarise(const Communicator& comm, const MeshResult& result, const 
   figures.add("passage cells", shape.passage_cells);
   figures.add("peak memory", memory, "{:.0f} MiB", "peak_memory_mib");
   const double estimated = report.estimate.bytes / comm.size() + report.estimate.bytes_of_rank;
-  figures.add_raw("estimated", text_of_bytes(estimated), json_of(std::round(estimated / (1 << 20))), "estimated_memory_mib");
+  figures.add_raw("estimated", text_of_bytes(estimated), json_of(std::round(estimated / (1 << 20))),
+                  "estimated_memory_mib");
   figures.add("imbalance", report.imbalance, "{:.3f}");
   return summary;
 }

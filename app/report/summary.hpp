@@ -19,7 +19,8 @@ struct StageRow {
   double slowest = 0, mean = 0;
 };
 
-/// Seconds of each stage, on every rank; a stage that ran twice stands once, with its sum. *Collective*; every rank names the same stages.
+/// Seconds of each stage, on every rank; a stage that ran twice stands once, with its sum. *Collective*;
+/// every rank names the same stages.
 std::vector<StageRow> stage_rows(const Communicator& comm, const StageSeconds& seconds);
 
 /// Two columns: the slowest rank and the mean.
@@ -34,8 +35,10 @@ struct MeshSummary {
   std::vector<std::string> boundaries_vanished;
 };
 
-/// The same on every rank but for the figures, which the root rank alone has. *Collective*; every rank names the same stages.
-MeshSummary summarise(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds, const std::vector<std::string>& files);
+/// The same on every rank but for the figures, which the root rank alone has. *Collective*; every rank names
+/// the same stages.
+MeshSummary summarise(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds,
+                      const std::vector<std::string>& files);
 
 /// The summary as the short table for people.
 std::string table_of(const MeshSummary& summary);

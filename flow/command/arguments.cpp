@@ -47,12 +47,14 @@ const std::string& value_of(const Values& values, std::string_view name, const s
     known += (known.empty() ? "{" : ", {") + std::string(placeholder) + "}";
   }
   const std::string braced = "{" + std::string(name) + "}";
-  throw InputError("[solver] command: " + braced + " in the argument '" + argument + "' is unknown; there are " + known + ", and {" + braced +
-                   "} stands for " + braced + " itself");
+  throw InputError("[solver] command: " + braced + " in the argument '" + argument +
+                   "' is unknown; there are " + known + ", and {" + braced + "} stands for " + braced +
+                   " itself");
 }
 
 std::string filled_argument(const std::string& argument, const Values& values) {
-  if (argument.find('\0') != std::string::npos) throw InputError("[solver] command: an argument holds a zero byte; no program can be given one");
+  if (argument.find('\0') != std::string::npos)
+    throw InputError("[solver] command: an argument holds a zero byte; no program can be given one");
   std::string result;
   for (std::string_view rest = argument; !rest.empty();) {
     if (const std::string_view escaped = escaped_name(rest); !escaped.empty()) {
@@ -72,10 +74,12 @@ std::string filled_argument(const std::string& argument, const Values& values) {
 }  // namespace
 
 std::vector<std::string> filled(const SolverCommand& command, const SolverFiles& files) {
-  if (command.arguments.empty()) throw InputError("[solver] command is empty; name the program to run and its arguments");
+  if (command.arguments.empty())
+    throw InputError("[solver] command is empty; name the program to run and its arguments");
   const Values values = values_of(files);
   std::vector<std::string> arguments;
-  for (const std::string& argument : command.arguments) arguments.push_back(filled_argument(argument, values));
+  for (const std::string& argument : command.arguments)
+    arguments.push_back(filled_argument(argument, values));
   return arguments;
 }
 

@@ -16,7 +16,8 @@ constexpr int lowest_number = 10;
 constexpr mode_t readable_by_all = 0666;  // less the user's umask
 
 [[noreturn]] void no_descriptor_left(int reason) {
-  throw OutputError(std::string("no more files can be opened: ") + std::strerror(reason) + "; raise the limit of open files (ulimit -n)");
+  throw OutputError(std::string("no more files can be opened: ") + std::strerror(reason) +
+                    "; raise the limit of open files (ulimit -n)");
 }
 
 }  // namespace
@@ -40,7 +41,8 @@ void Descriptor::close() {
 
 Descriptor open_descriptor(const std::string& path, int flags) {
   const int raw = ::open(path.c_str(), flags | O_CLOEXEC, readable_by_all);
-  if (raw < 0) throw OutputError(path + ": cannot be opened: " + std::strerror(errno) + "; the solver needs it");
+  if (raw < 0)
+    throw OutputError(path + ": cannot be opened: " + std::strerror(errno) + "; the solver needs it");
   return Descriptor(raw);
 }
 

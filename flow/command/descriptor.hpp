@@ -5,8 +5,8 @@
 
 namespace quadloop {
 
-/// The owner of one file descriptor. Its number is 10 or more, so that it never stands where a child process wants another, and programs that are
-/// started do not inherit it.
+/// The owner of one file descriptor. Its number is 10 or more, so that it never stands where a child process
+/// wants another, and programs that are started do not inherit it.
 class Descriptor {
  public:
   Descriptor() = default;

@@ -10,7 +10,8 @@ namespace quadloop {
 
 namespace {
 
-// Open MPI 4 (found by comparing the environments inside and outside of mpirun) and 5, then PMI launchers: MPICH, Intel MPI, MVAPICH, Slurm, Cray.
+// Open MPI 4 (found by comparing the environments inside and outside of mpirun) and 5, then PMI launchers:
+// MPICH, Intel MPI, MVAPICH, Slurm, Cray.
 constexpr std::array launcher_prefixes{
     std::string_view("OMPI_COMM_WORLD_"),
     std::string_view("OMPI_APP_CTX_"),
@@ -58,13 +59,15 @@ constexpr std::array user_prefixes{
 
 template <class Prefixes>
 bool starts_with_any(std::string_view variable, const Prefixes& prefixes) {
-  return std::any_of(prefixes.begin(), prefixes.end(), [&](std::string_view prefix) { return variable.starts_with(prefix); });
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](std::string_view prefix) { return variable.starts_with(prefix); });
 }
 
 }  // namespace
 
 bool set_by_launcher(std::string_view variable) {
-  if (std::find(launcher_variables.begin(), launcher_variables.end(), variable) != launcher_variables.end()) return true;
+  if (std::find(launcher_variables.begin(), launcher_variables.end(), variable) != launcher_variables.end())
+    return true;
   return starts_with_any(variable, launcher_prefixes) && !starts_with_any(variable, user_prefixes);
 }
 

@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::int64_t second = 1'000'000'000;  // nanoseconds
 constexpr std::int64_t grace = 2 * second;      // from SIGTERM to SIGKILL
-constexpr std::int64_t patience = 5 * second;   // with processes that even SIGKILL does not end (a file system that hangs)
+constexpr std::int64_t patience =
+    5 * second;  // with processes that even SIGKILL does not end (a file system that hangs)
 constexpr std::int64_t between_kills = second / 100;
 constexpr int leash_number = 3, report_number = 4;  // after the three standard ones
 constexpr int no_such_program = 127;                // as shells have it
@@ -37,7 +38,8 @@ void tell(GuardReport::Kind kind, int value) {
 
 void wake_up(int) {}
 
-/// Handlers and mask are inherited, from quadloop and its launcher: all as a program finds them when a user starts it.
+/// Handlers and mask are inherited, from quadloop and its launcher: all as a program finds them when a user
+/// starts it.
 void reset_signals() {
   struct sigaction standard = {};
   standard.sa_handler = SIG_DFL;
@@ -51,7 +53,8 @@ void reset_signals() {
 void set_guard_signals() {
   struct sigaction action = {};
   action.sa_handler = SIG_IGN;
-  for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGUSR1, SIGUSR2}) ::sigaction(number, &action, nullptr);
+  for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGUSR1, SIGUSR2})
+    ::sigaction(number, &action, nullptr);
   action.sa_handler = wake_up;
   ::sigaction(SIGCHLD, &action, nullptr);
   sigset_t children;
@@ -60,7 +63,8 @@ void set_guard_signals() {
   ::sigprocmask(SIG_BLOCK, &children, nullptr);
 }
 
-/// Descriptors 0 to 2 as the solver gets them, 3 and 4 for the guard, nothing else: MPI's own would look as if quadloop were still alive.
+/// Descriptors 0 to 2 as the solver gets them, 3 and 4 for the guard, nothing else: MPI's own would look as
+/// if quadloop were still alive.
 void arrange_descriptors(const GuardedProgram& program, int leash, int report) {
   ::dup2(program.input, STDIN_FILENO);
   ::dup2(program.log, STDOUT_FILENO);
@@ -102,8 +106,9 @@ class Tree {
     }
   }
 
-  /// SIGTERM, once for each process: an mpirun that gets a second one leaves without ending its ranks. The solver's group is sent to while the
-  /// solver lives, because only so long the group's number is surely its own.
+  /// SIGTERM, once for each process: an mpirun that gets a second one leaves without ending its ranks. The
+  /// solver's group is sent to while the solver lives, because only so long the group's number is surely its
+  /// own.
   void ask_to_end() const {
     if (!ended_)
       ::kill(-solver_, SIGTERM);

@@ -29,12 +29,14 @@ std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
   return pointers;
 }
 
-/// mpirun binds each rank to a core; a solver that inherited that would have all its threads, and the ranks of its own mpirun, on one. It may
-/// run where mpirun may. Nothing where this process was started in another way.
+/// mpirun binds each rank to a core; a solver that inherited that would have all its threads, and the ranks
+/// of its own mpirun, on one. It may run where mpirun may. Nothing where this process was started in another
+/// way.
 std::optional<cpu_set_t> processors_of_launcher() {
   cpu_set_t processors;
   CPU_ZERO(&processors);
-  if (!started_by_mpirun() || ::sched_getaffinity(::getppid(), sizeof processors, &processors) != 0) return {};
+  if (!started_by_mpirun() || ::sched_getaffinity(::getppid(), sizeof processors, &processors) != 0)
+    return {};
   return processors;
 }
 
@@ -42,7 +44,8 @@ std::optional<cpu_set_t> processors_of_launcher() {
 bool read_report(const Descriptor& pipe, GuardReport& report) {
   for (;;) {
     const ssize_t length = ::read(pipe.number(), &report, sizeof report);
-    if (length >= 0 || errno != EINTR) return length == static_cast<ssize_t>(sizeof report);  // so short a write comes whole
+    if (length >= 0 || errno != EINTR)
+      return length == static_cast<ssize_t>(sizeof report);  // so short a write comes whole
   }
 }
 
@@ -60,7 +63,8 @@ Ending awaited_ending(const Descriptor& reports) {
       case GuardReport::Kind::started: solver = report.value; break;
       case GuardReport::Kind::not_started: reason = report.value; break;
       case GuardReport::Kind::timed_out: return {Ending::Kind::timed_out, 0};
-      case GuardReport::Kind::ended: return reason ? Ending{Ending::Kind::not_started, *reason} : ending_of(report.value);
+      case GuardReport::Kind::ended:
+        return reason ? Ending{Ending::Kind::not_started, *reason} : ending_of(report.value);
     }
   }
   if (reason) return {Ending::Kind::not_started, *reason};
@@ -71,21 +75,24 @@ Ending awaited_ending(const Descriptor& reports) {
 }  // namespace
 
 Ending run_to_its_end(const Launch& launch) {
-  const std::vector<char*> arguments = pointers_to(launch.arguments), environment = pointers_to(launch.environment);
+  const std::vector<char*> arguments = pointers_to(launch.arguments),
+                           environment = pointers_to(launch.environment);
   const Descriptor folder = open_descriptor(launch.folder, O_RDONLY | O_DIRECTORY);
   const Descriptor input = open_descriptor("/dev/null", O_RDONLY);
   const Descriptor log = open_descriptor(launch.log, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND);
   const std::optional<cpu_set_t> processors = processors_of_launcher();
   Pipe leash = make_pipe(), reports = make_pipe();
-  const GuardedProgram program{.path = launch.program.c_str(),
-                               .arguments = arguments.data(),
-                               .environment = environment.data(),
-                               .folder = folder.number(),
-                               .input = input.number(),
-                               .log = log.number(),
-                               .processors = processors ? &*processors : nullptr,
-                               .timeout = static_cast<std::int64_t>(std::min(launch.timeout, longest_timeout) * 1e9)};
-  const pid_t guard_id = ::_Fork();  // without the handlers that libraries set for fork(): the child calls none of them
+  const GuardedProgram program{
+      .path = launch.program.c_str(),
+      .arguments = arguments.data(),
+      .environment = environment.data(),
+      .folder = folder.number(),
+      .input = input.number(),
+      .log = log.number(),
+      .processors = processors ? &*processors : nullptr,
+      .timeout = static_cast<std::int64_t>(std::min(launch.timeout, longest_timeout) * 1e9)};
+  const pid_t guard_id =
+      ::_Fork();  // without the handlers that libraries set for fork(): the child calls none of them
   if (guard_id == 0) guard(program, leash.reading.number(), reports.writing.number());
   if (guard_id < 0) return {Ending::Kind::not_started, errno};
   reports.writing.close();

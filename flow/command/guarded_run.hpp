@@ -22,9 +22,9 @@ struct Ending {
   int value = 0;  ///< errno, the exit status, or the signal's number
 };
 
-/// Runs a program, with an empty standard input, to its end or the end of its time, and ends whatever processes it leaves. They end when this
-/// process does, too, even by kill -9 (guard.hpp says how). The calling thread sleeps meanwhile. An OutputError where the folder or log cannot be
-/// opened.
+/// Runs a program, with an empty standard input, to its end or the end of its time, and ends whatever
+/// processes it leaves. They end when this process does, too, even by kill -9 (guard.hpp says how). The
+/// calling thread sleeps meanwhile. An OutputError where the folder or log cannot be opened.
 Ending run_to_its_end(const Launch& launch);
 
 }  // namespace quadloop

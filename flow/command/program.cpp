@@ -26,7 +26,9 @@ bool may_be_run(const std::string& path) { return ::access(path.c_str(), X_OK) =
 /// Of a name that is no program.
 [[noreturn]] void refuse_unknown(const std::string& name, const std::string& fault) {
   if (name.find(' ') == std::string::npos) refuse(name, fault);
-  refuse(name, R"(is not there; command is a list of the program and its arguments, as in ["python3", "{case}/my_solver.py", "{mesh}"])");
+  refuse(
+      name,
+      R"(is not there; command is a list of the program and its arguments, as in ["python3", "{case}/my_solver.py", "{mesh}"])");
 }
 
 /// `name` has a slash.
@@ -34,7 +36,8 @@ std::string program_at(const std::string& name, const std::string& folder) {
   std::string path = std::filesystem::path(folder) / name;
   if (!is_file(path)) {
     const bool relative = name.front() != '/';
-    refuse_unknown(name, relative ? "is not in the cycle's folder, where it is looked for; write {case}/" + name + " for one beside the case file"
+    refuse_unknown(name, relative ? "is not in the cycle's folder, where it is looked for; write {case}/" +
+                                        name + " for one beside the case file"
                                   : "is no file; correct its path");
   }
   if (!may_be_run(path)) refuse(name, "may not be run; allow it with: chmod +x " + path);
@@ -51,7 +54,8 @@ std::string find_program(const std::string& name, const std::string& search, con
     std::string path = std::filesystem::absolute(candidate.empty() ? "." : candidate) / name;
     if (is_file(path) && may_be_run(path)) return path;
   }
-  refuse_unknown(name, "is in no folder of PATH; install it, write its full path, or {case}/" + name + " for one beside the case file");
+  refuse_unknown(name, "is in no folder of PATH; install it, write its full path, or {case}/" + name +
+                           " for one beside the case file");
 }
 
 }  // namespace quadloop

@@ -29,7 +29,8 @@ std::string search_path() {
 }
 
 Launch launch_of(const SolverCommand& command, const SolverFiles& files) {
-  QUADLOOP_REQUIRE(std::filesystem::path(files.folder).is_absolute(), "the folder of a solver's run is not absolute");
+  QUADLOOP_REQUIRE(std::filesystem::path(files.folder).is_absolute(),
+                   "the folder of a solver's run is not absolute");
   if (!(command.timeout > 0)) throw InputError("[solver] timeout must be more than 0 seconds");
   Launch launch;
   launch.arguments = filled(command, files);
@@ -46,7 +47,8 @@ void remove_old_file(const std::string& path) {
   if (std::filesystem::is_directory(std::filesystem::symlink_status(path, fault)))
     throw InputError(path + ": is a folder, where the solver's run is to leave a file; move it away");
   std::filesystem::remove(path, fault);
-  if (fault) throw OutputError(path + ": the old file cannot be removed: " + fault.message() + "; remove it by hand");
+  if (fault)
+    throw OutputError(path + ": the old file cannot be removed: " + fault.message() + "; remove it by hand");
 }
 
 /// The state of the path after links; nothing there: a mode of 0.
@@ -56,12 +58,14 @@ struct stat state_of(const std::string& path) {
   return state;
 }
 
-/// Removes what an earlier run left and would pass for this run's, and makes the log. Its state has the time at which the run begins by the clock
-/// that the file system stamps files with, which may be another machine's.
+/// Removes what an earlier run left and would pass for this run's, and makes the log. Its state has the time
+/// at which the run begins by the clock that the file system stamps files with, which may be another
+/// machine's.
 struct stat begin_run(const SolverFiles& files) {
   const auto normal = [](const std::string& path) { return std::filesystem::path(path).lexically_normal(); };
   if (normal(files.solution) == normal(files.mesh))
-    throw InputError("[solver] mesh and solution are one file, " + files.solution + "; give the solution a name of its own");
+    throw InputError("[solver] mesh and solution are one file, " + files.solution +
+                     "; give the solution a name of its own");
   remove_old_file(files.solution);
   remove_old_file(solver_log(files));
   std::ofstream(solver_log(files)).flush();
@@ -74,12 +78,14 @@ struct stat begin_run(const SolverFiles& files) {
 
 std::string time_fault(double timeout) {
   std::ostringstream text;
-  text << "had not ended after " << timeout << " s and was stopped (raise [solver] timeout if it needs longer)";
+  text << "had not ended after " << timeout
+       << " s and was stopped (raise [solver] timeout if it needs longer)";
   return text.str();
 }
 
 std::string signal_fault(int number) {
-  const std::string text = "was killed by signal " + std::to_string(number) + " (" + ::strsignal(number) + ")";
+  const std::string text =
+      "was killed by signal " + std::to_string(number) + " (" + ::strsignal(number) + ")";
   return number == SIGKILL ? text + ", by somebody or for want of memory" : text;
 }
 
@@ -93,7 +99,8 @@ std::string start_fault(int reason) {
 /// Empty where the run ended well.
 std::string fault_of(const Ending& ending, double timeout) {
   switch (ending.kind) {
-    case Ending::Kind::status: return ending.value == 0 ? "" : "ended with exit status " + std::to_string(ending.value);
+    case Ending::Kind::status:
+      return ending.value == 0 ? "" : "ended with exit status " + std::to_string(ending.value);
     case Ending::Kind::signal: return signal_fault(ending.value);
     case Ending::Kind::timed_out: return time_fault(timeout);
     case Ending::Kind::not_started: return start_fault(ending.value);
@@ -108,9 +115,12 @@ std::string solution_fault(const std::string& path, const struct stat& begin) {
   if (state.st_mode == 0) return "ended without leaving its solution, " + path;
   if (!S_ISREG(state.st_mode)) return "left something that is no file as its solution, " + path;
   if (state.st_size == 0) return "left an empty solution, " + path;
-  const auto stamp = [](const struct stat& file) { return std::tuple(file.st_mtim.tv_sec, file.st_mtim.tv_nsec); };
+  const auto stamp = [](const struct stat& file) {
+    return std::tuple(file.st_mtim.tv_sec, file.st_mtim.tv_nsec);
+  };
   const bool one_clock = state.st_dev == begin.st_dev;
-  if (one_clock && stamp(state) < stamp(begin)) return "left a file older than its run as its solution, " + path;
+  if (one_clock && stamp(state) < stamp(begin))
+    return "left a file older than its run as its solution, " + path;
   return {};
 }
 
@@ -119,17 +129,22 @@ void run_here(const SolverCommand& command, const SolverFiles& files) {
   const Launch launch = launch_of(command, files);
   const struct stat begin = begin_run(files);
   const Ending ending = run_to_its_end(launch);
-  if (const std::string fault = fault_of(ending, command.timeout); !fault.empty()) fail(command, files, fault);
-  if (const std::string fault = solution_fault(files.solution, begin); !fault.empty()) fail(command, files, fault);
+  if (const std::string fault = fault_of(ending, command.timeout); !fault.empty())
+    fail(command, files, fault);
+  if (const std::string fault = solution_fault(files.solution, begin); !fault.empty())
+    fail(command, files, fault);
 }
 
 }  // namespace
 
-std::string solver_log(const SolverFiles& files) { return std::filesystem::path(files.folder) / "solver.log"; }
+std::string solver_log(const SolverFiles& files) {
+  return std::filesystem::path(files.folder) / "solver.log";
+}
 
 std::string solver_message(const SolverCommand& command, const SolverFiles& files, const std::string& fault) {
   const std::string program = command.arguments.empty() ? "" : command.arguments.front();
-  const std::string message = "the solver '" + program + "' of cycle " + std::to_string(files.cycle) + " " + fault + "; ";
+  const std::string message =
+      "the solver '" + program + "' of cycle " + std::to_string(files.cycle) + " " + fault + "; ";
   const std::string last = last_line(solver_log(files));
   if (last.empty()) return message + "it wrote nothing to its log, " + solver_log(files);
   return message + solver_log(files) + " ends: " + last;

@@ -35,8 +35,10 @@ void tell_progress(const FlowRun& run, const EulerResult& result) {
 void report(const FlowRun& run, const EulerResult& result, double cfl, bool at_end) {
   tell_progress(run, result);
   if (!run.options.progress || (!at_end && result.iterations % run.options.progress_every != 0)) return;
-  const ForceCoefficients forces = wall_forces(run.comm, run.mesh, run.model, run.states, run.options.reference_length);
-  if (progress::Stage* stage = progress::current()) stage->say_then(fmt::format("cl {:.4f}  cd {:.5f}", forces.cl, forces.cd));
+  const ForceCoefficients forces =
+      wall_forces(run.comm, run.mesh, run.model, run.states, run.options.reference_length);
+  if (progress::Stage* stage = progress::current())
+    stage->say_then(fmt::format("cl {:.4f}  cd {:.5f}", forces.cl, forces.cd));
   run.options.progress({result.iterations, result.residual, forces.cl, forces.cd, result.time, cfl});
 }
 
@@ -60,8 +62,9 @@ std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes) {
     told = {run.mesh.point(node).x, run.mesh.point(node).y, state[0], state[1], state[2], state[3]};
   }
   for (double& value : told) value = run.comm.maximum(value);
-  return fmt::format("at ({:.6g}, {:.6g}), where density is {:.4g}, velocity ({:.4g}, {:.4g}) and pressure {:.4g}", told[0], told[1], told[2],
-                     told[3], told[4], told[5]);
+  return fmt::format(
+      "at ({:.6g}, {:.6g}), where density is {:.4g}, velocity ({:.4g}, {:.4g}) and pressure {:.4g}", told[0],
+      told[1], told[2], told[3], told[4], told[5]);
 }
 
 }  // namespace quadloop::euler

@@ -25,11 +25,12 @@ double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes);
 /// Hands the options' callback what it is due. *Collective.*
 void report(const FlowRun& run, const EulerResult& result, double cfl, bool at_end);
 
-/// "density ... at (x, y)" of the node, over all ranks, where the flow is least physical: the first that is not, else that of the largest flux.
-/// *Collective.*
+/// "density ... at (x, y)" of the node, over all ranks, where the flow is least physical: the first that is
+/// not, else that of the largest flux. *Collective.*
 std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes);
 
-/// Implicit steps with local time steps until the tolerance is met or the iterations are used up. *Collective.*
+/// Implicit steps with local time steps until the tolerance is met or the iterations are used up.
+/// *Collective.*
 EulerResult march_to_steady(const FlowRun& run);
 
 /// Explicit steps of one size to the end time. *Collective.*

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double largest_cfl = 0.8;  ///< of the explicit steps
 
-/// The largest time step of CFL number 1 over all nodes of all ranks: area over half the sum of wave speed times face size. *Collective.*
+/// The largest time step of CFL number 1 over all nodes of all ranks: area over half the sum of wave speed
+/// times face size. *Collective.*
 double unit_time_step(const FlowRun& run, std::vector<double>& wave_sums) {
   const auto speed = [&](std::int32_t node, Point normal) {
     const State& state = run.states[static_cast<std::size_t>(node)];
@@ -20,27 +21,31 @@ double unit_time_step(const FlowRun& run, std::vector<double>& wave_sums) {
   };
   std::fill(wave_sums.begin(), wave_sums.end(), 0.0);
   for (const DualEdge& edge : run.mesh.edges()) {
-    const double sum = 0.5 * edge.size * std::max(speed(edge.low, edge.normal), speed(edge.high, edge.normal));
+    const double sum =
+        0.5 * edge.size * std::max(speed(edge.low, edge.normal), speed(edge.high, edge.normal));
     wave_sums[static_cast<std::size_t>(edge.low)] += sum;
     wave_sums[static_cast<std::size_t>(edge.high)] += sum;
   }
   for (const BoundaryFace& face : run.mesh.faces()) {
-    for (const std::int32_t node : {face.from, face.to}) wave_sums[static_cast<std::size_t>(node)] += 0.5 * face.half_size * speed(node, face.normal);
+    for (const std::int32_t node : {face.from, face.to})
+      wave_sums[static_cast<std::size_t>(node)] += 0.5 * face.half_size * speed(node, face.normal);
   }
   double step = std::numeric_limits<double>::infinity();
   const auto areas = run.mesh.areas();
-  for (std::size_t node = 0; node < areas.size(); ++node) step = std::min(step, areas[node] / wave_sums[node]);
+  for (std::size_t node = 0; node < areas.size(); ++node)
+    step = std::min(step, areas[node] / wave_sums[node]);
   return run.comm.minimum(step);
 }
 
-/// One stage of a strong-stability-preserving Runge-Kutta step (Shu and Osher 1988): the step's start and the stage before it advanced by an Euler
-/// step, mixed.
+/// One stage of a strong-stability-preserving Runge-Kutta step (Shu and Osher 1988): the step's start and the
+/// stage before it advanced by an Euler step, mixed.
 struct Stage {
   double start, advanced;
 };
 constexpr std::array<Stage, 3> stages{{{0, 1}, {0.75, 0.25}, {1.0 / 3, 2.0 / 3}}};
 
-void advance(const FlowRun& run, const Stage& stage, double step, const std::vector<Conserved>& start, const std::vector<Flux>& fluxes) {
+void advance(const FlowRun& run, const Stage& stage, double step, const std::vector<Conserved>& start,
+             const std::vector<Flux>& fluxes) {
   const auto areas = run.mesh.areas();
   const Gas& gas = run.model.gas;
   for (std::size_t node = 0; node < areas.size(); ++node) {
@@ -49,8 +54,9 @@ void advance(const FlowRun& run, const Stage& stage, double step, const std::vec
     const auto mixed = [&](double before, double now, double out) {
       return stage.start * before + stage.advanced * (now - step / areas[node] * out);
     };
-    run.states[node] = gas.state({mixed(w0.mass, w.mass, flux[0]), mixed(w0.x_momentum, w.x_momentum, flux[1]),
-                                  mixed(w0.y_momentum, w.y_momentum, flux[2]), mixed(w0.energy, w.energy, flux[3])});
+    run.states[node] =
+        gas.state({mixed(w0.mass, w.mass, flux[0]), mixed(w0.x_momentum, w.x_momentum, flux[1]),
+                   mixed(w0.y_momentum, w.y_momentum, flux[2]), mixed(w0.energy, w.energy, flux[3])});
   }
 }
 
@@ -67,7 +73,8 @@ EulerResult march_in_time(const FlowRun& run) {
     const double norm = mass_residual(run, fluxes);
     if (!std::isfinite(norm)) {
       throw SolverError(
-          fmt::format("the flow solver failed at time {:.6g} {}; look at the boundary conditions and the cells there, or try a smaller cfl",
+          fmt::format("the flow solver failed at time {:.6g} {}; look at the boundary conditions and the "
+                      "cells there, or try a smaller cfl",
                       result.time, worst_place(run, fluxes)));
     }
     reference = std::max(reference, result.iterations == 0 ? norm : 0);
@@ -79,7 +86,8 @@ EulerResult march_in_time(const FlowRun& run) {
     const double left = run.options.end_time - result.time, full = cfl * unit_time_step(run, wave_sums);
     const bool last = full >= left;
     const double step = last ? left : full;
-    for (std::size_t node = 0; node < start.size(); ++node) start[node] = run.model.gas.conserved(run.states[node]);
+    for (std::size_t node = 0; node < start.size(); ++node)
+      start[node] = run.model.gas.conserved(run.states[node]);
     for (std::size_t k = 0; k < stages.size(); ++k) {
       advance(run, stages[k], step, start, k == 0 ? fluxes : run.residual.evaluate(run.states));
     }

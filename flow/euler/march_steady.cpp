@@ -15,14 +15,16 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr int sweeps = 40;              ///< of a step's linear system: fewer leave waves in a far field of many cells long under way
+constexpr int sweeps =
+    40;  ///< of a step's linear system: fewer leave waves in a far field of many cells long under way
 constexpr double largest_cfl = 1000;    ///< first-order matrices do not bear out more
 constexpr double growth = 0.75;         ///< the CFL number grows as the residual falls, to this power
 constexpr double largest_share = 0.25;  ///< of its density or pressure that a node may gain or lose in a step
 constexpr double blown_up = 1000;       ///< a relative residual that no sound start reaches
 constexpr double exploding = 20;        ///< one that hardly any sound start reaches
 constexpr int most_retries = 8;         ///< after a flow blew up
-constexpr int most_returns = 8;         ///< after the residual rose: a flow that has no steady state may swing as it likes then
+constexpr int most_returns =
+    8;  ///< after the residual rose: a flow that has no steady state may swing as it likes then
 
 /// The change, made smaller where it would take too much of a node's density or pressure.
 State updated(const Gas& gas, const State& state, const Change& change) {
@@ -33,7 +35,8 @@ State updated(const Gas& gas, const State& state, const Change& change) {
   double share = relative > largest_share ? largest_share / relative : 1;
   const Conserved w = gas.conserved(state);
   for (int attempt = 0; attempt < 10; ++attempt) {
-    const State next = gas.state({w.mass + share * d[0], w.x_momentum + share * d[1], w.y_momentum + share * d[2], w.energy + share * d[3]});
+    const State next = gas.state({w.mass + share * d[0], w.x_momentum + share * d[1],
+                                  w.y_momentum + share * d[2], w.energy + share * d[3]});
     if (next[0] > 0.5 * rho && next[3] > 0.5 * p) return next;
     share *= 0.5;
   }
@@ -63,7 +66,9 @@ class SteadyMarch {
       }
       const bool ends = result_.converged || result_.iterations >= run_.options.iterations;
       if (!ends && watch()) continue;
-      const double cfl = limit_.share() * std::min(largest_cfl, run_.options.cfl * std::max(1.0, std::pow(result_.residual, -growth)));
+      const double cfl =
+          limit_.share() *
+          std::min(largest_cfl, run_.options.cfl * std::max(1.0, std::pow(result_.residual, -growth)));
       if (ends) return finish(cfl);
       report(run_, result_, cfl, false);
       step(fluxes, cfl);
@@ -89,7 +94,8 @@ class SteadyMarch {
   void give_up_or_retry(const std::vector<Flux>& fluxes) {
     if (++retries_ > most_retries || result_.iterations == 0) {
       throw SolverError(
-          fmt::format("the flow solver failed after {} steps {}; look at the boundary conditions and the cells there, or try a smaller cfl",
+          fmt::format("the flow solver failed after {} steps {}; look at the boundary conditions and the "
+                      "cells there, or try a smaller cfl",
                       result_.iterations, worst_place(run_, fluxes)));
     }
     limit_.lower(0.3);
@@ -110,8 +116,9 @@ class SteadyMarch {
     if (best_.improves(result_.iterations, result_.residual, frozen)) best_states_ = run_.states;
     const bool explodes = result_.residual > exploding;
     if ((explodes || rise_.rises(result_.residual, best_.residual)) && ++returns_ <= most_returns) {
-      tell(fmt::format("the residual rose from {:.2e} at step {} to {:.2e}: back to that flow, with a smaller cfl", best_.residual, best_.iteration,
-                       result_.residual));
+      tell(fmt::format(
+          "the residual rose from {:.2e} at step {} to {:.2e}: back to that flow, with a smaller cfl",
+          best_.residual, best_.iteration, result_.residual));
       limit_.lower(explodes ? 0.3 : 0.5);
       go_back();
       return true;
@@ -147,7 +154,8 @@ class SteadyMarch {
     system_.relax(fluxes, sweeps, change_);
     shares_.follow(change_);
     const auto owned = static_cast<std::size_t>(run_.mesh.owned_nodes());
-    for (std::size_t node = 0; node < owned; ++node) run_.states[node] = updated(run_.model.gas, run_.states[node], change_[node]);
+    for (std::size_t node = 0; node < owned; ++node)
+      run_.states[node] = updated(run_.model.gas, run_.states[node], change_[node]);
     ++result_.iterations;
   }
 

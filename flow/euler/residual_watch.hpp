@@ -9,7 +9,8 @@ namespace quadloop::euler {
 /// A relative residual below which a flow has its shape: what comes later is no transient of the start.
 constexpr double developed = 0.05;
 
-/// Tells when the residual falls slowly, as it does where the limiter's factors swing to and fro, or would if steps there were not small.
+/// Tells when the residual falls slowly, as it does where the limiter's factors swing to and fro, or would if
+/// steps there were not small.
 class StallWatch {
  public:
   bool stalls(double residual) {
@@ -49,7 +50,8 @@ class RiseWatch {
   int steps_ = 0;
 };
 
-/// The share of the CFL number that a flow has borne out so far: small after it went wrong, then growing to a limit that is lower than before.
+/// The share of the CFL number that a flow has borne out so far: small after it went wrong, then growing to a
+/// limit that is lower than before.
 class CflLimit {
  public:
   double share() const { return share_; }
@@ -75,7 +77,8 @@ struct BestFlow {
     return true;
   }
 
-  /// Whether it is to be kept rather than a flow with this residual. A start that is no developed flow is not.
+  /// Whether it is to be kept rather than a flow with this residual. A start that is no developed flow is
+  /// not.
   bool keeps(double last) const { return last > 2 * residual && (iteration > 0 || residual < developed); }
 };
 

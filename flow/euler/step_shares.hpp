@@ -7,9 +7,10 @@
 
 namespace quadloop::euler {
 
-/// Which share of the CFL number each node's step has. The first-order matrix of an implicit step may be too weak by more than a half for what a
-/// single node's second-order fluxes answer, as where sizes change abruptly: its changes then swing to and fro and grow, at large CFL numbers alone.
-/// Where changes turn back again and again, the node's share is halved, until they no longer do; it grows again slowly.
+/// Which share of the CFL number each node's step has. The first-order matrix of an implicit step may be too
+/// weak by more than a half for what a single node's second-order fluxes answer, as where sizes change
+/// abruptly: its changes then swing to and fro and grow, at large CFL numbers alone. Where changes turn back
+/// again and again, the node's share is halved, until they no longer do; it grows again slowly.
 class StepShares {
  public:
   explicit StepShares(std::size_t owned_nodes);

@@ -4,8 +4,8 @@
 
 namespace quadloop::euler {
 
-/// The isentropic vortex of strength 5 that the free stream carries along unchanged (Yee, Sandham and Djomehri 1999), in a gas of density 1 and speed
-/// of sound 1 far away; it turns counter-clockwise.
+/// The isentropic vortex of strength 5 that the free stream carries along unchanged (Yee, Sandham and
+/// Djomehri 1999), in a gas of density 1 and speed of sound 1 far away; it turns counter-clockwise.
 struct Vortex {
   Gas gas;
   State free_stream{};

@@ -11,7 +11,8 @@
 
 namespace quadloop {
 
-/// The BAR_2 elements of a zone, in the order of its sections, until boundaries take them by their element numbers.
+/// The BAR_2 elements of a zone, in the order of its sections, until boundaries take them by their element
+/// numbers.
 class CgnsBars {
  public:
   using Edge = std::array<NodeId, 2>;
@@ -24,14 +25,16 @@ class CgnsBars {
   void sort() {
     by_element_.resize(bars_.size());
     for (std::size_t i = 0; i < bars_.size(); ++i) by_element_[i] = i;
-    std::stable_sort(by_element_.begin(), by_element_.end(), [&](std::size_t a, std::size_t b) { return bars_[a].element < bars_[b].element; });
+    std::stable_sort(by_element_.begin(), by_element_.end(),
+                     [&](std::size_t a, std::size_t b) { return bars_[a].element < bars_[b].element; });
   }
 
   std::size_t size() const { return bars_.size(); }
 
   /// Nothing where no bar has that number, or another boundary has taken it.
   std::optional<Edge> take(std::int64_t element) {
-    auto at = std::lower_bound(by_element_.begin(), by_element_.end(), element, [&](std::size_t i, std::int64_t n) { return bars_[i].element < n; });
+    auto at = std::lower_bound(by_element_.begin(), by_element_.end(), element,
+                               [&](std::size_t i, std::int64_t n) { return bars_[i].element < n; });
     for (; at != by_element_.end() && bars_[*at].element == element; ++at) {
       if (bars_[*at].taken) continue;
       bars_[*at].taken = true;

@@ -13,8 +13,8 @@
 
 namespace quadloop {
 
-/// An open CGNS file; `Failure` is the error that a failed call becomes. Serial: one rank owns it. A file that could not be written is never closed:
-/// the libraries may crash on it.
+/// An open CGNS file; `Failure` is the error that a failed call becomes. Serial: one rank owns it. A file
+/// that could not be written is never closed: the libraries may crash on it.
 template <class Failure>
 class CgnsFile {
  public:

@@ -22,8 +22,11 @@ constexpr std::array<std::pair<const char*, const char*>, 8> variables{{{"densit
                                                                         {"x_momentum", "MomentumX"},
                                                                         {"y_momentum", "MomentumY"}}};
 
-constexpr std::array<std::pair<const char*, int>, 5> conditions{
-    {{"wall", BCWall}, {"farfield", BCFarfield}, {"inflow", BCInflow}, {"outflow", BCOutflow}, {"symmetry", BCSymmetryPlane}}};
+constexpr std::array<std::pair<const char*, int>, 5> conditions{{{"wall", BCWall},
+                                                                 {"farfield", BCFarfield},
+                                                                 {"inflow", BCInflow},
+                                                                 {"outflow", BCOutflow},
+                                                                 {"symmetry", BCSymmetryPlane}}};
 
 /// Cut at a character, not inside one of several bytes (UTF-8).
 std::string shortened(const std::string& name, std::size_t length) {
@@ -37,14 +40,17 @@ std::string shortened(const std::string& name, std::size_t length) {
 std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names) {
   // Sections stand in the zone and families in the base, beside these nodes.
   DistinctNames distinct;
-  for (const char* used : {"", ".", "..", "ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "ZoneBC", "ZoneGridConnectivity", "FlowSolution",
-                           "domain", "DataClass", "DimensionalUnits"}) {
+  for (const char* used :
+       {"", ".", "..", "ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "ZoneBC", "ZoneGridConnectivity",
+        "FlowSolution", "domain", "DataClass", "DimensionalUnits"}) {
     distinct.reserve(used);
   }
   std::vector<std::string> result;
   for (std::string name : names) {
     std::replace(name.begin(), name.end(), '/', '_');
-    const auto with_suffix = [&](const std::string& suffix) { return shortened(name, longest_name - suffix.size()) + suffix; };
+    const auto with_suffix = [&](const std::string& suffix) {
+      return shortened(name, longest_name - suffix.size()) + suffix;
+    };
     result.push_back(distinct.name(with_suffix(""), with_suffix));
   }
   return result;
@@ -52,7 +58,8 @@ std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& nam
 
 std::vector<std::string> cgns_variable_names(std::vector<std::string> names) {
   for (std::string& name : names) {
-    const auto* const known = std::find_if(variables.begin(), variables.end(), [&](const auto& pair) { return name == pair.first; });
+    const auto* const known = std::find_if(variables.begin(), variables.end(),
+                                           [&](const auto& pair) { return name == pair.first; });
     if (known != variables.end()) name = known->second;
   }
   return cgns_boundary_names(names);

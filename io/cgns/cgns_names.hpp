@@ -8,12 +8,12 @@ namespace quadloop {
 /// Name of the descriptor that keeps a boundary's own name where CGNS could not hold it.
 inline constexpr const char* full_name_descriptor = "FullName";
 
-/// For each name one that CGNS can hold: at most 32 characters, no '/', none twice and none that the zone or the base already
-/// uses. The same names always give the same answer.
+/// For each name one that CGNS can hold: at most 32 characters, no '/', none twice and none that the zone or
+/// the base already uses. The same names always give the same answer.
 std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names);
 
-/// The SIDS names of variables of ours ("x_velocity": "VelocityX"), or the names themselves, cut to 32 characters and told apart as boundaries are;
-/// and back.
+/// The SIDS names of variables of ours ("x_velocity": "VelocityX"), or the names themselves, cut to 32
+/// characters and told apart as boundaries are; and back.
 std::vector<std::string> cgns_variable_names(std::vector<std::string> names);
 std::string variable_name_of_cgns(const std::string& name);
 

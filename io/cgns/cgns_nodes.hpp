@@ -10,9 +10,10 @@
 
 namespace quadloop {
 
-/// Adds nodes to a CGNS file that libcgns has written and closed. For each child libcgns walks over all its siblings, so that boundaries cost it the
-/// square of their number (40 s for 5000); this is linear. A node is a group with its name, label and type as attributes and a dataset " data", as
-/// the CGNS standard maps it to HDF5. What fails is an OutputError that names the output.
+/// Adds nodes to a CGNS file that libcgns has written and closed. For each child libcgns walks over all its
+/// siblings, so that boundaries cost it the square of their number (40 s for 5000); this is linear. A node is
+/// a group with its name, label and type as attributes and a dataset " data", as the CGNS standard maps it to
+/// HDF5. What fails is an OutputError that names the output.
 class CgnsNodes {
  public:
   using Node = Hdf5Handle;
@@ -22,11 +23,13 @@ class CgnsNodes {
   /// The node at a path of names ("/Base/domain").
   Node at(const std::string& path) const;
 
-  /// A new child without data, with text, or with integers (`rows` x `columns` in the order of C; a list where `columns` is 0).
+  /// A new child without data, with text, or with integers (`rows` x `columns` in the order of C; a list
+  /// where `columns` is 0).
   Node add(const Node& parent, const std::string& name, const char* label) const;
-  Node add_text(const Node& parent, const std::string& name, const char* label, const std::string& text) const;
-  Node add_integers(const Node& parent, const std::string& name, const char* label, std::span<const std::int32_t> values,
-                    std::size_t columns = 0) const;
+  Node add_text(const Node& parent, const std::string& name, const char* label,
+                const std::string& text) const;
+  Node add_integers(const Node& parent, const std::string& name, const char* label,
+                    std::span<const std::int32_t> values, std::size_t columns = 0) const;
 
   /// A list of `count` integers that comes in pieces; it goes before the file does.
   class Array {
@@ -48,9 +51,11 @@ class CgnsNodes {
   void check(bool good) const;
   Hdf5Handle checked(hid_t id, Hdf5Handle::Release release) const;
   Node group(const Node& parent, const std::string& name, const char* label, const char* type) const;
-  void put_text_attribute(const Node& node, const char* name, const Hdf5Handle& type, const std::string& text) const;
+  void put_text_attribute(const Node& node, const char* name, const Hdf5Handle& type,
+                          const std::string& text) const;
   Hdf5Handle dataset(const Node& node, hid_t file_type, std::span<const hsize_t> size) const;
-  void put_data(const Node& node, hid_t file_type, hid_t memory_type, std::span<const hsize_t> size, const void* data) const;
+  void put_data(const Node& node, hid_t file_type, hid_t memory_type, std::span<const hsize_t> size,
+                const void* data) const;
 
   QuietHdf5 quiet_;  // first, so that it outlives what the handles release
   std::string shown_;

@@ -9,11 +9,11 @@
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_handle.hpp"
 #include "io/cgns/cgns_names.hpp"
-#include "io/text/name_index.hpp"
-#include "io/loaded/pass_mesh.hpp"
-#include "io/files/separate_reader.hpp"
-#include "mesher/base/error.hpp"
 #include "io/files/input_file.hpp"
+#include "io/files/separate_reader.hpp"
+#include "io/loaded/pass_mesh.hpp"
+#include "io/text/name_index.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -54,7 +54,8 @@ class CgnsBoundaries {
   }
 
   NameIndex names_;
-  std::optional<std::unordered_map<std::string, std::string>> families_;  ///< to conditions, once they are asked for
+  std::optional<std::unordered_map<std::string, std::string>>
+      families_;  ///< to conditions, once they are asked for
 };
 
 /// Reads one zone into the mesh; nodes are numbered after those that are already there.
@@ -92,7 +93,8 @@ class ZoneReader {
     nodes_ = size[0];
     if (nodes_ < 1) refuse("it is said to have " + std::to_string(nodes_) + " nodes");
     first_node_ = loaded_.mesh.points.size();
-    if (first_node_ + static_cast<std::size_t>(nodes_) > std::numeric_limits<std::int32_t>::max()) refuse("too many nodes for one rank");
+    if (first_node_ + static_cast<std::size_t>(nodes_) > std::numeric_limits<std::int32_t>::max())
+      refuse("too many nodes for one rank");
   }
 
   std::vector<double> coordinate(const char* name) const {
@@ -112,14 +114,16 @@ class ZoneReader {
       }
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
-      if (!std::isfinite(x[i]) || !std::isfinite(y[i])) refuse("node " + std::to_string(i + 1) + " has a coordinate that is not finite");
+      if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
+        refuse("node " + std::to_string(i + 1) + " has a coordinate that is not finite");
       loaded_.mesh.points.push_back({x[i], y[i]});
     }
   }
 
   NodeId node_of(cgsize_t number) const {
     if (number < 1 || number > nodes_) {
-      refuse("an element names node " + std::to_string(number) + ", which is none of 1 to " + std::to_string(nodes_));
+      refuse("an element names node " + std::to_string(number) + ", which is none of 1 to " +
+             std::to_string(nodes_));
     }
     return NodeId{static_cast<std::int32_t>(first_node_ + static_cast<std::size_t>(number) - 1)};
   }
@@ -141,48 +145,58 @@ class ZoneReader {
     }
   }
 
-  static std::size_t width_of(int type) { return type == TRI_3 ? 3 : type == QUAD_4 ? 4 : type == BAR_2 ? 2 : 0; }
+  static std::size_t width_of(int type) {
+    return type == TRI_3 ? 3 : type == QUAD_4 ? 4 : type == BAR_2 ? 2 : 0;
+  }
 
   void read_section(int section) {
     Name name{};
     ElementType_t type = ElementTypeNull;
     cgsize_t first = 0, last = 0, size = 0;
     int boundary = 0, parents = 0;
-    file_.check(cg_section_read(file_.id(), base_, zone_, section, name.data(), &type, &first, &last, &boundary, &parents));
+    file_.check(cg_section_read(file_.id(), base_, zone_, section, name.data(), &type, &first, &last,
+                                &boundary, &parents));
     if (type == NODE) return;
     if (type != MIXED && width_of(type) == 0) {
-      refuse("section " + std::string(name.data()) + " holds " + cg_ElementTypeName(type) + "; only TRI_3, QUAD_4, BAR_2 and MIXED can be read");
+      refuse("section " + std::string(name.data()) + " holds " + cg_ElementTypeName(type) +
+             "; only TRI_3, QUAD_4, BAR_2 and MIXED can be read");
     }
     file_.check(cg_ElementDataSize(file_.id(), base_, zone_, section, &size));
     const std::int64_t elements = std::int64_t{last} - first + 1;
     if (first < 1 || elements < 1 || size < 0)
-      refuse("section " + std::string(name.data()) + " is said to hold the elements " + range_text(first, last));
+      refuse("section " + std::string(name.data()) + " is said to hold the elements " +
+             range_text(first, last));
     bars_.begin_section(name.data());
     std::vector<cgsize_t> data(static_cast<std::size_t>(size));
-    const std::int64_t found = type == MIXED ? read_mixed(section, data, first) : read_rows(section, type, data, first);
+    const std::int64_t found =
+        type == MIXED ? read_mixed(section, data, first) : read_rows(section, type, data, first);
     if (found == elements) return;
-    refuse("section " + std::string(name.data()) + " holds " + std::to_string(found) + " elements, where its range " + range_text(first, last) +
-           " is of " + std::to_string(elements));
+    refuse("section " + std::string(name.data()) + " holds " + std::to_string(found) +
+           " elements, where its range " + range_text(first, last) + " is of " + std::to_string(elements));
   }
 
-  static std::string range_text(cgsize_t first, cgsize_t last) { return std::to_string(first) + " to " + std::to_string(last); }
+  static std::string range_text(cgsize_t first, cgsize_t last) {
+    return std::to_string(first) + " to " + std::to_string(last);
+  }
 
   /// How many elements the section holds.
   std::int64_t read_rows(int section, int type, std::vector<cgsize_t>& data, std::int64_t element) {
     file_.check(cg_elements_read(file_.id(), base_, zone_, section, data.data(), nullptr));
     const std::size_t width = width_of(type);
-    for (std::size_t i = 0; i + width <= data.size(); i += width) add_element(type, element++, data.data() + i);
+    for (std::size_t i = 0; i + width <= data.size(); i += width)
+      add_element(type, element++, data.data() + i);
     return static_cast<std::int64_t>(data.size() / width);
   }
 
-  /// Each element is its type, then its nodes. Where each begins follows from that: the file's own offsets, of which the library does not tell how
-  /// many it is going to write, are left alone.
+  /// Each element is its type, then its nodes. Where each begins follows from that: the file's own offsets,
+  /// of which the library does not tell how many it is going to write, are left alone.
   std::int64_t read_mixed(int section, std::vector<cgsize_t>& data, std::int64_t element) {
     file_.check(cg_poly_elements_read(file_.id(), base_, zone_, section, data.data(), nullptr, nullptr));
     const std::int64_t first = element;
     for (std::size_t i = 0; i < data.size();) {
       const std::size_t width = width_of(data[i]);
-      if (width == 0 || i + width >= data.size()) refuse("a MIXED section holds an element that is no triangle, quad or bar");
+      if (width == 0 || i + width >= data.size())
+        refuse("a MIXED section holds an element that is no triangle, quad or bar");
       add_element(data[i], element++, data.data() + i + 1);
       i += width + 1;
     }
@@ -194,11 +208,13 @@ class ZoneReader {
     bars_.sort();
     file_.check(cg_nbocos(file_.id(), base_, zone_, &count));
     for (int boundary = 1; boundary <= count; ++boundary) read_boundary(boundary);
-    bars_.for_each_left(
-        [&](const std::string& section, const auto& edge) { boundaries_.named(loaded_.mesh, section, "none").edges.push_back(edge); });
+    bars_.for_each_left([&](const std::string& section, const auto& edge) {
+      boundaries_.named(loaded_.mesh, section, "none").edges.push_back(edge);
+    });
   }
 
-  /// A BC that names nodes instead of edges is passed over: its edges, if the file has them, come as a section.
+  /// A BC that names nodes instead of edges is passed over: its edges, if the file has them, come as a
+  /// section.
   void read_boundary(int boundary) {
     Name name{};
     BCType_t type = BCTypeNull;
@@ -207,7 +223,8 @@ class ZoneReader {
     std::array<int, 3> normal{};
     DataType_t normal_type = DataTypeNull;
     int datasets = 0;
-    file_.check(cg_boco_info(file_.id(), base_, zone_, boundary, name.data(), &type, &set, &count, normal.data(), &normals, &normal_type, &datasets));
+    file_.check(cg_boco_info(file_.id(), base_, zone_, boundary, name.data(), &type, &set, &count,
+                             normal.data(), &normals, &normal_type, &datasets));
     GridLocation_t location = Vertex;
     file_.check(cg_boco_gridlocation_read(file_.id(), base_, zone_, boundary, &location));
     const bool of_elements = set == ElementRange || set == ElementList || location != Vertex;
@@ -215,7 +232,8 @@ class ZoneReader {
     const bool is_range = set == PointRange || set == ElementRange;
     const std::string full = full_name(boundary, name.data());
     if (count < 0 || (is_range && count != 2)) {
-      refuse("boundary " + full + " has " + std::to_string(count) + " numbers where " + (is_range ? "a range has 2" : "a list is"));
+      refuse("boundary " + full + " has " + std::to_string(count) + " numbers where " +
+             (is_range ? "a range has 2" : "a list is"));
     }
     std::vector<cgsize_t> elements(static_cast<std::size_t>(count));
     file_.check(cg_boco_read(file_.id(), base_, zone_, boundary, elements.data(), nullptr));
@@ -225,14 +243,18 @@ class ZoneReader {
   }
 
   void take_range(cgsize_t first, cgsize_t last, BoundaryEdges& edges) {
-    if (last < first) refuse("boundary " + edges.name + " is of the elements " + range_text(first, last) + ", which is no range");
-    for (std::int64_t element = first; element <= last; ++element) take_bar(element, edges);  // ends at the first that is no bar
+    if (last < first)
+      refuse("boundary " + edges.name + " is of the elements " + range_text(first, last) +
+             ", which is no range");
+    for (std::int64_t element = first; element <= last; ++element)
+      take_bar(element, edges);  // ends at the first that is no bar
   }
 
   void take_bar(std::int64_t element, BoundaryEdges& edges) {
     const auto edge = bars_.take(element);
     if (!edge) {
-      refuse("boundary " + edges.name + " names element " + std::to_string(element) + ", which is no BAR_2 or belongs to another boundary");
+      refuse("boundary " + edges.name + " names element " + std::to_string(element) +
+             ", which is no BAR_2 or belongs to another boundary");
     }
     edges.edges.push_back(*edge);
   }
@@ -277,7 +299,8 @@ class ZoneReader {
     if (!loaded_.solution) loaded_.solution.emplace();
     Solution& result = *loaded_.solution;
     const auto width = static_cast<std::size_t>(fields);
-    if (first_node_ > 0 && result.names.size() != width) refuse("its solution has other variables than the first zone's");
+    if (first_node_ > 0 && result.names.size() != width)
+      refuse("its solution has other variables than the first zone's");
     result.values.resize((first_node_ + static_cast<std::size_t>(nodes_)) * width);
     std::vector<double> column(static_cast<std::size_t>(nodes_));
     for (int f = 1; f <= fields; ++f) {
@@ -285,9 +308,11 @@ class ZoneReader {
       DataType_t type = RealDouble;
       const cgsize_t first = 1;
       file_.check(cg_field_info(file_.id(), base_, zone_, solution, f, &type, name.data()));
-      file_.check(cg_field_read(file_.id(), base_, zone_, solution, name.data(), RealDouble, &first, &nodes_, column.data()));
+      file_.check(cg_field_read(file_.id(), base_, zone_, solution, name.data(), RealDouble, &first, &nodes_,
+                                column.data()));
       if (first_node_ == 0) result.names.push_back(variable_name_of_cgns(name.data()));
-      for (std::size_t i = 0; i < column.size(); ++i) result.values[(first_node_ + i) * width + static_cast<std::size_t>(f) - 1] = column[i];
+      for (std::size_t i = 0; i < column.size(); ++i)
+        result.values[(first_node_ + i) * width + static_cast<std::size_t>(f) - 1] = column[i];
     }
   }
 
@@ -307,7 +332,8 @@ LoadedMesh read_here(const std::string& path) {
   file.check(cg_nbases(file.id(), &bases));
   if (bases == 0) throw InputError(path + ": holds no CGNS base");
   file.check(cg_base_read(file.id(), 1, name.data(), &cell_dimension, &physical_dimension));
-  if (cell_dimension != 2) throw InputError(path + ": its cells are " + std::to_string(cell_dimension) + "D, not 2D");
+  if (cell_dimension != 2)
+    throw InputError(path + ": its cells are " + std::to_string(cell_dimension) + "D, not 2D");
   file.check(cg_nzones(file.id(), 1, &zones));
   LoadedMesh loaded;
   CgnsBoundaries boundaries;

@@ -4,11 +4,11 @@
 #include <optional>
 #include <span>
 
-#include "io/files/boundary_stream.hpp"
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_handle.hpp"
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_nodes.hpp"
+#include "io/files/boundary_stream.hpp"
 #include "io/files/row_stream.hpp"
 #include "mesher/base/error.hpp"
 
@@ -16,11 +16,13 @@ namespace quadloop {
 
 namespace {
 
-constexpr const char *base_name = "Base", *zone_name = "domain", *base_path = "/Base", *zone_path = "/Base/domain";
+constexpr const char *base_name = "Base", *zone_name = "domain", *base_path = "/Base",
+                     *zone_path = "/Base/domain";
 constexpr std::int64_t rows_per_piece = std::int64_t{1} << 18;  // at most 4 MB of nodes or of quads
 constexpr std::int64_t largest_size = std::numeric_limits<cgsize_t>::max();
 
-/// What stands on rank 0: the file, its one base and zone, and where the next piece of the array under way goes.
+/// What stands on rank 0: the file, its one base and zone, and where the next piece of the array under way
+/// goes.
 class CgnsSink {
  public:
   CgnsSink(const StagedFile& staged) : file_{open(staged)} {}
@@ -54,19 +56,22 @@ class CgnsSink {
     for (std::size_t k = 0; k < width; ++k) {
       for (std::size_t i = 0; i < count; ++i) column_[i] = rows[i * width + k];
       int field = 0;
-      file_->check(cg_field_partial_write(id(), base_, zone_, solution_, RealDouble, names[k].c_str(), &first, &last, column_.data(), &field));
+      file_->check(cg_field_partial_write(id(), base_, zone_, solution_, RealDouble, names[k].c_str(), &first,
+                                          &last, column_.data(), &field));
     }
   }
 
   void begin_section(const std::string& name, ElementType_t type, std::int64_t elements) {
     const auto last = static_cast<cgsize_t>(next_element_ + elements - 1);
-    file_->check(cg_section_partial_write(id(), base_, zone_, name.c_str(), type, next_element_, last, 0, &section_));
+    file_->check(
+        cg_section_partial_write(id(), base_, zone_, name.c_str(), type, next_element_, last, 0, &section_));
   }
 
   void put_elements(std::span<const cgsize_t> nodes, std::size_t width) {
     const cgsize_t first = next_element_;
     next_element_ += static_cast<cgsize_t>(nodes.size() / width);
-    file_->check(cg_elements_partial_write(id(), base_, zone_, section_, first, next_element_ - 1, nodes.data()));
+    file_->check(
+        cg_elements_partial_write(id(), base_, zone_, section_, first, next_element_ - 1, nodes.data()));
   }
 
   void close() { file_->close(); }
@@ -92,18 +97,21 @@ class CgnsSink {
     return next_row_ - 1;
   }
 
-  void put_coordinate(const char* name, std::span<const Point> points, double Point::*member, cgsize_t first, cgsize_t last) {
+  void put_coordinate(const char* name, std::span<const Point> points, double Point::*member, cgsize_t first,
+                      cgsize_t last) {
     column_.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) column_[i] = points[i].*member;
     int coordinate = 0;
-    file_->check(cg_coord_partial_write(id(), base_, zone_, RealDouble, name, &first, &last, column_.data(), &coordinate));
+    file_->check(cg_coord_partial_write(id(), base_, zone_, RealDouble, name, &first, &last, column_.data(),
+                                        &coordinate));
     if (first == 1) put_length_dimension(coordinate);
   }
 
   /// Mass, length, time, temperature, angle: the coordinates are lengths.
   void put_length_dimension(int coordinate) {
     const std::array<float, 5> exponents{0, 1, 0, 0, 0};
-    file_->check(cg_goto(id(), base_, "Zone_t", zone_, "GridCoordinates_t", 1, "DataArray_t", coordinate, "end"));
+    file_->check(
+        cg_goto(id(), base_, "Zone_t", zone_, "GridCoordinates_t", 1, "DataArray_t", coordinate, "end"));
     file_->check(cg_exponents_write(RealSingle, exponents.data()));
   }
 
@@ -113,13 +121,17 @@ class CgnsSink {
   std::vector<double> column_;
 };
 
-/// The boundaries, on rank 0, once the rest of the file is written: for each a section of bars, a family that says
-/// what it is, and a BC over the bars that points to the family: VTK and ParaView show a boundary only where its BC is given so, walls excepted.
+/// The boundaries, on rank 0, once the rest of the file is written: for each a section of bars, a family that
+/// says what it is, and a BC over the bars that points to the family: VTK and ParaView show a boundary only
+/// where its BC is given so, walls excepted.
 class BoundarySink {
  public:
   /// `first_element` is the number of the first bar.
   BoundarySink(const StagedFile& staged, std::int64_t first_element)
-      : nodes_{staged}, base_{nodes_.at(base_path)}, zone_{nodes_.at(zone_path)}, next_{static_cast<cgsize_t>(first_element)} {}
+      : nodes_{staged},
+        base_{nodes_.at(base_path)},
+        zone_{nodes_.at(zone_path)},
+        next_{static_cast<cgsize_t>(first_element)} {}
 
   void begin(const std::string& name, const BoundaryEdges& boundary, std::int64_t edges) {
     const std::array<cgsize_t, 2> range{next_, next_ + static_cast<cgsize_t>(edges) - 1};
@@ -144,21 +156,25 @@ class BoundarySink {
 
   void close() {
     bars_.reset();
-    for (CgnsNodes::Node* node : {&base_, &zone_, &conditions_}) *node = {};  // HDF5 keeps a file open as long as anything in it is
+    for (CgnsNodes::Node* node : {&base_, &zone_, &conditions_})
+      *node = {};  // HDF5 keeps a file open as long as anything in it is
     nodes_.close();
   }
 
  private:
-  void put_condition(const std::string& name, const BoundaryEdges& boundary, std::span<const cgsize_t, 2> range) {
+  void put_condition(const std::string& name, const BoundaryEdges& boundary,
+                     std::span<const cgsize_t, 2> range) {
     const std::string type = cg_BCTypeName(static_cast<BCType_t>(cgns_condition(boundary.condition)));
     const CgnsNodes::Node family = nodes_.add(base_, name, "Family_t");
     nodes_.add_text(family, "FamBC", "FamilyBC_t", type);
     if (!conditions_.valid()) conditions_ = nodes_.add(zone_, "ZoneBC", "ZoneBC_t");
-    const CgnsNodes::Node condition = nodes_.add_text(conditions_, name, "BC_t", cg_BCTypeName(FamilySpecified));
+    const CgnsNodes::Node condition =
+        nodes_.add_text(conditions_, name, "BC_t", cg_BCTypeName(FamilySpecified));
     nodes_.add_integers(condition, "PointRange", "IndexRange_t", range, 1);
     nodes_.add_text(condition, "GridLocation", "GridLocation_t", cg_GridLocationName(EdgeCenter));
     nodes_.add_text(condition, "FamilyName", "FamilyName_t", name);
-    if (name != boundary.name) nodes_.add_text(condition, full_name_descriptor, "Descriptor_t", boundary.name);
+    if (name != boundary.name)
+      nodes_.add_text(condition, full_name_descriptor, "Descriptor_t", boundary.name);
   }
 
   CgnsNodes nodes_;
@@ -170,8 +186,10 @@ class BoundarySink {
 /// The collective side: every rank hands its rows over, rank 0 alone has a sink.
 class CgnsWriter {
  public:
-  CgnsWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path) : comm_{outputs.communicator()}, mesh_{mesh}, boundaries_{comm_, mesh} {
-    counts_ = {comm_.sum(mesh.owned_nodes), comm_.sum(size_of(mesh.triangles)), comm_.sum(size_of(mesh.quads)), 0};
+  CgnsWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
+      : comm_{outputs.communicator()}, mesh_{mesh}, boundaries_{comm_, mesh} {
+    counts_ = {comm_.sum(mesh.owned_nodes), comm_.sum(size_of(mesh.triangles)),
+               comm_.sum(size_of(mesh.quads)), 0};
     refuse_too_large(path);
     staged_ = outputs.stage(path);
     on_root([&] {
@@ -184,7 +202,9 @@ class CgnsWriter {
     const RowStream nodes{comm_, mesh_.owned_nodes, rows_per_piece};
     on_root([&] { sink_->begin_rows(); });
     nodes.run<Point>(
-        [&](std::int64_t begin, std::int64_t end) { return std::vector<Point>(mesh_.points.begin() + begin, mesh_.points.begin() + end); },
+        [&](std::int64_t begin, std::int64_t end) {
+          return std::vector<Point>(mesh_.points.begin() + begin, mesh_.points.begin() + end);
+        },
         [&](std::span<const Point> points) { sink_->put_coordinates(points); });
     write_section("TRI_3", TRI_3, std::span(mesh_.triangles), counts_.triangles);
     write_section("QUAD_4", QUAD_4, std::span(mesh_.quads), counts_.quads);
@@ -222,7 +242,8 @@ class CgnsWriter {
     boundaries_.run(
         [&](std::size_t n) {
           const BoundaryEdges* const boundary = boundaries_.present()[n];
-          sink->begin(names[static_cast<std::size_t>(boundary - mesh_.boundaries.data())], *boundary, boundaries_.edges_of(n));
+          sink->begin(names[static_cast<std::size_t>(boundary - mesh_.boundaries.data())], *boundary,
+                      boundaries_.edges_of(n));
         },
         [&](std::span<const BoundaryStream::Edge> edges) { sink->put(edges); });
     on_root([&] { sink->close(); });
@@ -243,15 +264,18 @@ class CgnsWriter {
 
   void refuse_too_large(const std::string& path) const {
     const std::int64_t elements = counts_.triangles + counts_.quads + boundaries_.all_edges();
-    if (counts_.nodes <= largest_size && elements <= largest_size && 3 * counts_.triangles <= largest_size && 4 * counts_.quads <= largest_size) {
+    if (counts_.nodes <= largest_size && elements <= largest_size && 3 * counts_.triangles <= largest_size &&
+        4 * counts_.quads <= largest_size) {
       return;
     }
-    throw OutputError(path + ": " + std::to_string(counts_.nodes) + " nodes and " + std::to_string(elements) +
-                      " elements are more than this CGNS library can count (32-bit sizes); write a .mesh file instead");
+    throw OutputError(
+        path + ": " + std::to_string(counts_.nodes) + " nodes and " + std::to_string(elements) +
+        " elements are more than this CGNS library can count (32-bit sizes); write a .mesh file instead");
   }
 
   template <std::size_t width>
-  void write_section(const std::string& name, ElementType_t type, std::span<const std::array<NodeId, width>> rows, std::int64_t all_rows) {
+  void write_section(const std::string& name, ElementType_t type,
+                     std::span<const std::array<NodeId, width>> rows, std::int64_t all_rows) {
     if (all_rows == 0) return;
     on_root([&] { sink_->begin_section(name, type, all_rows); });
     const RowStream stream{comm_, static_cast<std::int64_t>(rows.size()), rows_per_piece};
@@ -259,7 +283,8 @@ class CgnsWriter {
         [&](std::int64_t begin, std::int64_t end) {
           std::vector<cgsize_t> nodes(static_cast<std::size_t>(end - begin) * width);
           auto out = nodes.begin();
-          for (const auto& row : rows.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin))) {
+          for (const auto& row :
+               rows.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin))) {
             for (const NodeId node : row) *out++ = static_cast<cgsize_t>(mesh_.global(node).value() + 1);
           }
           return nodes;
@@ -290,7 +315,8 @@ void write_cgns(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
   writer.write_boundaries();
 }
 
-void write_cgns(const Communicator& comm, const Mesh& mesh, const std::string& path, const Solution* solution) {
+void write_cgns(const Communicator& comm, const Mesh& mesh, const std::string& path,
+                const Solution* solution) {
   OutputSet outputs(comm);
   write_cgns(outputs, mesh, path, solution);
   outputs.commit();

@@ -8,7 +8,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::int64_t edges_per_piece = std::int64_t{1} << 12;  // 64 KB; rank 0 holds at most one piece of each rank
+constexpr std::int64_t edges_per_piece = std::int64_t{1}
+                                         << 12;  // 64 KB; rank 0 holds at most one piece of each rank
 
 }  // namespace
 
@@ -21,7 +22,8 @@ BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh) : com
     if (count > 0) own.push_back({static_cast<std::int64_t>(b), comm.rank(), count});
   }
   std::vector<Share> all = comm.all_gather_values(std::span<const Share>(own));
-  std::stable_sort(all.begin(), all.end(), [](const Share& a, const Share& b) { return a.boundary < b.boundary; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Share& a, const Share& b) { return a.boundary < b.boundary; });
   std::int64_t boundary = -1;
   for (const Share& share : all) {
     if (share.boundary != boundary) {
@@ -46,7 +48,8 @@ void BoundaryStream::ask_for_next(int rank, Incoming& from) const {
   from.asked_for = std::min(from.all, first + edges_per_piece);
   from.piece = rank == 0 ? own_piece(first) : detail::from_bytes<Edge>(comm_.receive_bytes(rank));
   from.taken = 0;
-  QUADLOOP_REQUIRE(static_cast<std::int64_t>(from.piece.size()) == from.asked_for - first, "a piece of boundary edges is not what was announced");
+  QUADLOOP_REQUIRE(static_cast<std::int64_t>(from.piece.size()) == from.asked_for - first,
+                   "a piece of boundary edges is not what was announced");
 }
 
 void BoundaryStream::receive_rest(int rank, Incoming& from) const {
@@ -73,7 +76,9 @@ std::vector<BoundaryStream::Edge> BoundaryStream::own_piece(std::int64_t first) 
   const std::int64_t end = std::min(own_before_.back(), first + edges_per_piece);
   std::vector<Edge> piece;
   piece.reserve(static_cast<std::size_t>(end - first));
-  auto b = static_cast<std::size_t>(std::upper_bound(own_before_.begin(), own_before_.end(), first) - own_before_.begin()) - 1;
+  auto b = static_cast<std::size_t>(std::upper_bound(own_before_.begin(), own_before_.end(), first) -
+                                    own_before_.begin()) -
+           1;
   for (std::int64_t at = first; at < end; ++b) {
     const std::int64_t stop = std::min(end, own_before_[b + 1]);
     for (; at < stop; ++at) {

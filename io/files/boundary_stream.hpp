@@ -12,8 +12,9 @@
 
 namespace quadloop {
 
-/// The edges of all boundaries as they pass through rank 0: boundary after boundary, of each first rank 0's, then rank 1's, and so on. What ranks
-/// say to each other does not grow with the number of boundaries: counts go round once, edges come in pieces that span boundaries.
+/// The edges of all boundaries as they pass through rank 0: boundary after boundary, of each first rank 0's,
+/// then rank 1's, and so on. What ranks say to each other does not grow with the number of boundaries: counts
+/// go round once, edges come in pieces that span boundaries.
 class BoundaryStream {
  public:
   using Edge = std::array<std::int64_t, 2>;  ///< global numbers of its nodes, from 0
@@ -26,8 +27,9 @@ class BoundaryStream {
   const std::vector<const BoundaryEdges*>& present() const { return present_; }
   std::int64_t edges_of(std::size_t place) const { return edges_[place]; }
 
-  /// On rank 0, for each boundary that has edges, `begin(n)` with its place in present(), then `put(std::span<const Edge>)` for each piece of it.
-  /// *Collective*; what either throws ends on every rank, and nobody hangs.
+  /// On rank 0, for each boundary that has edges, `begin(n)` with its place in present(), then
+  /// `put(std::span<const Edge>)` for each piece of it. *Collective*; what either throws ends on every rank,
+  /// and nobody hangs.
   template <class Begin, class Put>
   void run(const Begin& begin, const Put& put) const {
     comm_.together([&] {
@@ -67,7 +69,8 @@ class BoundaryStream {
     } catch (...) {
       failure = std::current_exception();
     }
-    for (std::size_t rank = 0; rank < incoming.size(); ++rank) receive_rest(static_cast<int>(rank), incoming[rank]);
+    for (std::size_t rank = 0; rank < incoming.size(); ++rank)
+      receive_rest(static_cast<int>(rank), incoming[rank]);
     if (failure) std::rethrow_exception(failure);
   }
 
@@ -91,9 +94,10 @@ class BoundaryStream {
   const Communicator& comm_;
   const Mesh& mesh_;
   std::vector<const BoundaryEdges*> present_;
-  std::vector<std::int64_t> edges_;       ///< of each of them, over all ranks
-  std::vector<std::int64_t> own_before_;  ///< this rank's edges of the boundaries before each; the last entry is all of them
-  std::vector<Share> shares_;             ///< on rank 0: by boundary, then rank
+  std::vector<std::int64_t> edges_;  ///< of each of them, over all ranks
+  std::vector<std::int64_t>
+      own_before_;  ///< this rank's edges of the boundaries before each; the last entry is all of them
+  std::vector<Share> shares_;  ///< on rank 0: by boundary, then rank
   std::int64_t all_edges_ = 0;
 };
 

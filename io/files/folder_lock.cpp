@@ -18,13 +18,15 @@ constexpr mode_t lockable_by_all = 0666;  // less the user's umask
 int open_lock_file(const std::string& file) {
   constexpr int flags = O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
   const int descriptor = ::open(file.c_str(), O_RDWR | flags, lockable_by_all);
-  return descriptor >= 0 || errno != EACCES ? descriptor : ::open(file.c_str(), O_RDONLY | flags, lockable_by_all);
+  return descriptor >= 0 || errno != EACCES ? descriptor
+                                            : ::open(file.c_str(), O_RDONLY | flags, lockable_by_all);
 }
 
 /// The one who held the lock before has removed the file, or it is another one by now.
 bool is_still_there(const std::string& file, int descriptor) {
   struct stat mine = {}, there = {};
-  return ::fstat(descriptor, &mine) == 0 && ::lstat(file.c_str(), &there) == 0 && mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
+  return ::fstat(descriptor, &mine) == 0 && ::lstat(file.c_str(), &there) == 0 &&
+         mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
 }
 
 }  // namespace
@@ -47,6 +49,7 @@ FolderLock::~FolderLock() {
   ::close(descriptor_);
 }
 
-FolderLock::FolderLock(FolderLock&& other) noexcept : file_{std::move(other.file_)}, descriptor_{std::exchange(other.descriptor_, -1)} {}
+FolderLock::FolderLock(FolderLock&& other) noexcept
+    : file_{std::move(other.file_)}, descriptor_{std::exchange(other.descriptor_, -1)} {}
 
 }  // namespace quadloop

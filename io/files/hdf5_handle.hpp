@@ -1,6 +1,7 @@
 #pragma once
 
-// Inside io/ only: the one header that names the HDF5 library. Ids never leave the sources of the tree file and of cgns_nodes; libcgns keeps its own.
+// Inside io/ only: the one header that names the HDF5 library. Ids never leave the sources of the tree file
+// and of cgns_nodes; libcgns keeps its own.
 #include <hdf5.h>
 
 #include <array>
@@ -45,8 +46,9 @@ class Hdf5Handle {
   Release release_ = nullptr;
 };
 
-/// Keeps HDF5 from printing its own account of errors, which becomes one line of ours, and from touching files again when the process ends: after a
-/// write that failed it would crash there. To be made before HDF5 is used in any other way.
+/// Keeps HDF5 from printing its own account of errors, which becomes one line of ours, and from touching
+/// files again when the process ends: after a write that failed it would crash there. To be made before HDF5
+/// is used in any other way.
 class QuietHdf5 {
  public:
   QuietHdf5() {
@@ -67,13 +69,16 @@ class QuietHdf5 {
 
  private:
   /// Called by HDF5 for each of its calls that fails, with the account of what led to it.
-  static herr_t note(hid_t account, void* self) { return H5Ewalk2(account, H5E_WALK_UPWARD, &QuietHdf5::read_entry, self); }
+  static herr_t note(hid_t account, void* self) {
+    return H5Ewalk2(account, H5E_WALK_UPWARD, &QuietHdf5::read_entry, self);
+  }
   static herr_t read_entry(unsigned, const H5E_error2_t* entry, void* self) {
     constexpr std::string_view label = "errno = ";
     const std::string_view text = entry->desc == nullptr ? "" : entry->desc;
     const std::size_t at = text.find(label);
     int& reason = static_cast<QuietHdf5*>(self)->reason_;
-    if (reason == 0 && at != std::string_view::npos) std::from_chars(text.data() + at + label.size(), text.data() + text.size(), reason);
+    if (reason == 0 && at != std::string_view::npos)
+      std::from_chars(text.data() + at + label.size(), text.data() + text.size(), reason);
     return 0;
   }
 

@@ -40,7 +40,8 @@ class Descriptor {
     for (;;) {
       const ssize_t got = ::read(number_, into, size);
       if (got >= 0) return static_cast<std::size_t>(got);
-      if (errno != EINTR) throw InputError(path + ": cannot be read to its end (" + std::strerror(errno) + ")");
+      if (errno != EINTR)
+        throw InputError(path + ": cannot be read to its end (" + std::strerror(errno) + ")");
     }
   }
 
@@ -54,8 +55,10 @@ struct stat require_readable_kind(const std::string& path, bool pipes) {
   if (::stat(path.c_str(), &found) != 0) refuse_opening(path, errno);
   if (S_ISDIR(found.st_mode)) throw InputError(path + ": is a folder; name a file in it");
   if (S_ISFIFO(found.st_mode) && !pipes)
-    throw InputError(path + ": is a pipe, which cannot be read here; save what it gives as a file and name that");
-  if (!S_ISREG(found.st_mode) && !S_ISFIFO(found.st_mode)) throw InputError(path + ": is a device, not a file; name a file");
+    throw InputError(path +
+                     ": is a pipe, which cannot be read here; save what it gives as a file and name that");
+  if (!S_ISREG(found.st_mode) && !S_ISFIFO(found.st_mode))
+    throw InputError(path + ": is a device, not a file; name a file");
   return found;
 }
 
@@ -77,7 +80,9 @@ std::string read_pipe(const std::string& path) {
   std::string text;
   for (std::size_t got = 1; got > 0;) {
     const std::size_t used = text.size();
-    if (used > most_of_a_pipe) throw InputError(path + ": a pipe that gives more than 256 MB; save what it gives as a file and name that");
+    if (used > most_of_a_pipe)
+      throw InputError(path +
+                       ": a pipe that gives more than 256 MB; save what it gives as a file and name that");
     text.resize(used + piece);
     got = pipe.read(text.data() + used, piece, path);
     text.resize(used + got);
@@ -98,7 +103,8 @@ std::string read_input(const std::string& path) {
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
   }
-  throw InputError(path + ": has " + std::to_string(size) + " bytes, more than there is memory for; use a machine with more");
+  throw InputError(path + ": has " + std::to_string(size) +
+                   " bytes, more than there is memory for; use a machine with more");
 }
 
 void allow_piped_input(bool allowed) { pipes_allowed = allowed; }

@@ -43,7 +43,8 @@ bool is_crash(int number) {
 void remove_registered_temporaries() {
   using Entry = Temporary::Entry;
   for (const auto remove : {&::unlink, &::rmdir}) {
-    for (auto* entry = static_cast<Entry*>(newest_entry.load()); entry != nullptr; entry = entry->next) remove(entry->path.c_str());
+    for (auto* entry = static_cast<Entry*>(newest_entry.load()); entry != nullptr; entry = entry->next)
+      remove(entry->path.c_str());
   }
 }
 

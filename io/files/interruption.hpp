@@ -4,9 +4,10 @@
 
 namespace quadloop {
 
-/// Once, at the start of a program, after MPI_Init: from here on a signal that ends this process (an interrupt, a termination, a crash), and exit(),
-/// first remove the temporaries below; the process then ends as it would have. Signals that are ignored stay so. A file that grows beyond the limit
-/// of files' sizes is an error of the write, not a signal. The calling thread is the one that works with temporaries.
+/// Once, at the start of a program, after MPI_Init: from here on a signal that ends this process (an
+/// interrupt, a termination, a crash), and exit(), first remove the temporaries below; the process then ends
+/// as it would have. Signals that are ignored stay so. A file that grows beyond the limit of files' sizes is
+/// an error of the write, not a signal. The calling thread is the one that works with temporaries.
 void remove_temporaries_when_killed();
 
 /// A file, or an empty folder, that goes when the process is killed by a signal. Named before it is made.

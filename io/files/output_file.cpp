@@ -22,7 +22,8 @@ namespace quadloop {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto patience = std::chrono::seconds(60);  // with another run that gives its files their names, which takes milliseconds
+constexpr auto patience =
+    std::chrono::seconds(60);  // with another run that gives its files their names, which takes milliseconds
 constexpr auto between_attempts = std::chrono::milliseconds(5);
 
 int open_for_appending(const StagedFile& file) {
@@ -37,8 +38,8 @@ FolderId id_of(const std::string& folder, const std::string& shown) {
   return {found.st_dev, found.st_ino};
 }
 
-/// Gives files their names, one after another. Ended before all have theirs, it puts back what stood there before, where the file system can keep
-/// that (as hard links).
+/// Gives files their names, one after another. Ended before all have theirs, it puts back what stood there
+/// before, where the file system can keep that (as hard links).
 class Renaming {
  public:
   Renaming() = default;
@@ -75,7 +76,8 @@ class Renaming {
 };
 
 /// Of all folders, in one order for every run; nothing where another run holds one of them.
-std::optional<std::vector<FolderLock>> lock_all(const std::map<FolderId, std::unique_ptr<StagingFolder>>& staging) {
+std::optional<std::vector<FolderLock>> lock_all(
+    const std::map<FolderId, std::unique_ptr<StagingFolder>>& staging) {
   std::vector<FolderLock> locks;
   for (const auto& [id, folder] : staging) {
     std::optional<FolderLock> lock = FolderLock::attempt(folder->parent());
@@ -100,7 +102,8 @@ StagedFile OutputSet::stage(const std::string& path) {
     if (!comm_.is_root()) return;
     const std::string target = output_target(path);
     for (const Output& other : outputs_) {
-      if (other.target == target) throw OutputError(path + ": two outputs are to be written to this file; name another one");
+      if (other.target == target)
+        throw OutputError(path + ": two outputs are to be written to this file; name another one");
     }
     file.temporary = staging_beside(target, path).new_file(path);
     outputs_.push_back({file, target});
@@ -116,7 +119,8 @@ void OutputSet::commit() {
 }
 
 void OutputSet::put_in_place() {
-  for (const auto deadline = Clock::now() + patience; Clock::now() < deadline; std::this_thread::sleep_for(between_attempts)) {
+  for (const auto deadline = Clock::now() + patience; Clock::now() < deadline;
+       std::this_thread::sleep_for(between_attempts)) {
     const SignalsWait until_whole;
     const auto locks = lock_all(staging_);
     if (!locks) continue;
@@ -127,11 +131,13 @@ void OutputSet::put_in_place() {
     staging_.clear();
     return;
   }
-  throw OutputError(fmt::format("{}: another run has been writing in its folder for {} s; try again when that has ended",
-                                outputs_.front().staged.path, patience.count()));
+  throw OutputError(
+      fmt::format("{}: another run has been writing in its folder for {} s; try again when that has ended",
+                  outputs_.front().staged.path, patience.count()));
 }
 
-OutputFile::OutputFile(StagedFile staged) : staged_{std::move(staged)}, descriptor_{open_for_appending(staged_)} {}
+OutputFile::OutputFile(StagedFile staged)
+    : staged_{std::move(staged)}, descriptor_{open_for_appending(staged_)} {}
 
 OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);

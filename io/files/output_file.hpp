@@ -11,15 +11,16 @@
 
 namespace quadloop {
 
-/// An output on its way: written under `temporary` until the set it belongs to is committed. `temporary` is known on rank 0 only.
+/// An output on its way: written under `temporary` until the set it belongs to is committed. `temporary` is
+/// known on rank 0 only.
 struct StagedFile {
   std::string path;
   std::string temporary;
 };
 
-/// The outputs of one command: all of them appear whole, under their own names, or none does; of two runs with the same names at the same time one
-/// has all its files stand. A link is followed: its target is replaced. Rank 0 alone touches the disk; what fails there is the same OutputError on
-/// every rank.
+/// The outputs of one command: all of them appear whole, under their own names, or none does; of two runs
+/// with the same names at the same time one has all its files stand. A link is followed: its target is
+/// replaced. Rank 0 alone touches the disk; what fails there is the same OutputError on every rank.
 class OutputSet {
  public:
   /// `comm` must outlive the set. Not collective.
@@ -31,7 +32,8 @@ class OutputSet {
 
   const Communicator& communicator() const { return comm_; }
 
-  /// Opens the temporary, empty, so that an output which cannot be written is refused before work goes into it. *Collective.*
+  /// Opens the temporary, empty, so that an output which cannot be written is refused before work goes into
+  /// it. *Collective.*
   StagedFile stage(const std::string& path);
 
   /// Brings all outputs to the disk, then gives them their names. *Collective.*
@@ -51,7 +53,8 @@ class OutputSet {
   std::map<FolderId, std::unique_ptr<StagingFolder>> staging_;
 };
 
-/// Appends text to a staged file; on rank 0 only. Every failure, a full disk too, is an OutputError that names the output.
+/// Appends text to a staged file; on rank 0 only. Every failure, a full disk too, is an OutputError that
+/// names the output.
 class OutputFile {
  public:
   explicit OutputFile(StagedFile staged);

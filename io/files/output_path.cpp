@@ -40,8 +40,8 @@ std::string cure_of(int reason) {
 /// A stream of the process, which a rename would not reach although it may be a file.
 bool is_stream(const std::string& path) {
   const std::string normal = std::filesystem::path(path).lexically_normal().string();
-  return normal == "/dev/stdout" || normal == "/dev/stderr" || normal == "/dev/stdin" || normal.starts_with("/dev/fd/") ||
-         normal.starts_with("/proc/");
+  return normal == "/dev/stdout" || normal == "/dev/stderr" || normal == "/dev/stdin" ||
+         normal.starts_with("/dev/fd/") || normal.starts_with("/proc/");
 }
 
 /// What stands at the path can be replaced by a file, or there is nothing.
@@ -62,8 +62,10 @@ void require_folder(const std::string& folder, const std::string& shown) {
   const bool there = ::stat(folder.c_str(), &found) == 0;
   if (!there && errno != ENOENT && errno != ENOTDIR) refuse_output(shown, errno);
   if (!there || !S_ISDIR(found.st_mode))
-    throw OutputError(shown + ": cannot be written: the folder '" + folder + "' does not exist; create it first");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw OutputError(shown + ": cannot be written: you may not write to the folder '" + folder + "'");
+    throw OutputError(shown + ": cannot be written: the folder '" + folder +
+                      "' does not exist; create it first");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw OutputError(shown + ": cannot be written: you may not write to the folder '" + folder + "'");
 }
 
 /// A link to a file that is not there yet is followed too, as a shell does.
@@ -104,7 +106,8 @@ void bring_to_disk(const std::string& path, const std::string& shown) {
   if (descriptor < 0) refuse_output(shown, errno);
   const int reason = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
-  const bool unknown_here = reason == EINVAL || reason == EBADF || reason == ENOSYS || reason == ENOTSUP;  // to the file system
+  const bool unknown_here =
+      reason == EINVAL || reason == EBADF || reason == ENOSYS || reason == ENOTSUP;  // to the file system
   if (reason != 0 && !unknown_here) refuse_output(shown, reason);
 }
 

@@ -12,7 +12,8 @@
 
 namespace quadloop {
 
-/// Rows that are spread over the ranks, as they pass through rank 0 in pieces: all of rank 0's, then all of rank 1's, and so on.
+/// Rows that are spread over the ranks, as they pass through rank 0 in pieces: all of rank 0's, then all of
+/// rank 1's, and so on.
 struct RowStream {
   const Communicator& comm;
   std::int64_t rows = 0;            ///< of this rank
@@ -23,8 +24,9 @@ struct RowStream {
   std::int64_t pieces() const { return (rows + rows_per_piece - 1) / rows_per_piece; }
   std::int64_t begin_of(std::int64_t piece) const { return std::min(rows, piece * rows_per_piece); }
 
-  /// `make(begin, end)` gives a std::vector<T> for the rank's own rows begin .. end-1 (its length is free); `consume` gets a
-  /// std::span<const T> for each piece, on rank 0 only. *Collective*; what either throws ends on every rank, and nobody hangs.
+  /// `make(begin, end)` gives a std::vector<T> for the rank's own rows begin .. end-1 (its length is free);
+  /// `consume` gets a std::span<const T> for each piece, on rank 0 only. *Collective*; what either throws
+  /// ends on every rank, and nobody hangs.
   template <class T, class Make, class Consume>
   void run(const Make& make, const Consume& consume) const {
     const std::vector<std::int64_t> pieces_of_rank = comm.all_gather(pieces());
@@ -40,9 +42,13 @@ struct RowStream {
  private:
   /// After a failure the other ranks' pieces are still received, else those ranks would wait for ever.
   template <class T, class Make, class Consume>
-  void take_all(const std::vector<std::int64_t>& pieces_of_rank, const Make& make, const Consume& consume) const {
+  void take_all(const std::vector<std::int64_t>& pieces_of_rank, const Make& make,
+                const Consume& consume) const {
     std::exception_ptr failure;
-    progress::Stage stage("writing", static_cast<double>(std::accumulate(pieces_of_rank.begin(), pieces_of_rank.end(), std::int64_t{0})), "pieces");
+    progress::Stage stage(
+        "writing",
+        static_cast<double>(std::accumulate(pieces_of_rank.begin(), pieces_of_rank.end(), std::int64_t{0})),
+        "pieces");
     double pieces_done = 0;
     const auto attempt = [&](const auto& action) {
       try {

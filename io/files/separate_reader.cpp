@@ -17,8 +17,8 @@
 #include <new>
 #include <optional>
 
-#include "mesher/base/error.hpp"
 #include "io/files/input_file.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -27,13 +27,16 @@ namespace {
 constexpr const char* cure = "; take it from a copy, or write it anew";
 constexpr int too_much_memory = -1;  // sent in place of an exit status
 
-/// What reading a file may cost: generous for every whole one, also for thousands of boundaries (20 s for 100 MB) and packed arrays.
+/// What reading a file may cost: generous for every whole one, also for thousands of boundaries (20 s for 100
+/// MB) and packed arrays.
 struct Allowance {
   rlim_t seconds;  ///< of the processor; ten times as much by the clock
   rlim_t bytes;
 };
 
-Allowance allowance_for(rlim_t file_size) { return {5 + file_size / (rlim_t{1} << 19), (rlim_t{1} << 28) + 64 * file_size}; }
+Allowance allowance_for(rlim_t file_size) {
+  return {5 + file_size / (rlim_t{1} << 19), (rlim_t{1} << 28) + 64 * file_size};
+}
 
 rlim_t size_of_file(const std::string& path) {
   require_input_file(path);
@@ -57,11 +60,14 @@ void limit(int what, rlim_t value) {
 
 /// Crashes end the child and nothing else, in silence: handlers and outputs are the parent's.
 void become_separate(const Allowance& allowance) {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGALRM, SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGALRM, SIGINT, SIGTERM})
+    ::signal(signal, SIG_DFL);
   ::signal(SIGPIPE, SIG_IGN);
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, descriptor);
-  std::atexit([] { ::_exit(EXIT_FAILURE); });  // libcgns calls exit() where memory runs out; what MPI and others left for the end is not the child's
+  std::atexit([] {
+    ::_exit(EXIT_FAILURE);
+  });  // libcgns calls exit() where memory runs out; what MPI and others left for the end is not the child's
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, allowance.seconds);
   ::alarm(static_cast<unsigned>(10 * allowance.seconds));
@@ -73,7 +79,8 @@ void send_error(PipeWriter& pipe, int status, std::string message) {
   pass(pipe, message);
 }
 
-[[noreturn]] void run_child(int descriptor, const Allowance& allowance, const std::function<void(PipeWriter&)>& produce) {
+[[noreturn]] void run_child(int descriptor, const Allowance& allowance,
+                            const std::function<void(PipeWriter&)>& produce) {
   become_separate(allowance);
   PipeWriter pipe(descriptor);
   try {
@@ -115,23 +122,27 @@ class Child {
 [[noreturn]] void refuse_ending(const std::string& path, int wait_status, const Allowance& allowance) {
   const int signal = WIFSIGNALED(wait_status) ? WTERMSIG(wait_status) : 0;
   if (signal == SIGXCPU || signal == SIGKILL || signal == SIGALRM) {
-    throw InputError(fmt::format("{}: is damaged: reading it came to no end within {} seconds{}", path, allowance.seconds, cure));
+    throw InputError(fmt::format("{}: is damaged: reading it came to no end within {} seconds{}", path,
+                                 allowance.seconds, cure));
   }
   const std::string how = signal != 0 ? fmt::format("crashed ({})", ::strsignal(signal)) : "gave up";
   throw InputError(fmt::format("{}: is damaged: the library that reads it {}{}", path, how, cure));
 }
 
-[[noreturn]] void rethrow(const std::string& path, int status, const std::string& message, const Allowance& allowance) {
+[[noreturn]] void rethrow(const std::string& path, int status, const std::string& message,
+                          const Allowance& allowance) {
   if (status == too_much_memory) {
-    throw InputError(fmt::format("{}: is damaged: reading it takes more than {} MB of memory, which its size does not explain{}", path,
-                                 allowance.bytes >> 20, cure));
+    throw InputError(fmt::format(
+        "{}: is damaged: reading it takes more than {} MB of memory, which its size does not explain{}", path,
+        allowance.bytes >> 20, cure));
   }
   if (status == static_cast<int>(ExitStatus::bad_input)) throw InputError(message);
   throw Error(static_cast<ExitStatus>(status), message);
 }
 
 /// What the child has to say, up to its end.
-void take(PipeReader& pipe, const std::string& path, const Allowance& allowance, const std::function<void(PipeReader&)>& receive) {
+void take(PipeReader& pipe, const std::string& path, const Allowance& allowance,
+          const std::function<void(PipeReader&)>& receive) {
   int status = 0;
   pass(pipe, status);
   if (status == 0) {
@@ -147,10 +158,12 @@ void take(PipeReader& pipe, const std::string& path, const Allowance& allowance,
 
 namespace detail {
 
-void run_separately(const std::string& path, const std::function<void(PipeWriter&)>& produce, const std::function<void(PipeReader&)>& receive) {
+void run_separately(const std::string& path, const std::function<void(PipeWriter&)>& produce,
+                    const std::function<void(PipeReader&)>& receive) {
   const Allowance allowance = allowance_for(size_of_file(path));
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw InputError(path + ": cannot be read: no pipe: " + std::strerror(errno));
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw InputError(path + ": cannot be read: no pipe: " + std::strerror(errno));
   const pid_t id = ::fork();
   if (id == 0) {
     ::close(ends[0]);

@@ -25,7 +25,8 @@ constexpr mode_t mine_alone = 0700;
 constexpr mode_t readable_by_all = 0666;  // less the user's umask
 constexpr const char* ending = ".part";
 
-/// How the names of this machine's folders begin: whether a lock on a folder is still held, its own kernel alone is sure to know.
+/// How the names of this machine's folders begin: whether a lock on a folder is still held, its own kernel
+/// alone is sure to know.
 std::string beginning() {
   std::array<char, 65> host = {};
   if (::gethostname(host.data(), host.size() - 1) != 0) host = {};
@@ -34,11 +35,14 @@ std::string beginning() {
 
 std::string random_letters() {
   std::uint64_t number = 0;
-  if (::getrandom(&number, sizeof number, 0) != static_cast<ssize_t>(sizeof number)) number = static_cast<std::uint64_t>(::getpid());
+  if (::getrandom(&number, sizeof number, 0) != static_cast<ssize_t>(sizeof number))
+    number = static_cast<std::uint64_t>(::getpid());
   return fmt::format("{:016x}", number);
 }
 
-int open_folder(const std::string& path) { return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC); }
+int open_folder(const std::string& path) {
+  return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
 
 /// Removes the folder of a run that was killed; that of a living run is locked.
 void remove_if_forsaken(const fs::path& folder) {
@@ -52,7 +56,8 @@ void remove_if_forsaken(const fs::path& folder) {
 void remove_forsaken(const std::string& parent) {
   std::error_code ignored;
   const std::string begin = beginning();
-  for (fs::directory_iterator entry(parent, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
+  for (fs::directory_iterator entry(parent, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
     const std::string name = entry->path().filename();
     if (name.starts_with(begin) && name.ends_with(ending)) remove_if_forsaken(entry->path());
   }
@@ -83,7 +88,8 @@ void StagingFolder::make(const std::string& shown) {
   refuse_output(shown, reason);
 }
 
-/// False where another run has taken the folder. Without locks (some file systems of networks) it is nobody's but ours all the same.
+/// False where another run has taken the folder. Without locks (some file systems of networks) it is nobody's
+/// but ours all the same.
 bool StagingFolder::lock() {
   if (lock_ >= 0) ::close(lock_);
   lock_ = open_folder(folder_->path());
@@ -96,7 +102,8 @@ bool StagingFolder::lock() {
 std::string StagingFolder::new_file(const std::string& shown) {
   files_.emplace_back(fmt::format("{}/{}", folder_->path(), files_.size()));
   const std::string path = files_.back().path();
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, readable_by_all);
+  const int descriptor =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, readable_by_all);
   if (descriptor < 0) refuse_output(shown, errno);
   if (::close(descriptor) != 0) refuse_output(shown, errno);
   return path;

@@ -89,8 +89,8 @@ void pass_list(Pipe& pipe, List& list) {
   }
 }
 
-/// Puts a value into a PipeWriter, or takes it, empty until then, from a PipeReader. A type of several fields has an overload of `pass_fields` beside
-/// it.
+/// Puts a value into a PipeWriter, or takes it, empty until then, from a PipeReader. A type of several fields
+/// has an overload of `pass_fields` beside it.
 template <class Pipe, class T>
 void pass(Pipe& pipe, T& value) {
   if constexpr (detail::IsOptional<T>::value) {

@@ -17,7 +17,8 @@ void sort_by_block(Cells& cells, std::vector<std::int32_t>& cell_to_block) {
   if (std::is_sorted(cell_to_block.begin(), cell_to_block.end())) return;
   std::vector<std::size_t> order(cells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cell_to_block[a] < cell_to_block[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cell_to_block[a] < cell_to_block[b]; });
   Cells sorted;
   sorted.reserve(cells.size());
   for (const std::size_t cell : order) sorted.push_back(cells[cell]);
@@ -36,7 +37,8 @@ std::vector<char> repeated(const std::vector<Row>& rows, const NodesOf& nodes_of
   }
   std::sort(keys.begin(), keys.end());
   std::vector<char> marks(rows.size(), 0);
-  for (std::size_t k = 1; k < keys.size(); ++k) marks[keys[k].second] = keys[k].first == keys[k - 1].first ? 1 : 0;
+  for (std::size_t k = 1; k < keys.size(); ++k)
+    marks[keys[k].second] = keys[k].first == keys[k - 1].first ? 1 : 0;
   return marks;
 }
 
@@ -87,7 +89,8 @@ void drop_empty_blocks(LoadedMesh& loaded) {
   const Mesh& mesh = foreign.loaded.mesh;
   const Point a = mesh.point(edge.nodes[0]), b = mesh.point(edge.nodes[1]);
   const std::string& name = mesh.boundaries[static_cast<std::size_t>(edge.boundary)].name;
-  scan.refuse_at(edge.place, fmt::format("an edge of boundary {}, from ({}, {}) to ({}, {}), belongs to no cell; take it out of the boundary, "
+  scan.refuse_at(edge.place, fmt::format("an edge of boundary {}, from ({}, {}) to ({}, {}), belongs to no "
+                                         "cell; take it out of the boundary, "
                                          "or mesh the surface beside it",
                                          name, a.x, a.y, b.x, b.y));
 }
@@ -137,17 +140,22 @@ std::int32_t ForeignMesh::block_named(const std::string& name) {
 
 void drop_repeated(ForeignMesh& foreign, const std::string& path) {
   LoadedMesh& loaded = foreign.loaded;
-  const std::int64_t dropped = drop_repeated_cells(loaded.mesh.triangles, loaded.triangle_to_block) +
-                               drop_repeated_cells(loaded.mesh.quads, loaded.quad_to_block) +
-                               drop(foreign.edges, repeated(foreign.edges, [](const ForeignEdge& edge) { return edge.nodes; }));
-  if (dropped > 0) loaded.warnings.push_back(fmt::format("{}: {} elements stand there more than once; the first of each was taken", path, dropped));
+  const std::int64_t dropped =
+      drop_repeated_cells(loaded.mesh.triangles, loaded.triangle_to_block) +
+      drop_repeated_cells(loaded.mesh.quads, loaded.quad_to_block) +
+      drop(foreign.edges, repeated(foreign.edges, [](const ForeignEdge& edge) { return edge.nodes; }));
+  if (dropped > 0)
+    loaded.warnings.push_back(fmt::format(
+        "{}: {} elements stand there more than once; the first of each was taken", path, dropped));
 }
 
 void drop_unused_nodes(ForeignMesh& foreign, const std::string& path) {
   Mesh& mesh = foreign.loaded.mesh;
   std::vector<std::int32_t> new_number(mesh.points.size(), -1);
   const auto mark = [&](NodeId& node) { new_number[static_cast<std::size_t>(node.value())] = 0; };
-  const auto renumber = [&](NodeId& node) { node = NodeId{new_number[static_cast<std::size_t>(node.value())]}; };
+  const auto renumber = [&](NodeId& node) {
+    node = NodeId{new_number[static_cast<std::size_t>(node.value())]};
+  };
   const auto for_each_node = [&](const auto& visit) {
     for (auto& nodes : mesh.triangles) std::for_each(nodes.begin(), nodes.end(), visit);
     for (auto& nodes : mesh.quads) std::for_each(nodes.begin(), nodes.end(), visit);
@@ -164,13 +172,15 @@ void drop_unused_nodes(ForeignMesh& foreign, const std::string& path) {
   if (dropped == 0) return;
   mesh.points.resize(kept);
   for_each_node(renumber);
-  foreign.loaded.warnings.push_back(fmt::format("{}: {} nodes that belong to no cell were left out", path, dropped));
+  foreign.loaded.warnings.push_back(
+      fmt::format("{}: {} nodes that belong to no cell were left out", path, dropped));
 }
 
 LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
   LoadedMesh& loaded = foreign.loaded;
   Mesh& mesh = loaded.mesh;
-  if (mesh.triangles.empty() && mesh.quads.empty()) scan.refuse("the file has no triangle and no quadrilateral; a mesh needs cells");
+  if (mesh.triangles.empty() && mesh.quads.empty())
+    scan.refuse("the file has no triangle and no quadrilateral; a mesh needs cells");
   mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
   drop_empty_blocks(loaded);
   const std::int64_t turned = orient_cells(mesh);
@@ -179,8 +189,11 @@ LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
   const std::int64_t inside = place_edges(foreign, scan);
   std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   if (mesh.boundaries.empty()) add_outer_boundary(mesh);
-  if (turned > 0) loaded.warnings.push_back(fmt::format("{}: {} cells ran clockwise and were turned", scan.path(), turned));
-  if (inside > 0) loaded.warnings.push_back(fmt::format("{}: {} edges between two cells are no boundary and were left out", scan.path(), inside));
+  if (turned > 0)
+    loaded.warnings.push_back(fmt::format("{}: {} cells ran clockwise and were turned", scan.path(), turned));
+  if (inside > 0)
+    loaded.warnings.push_back(
+        fmt::format("{}: {} edges between two cells are no boundary and were left out", scan.path(), inside));
   return std::move(loaded);
 }
 

@@ -18,8 +18,8 @@ struct ForeignEdge {
   std::size_t place = 0;      ///< in the file's text, for a refusal
 };
 
-/// A mesh of another program on its way in. Until finish() cells may run either way round and blocks may be mixed; boundaries are
-/// there by name, their edges stand in `edges`.
+/// A mesh of another program on its way in. Until finish() cells may run either way round and blocks may be
+/// mixed; boundaries are there by name, their edges stand in `edges`.
 struct ForeignMesh {
   LoadedMesh loaded;
   std::vector<ForeignEdge> edges;
@@ -39,17 +39,19 @@ struct ForeignMesh {
   }
 };
 
-/// Keeps the first of cells, and of edges, that have the same nodes: an element that belongs to several groups stands once for each.
+/// Keeps the first of cells, and of edges, that have the same nodes: an element that belongs to several
+/// groups stands once for each.
 void drop_repeated(ForeignMesh& foreign, const std::string& path);
 
 /// Drops nodes that neither a cell nor an edge names; the others keep their order.
 void drop_unused_nodes(ForeignMesh& foreign, const std::string& path);
 
-/// What this program calls a mesh: cells counter-clockwise as their neighbours have it (orient_cells; inverted ones are validate()'s),
-/// the cells of a block one after another, each boundary edge with its cell to the left, or between two blocks the one with the
-/// smaller number. Edges inside a block, and boundaries without edges, are
-/// left out; where no boundary is left, all edges of one cell make up the boundary "boundary". What was changed is said in the
-/// result's warnings. Refuses a mesh without cells, and by place an edge that no cell has.
+/// What this program calls a mesh: cells counter-clockwise as their neighbours have it (orient_cells;
+/// inverted ones are validate()'s), the cells of a block one after another, each boundary edge with its cell
+/// to the left, or between two blocks the one with the smaller number. Edges inside a block, and boundaries
+/// without edges, are left out; where no boundary is left, all edges of one cell make up the boundary
+/// "boundary". What was changed is said in the result's warnings. Refuses a mesh without cells, and by place
+/// an edge that no cell has.
 LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan);
 
 }  // namespace quadloop

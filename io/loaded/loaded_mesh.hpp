@@ -11,9 +11,11 @@
 
 namespace quadloop {
 
-/// What a solver keeps at the nodes of a mesh: `values` holds one row of names.size() numbers for each owned node.
+/// What a solver keeps at the nodes of a mesh: `values` holds one row of names.size() numbers for each owned
+/// node.
 struct Solution {
-  std::vector<double> constants;  ///< iteration, time, Mach number: whatever the solver keeps; the same on all ranks
+  std::vector<double>
+      constants;  ///< iteration, time, Mach number: whatever the solver keeps; the same on all ranks
   std::vector<std::string> names;
   std::vector<double> values;
 };
@@ -30,9 +32,11 @@ struct LoadedMesh {
 
 /// The cells of one block, which follow each other.
 template <class Cell>
-std::span<const Cell> cells_of_block(const std::vector<Cell>& cells, const std::vector<std::int32_t>& cell_to_block, std::int32_t block) {
+std::span<const Cell> cells_of_block(const std::vector<Cell>& cells,
+                                     const std::vector<std::int32_t>& cell_to_block, std::int32_t block) {
   const auto [first, last] = std::equal_range(cell_to_block.begin(), cell_to_block.end(), block);
-  return std::span(cells).subspan(static_cast<std::size_t>(first - cell_to_block.begin()), static_cast<std::size_t>(last - first));
+  return std::span(cells).subspan(static_cast<std::size_t>(first - cell_to_block.begin()),
+                                  static_cast<std::size_t>(last - first));
 }
 
 }  // namespace quadloop

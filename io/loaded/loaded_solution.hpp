@@ -9,7 +9,8 @@
 
 namespace quadloop {
 
-/// A solution as a file gives it, whole on one rank, with what the file says of its mesh. Names are words (distinct_words()); variable() finds one.
+/// A solution as a file gives it, whole on one rank, with what the file says of its mesh. Names are words
+/// (distinct_words()); variable() finds one.
 struct LoadedSolution {
   std::string path;
   Solution solution;

@@ -11,10 +11,12 @@ namespace quadloop {
 
 namespace {
 
-/// Cells that hang together, each with its direction relative to the piece's root: disjoint sets with a parity on every link.
+/// Cells that hang together, each with its direction relative to the piece's root: disjoint sets with a
+/// parity on every link.
 class Pieces {
  public:
-  explicit Pieces(std::size_t cells) : parents_(cells), sizes_(cells, 1), opposed_(cells, 0), torn_(cells, 0) {
+  explicit Pieces(std::size_t cells)
+      : parents_(cells), sizes_(cells, 1), opposed_(cells, 0), torn_(cells, 0) {
     std::iota(parents_.begin(), parents_.end(), std::size_t{0});
   }
 
@@ -35,8 +37,8 @@ class Pieces {
     return {cell, opposed};
   }
 
-  /// Says that exactly one of two cells has to be turned (`opposed`), or both or none. Where that contradicts what was said before,
-  /// the piece is torn.
+  /// Says that exactly one of two cells has to be turned (`opposed`), or both or none. Where that contradicts
+  /// what was said before, the piece is torn.
   void join(std::size_t first, std::size_t second, bool opposed) {
     Place a = place_of(first), b = place_of(second);
     const bool roots_opposed = (a.opposed != b.opposed) != opposed;
@@ -75,8 +77,9 @@ std::vector<Side> sorted_sides(const Mesh& mesh) {
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
     if (from != to) sides.push_back({std::min(from, to), std::max(from, to), cell, from < to});
   });
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& a, const Side& b) { return std::tie(a.low, a.high, a.cell, a.rising) < std::tie(b.low, b.high, b.cell, b.rising); });
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.cell, a.rising) < std::tie(b.low, b.high, b.cell, b.rising);
+  });
   return sides;
 }
 
@@ -84,9 +87,11 @@ Pieces pieces_of(const Mesh& mesh) {
   Pieces pieces(mesh.triangles.size() + mesh.quads.size());
   const std::vector<Side> sides = sorted_sides(mesh);
   for (auto first = sides.begin(); first != sides.end();) {
-    const auto end = std::find_if(first, sides.end(), [&](const Side& side) { return !side.same_edge(*first); });
+    const auto end =
+        std::find_if(first, sides.end(), [&](const Side& side) { return !side.same_edge(*first); });
     if (end - first == 2)
-      pieces.join(static_cast<std::size_t>(first[0].cell), static_cast<std::size_t>(first[1].cell), first[0].rising == first[1].rising);
+      pieces.join(static_cast<std::size_t>(first[0].cell), static_cast<std::size_t>(first[1].cell),
+                  first[0].rising == first[1].rising);
     first = end;
   }
   return pieces;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/loaded/loaded_mesh.hpp"
 #include "io/files/value_pipe.hpp"
+#include "io/loaded/loaded_mesh.hpp"
 
 namespace quadloop {
 

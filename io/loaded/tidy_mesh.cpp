@@ -47,7 +47,8 @@ std::size_t drop_unused_nodes(LoadedMesh& loaded) {
   for_each_named_node(mesh, [&](NodeId& node) { node = NodeId{new_number[index_of(node)]}; });
   mesh.points.resize(static_cast<std::size_t>(kept));
   mesh.owned_nodes = kept;
-  if (loaded.solution) loaded.solution->values.resize(static_cast<std::size_t>(kept) * loaded.solution->names.size());
+  if (loaded.solution)
+    loaded.solution->values.resize(static_cast<std::size_t>(kept) * loaded.solution->names.size());
   return dropped;
 }
 
@@ -66,7 +67,8 @@ std::int64_t turn_edges(Mesh& mesh, const EdgeTable& table) {
 
 std::string free_name(const Mesh& mesh) {
   const auto taken = [&](const std::string& name) {
-    return std::any_of(mesh.boundaries.begin(), mesh.boundaries.end(), [&](const BoundaryEdges& b) { return b.name == name; });
+    return std::any_of(mesh.boundaries.begin(), mesh.boundaries.end(),
+                       [&](const BoundaryEdges& b) { return b.name == name; });
   };
   std::string name = "boundary";
   for (int number = 2; taken(name); ++number) name = fmt::format("boundary_{}", number);
@@ -75,12 +77,14 @@ std::string free_name(const Mesh& mesh) {
 
 std::size_t add_missing_boundary(Mesh& mesh, const EdgeTable& table) {
   std::vector<std::array<NodeId, 2>> named;
-  for (const BoundaryEdges& boundary : mesh.boundaries) named.insert(named.end(), boundary.edges.begin(), boundary.edges.end());
+  for (const BoundaryEdges& boundary : mesh.boundaries)
+    named.insert(named.end(), boundary.edges.begin(), boundary.edges.end());
   std::sort(named.begin(), named.end());
   BoundaryEdges missing{free_name(mesh), "none", {}};
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
     const bool outer = table.cell_left_of(to, from) < 0;
-    if (outer && !std::binary_search(named.begin(), named.end(), std::array{from, to})) missing.edges.push_back({from, to});
+    if (outer && !std::binary_search(named.begin(), named.end(), std::array{from, to}))
+      missing.edges.push_back({from, to});
   });
   const std::size_t added = missing.edges.size();
   if (added > 0) mesh.boundaries.push_back(std::move(missing));
@@ -102,7 +106,8 @@ void tidy_mesh(LoadedMesh& loaded, const std::string& path) {
        "boundaries without edges were left out");
   const std::size_t added = add_missing_boundary(mesh, table);
   if (added > 0)
-    warn(added, fmt::format("edges of the outline belong to no boundary; they are the boundary \"{}\" now", mesh.boundaries.back().name));
+    warn(added, fmt::format("edges of the outline belong to no boundary; they are the boundary \"{}\" now",
+                            mesh.boundaries.back().name));
 }
 
 }  // namespace quadloop

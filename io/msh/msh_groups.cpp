@@ -5,7 +5,9 @@
 
 namespace quadloop {
 
-void MshGroups::name_physical(int dimension, std::int64_t physical, std::string name) { names_[{dimension, std::abs(physical)}] = std::move(name); }
+void MshGroups::name_physical(int dimension, std::int64_t physical, std::string name) {
+  names_[{dimension, std::abs(physical)}] = std::move(name);
+}
 
 void MshGroups::put_in_physical(int dimension, std::int64_t entity, std::int64_t physical) {
   entity_groups_[{dimension, entity}] = std::abs(physical);
@@ -27,16 +29,19 @@ std::int32_t MshGroups::boundary_of(ForeignMesh& foreign, std::int64_t physical,
 std::int32_t MshGroups::block_of(ForeignMesh& foreign, std::int64_t physical) {
   const auto found = blocks_.find(std::abs(physical));
   if (found != blocks_.end()) return found->second;
-  return blocks_[std::abs(physical)] = foreign.block_named(physical == 0 ? "domain" : name_of(2, std::abs(physical)));
+  return blocks_[std::abs(physical)] =
+             foreign.block_named(physical == 0 ? "domain" : name_of(2, std::abs(physical)));
 }
 
 std::int64_t MshGroups::curves_without_group() const {
-  return std::count_if(boundaries_.begin(), boundaries_.end(), [](const auto& entry) { return entry.first.first == 0; });
+  return std::count_if(boundaries_.begin(), boundaries_.end(),
+                       [](const auto& entry) { return entry.first.first == 0; });
 }
 
 std::string MshGroups::name_of(int dimension, std::int64_t physical) const {
   const auto found = names_.find({dimension, physical});
-  return found == names_.end() || found->second.empty() ? "physical_" + std::to_string(physical) : found->second;
+  return found == names_.end() || found->second.empty() ? "physical_" + std::to_string(physical)
+                                                        : found->second;
 }
 
 }  // namespace quadloop

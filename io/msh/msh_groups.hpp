@@ -9,7 +9,8 @@
 
 namespace quadloop {
 
-/// What gives the elements of an MSH file their boundary or block: physical groups, their names, the curves and surfaces in them.
+/// What gives the elements of an MSH file their boundary or block: physical groups, their names, the curves
+/// and surfaces in them.
 class MshGroups {
  public:
   /// Of dimension 1 (curves) or 2 (surfaces); the tag's sign says nothing but a direction.
@@ -19,7 +20,8 @@ class MshGroups {
   /// The physical group of a curve or surface; 0 where it is in none.
   std::int64_t physical_of(int dimension, std::int64_t entity) const;
 
-  /// The boundary (of lines) or block (of cells) in the mesh, made at its first element. `physical` is 0 for none.
+  /// The boundary (of lines) or block (of cells) in the mesh, made at its first element. `physical` is 0 for
+  /// none.
   std::int32_t boundary_of(ForeignMesh& foreign, std::int64_t physical, std::int64_t entity);
   std::int32_t block_of(ForeignMesh& foreign, std::int64_t physical);
 

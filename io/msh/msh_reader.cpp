@@ -57,9 +57,10 @@ class MshReader {
   void warn_of_names() {
     const std::int64_t curves = groups_.curves_without_group();
     if (curves == 0) return;
-    foreign_.loaded.warnings.push_back(scan_.path() + ": " + std::to_string(curves) +
-                                       " curves are in no physical group; their boundaries are called " +
-                                       "boundary_ and the curve's number (in Gmsh, Physical Curve gives names)");
+    foreign_.loaded.warnings.push_back(
+        scan_.path() + ": " + std::to_string(curves) +
+        " curves are in no physical group; their boundaries are called " +
+        "boundary_ and the curve's number (in Gmsh, Physical Curve gives names)");
   }
 
   /// Goes behind the line "$name"; false where the file has no such section.
@@ -82,17 +83,21 @@ class MshReader {
   static bool is_line(std::string_view text, std::size_t at, std::size_t length) {
     const std::size_t before = at == 0 ? std::string_view::npos : text.find_last_not_of(" \t", at - 1);
     const bool begins = before == std::string_view::npos || text[before] == '\n';
-    return begins && (at + length == text.size() || std::string_view(" \t\r\n").find(text[at + length]) != std::string_view::npos);
+    return begins && (at + length == text.size() ||
+                      std::string_view(" \t\r\n").find(text[at + length]) != std::string_view::npos);
   }
 
   void go_to_needed(const std::string& name) {
     if (go_to_section(name)) return;
-    scan_.refuse_at(scan_.text().size(), "the file ends without a section $" + name + "; it is cut short, or no mesh");
+    scan_.refuse_at(scan_.text().size(),
+                    "the file ends without a section $" + name + "; it is cut short, or no mesh");
   }
 
   void end_section(const std::string& name) {
     const std::string found(scan_.token("$End" + name).substr(0, 40));
-    if (found != "$End" + name) scan_.refuse("expected $End" + name + ", found \"" + found + "\"; a row too many, or a count too small");
+    if (found != "$End" + name)
+      scan_.refuse("expected $End" + name + ", found \"" + found +
+                   "\"; a row too many, or a count too small");
   }
 
   /// True for version 2.2, false for 4.1.
@@ -101,9 +106,11 @@ class MshReader {
     const double version = scan_.real("the format's version");
     const std::string written(scan_.text().substr(scan_.place(), 8));
     if (version != 2.2 && version != 4.1) {
-      scan_.refuse("MSH version " + written.substr(0, written.find_first_of(" \t\r\n")) + "; only 2.2 and 4.1 can be read: save it again from Gmsh");
+      scan_.refuse("MSH version " + written.substr(0, written.find_first_of(" \t\r\n")) +
+                   "; only 2.2 and 4.1 can be read: save it again from Gmsh");
     }
-    if (scan_.integer("the file's type") != 0) scan_.refuse("a binary file; save it as ASCII (in Gmsh: Mesh.Binary = 0)");
+    if (scan_.integer("the file's type") != 0)
+      scan_.refuse("a binary file; save it as ASCII (in Gmsh: Mesh.Binary = 0)");
     scan_.integer("the size of a number");
     end_section("MeshFormat");
     if (go_to_section("PartitionedEntities")) scan_.refuse("a partitioned mesh; save it without partitions");
@@ -112,7 +119,8 @@ class MshReader {
 
   std::int64_t physical_tag() {
     const std::int64_t tag = scan_.integer("the tag of a physical group");
-    if (tag != static_cast<std::int32_t>(tag)) scan_.refuse("no physical group has the tag " + std::to_string(tag));
+    if (tag != static_cast<std::int32_t>(tag))
+      scan_.refuse("no physical group has the tag " + std::to_string(tag));
     return tag;
   }
 
@@ -123,7 +131,8 @@ class MshReader {
       const auto dimension = static_cast<int>(scan_.integer("the dimension of a physical group"));
       const std::int64_t physical = physical_tag();
       std::string_view name = scan_.rest_of_line();
-      if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+      if (name.size() >= 2 && name.front() == '"' && name.back() == '"')
+        name = name.substr(1, name.size() - 2);
       groups_.name_physical(dimension, physical, std::string(name));
     }
     end_section("PhysicalNames");
@@ -131,7 +140,8 @@ class MshReader {
 
   void read_entities() {
     if (!go_to_section("Entities")) return;
-    const std::size_t points = scan_.count("points", 5), curves = scan_.count("curves", 9), surfaces = scan_.count("surfaces", 9);
+    const std::size_t points = scan_.count("points", 5), curves = scan_.count("curves", 9),
+                      surfaces = scan_.count("surfaces", 9);
     scan_.count("volumes", 9);
     for (std::size_t i = 0; i < points; ++i) {
       scan_.integer("the tag of a point");
@@ -155,9 +165,12 @@ class MshReader {
   }
 
   void read_point(std::int64_t tag) {
-    const double x = scan_.real("an x coordinate"), y = scan_.real("a y coordinate"), z = scan_.real("a z coordinate");
+    const double x = scan_.real("an x coordinate"), y = scan_.real("a y coordinate"),
+                 z = scan_.real("a z coordinate");
     if (!z_) z_ = z;
-    if (z != *z_) scan_.refuse("node " + std::to_string(tag) + " does not lie in the first node's plane z = constant; only plane meshes can be read");
+    if (z != *z_)
+      scan_.refuse("node " + std::to_string(tag) +
+                   " does not lie in the first node's plane z = constant; only plane meshes can be read");
     foreign_.loaded.mesh.points.push_back({x, y});
     tags_.add(tag);
   }
@@ -187,7 +200,8 @@ class MshReader {
     tags_.reserve(count);
   }
 
-  /// Blocks, all nodes, smallest and largest tag; then blocks of nodes on one entity, first their tags, then their coordinates.
+  /// Blocks, all nodes, smallest and largest tag; then blocks of nodes on one entity, first their tags, then
+  /// their coordinates.
   void read_nodes() {
     go_to_needed("Nodes");
     const std::size_t blocks = scan_.count("blocks of nodes", 4), count = scan_.count("nodes", 4);
@@ -203,11 +217,13 @@ class MshReader {
       for (std::int64_t& tag : tags) tag = node_tag();
       for (const std::int64_t tag : tags) {
         read_point(tag);
-        for (std::int64_t k = 0; parametric && k < std::min<std::int64_t>(dimension, 3); ++k) scan_.real("a parameter of a node");
+        for (std::int64_t k = 0; parametric && k < std::min<std::int64_t>(dimension, 3); ++k)
+          scan_.real("a parameter of a node");
       }
     }
     if (foreign_.loaded.mesh.points.size() != count) {
-      scan_.refuse("the blocks hold " + std::to_string(foreign_.loaded.mesh.points.size()) + " nodes, not " + std::to_string(count));
+      scan_.refuse("the blocks hold " + std::to_string(foreign_.loaded.mesh.points.size()) + " nodes, not " +
+                   std::to_string(count));
     }
     end_nodes();
   }
@@ -225,7 +241,8 @@ class MshReader {
 
   void refuse_unknown(std::int64_t type) const {
     if (type == msh_line || type == msh_triangle || type == msh_quad || type == msh_point) return;
-    scan_.refuse("an element of type " + element_name(type) + "; only points, lines, triangles and quadrilaterals can be read: " + cure_of(type));
+    scan_.refuse("an element of type " + element_name(type) +
+                 "; only points, lines, triangles and quadrilaterals can be read: " + cure_of(type));
   }
 
   void read_element(std::int64_t type, std::int64_t physical, std::int64_t entity) {
@@ -235,7 +252,8 @@ class MshReader {
     } else if (type == msh_quad) {
       foreign_.add_quad(nodes_of_element<4>(), groups_.block_of(foreign_, physical));
     } else if (type == msh_line) {
-      foreign_.edges.push_back({nodes_of_element<2>(), groups_.boundary_of(foreign_, physical, entity), place});
+      foreign_.edges.push_back(
+          {nodes_of_element<2>(), groups_.boundary_of(foreign_, physical, entity), place});
     } else {
       nodes_of_element<1>();
     }
@@ -269,7 +287,8 @@ class MshReader {
     scan_.integer("the largest tag");
     std::size_t found = 0;
     for (std::size_t block = 0; block < blocks; ++block) found += read_element_block();
-    if (found != count) scan_.refuse("the blocks hold " + std::to_string(found) + " elements, not " + std::to_string(count));
+    if (found != count)
+      scan_.refuse("the blocks hold " + std::to_string(found) + " elements, not " + std::to_string(count));
     end_section("Elements");
   }
 

@@ -17,7 +17,11 @@ class MshWriter {
  public:
   /// `whole`, where given, is the mesh with its blocks, on one rank.
   MshWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path, const LoadedMesh* whole = nullptr)
-      : comm_{outputs.communicator()}, mesh_{mesh}, whole_{whole}, boundaries_{comm_, mesh}, file_{outputs, path} {}
+      : comm_{outputs.communicator()},
+        mesh_{mesh},
+        whole_{whole},
+        boundaries_{comm_, mesh},
+        file_{outputs, path} {}
 
   void write_mesh() {
     file_.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
@@ -30,7 +34,9 @@ class MshWriter {
  private:
   std::int64_t total(const auto& rows) const { return comm_.sum(static_cast<std::int64_t>(rows.size())); }
   std::int32_t blocks() const { return whole_ != nullptr ? whole_->blocks : 1; }
-  std::int64_t surface(std::int32_t block) const { return static_cast<std::int64_t>(boundaries_.present().size()) + 1 + block; }
+  std::int64_t surface(std::int32_t block) const {
+    return static_cast<std::int64_t>(boundaries_.present().size()) + 1 + block;
+  }
   std::string block_name(std::int32_t block) const {
     const auto b = static_cast<std::size_t>(block);
     if (whole_ != nullptr && b < whole_->block_names.size()) return whole_->block_names[b];
@@ -40,8 +46,10 @@ class MshWriter {
   void write_names() {
     std::string text = "$PhysicalNames\n" + std::to_string(surface(blocks() - 1)) + "\n";
     std::int64_t group = 0;
-    for (const BoundaryEdges* boundary : boundaries_.present()) text += "1 " + std::to_string(++group) + " " + quoted(boundary->name) + "\n";
-    for (std::int32_t block = 0; block < blocks(); ++block) text += "2 " + std::to_string(surface(block)) + " " + quoted(block_name(block)) + "\n";
+    for (const BoundaryEdges* boundary : boundaries_.present())
+      text += "1 " + std::to_string(++group) + " " + quoted(boundary->name) + "\n";
+    for (std::int32_t block = 0; block < blocks(); ++block)
+      text += "2 " + std::to_string(surface(block)) + " " + quoted(block_name(block)) + "\n";
     file_.write(text + "$EndPhysicalNames\n");
   }
 
@@ -61,14 +69,16 @@ class MshWriter {
     file_.write("$Elements\n" + std::to_string(elements) + "\n");
     write_edges();
     for (std::int32_t block = 0; block < blocks(); ++block) {
-      write_elements(msh_triangle, surface(block), cells_of(mesh_.triangles, &LoadedMesh::triangle_to_block, block));
+      write_elements(msh_triangle, surface(block),
+                     cells_of(mesh_.triangles, &LoadedMesh::triangle_to_block, block));
       write_elements(msh_quad, surface(block), cells_of(mesh_.quads, &LoadedMesh::quad_to_block, block));
     }
     file_.write("$EndElements\n");
   }
 
   template <class Cells>
-  std::span<const typename Cells::value_type> cells_of(const Cells& cells, std::vector<std::int32_t> LoadedMesh::*cell_to_block,
+  std::span<const typename Cells::value_type> cells_of(const Cells& cells,
+                                                       std::vector<std::int32_t> LoadedMesh::*cell_to_block,
                                                        std::int32_t block) const {
     if (whole_ == nullptr) return std::span(cells);
     return cells_of_block(cells, whole_->*cell_to_block, block);
@@ -102,7 +112,8 @@ class MshWriter {
     next_element_ += comm_.sum(own);
     file_.write_rows(rows.size(), 5 + width, [&](TextRows& text, std::size_t i) {
       put_head(text, number + static_cast<std::int64_t>(i), type, group);
-      for (std::size_t k = 0; k < width; ++k) text.put(mesh_.global(rows[i][k]).value() + 1, k + 1 < width ? ' ' : '\n');
+      for (std::size_t k = 0; k < width; ++k)
+        text.put(mesh_.global(rows[i][k]).value() + 1, k + 1 < width ? ' ' : '\n');
     });
   }
 
@@ -124,9 +135,13 @@ std::string msh_group_name(std::string boundary) {
   return boundary;
 }
 
-void write_msh(OutputSet& outputs, const Mesh& mesh, const std::string& path) { MshWriter(outputs, mesh, path).write_mesh(); }
+void write_msh(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
+  MshWriter(outputs, mesh, path).write_mesh();
+}
 
-void write_msh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) { MshWriter(outputs, whole.mesh, path, &whole).write_mesh(); }
+void write_msh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
+  MshWriter(outputs, whole.mesh, path, &whole).write_mesh();
+}
 
 void write_msh(const Communicator& comm, const Mesh& mesh, const std::string& path) {
   OutputSet outputs(comm);

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "io/text/name_index.hpp"
 #include "io/native/native_file.hpp"
+#include "io/text/name_index.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 
@@ -48,7 +48,8 @@ class NativeReader {
 
   NodeId node_of(std::int64_t number) const {
     if (number < 1 || number > loaded_.mesh.owned_nodes) {
-      scan_.refuse("node " + std::to_string(number) + " is none of the nodes 1 to " + std::to_string(loaded_.mesh.owned_nodes));
+      scan_.refuse("node " + std::to_string(number) + " is none of the nodes 1 to " +
+                   std::to_string(loaded_.mesh.owned_nodes));
     }
     return NodeId{static_cast<std::int32_t>(number - 1)};
   }
@@ -62,7 +63,8 @@ class NativeReader {
       read_rows("quadrilateral elements", loaded_.mesh.quads);
       loaded_.triangle_to_block.resize(loaded_.mesh.triangles.size(), block);
       loaded_.quad_to_block.resize(loaded_.mesh.quads.size(), block);
-      loaded_.block_names.push_back(blocks == 1 ? "domain" : std::string("block_").append(std::to_string(block + 1)));
+      loaded_.block_names.push_back(blocks == 1 ? "domain"
+                                                : std::string("block_").append(std::to_string(block + 1)));
     }
   }
 
@@ -119,14 +121,16 @@ class NativeReader {
   std::vector<double> read_values(const std::vector<std::string>& names) {
     const std::size_t rows = loaded_.mesh.points.size(), variables = names.size();
     if (variables > 0 && 2 * rows > (scan_.bytes_left() + 1) / variables) {
-      scan_.refuse("the file ends before the " + std::to_string(rows) + " rows of " + std::to_string(variables) + " variables");
+      scan_.refuse("the file ends before the " + std::to_string(rows) + " rows of " +
+                   std::to_string(variables) + " variables");
     }
     std::vector<double> values(rows * variables);
     std::size_t at = 0;
     try {
       for (; at < values.size(); ++at) values[at] = scan_.real("a value of the solution");
     } catch (const InputError& fault) {
-      throw InputError(std::string(fault.what()) + "; it is " + names[at % variables] + " at node " + std::to_string(at / variables + 1));
+      throw InputError(std::string(fault.what()) + "; it is " + names[at % variables] + " at node " +
+                       std::to_string(at / variables + 1));
     }
     return values;
   }
@@ -143,9 +147,11 @@ class NativeReader {
       rest.remove_prefix(end);
     }
     if (!names.empty() && names.size() != variables) {
-      scan_.refuse(std::to_string(names.size()) + " names stand over " + std::to_string(variables) + " variables");
+      scan_.refuse(std::to_string(names.size()) + " names stand over " + std::to_string(variables) +
+                   " variables");
     }
-    for (std::size_t v = names.size(); v < variables; ++v) names.push_back(std::string("v").append(std::to_string(v + 1)));
+    for (std::size_t v = names.size(); v < variables; ++v)
+      names.push_back(std::string("v").append(std::to_string(v + 1)));
     return names;
   }
 

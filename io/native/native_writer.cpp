@@ -10,7 +10,8 @@ namespace {
 
 class NativeWriter {
  public:
-  NativeWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path) : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path} {}
+  NativeWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
+      : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path} {}
 
   void write_mesh() {
     write_nodes();
@@ -24,7 +25,8 @@ class NativeWriter {
     write_nodes();
     file_.write("#Number of blocks\n" + std::to_string(whole.blocks) + "\n");
     for (std::int32_t block = 0; block < whole.blocks; ++block) {
-      write_block(cells_of_block(mesh_.triangles, whole.triangle_to_block, block), cells_of_block(mesh_.quads, whole.quad_to_block, block));
+      write_block(cells_of_block(mesh_.triangles, whole.triangle_to_block, block),
+                  cells_of_block(mesh_.quads, whole.quad_to_block, block));
     }
     write_boundaries();
   }
@@ -44,7 +46,8 @@ class NativeWriter {
   void close() { file_.close(); }
 
  private:
-  void write_block(std::span<const std::array<NodeId, 3>> triangles, std::span<const std::array<NodeId, 4>> quads) {
+  void write_block(std::span<const std::array<NodeId, 3>> triangles,
+                   std::span<const std::array<NodeId, 4>> quads) {
     write_connectivity("#Number of triangular elements\n", triangles);
     write_connectivity("#Number of quadrilateral elements\n", quads);
   }
@@ -69,7 +72,8 @@ class NativeWriter {
   void write_connectivity(const std::string& comment, std::span<const std::array<NodeId, width>> rows) {
     file_.write(comment + std::to_string(comm_.sum(static_cast<std::int64_t>(rows.size()))) + "\n");
     file_.write_rows(rows.size(), width, [&](TextRows& text, std::size_t i) {
-      for (std::size_t k = 0; k < width; ++k) text.put(mesh_.global(rows[i][k]).value() + 1, k + 1 < width ? ' ' : '\n');
+      for (std::size_t k = 0; k < width; ++k)
+        text.put(mesh_.global(rows[i][k]).value() + 1, k + 1 < width ? ' ' : '\n');
     });
   }
 
@@ -79,8 +83,8 @@ class NativeWriter {
     file_.write_boundaries(
         boundaries, 2,
         [&](std::size_t n) {
-          return "#Number of edges for boundary " + std::to_string(n + 1) + " (" + boundaries.present()[n]->name + ")\n" +
-                 std::to_string(boundaries.edges_of(n)) + "\n";
+          return "#Number of edges for boundary " + std::to_string(n + 1) + " (" +
+                 boundaries.present()[n]->name + ")\n" + std::to_string(boundaries.edges_of(n)) + "\n";
         },
         [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
           text.put(edge[0] + 1, ' ');
@@ -109,7 +113,8 @@ void write_native(OutputSet& outputs, const LoadedMesh& whole, const std::string
   writer.close();
 }
 
-void write_native(const Communicator& comm, const Mesh& mesh, const std::string& path, const Solution* solution) {
+void write_native(const Communicator& comm, const Mesh& mesh, const std::string& path,
+                  const Solution* solution) {
   OutputSet outputs(comm);
   write_native(outputs, mesh, path, solution);
   outputs.commit();

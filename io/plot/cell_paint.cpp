@@ -20,8 +20,10 @@ CellPaint paint_types(const LoadedMesh& loaded, const std::vector<std::size_t>& 
   CellPaint paint;
   paint.palette = {{1.0, 0.855, 0.71}, {0.835, 0.905, 0.975}};
   for (const std::size_t cell : cells) paint.colours.push_back(cell < loaded.mesh.triangles.size() ? 0 : 1);
-  if (std::count(paint.colours.begin(), paint.colours.end(), 1) > 0) paint.legend.push_back({paint.palette[1], "quads"});
-  if (std::count(paint.colours.begin(), paint.colours.end(), 0) > 0) paint.legend.push_back({paint.palette[0], "triangles"});
+  if (std::count(paint.colours.begin(), paint.colours.end(), 1) > 0)
+    paint.legend.push_back({paint.palette[1], "quads"});
+  if (std::count(paint.colours.begin(), paint.colours.end(), 0) > 0)
+    paint.legend.push_back({paint.palette[0], "triangles"});
   return paint;
 }
 
@@ -47,7 +49,8 @@ CellPaint paint_blocks(const LoadedMesh& loaded, const std::vector<std::size_t>&
   if (seen.size() > most_block_names) return paint;
   for (const std::size_t block : seen) {
     const bool named = block < loaded.block_names.size() && !loaded.block_names[block].empty();
-    paint.legend.push_back({paint.palette[block % paint.palette.size()], named ? loaded.block_names[block] : "block " + std::to_string(block + 1)});
+    paint.legend.push_back({paint.palette[block % paint.palette.size()],
+                            named ? loaded.block_names[block] : "block " + std::to_string(block + 1)});
   }
   return paint;
 }
@@ -55,11 +58,14 @@ CellPaint paint_blocks(const LoadedMesh& loaded, const std::vector<std::size_t>&
 /// Numbers that are not finite (a diverged solution) are grey.
 CellPaint paint_values(const std::vector<double>& values, const ColourBar& bar) {
   CellPaint paint;
-  for (std::size_t i = 0; i < bar_colours; ++i) paint.palette.push_back(bar.colour((static_cast<double>(i) + 0.5) / bar_colours));
+  for (std::size_t i = 0; i < bar_colours; ++i)
+    paint.palette.push_back(bar.colour((static_cast<double>(i) + 0.5) / bar_colours));
   paint.palette.push_back({0.6, 0.6, 0.6});
   for (const double value : values) {
     const double t = std::clamp((value - bar.low) / (bar.high - bar.low), 0.0, 1.0);
-    const auto colour = std::isfinite(value) ? std::min(static_cast<std::size_t>(t * bar_colours), bar_colours - 1) : bar_colours;
+    const auto colour = std::isfinite(value)
+                            ? std::min(static_cast<std::size_t>(t * bar_colours), bar_colours - 1)
+                            : bar_colours;
     paint.colours.push_back(static_cast<std::uint16_t>(colour));
   }
   paint.bar = bar;
@@ -71,7 +77,8 @@ CellPaint paint_quality(const LoadedMesh& loaded, const std::vector<std::size_t>
   for (const std::size_t cell : cells) {
     std::array<Point, 4> corners;
     const std::span<const NodeId> nodes = cell_nodes(loaded.mesh, cell);
-    std::transform(nodes.begin(), nodes.end(), corners.begin(), [&](NodeId node) { return loaded.mesh.point(node); });
+    std::transform(nodes.begin(), nodes.end(), corners.begin(),
+                   [&](NodeId node) { return loaded.mesh.point(node); });
     values.push_back(quality_of(std::span(corners).first(nodes.size())));
   }
   return paint_values(values, {"quality", 0, 1, quality_colour});
@@ -79,7 +86,8 @@ CellPaint paint_quality(const LoadedMesh& loaded, const std::vector<std::size_t>
 
 std::size_t column_of(const LoadedMesh& loaded, const std::string& field) {
   if (!loaded.solution || loaded.solution->names.empty())
-    throw InputError("there is no field '" + field + "': the file holds no solution; plot it without --field");
+    throw InputError("there is no field '" + field +
+                     "': the file holds no solution; plot it without --field");
   const std::vector<std::string>& names = loaded.solution->names;
   const auto found = std::find(names.begin(), names.end(), field);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
@@ -88,14 +96,17 @@ std::size_t column_of(const LoadedMesh& loaded, const std::string& field) {
   throw InputError("there is no field '" + field + "'; there are: " + there + guess_for(field, names));
 }
 
-CellPaint paint_field(const LoadedMesh& loaded, const std::vector<std::size_t>& cells, const std::string& field) {
+CellPaint paint_field(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
+                      const std::string& field) {
   const std::size_t column = column_of(loaded, field), columns = loaded.solution->names.size();
-  ColourBar bar{field, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), perceptual_colour};
+  ColourBar bar{field, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                perceptual_colour};
   std::vector<double> values;
   for (const std::size_t cell : cells) {
     double sum = 0;
     const std::span<const NodeId> nodes = cell_nodes(loaded.mesh, cell);
-    for (const NodeId node : nodes) sum += loaded.solution->values[static_cast<std::size_t>(node.value()) * columns + column];
+    for (const NodeId node : nodes)
+      sum += loaded.solution->values[static_cast<std::size_t>(node.value()) * columns + column];
     values.push_back(sum / static_cast<double>(nodes.size()));
     if (!std::isfinite(values.back())) continue;
     bar.low = std::min(bar.low, values.back());
@@ -120,7 +131,8 @@ std::span<const NodeId> cell_nodes(const Mesh& mesh, std::size_t cell) {
   return mesh.quads[cell - mesh.triangles.size()];
 }
 
-CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& cells, const PlotOptions& options) {
+CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
+                      const PlotOptions& options) {
   if (!options.field.empty()) return paint_field(loaded, cells, options.field);
   if (options.colouring == PlotColouring::quality) return paint_quality(loaded, cells);
   return options.colouring == PlotColouring::block ? paint_blocks(loaded, cells) : paint_types(loaded, cells);

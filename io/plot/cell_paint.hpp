@@ -25,6 +25,7 @@ struct CellPaint {
 };
 
 /// Colours `cells` (numbers as for cell_nodes). Throws InputError where the field is not there.
-CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& cells, const PlotOptions& options);
+CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
+                      const PlotOptions& options);
 
 }  // namespace quadloop

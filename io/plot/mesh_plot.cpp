@@ -20,7 +20,8 @@ constexpr Colour edge_ink{0.13, 0.17, 0.25}, light_ink{0.93, 0.95, 1.0};
 constexpr double dim = 0.2;          ///< luminance of a colour on which dark edges would not be seen
 constexpr std::size_t batch = 4000;  // polygons or lines in one path
 constexpr double smallest = 1.3;     // pixels between two edges that are still drawn one by one
-constexpr double darkest = 0.42;     // share of ink that edges, or the shade in their place, give an area at most
+constexpr double darkest =
+    0.42;  // share of ink that edges, or the shade in their place, give an area at most
 constexpr std::size_t most_boundary_names = 12;
 constexpr std::size_t width_classes = 48;
 
@@ -33,13 +34,15 @@ struct Edge {
 Box window_of(const Mesh& mesh, const PlotOptions& options) {
   if (options.window) {
     const Box& w = *options.window;
-    const bool usable = w.low.x < w.high.x && w.low.y < w.high.y && std::isfinite(w.width()) && std::isfinite(w.height());
+    const bool usable =
+        w.low.x < w.high.x && w.low.y < w.high.y && std::isfinite(w.width()) && std::isfinite(w.height());
     if (!usable) throw InputError("the window is empty; give it as X0,X1,Y0,Y1 with X0 < X1 and Y0 < Y1");
     return w;
   }
   Box all;
   for (const Point& p : mesh.points) all.include(p);
-  if (!(all.width() > 0 && all.height() > 0)) throw InputError("the mesh covers no area; there is nothing to plot");
+  if (!(all.width() > 0 && all.height() > 0))
+    throw InputError("the mesh covers no area; there is nothing to plot");
   const Point margin{0.01 * std::max(all.width(), all.height()), 0.01 * std::max(all.width(), all.height())};
   return {all.low - margin, all.high + margin};
 }
@@ -64,7 +67,8 @@ std::vector<std::size_t> cells_in(const Mesh& mesh, const Box& window) {
 double area_of(const Mesh& mesh, std::span<const NodeId> nodes) {
   double twice = 0;
   for (std::size_t i = 1; i + 1 < nodes.size(); ++i)
-    twice += cross(mesh.point(nodes[i]) - mesh.point(nodes[0]), mesh.point(nodes[i + 1]) - mesh.point(nodes[0]));
+    twice +=
+        cross(mesh.point(nodes[i]) - mesh.point(nodes[0]), mesh.point(nodes[i + 1]) - mesh.point(nodes[0]));
   return 0.5 * std::abs(twice);
 }
 
@@ -83,7 +87,8 @@ std::vector<Edge> edges_of(const Mesh& mesh, std::size_t cell, double scale) {
 /// Draws one mesh on one canvas, layer by layer.
 class MeshPainter {
  public:
-  MeshPainter(const Mesh& mesh, const PlotView& view, Canvas& canvas) : mesh_{mesh}, view_{view}, canvas_{canvas} {}
+  MeshPainter(const Mesh& mesh, const PlotView& view, Canvas& canvas)
+      : mesh_{mesh}, view_{view}, canvas_{canvas} {}
 
   void fill(const std::vector<std::size_t>& cells, const CellPaint& paint);
   void stroke_edges(const std::vector<std::size_t>& cells, Colour ink, double strength);
@@ -113,7 +118,8 @@ void MeshPainter::fill(const std::vector<std::size_t>& cells, const CellPaint& p
   for (std::size_t i = 0; i < cells.size(); ++i) {
     double thickness = smallest;
     if (!paint.bar) {
-      for (const Edge& edge : edges_of(mesh_, cells[i], view_.scale())) thickness = std::min(thickness, edge.thickness);
+      for (const Edge& edge : edges_of(mesh_, cells[i], view_.scale()))
+        thickness = std::min(thickness, edge.thickness);
     }
     (thickness < smallest ? thin : wide)[paint.colours[i]].push_back(cells[i]);
   }
@@ -124,10 +130,12 @@ void MeshPainter::fill(const std::vector<std::size_t>& cells, const CellPaint& p
 }
 
 void MeshPainter::add_line(NodeId a, NodeId b) {
-  if (const auto part = view_.visible_part(mesh_.point(a), mesh_.point(b))) canvas_.add_line(view_.pixel((*part)[0]), view_.pixel((*part)[1]));
+  if (const auto part = view_.visible_part(mesh_.point(a), mesh_.point(b)))
+    canvas_.add_line(view_.pixel((*part)[0]), view_.pixel((*part)[1]));
 }
 
-/// Each edge once, by the thicker of its cells; the closer edges lie, the thinner and paler they are, so that a fine mesh does not turn black.
+/// Each edge once, by the thicker of its cells; the closer edges lie, the thinner and paler they are, so that
+/// a fine mesh does not turn black.
 void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, Colour ink, double strength) {
   std::vector<Edge> edges;
   for (const std::size_t cell : cells) {
@@ -135,9 +143,12 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, Colour ink
       if (edge.thickness >= smallest) edges.push_back(edge);
     }
   }
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& p, const Edge& q) { return std::tuple(p.a, p.b, q.thickness) < std::tuple(q.a, q.b, p.thickness); });
-  edges.erase(std::unique(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) { return p.a == q.a && p.b == q.b; }), edges.end());
+  std::sort(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) {
+    return std::tuple(p.a, p.b, q.thickness) < std::tuple(q.a, q.b, p.thickness);
+  });
+  edges.erase(std::unique(edges.begin(), edges.end(),
+                          [](const Edge& p, const Edge& q) { return p.a == q.a && p.b == q.b; }),
+              edges.end());
   std::vector<std::vector<std::size_t>> classes(width_classes);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const double eighths = 8 * std::log2(edges[i].thickness / smallest);
@@ -166,7 +177,8 @@ void MeshPainter::stroke_boundary(const BoundaryEdges& boundary, Colour colour) 
 }
 
 /// The cells whose colour is too dark for dark edges, and the others.
-std::array<std::vector<std::size_t>, 2> by_luminance(const std::vector<std::size_t>& cells, const CellPaint& paint) {
+std::array<std::vector<std::size_t>, 2> by_luminance(const std::vector<std::size_t>& cells,
+                                                     const CellPaint& paint) {
   std::array<std::vector<std::size_t>, 2> parts;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto& [red, green, blue] = paint.palette[paint.colours[i]];
@@ -203,7 +215,8 @@ bool is_seen(const Mesh& mesh, const BoundaryEdges& boundary, const Box& window)
 void add_boundary_names(const Mesh& mesh, const Box& window, std::vector<LegendEntry>& legend) {
   std::vector<LegendEntry> names;
   for (std::size_t i = 0; i < mesh.boundaries.size(); ++i) {
-    if (is_seen(mesh, mesh.boundaries[i], window)) names.push_back({boundary_colour(i), mesh.boundaries[i].name, true});
+    if (is_seen(mesh, mesh.boundaries[i], window))
+      names.push_back({boundary_colour(i), mesh.boundaries[i].name, true});
   }
   if (names.size() <= most_boundary_names) legend.insert(legend.end(), names.begin(), names.end());
 }
@@ -228,7 +241,8 @@ std::string draw_mesh(const LoadedMesh& loaded, const PlotOptions& options, Plot
   } else {
     painter.stroke_edges(cells, edge_ink, 1);
   }
-  for (std::size_t i = 0; i < mesh.boundaries.size(); ++i) painter.stroke_boundary(mesh.boundaries[i], boundary_colour(i));
+  for (std::size_t i = 0; i < mesh.boundaries.size(); ++i)
+    painter.stroke_boundary(mesh.boundaries[i], boundary_colour(i));
   canvas.unclip();
   view.draw_axes(canvas);
   view.draw_legend(canvas, paint.legend);

@@ -19,8 +19,9 @@ struct PlotOptions {
   double size = 1600;         ///< pixels along the longer side, margins included; at least 400
 };
 
-/// The picture of a mesh, as a file's bytes. Cells and edges too small to be told apart become an even shade. Throws InputError,
-/// "what is wrong; what to do" without a file's name: an empty window, one that shows no cell, a field that is not there.
+/// The picture of a mesh, as a file's bytes. Cells and edges too small to be told apart become an even shade.
+/// Throws InputError, "what is wrong; what to do" without a file's name: an empty window, one that shows no
+/// cell, a field that is not there.
 std::string draw_mesh(const LoadedMesh& loaded, const PlotOptions& options, PlotFormat format);
 
 }  // namespace quadloop

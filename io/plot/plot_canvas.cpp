@@ -36,15 +36,19 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) n
 
 void require_success(cairo_status_t status) {
   if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
-  if (status != CAIRO_STATUS_SUCCESS) throw Fault(std::string("the picture could not be drawn: ") + cairo_status_to_string(status));
+  if (status != CAIRO_STATUS_SUCCESS)
+    throw Fault(std::string("the picture could not be drawn: ") + cairo_status_to_string(status));
 }
 
 Surface make_surface(PlotFormat format, double width, double height, std::string& bytes) {
-  if (format == PlotFormat::svg) return Surface(cairo_svg_surface_create_for_stream(append, &bytes, width, height));
+  if (format == PlotFormat::svg)
+    return Surface(cairo_svg_surface_create_for_stream(append, &bytes, width, height));
   if (format == PlotFormat::png)
-    return Surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(width)), static_cast<int>(std::lround(height))));
+    return Surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(width)),
+                                              static_cast<int>(std::lround(height))));
   Surface surface(cairo_pdf_surface_create_for_stream(append, &bytes, width, height));
-  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");  // the same bytes at any time
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
+                                 "2000-01-01T00:00:00Z");  // the same bytes at any time
   return surface;
 }
 
@@ -53,7 +57,8 @@ void choose_font(cairo_t* context) {
   cairo_set_font_size(context, font_size);
 }
 
-/// Text that Cairo takes; what it refuses would spoil the whole picture, so that is tried on a scratch context.
+/// Text that Cairo takes; what it refuses would spoil the whole picture, so that is tried on a scratch
+/// context.
 std::string printable(std::string text) {
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
   const Context context(cairo_create(surface.get()));
@@ -146,7 +151,8 @@ double Canvas::text_width(const std::string& text) const {
 std::string Canvas::finish() {
   require_success(cairo_status(cairo_->context.get()));
   cairo_->context.reset();
-  if (cairo_->format == PlotFormat::png) require_success(cairo_surface_write_to_png_stream(cairo_->surface.get(), append, &cairo_->bytes));
+  if (cairo_->format == PlotFormat::png)
+    require_success(cairo_surface_write_to_png_stream(cairo_->surface.get(), append, &cairo_->bytes));
   cairo_surface_finish(cairo_->surface.get());
   require_success(cairo_surface_status(cairo_->surface.get()));
   return std::move(cairo_->bytes);

@@ -17,13 +17,14 @@ struct Colour {
 
 /// `share` of b in a.
 constexpr Colour mixed(Colour a, Colour b, double share) {
-  return {a.red + share * (b.red - a.red), a.green + share * (b.green - a.green), a.blue + share * (b.blue - a.blue)};
+  return {a.red + share * (b.red - a.red), a.green + share * (b.green - a.green),
+          a.blue + share * (b.blue - a.blue)};
 }
 
 enum class TextAlign { left, centre, right };
 
-/// A white sheet in pixels, the origin at its top left, y downwards. What is added becomes one path, until it is filled or stroked.
-/// Coordinates must stay within some 10^6 pixels. The same calls give the same bytes.
+/// A white sheet in pixels, the origin at its top left, y downwards. What is added becomes one path, until it
+/// is filled or stroked. Coordinates must stay within some 10^6 pixels. The same calls give the same bytes.
 class Canvas {
  public:
   Canvas(PlotFormat format, double width, double height);
@@ -41,7 +42,8 @@ class Canvas {
   void fill_crisp(Colour colour);
   void stroke(Colour colour, double opacity, double width);
 
-  /// `at`: the middle of the text's height, its left, centre or right. Text that is no UTF-8 is shown as far as it is ASCII.
+  /// `at`: the middle of the text's height, its left, centre or right. Text that is no UTF-8 is shown as far
+  /// as it is ASCII.
   void text(Point at, const std::string& text, TextAlign align = TextAlign::left);
   double text_width(const std::string& text) const;
 

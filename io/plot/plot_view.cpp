@@ -11,8 +11,10 @@ namespace quadloop {
 namespace {
 
 constexpr double narrowest = 420;
-constexpr double left = 84, right = 28, right_with_bar = 150, top = 24, below_axis = 42, legend_row = 27, swatch = 24, gap = 26;
-constexpr double room = 64;  // pixels around the frame that are still drawn, so that clipped edges do not show
+constexpr double left = 84, right = 28, right_with_bar = 150, top = 24, below_axis = 42, legend_row = 27,
+                 swatch = 24, gap = 26;
+constexpr double room =
+    64;  // pixels around the frame that are still drawn, so that clipped edges do not show
 constexpr Colour ink{0.2, 0.2, 0.2};
 
 struct Ticks {
@@ -32,7 +34,8 @@ Ticks round_ticks(double low, double high, double most) {
   for (int i = 0; i < 40 && (first + i) * step <= high + 1e-9 * step; ++i) {
     const double value = (first + i) * step;
     ticks.values.push_back(value);
-    ticks.labels.push_back(plain ? fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals) : fmt::format("{:.6g}", value));
+    ticks.labels.push_back(plain ? fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals)
+                                 : fmt::format("{:.6g}", value));
   }
   return ticks;
 }
@@ -78,12 +81,15 @@ Colour quality_colour(double t) {
   return at < 0.5 ? mixed(red, yellow, 2 * at) : mixed(yellow, green, 2 * at - 1);
 }
 
-PlotView::PlotView(const Box& window, double longer_side, const std::vector<LegendEntry>& legend, bool has_bar) : window_{window} {
+PlotView::PlotView(const Box& window, double longer_side, const std::vector<LegendEntry>& legend,
+                   bool has_bar)
+    : window_{window} {
   const double beside = left + (has_bar ? right_with_bar : right);
   double below = below_axis + legend_row;
   for (int pass = 0; pass < 3; ++pass) {  // the legend's rows hang on the width, the width on them
     scale_ = std::min((longer_side - beside) / window.width(), (longer_side - top - below) / window.height());
-    const double wide = std::max(1.0, scale_ * window.width()), high = std::max(1.0, scale_ * window.height());
+    const double wide = std::max(1.0, scale_ * window.width()),
+                 high = std::max(1.0, scale_ * window.height());
     frame_ = {{left, top}, {left + wide, top + high}};
     width_ = std::round(std::max(narrowest, beside + wide));
     double bottom = 0;
@@ -149,9 +155,11 @@ void PlotView::draw_axes(Canvas& canvas) const {
   }
   canvas.stroke(ink, 1, 1.2);
   for (std::size_t i = 0; i < along_x.values.size(); ++i)
-    canvas.text({pixel({along_x.values[i], window_.low.y}).x, f.high.y + 21}, along_x.labels[i], TextAlign::centre);
+    canvas.text({pixel({along_x.values[i], window_.low.y}).x, f.high.y + 21}, along_x.labels[i],
+                TextAlign::centre);
   for (std::size_t i = 0; i < along_y.values.size(); ++i)
-    canvas.text({f.low.x - 13, pixel({window_.low.x, along_y.values[i]}).y}, along_y.labels[i], TextAlign::right);
+    canvas.text({f.low.x - 13, pixel({window_.low.x, along_y.values[i]}).y}, along_y.labels[i],
+                TextAlign::right);
 }
 
 void PlotView::draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend) const {
@@ -160,7 +168,8 @@ void PlotView::draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legen
   for (std::size_t i = 0; i < legend.size(); ++i) {
     const Point at = places[i];
     const double half = legend[i].is_line ? 2 : 7;
-    const std::array<Point, 4> corners{at + Point{0, -half}, at + Point{swatch, -half}, at + Point{swatch, half}, at + Point{0, half}};
+    const std::array<Point, 4> corners{at + Point{0, -half}, at + Point{swatch, -half},
+                                       at + Point{swatch, half}, at + Point{0, half}};
     canvas.add_polygon(corners);
     canvas.fill_crisp(legend[i].colour);
     if (!legend[i].is_line) {
@@ -177,7 +186,8 @@ void PlotView::draw_bar(Canvas& canvas, const ColourBar& bar) const {
   const double low = frame_.high.y, high = std::min(frame_.low.y + 30, low - 40);
   const auto at = [&](double t) { return low + t * (high - low); };
   const auto add_part = [&](double from, double to) {
-    canvas.add_polygon(std::array{Point{x, at(from)}, Point{x + wide, at(from)}, Point{x + wide, at(to)}, Point{x, at(to)}});
+    canvas.add_polygon(
+        std::array{Point{x, at(from)}, Point{x + wide, at(from)}, Point{x + wide, at(to)}, Point{x, at(to)}});
   };
   for (int i = 0; i < steps; ++i) {
     add_part(static_cast<double>(i) / steps, static_cast<double>(i + 1) / steps);

@@ -28,7 +28,8 @@ Colour perceptual_colour(double t);
 /// 0 red, 0.5 yellow, 1 green.
 Colour quality_colour(double t);
 
-/// Where a window of the plane lies on a sheet whose longer side has so many pixels, legend and axes included.
+/// Where a window of the plane lies on a sheet whose longer side has so many pixels, legend and axes
+/// included.
 class PlotView {
  public:
   PlotView(const Box& window, double longer_side, const std::vector<LegendEntry>& legend, bool has_bar);
@@ -38,9 +39,12 @@ class PlotView {
   double scale() const { return scale_; }      ///< pixels for a unit of length
   double width() const { return width_; }
   double height() const { return height_; }
-  Point pixel(Point p) const { return {frame_.low.x + scale_ * (p.x - window_.low.x), frame_.high.y - scale_ * (p.y - window_.low.y)}; }
+  Point pixel(Point p) const {
+    return {frame_.low.x + scale_ * (p.x - window_.low.x), frame_.high.y - scale_ * (p.y - window_.low.y)};
+  }
 
-  /// The part of a cell or edge that can be seen, with some room around, so that no coordinate is too large to draw.
+  /// The part of a cell or edge that can be seen, with some room around, so that no coordinate is too large
+  /// to draw.
   std::vector<Point> visible_part(std::vector<Point> corners) const;
   std::optional<std::array<Point, 2>> visible_part(Point a, Point b) const;
 

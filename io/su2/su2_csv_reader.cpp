@@ -24,7 +24,9 @@ std::string lower(std::string_view text) {
 
 class Su2CsvReader {
  public:
-  explicit Su2CsvReader(const std::string& path) : scan_{path, TextScanner::no_comments} { loaded_.path = path; }
+  explicit Su2CsvReader(const std::string& path) : scan_{path, TextScanner::no_comments} {
+    loaded_.path = path;
+  }
 
   LoadedSolution read() {
     read_header();
@@ -51,7 +53,8 @@ class Su2CsvReader {
   std::vector<std::string_view> fields() const {
     std::vector<std::string_view> fields;
     std::size_t begin = 0;
-    for (std::size_t comma = line_.find(','); comma != std::string_view::npos; comma = line_.find(',', begin)) {
+    for (std::size_t comma = line_.find(','); comma != std::string_view::npos;
+         comma = line_.find(',', begin)) {
       fields.push_back(trimmed(line_.substr(begin, comma - begin)));
       begin = comma + 1;
     }
@@ -68,7 +71,8 @@ class Su2CsvReader {
       names_.emplace_back(name);
       double number = 0;
       if (name.empty() || parse_real(name, number))
-        scan_.refuse_at(line_begin_, "the first line must name the columns, as \"PointID\",\"x\",\"y\",\"Density\"");
+        scan_.refuse_at(line_begin_,
+                        "the first line must name the columns, as \"PointID\",\"x\",\"y\",\"Density\"");
       if (key == "pointid") {
         id_column_ = column;
       } else if (key == "x") {
@@ -82,23 +86,28 @@ class Su2CsvReader {
         loaded_.solution.names.emplace_back(name);
       }
     }
-    if (variables_.empty()) scan_.refuse_at(line_begin_, "the table has no variables; give each a column beside PointID, x and y");
-    if (x_column_.has_value() != y_column_.has_value()) scan_.refuse_at(line_begin_, "of the coordinates only one of x and y is there");
+    if (variables_.empty())
+      scan_.refuse_at(line_begin_, "the table has no variables; give each a column beside PointID, x and y");
+    if (x_column_.has_value() != y_column_.has_value())
+      scan_.refuse_at(line_begin_, "of the coordinates only one of x and y is there");
   }
 
   void read_row() {
     const std::vector<std::string_view> texts = fields();
     if (texts.size() != names_.size()) {
-      scan_.refuse_at(line_begin_, fmt::format("{} values stand under {} names; the file is cut short, or the row is", texts.size(), names_.size()));
+      scan_.refuse_at(line_begin_,
+                      fmt::format("{} values stand under {} names; the file is cut short, or the row is",
+                                  texts.size(), names_.size()));
     }
     row_.resize(texts.size());
     for (std::size_t k = 0; k < texts.size(); ++k) {
       if (!parse_real(texts[k], row_[k])) {
-        scan_.refuse_at(line_begin_, fmt::format("expected a number for {}, found \"{}\"", names_[k], texts[k].substr(0, 40)));
+        scan_.refuse_at(line_begin_, fmt::format("expected a number for {}, found \"{}\"", names_[k],
+                                                 texts[k].substr(0, 40)));
       }
       if (!std::isfinite(row_[k]))
-        scan_.refuse_at(line_begin_,
-                        fmt::format("{} is not finite: {}, in row {} of the nodes", names_[k], texts[k].substr(0, 40), loaded_.nodes + 1));
+        scan_.refuse_at(line_begin_, fmt::format("{} is not finite: {}, in row {} of the nodes", names_[k],
+                                                 texts[k].substr(0, 40), loaded_.nodes + 1));
     }
     for (const std::size_t column : variables_) loaded_.solution.values.push_back(row_[column]);
     if (x_column_) loaded_.points.push_back({row_[*x_column_], row_[*y_column_]});
@@ -109,7 +118,9 @@ class Su2CsvReader {
 
   void check_plane(double z) {
     if (!plane_) plane_ = z;
-    if (z != *plane_) scan_.refuse_at(line_begin_, fmt::format("z is {}, before {}; a mesh lies in a plane z = constant", z, *plane_));
+    if (z != *plane_)
+      scan_.refuse_at(line_begin_,
+                      fmt::format("z is {}, before {}; a mesh lies in a plane z = constant", z, *plane_));
   }
 
   /// Each row to the place that its PointID tells.
@@ -120,16 +131,20 @@ class Su2CsvReader {
       const double id = ids_[row];
       if (id < 0 || id >= static_cast<double>(rows) || id != std::floor(id)) {
         scan_.refuse_at(scan_.text().size(),
-                        fmt::format("row {} has the PointID {}, which is none of 0 to {}; rows are missing", row + 1, id, rows - 1));
+                        fmt::format("row {} has the PointID {}, which is none of 0 to {}; rows are missing",
+                                    row + 1, id, rows - 1));
       }
       std::size_t& place = row_of[static_cast<std::size_t>(id)];
-      if (place < rows) scan_.refuse_at(scan_.text().size(), fmt::format("rows {} and {} have the same PointID {}", place + 1, row + 1, id));
+      if (place < rows)
+        scan_.refuse_at(scan_.text().size(),
+                        fmt::format("rows {} and {} have the same PointID {}", place + 1, row + 1, id));
       place = row;
     }
     if (std::is_sorted(row_of.begin(), row_of.end())) return;
     const LoadedSolution unsorted = loaded_;
     for (std::size_t i = 0; i < rows; ++i) {
-      for (std::size_t k = 0; k < width; ++k) loaded_.solution.values[i * width + k] = unsorted.solution.values[row_of[i] * width + k];
+      for (std::size_t k = 0; k < width; ++k)
+        loaded_.solution.values[i * width + k] = unsorted.solution.values[row_of[i] * width + k];
       if (x_column_) loaded_.points[i] = unsorted.points[row_of[i]];
     }
   }

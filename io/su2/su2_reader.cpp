@@ -51,7 +51,8 @@ class Su2Reader {
   void find_keys() {
     const std::string_view text = scan_.text();
     std::size_t line_end = 0;
-    for (std::size_t equals = text.find('='); equals != std::string_view::npos; equals = text.find('=', line_end)) {
+    for (std::size_t equals = text.find('='); equals != std::string_view::npos;
+         equals = text.find('=', line_end)) {
       const std::size_t before = text.rfind('\n', equals);
       const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
       line_end = std::min(text.find('\n', equals), text.size());
@@ -64,9 +65,11 @@ class Su2Reader {
 
   void check_head() {
     const std::size_t zones = find("NZONE");
-    if (zones < keys_.size() && number_of(zones, "the number of zones") != 1) scan_.refuse("a file of several zones; only one can be read");
+    if (zones < keys_.size() && number_of(zones, "the number of zones") != 1)
+      scan_.refuse("a file of several zones; only one can be read");
     const std::int64_t dimension = number_of(find_one("NDIME"), "the dimension");
-    if (dimension != 2) scan_.refuse("the mesh has " + std::to_string(dimension) + " dimensions; only 2 can be read");
+    if (dimension != 2)
+      scan_.refuse("the mesh has " + std::to_string(dimension) + " dimensions; only 2 can be read");
   }
 
   /// The line of a key; keys_.size() where the file has none.
@@ -82,7 +85,9 @@ class Su2Reader {
 
   std::size_t find_one(const std::string& key) const {
     const std::size_t found = find(key);
-    if (found == keys_.size()) scan_.refuse_at(scan_.text().size(), "the file ends without " + key + "=; it is cut short, or no SU2 mesh");
+    if (found == keys_.size())
+      scan_.refuse_at(scan_.text().size(),
+                      "the file ends without " + key + "=; it is cut short, or no SU2 mesh");
     return found;
   }
 
@@ -104,7 +109,8 @@ class Su2Reader {
   /// A row is one line: a number that is missing is not taken from the next.
   void expect_in_row(const std::string& expected) {
     if (!scan_.at_line_end()) return;
-    scan_.refuse((scan_.at_end() ? "the file ends where " : "this line ends where ") + expected + " should follow");
+    scan_.refuse((scan_.at_end() ? "the file ends where " : "this line ends where ") + expected +
+                 " should follow");
   }
 
   /// A row may end with its own number, which says nothing new.
@@ -118,7 +124,8 @@ class Su2Reader {
     if (scan_.at_end()) return;
     const std::string found(scan_.token("").substr(0, 40));
     if (next < keys_.size() && scan_.place() >= keys_[next].begin) return;
-    scan_.refuse("expected a line \"KEY= value\", found \"" + found + "\"; a row too many, or a count too small");
+    scan_.refuse("expected a line \"KEY= value\", found \"" + found +
+                 "\"; a row too many, or a count too small");
   }
 
   void read_points() {
@@ -138,7 +145,8 @@ class Su2Reader {
   }
 
   void end_of_key_line() {
-    if (!scan_.at_line_end()) scan_.refuse("text after the number: \"" + std::string(scan_.rest_of_line().substr(0, 40)) + "\"");
+    if (!scan_.at_line_end())
+      scan_.refuse("text after the number: \"" + std::string(scan_.rest_of_line().substr(0, 40)) + "\"");
   }
 
   NodeId node_in_row() {
@@ -146,7 +154,8 @@ class Su2Reader {
     const std::int64_t number = scan_.integer("a point of this element");
     const auto points = static_cast<std::int64_t>(foreign_.loaded.mesh.points.size());
     if (number < 0 || number >= points) {
-      scan_.refuse("point " + std::to_string(number) + " is none of the points 0 to " + std::to_string(points - 1));
+      scan_.refuse("point " + std::to_string(number) + " is none of the points 0 to " +
+                   std::to_string(points - 1));
     }
     return NodeId{static_cast<std::int32_t>(number)};
   }
@@ -171,7 +180,8 @@ class Su2Reader {
       } else if (type == 9) {
         foreign_.add_quad(nodes_in_row<4>(), block);
       } else {
-        scan_.refuse("an element of type " + element_name(type) + "; only 5 (triangle) and 9 (quadrilateral) can be read");
+        scan_.refuse("an element of type " + element_name(type) +
+                     "; only 5 (triangle) and 9 (quadrilateral) can be read");
       }
     }
     check_rows_end_before(key + 1);
@@ -188,12 +198,14 @@ class Su2Reader {
         name = scan_.rest_of_line();
         ++tags;
       } else if (keys_[key].key == "MARKER_ELEMS") {
-        if (name.empty()) scan_.refuse_at(keys_[key].begin, "MARKER_ELEMS= stands without a MARKER_TAG= before it");
+        if (name.empty())
+          scan_.refuse_at(keys_[key].begin, "MARKER_ELEMS= stands without a MARKER_TAG= before it");
         read_marker(key, name);
         name.clear();
       }
     }
-    if (!name.empty()) scan_.refuse_at(scan_.text().size(), "the file ends without MARKER_ELEMS= for marker " + name);
+    if (!name.empty())
+      scan_.refuse_at(scan_.text().size(), "the file ends without MARKER_ELEMS= for marker " + name);
     check_marker_count(tags);
   }
 
@@ -202,7 +214,8 @@ class Su2Reader {
     if (key == keys_.size() && tags == 0) return;
     const std::int64_t count = number_of(find_one("NMARK"), "the number of markers");
     if (count != static_cast<std::int64_t>(tags)) {
-      scan_.refuse("the file has " + std::to_string(tags) + " markers (MARKER_TAG=), not " + std::to_string(count));
+      scan_.refuse("the file has " + std::to_string(tags) + " markers (MARKER_TAG=), not " +
+                   std::to_string(count));
     }
   }
 
@@ -213,7 +226,9 @@ class Su2Reader {
     for (std::size_t i = 0; i < count; ++i) {
       const std::int64_t type = scan_.integer("the type of an edge");
       const std::size_t place = scan_.place();
-      if (type != 3) scan_.refuse("marker " + name + " has an element of type " + element_name(type) + "; only 3 (line) can be read");
+      if (type != 3)
+        scan_.refuse("marker " + name + " has an element of type " + element_name(type) +
+                     "; only 3 (line) can be read");
       foreign_.edges.push_back({nodes_in_row<2>(), boundary, place});
     }
     check_rows_end_before(key + 1);

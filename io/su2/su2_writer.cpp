@@ -1,7 +1,7 @@
 #include <span>
 
-#include "io/text/name_index.hpp"
 #include "io/su2/su2_file.hpp"
+#include "io/text/name_index.hpp"
 #include "io/text/text_output.hpp"
 
 namespace quadloop {
@@ -15,14 +15,16 @@ std::string marker_name(const std::string& name) {
   for (char& c : result) {
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'), digit = c >= '0' && c <= '9';
     const bool above_ascii = (static_cast<unsigned char>(c) & 0x80U) != 0;  // part of a letter in UTF-8
-    if (!letter && !digit && !above_ascii && std::string_view("_-.+").find(c) == std::string_view::npos) c = '_';
+    if (!letter && !digit && !above_ascii && std::string_view("_-.+").find(c) == std::string_view::npos)
+      c = '_';
   }
   return result;
 }
 
 class Su2Writer {
  public:
-  Su2Writer(OutputSet& outputs, const Mesh& mesh, const std::string& path) : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path} {}
+  Su2Writer(OutputSet& outputs, const Mesh& mesh, const std::string& path)
+      : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path} {}
 
   void write_mesh() {
     const std::int64_t triangles = total(mesh_.triangles), quads = total(mesh_.quads);
@@ -64,7 +66,11 @@ class Su2Writer {
     const std::vector<std::string> names = su2_marker_names(own_names);
     file_.write("NMARK= " + std::to_string(names.size()) + "\n");
     file_.write_boundaries(
-        boundaries, 3, [&](std::size_t n) { return "MARKER_TAG= " + names[n] + "\nMARKER_ELEMS= " + std::to_string(boundaries.edges_of(n)) + "\n"; },
+        boundaries, 3,
+        [&](std::size_t n) {
+          return "MARKER_TAG= " + names[n] + "\nMARKER_ELEMS= " + std::to_string(boundaries.edges_of(n)) +
+                 "\n";
+        },
         [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
           text.put(vtk_line, ' ');
           text.put(edge[0], ' ');
@@ -89,7 +95,9 @@ std::vector<std::string> su2_marker_names(const std::vector<std::string>& bounda
   return names;
 }
 
-void write_su2(OutputSet& outputs, const Mesh& mesh, const std::string& path) { Su2Writer(outputs, mesh, path).write_mesh(); }
+void write_su2(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
+  Su2Writer(outputs, mesh, path).write_mesh();
+}
 
 void write_su2(const Communicator& comm, const Mesh& mesh, const std::string& path) {
   OutputSet outputs(comm);

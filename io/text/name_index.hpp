@@ -8,7 +8,8 @@
 
 namespace quadloop {
 
-/// Numbers names in the order in which they come, and finds them again in constant time: a file may name hundreds of thousands of boundaries.
+/// Numbers names in the order in which they come, and finds them again in constant time: a file may name
+/// hundreds of thousands of boundaries.
 class NameIndex {
  public:
   /// The name's number; `is_new` where it is asked for the first time.
@@ -25,7 +26,8 @@ class NameIndex {
   std::unordered_map<std::string, std::int32_t> numbers_;
 };
 
-/// Gives each name that is asked for a form that no other has: the wanted one, or with the first free suffix _2, _3, ...
+/// Gives each name that is asked for a form that no other has: the wanted one, or with the first free suffix
+/// _2, _3, ...
 class DistinctNames {
  public:
   void reserve(const std::string& name) { used_.insert(name); }
@@ -35,7 +37,8 @@ class DistinctNames {
   std::string name(const std::string& wanted, const WithSuffix& with_suffix) {
     std::string result = wanted;
     if (used_.contains(result)) {
-      std::int64_t& number = next_suffix_.try_emplace(wanted, 2).first->second;  // those below are taken for good
+      std::int64_t& number =
+          next_suffix_.try_emplace(wanted, 2).first->second;  // those below are taken for good
       while (used_.contains(result = with_suffix(suffix_of(number)))) ++number;
     }
     used_.insert(result);
@@ -43,7 +46,9 @@ class DistinctNames {
   }
 
  private:
-  static std::string suffix_of(std::int64_t number) { return std::string("_").append(std::to_string(number)); }
+  static std::string suffix_of(std::int64_t number) {
+    return std::string("_").append(std::to_string(number));
+  }
 
   std::unordered_set<std::string> used_;
   std::unordered_map<std::string, std::int64_t> next_suffix_;  ///< by the wanted name

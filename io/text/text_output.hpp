@@ -13,12 +13,15 @@
 
 namespace quadloop {
 
-/// Grows a text number by number into room that was made once. Numbers are the shortest that read back as they are.
+/// Grows a text number by number into room that was made once. Numbers are the shortest that read back as
+/// they are.
 class TextRows {
  public:
-  static constexpr std::size_t longest_number = 25;  // with the blank or line end after it: -1.7976931348623157e+308
+  static constexpr std::size_t longest_number =
+      25;  // with the blank or line end after it: -1.7976931348623157e+308
 
-  TextRows(std::int64_t rows, std::size_t width) : text_(static_cast<std::size_t>(rows) * width * longest_number) {}
+  TextRows(std::int64_t rows, std::size_t width)
+      : text_(static_cast<std::size_t>(rows) * width * longest_number) {}
 
   template <class Number>
   void put(Number value, char after) {
@@ -37,7 +40,8 @@ class TextRows {
   std::size_t used_ = 0;
 };
 
-/// A text file that all ranks write together, through rank 0; the file under way exists there alone. *Collective*, all of it.
+/// A text file that all ranks write together, through rank 0; the file under way exists there alone.
+/// *Collective*, all of it.
 class TextOutput {
  public:
   TextOutput(OutputSet& outputs, const std::string& path);
@@ -47,7 +51,8 @@ class TextOutput {
   /// Rank 0's text.
   void write(const std::string& text);
 
-  /// The ranks' rows in the order of ranks, in bounded pieces: `put(text, i)` puts at most `width` numbers for this rank's row i.
+  /// The ranks' rows in the order of ranks, in bounded pieces: `put(text, i)` puts at most `width` numbers
+  /// for this rank's row i.
   template <class Put>
   void write_rows(std::size_t rows, std::size_t width, const Put& put) {
     const RowStream stream{comm_, static_cast<std::int64_t>(rows), rows_per_piece};
@@ -68,9 +73,11 @@ class TextOutput {
     write_rows(static_cast<std::size_t>(comm_.is_root() ? rows : 0), width, put);
   }
 
-  /// The edges of all boundaries: `head(n)` is the text before those of present()[n], `put(text, n, edge)` puts at most `width` numbers for one.
+  /// The edges of all boundaries: `head(n)` is the text before those of present()[n], `put(text, n, edge)`
+  /// puts at most `width` numbers for one.
   template <class Head, class Put>
-  void write_boundaries(const BoundaryStream& boundaries, std::size_t width, const Head& head, const Put& put) {
+  void write_boundaries(const BoundaryStream& boundaries, std::size_t width, const Head& head,
+                        const Put& put) {
     std::size_t under_way = 0;
     std::string waiting;  // boundaries of a few edges each would be as many small writes
     boundaries.run(

@@ -8,9 +8,9 @@
 #include <limits>
 #include <utility>
 
+#include "io/files/input_file.hpp"
 #include "io/text/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
-#include "io/files/input_file.hpp"
 
 namespace quadloop {
 
@@ -46,9 +46,12 @@ bool parse_c_real(std::string_view token, double& value) {
 
 }  // namespace
 
-bool parse_real(std::string_view token, double& value) { return parse_c_real(token, value) || parse_c_real(with_c_exponent(token), value); }
+bool parse_real(std::string_view token, double& value) {
+  return parse_c_real(token, value) || parse_c_real(with_c_exponent(token), value);
+}
 
-TextScanner::TextScanner(std::string path, char comment) : path_{std::move(path)}, text_{read_input(path_)}, comment_{comment} {
+TextScanner::TextScanner(std::string path, char comment)
+    : path_{std::move(path)}, text_{read_input(path_)}, comment_{comment} {
   at_ = token_ = comments_begin_ = text_.data();
   end_ = at_ + text_.size();
 }
@@ -83,7 +86,8 @@ std::int64_t TextScanner::integer(std::string_view expected) {
   std::int64_t value = 0;
   const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || stopped != text.data() + text.size()) {
-    refuse("expected " + std::string(expected) + ", found \"" + std::string(text.substr(0, longest_quote)) + "\"");
+    refuse("expected " + std::string(expected) + ", found \"" + std::string(text.substr(0, longest_quote)) +
+           "\"");
   }
   return value;
 }
@@ -93,10 +97,11 @@ double TextScanner::real(std::string_view expected) {
   double value = 0;
   if (!parse_real(text, value)) {
     const std::string comma = decimal_comma_in(text);
-    refuse("expected " + std::string(expected) + ", found \"" + std::string(text.substr(0, longest_quote)) + "\"" +
-           (comma.empty() ? "" : "; " + comma));
+    refuse("expected " + std::string(expected) + ", found \"" + std::string(text.substr(0, longest_quote)) +
+           "\"" + (comma.empty() ? "" : "; " + comma));
   }
-  if (!std::isfinite(value)) refuse(std::string(expected) + " is not finite: " + std::string(text.substr(0, longest_quote)));
+  if (!std::isfinite(value))
+    refuse(std::string(expected) + " is not finite: " + std::string(text.substr(0, longest_quote)));
   return value;
 }
 
@@ -104,9 +109,11 @@ std::size_t TextScanner::count(const std::string& of, std::size_t width) {
   const std::int64_t value = integer("the number of " + of);
   if (value < 0) refuse("the number of " + of + " is negative: " + std::to_string(value));
   const auto rows = static_cast<std::size_t>(value);
-  if (rows > std::numeric_limits<std::int32_t>::max()) refuse("more than 2^31 - 1 " + of + " cannot be read on one rank");
+  if (rows > std::numeric_limits<std::int32_t>::max())
+    refuse("more than 2^31 - 1 " + of + " cannot be read on one rank");
   if (2 * width * rows > bytes_left() + 1) {
-    refuse("the file ends before its " + std::to_string(rows) + " " + of + " can follow; it is cut short, or this count is wrong");
+    refuse("the file ends before its " + std::to_string(rows) + " " + of +
+           " can follow; it is cut short, or this count is wrong");
   }
   return rows;
 }
@@ -130,7 +137,8 @@ std::string_view TextScanner::rest_of_line() {
 
 std::string_view TextScanner::last_comment_with(std::string_view text) const {
   const std::string_view passed(comments_begin_, static_cast<std::size_t>(at_ - comments_begin_));
-  for (std::size_t hash = passed.rfind(comment_); hash != std::string_view::npos; hash = passed.rfind(comment_, hash - 1)) {
+  for (std::size_t hash = passed.rfind(comment_); hash != std::string_view::npos;
+       hash = passed.rfind(comment_, hash - 1)) {
     const std::string_view comment = passed.substr(hash, passed.find_first_of("\r\n", hash) - hash);
     if (comment.find(text) != std::string_view::npos) return comment;
     if (hash == 0) break;

@@ -9,8 +9,8 @@ namespace quadloop {
 /// Whether a token is one number from end to end, also with a Fortran exponent (1.0D-3); "nan" and "inf" are.
 bool parse_real(std::string_view token, double& value);
 
-/// Reads blank-separated tokens of a text that is held whole, and passes over comments (from a `comment` that begins a token to the
-/// end of its line). Every refusal is an InputError "file:line: ...".
+/// Reads blank-separated tokens of a text that is held whole, and passes over comments (from a `comment` that
+/// begins a token to the end of its line). Every refusal is an InputError "file:line: ...".
 class TextScanner {
  public:
   static constexpr char no_comments = '\n';
@@ -25,8 +25,8 @@ class TextScanner {
   std::int64_t integer(std::string_view expected);
   /// A finite number, also with a Fortran exponent (1.0D-3).
   double real(std::string_view expected);
-  /// A number of rows of `width` tokens each, checked against what the file can still hold, so that a wrong one is not taken as a
-  /// size of memory. `of` names the rows.
+  /// A number of rows of `width` tokens each, checked against what the file can still hold, so that a wrong
+  /// one is not taken as a size of memory. `of` names the rows.
   std::size_t count(const std::string& of, std::size_t width);
   std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
 
@@ -40,7 +40,8 @@ class TextScanner {
   std::size_t place() const { return static_cast<std::size_t>(token_ - text_.data()); }
   void go_to(std::size_t place) { at_ = token_ = comments_begin_ = text_.data() + place; }
 
-  /// The comment passed over last that contains `text`, since the last forget_comments(); empty where there was none.
+  /// The comment passed over last that contains `text`, since the last forget_comments(); empty where there
+  /// was none.
   std::string_view last_comment_with(std::string_view text) const;
   void forget_comments() { comments_begin_ = at_; }
 

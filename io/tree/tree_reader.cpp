@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "io/files/hdf5_handle.hpp"
+#include "io/files/input_file.hpp"
 #include "io/files/separate_reader.hpp"
 #include "io/tree/tree_check.hpp"
 #include "io/tree/tree_file.hpp"
-#include "io/files/input_file.hpp"
 
 namespace quadloop {
 
@@ -26,7 +26,8 @@ class TreeSource {
     std::int32_t version = 0;
     read_number("format_version", version);
     if (version != tree_format_version) {
-      refuse("has format version " + std::to_string(version) + "; this program reads version " + std::to_string(tree_format_version));
+      refuse("has format version " + std::to_string(version) + "; this program reads version " +
+             std::to_string(tree_format_version));
     }
     TreeAttributes result;
     for_each_attribute(result, [&](const char* name, auto& value) { read_number(name, value); });
@@ -39,7 +40,8 @@ class TreeSource {
   void require_stored(std::int64_t leaves) const {
     for_each_tree_dataset([&](const char* name, const auto& members) {
       const Hdf5Handle dataset = open(name);
-      if (rows_of(dataset) != leaves) refuse(std::string("its dataset \"") + name + "\" has another length than \"x\"");
+      if (rows_of(dataset) != leaves)
+        refuse(std::string("its dataset \"") + name + "\" has another length than \"x\"");
       if (!may_hold(dataset, static_cast<hsize_t>(leaves) * members.size())) {
         refuse(std::string("its dataset \"") + name + "\" is said to have " + std::to_string(leaves) +
                " rows, more than the file holds; it is cut short or damaged");
@@ -68,35 +70,42 @@ class TreeSource {
 
   Hdf5Handle open(const char* name) const {
     Hdf5Handle dataset(H5Dopen2(file_.id(), name, H5P_DEFAULT), H5Dclose);
-    if (!dataset.valid()) refuse(std::string("is no tree file, or damaged: it has no dataset \"") + name + "\"");
+    if (!dataset.valid())
+      refuse(std::string("is no tree file, or damaged: it has no dataset \"") + name + "\"");
     return dataset;
   }
 
   static std::int64_t rows_of(const Hdf5Handle& dataset) {
     const Hdf5Handle space(H5Dget_space(dataset.id()), H5Sclose);
     std::array<hsize_t, 32> size{};
-    return H5Sget_simple_extent_dims(space.id(), size.data(), nullptr) < 1 ? 0 : static_cast<std::int64_t>(size[0]);
+    return H5Sget_simple_extent_dims(space.id(), size.data(), nullptr) < 1
+               ? 0
+               : static_cast<std::int64_t>(size[0]);
   }
 
   /// Whether what is stored can be as many numbers; filters pack at most 1032 bytes into one.
   static bool may_hold(const Hdf5Handle& dataset, hsize_t numbers) {
-    const Hdf5Handle type(H5Dget_type(dataset.id()), H5Tclose), creation(H5Dget_create_plist(dataset.id()), H5Pclose);
+    const Hdf5Handle type(H5Dget_type(dataset.id()), H5Tclose),
+        creation(H5Dget_create_plist(dataset.id()), H5Pclose);
     const hsize_t largest_ratio = H5Pget_nfilters(creation.id()) == 0 ? 1 : 1100;
     const hsize_t width = H5Tget_size(type.id());
     return width > 0 && numbers <= H5Dget_storage_size(dataset.id()) * largest_ratio / width;
   }
 
   template <class T, std::size_t width>
-  void read_column(const Hdf5Handle& dataset, const char* name, const std::array<T LeafRecord::*, width>& members, std::int64_t first,
+  void read_column(const Hdf5Handle& dataset, const char* name,
+                   const std::array<T LeafRecord::*, width>& members, std::int64_t first,
                    std::vector<LeafRecord>& leaves) const {
     std::vector<T> column(leaves.size() * width);
     const std::array<hsize_t, 2> begin{static_cast<hsize_t>(first), 0}, count{leaves.size(), width};
     const Hdf5Handle memory(H5Screate_simple(width == 1 ? 1 : 2, count.data(), nullptr), H5Sclose);
     const Hdf5Handle file(H5Dget_space(dataset.id()), H5Sclose);
-    const bool shaped = H5Sget_simple_extent_ndims(file.id()) == (width == 1 ? 1 : 2) &&
-                        H5Sselect_hyperslab(file.id(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr) >= 0 &&
-                        H5Sselect_valid(file.id()) > 0;
-    if (!shaped || H5Dread(dataset.id(), memory_type<T>(), memory.id(), file.id(), H5P_DEFAULT, column.data()) < 0) {
+    const bool shaped =
+        H5Sget_simple_extent_ndims(file.id()) == (width == 1 ? 1 : 2) &&
+        H5Sselect_hyperslab(file.id(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr) >= 0 &&
+        H5Sselect_valid(file.id()) > 0;
+    if (!shaped ||
+        H5Dread(dataset.id(), memory_type<T>(), memory.id(), file.id(), H5P_DEFAULT, column.data()) < 0) {
       refuse(std::string("its dataset \"") + name + "\" cannot be read; the file is cut short or damaged");
     }
     auto value = column.begin();
@@ -130,7 +139,8 @@ TreeShare read_share(const std::string& path, std::int64_t rank, std::int64_t ra
   const std::int64_t all = source.leaves();
   require_possible_attributes(share.tree.attributes, all, path);
   source.require_stored(all);
-  const std::int64_t begin = all / ranks * rank + std::min(all % ranks, rank), end = all / ranks * (rank + 1) + std::min(all % ranks, rank + 1);
+  const std::int64_t begin = all / ranks * rank + std::min(all % ranks, rank),
+                     end = all / ranks * (rank + 1) + std::min(all % ranks, rank + 1);
   share.tree.leaves = source.read(begin, end);
   if (begin > 0 && begin < end) share.before = source.read(begin - 1, begin).front();
   return share;
@@ -140,7 +150,9 @@ TreeShare read_share(const std::string& path, std::int64_t rank, std::int64_t ra
 
 TreeRecord read_tree(const Communicator& comm, const std::string& path) {
   TreeShare share;
-  comm.together([&] { share = read_separately<TreeShare>(path, [&] { return read_share(path, comm.rank(), comm.size()); }); });
+  comm.together([&] {
+    share = read_separately<TreeShare>(path, [&] { return read_share(path, comm.rank(), comm.size()); });
+  });
   require_whole_tree(comm, share.tree, share.before, path);
   return std::move(share.tree);
 }

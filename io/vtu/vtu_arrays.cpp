@@ -15,13 +15,16 @@ namespace quadloop {
 
 namespace {
 
-/// Bytes as they stand, or out of base64. A stream of base64 may end with padding and another follow at once, as after a header.
+/// Bytes as they stand, or out of base64. A stream of base64 may end with padding and another follow at once,
+/// as after a header.
 class ByteStream {
  public:
   ByteStream(std::string_view text, bool base64) : text_{text}, base64_{base64} {}
 
   /// An upper bound.
-  std::size_t bytes_left() const { return pending_.size() - taken_ + (base64_ ? text_.size() / 4 * 3 + 3 : text_.size()); }
+  std::size_t bytes_left() const {
+    return pending_.size() - taken_ + (base64_ ? text_.size() / 4 * 3 + 3 : text_.size());
+  }
 
   /// Whether there were as many.
   bool read(std::span<char> out) {
@@ -107,7 +110,8 @@ std::optional<std::uint64_t> read_size(ByteStream& stream, const VtuDocument& do
 /// Empty where the blocks do not hold what their header says.
 std::optional<std::vector<char>> inflate_blocks(ByteStream& stream, const VtuDocument& document) {
   constexpr std::uint64_t largest_ratio = 1100;  // zlib's is 1032
-  const auto blocks = read_size(stream, document), size = read_size(stream, document), rest = read_size(stream, document);
+  const auto blocks = read_size(stream, document), size = read_size(stream, document),
+             rest = read_size(stream, document);
   if (!blocks || !size || !rest || *blocks > stream.bytes_left()) return {};
   std::vector<std::uint64_t> packed_sizes;
   for (std::uint64_t i = 0; i < *blocks; ++i) {
@@ -124,8 +128,9 @@ std::optional<std::vector<char>> inflate_blocks(ByteStream& stream, const VtuDoc
     const std::size_t before = bytes.size();
     bytes.resize(before + wanted);
     uLongf written = wanted;
-    const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data() + before), &written, reinterpret_cast<const Bytef*>(packed.data()),
-                                  static_cast<uLong>(packed.size()));
+    const int status =
+        uncompress(reinterpret_cast<Bytef*>(bytes.data() + before), &written,
+                   reinterpret_cast<const Bytef*>(packed.data()), static_cast<uLong>(packed.size()));
     if (status != Z_OK || written != wanted) return {};
   }
   return bytes;
@@ -145,12 +150,15 @@ void VtuNumbers::refuse(const VtuArray& array, const std::string& message) const
 
 std::vector<char> VtuNumbers::bytes(const VtuArray& array, std::optional<std::size_t> count) const {
   const bool appended = array.format == "appended";
-  if (!appended && array.format != "binary") refuse(array, "has the format '" + array.format + "'; save it as ascii, binary or appended");
+  if (!appended && array.format != "binary")
+    refuse(array, "has the format '" + array.format + "'; save it as ascii, binary or appended");
   std::string_view text = scan_.text().substr(array.begin, array.end - array.begin);
   if (appended) {
     const std::size_t size = document_.appended_end - document_.appended_begin;
-    if (!array.offset || static_cast<std::size_t>(*array.offset) > size) refuse(array, "stands beyond the end of the file; it is cut short");
-    text = scan_.text().substr(document_.appended_begin, size).substr(static_cast<std::size_t>(*array.offset));
+    if (!array.offset || static_cast<std::size_t>(*array.offset) > size)
+      refuse(array, "stands beyond the end of the file; it is cut short");
+    text =
+        scan_.text().substr(document_.appended_begin, size).substr(static_cast<std::size_t>(*array.offset));
   }
   ByteStream stream(text, !appended || !document_.appended_raw);
   std::optional<std::vector<char>> bytes;
@@ -181,17 +189,20 @@ std::vector<Number> VtuNumbers::converted(const VtuArray& array, const std::vect
 }
 
 template <class Number>
-std::vector<Number> VtuNumbers::ascii_numbers(const VtuArray& array, std::optional<std::int64_t> count) const {
+std::vector<Number> VtuNumbers::ascii_numbers(const VtuArray& array,
+                                              std::optional<std::int64_t> count) const {
   constexpr std::string_view blanks = " \t\r\n";
   const std::string_view data = scan_.text().substr(array.begin, array.end - array.begin);
   std::vector<Number> result;
   if (count) result.reserve(std::min(static_cast<std::size_t>(*count), data.size() / 2 + 1));
-  for (std::size_t at = data.find_first_not_of(blanks); at != std::string_view::npos; at = data.find_first_not_of(blanks, at)) {
+  for (std::size_t at = data.find_first_not_of(blanks); at != std::string_view::npos;
+       at = data.find_first_not_of(blanks, at)) {
     const std::size_t end = std::min(data.find_first_of(blanks, at), data.size());
     Number value{};
     if (!parse(data.substr(at, end - at), value)) {
-      scan_.refuse_at(array.begin + at, "expected a number of the array '" + array.name + "', found \"" +
-                                            std::string(data.substr(at, std::min<std::size_t>(40, end - at))) + "\"");
+      scan_.refuse_at(array.begin + at,
+                      "expected a number of the array '" + array.name + "', found \"" +
+                          std::string(data.substr(at, std::min<std::size_t>(40, end - at))) + "\"");
     }
     result.push_back(value);
     at = end;
@@ -205,16 +216,20 @@ std::vector<Number> VtuNumbers::ascii_numbers(const VtuArray& array, std::option
 template <class Number>
 std::vector<Number> VtuNumbers::numbers(const VtuArray& array, std::optional<std::int64_t> count) const {
   std::size_t size = 0;
-  if (!with_type(array.type, [&]<class T>(T) { size = sizeof(T); })) refuse(array, "has the type '" + array.type + "', which is no number's");
+  if (!with_type(array.type, [&]<class T>(T) { size = sizeof(T); }))
+    refuse(array, "has the type '" + array.type + "', which is no number's");
   if (array.format == "ascii") return ascii_numbers<Number>(array, count);
   std::optional<std::size_t> byte_count;
   if (count) byte_count = static_cast<std::size_t>(*count) * size;
   return converted<Number>(array, bytes(array, byte_count));
 }
 
-std::vector<double> VtuNumbers::reals(const VtuArray& array, std::optional<std::int64_t> count) const { return numbers<double>(array, count); }
+std::vector<double> VtuNumbers::reals(const VtuArray& array, std::optional<std::int64_t> count) const {
+  return numbers<double>(array, count);
+}
 
-std::vector<std::int64_t> VtuNumbers::integers(const VtuArray& array, std::optional<std::int64_t> count) const {
+std::vector<std::int64_t> VtuNumbers::integers(const VtuArray& array,
+                                               std::optional<std::int64_t> count) const {
   return numbers<std::int64_t>(array, count);
 }
 

@@ -31,10 +31,14 @@ std::string attribute(const XML_Char** attributes, std::string_view name) {
 
 class Builder {
  public:
-  Builder(XML_Parser parser, std::string_view text, VtuDocument& document) : parser_{parser}, text_{text}, document_{document} {
+  Builder(XML_Parser parser, std::string_view text, VtuDocument& document)
+      : parser_{parser}, text_{text}, document_{document} {
     XML_SetUserData(parser, this);
     XML_SetElementHandler(
-        parser, [](void* self, const XML_Char* name, const XML_Char** attributes) { static_cast<Builder*>(self)->start(name, attributes); },
+        parser,
+        [](void* self, const XML_Char* name, const XML_Char** attributes) {
+          static_cast<Builder*>(self)->start(name, attributes);
+        },
         [](void* self, const XML_Char* name) { static_cast<Builder*>(self)->end(name); });
   }
 
@@ -82,7 +86,8 @@ class Builder {
   void start_file(const XML_Char** attributes) {
     is_vtk_ = true;
     const std::string type = attribute(attributes, "type"), compressor = attribute(attributes, "compressor");
-    if (type != "UnstructuredGrid") return refuse("holds VTK data of type '" + type + "'; save it as an unstructured grid");
+    if (type != "UnstructuredGrid")
+      return refuse("holds VTK data of type '" + type + "'; save it as an unstructured grid");
     if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
       return refuse("is compressed by " + compressor + "; save it with zlib or without compression");
     }
@@ -129,7 +134,8 @@ class Builder {
     if (text.empty()) return absent;
     std::int64_t value = 0;
     const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || stopped != text.data() + text.size() || value < 0) refuse(std::string(name) + " is '" + text + "', not a count");
+    if (error != std::errc{} || stopped != text.data() + text.size() || value < 0)
+      refuse(std::string(name) + " is '" + text + "', not a count");
     return value;
   }
 
@@ -146,7 +152,8 @@ class Builder {
 void find_appended(const TextScanner& scan, std::size_t tag, VtuDocument& document) {
   const std::string_view text = scan.text();
   const std::size_t close = text.find('>', tag), underscore = text.find('_', close);
-  if (close == std::string_view::npos || underscore == std::string_view::npos) scan.refuse_at(tag, "the file ends before its appended data");
+  if (close == std::string_view::npos || underscore == std::string_view::npos)
+    scan.refuse_at(tag, "the file ends before its appended data");
   const std::string_view head = text.substr(tag, close - tag);
   document.appended_raw = head.find("raw") != std::string_view::npos;
   document.appended_begin = underscore + 1;
@@ -154,7 +161,8 @@ void find_appended(const TextScanner& scan, std::size_t tag, VtuDocument& docume
   document.appended_end = end == std::string_view::npos || end < underscore ? text.size() : end;
 }
 
-void feed(const TextScanner& scan, XML_Parser parser, std::string_view text, bool whole, const Builder& builder) {
+void feed(const TextScanner& scan, XML_Parser parser, std::string_view text, bool whole,
+          const Builder& builder) {
   constexpr std::size_t largest_piece = std::size_t{1} << 26;
   for (std::size_t begin = 0; begin == 0 || begin < text.size(); begin += largest_piece) {
     const std::string_view piece = text.substr(begin, largest_piece);
@@ -162,15 +170,19 @@ void feed(const TextScanner& scan, XML_Parser parser, std::string_view text, boo
     const XML_Status status = XML_Parse(parser, piece.data(), static_cast<int>(piece.size()), last ? 1 : 0);
     if (builder.refusal()) scan.refuse_at(builder.refusal()->place, builder.refusal()->message);
     if (status == XML_STATUS_OK) continue;
-    const auto place = std::min(static_cast<std::size_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser))), scan.text().size());
-    scan.refuse_at(place, std::string("is no whole VTK XML file: ") + XML_ErrorString(XML_GetErrorCode(parser)));
+    const auto place =
+        std::min(static_cast<std::size_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser))),
+                 scan.text().size());
+    scan.refuse_at(place,
+                   std::string("is no whole VTK XML file: ") + XML_ErrorString(XML_GetErrorCode(parser)));
   }
 }
 
 }  // namespace
 
 const VtuArray* VtuDocument::find(const std::string& section, const std::string& name) const {
-  const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const VtuArray& a) { return a.section == section && a.name == name; });
+  const auto found = std::find_if(arrays.begin(), arrays.end(),
+                                  [&](const VtuArray& a) { return a.section == section && a.name == name; });
   return found == arrays.end() ? nullptr : &*found;
 }
 

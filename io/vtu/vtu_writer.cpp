@@ -29,7 +29,8 @@ std::string array_tag(const std::string& type, const std::string& name, int comp
   return tag + " format=\"ascii\">\n";
 }
 
-/// The codes of their bytes, after each text a 0: what an array of strings holds, but under a type of numbers, since not every reader knows strings.
+/// The codes of their bytes, after each text a 0: what an array of strings holds, but under a type of
+/// numbers, since not every reader knows strings.
 std::string text_array(const std::string& name, const std::vector<std::string>& texts) {
   std::string codes;
   std::size_t count = 0;
@@ -38,8 +39,8 @@ std::string text_array(const std::string& name, const std::vector<std::string>& 
     codes += "0\n";
     count += text.size() + 1;
   }
-  return "<DataArray type=\"UInt8\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(count) + "\" format=\"ascii\">\n" + codes +
-         "</DataArray>\n";
+  return "<DataArray type=\"UInt8\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(count) +
+         "\" format=\"ascii\">\n" + codes + "</DataArray>\n";
 }
 
 class VtuWriter {
@@ -67,11 +68,12 @@ class VtuWriter {
     std::vector<std::string> names;
     for (const BoundaryEdges* boundary : boundaries_.present()) names.push_back(boundary->name);
     std::string head =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
     head += "<UnstructuredGrid>\n<FieldData>\n" + text_array("boundary_names", names);
     if (blocks != nullptr) head += text_array("block_names", blocks->block_names);
-    head += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\" NumberOfCells=\"" + std::to_string(cells) +
-            "\">\n";
+    head += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(comm_.sum(mesh_.owned_nodes)) +
+            "\" NumberOfCells=\"" + std::to_string(cells) + "\">\n";
     file_.write(head);
   }
 
@@ -96,7 +98,8 @@ class VtuWriter {
     file_.write("<Cells>\n" + array_tag("Int64", "connectivity"));
     for_each_kind([&](const auto& rows, int) {
       file_.write_rows(rows.size(), 4, [&](TextRows& text, std::size_t i) {
-        for (std::size_t k = 0; k < rows[i].size(); ++k) text.put(mesh_.global(rows[i][k]).value(), k + 1 < rows[i].size() ? ' ' : '\n');
+        for (std::size_t k = 0; k < rows[i].size(); ++k)
+          text.put(mesh_.global(rows[i][k]).value(), k + 1 < rows[i].size() ? ' ' : '\n');
       });
     });
     file_.write_boundaries(
@@ -109,7 +112,8 @@ class VtuWriter {
     write_offsets();
     file_.write("</DataArray>\n" + array_tag("UInt8", "types"));
     for_each_kind([&](const auto& rows, int type) { write_repeated(rows.size(), type); });
-    file_.write_root_rows(boundaries_.all_edges(), 1, [](TextRows& text, std::size_t) { text.put(vtk_line, '\n'); });
+    file_.write_root_rows(boundaries_.all_edges(), 1,
+                          [](TextRows& text, std::size_t) { text.put(vtk_line, '\n'); });
     file_.write("</DataArray>\n</Cells>\n");
   }
 
@@ -118,11 +122,14 @@ class VtuWriter {
     for_each_kind([&]<class Row>(const std::vector<Row>& rows, int) {
       constexpr auto width = static_cast<std::int64_t>(std::tuple_size_v<Row>);
       const std::int64_t first = before + width * comm_.exclusive_sum(static_cast<std::int64_t>(rows.size()));
-      file_.write_rows(rows.size(), 1, [&](TextRows& text, std::size_t i) { text.put(first + width * (static_cast<std::int64_t>(i) + 1), '\n'); });
+      file_.write_rows(rows.size(), 1, [&](TextRows& text, std::size_t i) {
+        text.put(first + width * (static_cast<std::int64_t>(i) + 1), '\n');
+      });
       before += width * total(rows);
     });
-    file_.write_root_rows(boundaries_.all_edges(), 1,
-                          [&](TextRows& text, std::size_t i) { text.put(before + 2 * (static_cast<std::int64_t>(i) + 1), '\n'); });
+    file_.write_root_rows(boundaries_.all_edges(), 1, [&](TextRows& text, std::size_t i) {
+      text.put(before + 2 * (static_cast<std::int64_t>(i) + 1), '\n');
+    });
   }
 
   void write_repeated(std::size_t rows, std::int32_t number) {
@@ -135,8 +142,9 @@ class VtuWriter {
     file_.write("<PointData>\n");
     for (std::size_t k = 0; k < width; ++k) {
       file_.write(array_tag("Float64", solution->names[k]));
-      file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 1,
-                       [&](TextRows& text, std::size_t i) { text.put(solution->values[i * width + k], '\n'); });
+      file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 1, [&](TextRows& text, std::size_t i) {
+        text.put(solution->values[i * width + k], '\n');
+      });
       file_.write("</DataArray>\n");
     }
     file_.write("</PointData>\n");
@@ -158,7 +166,8 @@ class VtuWriter {
   void write_block_numbers(const LoadedMesh& whole) {
     file_.write(array_tag("Int32", "block"));
     for (const auto* cell_to_block : {&whole.triangle_to_block, &whole.quad_to_block}) {
-      file_.write_rows(cell_to_block->size(), 1, [&](TextRows& text, std::size_t i) { text.put((*cell_to_block)[i] + 1, '\n'); });
+      file_.write_rows(cell_to_block->size(), 1,
+                       [&](TextRows& text, std::size_t i) { text.put((*cell_to_block)[i] + 1, '\n'); });
     }
     file_.write_root_rows(boundaries_.all_edges(), 1, [](TextRows& text, std::size_t) { text.put(0, '\n'); });
     file_.write("</DataArray>\n");
@@ -177,10 +186,12 @@ void write_vtu(OutputSet& outputs, const Mesh& mesh, const std::string& path, co
 }
 
 void write_vtu(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
-  VtuWriter(outputs, whole.mesh, path).write(whole.blocks > 1 ? &whole : nullptr, whole.solution ? &*whole.solution : nullptr);
+  VtuWriter(outputs, whole.mesh, path)
+      .write(whole.blocks > 1 ? &whole : nullptr, whole.solution ? &*whole.solution : nullptr);
 }
 
-void write_vtu(const Communicator& comm, const Mesh& mesh, const std::string& path, const Solution* solution) {
+void write_vtu(const Communicator& comm, const Mesh& mesh, const std::string& path,
+               const Solution* solution) {
   OutputSet outputs(comm);
   write_vtu(outputs, mesh, path, solution);
   outputs.commit();

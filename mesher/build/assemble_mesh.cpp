@@ -10,7 +10,8 @@ namespace {
 /// Appends cells and boundary edges leaf by leaf.
 class Assembler {
  public:
-  Assembler(const Geometry& geometry, const LeafGraph& graph, const CutForest& cut, const NodeNumbering& numbers, Mesh& mesh)
+  Assembler(const Geometry& geometry, const LeafGraph& graph, const CutForest& cut,
+            const NodeNumbering& numbers, Mesh& mesh)
       : geometry_{geometry}, graph_{graph}, cut_{cut}, numbers_{numbers}, mesh_{mesh} {
     for (const Boundary& b : geometry.boundaries()) mesh_.boundaries.push_back({b.name, b.condition, {}});
   }
@@ -18,7 +19,8 @@ class Assembler {
   void add(std::int32_t leaf) {
     const auto local = static_cast<std::size_t>(leaf - graph_.local_begin());
     if (cut_.states[local] == CutForest::State::inside) add_inside(leaf);
-    if (cut_.states[local] == CutForest::State::cut) add_cut(leaf, static_cast<std::size_t>(cut_.entry_of[local]));
+    if (cut_.states[local] == CutForest::State::cut)
+      add_cut(leaf, static_cast<std::size_t>(cut_.entry_of[local]));
   }
 
  private:
@@ -29,7 +31,8 @@ class Assembler {
       mesh_.quads.push_back({node(0), node(1), node(2), node(3)});
       return;
     }
-    for (const auto& t : hanging_template(finer)) mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
+    for (const auto& t : hanging_template(finer))
+      mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
   }
 
   void add_cut(std::int32_t leaf, std::size_t entry) {
@@ -43,7 +46,8 @@ class Assembler {
     }
     for (const auto& e : CutForest::part(cut_.outline, begin.outline, end.outline)) {
       const BoundaryId boundary = geometry_.boundary_of(e.segment);
-      mesh_.boundaries[static_cast<std::size_t>(boundary.value())].edges.push_back({node(e.from), node(e.to)});
+      mesh_.boundaries[static_cast<std::size_t>(boundary.value())].edges.push_back(
+          {node(e.from), node(e.to)});
     }
   }
 
@@ -68,8 +72,8 @@ LeafRecord record_of(const Quadrant& q, int wanted) {
 
 }  // namespace
 
-void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree& sizes, const LeafGraph& graph, const CutForest& cut,
-                   MeshResult& result) {
+void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree& sizes,
+                   const LeafGraph& graph, const CutForest& cut, MeshResult& result) {
   NodeNumbering numbers(comm, sizes.lattice(), graph, cut);
   Mesh& mesh = result.mesh;
   mesh.quads.reserve(cut.states.size());

@@ -9,19 +9,35 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t most_of_a_kind = 16;  // boundaries' spacings and sources that are looked at, the smallest
+constexpr std::size_t most_of_a_kind =
+    16;  // boundaries' spacings and sources that are looked at, the smallest
 
-double longer_side(const Geometry& geometry) { return std::max(geometry.box().width(), geometry.box().height()); }
+double longer_side(const Geometry& geometry) {
+  return std::max(geometry.box().width(), geometry.box().height());
+}
 
 void add_spacing(const SizeSettings& settings, double side, std::vector<CellDemand>& demands) {
-  demands.push_back(
-      {"spacing.max", settings.size.max, side, true, [](SizeSettings& s, double value) { s.size.max = std::max(value, s.size.min); }, {}});
+  demands.push_back({"spacing.max",
+                     settings.size.max,
+                     side,
+                     true,
+                     [](SizeSettings& s, double value) { s.size.max = std::max(value, s.size.min); },
+                     {}});
   if (settings.size.curvature) {
-    demands.push_back(
-        {"spacing.curvature", *settings.size.curvature, 180, true, [](SizeSettings& s, double value) { s.size.curvature = value; }, {}});
+    demands.push_back({"spacing.curvature",
+                       *settings.size.curvature,
+                       180,
+                       true,
+                       [](SizeSettings& s, double value) { s.size.curvature = value; },
+                       {}});
   }
   if (settings.size.gap) {
-    demands.push_back({"spacing.gap", *settings.size.gap, 0, false, [](SizeSettings& s, double value) { s.size.gap = value; }, {}});
+    demands.push_back({"spacing.gap",
+                       *settings.size.gap,
+                       0,
+                       false,
+                       [](SizeSettings& s, double value) { s.size.gap = value; },
+                       {}});
   }
 }
 
@@ -50,15 +66,23 @@ void add_sources(const SizeSettings& settings, double side, std::vector<CellDema
   std::vector<std::size_t> order(settings.size.sources.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto& sources = settings.size.sources;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sources[a].spacing < sources[b].spacing; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sources[a].spacing < sources[b].spacing; });
   order.resize(std::min(order.size(), most_of_a_kind));
   for (const std::size_t i : order) {
-    const std::string key = "spacing of the [[source]]" + (sources[i].where.empty() ? "" : " at " + sources[i].where);
-    demands.push_back({key, sources[i].spacing, side, true, [i](SizeSettings& s, double value) { s.size.sources[i].spacing = value; }, {}});
+    const std::string key =
+        "spacing of the [[source]]" + (sources[i].where.empty() ? "" : " at " + sources[i].where);
+    demands.push_back({key,
+                       sources[i].spacing,
+                       side,
+                       true,
+                       [i](SizeSettings& s, double value) { s.size.sources[i].spacing = value; },
+                       {}});
   }
 }
 
-/// The smallest leaves: they are what asks for cells where a boundary asks for its own points' spacing, whatever that is.
+/// The smallest leaves: they are what asks for cells where a boundary asks for its own points' spacing,
+/// whatever that is.
 void add_smallest(const SizeSettings& settings, double side, std::vector<CellDemand>& demands) {
   const auto set = [](SizeSettings& s, double value) {
     s.size.min = value;
@@ -80,17 +104,22 @@ std::vector<CellDemand> cell_demands(const SizeSettings& settings, const Geometr
   add_spacing(settings, side, demands);
   add_boundaries(settings, side, demands);
   add_sources(settings, side, demands);
-  for (CellDemand& demand : demands) demand.lift = [set = demand.set, loosest = demand.loosest](SizeSettings& s) { set(s, loosest); };
+  for (CellDemand& demand : demands)
+    demand.lift = [set = demand.set, loosest = demand.loosest](SizeSettings& s) { set(s, loosest); };
   add_smallest(settings, side, demands);
   return demands;
 }
 
 Geometry with_boundaries(const Geometry& geometry, const std::vector<Boundary>& boundaries) {
   std::vector<std::int32_t> starts;
-  for (std::int32_t loop = 0; loop <= geometry.loop_count(); ++loop) starts.push_back(geometry.loop_start(loop));
+  for (std::int32_t loop = 0; loop <= geometry.loop_count(); ++loop)
+    starts.push_back(geometry.loop_start(loop));
   std::vector<BoundaryId> of_segment;
   for (std::int32_t s = 0; s < geometry.size(); ++s) of_segment.push_back(geometry.boundary_of(s));
-  return {boundaries, {geometry.points().begin(), geometry.points().end()}, std::move(starts), std::move(of_segment)};
+  return {boundaries,
+          {geometry.points().begin(), geometry.points().end()},
+          std::move(starts),
+          std::move(of_segment)};
 }
 
 }  // namespace quadloop

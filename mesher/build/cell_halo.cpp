@@ -9,7 +9,8 @@ CellHalo::CellHalo(const Communicator& comm, const LeafGraph& graph, const std::
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
     if (graph.is_local(leaf) || of_interest[static_cast<std::size_t>(leaf)] == 0) continue;
     for_touching_leaves(graph, leaf, [&](std::int32_t other) {
-      if (graph.is_local(other) && of_interest[static_cast<std::size_t>(other)] != 0) links_.push_back({place_of(other), place_of(leaf)});
+      if (graph.is_local(other) && of_interest[static_cast<std::size_t>(other)] != 0)
+        links_.push_back({place_of(other), place_of(leaf)});
     });
   }
   find_frontier();
@@ -18,7 +19,8 @@ CellHalo::CellHalo(const Communicator& comm, const LeafGraph& graph, const std::
 /// The leaves of interest that touch one.
 void CellHalo::link(std::int32_t leaf, std::vector<Link>& links) const {
   for_touching_leaves(graph_, leaf, [&](std::int32_t other) {
-    if (of_interest_[static_cast<std::size_t>(other)] != 0) links.push_back({place_of(leaf), place_of(other)});
+    if (of_interest_[static_cast<std::size_t>(other)] != 0)
+      links.push_back({place_of(leaf), place_of(other)});
   });
 }
 
@@ -44,8 +46,10 @@ void CellHalo::grow() {
       link(graph_.from_local(index), links[rank]);
     }
   }
-  for (const auto& from_rank : comm_.exchange(cells)) triangles_.insert(triangles_.end(), from_rank.begin(), from_rank.end());
-  for (const auto& from_rank : comm_.exchange(links)) links_.insert(links_.end(), from_rank.begin(), from_rank.end());
+  for (const auto& from_rank : comm_.exchange(cells))
+    triangles_.insert(triangles_.end(), from_rank.begin(), from_rank.end());
+  for (const auto& from_rank : comm_.exchange(links))
+    links_.insert(links_.end(), from_rank.begin(), from_rank.end());
   fetched_.insert(frontier_.begin(), frontier_.end());
   find_frontier();
 }

@@ -26,11 +26,12 @@ struct FreeTriangle {
   std::array<Point, 3> points;
 };
 
-/// Other ranks' cells, as triangles, in rings of leaves around this rank's; only leaves of interest count, and only rings of such leaves.
+/// Other ranks' cells, as triangles, in rings of leaves around this rank's; only leaves of interest count,
+/// and only rings of such leaves.
 class CellHalo {
  public:
-  /// `of_interest` flags the local leaves and the ghosts. `triangles_of(leaf, out)` appends the triangles of a local leaf. Both must outlive the
-  /// halo. *Collective.*
+  /// `of_interest` flags the local leaves and the ghosts. `triangles_of(leaf, out)` appends the triangles of
+  /// a local leaf. Both must outlive the halo. *Collective.*
   CellHalo(const Communicator& comm, const LeafGraph& graph, const std::vector<char>& of_interest,
            std::function<void(std::int32_t, std::vector<FreeTriangle>&)> triangles_of);
 
@@ -48,7 +49,9 @@ class CellHalo {
     LeafPlace from, to;
     friend auto operator<=>(const Link&, const Link&) = default;
   };
-  LeafPlace place_of(std::int32_t leaf) const { return {graph_.place_of(leaf).rank, graph_.place_of(leaf).index}; }
+  LeafPlace place_of(std::int32_t leaf) const {
+    return {graph_.place_of(leaf).rank, graph_.place_of(leaf).index};
+  }
   void link(std::int32_t leaf, std::vector<Link>& links) const;
   void find_frontier();
 

@@ -23,7 +23,8 @@ double rounded_up(double value) {
 /// Finds settings to be changed, one after another, until the mesh fits.
 class Relaxation {
  public:
-  Relaxation(const MeshLimit& limit, const Geometry& geometry, const MeshOptions& options, const DemandedSplits& demanded)
+  Relaxation(const MeshLimit& limit, const Geometry& geometry, const MeshOptions& options,
+             const DemandedSplits& demanded)
       : limit_{limit}, geometry_{geometry}, type_{options.type}, demanded_{demanded} {
     settings_.size = options.size;
     settings_.boundaries = {geometry.boundaries().begin(), geometry.boundaries().end()};
@@ -82,7 +83,8 @@ class Relaxation {
     return std::min(rounded_up(demand.value * std::ldexp(1.0, halvings)), demand.loosest);
   }
 
-  /// The value nearest to the setting's own, in steps of two, with which the mesh fits; the loosest where none does.
+  /// The value nearest to the setting's own, in steps of two, with which the mesh fits; the loosest where
+  /// none does.
   double loosened(const CellDemand& demand) const {
     constexpr int most = 40;
     int low = 0, high = 1;
@@ -108,29 +110,35 @@ class Relaxation {
 };
 
 /// What to change.
-std::string cure_for(const MeshLimit& limit, const Geometry& geometry, const MeshOptions& options, const DemandedSplits& demanded) {
+std::string cure_for(const MeshLimit& limit, const Geometry& geometry, const MeshOptions& options,
+                     const DemandedSplits& demanded) {
   const DemandedSplits none;
   if (!demanded.empty()) {
     SizedDomain domain(geometry, options.size, none);
     if (share_of(limit, estimate_mesh(geometry, options.type, domain)) <= margin)
-      return "what adaptation has asked of the tree is the cause: lower adapt.max_nodes, or raise adapt.min or adapt.refine";
+      return "what adaptation has asked of the tree is the cause: lower adapt.max_nodes, or raise adapt.min "
+             "or adapt.refine";
   }
   return Relaxation(limit, geometry, options, none).cure();
 }
 
 }  // namespace
 
-void require_within(const MeshEstimate& estimate, const Geometry& geometry, const MeshOptions& options, const DemandedSplits& demanded) {
+void require_within(const MeshEstimate& estimate, const Geometry& geometry, const MeshOptions& options,
+                    const DemandedSplits& demanded) {
   const MeshLimit& limit = options.limit;
   if (share_of(limit, estimate) <= 1) return;
   const bool by_memory = estimate.cells <= limit.cells;
-  const std::string allowed =
-      by_memory ? fmt::format("{} are free", text_of_bytes(limit.bytes)) : fmt::format("--max-cells allows {:.0f}", limit.cells);
-  const std::string or_else = by_memory
-                                  ? fmt::format("use more machines, or insist with --max-cells {}", text_of_cells(rounded_up(1.2 * estimate.cells)))
-                                  : fmt::format("allow more with --max-cells {}", text_of_cells(rounded_up(1.2 * estimate.cells)));
-  throw TooManyCells(fmt::format("the mesh would have about {} cells, {} of memory, but {}; {}; or {}", text_of_cells(estimate.cells),
-                                 text_of_bytes(total_bytes(estimate, limit.ranks)), allowed, cure_for(limit, geometry, options, demanded), or_else));
+  const std::string allowed = by_memory ? fmt::format("{} are free", text_of_bytes(limit.bytes))
+                                        : fmt::format("--max-cells allows {:.0f}", limit.cells);
+  const std::string or_else = by_memory ? fmt::format("use more machines, or insist with --max-cells {}",
+                                                      text_of_cells(rounded_up(1.2 * estimate.cells)))
+                                        : fmt::format("allow more with --max-cells {}",
+                                                      text_of_cells(rounded_up(1.2 * estimate.cells)));
+  throw TooManyCells(fmt::format("the mesh would have about {} cells, {} of memory, but {}; {}; or {}",
+                                 text_of_cells(estimate.cells),
+                                 text_of_bytes(total_bytes(estimate, limit.ranks)), allowed,
+                                 cure_for(limit, geometry, options, demanded), or_else));
 }
 
 }  // namespace quadloop

@@ -28,7 +28,10 @@ Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
     }
     starts.push_back(static_cast<std::int32_t>(points.size()));
   }
-  return {{g.boundaries().begin(), g.boundaries().end()}, std::move(points), std::move(starts), std::move(segment_boundary)};
+  return {{g.boundaries().begin(), g.boundaries().end()},
+          std::move(points),
+          std::move(starts),
+          std::move(segment_boundary)};
 }
 
 /// In the order of the geometry.
@@ -49,21 +52,25 @@ Geometry without_small_islands(const Geometry& g, double min, MeshReport& report
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     const Box box = box_of_loop(g, loop);
     if (box.width() >= min || box.height() >= min) continue;
-    keep[static_cast<std::size_t>(loop)] = 0;  // loops nested in it are smaller still, so they go by the same rule
+    keep[static_cast<std::size_t>(loop)] =
+        0;  // loops nested in it are smaller still, so they go by the same rule
     ++report.islands_dropped;
     report.area_dropped += area_of_loop(g, loop);
     std::ostringstream line;
     line.precision(12);
-    line << "boundary " << g.boundary(g.boundary_of(g.loop_start(loop))).name << ": a loop near (" << box.centre().x << ", " << box.centre().y
-         << ") is smaller than spacing.min = " << min << " both ways and was dropped";
+    line << "boundary " << g.boundary(g.boundary_of(g.loop_start(loop))).name << ": a loop near ("
+         << box.centre().x << ", " << box.centre().y << ") is smaller than spacing.min = " << min
+         << " both ways and was dropped";
     report.warnings.push_back(line.str());
   }
   if (report.islands_dropped == 0) return g;
   if (std::find(keep.begin(), keep.end(), 1) == keep.end()) {
     const Box box = box_of_loop(g, 0);
     std::ostringstream message;
-    message << "boundary " << g.boundary(g.boundary_of(0)).name << " near (" << box.centre().x << ", " << box.centre().y
-            << "): this and every other loop of the geometry is smaller than spacing.min = " << min << " both ways; make spacing.min smaller";
+    message << "boundary " << g.boundary(g.boundary_of(0)).name << " near (" << box.centre().x << ", "
+            << box.centre().y
+            << "): this and every other loop of the geometry is smaller than spacing.min = " << min
+            << " both ways; make spacing.min smaller";
     throw InputError(message.str());
   }
   Geometry kept = with_loops(g, keep);

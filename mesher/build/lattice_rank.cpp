@@ -11,7 +11,8 @@ namespace {
 /// Trailing zeros of a line's number, at most those of a tree's edge: the sides of the root rank alike.
 std::int8_t zeros_of(std::int64_t line) {
   if (line == 0) return Quadrant::unit_level;
-  return static_cast<std::int8_t>(std::min(Quadrant::unit_level, std::countr_zero(static_cast<std::uint64_t>(line))));
+  return static_cast<std::int8_t>(
+      std::min(Quadrant::unit_level, std::countr_zero(static_cast<std::uint64_t>(line))));
 }
 
 }  // namespace

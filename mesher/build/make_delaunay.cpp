@@ -1,13 +1,13 @@
-#include "mesher/build/lattice_rank.hpp"
 #include "mesher/build/make_delaunay.hpp"
 
 #include <algorithm>
 #include <optional>
 
 #include "mesher/base/error.hpp"
+#include "mesher/build/cell_halo.hpp"
+#include "mesher/build/lattice_rank.hpp"
 #include "mesher/delaunay/delaunay_patch.hpp"
 #include "mesher/forest/ghost_exchange.hpp"
-#include "mesher/build/cell_halo.hpp"
 #include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
@@ -25,17 +25,21 @@ struct Placed {
   friend auto operator<=>(const Placed&, const Placed&) = default;
 };
 
-/// Flags, for local leaves and ghosts, the leaves whose cells may not be Delaunay: the cut ones, those with a snapped corner, and all around them.
-std::vector<char> irregular_leaves(const GhostExchange& exchange, const LeafGraph& graph, const CutForest& cut) {
+/// Flags, for local leaves and ghosts, the leaves whose cells may not be Delaunay: the cut ones, those with a
+/// snapped corner, and all around them.
+std::vector<char> irregular_leaves(const GhostExchange& exchange, const LeafGraph& graph,
+                                   const CutForest& cut) {
   std::vector<char> cut_flags(static_cast<std::size_t>(graph.size()), 0), irregular;
   for (std::size_t i = 0; i < cut.entry_of.size(); ++i) {
-    cut_flags[static_cast<std::size_t>(graph.from_local(static_cast<std::int32_t>(i)))] = cut.entry_of[i] >= 0 ? 1 : 0;
+    cut_flags[static_cast<std::size_t>(graph.from_local(static_cast<std::int32_t>(i)))] =
+        cut.entry_of[i] >= 0 ? 1 : 0;
   }
   exchange.update(cut_flags);
   irregular = cut_flags;
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
     if (cut_flags[static_cast<std::size_t>(leaf)] == 0) continue;
-    for_touching_leaves(graph, leaf, [&](std::int32_t other) { irregular[static_cast<std::size_t>(other)] = 1; });
+    for_touching_leaves(graph, leaf,
+                        [&](std::int32_t other) { irregular[static_cast<std::size_t>(other)] = 1; });
   }
   exchange.update(irregular);
   return irregular;
@@ -44,7 +48,8 @@ std::vector<char> irregular_leaves(const GhostExchange& exchange, const LeafGrap
 /// The hybrid mesh's cells leaf by leaf.
 class CellsOfLeaves {
  public:
-  CellsOfLeaves(const Communicator& comm, const LeafGraph& graph, const Mesh& mesh, const std::vector<LeafRecord>& leaves)
+  CellsOfLeaves(const Communicator& comm, const LeafGraph& graph, const Mesh& mesh,
+                const std::vector<LeafRecord>& leaves)
       : rank_{comm.rank()}, graph_{graph}, mesh_{mesh} {
     for (const LeafRecord& leaf : leaves) {
       first_triangle_.push_back(first_triangle_.back() + static_cast<std::size_t>(leaf.triangles));
@@ -53,7 +58,8 @@ class CellsOfLeaves {
   }
 
   std::span<const std::array<NodeId, 3>> triangles(std::size_t index) const {
-    return std::span(mesh_.triangles).subspan(first_triangle_[index], first_triangle_[index + 1] - first_triangle_[index]);
+    return std::span(mesh_.triangles)
+        .subspan(first_triangle_[index], first_triangle_[index + 1] - first_triangle_[index]);
   }
   std::span<const std::array<NodeId, 4>> quads(std::size_t index) const {
     return std::span(mesh_.quads).subspan(first_quad_[index], first_quad_[index + 1] - first_quad_[index]);
@@ -84,7 +90,8 @@ class CellsOfLeaves {
 /// The constrained Delaunay triangulation of this rank's irregular leaves and of the halo around them.
 class LocalTriangulation {
  public:
-  LocalTriangulation(const Lattice& lattice, int finest_level, const LeafGraph& graph, std::span<const FreeTriangle> own, const CellHalo& halo)
+  LocalTriangulation(const Lattice& lattice, int finest_level, const LeafGraph& graph,
+                     std::span<const FreeTriangle> own, const CellHalo& halo)
       : lattice_{lattice}, graph_{graph} {
     gather_nodes(own, halo.triangles());
     std::vector<TieRank> ranks;
@@ -125,7 +132,8 @@ class LocalTriangulation {
   }
 
   std::int32_t node_of(std::int64_t number) const {
-    return static_cast<std::int32_t>(std::lower_bound(numbers_.begin(), numbers_.end(), number) - numbers_.begin());
+    return static_cast<std::int32_t>(std::lower_bound(numbers_.begin(), numbers_.end(), number) -
+                                     numbers_.begin());
   }
 
   void place() {
@@ -136,14 +144,17 @@ class LocalTriangulation {
       if (leaf == LeafGraph::none || !graph_.is_local(leaf)) continue;
       uncertain_ = uncertain_ || doubts[t] != 0;
       Placed placed{leaf, {}};
-      for (std::size_t k = 0; k < 3; ++k) placed.nodes[k] = numbers_[static_cast<std::size_t>(triangles[t][k])];
-      std::rotate(placed.nodes.begin(), std::min_element(placed.nodes.begin(), placed.nodes.end()), placed.nodes.end());
+      for (std::size_t k = 0; k < 3; ++k)
+        placed.nodes[k] = numbers_[static_cast<std::size_t>(triangles[t][k])];
+      std::rotate(placed.nodes.begin(), std::min_element(placed.nodes.begin(), placed.nodes.end()),
+                  placed.nodes.end());
       placed_.push_back(placed);
     }
     std::sort(placed_.begin(), placed_.end());
   }
 
-  /// The leaf with the centroid; the nodes are added up in the order of their coordinates, for the same sum on every rank.
+  /// The leaf with the centroid; the nodes are added up in the order of their coordinates, for the same sum
+  /// on every rank.
   std::int32_t leaf_of(const DelaunayPatch::Triangle& t) const {
     std::array<Point, 3> p{patch_->point(t[0]), patch_->point(t[1]), patch_->point(t[2])};
     std::sort(p.begin(), p.end());
@@ -160,8 +171,8 @@ class LocalTriangulation {
   bool uncertain_ = false;
 };
 
-/// The two triangles of a leaf's square: of its diagonals the one through the corner that it shares with its parent, whose coordinates have the most
-/// trailing zeros.
+/// The two triangles of a leaf's square: of its diagonals the one through the corner that it shares with its
+/// parent, whose coordinates have the most trailing zeros.
 std::array<std::array<std::size_t, 3>, 2> halves_of(const Quadrant& q) {
   const bool rising = ((q.x & q.size()) != 0) == ((q.y & q.size()) != 0);
   if (rising) return {{{0, 1, 2}, {0, 2, 3}}};
@@ -171,7 +182,8 @@ std::array<std::array<std::size_t, 3>, 2> halves_of(const Quadrant& q) {
 /// Makes the mesh anew from the cells of regular leaves and the triangles of the others.
 class Rebuilder {
  public:
-  Rebuilder(const Mesh& hybrid, const LeafGraph& graph, const CellsOfLeaves& cells, const LocalTriangulation& triangulation)
+  Rebuilder(const Mesh& hybrid, const LeafGraph& graph, const CellsOfLeaves& cells,
+            const LocalTriangulation& triangulation)
       : hybrid_{hybrid}, graph_{graph}, cells_{cells}, triangulation_{triangulation}, table_{result_} {
     result_.first_node = hybrid.first_node;
     result_.owned_nodes = hybrid.owned_nodes;
@@ -179,7 +191,8 @@ class Rebuilder {
     result_.triangles.reserve(hybrid.triangles.size() + 2 * hybrid.quads.size());
     for (const BoundaryEdges& b : hybrid.boundaries) {
       result_.boundaries.push_back({b.name, b.condition, {}});
-      for (const auto& [from, to] : b.edges) result_.boundaries.back().edges.push_back({local(from), local(to)});
+      for (const auto& [from, to] : b.edges)
+        result_.boundaries.back().edges.push_back({local(from), local(to)});
     }
   }
 
@@ -188,7 +201,8 @@ class Rebuilder {
     const auto& placed = triangulation_.placed();
     for (; next_ < placed.size() && placed[next_].leaf == leaf; ++next_) {
       std::array<NodeId, 3> nodes;
-      for (std::size_t k = 0; k < 3; ++k) nodes[k] = table_.local(placed[next_].nodes[k], triangulation_.point(placed[next_].nodes[k]));
+      for (std::size_t k = 0; k < 3; ++k)
+        nodes[k] = table_.local(placed[next_].nodes[k], triangulation_.point(placed[next_].nodes[k]));
       result_.triangles.push_back(nodes);
     }
   }
@@ -201,9 +215,11 @@ class Rebuilder {
 
   void add_regular(std::int32_t leaf) {
     const auto index = static_cast<std::size_t>(leaf - graph_.local_begin());
-    for (const auto& t : cells_.triangles(index)) result_.triangles.push_back({local(t[0]), local(t[1]), local(t[2])});
+    for (const auto& t : cells_.triangles(index))
+      result_.triangles.push_back({local(t[0]), local(t[1]), local(t[2])});
     for (const auto& q : cells_.quads(index)) {
-      for (const auto& [a, b, c] : halves_of(graph_.leaf(leaf))) result_.triangles.push_back({local(q[a]), local(q[b]), local(q[c])});
+      for (const auto& [a, b, c] : halves_of(graph_.leaf(leaf)))
+        result_.triangles.push_back({local(q[a]), local(q[b]), local(q[c])});
     }
   }
 
@@ -216,7 +232,8 @@ class Rebuilder {
   std::size_t next_ = 0;
 };
 
-std::vector<FreeTriangle> own_triangles(const LeafGraph& graph, const CellsOfLeaves& cells, const std::vector<char>& irregular) {
+std::vector<FreeTriangle> own_triangles(const LeafGraph& graph, const CellsOfLeaves& cells,
+                                        const std::vector<char>& irregular) {
   std::vector<FreeTriangle> own;
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
     if (irregular[static_cast<std::size_t>(leaf)] != 0) cells.append_free(leaf, own);
@@ -226,14 +243,16 @@ std::vector<FreeTriangle> own_triangles(const LeafGraph& graph, const CellsOfLea
 
 }  // namespace
 
-void make_delaunay(const Communicator& comm, const Lattice& lattice, int finest_level, const LeafGraph& graph, const CutForest& cut, Mesh& mesh,
-                   std::vector<LeafRecord>& leaves) {
-  const std::int64_t expected = comm.sum(static_cast<std::int64_t>(mesh.triangles.size() + 2 * mesh.quads.size()));
+void make_delaunay(const Communicator& comm, const Lattice& lattice, int finest_level, const LeafGraph& graph,
+                   const CutForest& cut, Mesh& mesh, std::vector<LeafRecord>& leaves) {
+  const std::int64_t expected =
+      comm.sum(static_cast<std::int64_t>(mesh.triangles.size() + 2 * mesh.quads.size()));
   const GhostExchange exchange(comm, graph);
   const std::vector<char> irregular = irregular_leaves(exchange, graph, cut);
   const CellsOfLeaves cells(comm, graph, mesh, leaves);
   const std::vector<FreeTriangle> own = own_triangles(graph, cells, irregular);
-  CellHalo halo(comm, graph, irregular, [&](std::int32_t leaf, std::vector<FreeTriangle>& out) { cells.append_free(leaf, out); });
+  CellHalo halo(comm, graph, irregular,
+                [&](std::int32_t leaf, std::vector<FreeTriangle>& out) { cells.append_free(leaf, out); });
   for (int ring = 0; ring < first_rings; ++ring) halo.grow();
   std::optional<LocalTriangulation> triangulation;
   while (true) {
@@ -252,7 +271,8 @@ void make_delaunay(const Communicator& comm, const Lattice& lattice, int finest_
   }
   Mesh delaunay = rebuilder.take();
   const std::int64_t made = comm.sum(static_cast<std::int64_t>(delaunay.triangles.size()));
-  QUADLOOP_REQUIRE(made == expected, "the Delaunay triangulation has as many triangles as any other of its nodes");
+  QUADLOOP_REQUIRE(made == expected,
+                   "the Delaunay triangulation has as many triangles as any other of its nodes");
   mesh = std::move(delaunay);
 }
 

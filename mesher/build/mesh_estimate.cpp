@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesher/forest/leaf_estimate.hpp"
 #include "mesher/build/islands.hpp"
+#include "mesher/forest/leaf_estimate.hpp"
 
 namespace quadloop {
 
@@ -36,12 +36,14 @@ MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain&
   estimate.leaves = leaves.all();
   estimate.cells = (leaves.inside + leaves.cut) * (delaunay ? triangles_of_leaf : hybrid_cells_of_leaf);
   estimate.cells += std::max(0.0, kept_points(geometry) - leaves.cut);
-  estimate.bytes = of_leaf * leaves.all() + of_cut_leaf * leaves.cut + (delaunay ? of_delaunay_triangle : of_hybrid_cell) * estimate.cells;
+  estimate.bytes = of_leaf * leaves.all() + of_cut_leaf * leaves.cut +
+                   (delaunay ? of_delaunay_triangle : of_hybrid_cell) * estimate.cells;
   estimate.bytes_of_rank = of_program + of_segment * geometry.size();
   return estimate;
 }
 
-MeshEstimate estimate_mesh(const Geometry& given, const MeshOptions& options, const DemandedSplits& demanded) {
+MeshEstimate estimate_mesh(const Geometry& given, const MeshOptions& options,
+                           const DemandedSplits& demanded) {
   MeshReport dropped;
   const Geometry geometry = without_small_islands(given, options.size.min, dropped);
   SizedDomain domain(geometry, options.size, demanded);
@@ -52,14 +54,19 @@ double share_of(const MeshLimit& limit, const MeshEstimate& estimate) {
   return std::max(estimate.cells / limit.cells, total_bytes(estimate, limit.ranks) / limit.bytes);
 }
 
-double total_bytes(const MeshEstimate& estimate, int ranks) { return estimate.bytes + ranks * estimate.bytes_of_rank; }
+double total_bytes(const MeshEstimate& estimate, int ranks) {
+  return estimate.bytes + ranks * estimate.bytes_of_rank;
+}
 
 std::string text_of_bytes(double bytes) {
   constexpr double mib = 0x1p20, step = 1024;
   if (bytes < step * mib) return fmt::format("{:.0f} MiB", bytes / mib);
-  return bytes < step * step * mib ? fmt::format("{:.1f} GiB", bytes / (step * mib)) : fmt::format("{:.0f} TiB", bytes / (step * step * mib));
+  return bytes < step * step * mib ? fmt::format("{:.1f} GiB", bytes / (step * mib))
+                                   : fmt::format("{:.0f} TiB", bytes / (step * step * mib));
 }
 
-std::string text_of_cells(double cells) { return cells < 1e6 ? fmt::format("{:.0f}", std::round(cells / 10) * 10) : fmt::format("{:.2g}", cells); }
+std::string text_of_cells(double cells) {
+  return cells < 1e6 ? fmt::format("{:.0f}", std::round(cells / 10) * 10) : fmt::format("{:.2g}", cells);
+}
 
 }  // namespace quadloop

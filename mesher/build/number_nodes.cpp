@@ -18,7 +18,8 @@ void sort_unique(std::vector<T>& values) {
 
 }  // namespace
 
-NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, const LeafGraph& graph, const CutForest& cut)
+NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, const LeafGraph& graph,
+                             const CutForest& cut)
     : lattice_{&lattice},
       graph_{&graph},
       cut_{&cut},
@@ -26,7 +27,8 @@ NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, c
       listed_slots_(cut.nodes.size(), unused),
       wanted_(static_cast<std::size_t>(comm.size())) {
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-    if (graph.leaf(leaf).x == 0 || graph.leaf(leaf).y == 0) border_slots_.push_back({leaf, {unused, unused, unused}});
+    if (graph.leaf(leaf).x == 0 || graph.leaf(leaf).y == 0)
+      border_slots_.push_back({leaf, {unused, unused, unused}});
   }
   mark_used();
   exchange_marks(comm);
@@ -49,11 +51,16 @@ NodeNumbering::Home NodeNumbering::home_of_place(std::int32_t leaf, int place) c
   switch (place) {
     case 0:
       if (around.south_west != none) return corner_home(around.south_west, q.x, q.y);
-      if (around.west != none) return {around.west_half != none ? around.west_half : around.west, south_east, {}};
-      if (around.south != none) return {around.south_half != none ? around.south_half : around.south, north_west, {}};
+      if (around.west != none)
+        return {around.west_half != none ? around.west_half : around.west, south_east, {}};
+      if (around.south != none)
+        return {around.south_half != none ? around.south_half : around.south, north_west, {}};
       return {leaf, south_west, {}};
-    case 1: return around.south != none ? corner_home(around.south, q.x + q.size(), q.y) : Home{leaf, south_east, {}};
-    case 3: return around.west != none ? corner_home(around.west, q.x, q.y + q.size()) : Home{leaf, north_west, {}};
+    case 1:
+      return around.south != none ? corner_home(around.south, q.x + q.size(), q.y)
+                                  : Home{leaf, south_east, {}};
+    case 3:
+      return around.west != none ? corner_home(around.west, q.x, q.y + q.size()) : Home{leaf, north_west, {}};
     case 4: return {around.south_half, north_east, {}};
     case 5: return {leaf, right_middle, {}};
     case 6: return {leaf, top_middle, {}};
@@ -68,10 +75,12 @@ NodeNumbering::Home NodeNumbering::home_of_cut_node(std::int32_t leaf, const Cut
   const Quadrant& q = graph_->leaf(leaf);
   std::int32_t owner = leaf;
   if (node.place == 8) {
-    const bool left_half = around.south_half != LeafGraph::none && node.position.x < lattice_->x(q.x + q.size() / 2);
+    const bool left_half =
+        around.south_half != LeafGraph::none && node.position.x < lattice_->x(q.x + q.size() / 2);
     owner = left_half ? around.south_half : around.south;
   } else if (node.place == 11) {
-    const bool lower_half = around.west_half != LeafGraph::none && node.position.y < lattice_->y(q.y + q.size() / 2);
+    const bool lower_half =
+        around.west_half != LeafGraph::none && node.position.y < lattice_->y(q.y + q.size() / 2);
     owner = lower_half ? around.west_half : around.west;
   }
   return {owner != LeafGraph::none ? owner : leaf, listed, node.position};
@@ -88,12 +97,15 @@ std::int32_t NodeNumbering::listed_node(std::int32_t leaf, Point position) const
 }
 
 std::int32_t* NodeNumbering::local_slot(const Home& home) {
-  if (home.slot == listed) return &listed_slots_[static_cast<std::size_t>(listed_node(home.leaf, home.position))];
+  if (home.slot == listed)
+    return &listed_slots_[static_cast<std::size_t>(listed_node(home.leaf, home.position))];
   if (home.slot >= north_east)
-    return &inner_slots_[static_cast<std::size_t>(home.leaf - graph_->local_begin())][static_cast<std::size_t>(home.slot - north_east)];
+    return &inner_slots_[static_cast<std::size_t>(home.leaf - graph_->local_begin())]
+                        [static_cast<std::size_t>(home.slot - north_east)];
   const auto at = std::lower_bound(border_slots_.begin(), border_slots_.end(), home.leaf,
                                    [](const auto& entry, std::int32_t leaf) { return entry.first < leaf; });
-  QUADLOOP_REQUIRE(at != border_slots_.end() && at->first == home.leaf, "a leaf off the root's border owns a lower corner");
+  QUADLOOP_REQUIRE(at != border_slots_.end() && at->first == home.leaf,
+                   "a leaf off the root's border owns a lower corner");
   return &at->second[static_cast<std::size_t>(home.slot)];
 }
 
@@ -107,7 +119,8 @@ void NodeNumbering::mark(const Home& home) {
 
 /// Whether the leaf is a local inside one: that uses all nodes that it owns, and sees to them itself.
 bool NodeNumbering::marks_its_own(std::int32_t leaf) const {
-  return graph_->is_local(leaf) && cut_->states[static_cast<std::size_t>(leaf - graph_->local_begin())] == CutForest::State::inside;
+  return graph_->is_local(leaf) &&
+         cut_->states[static_cast<std::size_t>(leaf - graph_->local_begin())] == CutForest::State::inside;
 }
 
 void NodeNumbering::mark_inside(std::int32_t leaf) {
@@ -119,8 +132,10 @@ void NodeNumbering::mark_inside(std::int32_t leaf) {
   if (!marks_its_own(around.south_west)) mark(home_of_place(leaf, 0));
   if (!marks_its_own(around.south)) mark(home_of_place(leaf, 1));
   if (!marks_its_own(around.west)) mark(home_of_place(leaf, 3));
-  if (graph_->has_hanging(leaf, LeafGraph::bottom) && !marks_its_own(around.south_half)) mark(home_of_place(leaf, 4));
-  if (graph_->has_hanging(leaf, LeafGraph::left) && !marks_its_own(around.west_half)) mark(home_of_place(leaf, 7));
+  if (graph_->has_hanging(leaf, LeafGraph::bottom) && !marks_its_own(around.south_half))
+    mark(home_of_place(leaf, 4));
+  if (graph_->has_hanging(leaf, LeafGraph::left) && !marks_its_own(around.west_half))
+    mark(home_of_place(leaf, 7));
 }
 
 void NodeNumbering::mark_used() {
@@ -133,10 +148,13 @@ void NodeNumbering::mark_used() {
     }
     const auto entry = static_cast<std::size_t>(cut_->entry_of[local]);
     const CutForest::Mark &begin = cut_->entries[entry].begin, &end = cut_->entries[entry].end;
-    const auto mark_node = [&](std::int32_t n) { mark(home_of_cut_node(leaf, cut_->nodes[static_cast<std::size_t>(begin.nodes + n)])); };
+    const auto mark_node = [&](std::int32_t n) {
+      mark(home_of_cut_node(leaf, cut_->nodes[static_cast<std::size_t>(begin.nodes + n)]));
+    };
     for (const auto& triangle : CutForest::part(cut_->triangles, begin.triangles, end.triangles))
       std::for_each(triangle.begin(), triangle.end(), mark_node);
-    for (const auto& quad : CutForest::part(cut_->quads, begin.quads, end.quads)) std::for_each(quad.begin(), quad.end(), mark_node);
+    for (const auto& quad : CutForest::part(cut_->quads, begin.quads, end.quads))
+      std::for_each(quad.begin(), quad.end(), mark_node);
     for (const auto& edge : CutForest::part(cut_->outline, begin.outline, end.outline)) {
       mark_node(edge.from);
       mark_node(edge.to);
@@ -148,7 +166,8 @@ void NodeNumbering::exchange_marks(const Communicator& comm) {
   for (auto& requests : wanted_) sort_unique(requests);
   asked_ = comm.exchange(wanted_);
   for (const auto& requests : asked_) {
-    for (const Request& r : requests) *local_slot({graph_->from_local(r.leaf), static_cast<Slot>(r.slot), r.position}) = used;
+    for (const Request& r : requests)
+      *local_slot({graph_->from_local(r.leaf), static_cast<Slot>(r.slot), r.position}) = used;
   }
 }
 
@@ -178,7 +197,8 @@ void NodeNumbering::number_owned() {
     const std::int32_t entry = cut_->entry_of[local];
     if (entry < 0) continue;
     const auto e = static_cast<std::size_t>(entry);
-    for (auto n = static_cast<std::size_t>(cut_->entries[e].begin.nodes); n < static_cast<std::size_t>(cut_->entries[e].end.nodes); ++n) {
+    for (auto n = static_cast<std::size_t>(cut_->entries[e].begin.nodes);
+         n < static_cast<std::size_t>(cut_->entries[e].end.nodes); ++n) {
       number_slot(listed_slots_[n], cut_->nodes[n].position);
     }
   }
@@ -212,7 +232,8 @@ void NodeNumbering::exchange_numbers(const Communicator& comm) {
   std::vector<std::vector<Answer>> answers(asked_.size());
   for (std::size_t rank = 0; rank < asked_.size(); ++rank) {
     for (const Request& r : asked_[rank]) {
-      const std::int32_t node = *local_slot({graph_->from_local(r.leaf), static_cast<Slot>(r.slot), r.position});
+      const std::int32_t node =
+          *local_slot({graph_->from_local(r.leaf), static_cast<Slot>(r.slot), r.position});
       answers[rank].push_back({first_node_ + node, points_[static_cast<std::size_t>(node)]});
     }
   }

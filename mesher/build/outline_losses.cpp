@@ -23,7 +23,8 @@ std::vector<char> seen_anywhere(const Communicator& comm, const std::vector<char
     if (here[i] != 0) ids.push_back(static_cast<std::int32_t>(i));
   }
   std::vector<char> seen(here.size(), 0);
-  for (const std::int32_t i : comm.all_gather_values<std::int32_t>(ids)) seen[static_cast<std::size_t>(i)] = 1;
+  for (const std::int32_t i : comm.all_gather_values<std::int32_t>(ids))
+    seen[static_cast<std::size_t>(i)] = 1;
   return seen;
 }
 
@@ -36,7 +37,8 @@ std::map<Point, std::int32_t> kept_vertices(const Geometry& geometry) {
   return vertices;
 }
 
-void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, const Mesh& mesh, MeshReport& report) {
+void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, const Mesh& mesh,
+                          MeshReport& report) {
   const std::map<Point, std::int32_t> kept = kept_vertices(geometry);
   std::vector<char> is_node(static_cast<std::size_t>(geometry.size()), 0);
   for (const BoundaryEdges& boundary : mesh.boundaries) {
@@ -56,12 +58,12 @@ void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, co
   }
   if (report.corners_lost == 0) return;
   const std::string& name = geometry.boundary(geometry.boundary_of(first)).name;
-  report.warnings.insert(
-      report.warnings.begin(),  // before a list of islands
-      fmt::format("boundary '{}': {} of {} kept corner{} of the outline {} no node of the mesh, the first at {}: several share a smallest leaf; make "
-                  "spacing.min smaller, or 'corner' larger where they need not be kept",
-                  name, report.corners_lost, kept.size(), kept.size() == 1 ? "" : "s", report.corners_lost == 1 ? "is" : "are",
-                  text(geometry.point(first))));
+  report.warnings.insert(report.warnings.begin(),  // before a list of islands
+                         fmt::format("boundary '{}': {} of {} kept corner{} of the outline {} no node of the "
+                                     "mesh, the first at {}: several share a smallest leaf; make "
+                                     "spacing.min smaller, or 'corner' larger where they need not be kept",
+                                     name, report.corners_lost, kept.size(), kept.size() == 1 ? "" : "s",
+                                     report.corners_lost == 1 ? "is" : "are", text(geometry.point(first))));
 }
 
 Box box_of_boundary(const Geometry& geometry, const std::string& name) {
@@ -79,7 +81,8 @@ std::vector<std::vector<double>> shares_of_area(const Mesh& mesh, Point centre) 
   std::vector<std::vector<double>> shares;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     auto& list = shares.emplace_back();
-    for (const auto& edge : boundary.edges) list.push_back(cross(mesh.point(edge[0]) - centre, mesh.point(edge[1]) - centre));
+    for (const auto& edge : boundary.edges)
+      list.push_back(cross(mesh.point(edge[0]) - centre, mesh.point(edge[1]) - centre));
   }
   return shares;
 }
@@ -87,12 +90,14 @@ std::vector<std::vector<double>> shares_of_area(const Mesh& mesh, Point centre) 
 std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
   std::vector<double> shares(geometry.boundaries().size(), 0);
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
-    shares[static_cast<std::size_t>(geometry.boundary_of(s).value())] += cross(geometry.point(s) - centre, geometry.point(geometry.next(s)) - centre);
+    shares[static_cast<std::size_t>(geometry.boundary_of(s).value())] +=
+        cross(geometry.point(s) - centre, geometry.point(geometry.next(s)) - centre);
   }
   return shares;
 }
 
-[[noreturn]] void refuse_area(const Communicator& comm, const Geometry& geometry, const Mesh& mesh, double error, bool smoothed) {
+[[noreturn]] void refuse_area(const Communicator& comm, const Geometry& geometry, const Mesh& mesh,
+                              double error, bool smoothed) {
   const Point centre = geometry.box().centre();
   const std::vector<std::vector<double>> meshed = shares_of_area(mesh, centre);
   const std::vector<double> wanted = outline_shares(geometry, centre);
@@ -105,25 +110,32 @@ std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
   }
   const std::string& name = geometry.boundaries()[worst].name;
   const std::string cause =
-      smoothed ? "nodes have slid along it while smoothing, where it is narrow; set smooth.sweeps = 0, or" : "its leaves are too coarse there;";
-  throw InputError(
-      fmt::format("boundary '{}' near {}: the area of the mesh is {:.1f} percent off that inside the outline, more than the {:.0f} allowed: {} "
-                  "give [boundary.{}] a smaller spacing, set spacing.curvature, or make spacing.min or max smaller",
-                  name, text(box_of_boundary(geometry, name).centre()), 100 * error, 100 * largest_area_error, cause, name));
+      smoothed ? "nodes have slid along it while smoothing, where it is narrow; set smooth.sweeps = 0, or"
+               : "its leaves are too coarse there;";
+  throw InputError(fmt::format(
+      "boundary '{}' near {}: the area of the mesh is {:.1f} percent off that inside the outline, more than "
+      "the {:.0f} allowed: {} "
+      "give [boundary.{}] a smaller spacing, set spacing.curvature, or make spacing.min or max smaller",
+      name, text(box_of_boundary(geometry, name).centre()), 100 * error, 100 * largest_area_error, cause,
+      name));
 }
 
 }  // namespace
 
-void refuse_vanished(const Geometry& geometry, const std::vector<std::string>& vanished, const std::string& why) {
+void refuse_vanished(const Geometry& geometry, const std::vector<std::string>& vanished,
+                     const std::string& why) {
   const Box box = box_of_boundary(geometry, vanished.front());
-  const std::string more = vanished.size() == 1 ? "" : fmt::format(", and with it {} other boundaries", vanished.size() - 1);
+  const std::string more =
+      vanished.size() == 1 ? "" : fmt::format(", and with it {} other boundaries", vanished.size() - 1);
   throw InputError(
-      fmt::format("boundary '{}' near {}, {:.6g} wide and {:.6g} high, {} and would vanish from the mesh{}; make spacing.min smaller, or "
+      fmt::format("boundary '{}' near {}, {:.6g} wide and {:.6g} high, {} and would vanish from the mesh{}; "
+                  "make spacing.min smaller, or "
                   "allow it by vanish = \"allow\" in [geometry]",
                   vanished.front(), text(box.centre()), box.width(), box.height(), why, more));
 }
 
-void report_losses(const Communicator& comm, const Geometry& geometry, const Mesh& mesh, bool may_vanish, MeshReport& report) {
+void report_losses(const Communicator& comm, const Geometry& geometry, const Mesh& mesh, bool may_vanish,
+                   MeshReport& report) {
   std::vector<char> has_edges(mesh.boundaries.size(), 0);
   for (std::size_t b = 0; b < has_edges.size(); ++b) has_edges[b] = mesh.boundaries[b].edges.empty() ? 0 : 1;
   has_edges = seen_anywhere(comm, has_edges);
@@ -131,7 +143,8 @@ void report_losses(const Communicator& comm, const Geometry& geometry, const Mes
   for (std::size_t b = 0; b < has_edges.size(); ++b) {
     if (has_edges[b] == 0) vanished.push_back(mesh.boundaries[b].name);
   }
-  if (!may_vanish && !vanished.empty()) refuse_vanished(geometry, vanished, "lies within leaves that cannot show it");
+  if (!may_vanish && !vanished.empty())
+    refuse_vanished(geometry, vanished, "lies within leaves that cannot show it");
   report.boundaries_vanished = std::move(vanished);
   warn_of_lost_corners(comm, geometry, mesh, report);
 }
@@ -145,9 +158,11 @@ double area_of_loop(const Geometry& geometry, std::int32_t loop) {
   return twice / 2;
 }
 
-void require_area(const Communicator& comm, const Geometry& geometry, double dropped, const Mesh& mesh, bool smoothed) {
+void require_area(const Communicator& comm, const Geometry& geometry, double dropped, const Mesh& mesh,
+                  bool smoothed) {
   std::vector<double> shares;
-  for (const std::vector<double>& list : shares_of_area(mesh, geometry.box().centre())) shares.insert(shares.end(), list.begin(), list.end());
+  for (const std::vector<double>& list : shares_of_area(mesh, geometry.box().centre()))
+    shares.insert(shares.end(), list.begin(), list.end());
   const double meshed = reproducible_sum(comm, shares) / 2;
   double given = 0;
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) given += area_of_loop(geometry, loop);

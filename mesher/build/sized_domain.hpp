@@ -6,7 +6,8 @@
 
 namespace quadloop {
 
-/// A geometry on its lattice, with what decides how finely each place is split. Geometry, options and demands must outlive it; it does not move.
+/// A geometry on its lattice, with what decides how finely each place is split. Geometry, options and demands
+/// must outlive it; it does not move.
 struct SizedDomain {
   SizedDomain(const Geometry& geometry, const SizeOptions& options, const DemandedSplits& demanded)
       : lattice{choose_root(geometry, options.root)},
@@ -14,7 +15,10 @@ struct SizedDomain {
         inside{outline},
         resolution{lattice, outline, inside},
         sizes{outline, lattice, options,
-              [this](const Quadrant& q, std::span<const std::int32_t> segments) { return resolution.unresolved(q, segments); }, demanded} {}
+              [this](const Quadrant& q, std::span<const std::int32_t> segments) {
+                return resolution.unresolved(q, segments);
+              },
+              demanded} {}
   SizedDomain(const SizedDomain&) = delete;
   SizedDomain& operator=(const SizedDomain&) = delete;
 

@@ -14,7 +14,9 @@ using Corners = std::array<Point, 4>;
 bool is_parallelogram(const Corners& p) { return skew_of(p) <= parallel_skew; }
 
 /// By the plain products in doubles that every reader of the mesh will use, at each corner.
-bool is_positive(Point a, Point b, Point c) { return cross(b - a, c - a) > 0 && cross(c - b, a - b) > 0 && cross(a - c, b - c) > 0; }
+bool is_positive(Point a, Point b, Point c) {
+  return cross(b - a, c - a) > 0 && cross(c - b, a - b) > 0 && cross(a - c, b - c) > 0;
+}
 
 /// Whether the diagonal from the first corner to the third divides the quadrilateral, and not the other one.
 bool takes_first_diagonal(const Corners& p, const std::function<TieRank(Point)>& rank) {
@@ -27,7 +29,8 @@ bool takes_first_diagonal(const Corners& p, const std::function<TieRank(Point)>&
 
 }  // namespace
 
-void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves, const std::function<TieRank(Point)>& rank) {
+void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
+                      const std::function<TieRank(Point)>& rank) {
   std::vector<std::array<NodeId, 3>> triangles;
   std::vector<std::array<NodeId, 4>> quads;
   triangles.reserve(mesh.triangles.size() + mesh.triangles.size() / 4);

@@ -26,11 +26,12 @@ class GoneTriangles {
   }
   void sort() { std::sort(around_.begin(), around_.end()); }
 
-  /// The number of the one of a block around the node that is nearest to a place; of several as near the lowest.
+  /// The number of the one of a block around the node that is nearest to a place; of several as near the
+  /// lowest.
   std::int64_t nearest(std::int32_t node, Point place, std::int32_t block) const {
     std::pair best{std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max()};
-    for (auto at = std::lower_bound(around_.begin(), around_.end(), std::pair{node, std::size_t{0}}); at != around_.end() && at->first == node;
-         ++at) {
+    for (auto at = std::lower_bound(around_.begin(), around_.end(), std::pair{node, std::size_t{0}});
+         at != around_.end() && at->first == node; ++at) {
       const auto& [triangle, centroid] = gone_[at->second];
       const Point off = centroid - place;
       if (triangle.block == block) best = std::min(best, {dot(off, off), triangle.number});
@@ -52,7 +53,8 @@ RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::functi
   const std::vector<char> doubts = patch.doubtful();
   for (std::size_t t = 0; t < doubts.size() && !uncertain_; ++t) {
     const Triangle& nodes = patch.triangles()[t];
-    uncertain_ = doubts[t] != 0 && std::any_of(nodes.begin(), nodes.end(), [&](std::int32_t node) { return halo.owns(number_of(node)); });
+    uncertain_ = doubts[t] != 0 && std::any_of(nodes.begin(), nodes.end(),
+                                               [&](std::int32_t node) { return halo.owns(number_of(node)); });
   }
   if (uncertain_) return;
   compare(halo, find_changes(halo, patch));
@@ -70,7 +72,8 @@ void RegionTriangulation::gather_nodes(std::span<const NumberedTriangle> triangl
     Triangle& nodes = triangles_.emplace_back();
     blocks_.push_back(t.block);
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto node = static_cast<std::size_t>(std::lower_bound(numbers_.begin(), numbers_.end(), t.nodes[k]) - numbers_.begin());
+      const auto node = static_cast<std::size_t>(
+          std::lower_bound(numbers_.begin(), numbers_.end(), t.nodes[k]) - numbers_.begin());
       nodes[k] = static_cast<std::int32_t>(node);
       points_[node] = t.points[k];
       core_[node] = t.core[k];
@@ -78,7 +81,8 @@ void RegionTriangulation::gather_nodes(std::span<const NumberedTriangle> triangl
   }
 }
 
-DelaunayPatch RegionTriangulation::make_patch(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) const {
+DelaunayPatch RegionTriangulation::make_patch(const StarHalo& halo,
+                                              const std::function<TieRank(Point)>& rank_of) const {
   std::vector<TieRank> ranks;
   for (const Point& p : points_) ranks.push_back(rank_of(p));
   std::vector<char> open;
@@ -86,7 +90,8 @@ DelaunayPatch RegionTriangulation::make_patch(const StarHalo& halo, const std::f
   return {points_, std::move(ranks), triangles_, open, blocks_};
 }
 
-RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& halo, const DelaunayPatch& patch) const {
+RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& halo,
+                                                               const DelaunayPatch& patch) const {
   Changes changes;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     Triangle before = triangles_[i], after = patch.triangles()[i];
@@ -118,7 +123,8 @@ void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) 
     if (halo.owns(number_of(nodes[0]))) freed_.push_back(freed);
   }
   gone.sort();
-  std::set_difference(changes.after.begin(), changes.after.end(), before.begin(), before.end(), std::back_inserter(made));
+  std::set_difference(changes.after.begin(), changes.after.end(), before.begin(), before.end(),
+                      std::back_inserter(made));
   for (const auto& [t, block] : made) {
     if (!halo.owns(number_of(t[0]))) continue;
     MadeTriangle triangle{gone.nearest(t[0], centroid(t), block), {}, {}, block};
@@ -131,7 +137,8 @@ void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) 
   }
 }
 
-/// Those with one triangle at hand, between nodes that may have more triangles around them than the region has.
+/// Those with one triangle at hand, between nodes that may have more triangles around them than the region
+/// has.
 std::vector<RegionTriangulation::Edge> RegionTriangulation::outer_edges() const {
   std::vector<Edge> edges, single;
   for (const Triangle& nodes : triangles_) {
@@ -158,7 +165,8 @@ void RegionTriangulation::find_outgrown() {
       const auto [low, high] = std::minmax({t[k], t[(k + 1) % 3]});
       return std::binary_search(outer.begin(), outer.end(), Edge{low, high});
     };
-    if (is_outer(0) || is_outer(1) || is_outer(2)) outgrown_.insert(outgrown_.end(), made_[i].nodes.begin(), made_[i].nodes.end());
+    if (is_outer(0) || is_outer(1) || is_outer(2))
+      outgrown_.insert(outgrown_.end(), made_[i].nodes.begin(), made_[i].nodes.end());
   }
 }
 

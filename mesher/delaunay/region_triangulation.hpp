@@ -10,7 +10,8 @@ namespace quadloop {
 
 /// A triangle that was not there before.
 struct MadeTriangle {
-  std::int64_t near = 0;                ///< the number of the nearest triangle, by their centroids, of those with its first node that are gone
+  std::int64_t near = 0;  ///< the number of the nearest triangle, by their centroids, of those with its first
+                          ///< node that are gone
   std::array<std::int64_t, 3> nodes{};  ///< over all ranks, the smallest first
   std::array<Point, 3> points;
   std::int32_t block = 0;
@@ -24,13 +25,14 @@ struct FreedTriangle {
   friend auto operator<=>(const FreedTriangle&, const FreedTriangle&) = default;
 };
 
-/// The constrained Delaunay triangulation of what a rank knows of a region, and how it differs from the triangles before. A triangle is this rank's
-/// concern where it owns the first of its nodes.
+/// The constrained Delaunay triangulation of what a rank knows of a region, and how it differs from the
+/// triangles before. A triangle is this rank's concern where it owns the first of its nodes.
 class RegionTriangulation {
  public:
   RegionTriangulation(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of);
 
-  /// Whether triangles not at hand might change some around nodes that this rank owns. If so, the following are empty.
+  /// Whether triangles not at hand might change some around nodes that this rank owns. If so, the following
+  /// are empty.
   bool uncertain() const { return uncertain_; }
   const std::vector<FreedTriangle>& freed() const { return freed_; }
   const std::vector<MadeTriangle>& made() const { return made_; }

@@ -8,7 +8,8 @@ namespace quadloop {
 
 namespace {
 
-/// Mixes the bits of a word so that each of them moves about half of the result's (the finisher of SplitMix64).
+/// Mixes the bits of a word so that each of them moves about half of the result's (the finisher of
+/// SplitMix64).
 std::uint64_t mixed(std::uint64_t word) {
   word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9ULL;
   word = (word ^ (word >> 27)) * 0x94d049bb133111ebULL;

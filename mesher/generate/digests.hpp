@@ -18,7 +18,8 @@ std::uint64_t text_digest(const std::string& text);
 /// This rank's nodes' part in coordinate_digest(): the parts of all ranks add up to it, modulo 2^64.
 std::uint64_t digest_of_owned(const Mesh& mesh);
 
-/// A number that changes with any node's coordinates and does not depend on the number of ranks. *Collective.*
+/// A number that changes with any node's coordinates and does not depend on the number of ranks.
+/// *Collective.*
 std::uint64_t coordinate_digest(const Communicator& comm, const Mesh& mesh);
 
 }  // namespace quadloop

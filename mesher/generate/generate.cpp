@@ -4,11 +4,11 @@
 
 #include <numeric>
 
-#include "mesher/generate/digests.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/build/lattice_rank.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
+#include "mesher/generate/digests.hpp"
 
 namespace quadloop {
 
@@ -26,7 +26,8 @@ void count_triangles(const std::vector<std::int32_t>& standing, std::vector<Leaf
 }
 
 /// Moved nodes leave some parallelograms skew; those are divided too. *Collective.*
-void keep_parallelograms(const Communicator& comm, const std::function<TieRank(Point)>& rank, MeshResult& result) {
+void keep_parallelograms(const Communicator& comm, const std::function<TieRank(Point)>& rank,
+                         MeshResult& result) {
   split_skew_quads(result.mesh, result.tree.leaves, rank);
   result.tree.attributes.triangles = comm.sum(static_cast<std::int64_t>(result.mesh.triangles.size()));
   result.tree.attributes.quads = comm.sum(static_cast<std::int64_t>(result.mesh.quads.size()));
@@ -37,7 +38,9 @@ void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result
   if (options.sweeps == 0) return;
   options.geometry = &input.geometry;
   const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
-  const auto rank = [&lattice, finest = result.report.finest_allowed](Point p) { return tie_rank(lattice, finest, p); };
+  const auto rank = [&lattice, finest = result.report.finest_allowed](Point p) {
+    return tie_rank(lattice, finest, p);
+  };
   const bool parallel = input.mesh.type == MeshType::hybrid && input.mesh.quads == QuadChoice::parallel;
   if (input.mesh.type == MeshType::delaunay) options.delaunay = rank;
   if (parallel) options = sparing_parallelograms(options);
@@ -45,13 +48,15 @@ void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result
   const SmoothReport report = smooth_mesh(comm, result.mesh, options);
   if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
   if (parallel) keep_parallelograms(comm, rank, result);
-  log::detail(fmt::format("smoothed: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}", report.moves, report.free_nodes,
-                          report.sweeps, report.worst_cost_after, report.worst_cost_before));
+  log::detail(fmt::format("smoothed: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}",
+                          report.moves, report.free_nodes, report.sweeps, report.worst_cost_after,
+                          report.worst_cost_before));
 }
 
 }  // namespace
 
-GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded) {
+GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
+                            const DemandedSplits& demanded) {
   GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}};
   MeshResult& result = generated.result;
   generated.times.append(result.report.times);

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
+#include "mesher/build/build_mesh.hpp"
 #include "mesher/forest/demanded_splits.hpp"
 #include "mesher/geometry/geometry.hpp"
-#include "mesher/build/build_mesh.hpp"
 #include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
@@ -27,8 +27,10 @@ struct GeneratedMesh {
   StageTimes times;  ///< those of the report, and "smooth"
 };
 
-/// Meshes and smooths; smoothing always begins with the mesh as it is cut, and a mesh of the Delaunay type ends with flips, under the order of nodes
-/// that it was made with. *Collective.* Throws InputError as build_mesh does.
-GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded = {});
+/// Meshes and smooths; smoothing always begins with the mesh as it is cut, and a mesh of the Delaunay type
+/// ends with flips, under the order of nodes that it was made with. *Collective.* Throws InputError as
+/// build_mesh does.
+GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
+                            const DemandedSplits& demanded = {});
 
 }  // namespace quadloop

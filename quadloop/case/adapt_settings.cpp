@@ -11,13 +11,15 @@ void read_variable(const CaseTable& table, AdaptOptions& options) {
   if (!table.has("variable")) return;
   if (!table.is_table("variable")) {
     options.variables = table.texts("variable");
-    if (options.variables.empty()) table.refuse("variable", "is empty; name what the marks are made from, as in variable = \"density\"");
+    if (options.variables.empty())
+      table.refuse("variable", "is empty; name what the marks are made from, as in variable = \"density\"");
     return;
   }
   const CaseTable field = *table.table("variable");
   const auto size = field.text("size"), error = field.text("error");
   field.finish();
-  if (size.has_value() == error.has_value()) table.refuse("variable", "must be a name, a list of names, { size = \"name\" } or { error = \"name\" }");
+  if (size.has_value() == error.has_value())
+    table.refuse("variable", "must be a name, a list of names, { size = \"name\" } or { error = \"name\" }");
   options.source = size ? AdaptOptions::Source::size : AdaptOptions::Source::error;
   options.variables = {size ? *size : *error};
 }
@@ -48,7 +50,8 @@ std::optional<AdaptOptions> read_adapt_table(const CaseTable& root) {
   if (!table) return {};
   AdaptOptions options;
   if (const auto cycles = table->number("cycles", {0, 10000})) {
-    if (*cycles != std::floor(*cycles)) table->refuse("cycles", "must be a whole number: how many times the mesh is adapted");
+    if (*cycles != std::floor(*cycles))
+      table->refuse("cycles", "must be a whole number: how many times the mesh is adapted");
     options.cycles = static_cast<int>(*cycles);
   }
   read_variable(*table, options);

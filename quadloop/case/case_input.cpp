@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "mesher/generate/digests.hpp"
 #include "adapt/remesh/restart.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/free_memory.hpp"
+#include "mesher/generate/digests.hpp"
 
 namespace quadloop {
 
@@ -19,7 +19,8 @@ void require_case_file(const std::string& path) {
   const std::string suffix = std::filesystem::path(path).extension();
   for (const char* outline : {".geom", ".dat", ".dxf", ".geojson", ".shp", ".gpkg"}) {
     if (suffix != outline) continue;
-    throw InputError(path + ": is an outline, not a case file; write a case file with file = \"" + path + "\" in its table [geometry]");
+    throw InputError(path + ": is an outline, not a case file; write a case file with file = \"" + path +
+                     "\" in its table [geometry]");
   }
 }
 
@@ -46,14 +47,17 @@ CaseInput load_case(const CaseArguments& arguments) {
   }
   Geometry geometry = load_geometry(settings, input.warnings, arguments.saved);
   const MeshOptions options = mesh_options(settings, geometry);
-  for (std::string& warning : spacing_warnings(options, geometry)) input.warnings.push_back(std::move(warning));
+  for (std::string& warning : spacing_warnings(options, geometry))
+    input.warnings.push_back(std::move(warning));
   input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth, case_digest(options)});
   if (arguments.saved) keep_root(*arguments.saved, *input.mesh);
   return input;
 }
 
 void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells) {
-  command.add_option("--max-cells", max_cells, "the most cells that a mesh may have by estimate; without it as many as free memory holds")
+  command
+      .add_option("--max-cells", max_cells,
+                  "the most cells that a mesh may have by estimate; without it as many as free memory holds")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
 }

@@ -31,7 +31,6 @@ struct CaseInput {
 /// Reads case and geometry. On the calling rank alone. Throws InputError.
 CaseInput load_case(const CaseArguments& arguments);
 
-
 /// The option --max-cells of the commands that mesh.
 void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells);
 

@@ -33,9 +33,12 @@ void read_euler_keys(const CaseTable& table, EulerOptions& options) {
   options.cfl = table.number("cfl", Range::positive()).value_or(options.cfl);
   options.iterations = whole_number(table, "iterations", options.iterations);
   options.tolerance = table.number("tolerance", {0, 1}).value_or(options.tolerance);
-  if (table.choice("limiter", {"venkatakrishnan", "none"}) == "none") options.limiter = EulerOptions::Limiter::none;
-  if (table.choice("initial", {"freestream", "vortex"}) == "vortex") options.initial = EulerOptions::Initial::vortex;
-  options.reference_length = table.number("reference_length", Range::positive()).value_or(options.reference_length);
+  if (table.choice("limiter", {"venkatakrishnan", "none"}) == "none")
+    options.limiter = EulerOptions::Limiter::none;
+  if (table.choice("initial", {"freestream", "vortex"}) == "vortex")
+    options.initial = EulerOptions::Initial::vortex;
+  options.reference_length =
+      table.number("reference_length", Range::positive()).value_or(options.reference_length);
 }
 
 void read_command_keys(const CaseTable& table, SolverSettings& settings) {
@@ -46,10 +49,13 @@ void read_command_keys(const CaseTable& table, SolverSettings& settings) {
   command.solution = table.text("solution").value_or(command.solution);
   command.command.timeout = table.number("timeout", Range::positive()).value_or(command.command.timeout);
   for (const auto& [key, name] : {std::pair{"mesh", command.mesh}, {"solution", command.solution}}) {
-    if (name.empty() || name.find('/') != std::string::npos) table.refuse(key, "must be the name of a file in the cycle's folder");
+    if (name.empty() || name.find('/') != std::string::npos)
+      table.refuse(key, "must be the name of a file in the cycle's folder");
   }
   if (settings.kind == SolverSettings::Kind::command && command.command.arguments.empty()) {
-    table.refuse("command", "is missing; kind = \"command\" needs the program to run and its arguments, as in command = [\"my_solver\", \"{mesh}\"]");
+    table.refuse("command",
+                 "is missing; kind = \"command\" needs the program to run and its arguments, as in command = "
+                 "[\"my_solver\", \"{mesh}\"]");
   }
 }
 
@@ -65,7 +71,8 @@ void read_solver_table(const CaseTable& root, SolverSettings& settings) {
   table->finish();
 }
 
-EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules, const Mesh& mesh) {
+EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                           const Mesh& mesh) {
   std::vector<std::string> names;
   for (const BoundaryEdges& boundary : mesh.boundaries) names.push_back(boundary.name);
   std::vector<BoundaryRule> lenient = rules;
@@ -75,7 +82,8 @@ EulerOptions euler_options(const SolverSettings& settings, const std::vector<Bou
     BoundaryChoice choice{boundary.name, boundary.condition == "none" ? "" : boundary.condition, {}};
     for (const bool exact : {false, true}) {
       for (const OutflowPressure& outflow : settings.pressures) {
-        if ((outflow.pattern == boundary.name) == exact && matches(outflow.pattern, boundary.name)) choice.pressure = outflow.pressure;
+        if ((outflow.pattern == boundary.name) == exact && matches(outflow.pattern, boundary.name))
+          choice.pressure = outflow.pressure;
       }
     }
     options.boundaries.push_back(std::move(choice));
@@ -83,20 +91,24 @@ EulerOptions euler_options(const SolverSettings& settings, const std::vector<Bou
   return options;
 }
 
-void require_known_variables(const SolverSettings& settings, const std::vector<std::string>& variables, const std::string& case_path) {
+void require_known_variables(const SolverSettings& settings, const std::vector<std::string>& variables,
+                             const std::string& case_path) {
   if (settings.kind != SolverSettings::Kind::euler) return;
   for (const std::string& name : variables) {
     if (std::find(euler_names.begin(), euler_names.end(), name) != euler_names.end()) continue;
-    throw InputError(fmt::format("{}: 'adapt.variable' names '{}', which the built-in solver does not write; it may be {}{}", case_path, name,
-                                 fmt::join(euler_names, ", "), guess_for(name, {euler_names.begin(), euler_names.end()})));
+    throw InputError(fmt::format(
+        "{}: 'adapt.variable' names '{}', which the built-in solver does not write; it may be {}{}",
+        case_path, name, fmt::join(euler_names, ", "),
+        guess_for(name, {euler_names.begin(), euler_names.end()})));
   }
 }
 
-FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules, const Geometry& geometry,
-                       const std::string& case_path) {
+FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                       const Geometry& geometry, const std::string& case_path) {
   if (settings.kind == SolverSettings::Kind::euler) {
     Mesh named;
-    for (const Boundary& boundary : geometry.boundaries()) named.boundaries.push_back({boundary.name, boundary.condition, {}});
+    for (const Boundary& boundary : geometry.boundaries())
+      named.boundaries.push_back({boundary.name, boundary.condition, {}});
     return euler_options(settings, rules, named);
   }
   CommandSolver solver = settings.command;

@@ -11,7 +11,8 @@
 
 namespace quadloop {
 
-/// The pressure that the case asks for behind outflow boundaries whose name matches, in units of the free stream's.
+/// The pressure that the case asks for behind outflow boundaries whose name matches, in units of the free
+/// stream's.
 struct OutflowPressure {
   std::string pattern;
   double pressure = 1;
@@ -31,14 +32,18 @@ struct SolverSettings {
 /// Reads [solver], where there is one. Throws InputError that names key and line.
 void read_solver_table(const CaseTable& root, SolverSettings& settings);
 
-/// The options with what the case's rules say of the mesh's boundaries; where they are silent the mesh's own conditions stand.
-EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules, const Mesh& mesh);
+/// The options with what the case's rules say of the mesh's boundaries; where they are silent the mesh's own
+/// conditions stand.
+EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                           const Mesh& mesh);
 
-/// Refuses a variable to adapt to that the built-in solver does not write. Throws InputError that names the case.
-void require_known_variables(const SolverSettings& settings, const std::vector<std::string>& variables, const std::string& case_path);
+/// Refuses a variable to adapt to that the built-in solver does not write. Throws InputError that names the
+/// case.
+void require_known_variables(const SolverSettings& settings, const std::vector<std::string>& variables,
+                             const std::string& case_path);
 
 /// The solver of an adaptive run on meshes of this geometry. `case_path` names the case file.
-FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules, const Geometry& geometry,
-                       const std::string& case_path);
+FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                       const Geometry& geometry, const std::string& case_path);
 
 }  // namespace quadloop

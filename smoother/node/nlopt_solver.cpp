@@ -7,7 +7,8 @@ namespace quadloop {
 
 namespace {
 
-/// Rowan's subplex, measured against eleven others of the library (docs/performance.md): none gives better cells, and it is the fastest.
+/// Rowan's subplex, measured against eleven others of the library (docs/performance.md): none gives better
+/// cells, and it is the fastest.
 constexpr nlopt::algorithm algorithm = nlopt::LN_SBPLX;
 
 constexpr int most_evaluations = 20;
@@ -35,7 +36,8 @@ double cost_of(unsigned, const double* x, double* slope, void* data) {
     return barrier + 0.5 * (x[0] * x[0] + x[1] * x[1]);
   }
   Point gradient;
-  const double value = slope == nullptr ? cost.objective[0] : problem.star->cost_and_gradient(p, problem.objective, gradient);
+  const double value =
+      slope == nullptr ? cost.objective[0] : problem.star->cost_and_gradient(p, problem.objective, gradient);
   if (slope != nullptr) {
     slope[0] = problem.edge * gradient.x;
     slope[1] = problem.edge * gradient.y;

@@ -7,20 +7,24 @@
 
 namespace quadloop {
 
-/// How a node's best place is looked for. perturb: the thesis's steps along normals, edges and axes. nlopt: a library's minimiser.
+/// How a node's best place is looked for. perturb: the thesis's steps along normals, edges and axes. nlopt: a
+/// library's minimiser.
 enum class Method { perturb, nlopt };
 
-/// The cost of a star as it is, which a new place must better: the largest corner cost and the smallest angle no worse, the cost of the node lower.
+/// The cost of a star as it is, which a new place must better: the largest corner cost and the smallest angle
+/// no worse, the cost of the node lower.
 class Acceptance {
  public:
   Acceptance(const StarCost<1>& now) : now_{now} {}
 
   template <int places>
   bool accepts(const StarCost<places>& cost, int place) const {
-    return cost.valid[place] && cost.largest_defect[place] <= now_.largest_defect[0] && cost.largest_cotangent[place] <= now_.largest_cotangent[0] &&
+    return cost.valid[place] && cost.largest_defect[place] <= now_.largest_defect[0] &&
+           cost.largest_cotangent[place] <= now_.largest_cotangent[0] &&
            cost.objective[place] < worthwhile * now_.objective[0];
   }
-  /// The accepted place of the lowest cost among the first `count`; -1 if there is none. Of equal ones the first.
+  /// The accepted place of the lowest cost among the first `count`; -1 if there is none. Of equal ones the
+  /// first.
   template <int places>
   int best(const StarCost<places>& cost, int count) const {
     int best = -1;

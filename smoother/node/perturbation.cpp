@@ -35,8 +35,8 @@ void find_directions(const Star& star, Point p, Direction kind, std::vector<Poin
 }
 
 /// The best accepted step of a length, if any.
-std::optional<Point> best_step(const Star& star, Point p, Objective objective, const Acceptance& acceptance, const std::vector<Point>& directions,
-                               double step) {
+std::optional<Point> best_step(const Star& star, Point p, Objective objective, const Acceptance& acceptance,
+                               const std::vector<Point>& directions, double step) {
   std::optional<Point> best;
   double lowest = 0;
   for (std::size_t begin = 0; begin < directions.size(); begin += Star::batch) {

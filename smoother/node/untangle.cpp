@@ -50,9 +50,11 @@ Point mean_of_neighbours(const Star& star) {
   return (1 / static_cast<double>(star.corners().size())) * sum;
 }
 
-/// The place of largest least depth: a linear program in three unknowns, solved from above by its dual simplex method. Three half planes at a time
-/// hold the place; of all others the one that it lies least deep in takes the place of one of them, and the depth falls, until none is left that it
-/// lies less deep in. Each step looks at each half plane once; there are a few steps, and never more than a few times the half planes.
+/// The place of largest least depth: a linear program in three unknowns, solved from above by its dual
+/// simplex method. Three half planes at a time hold the place; of all others the one that it lies least deep
+/// in takes the place of one of them, and the depth falls, until none is left that it lies less deep in. Each
+/// step looks at each half plane once; there are a few steps, and never more than a few times the half
+/// planes.
 class DeepestPlace {
  public:
   explicit DeepestPlace(std::vector<HalfPlane> planes) : planes_{std::move(planes)} {}
@@ -63,8 +65,9 @@ class DeepestPlace {
     Basis basis = far_away();
     Held held{*equally_deep(basis[0], basis[1], basis[2]), basis[0].c};
     for (std::size_t step = 0; step < steps_per_plane * planes_.size(); ++step) {
-      const HalfPlane& shallowest =
-          *std::min_element(planes_.begin(), planes_.end(), [&](const auto& a, const auto& b) { return a.depth(held.place) < b.depth(held.place); });
+      const HalfPlane& shallowest = *std::min_element(
+          planes_.begin(), planes_.end(),
+          [&](const auto& a, const auto& b) { return a.depth(held.place) < b.depth(held.place); });
       const auto next = exchange(basis, shallowest);
       if (!next || !(next->depth < held.depth)) break;
       held = *next;
@@ -98,7 +101,9 @@ class DeepestPlace {
       trial[leaving] = entering;
       const auto place = equally_deep(trial[0], trial[1], trial[2]);
       if (!place) continue;
-      const double depth = std::min(entering.depth(*place), std::min({basis[0].depth(*place), basis[1].depth(*place), basis[2].depth(*place)}));
+      const double depth =
+          std::min(entering.depth(*place),
+                   std::min({basis[0].depth(*place), basis[1].depth(*place), basis[2].depth(*place)}));
       if (deepest && depth <= deepest->depth) continue;
       deepest = Held{*place, depth};
       chosen = trial;
@@ -132,7 +137,11 @@ Point deepest_point(const Star& star, Point p) {
 }
 
 UntanglingRule::UntanglingRule(const Star& star, Point p, Objective objective)
-    : star_{star}, objective_{objective}, reference_{star.reference(p)}, sound_{star.sound_corners(p)}, now_{tangle(p)} {}
+    : star_{star},
+      objective_{objective},
+      reference_{star.reference(p)},
+      sound_{star.sound_corners(p)},
+      now_{tangle(p)} {}
 
 UntanglingRule::Tangle UntanglingRule::tangle(Point p) const {
   const auto sound = star_.sound_corners(p);
@@ -148,7 +157,8 @@ bool UntanglingRule::accepts(Point to) const {
 }
 
 bool UntanglingRule::prefers(Point a, Point b) const {
-  if (objective_ == Objective::thesis) return star_.nodal_cost(a, reference_) < star_.nodal_cost(b, reference_);
+  if (objective_ == Objective::thesis)
+    return star_.nodal_cost(a, reference_) < star_.nodal_cost(b, reference_);
   return tangle(a) < tangle(b);
 }
 
@@ -160,8 +170,8 @@ std::optional<Point> untangle(const Star& star, Point p, Objective objective) {
   for (const double share : {0.5, 0.25, 0.1}) {
     candidates.push_back(p + share * (deep - p));
     candidates.push_back(p + share * (mean - p));
-    for (const Point d :
-         {Point{1, 0}, Point{-1, 0}, Point{0, 1}, Point{0, -1}, Point{0.7, 0.7}, Point{-0.7, 0.7}, Point{0.7, -0.7}, Point{-0.7, -0.7}}) {
+    for (const Point d : {Point{1, 0}, Point{-1, 0}, Point{0, 1}, Point{0, -1}, Point{0.7, 0.7},
+                          Point{-0.7, 0.7}, Point{0.7, -0.7}, Point{-0.7, -0.7}}) {
       candidates.push_back(p + share * edge * d);
     }
   }
@@ -172,7 +182,8 @@ std::optional<Point> untangle(const Star& star, Point p, Objective objective) {
   return best;
 }
 
-std::vector<int> ranked_places(const Star& star, Point p, Objective objective, const Star::Batch& x, const Star::Batch& y) {
+std::vector<int> ranked_places(const Star& star, Point p, Objective objective, const Star::Batch& x,
+                               const Star::Batch& y) {
   std::vector<int> order;
   const StarCost<1> now = star.cost(p, objective);
   if (now.valid[0]) {
@@ -181,14 +192,17 @@ std::vector<int> ranked_places(const Star& star, Point p, Objective objective, c
     for (int k = 0; k < Star::batch; ++k) {
       if (acceptance.accepts(cost, k)) order.push_back(k);
     }
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return cost.objective[a] < cost.objective[b]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return cost.objective[a] < cost.objective[b]; });
     return order;
   }
   const UntanglingRule rule(star, p, objective);
   for (int k = 0; k < Star::batch; ++k) {
     if (rule.accepts({x[k], y[k]})) order.push_back(k);
   }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rule.prefers({x[a], y[a]}, {x[b], y[b]}); });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return rule.prefers({x[a], y[a]}, {x[b], y[b]});
+  });
   return order;
 }
 

@@ -9,7 +9,9 @@ CornerTarget corner_target(Point w1, Point w2) {
   return {dot(w2, w2) / twice, -dot(w1, w2) / twice, dot(w1, w1) / twice};
 }
 
-CornerTarget equilateral_target() { return {1 / std::numbers::sqrt3, -0.5 / std::numbers::sqrt3, 1 / std::numbers::sqrt3}; }
+CornerTarget equilateral_target() {
+  return {1 / std::numbers::sqrt3, -0.5 / std::numbers::sqrt3, 1 / std::numbers::sqrt3};
+}
 CornerTarget right_angle_target() { return {0.5, 0, 0.5}; }
 
 CornerTarget seen_from_next(const CornerTarget& t) {
@@ -17,7 +19,9 @@ CornerTarget seen_from_next(const CornerTarget& t) {
   return {t.g22, -(t.g12 + t.g22), t.g11 + 2 * t.g12 + t.g22};
 }
 
-double condition_number(const CornerForm& corner, const CornerTarget& target) { return 1 / inverse_condition(corner, target); }
+double condition_number(const CornerForm& corner, const CornerTarget& target) {
+  return 1 / inverse_condition(corner, target);
+}
 
 template <>
 std::array<CornerTarget, 3> ideal_targets<3>() {
@@ -38,7 +42,8 @@ std::array<CornerTarget, 3> stretched_targets<3>(Point w1, Point w2) {
 template <>
 std::array<CornerTarget, 4> stretched_targets<4>(Point w1, Point w2) {
   const Point back1 = -1.0 * w1, back2 = -1.0 * w2;
-  return {corner_target(w1, w2), corner_target(w2, back1), corner_target(back1, back2), corner_target(back2, w1)};
+  return {corner_target(w1, w2), corner_target(w2, back1), corner_target(back1, back2),
+          corner_target(back2, w1)};
 }
 
 template <std::size_t width>
@@ -49,7 +54,8 @@ double cell_cost(const std::array<Point, width>& cell, const std::array<CornerTa
     forms[k] = corner_form(cell[k], cell[(k + 1) % width], cell[(k + width - 1) % width]);
     reference += forms[k].uu / width;
   }
-  for (std::size_t k = 0; k < width; ++k) worst = std::max(worst, corner_cost(forms[k], targets[k], reference));
+  for (std::size_t k = 0; k < width; ++k)
+    worst = std::max(worst, corner_cost(forms[k], targets[k], reference));
   return worst;
 }
 

@@ -29,15 +29,18 @@ Values counted_dot(CellAngle angle, const Values& uu, const Values& uv, const Va
 }  // namespace
 
 template <int places>
-StarCost<places> Star::evaluate(const Eigen::Array<double, places, 1>& x, const Eigen::Array<double, places, 1>& y, Objective objective) const {
+StarCost<places> Star::evaluate(const Eigen::Array<double, places, 1>& x,
+                                const Eigen::Array<double, places, 1>& y, Objective objective) const {
   using Values = Eigen::Array<double, places, 1>;
   constexpr double flattest_squared = flattest_sine * flattest_sine;
   StarCost<places> cost;
   Values costs = Values::Zero(), squares = Values::Zero(), defects = Values::Zero();
-  Values cotangents = Values::Constant(-std::numeric_limits<double>::infinity()), soundness = Values::Constant(1);
+  Values cotangents = Values::Constant(-std::numeric_limits<double>::infinity()),
+         soundness = Values::Constant(1);
   for (const StarCorner& c : corners_) {
     const Values ux = c.q.x - x, uy = c.q.y - y, vx = c.r.x - x, vy = c.r.y - y;
-    const Values uu = ux * ux + uy * uy, uv = ux * vx + uy * vy, vv = vx * vx + vy * vy, jacobian = ux * vy - uy * vx;
+    const Values uu = ux * ux + uy * uy, uv = ux * vx + uy * vy, vv = vx * vx + vy * vy,
+                 jacobian = ux * vy - uy * vx;
     soundness = soundness.min(jacobian).min(jacobian * jacobian - flattest_squared * uu * vv);
     const Values defect = 1 - jacobian / (c.target.g11 * uu + 2 * c.target.g12 * uv + c.target.g22 * vv);
     const Values corner = defect * defect;
@@ -52,12 +55,15 @@ StarCost<places> Star::evaluate(const Eigen::Array<double, places, 1>& x, const 
   cost.objective = squares;
   if (objective == Objective::thesis) {
     for (int k = 0; k < places; ++k)
-      cost.objective[k] = quadloop::nodal_cost(defects[k] * defects[k], costs[k] / static_cast<double>(corners_.size()));
+      cost.objective[k] =
+          quadloop::nodal_cost(defects[k] * defects[k], costs[k] / static_cast<double>(corners_.size()));
   }
   return cost;
 }
 
-StarCost<Star::batch> Star::cost(const Batch& x, const Batch& y, Objective objective) const { return evaluate<batch>(x, y, objective); }
+StarCost<Star::batch> Star::cost(const Batch& x, const Batch& y, Objective objective) const {
+  return evaluate<batch>(x, y, objective);
+}
 
 StarCost<1> Star::cost(Point p, Objective objective) const {
   using One = Eigen::Array<double, 1, 1>;
@@ -71,7 +77,8 @@ double Star::cost_and_gradient(Point p, Objective objective, Point& gradient) co
     const CornerForm f = corner_form(p, c.q, c.r);
     const Point u = c.q - p, v = c.r - p;
     const double form = c.target.g11 * f.uu + 2 * c.target.g12 * f.uv + c.target.g22 * f.vv;
-    const Point form_gradient = -2.0 * ((c.target.g11 + c.target.g12) * u + (c.target.g12 + c.target.g22) * v);
+    const Point form_gradient =
+        -2.0 * ((c.target.g11 + c.target.g12) * u + (c.target.g12 + c.target.g22) * v);
     const Point jacobian_gradient{c.q.y - c.r.y, c.r.x - c.q.x};
     const double ratio = f.jacobian / form, defect = 1 - ratio, cost = defect * defect;
     const Point cost_gradient = (-2 * defect / form) * (jacobian_gradient - ratio * form_gradient);
@@ -85,16 +92,19 @@ double Star::cost_and_gradient(Point p, Objective objective, Point& gradient) co
   }
   gradient = power_gradient;
   if (objective == Objective::power) return value;
-  const double count = static_cast<double>(corners_.size()), t = std::tanh(5 * (largest - 1)), blend = (t + 1) / 2;
+  const double count = static_cast<double>(corners_.size()), t = std::tanh(5 * (largest - 1)),
+               blend = (t + 1) / 2;
   const double blend_slope = 2.5 * (1 - t * t);
-  gradient = (blend_slope * (largest - sum / count) + blend) * largest_gradient + ((1 - blend) / count) * sum_gradient;
+  gradient = (blend_slope * (largest - sum / count) + blend) * largest_gradient +
+             ((1 - blend) / count) * sum_gradient;
   return quadloop::nodal_cost(largest, sum / count);
 }
 
 double Star::worst_cost(Point p) const {
   const double area = reference(p);
   double worst = 0;
-  for (const StarCorner& c : corners_) worst = std::max(worst, corner_cost(corner_form(p, c.q, c.r), c.target, area));
+  for (const StarCorner& c : corners_)
+    worst = std::max(worst, corner_cost(corner_form(p, c.q, c.r), c.target, area));
   return worst;
 }
 

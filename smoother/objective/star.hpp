@@ -10,18 +10,20 @@
 
 namespace quadloop {
 
-/// Which angles of a triangle p, q, r are angles of the cell: all of a triangle's, one for each corner of a quad.
+/// Which angles of a triangle p, q, r are angles of the cell: all of a triangle's, one for each corner of a
+/// quad.
 enum class CellAngle : std::uint8_t { all, at_p, at_q, at_r };
 
-/// A corner of a cell whose shape hangs on node p: the triangle p, q, r, counter-clockwise, with the target seen from p.
+/// A corner of a cell whose shape hangs on node p: the triangle p, q, r, counter-clockwise, with the target
+/// seen from p.
 struct StarCorner {
   Point q, r;
   CornerTarget target;
   CellAngle angle = CellAngle::all;
 };
 
-/// How the corners' costs become the cost of their node. thesis: Eq. 3.4, see nodal_cost. power: the sum of the squared costs, where no corner is
-/// inverted; the sum of -J counts where some are.
+/// How the corners' costs become the cost of their node. thesis: Eq. 3.4, see nodal_cost. power: the sum of
+/// the squared costs, where no corner is inverted; the sum of -J counts where some are.
 enum class Objective { thesis, power };
 
 /// What a node's star would be worth with the node at each of several places, evaluated together.
@@ -67,13 +69,15 @@ class Star {
 
  private:
   template <int places>
-  StarCost<places> evaluate(const Eigen::Array<double, places, 1>& x, const Eigen::Array<double, places, 1>& y, Objective objective) const;
+  StarCost<places> evaluate(const Eigen::Array<double, places, 1>& x,
+                            const Eigen::Array<double, places, 1>& y, Objective objective) const;
 
   std::vector<StarCorner> corners_;
 };
 
-/// Eq. 3.4 from the largest and the mean of the corners' costs. Up to 1 a blend of the two; above, where a corner is inverted, (1 - J)^2 with the
-/// smallest J of all, whose corner costs 1 - J (Eq. 3.2): the largest cost, squared.
+/// Eq. 3.4 from the largest and the mean of the corners' costs. Up to 1 a blend of the two; above, where a
+/// corner is inverted, (1 - J)^2 with the smallest J of all, whose corner costs 1 - J (Eq. 3.2): the largest
+/// cost, squared.
 double nodal_cost(double largest, double mean);
 
 }  // namespace quadloop

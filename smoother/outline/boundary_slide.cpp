@@ -15,15 +15,22 @@ namespace {
 /// Shares of the way to the neighbour on that side.
 constexpr std::array<double, 4> shares{0.3, 0.12, 0.04, 0.01};
 constexpr double straight_sine = 1e-10;
-constexpr double stray_share = 0.15;  ///< of the shorter chord: so far the outline may stray from the chords, as it may in cutting
-constexpr double longest_way = 20;    ///< a chord that stands for a part of the outline longer than so many times itself is left alone
+constexpr double stray_share =
+    0.15;  ///< of the shorter chord: so far the outline may stray from the chords, as it may in cutting
+constexpr double longest_way =
+    20;  ///< a chord that stands for a part of the outline longer than so many times itself is left alone
 
 }  // namespace
 
-BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline,
+BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
+                             const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline,
                              const std::vector<char>& pinned)
-    : mesh_{mesh}, boundaries_{boundaries}, outline_{outline}, freedom_(static_cast<std::size_t>(mesh.owned_nodes()), NodeFreedom::interior) {
-  for (const BoundaryEdges& boundary : boundaries) outlined_.push_back(outline != nullptr && outline->has(boundary.name) ? 1 : 0);
+    : mesh_{mesh},
+      boundaries_{boundaries},
+      outline_{outline},
+      freedom_(static_cast<std::size_t>(mesh.owned_nodes()), NodeFreedom::interior) {
+  for (const BoundaryEdges& boundary : boundaries)
+    outlined_.push_back(outline != nullptr && outline->has(boundary.name) ? 1 : 0);
   if (outline != nullptr) find_tight_segments(comm);
   find_rails(pinned);
 }
@@ -55,8 +62,9 @@ void BoundarySlide::find_tight_segments(const Communicator& comm) {
 
 bool BoundarySlide::is_tight(const Places& places) const {
   const auto segments = outline_->segments_between(places.before, places.after);
-  return segments.empty() || std::any_of(segments.begin(), segments.end(),
-                                         [&](std::int32_t s) { return std::binary_search(tight_segments_.begin(), tight_segments_.end(), s); });
+  return segments.empty() || std::any_of(segments.begin(), segments.end(), [&](std::int32_t s) {
+           return std::binary_search(tight_segments_.begin(), tight_segments_.end(), s);
+         });
 }
 
 namespace {
@@ -95,14 +103,18 @@ void BoundarySlide::find_rails(const std::vector<char>& pinned) {
     if (pinned[node] != 0) freedom_[node] = NodeFreedom::fixed;
   }
   const std::vector<EdgeEnd> ends = edge_ends(mesh_);
-  std::vector<char> pinched(mesh_.points().size(), 0);  // the boundary comes back there: its place on the outline is only one of two
-  for_each_boundary_node(ends, [&](std::span<const EdgeEnd> at) { pinched[static_cast<std::size_t>(at[0].node)] = at.size() > 2 ? 1 : 0; });
+  std::vector<char> pinched(mesh_.points().size(),
+                            0);  // the boundary comes back there: its place on the outline is only one of two
+  for_each_boundary_node(ends, [&](std::span<const EdgeEnd> at) {
+    pinched[static_cast<std::size_t>(at[0].node)] = at.size() > 2 ? 1 : 0;
+  });
   mesh_.exchange().update(pinched);
   for_each_boundary_node(ends, [&](std::span<const EdgeEnd> at) {
     const EdgeEnd &in = at.front(), &out = at.back();
     NodeFreedom& freedom = freedom_[static_cast<std::size_t>(in.node)];
     const bool through = at.size() == 2 && !in.leaves && out.leaves && in.boundary == out.boundary &&
-                         pinched[static_cast<std::size_t>(in.other)] == 0 && pinched[static_cast<std::size_t>(out.other)] == 0;
+                         pinched[static_cast<std::size_t>(in.other)] == 0 &&
+                         pinched[static_cast<std::size_t>(out.other)] == 0;
     const Rail rail{in.node, in.other, out.other, in.boundary};
     const bool slides = freedom == NodeFreedom::interior && through && may_slide(rail);
     freedom = slides ? NodeFreedom::sliding : NodeFreedom::fixed;
@@ -125,24 +137,33 @@ BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
 bool BoundarySlide::may_slide(const Rail& rail) const {
   if (!is_outlined(rail.boundary)) return is_straight(rail);
   const Places places = locate(rail);
-  if (!places.at.valid() || places.before.loop != places.at.loop || places.after.loop != places.at.loop) return false;
-  const double chord = length(point(rail.node) - point(rail.before)) + length(point(rail.after) - point(rail.node));
-  return outline_->way(places.before, places.at) + outline_->way(places.at, places.after) <= longest_way * chord && !is_tight(places);
+  if (!places.at.valid() || places.before.loop != places.at.loop || places.after.loop != places.at.loop)
+    return false;
+  const double chord =
+      length(point(rail.node) - point(rail.before)) + length(point(rail.after) - point(rail.node));
+  return outline_->way(places.before, places.at) + outline_->way(places.at, places.after) <=
+             longest_way * chord &&
+         !is_tight(places);
 }
 
 const BoundarySlide::Rail& BoundarySlide::rail_of(std::int32_t node) const {
-  return *std::lower_bound(rails_.begin(), rails_.end(), node, [](const Rail& rail, std::int32_t n) { return rail.node < n; });
+  return *std::lower_bound(rails_.begin(), rails_.end(), node,
+                           [](const Rail& rail, std::int32_t n) { return rail.node < n; });
 }
 
 bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const {
   const Point a = point(rail.before), b = point(rail.after), now = point(rail.node);
   const auto deviation = [&](OutlinePlace at, Point middle) {
-    return std::max(outline_->deviation(places.before, a, at, middle), outline_->deviation(at, middle, places.after, b));
+    return std::max(outline_->deviation(places.before, a, at, middle),
+                    outline_->deviation(at, middle, places.after, b));
   };
-  const double allowed = std::max(deviation(places.at, now), stray_share * std::min(length(p - a), length(b - p)));
-  const OutlinePath::Chord before{places.before, moved, a, p}, after{moved, places.after, p, b}, both{places.before, places.after, a, b};
-  return deviation(moved, p) <= allowed && outline_->met_elsewhere(before).empty() && outline_->met_elsewhere(after).empty() &&
-         !outline_->sweeps_over(both, now) && !outline_->sweeps_over(both, p);
+  const double allowed =
+      std::max(deviation(places.at, now), stray_share * std::min(length(p - a), length(b - p)));
+  const OutlinePath::Chord before{places.before, moved, a, p}, after{moved, places.after, p, b},
+      both{places.before, places.after, a, b};
+  return deviation(moved, p) <= allowed && outline_->met_elsewhere(before).empty() &&
+         outline_->met_elsewhere(after).empty() && !outline_->sweeps_over(both, now) &&
+         !outline_->sweeps_over(both, p);
 }
 
 std::optional<Point> BoundarySlide::improve(std::int32_t node, const Star& star, Objective objective) const {
@@ -150,7 +171,8 @@ std::optional<Point> BoundarySlide::improve(std::int32_t node, const Star& star,
   const Point p = point(node);
   Places places;
   double back = length(p - point(rail.before)), ahead = length(point(rail.after) - p);
-  const Point direction = (1 / length(point(rail.after) - point(rail.before))) * (point(rail.after) - point(rail.before));
+  const Point direction =
+      (1 / length(point(rail.after) - point(rail.before))) * (point(rail.after) - point(rail.before));
   const bool outlined = is_outlined(rail.boundary);
   if (outlined) {
     places = locate(rail);

@@ -13,19 +13,22 @@ namespace quadloop {
 /// Whether a node may move, and how.
 enum class NodeFreedom : std::uint8_t { interior, sliding, fixed };
 
-/// Moves boundary nodes along the true outline, or, where that has no boundary of the name, along a straight boundary of the mesh. A node never
-/// passes its neighbours, never makes the outline stray farther from the chords at it (unless by less than cutting allows itself too), and never
-/// brings a chord across another part of the outline.
+/// Moves boundary nodes along the true outline, or, where that has no boundary of the name, along a straight
+/// boundary of the mesh. A node never passes its neighbours, never makes the outline stray farther from the
+/// chords at it (unless by less than cutting allows itself too), and never brings a chord across another part
+/// of the outline.
 class BoundarySlide {
  public:
-  /// `outline` may be null. `pinned` flags owned nodes that stay. All arguments must outlive it. *Collective.*
-  BoundarySlide(const Communicator& comm, const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline,
-                const std::vector<char>& pinned);
+  /// `outline` may be null. `pinned` flags owned nodes that stay. All arguments must outlive it.
+  /// *Collective.*
+  BoundarySlide(const Communicator& comm, const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries,
+                const OutlinePath* outline, const std::vector<char>& pinned);
 
   /// Of an owned node.
   NodeFreedom freedom(std::int32_t node) const { return freedom_[static_cast<std::size_t>(node)]; }
 
-  /// A better place for a sliding node, or none: by Acceptance where the star is valid, else one that untangles.
+  /// A better place for a sliding node, or none: by Acceptance where the star is valid, else one that
+  /// untangles.
   std::optional<Point> improve(std::int32_t node, const Star& star, Objective objective) const;
 
  private:
@@ -57,8 +60,9 @@ class BoundarySlide {
   std::vector<char> outlined_;  ///< a flag for each boundary: the outline has it
   std::vector<NodeFreedom> freedom_;
   std::vector<Rail> rails_;  ///< by node
-  /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for: nodes there stay, as chords that keep
-  /// clear of the other parts of the outline could still meet one another. Ascending.
+  /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for:
+  /// nodes there stay, as chords that keep clear of the other parts of the outline could still meet one
+  /// another. Ascending.
   std::vector<std::int32_t> tight_segments_;
 };
 

@@ -22,7 +22,8 @@ using Entry = std::pair<Extent, std::int32_t>;
 constexpr std::size_t most_vertices = 1000;  ///< that one chord may stand for
 
 Extent extent_of(Point a, Point b, double margin = 0) {
-  return {{std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin}, {std::max(a.x, b.x) + margin, std::max(a.y, b.y) + margin}};
+  return {{std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin},
+          {std::max(a.x, b.x) + margin, std::max(a.y, b.y) + margin}};
 }
 
 /// The share of the way from a to b at which the nearest point to p lies.
@@ -68,7 +69,8 @@ double OutlinePath::within(std::int32_t loop, double arc) const {
 }
 
 std::int32_t OutlinePath::segment_at(std::int32_t loop, double arc) const {
-  const auto first = arc_.begin() + geometry_.loop_start(loop), last = arc_.begin() + geometry_.loop_start(loop + 1);
+  const auto first = arc_.begin() + geometry_.loop_start(loop),
+             last = arc_.begin() + geometry_.loop_start(loop + 1);
   return static_cast<std::int32_t>(std::upper_bound(first + 1, last, arc) - arc_.begin()) - 1;
 }
 
@@ -77,7 +79,8 @@ OutlinePath::Nearest OutlinePath::nearest(Point p, const std::string& boundary, 
   Nearest found_so_far{-1, within};
   auto& [segment, nearest] = found_so_far;
   const Extent around = extent_of(p, p, within);
-  for (auto found = index_->tree.qbegin(bg::index::intersects(around)); found != index_->tree.qend(); ++found) {
+  for (auto found = index_->tree.qbegin(bg::index::intersects(around)); found != index_->tree.qend();
+       ++found) {
     const std::int32_t s = found->second;
     if (geometry_.boundary(geometry_.boundary_of(s)).name != boundary) continue;
     const double distance = distance_to(p, geometry_.point(s), geometry_.point(geometry_.next(s)));
@@ -90,7 +93,8 @@ OutlinePath::Nearest OutlinePath::nearest(Point p, const std::string& boundary, 
 
 bool OutlinePath::has(const std::string& boundary) const {
   const auto boundaries = geometry_.boundaries();
-  return std::any_of(boundaries.begin(), boundaries.end(), [&](const Boundary& b) { return b.name == boundary; });
+  return std::any_of(boundaries.begin(), boundaries.end(),
+                     [&](const Boundary& b) { return b.name == boundary; });
 }
 
 double OutlinePath::distance(Point p, const std::string& boundary, double within) const {
@@ -106,7 +110,8 @@ OutlinePlace OutlinePath::locate(Point p, const std::string& boundary, bool also
   }
   const Point a = geometry_.point(segment), b = geometry_.point(geometry_.next(segment));
   const std::int32_t loop = geometry_.loop_of(segment);
-  return {loop, within(loop, arc_[static_cast<std::size_t>(segment)] + nearest_share(p, a, b) * length(b - a))};
+  return {loop,
+          within(loop, arc_[static_cast<std::size_t>(segment)] + nearest_share(p, a, b) * length(b - a))};
 }
 
 Point OutlinePath::point_at(OutlinePlace place) const {
@@ -117,7 +122,9 @@ Point OutlinePath::point_at(OutlinePlace place) const {
   return along >= whole ? b : a + (along / whole) * (b - a);
 }
 
-double OutlinePath::way(OutlinePlace from, OutlinePlace to) const { return within(from.loop, to.arc - from.arc); }
+double OutlinePath::way(OutlinePlace from, OutlinePlace to) const {
+  return within(from.loop, to.arc - from.arc);
+}
 
 double OutlinePath::deviation(OutlinePlace from, Point a, OutlinePlace to, Point b) const {
   const double end = way(from, to), start = within(from.loop, from.arc);
@@ -134,7 +141,8 @@ double OutlinePath::deviation(OutlinePlace from, Point a, OutlinePlace to, Point
 /// Whether a segment is a part of the way between two places, or touches its ends a and b there.
 bool OutlinePath::belongs(std::int32_t segment, OutlinePlace from, Point a, OutlinePlace to, Point b) const {
   if (geometry_.loop_of(segment) != from.loop) return false;
-  const std::int32_t first = segment_at(from.loop, within(from.loop, from.arc)), last = segment_at(to.loop, within(to.loop, to.arc));
+  const std::int32_t first = segment_at(from.loop, within(from.loop, from.arc)),
+                     last = segment_at(to.loop, within(to.loop, to.arc));
   if (segment == first || segment == last) return true;
   if (segment == geometry_.previous(first) && length(geometry_.point(first) - a) <= tolerance_) return true;
   if (segment == geometry_.next(last) && length(geometry_.point(segment) - b) <= tolerance_) return true;
@@ -143,10 +151,12 @@ bool OutlinePath::belongs(std::int32_t segment, OutlinePlace from, Point a, Outl
 
 std::vector<std::int32_t> OutlinePath::met_elsewhere(const Chord& chord) const {
   std::vector<std::int32_t> met;
-  for (auto found = index_->tree.qbegin(bg::index::intersects(extent_of(chord.a, chord.b))); found != index_->tree.qend(); ++found) {
+  for (auto found = index_->tree.qbegin(bg::index::intersects(extent_of(chord.a, chord.b)));
+       found != index_->tree.qend(); ++found) {
     const std::int32_t s = found->second;
     if (belongs(s, chord.from, chord.a, chord.to, chord.b)) continue;
-    if (segments_meet(chord.a, chord.b, geometry_.point(s), geometry_.point(geometry_.next(s)))) met.push_back(s);
+    if (segments_meet(chord.a, chord.b, geometry_.point(s), geometry_.point(geometry_.next(s))))
+      met.push_back(s);
   }
   return met;
 }
@@ -155,7 +165,8 @@ bool OutlinePath::sweeps_over(const Chord& chord, Point apex) const {
   const Point a = chord.a, b = chord.b, c = apex;
   Extent around = extent_of(a, b);
   bg::expand(around, Corner{c.x, c.y});
-  for (auto found = index_->tree.qbegin(bg::index::intersects(around)); found != index_->tree.qend(); ++found) {
+  for (auto found = index_->tree.qbegin(bg::index::intersects(around)); found != index_->tree.qend();
+       ++found) {
     const Point v = geometry_.point(found->second);
     const std::array<int, 3> turns{orientation(a, b, v), orientation(b, c, v), orientation(c, a, v)};
     const auto [least, most] = std::minmax_element(turns.begin(), turns.end());
@@ -169,8 +180,10 @@ std::vector<std::int32_t> OutlinePath::segments_between(OutlinePlace from, Outli
   std::vector<std::int32_t> segments;
   const double start = within(from.loop, from.arc), end = within(to.loop, to.arc);
   const std::int32_t last = segment_at(to.loop, end);
-  bool goes_round = end < start;  // on the way over the loop's first vertex, perhaps back to the segment where it begins
-  for (std::int32_t s = segment_at(from.loop, start); segments.size() < most_vertices; s = geometry_.next(s)) {
+  bool goes_round =
+      end < start;  // on the way over the loop's first vertex, perhaps back to the segment where it begins
+  for (std::int32_t s = segment_at(from.loop, start); segments.size() < most_vertices;
+       s = geometry_.next(s)) {
     segments.push_back(s);
     if (s == last && !(goes_round && segments.size() == 1)) return segments;
   }

@@ -26,8 +26,8 @@ class OutlinePath {
   OutlinePath(const OutlinePath&) = delete;
   OutlinePath& operator=(const OutlinePath&) = delete;
 
-  /// The place of a point that lies on the boundary of this name, to `on_outline` of the outline's extent; an invalid one where it does not, or,
-  /// unless `also_kept`, where it is a vertex that a mesh must keep.
+  /// The place of a point that lies on the boundary of this name, to `on_outline` of the outline's extent; an
+  /// invalid one where it does not, or, unless `also_kept`, where it is a vertex that a mesh must keep.
   OutlinePlace locate(Point p, const std::string& boundary, bool also_kept) const;
   static constexpr double on_outline = 1e-9;
 
@@ -44,7 +44,8 @@ class OutlinePath {
   /// The way from one place to another of the same loop, walked with the domain to the left.
   double way(OutlinePlace from, OutlinePlace to) const;
 
-  /// How far the outline strays from the chord a-b between two places, at most; infinitely where more than a few vertices lie between.
+  /// How far the outline strays from the chord a-b between two places, at most; infinitely where more than a
+  /// few vertices lie between.
   double deviation(OutlinePlace from, Point a, OutlinePlace to, Point b) const;
 
   /// A chord of the outline that a mesh's boundary edge is, with the way it stands for.
@@ -54,7 +55,8 @@ class OutlinePath {
   };
   /// The segments outside the chord's own part of the outline that it has a point in common with.
   std::vector<std::int32_t> met_elsewhere(const Chord& chord) const;
-  /// Whether a vertex outside that part lies in the triangle that the chord makes with a point, or on its edges.
+  /// Whether a vertex outside that part lies in the triangle that the chord makes with a point, or on its
+  /// edges.
   bool sweeps_over(const Chord& chord, Point apex) const;
 
   /// The segments from one place to another of the same loop, in order; none where there are more than a few.

@@ -35,9 +35,11 @@ Point turned(Point v) { return {v.y, -v.x}; }
 Facet facet_of(const HaloMesh& mesh, NodeId a, NodeId b, Point centre, bool is_quad) {
   const std::int64_t global_a = mesh.global(a.value()), global_b = mesh.global(b.value());
   const double side = global_a < global_b ? 1 : -1;
-  const Point along = mesh.point(b) - mesh.point(a), across = centre - middle(mesh.point(a), mesh.point(b)), normal = side * turned(across);
+  const Point along = mesh.point(b) - mesh.point(a), across = centre - middle(mesh.point(a), mesh.point(b)),
+              normal = side * turned(across);
   Facet facet{global_a, global_b, a.value(), b.value(), normal, {}, {}};
-  if (is_quad) {  // half from the facet's own middle; the rest is what each triangle leaves over at an edge for the next one
+  if (is_quad) {  // half from the facet's own middle; the rest is what each triangle leaves over at an edge
+                  // for the next one
     facet.with_x = 0.5 * across.x * normal + side * along.x / 24 * turned(along);
     facet.with_y = 0.5 * across.y * normal + side * along.y / 24 * turned(along);
   }
@@ -76,8 +78,10 @@ void DualMesh::add_areas() {
     for (std::size_t k = 0; k < n; ++k) {
       const NodeId node = nodes[k];
       if (!is_owned(node.value())) continue;
-      const Point p = halo_.point(node), before = halo_.point(nodes[(k + n - 1) % n]), after = halo_.point(nodes[(k + 1) % n]);
-      areas_[static_cast<std::size_t>(node.value())] += 0.5 * twice_area({p, middle(p, after), centre, middle(before, p)});
+      const Point p = halo_.point(node), before = halo_.point(nodes[(k + n - 1) % n]),
+                  after = halo_.point(nodes[(k + 1) % n]);
+      areas_[static_cast<std::size_t>(node.value())] +=
+          0.5 * twice_area({p, middle(p, after), centre, middle(before, p)});
     }
   });
 }
@@ -88,7 +92,8 @@ void DualMesh::collect_edges() {
     const Point centre = centre_of(halo_, nodes);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const NodeId a = nodes[k], b = nodes[(k + 1) % nodes.size()];
-      if (is_owned(a.value()) || is_owned(b.value())) facets.push_back(facet_of(halo_, a, b, centre, nodes.size() == 4));
+      if (is_owned(a.value()) || is_owned(b.value()))
+        facets.push_back(facet_of(halo_, a, b, centre, nodes.size() == 4));
     }
   });
   std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) {
@@ -114,20 +119,25 @@ void DualMesh::collect_edges() {
 
 void DualMesh::collect_faces() {
   std::vector<HaloEdge> outline = halo_.boundary_edges();
-  std::erase_if(outline, [&](const HaloEdge& e) { return !is_owned(e.from.value()) && !is_owned(e.to.value()); });
+  std::erase_if(outline,
+                [&](const HaloEdge& e) { return !is_owned(e.from.value()) && !is_owned(e.to.value()); });
   const auto key = [&](std::int32_t a, std::int32_t b) { return std::minmax({global(a), global(b)}); };
-  std::sort(outline.begin(), outline.end(),
-            [&](const HaloEdge& a, const HaloEdge& b) { return key(a.from.value(), a.to.value()) < key(b.from.value(), b.to.value()); });
+  std::sort(outline.begin(), outline.end(), [&](const HaloEdge& a, const HaloEdge& b) {
+    return key(a.from.value(), a.to.value()) < key(b.from.value(), b.to.value());
+  });
   for (const HaloEdge& e : outline) {
     const auto wanted = key(e.from.value(), e.to.value());
     const auto found =
-        std::lower_bound(edges_.begin(), edges_.end(), wanted, [&](const DualEdge& edge, const auto& at) { return key(edge.low, edge.high) < at; });
+        std::lower_bound(edges_.begin(), edges_.end(), wanted,
+                         [&](const DualEdge& edge, const auto& at) { return key(edge.low, edge.high) < at; });
     const Point from = point(e.from.value()), to = point(e.to.value());
-    if (found == edges_.end() || key(found->low, found->high) != wanted) refuse_edge("boundary edge", from, to, "belongs to no cell; mesh it anew");
+    if (found == edges_.end() || key(found->low, found->high) != wanted)
+      refuse_edge("boundary edge", from, to, "belongs to no cell; mesh it anew");
     char& open = open_[static_cast<std::size_t>(found - edges_.begin())];
     if (open == 0) {
       refuse_edge("boundary edge", from, to,
-                  "has cells on both sides or is there twice, and the flow solver takes one domain alone; mesh without it");
+                  "has cells on both sides or is there twice, and the flow solver takes one domain alone; "
+                  "mesh without it");
     }
     const Point outward = turned(to - from);
     const double size = length(outward);

@@ -11,7 +11,8 @@ namespace quadloop {
 namespace {
 
 void require_option(bool good, const char* name, double value, const char* wanted) {
-  if (!good || !std::isfinite(value)) throw InputError(fmt::format("the flow solver's {} is {}, but must be {}", name, value, wanted));
+  if (!good || !std::isfinite(value))
+    throw InputError(fmt::format("the flow solver's {} is {}, but must be {}", name, value, wanted));
 }
 
 }  // namespace
@@ -27,7 +28,9 @@ void validate(const EulerOptions& options) {
   require_option(options.reference_length > 0, "reference_length", options.reference_length, "above 0");
   require_option(options.progress_every > 0, "progress_every", options.progress_every, "above 0");
   for (const BoundaryChoice& choice : options.boundaries) {
-    if (choice.pressure) require_option(*choice.pressure > 0, ("pressure at '" + choice.name + "'").c_str(), *choice.pressure, "above 0");
+    if (choice.pressure)
+      require_option(*choice.pressure > 0, ("pressure at '" + choice.name + "'").c_str(), *choice.pressure,
+                     "above 0");
   }
 }
 

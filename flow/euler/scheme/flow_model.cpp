@@ -17,7 +17,8 @@ Condition condition_of(const std::string& name, const std::string& word) {
   if (word == "inflow") return Condition::inflow;
   if (word == "outflow") return Condition::outflow;
   throw InputError(
-      fmt::format("boundary '{0}' has {1}, which the flow solver cannot use; set [boundary.{0}] bc to wall, farfield, inflow, outflow or symmetry",
+      fmt::format("boundary '{0}' has {1}, which the flow solver cannot use; set [boundary.{0}] bc to wall, "
+                  "farfield, inflow, outflow or symmetry",
                   name, word.empty() || word == "none" ? "no condition" : "the condition '" + word + "'"));
 }
 
@@ -32,20 +33,25 @@ BoundaryModel boundary_model(const BoundaryEdges& boundary, const EulerOptions& 
   return {condition_of(boundary.name, word), pressure, word == "wall"};
 }
 
-Flux farfield_flux(const FlowModel& model, const State& state, Point normal) { return roe_flux(model.gas, state, model.free_stream, normal); }
+Flux farfield_flux(const FlowModel& model, const State& state, Point normal) {
+  return roe_flux(model.gas, state, model.free_stream, normal);
+}
 
 Flux inflow_flux(const FlowModel& model, const State& state, Point normal) {
   const double along = model.free_stream[1] * normal.x + model.free_stream[2] * normal.y;
-  return along <= -1 ? physical_flux(model.gas, model.free_stream, normal) : farfield_flux(model, state, normal);
+  return along <= -1 ? physical_flux(model.gas, model.free_stream, normal)
+                     : farfield_flux(model, state, normal);
 }
 
 Flux outflow_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state, Point normal) {
   const auto& [rho, u, v, p] = state;
   const double sound = model.gas.sound_speed(state);
-  if (!boundary.pressure || u * normal.x + v * normal.y >= sound) return physical_flux(model.gas, state, normal);
+  if (!boundary.pressure || u * normal.x + v * normal.y >= sound)
+    return physical_flux(model.gas, state, normal);
   const double lost = p - *boundary.pressure, faster = lost / (rho * sound);
   const double density = std::max(rho - lost / (sound * sound), 0.1 * rho);
-  return physical_flux(model.gas, {density, u + faster * normal.x, v + faster * normal.y, *boundary.pressure}, normal);
+  return physical_flux(model.gas, {density, u + faster * normal.x, v + faster * normal.y, *boundary.pressure},
+                       normal);
 }
 
 }  // namespace

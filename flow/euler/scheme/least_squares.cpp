@@ -31,10 +31,13 @@ void LeastSquares::compute(const std::vector<State>& states, std::vector<Gradien
   for (Gradient& gradient : gradients) gradient = {};
   for (const DualEdge& edge : mesh_.edges()) {
     const double w = 0.5 * weight(edge);
-    const State &low = states[static_cast<std::size_t>(edge.low)], &high = states[static_cast<std::size_t>(edge.high)];
-    Gradient &at_low = gradients[static_cast<std::size_t>(edge.low)], &at_high = gradients[static_cast<std::size_t>(edge.high)];
+    const State &low = states[static_cast<std::size_t>(edge.low)],
+                &high = states[static_cast<std::size_t>(edge.high)];
+    Gradient &at_low = gradients[static_cast<std::size_t>(edge.low)],
+             &at_high = gradients[static_cast<std::size_t>(edge.high)];
     for (std::size_t k = 0; k < 4; ++k) {
-      const double change = w * (high[k] - low[k]), along_x = change * edge.half.x, along_y = change * edge.half.y;
+      const double change = w * (high[k] - low[k]), along_x = change * edge.half.x,
+                   along_y = change * edge.half.y;
       at_low.x[k] += along_x;
       at_low.y[k] += along_y;
       at_high.x[k] += along_x;

@@ -76,8 +76,9 @@ void Limiter::find_factors(const std::vector<State>& states) {
   for (std::size_t node = 0; node < factors_.size(); ++node) {
     for (std::size_t k = 0; k < 4; ++k) {
       const double value = states[node][k], small_squared = small_squared_[node];
-      factors_[node][k] = std::min(factor(values_[node].high[k] - value, changes_[node].high[k], small_squared),
-                                   factor(value - values_[node].low[k], -changes_[node].low[k], small_squared));
+      factors_[node][k] =
+          std::min(factor(values_[node].high[k] - value, changes_[node].high[k], small_squared),
+                   factor(value - values_[node].low[k], -changes_[node].low[k], small_squared));
     }
   }
 }

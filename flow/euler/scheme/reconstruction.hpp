@@ -12,7 +12,8 @@ struct Gradient {
   std::array<double, 4> x{}, y{};
 };
 
-/// Gradients at nodes by least squares over their edges, weighted by the inverse of the edge's length: exact for linear fields on any mesh.
+/// Gradients at nodes by least squares over their edges, weighted by the inverse of the edge's length: exact
+/// for linear fields on any mesh.
 class LeastSquares {
  public:
   explicit LeastSquares(const DualMesh& mesh);
@@ -29,9 +30,10 @@ class LeastSquares {
   std::vector<Symmetric> inverse_;  ///< of each owned node's normal matrix
 };
 
-/// Venkatakrishnan's limiter (1995): each variable's gradient at a node is scaled so that the values at the middles of its edges stay within those of
-/// the node and its neighbours, smoothly, and not at all where the flow varies by less than (K h)^1.5. There h is the side of the square of the dual
-/// cell's area in units of the reference length, and K = 5. So smooth flow is not limited once the mesh resolves it.
+/// Venkatakrishnan's limiter (1995): each variable's gradient at a node is scaled so that the values at the
+/// middles of its edges stay within those of the node and its neighbours, smoothly, and not at all where the
+/// flow varies by less than (K h)^1.5. There h is the side of the square of the dual cell's area in units of
+/// the reference length, and K = 5. So smooth flow is not limited once the mesh resolves it.
 class Limiter {
  public:
   Limiter(const DualMesh& mesh, double reference_length);

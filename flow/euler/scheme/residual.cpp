@@ -23,7 +23,8 @@ bool keeps_enough(const State& extrapolated, const State& state) {
 
 Residual::Residual(const DualMesh& mesh, const FlowModel& model, const EulerOptions& options)
     : mesh_{mesh}, model_{model}, least_squares_(mesh), gradients_(mesh.nodes()), sums_(mesh.nodes()) {
-  if (options.limiter == EulerOptions::Limiter::venkatakrishnan) limiter_.emplace(mesh, options.reference_length);
+  if (options.limiter == EulerOptions::Limiter::venkatakrishnan)
+    limiter_.emplace(mesh, options.reference_length);
 }
 
 void Residual::freeze_limiter() {
@@ -46,7 +47,8 @@ const std::vector<Flux>& Residual::evaluate(std::vector<State>& states) {
   return sums_;
 }
 
-/// Where a reconstructed density or pressure would come near zero, the edge takes the nodes' own states: first order.
+/// Where a reconstructed density or pressure would come near zero, the edge takes the nodes' own states:
+/// first order.
 void Residual::add_edges(const std::vector<State>& states) {
   for (const DualEdge& edge : mesh_.edges()) {
     const auto low = static_cast<std::size_t>(edge.low), high = static_cast<std::size_t>(edge.high);
@@ -68,14 +70,16 @@ void Residual::add_edges(const std::vector<State>& states) {
 void Residual::add_skew(const std::vector<State>& states) {
   const auto edges = mesh_.edges();
   for (const SkewEdge& skew : mesh_.skew_edges()) {
-    const auto low = static_cast<std::size_t>(edges[skew.edge].low), high = static_cast<std::size_t>(edges[skew.edge].high);
+    const auto low = static_cast<std::size_t>(edges[skew.edge].low),
+               high = static_cast<std::size_t>(edges[skew.edge].high);
     State state, along_x, along_y;
     for (std::size_t k = 0; k < 4; ++k) {
       state[k] = 0.5 * (states[low][k] + states[high][k]);
       along_x[k] = 0.5 * (gradients_[low].x[k] + gradients_[high].x[k]);
       along_y[k] = 0.5 * (gradients_[low].y[k] + gradients_[high].y[k]);
     }
-    const Flux from_x = flux_change(model_.gas, state, along_x, skew.with_x), from_y = flux_change(model_.gas, state, along_y, skew.with_y);
+    const Flux from_x = flux_change(model_.gas, state, along_x, skew.with_x),
+               from_y = flux_change(model_.gas, state, along_y, skew.with_y);
     for (std::size_t k = 0; k < 4; ++k) {
       const double through = from_x[k] + from_y[k];
       sums_[low][k] += through;
@@ -88,7 +92,8 @@ void Residual::add_faces(const std::vector<State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
     const BoundaryModel& boundary = model_.boundaries[static_cast<std::size_t>(face.boundary)];
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
-      const State state = state_at_half(states[static_cast<std::size_t>(own)], states[static_cast<std::size_t>(other)]);
+      const State state =
+          state_at_half(states[static_cast<std::size_t>(own)], states[static_cast<std::size_t>(other)]);
       const Flux flux = boundary_flux(model_, boundary, state, face.normal);
       for (std::size_t k = 0; k < 4; ++k) sums_[static_cast<std::size_t>(own)][k] += face.half_size * flux[k];
     }

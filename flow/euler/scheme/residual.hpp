@@ -9,15 +9,15 @@
 
 namespace quadloop::euler {
 
-/// The net flux out of each owned node's dual cell: second order, with states at the middles of edges from limited gradients and Roe's flux between
-/// them.
+/// The net flux out of each owned node's dual cell: second order, with states at the middles of edges from
+/// limited gradients and Roe's flux between them.
 class Residual {
  public:
   /// Both must outlive it.
   Residual(const DualMesh& mesh, const FlowModel& model, const EulerOptions& options);
 
-  /// `states` has an entry for each node; those of copies are brought up to date first. The result has one for each node too, of which those of owned
-  /// nodes count. *Collective.*
+  /// `states` has an entry for each node; those of copies are brought up to date first. The result has one
+  /// for each node too, of which those of owned nodes count. *Collective.*
   const std::vector<Flux>& evaluate(std::vector<State>& states);
 
   /// From now on the limiter's factors stay as they are.
@@ -39,8 +39,9 @@ class Residual {
   std::vector<Flux> sums_;
 };
 
-/// What acts on one node's half of a boundary face: nearer to the node's own state than the half's middle is, which makes up for what the edge along
-/// the boundary leaves over (see SkewEdge). The fluxes of a linear field then add up exactly there too.
+/// What acts on one node's half of a boundary face: nearer to the node's own state than the half's middle is,
+/// which makes up for what the edge along the boundary leaves over (see SkewEdge). The fluxes of a linear
+/// field then add up exactly there too.
 inline State state_at_half(const State& own, const State& other) {
   State state;
   for (std::size_t k = 0; k < 4; ++k) state[k] = own[k] + (other[k] - own[k]) / 6;

@@ -23,9 +23,12 @@ void turn_round(OutlineLoop& loop) {
 std::string turned_text(const Outline& outline, const OutlineLoop& loop, const LoopPlace& place) {
   const std::string& name = outline.names[static_cast<std::size_t>(loop.boundary.front().value())];
   const Point p = loop.points.front();
-  std::string text = fmt::format("boundary '{}': the loop from ({}, {}) wound the wrong way round and was turned", name, p.x, p.y);
+  std::string text = fmt::format(
+      "boundary '{}': the loop from ({}, {}) wound the wrong way round and was turned", name, p.x, p.y);
   if (place.depth == 0)
-    text += "; nothing encloses it, so the domain is its inside (to mesh the outside, set geometry.far_field = ..., or add a boundary around it)";
+    text +=
+        "; nothing encloses it, so the domain is its inside (to mesh the outside, set geometry.far_field = "
+        "..., or add a boundary around it)";
   return text;
 }
 
@@ -38,7 +41,9 @@ void orient(Outline& outline, const std::vector<LoopPlace>& places, Warnings& wa
     if (++turned <= most_named) warnings.push_back(turned_text(outline, outline.loops[l], places[l]));
     turn_round(outline.loops[l]);
   }
-  if (turned > most_named) warnings.push_back(fmt::format("{} more loops wound the wrong way round and were turned", turned - most_named));
+  if (turned > most_named)
+    warnings.push_back(
+        fmt::format("{} more loops wound the wrong way round and were turned", turned - most_named));
 }
 
 /// Several outermost loops are several domains: meant so, or a loop with wrong coordinates.
@@ -50,8 +55,9 @@ void warn_of_domains(const Outline& outline, const std::vector<LoopPlace>& place
   if (outermost.size() < 2) return;
   const OutlineLoop& second = outline.loops[outermost[1]];
   const std::string& name = outline.names[static_cast<std::size_t>(second.boundary.front().value())];
-  warnings.push_back(fmt::format("the geometry has {} domains beside each other; that of boundary '{}' at ({}, {}) lies in no other",
-                                 outermost.size(), name, second.points.front().x, second.points.front().y));
+  warnings.push_back(fmt::format(
+      "the geometry has {} domains beside each other; that of boundary '{}' at ({}, {}) lies in no other",
+      outermost.size(), name, second.points.front().x, second.points.front().y));
 }
 
 Geometry to_geometry(const Outline& outline, const AssembleOptions& options) {
@@ -63,16 +69,20 @@ Geometry to_geometry(const Outline& outline, const AssembleOptions& options) {
     segment_boundary.insert(segment_boundary.end(), loop.boundary.begin(), loop.boundary.end());
     loop_starts.push_back(static_cast<std::int32_t>(points.size()));
   }
-  std::vector<Boundary> boundaries = boundaries_by_rules(outline.names, options.rules, options.default_corner_degrees);
-  return Geometry(std::move(boundaries), std::move(points), std::move(loop_starts), std::move(segment_boundary));
+  std::vector<Boundary> boundaries =
+      boundaries_by_rules(outline.names, options.rules, options.default_corner_degrees);
+  return Geometry(std::move(boundaries), std::move(points), std::move(loop_starts),
+                  std::move(segment_boundary));
 }
 
 /// Areas of a geometry much smaller than this leave the range of double precision.
 void require_extent(const Geometry& g) {
   constexpr double smallest_extent = 1e-100;
   if (std::max(g.box().width(), g.box().height()) >= smallest_extent) return;
-  throw InputError(fmt::format("boundary '{}' near ({}, {}): the geometry is smaller than 1e-100, out of the range of double precision; scale it up",
-                               g.boundary(g.boundary_of(0)).name, g.point(0).x, g.point(0).y));
+  throw InputError(
+      fmt::format("boundary '{}' near ({}, {}): the geometry is smaller than 1e-100, out of the range of "
+                  "double precision; scale it up",
+                  g.boundary(g.boundary_of(0)).name, g.point(0).x, g.point(0).y));
 }
 
 }  // namespace
@@ -80,7 +90,10 @@ void require_extent(const Geometry& g) {
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
   clean_chains(chains, warnings);
   join_rounded_ends(chains, warnings);
-  if (chains.empty()) throw InputError("the geometry has no boundary, so there is no domain to mesh; name a file with at least one closed outline");
+  if (chains.empty())
+    throw InputError(
+        "the geometry has no boundary, so there is no domain to mesh; name a file with at least one closed "
+        "outline");
   std::size_t size = 0;
   for (const Chain& chain : chains) size += chain.points.size();
   if (size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max() / 2)) {

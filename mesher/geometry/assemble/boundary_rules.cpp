@@ -21,7 +21,8 @@ void apply_rule(const BoundaryRule& rule, Boundary& boundary) {
 }
 
 bool is_claimed(const std::vector<BoundaryRule>& rules, const std::string& name) {
-  return std::any_of(rules.begin(), rules.end(), [&name](const BoundaryRule& rule) { return rule.claims && rule.pattern == name; });
+  return std::any_of(rules.begin(), rules.end(),
+                     [&name](const BoundaryRule& rule) { return rule.claims && rule.pattern == name; });
 }
 
 /// The first few names, for a user who mistyped one.
@@ -54,7 +55,8 @@ bool matches(std::string_view pattern, std::string_view name) {
   return p == pattern.size();
 }
 
-std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names, const std::vector<BoundaryRule>& rules,
+std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names,
+                                          const std::vector<BoundaryRule>& rules,
                                           double default_corner_degrees) {
   std::vector<Boundary> boundaries;
   for (const std::string& name : names) boundaries.push_back({name, 0, default_corner_degrees, "none"});
@@ -68,8 +70,10 @@ std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names,
         found = true;
       }
       if (!found && rule.must_match) {
-        const std::string hint = rule.pattern == "farfield" ? "; geometry.far_field adds a far field" : guess_for(rule.pattern, names);
-        throw InputError(fmt::format("{}: no boundary of the geometry matches '{}'; it has: {}{}", rule.where, rule.pattern, shown(names), hint));
+        const std::string hint = rule.pattern == "farfield" ? "; geometry.far_field adds a far field"
+                                                            : guess_for(rule.pattern, names);
+        throw InputError(fmt::format("{}: no boundary of the geometry matches '{}'; it has: {}{}", rule.where,
+                                     rule.pattern, shown(names), hint));
       }
     }
   }

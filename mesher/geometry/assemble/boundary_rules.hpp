@@ -16,16 +16,18 @@ struct BoundaryRule {
   std::optional<std::string> condition;
   std::string where;       ///< where the rule stands, for messages
   bool must_match = true;  ///< a rule of ours (not the user's) may find nothing
-  bool claims = false;     ///< the boundary was added by us: patterns, meant for the user's own, do not reach it
+  bool claims = false;  ///< the boundary was added by us: patterns, meant for the user's own, do not reach it
   std::optional<double> corner_spacing = {};
 };
 
 /// Whether the whole name matches the pattern.
 bool matches(std::string_view pattern, std::string_view name);
 
-/// The boundaries with the rules applied in their order, those with exact names after those with patterns, so that exact names
-/// win; patterns leave those that are claimed. Throws InputError for a rule that matches none.
-std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names, const std::vector<BoundaryRule>& rules,
+/// The boundaries with the rules applied in their order, those with exact names after those with patterns, so
+/// that exact names win; patterns leave those that are claimed. Throws InputError for a rule that matches
+/// none.
+std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names,
+                                          const std::vector<BoundaryRule>& rules,
                                           double default_corner_degrees);
 
 }  // namespace quadloop

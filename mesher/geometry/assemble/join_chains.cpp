@@ -21,12 +21,16 @@ void require_finite(const Chain& chain) {
   for (std::size_t i = 0; i < chain.points.size(); ++i) {
     const double size = std::max(std::abs(chain.points[i].x), std::abs(chain.points[i].y));
     if (size > largest_coordinate && std::isfinite(size)) {
-      throw InputError(fmt::format("{}: boundary '{}': point {} is {}, beyond 1e100, where areas leave the range of double precision; scale it down",
-                                   chain.source, chain.name, i + 1, text(chain.points[i])));
+      throw InputError(
+          fmt::format("{}: boundary '{}': point {} is {}, beyond 1e100, where areas leave the range of "
+                      "double precision; scale it down",
+                      chain.source, chain.name, i + 1, text(chain.points[i])));
     }
     if (std::isfinite(chain.points[i].x) && std::isfinite(chain.points[i].y)) continue;
-    throw InputError(fmt::format("{}: boundary '{}': point {} is {}, which is not finite; correct the coordinates or the transformation",
-                                 chain.source, chain.name, i + 1, text(chain.points[i])));
+    throw InputError(
+        fmt::format("{}: boundary '{}': point {} is {}, which is not finite; correct the coordinates or the "
+                    "transformation",
+                    chain.source, chain.name, i + 1, text(chain.points[i])));
   }
 }
 
@@ -68,7 +72,8 @@ class ChainEnds {
     return end % 2 == 0 ? points.front() : points.back();
   }
 
-  /// Every point where chains end must hold two ends. The first that does not, in the order of input, is refused.
+  /// Every point where chains end must hold two ends. The first that does not, in the order of input, is
+  /// refused.
   void require_closed() const {
     for (std::size_t end = 0; end < 2 * chains_.size(); ++end) {
       if (!chains_[end / 2].open) continue;
@@ -93,10 +98,12 @@ class ChainEnds {
       const double d = length(p - point(end));
       if (ends.size() != 1 || p == point(end) || (!nearest.empty() && d >= distance)) continue;
       distance = d;
-      nearest = fmt::format("; the nearest other loose end is {} of boundary '{}', {} away", text(p), chains_[ends[0] / 2].name, d);
+      nearest = fmt::format("; the nearest other loose end is {} of boundary '{}', {} away", text(p),
+                            chains_[ends[0] / 2].name, d);
     }
     throw InputError(
-        fmt::format("{}: boundary '{}' is not watertight: its {} point {} joins no other chain{}; make the end points of the chains "
+        fmt::format("{}: boundary '{}' is not watertight: its {} point {} joins no other chain{}; make the "
+                    "end points of the chains "
                     "identical, or give the chain as a closed loop",
                     chain.source, chain.name, end % 2 == 0 ? "first" : "last", text(point(end)), nearest));
   }
@@ -104,9 +111,11 @@ class ChainEnds {
   [[noreturn]] void refuse_fork(std::size_t end, const std::vector<std::size_t>& ends) const {
     const Chain& chain = chains_[end / 2];
     std::string names;
-    for (const std::size_t other : ends) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", chains_[other / 2].name);
-    throw InputError(fmt::format("{}: boundary '{}': {} chains end at {} ({}), where two should; give each piece of the outline once", chain.source,
-                                 chain.name, ends.size(), text(point(end)), names));
+    for (const std::size_t other : ends)
+      names += fmt::format("{}'{}'", names.empty() ? "" : ", ", chains_[other / 2].name);
+    throw InputError(fmt::format(
+        "{}: boundary '{}': {} chains end at {} ({}), where two should; give each piece of the outline once",
+        chain.source, chain.name, ends.size(), text(point(end)), names));
   }
 
   const std::vector<Chain>& chains_;
@@ -138,7 +147,8 @@ class Joiner {
 
  private:
   void number(const std::string& name) {
-    if (!numbers_.try_emplace(name, BoundaryId{static_cast<std::int32_t>(outline_.names.size())}).second) return;
+    if (!numbers_.try_emplace(name, BoundaryId{static_cast<std::int32_t>(outline_.names.size())}).second)
+      return;
     outline_.names.push_back(name);
   }
 
@@ -162,8 +172,9 @@ class Joiner {
     const auto count = std::unique(distinct.begin(), distinct.end()) - distinct.begin();
     if (count >= 3) return;
     const std::string place = loop.points.empty() ? "" : " near " + text(loop.points.front());
-    throw InputError(fmt::format("{}: boundary '{}'{} is a loop of {} distinct point{}; a loop needs at least three", chain.source, chain.name, place,
-                                 count, count == 1 ? "" : "s"));
+    throw InputError(
+        fmt::format("{}: boundary '{}'{} is a loop of {} distinct point{}; a loop needs at least three",
+                    chain.source, chain.name, place, count, count == 1 ? "" : "s"));
   }
 
   const std::vector<Chain>& chains_;
@@ -182,14 +193,16 @@ void clean_chains(std::vector<Chain>& chains, std::vector<std::string>& warnings
     std::int64_t count = 0;
     const std::optional<Point> first = drop_repeated(chain, count);
     if (!first) continue;
-    auto of_name = std::find_if(dropped.begin(), dropped.end(), [&](const Dropped& d) { return d.name == chain.name; });
+    auto of_name =
+        std::find_if(dropped.begin(), dropped.end(), [&](const Dropped& d) { return d.name == chain.name; });
     if (of_name == dropped.end()) of_name = dropped.insert(of_name, {chain.name, 0, *first});
     of_name->count += count;
   }
   std::erase_if(chains, [](const Chain& chain) { return chain.open && chain.points.size() < 2; });
   for (const Dropped& d : dropped) {
-    warnings.push_back(fmt::format("boundary '{}': dropped {} point{} that repeat{} the one before, the first at {}", d.name, d.count,
-                                   d.count == 1 ? "" : "s", d.count == 1 ? "s" : "", text(d.first)));
+    warnings.push_back(
+        fmt::format("boundary '{}': dropped {} point{} that repeat{} the one before, the first at {}", d.name,
+                    d.count, d.count == 1 ? "" : "s", d.count == 1 ? "s" : "", text(d.first)));
   }
 }
 

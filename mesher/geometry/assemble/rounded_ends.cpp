@@ -18,15 +18,19 @@ double rounding_of(const std::vector<Chain>& chains) {
   double largest = 0;
   for (const Chain& chain : chains) {
     for (const Point p : chain.points) {
-      if (std::isfinite(p.x) && std::isfinite(p.y)) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+      if (std::isfinite(p.x) && std::isfinite(p.y))
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
     }
   }
   return units_in_last_place * std::numeric_limits<double>::epsilon() * largest;
 }
 
-/// Drops points that are no further than rounding from the one before; the ends of an open chain stay. Returns how many.
+/// Drops points that are no further than rounding from the one before; the ends of an open chain stay.
+/// Returns how many.
 std::int64_t drop_near_repeats(Chain& chain, double rounding) {
-  const auto near = [&](Point a, Point b) { return std::abs(a.x - b.x) <= rounding && std::abs(a.y - b.y) <= rounding; };
+  const auto near = [&](Point a, Point b) {
+    return std::abs(a.x - b.x) <= rounding && std::abs(a.y - b.y) <= rounding;
+  };
   auto& points = chain.points;
   if (points.size() < 2) return 0;
   const std::size_t before = points.size();
@@ -38,7 +42,8 @@ std::int64_t drop_near_repeats(Chain& chain, double rounding) {
   return static_cast<std::int64_t>(before - points.size());
 }
 
-/// The ends of open chains at which no other ends exactly, by their places; number 2 * chain, one more for its last point.
+/// The ends of open chains at which no other ends exactly, by their places; number 2 * chain, one more for
+/// its last point.
 class LooseEnds {
  public:
   LooseEnds(std::vector<Chain>& chains, double rounding) : chains_{chains}, rounding_{rounding} {
@@ -58,7 +63,9 @@ class LooseEnds {
     std::map<std::size_t, std::size_t> later_to_earlier;
     for (const auto& [place, end] : loose_) {
       const std::vector<std::size_t> near = others_near(place);
-      if (near.size() != 1 || near.front() > end || others_near(point(near.front())).size() != 1 || too_short(end, near.front())) continue;
+      if (near.size() != 1 || near.front() > end || others_near(point(near.front())).size() != 1 ||
+          too_short(end, near.front()))
+        continue;
       later_to_earlier.emplace(end, near.front());
     }
     std::pair<std::int64_t, Point> joined{0, {}};
@@ -80,7 +87,8 @@ class LooseEnds {
 
   std::vector<std::size_t> others_near(Point place) const {
     std::vector<std::size_t> found;
-    for (auto at = loose_.lower_bound({place.x - rounding_, -std::numeric_limits<double>::infinity()}); at != loose_.end(); ++at) {
+    for (auto at = loose_.lower_bound({place.x - rounding_, -std::numeric_limits<double>::infinity()});
+         at != loose_.end(); ++at) {
       if (at->first.x > place.x + rounding_) break;
       if (at->first != place && std::abs(at->first.y - place.y) <= rounding_) found.push_back(at->second);
     }
@@ -88,7 +96,9 @@ class LooseEnds {
   }
 
   /// A chain that closes on itself has three points beside the one that comes twice.
-  bool too_short(std::size_t one, std::size_t other) const { return one / 2 == other / 2 && chains_[one / 2].points.size() < 4; }
+  bool too_short(std::size_t one, std::size_t other) const {
+    return one / 2 == other / 2 && chains_[one / 2].points.size() < 4;
+  }
 
   std::vector<Chain>& chains_;
   double rounding_;
@@ -102,13 +112,15 @@ void join_rounded_ends(std::vector<Chain>& chains, std::vector<std::string>& war
   std::int64_t dropped = 0;
   for (Chain& chain : chains) dropped += drop_near_repeats(chain, rounding);
   if (dropped > 0) {
-    warnings.push_back(fmt::format("dropped {} point{} that {} no farther than rounding ({:.2g}) from the one before", dropped,
-                                   dropped == 1 ? "" : "s", dropped == 1 ? "is" : "are", rounding));
+    warnings.push_back(
+        fmt::format("dropped {} point{} that {} no farther than rounding ({:.2g}) from the one before",
+                    dropped, dropped == 1 ? "" : "s", dropped == 1 ? "is" : "are", rounding));
   }
   const auto [count, first] = LooseEnds(chains, rounding).join();
   if (count == 0) return;
-  warnings.push_back(fmt::format("{} pair{} of chain ends differed by rounding (less than {:.2g}) and {} joined, the first at ({}, {})", count,
-                                 count == 1 ? "" : "s", rounding, count == 1 ? "was" : "were", first.x, first.y));
+  warnings.push_back(fmt::format(
+      "{} pair{} of chain ends differed by rounding (less than {:.2g}) and {} joined, the first at ({}, {})",
+      count, count == 1 ? "" : "s", rounding, count == 1 ? "was" : "were", first.x, first.y));
 }
 
 }  // namespace quadloop

@@ -29,7 +29,9 @@ Point placed(Point p, const Transform& transform, Point turn) {
 
 }  // namespace
 
-Point transformed(Point p, const Transform& transform) { return placed(p, transform, direction(transform.rotate_degrees)); }
+Point transformed(Point p, const Transform& transform) {
+  return placed(p, transform, direction(transform.rotate_degrees));
+}
 
 void apply(const Transform& transform, std::vector<Chain>& chains) {
   const Point turn = direction(transform.rotate_degrees);
@@ -46,7 +48,9 @@ Box box_without_far_field(const std::vector<Chain>& chains, const std::string& w
   for (const Chain& chain : chains) {
     if (chain.name == "farfield") {
       throw InputError(
-          fmt::format("{}: the geometry already has a boundary 'farfield' ({}); take the setting out, or rename the boundary", where, chain.source));
+          fmt::format("{}: the geometry already has a boundary 'farfield' ({}); take the setting out, or "
+                      "rename the boundary",
+                      where, chain.source));
     }
     for (const Point p : chain.points) box.include(p);
   }
@@ -65,10 +69,11 @@ void add_far_field(std::vector<Chain>& chains, const Box& square, const std::str
   const auto& [low, high] = square;
   if (!(low.x < box.low.x && low.y < box.low.y && box.high.x < high.x && box.high.y < high.y)) {
     throw InputError(
-        fmt::format("{}: a far field of half width {:g} around ({}, {}) does not enclose the geometry, which reaches from ({}, {}) to "
+        fmt::format("{}: a far field of half width {:g} around ({}, {}) does not enclose the geometry, which "
+                    "reaches from ({}, {}) to "
                     "({}, {}); make it larger than {}",
-                    where, 0.5 * square.width(), square.centre().x, square.centre().y, box.low.x, box.low.y, box.high.x, box.high.y,
-                    0.5 * std::max(box.width(), box.height())));
+                    where, 0.5 * square.width(), square.centre().x, square.centre().y, box.low.x, box.low.y,
+                    box.high.x, box.high.y, 0.5 * std::max(box.width(), box.height())));
   }
   chains.push_back({"farfield", false, {low, {high.x, low.y}, high, {low.x, high.y}}, where});
 }

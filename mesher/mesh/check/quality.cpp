@@ -23,7 +23,8 @@ double quality_of_corner(Point previous, Point p, Point next) {
 
 /// What one rank adds up.
 struct Tally {
-  double smallest = std::numeric_limits<double>::infinity(), largest = -std::numeric_limits<double>::infinity();
+  double smallest = std::numeric_limits<double>::infinity(),
+         largest = -std::numeric_limits<double>::infinity();
   double worst = std::numeric_limits<double>::infinity();
   std::int64_t sum = 0;
 
@@ -56,16 +57,20 @@ double quality_of(std::span<const Point> cell) {
   if (cell.size() == 3) return quality_of_triangle(cell[0], cell[1], cell[2]);
   double worst = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < cell.size(); ++k) {
-    worst = std::min(worst, quality_of_corner(cell[(k + cell.size() - 1) % cell.size()], cell[k], cell[(k + 1) % cell.size()]));
+    worst = std::min(worst, quality_of_corner(cell[(k + cell.size() - 1) % cell.size()], cell[k],
+                                              cell[(k + 1) % cell.size()]));
   }
   return worst;
 }
 
-double skew_of(const std::array<Point, 4>& p) { return length(p[0] - p[1] + p[2] - p[3]) / std::sqrt(0.5 * cross(p[2] - p[0], p[3] - p[1])); }
+double skew_of(const std::array<Point, 4>& p) {
+  return length(p[0] - p[1] + p[2] - p[3]) / std::sqrt(0.5 * cross(p[2] - p[0], p[3] - p[1]));
+}
 
 MeshCounts count(const Communicator& comm, const Mesh& mesh) {
   std::int64_t edges = 0;
-  for (const BoundaryEdges& boundary : mesh.boundaries) edges += static_cast<std::int64_t>(boundary.edges.size());
+  for (const BoundaryEdges& boundary : mesh.boundaries)
+    edges += static_cast<std::int64_t>(boundary.edges.size());
   return {comm.sum(mesh.owned_nodes), comm.sum(static_cast<std::int64_t>(mesh.triangles.size())),
           comm.sum(static_cast<std::int64_t>(mesh.quads.size())), comm.sum(edges)};
 }
@@ -77,7 +82,8 @@ QualitySummary summarise_quality(const Communicator& comm, const Mesh& mesh) {
   QualitySummary result;
   result.counts = count(comm, mesh);
   const std::int64_t cells = result.counts.triangles + result.counts.quads;
-  const double smallest = comm.minimum(tally.smallest), largest = comm.maximum(tally.largest), worst = comm.minimum(tally.worst);
+  const double smallest = comm.minimum(tally.smallest), largest = comm.maximum(tally.largest),
+               worst = comm.minimum(tally.worst);
   const std::int64_t sum = comm.sum(tally.sum);
   if (cells == 0) return result;
   result.smallest_degrees = smallest;
@@ -89,8 +95,10 @@ QualitySummary summarise_quality(const Communicator& comm, const Mesh& mesh) {
 
 double area_of(const Mesh& mesh) {
   long double area = 0;
-  for (const auto& t : mesh.triangles) area += cross(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0])) / 2;
-  for (const auto& q : mesh.quads) area += cross(mesh.point(q[2]) - mesh.point(q[0]), mesh.point(q[3]) - mesh.point(q[1])) / 2;
+  for (const auto& t : mesh.triangles)
+    area += cross(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0])) / 2;
+  for (const auto& q : mesh.quads)
+    area += cross(mesh.point(q[2]) - mesh.point(q[0]), mesh.point(q[3]) - mesh.point(q[1])) / 2;
   return static_cast<double>(area);
 }
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
 
 namespace quadloop {
 
@@ -36,18 +36,21 @@ struct DualSum {
   }
   bool is_exact() const {
     const double most = inexact * area;
-    return std::abs(with_x.x - area) <= most && std::abs(with_x.y) <= most && std::abs(with_y.x) <= most && std::abs(with_y.y - area) <= most;
+    return std::abs(with_x.x - area) <= most && std::abs(with_x.y) <= most && std::abs(with_y.x) <= most &&
+           std::abs(with_y.y - area) <= most;
   }
 };
 
-/// The part of a cell round its k-th node is bounded by the middles of its two edges there and the mean of the cell's nodes.
+/// The part of a cell round its k-th node is bounded by the middles of its two edges there and the mean of
+/// the cell's nodes.
 template <class Nodes>
 void add_corner(const HaloMesh& mesh, const Nodes& nodes, std::size_t k, DualSum& sum) {
   const std::size_t n = nodes.size();
   const Point p = mesh.point(nodes[k]);
   Point centre;
   for (const NodeId node : nodes) centre = centre + (1.0 / static_cast<double>(n)) * (mesh.point(node) - p);
-  const Point after = 0.5 * (mesh.point(nodes[(k + 1) % n]) - p), before = 0.5 * (mesh.point(nodes[(k + n - 1) % n]) - p);
+  const Point after = 0.5 * (mesh.point(nodes[(k + 1) % n]) - p),
+              before = 0.5 * (mesh.point(nodes[(k + n - 1) % n]) - p);
   sum.add_face(after, turned(centre - after));
   sum.add_face(before, turned(before - centre));
   sum.area += 0.5 * cross(centre, before - after);
@@ -67,7 +70,8 @@ void count_inexact_nodes(const HaloMesh& mesh, const std::vector<char>& on_bound
   std::vector<DualSum> sums(static_cast<std::size_t>(mesh.owned_nodes()));
   mesh.for_each_cell([&](const auto& nodes) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (nodes[k].value() < mesh.owned_nodes()) add_corner(mesh, nodes, k, sums[static_cast<std::size_t>(nodes[k].value())]);
+      if (nodes[k].value() < mesh.owned_nodes())
+        add_corner(mesh, nodes, k, sums[static_cast<std::size_t>(nodes[k].value())]);
     }
   });
   for (std::size_t node = 0; node < sums.size(); ++node) {
@@ -79,7 +83,8 @@ void count_inexact_nodes(const HaloMesh& mesh, const std::vector<char>& on_bound
 
 void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
   for (const auto& q : mesh.quads) {
-    const bool parallel = skew_of({mesh.point(q[0]), mesh.point(q[1]), mesh.point(q[2]), mesh.point(q[3])}) <= parallel_skew;
+    const bool parallel =
+        skew_of({mesh.point(q[0]), mesh.point(q[1]), mesh.point(q[2]), mesh.point(q[3])}) <= parallel_skew;
     figures.parallelograms += parallel ? 1 : 0;
   }
   figures.quads = static_cast<std::int64_t>(mesh.quads.size());
@@ -113,7 +118,9 @@ double largest_ratio(const HaloMesh& mesh, const std::vector<AreaRange>& ranges,
       sides.push_back({node, nodes[(k + n - 1) % n].value(), area});
     }
   });
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.node != b.node ? a.node < b.node : a.other < b.other; });
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.node != b.node ? a.node < b.node : a.other < b.other;
+  });
   double largest = 0;
   for (std::size_t i = 1; i < sides.size(); ++i) {
     const bool shared = sides[i].node == sides[i - 1].node && sides[i].other == sides[i - 1].other;
@@ -122,8 +129,8 @@ double largest_ratio(const HaloMesh& mesh, const std::vector<AreaRange>& ranges,
   return largest;
 }
 
-/// An edge's ratio is at most that of all cells round either of its nodes: so only nodes of large ratios are looked at, and fewer than all as soon as
-/// an edge among them reaches the bound. *Collective.*
+/// An edge's ratio is at most that of all cells round either of its nodes: so only nodes of large ratios are
+/// looked at, and fewer than all as soon as an edge among them reaches the bound. *Collective.*
 double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh) {
   std::vector<AreaRange> ranges(static_cast<std::size_t>(mesh.owned_nodes()));
   mesh.for_each_cell([&](const auto& nodes) {
@@ -145,7 +152,8 @@ double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh) {
   }
 }
 
-/// The nodes that a node shares boundary edges with, by their numbers over all ranks; more than four are not needed to tell passages.
+/// The nodes that a node shares boundary edges with, by their numbers over all ranks; more than four are not
+/// needed to tell passages.
 struct BoundaryNeighbours {
   std::array<std::int64_t, 4> nodes{-1, -1, -1, -1};
   void add(std::int64_t node) {
@@ -170,7 +178,9 @@ std::vector<BoundaryNeighbours> boundary_neighbours(const HaloMesh& mesh) {
 /// Each cell counts where its first node is owned. *Collective.*
 std::int64_t count_passage_cells(const HaloMesh& mesh, const std::vector<char>& on_boundary) {
   const std::vector<BoundaryNeighbours> neighbours = boundary_neighbours(mesh);
-  const auto is_boundary = [&](NodeId a, NodeId b) { return neighbours[static_cast<std::size_t>(a.value())].holds(mesh.global(b.value())); };
+  const auto is_boundary = [&](NodeId a, NodeId b) {
+    return neighbours[static_cast<std::size_t>(a.value())].holds(mesh.global(b.value()));
+  };
   std::int64_t count = 0;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t n = nodes.size();
@@ -179,7 +189,8 @@ std::int64_t count_passage_cells(const HaloMesh& mesh, const std::vector<char>& 
       if (on_boundary[static_cast<std::size_t>(node.value())] == 0) return;
     }
     for (std::size_t k = 0; k < n; ++k) {
-      if (is_boundary(nodes[k], nodes[(k + 1) % n]) && is_boundary(nodes[(k + 1) % n], nodes[(k + 2) % n])) return;
+      if (is_boundary(nodes[k], nodes[(k + 1) % n]) && is_boundary(nodes[(k + 1) % n], nodes[(k + 2) % n]))
+        return;
     }
     ++count;
   });

@@ -45,17 +45,20 @@ double interior_degrees(Point previous, Point p, Point next) {
 /// The vertices where the outline is sharp, and the smallest excepted corner of a cell at each.
 class SharpVertices {
  public:
-  /// The outline passes each vertex once; where it runs on from chain to chain, their end points are identical.
+  /// The outline passes each vertex once; where it runs on from chain to chain, their end points are
+  /// identical.
   explicit SharpVertices(std::span<const Chain> geometry) {
     std::unordered_map<Point, Point, PointHash> following;
     for_each_segment(geometry, [&](Point from, Point to) { following[from] = to; });
     for_each_segment(geometry, [&](Point from, Point to) {
       const auto next = following.find(to);
-      if (next != following.end() && interior_degrees(from, to, next->second) < sharp_vertex_degrees) smallest_.emplace(to, infinity);
+      if (next != following.end() && interior_degrees(from, to, next->second) < sharp_vertex_degrees)
+        smallest_.emplace(to, infinity);
     });
   }
 
-  /// Whether the corner of a cell at p is excepted. `own` tells that it lies between two boundary edges: it is the boundary's own angle.
+  /// Whether the corner of a cell at p is excepted. `own` tells that it lies between two boundary edges: it
+  /// is the boundary's own angle.
   bool excepts(Point p, double degrees, bool own) {
     if (!(degrees > 0 && degrees < sharp_corner_degrees)) return false;
     auto vertex = smallest_.find(p);
@@ -70,7 +73,8 @@ class SharpVertices {
     for (const auto& [place, degrees] : smallest_) {
       if (degrees < infinity) places.push_back({place, degrees});
     }
-    std::sort(places.begin(), places.end(), [](const SharpPlace& a, const SharpPlace& b) { return a.place < b.place; });
+    std::sort(places.begin(), places.end(),
+              [](const SharpPlace& a, const SharpPlace& b) { return a.place < b.place; });
     return places;
   }
 
@@ -120,18 +124,22 @@ class PassageTest {
 };
 
 template <class Cells>
-void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, const PassageTest* passages, ShapeStatistics& shape) {
+void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, const PassageTest* passages,
+                 ShapeStatistics& shape) {
   for (const auto& nodes : cells) {
     const std::size_t width = nodes.size();
     for (std::size_t k = 0; k < width; ++k) {
       const Point p = mesh.point(nodes[k]);
-      const double degrees = corner_degrees(mesh.point(nodes[(k + width - 1) % width]), p, mesh.point(nodes[(k + 1) % width]));
+      const double degrees =
+          corner_degrees(mesh.point(nodes[(k + width - 1) % width]), p, mesh.point(nodes[(k + 1) % width]));
       ++shape.corners;
-      const bool own = passages != nullptr && passages->is_boundary(nodes[(k + width - 1) % width], nodes[k]) &&
+      const bool own = passages != nullptr &&
+                       passages->is_boundary(nodes[(k + width - 1) % width], nodes[k]) &&
                        passages->is_boundary(nodes[k], nodes[(k + 1) % width]);
       if (sharp.excepts(p, degrees, own)) {
         ++shape.corners_of_outline;
-      } else if (passages != nullptr && degrees > 0 && degrees < sharp_corner_degrees && passages->fills(nodes)) {
+      } else if (passages != nullptr && degrees > 0 && degrees < sharp_corner_degrees &&
+                 passages->fills(nodes)) {
         ++shape.corners_in_passages;
         shape.passages.push_back({p, degrees});
       } else {
@@ -141,7 +149,8 @@ void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, con
   }
 }
 
-void add_all_corners(const Mesh& mesh, const EdgeTable& table, std::span<const Chain> geometry, ShapeStatistics& shape) {
+void add_all_corners(const Mesh& mesh, const EdgeTable& table, std::span<const Chain> geometry,
+                     ShapeStatistics& shape) {
   SharpVertices sharp(geometry);
   std::optional<PassageTest> test;
   if (!geometry.empty()) test.emplace(mesh, table);
@@ -150,10 +159,12 @@ void add_all_corners(const Mesh& mesh, const EdgeTable& table, std::span<const C
   shape.largest_degrees = -infinity;
   add_corners(mesh, mesh.triangles, sharp, passages, shape);
   add_corners(mesh, mesh.quads, sharp, passages, shape);
-  if (shape.corners == shape.corners_of_outline + shape.corners_in_passages) shape.smallest_degrees = shape.largest_degrees = 0;
+  if (shape.corners == shape.corners_of_outline + shape.corners_in_passages)
+    shape.smallest_degrees = shape.largest_degrees = 0;
   shape.sharp_places = sharp.places();
-  std::sort(shape.passages.begin(), shape.passages.end(),
-            [](const SharpPlace& a, const SharpPlace& b) { return a.place != b.place ? a.place < b.place : a.degrees < b.degrees; });
+  std::sort(shape.passages.begin(), shape.passages.end(), [](const SharpPlace& a, const SharpPlace& b) {
+    return a.place != b.place ? a.place < b.place : a.degrees < b.degrees;
+  });
 }
 
 /// Triangles first, then quads.
@@ -161,8 +172,10 @@ std::vector<double> cell_areas(const Mesh& mesh) {
   std::vector<double> areas;
   areas.reserve(mesh.triangles.size() + mesh.quads.size());
   const auto add = [&](Point u, Point v) { areas.push_back(cross(u, v) / 2); };
-  for (const auto& t : mesh.triangles) add(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0]));
-  for (const auto& q : mesh.quads) add(mesh.point(q[2]) - mesh.point(q[0]), mesh.point(q[3]) - mesh.point(q[1]));
+  for (const auto& t : mesh.triangles)
+    add(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0]));
+  for (const auto& q : mesh.quads)
+    add(mesh.point(q[2]) - mesh.point(q[0]), mesh.point(q[3]) - mesh.point(q[1]));
   return areas;
 }
 

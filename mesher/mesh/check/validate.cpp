@@ -36,7 +36,9 @@ NodeId repeated_node(std::span<const NodeId> cell) {
   return {};
 }
 
-bool is_unused_node(const MeshFault& fault) { return fault.what.find("belongs to no cell") != std::string::npos; }
+bool is_unused_node(const MeshFault& fault) {
+  return fault.what.find("belongs to no cell") != std::string::npos;
+}
 
 /// Whether later rules have no meaning for what check_indices found.
 bool senseless(const Faults& faults) { return !std::all_of(faults.begin(), faults.end(), is_unused_node); }
@@ -65,12 +67,14 @@ const char* name_of(MeshRule rule) {
 void check_indices(const Mesh& mesh, Faults& faults) {
   const auto nodes = static_cast<std::int32_t>(mesh.points.size());
   for (const Point p : mesh.points) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) faults.push_back({MeshRule::indices, "a coordinate is not finite", p});
+    if (!std::isfinite(p.x) || !std::isfinite(p.y))
+      faults.push_back({MeshRule::indices, "a coordinate is not finite", p});
   }
   std::vector<char> used(mesh.points.size(), 0);
   const auto exists = [&](NodeId node) {
     if (node.valid() && node.value() < nodes) return true;
-    faults.push_back({MeshRule::indices, "node " + std::to_string(node.value() + 1) + " is named but does not exist", {}});
+    faults.push_back(
+        {MeshRule::indices, "node " + std::to_string(node.value() + 1) + " is named but does not exist", {}});
     return false;
   };
   for_each_cell(mesh, [&](std::span<const NodeId> cell) {
@@ -83,12 +87,16 @@ void check_indices(const Mesh& mesh, Faults& faults) {
     exists(edge[1]);
   });
   for (const BoundaryEdges& boundary : mesh.boundaries) {
-    if (boundary.edges.empty()) faults.push_back({MeshRule::indices, "boundary " + boundary.name + " has no edges", {}});
+    if (boundary.edges.empty())
+      faults.push_back({MeshRule::indices, "boundary " + boundary.name + " has no edges", {}});
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (used[i] == 0) faults.push_back({MeshRule::indices, "node " + std::to_string(i + 1) + " belongs to no cell", mesh.points[i]});
+    if (used[i] == 0)
+      faults.push_back(
+          {MeshRule::indices, "node " + std::to_string(i + 1) + " belongs to no cell", mesh.points[i]});
   }
-  if (mesh.triangles.empty() && mesh.quads.empty()) faults.push_back({MeshRule::indices, "there are no cells", {}});
+  if (mesh.triangles.empty() && mesh.quads.empty())
+    faults.push_back({MeshRule::indices, "there are no cells", {}});
 }
 
 void check_coincident(const Mesh& mesh, Faults& faults) {
@@ -99,7 +107,9 @@ void check_coincident(const Mesh& mesh, Faults& faults) {
   for (std::size_t k = 1; k < order.size(); ++k) {
     if (at(order[k]) != at(order[k - 1])) continue;
     faults.push_back(
-        {MeshRule::coincident, "nodes " + std::to_string(order[k - 1] + 1) + " and " + std::to_string(order[k] + 1) + " coincide", at(order[k])});
+        {MeshRule::coincident,
+         "nodes " + std::to_string(order[k - 1] + 1) + " and " + std::to_string(order[k] + 1) + " coincide",
+         at(order[k])});
   }
 }
 
@@ -108,15 +118,19 @@ void check_positive(const Mesh& mesh, Faults& faults) {
     const std::size_t width = cell.size();
     for (std::size_t k = 0; k < width; ++k) {
       const Point p = mesh.point(cell[k]);
-      if (turns_left(p, mesh.point(cell[(k + 1) % width]), mesh.point(cell[(k + width - 1) % width]))) continue;
-      faults.push_back({MeshRule::positive, std::string("a ") + (width == 3 ? "triangle" : "quad") + " is inverted or flat", p});
+      if (turns_left(p, mesh.point(cell[(k + 1) % width]), mesh.point(cell[(k + width - 1) % width])))
+        continue;
+      faults.push_back({MeshRule::positive,
+                        std::string("a ") + (width == 3 ? "triangle" : "quad") + " is inverted or flat", p});
       return;
     }
   });
 }
 
 void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const EdgeTable& table, Faults& faults) {
-  const auto fault = [&](const std::string& what, NodeId node) { faults.push_back({MeshRule::conforming, what, mesh.point(node)}); };
+  const auto fault = [&](const std::string& what, NodeId node) {
+    faults.push_back({MeshRule::conforming, what, mesh.point(node)});
+  };
   for_each_cell(mesh, [&](std::span<const NodeId> cell) {
     const NodeId node = repeated_node(cell);
     if (node.valid()) fault("a cell has node " + std::to_string(node.value() + 1) + " twice", node);
@@ -124,11 +138,13 @@ void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const EdgeTabl
   std::vector<std::array<NodeId, 2>> bounded;
   for_each_boundary_edge(mesh, [&](const BoundaryEdges& boundary, const std::array<NodeId, 2>& edge) {
     bounded.push_back(edge);
-    const std::int32_t left = table.cell_left_of(edge[0], edge[1]), right = table.cell_left_of(edge[1], edge[0]);
+    const std::int32_t left = table.cell_left_of(edge[0], edge[1]),
+                       right = table.cell_left_of(edge[1], edge[0]);
     if (left < 0) fault("an edge of boundary " + boundary.name + " has no cell to its left", edge[0]);
     if (left < 0 || right < 0) return;
     const bool inside = blocks.count == 1 || block_of(mesh, blocks, left) == block_of(mesh, blocks, right);
-    if (inside) fault("an edge of boundary " + boundary.name + " has cells of one block on both sides", edge[0]);
+    if (inside)
+      fault("an edge of boundary " + boundary.name + " has cells of one block on both sides", edge[0]);
   });
   std::sort(bounded.begin(), bounded.end());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
@@ -136,16 +152,20 @@ void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const EdgeTabl
     if (first != cell) fault("an edge belongs to two cells in the same direction", from);
     if (first != cell || table.cell_left_of(to, from) >= 0) return;
     const bool has_boundary = std::binary_search(bounded.begin(), bounded.end(), std::array{from, to});
-    if (!has_boundary) fault("an edge has one cell and no boundary edge (a crack, a hanging node or a missing boundary)", from);
+    if (!has_boundary)
+      fault("an edge has one cell and no boundary edge (a crack, a hanging node or a missing boundary)",
+            from);
   });
 }
 
 void check_closed(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
   std::vector<std::array<NodeId, 2>> all;
-  for_each_boundary_edge(mesh, [&](const BoundaryEdges&, const std::array<NodeId, 2>& edge) { all.push_back(edge); });
+  for_each_boundary_edge(
+      mesh, [&](const BoundaryEdges&, const std::array<NodeId, 2>& edge) { all.push_back(edge); });
   std::sort(all.begin(), all.end());
   for (std::size_t k = 1; k < all.size(); ++k) {
-    if (all[k] == all[k - 1]) faults.push_back({MeshRule::closed, "a boundary edge is listed twice", mesh.point(all[k][0])});
+    if (all[k] == all[k - 1])
+      faults.push_back({MeshRule::closed, "a boundary edge is listed twice", mesh.point(all[k][0])});
   }
   std::vector<std::int32_t> out_minus_in(mesh.points.size(), 0);
   for (const OuterEdge& edge : outer_edges(mesh, table)) {
@@ -153,7 +173,8 @@ void check_closed(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
     --out_minus_in[static_cast<std::size_t>(edge.to.value())];
   }
   for (std::size_t i = 0; i < out_minus_in.size(); ++i) {
-    if (out_minus_in[i] != 0) faults.push_back({MeshRule::closed, "the boundary does not close", mesh.points[i]});
+    if (out_minus_in[i] != 0)
+      faults.push_back({MeshRule::closed, "the boundary does not close", mesh.points[i]});
   }
 }
 
@@ -191,7 +212,8 @@ std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blo
 
 std::int64_t pinched_nodes(const Mesh& mesh) {
   std::vector<std::int32_t> passages(mesh.points.size(), 0);
-  for (const OuterEdge& edge : outer_edges(mesh, EdgeTable(mesh))) ++passages[static_cast<std::size_t>(edge.from.value())];
+  for (const OuterEdge& edge : outer_edges(mesh, EdgeTable(mesh)))
+    ++passages[static_cast<std::size_t>(edge.from.value())];
   return std::count_if(passages.begin(), passages.end(), [](std::int32_t n) { return n > 1; });
 }
 

@@ -24,7 +24,8 @@ using IndexPoint = bg::model::point<double, 2, bg::cs::cartesian>;
 using IndexSegment = bg::model::segment<IndexPoint>;
 
 constexpr double sharp_degrees = 30;
-constexpr double fragments = 2, loop_reach = 4;  ///< a leaf may be that much larger than its pieces, which lie within so many sizes of a loop
+constexpr double fragments = 2, loop_reach = 4;  ///< a leaf may be that much larger than its pieces, which
+                                                 ///< lie within so many sizes of a loop
 
 /// Segments that answer which of them is nearest.
 class SegmentSet {
@@ -63,7 +64,8 @@ struct NamedOutline {
 template <class Visit>
 void for_each_segment(const Chain& chain, const Visit& visit) {
   const std::size_t count = chain.points.size();
-  for (std::size_t i = 0; i + (chain.open ? 1 : 0) < count; ++i) visit(chain.points[i], chain.points[(i + 1) % count]);
+  for (std::size_t i = 0; i + (chain.open ? 1 : 0) < count; ++i)
+    visit(chain.points[i], chain.points[(i + 1) % count]);
 }
 
 std::map<std::string, NamedOutline> outlines_of(std::span<const Chain> geometry) {
@@ -142,7 +144,9 @@ class Comparison {
   }
 
  private:
-  void fault(const std::string& what, Point place) { fit_.faults.push_back({MeshRule::geometry, what, place}); }
+  void fault(const std::string& what, Point place) {
+    fit_.faults.push_back({MeshRule::geometry, what, place});
+  }
 
   void compare_nodes(const BoundaryEdges& boundary, const NamedOutline& outline) {
     for (const auto& edge : boundary.edges) {
@@ -160,13 +164,15 @@ class Comparison {
   bool ends_beyond_joint(Point p, double away) {
     if (!all_segments_) {
       all_segments_.emplace();
-      for (const Chain& chain : geometry_) for_each_segment(chain, [&](Point a, Point b) { all_segments_->add(a, b); });
+      for (const Chain& chain : geometry_)
+        for_each_segment(chain, [&](Point a, Point b) { all_segments_->add(a, b); });
       all_segments_->build();
     }
     return all_segments_->nearest(p).second <= tolerance_ && away <= reach_.size_at(p, away);
   }
 
-  /// No point of a loop that the mesh has is farther from its boundary there than the cells round it are long.
+  /// No point of a loop that the mesh has is farther from its boundary there than the cells round it are
+  /// long.
   void compare_points(const BoundaryEdges& boundary, const NamedOutline& outline) {
     SegmentSet edges;
     for (const auto& edge : boundary.edges) edges.add(mesh_.point(edge[0]), mesh_.point(edge[1]));
@@ -184,7 +190,8 @@ class Comparison {
     const std::int32_t cell = table_.cell_left_of(nodes[0], nodes[1]);
     if (away <= tolerance_ || (cell >= 0 && away <= longest_[static_cast<std::size_t>(cell)])) return;
     if (away <= reach_.size_at(p, away)) return;
-    fault("a point of boundary " + boundary.name + " is farther from the mesh than the cells there are long", p);
+    fault("a point of boundary " + boundary.name + " is farther from the mesh than the cells there are long",
+          p);
   }
 
   /// The mesher drops loops smaller than its smallest leaf, both ways; a larger one has to be in the mesh.
@@ -198,8 +205,9 @@ class Comparison {
       const double size = std::max(box.width(), box.height());
       const double cells = reach_.longest_within(box.centre(), loop_reach * size);
       if (size <= fragments * cells) continue;
-      fault(fmt::format("a loop of boundary {}, {:.6g} wide and {:.6g} high, is not in the mesh, where cells are {:.6g} long", chain.name,
-                        box.width(), box.height(), cells),
+      fault(fmt::format("a loop of boundary {}, {:.6g} wide and {:.6g} high, is not in the mesh, where cells "
+                        "are {:.6g} long",
+                        chain.name, box.width(), box.height(), cells),
             box.centre());
     }
   }
@@ -216,15 +224,19 @@ class Comparison {
     }
     nodes.build();
     fit_.sharp_corners = static_cast<std::int64_t>(sharp.size());
-    fit_.sharp_corners_lost = std::count_if(sharp.begin(), sharp.end(), [&](Point p) { return !any || nodes.nearest(p).second > tolerance_; });
+    fit_.sharp_corners_lost = std::count_if(
+        sharp.begin(), sharp.end(), [&](Point p) { return !any || nodes.nearest(p).second > tolerance_; });
   }
 
   void compare_area() {
     long double wanted = 0, meshed = 0;
-    for (const Chain& chain : geometry_) for_each_segment(chain, [&](Point a, Point b) { wanted += cross(a - centre_, b - centre_) / 2; });
-    for (const OuterEdge& edge : outer_edges(mesh_, table_)) meshed += cross(mesh_.point(edge.from) - centre_, mesh_.point(edge.to) - centre_) / 2;
+    for (const Chain& chain : geometry_)
+      for_each_segment(chain, [&](Point a, Point b) { wanted += cross(a - centre_, b - centre_) / 2; });
+    for (const OuterEdge& edge : outer_edges(mesh_, table_))
+      meshed += cross(mesh_.point(edge.from) - centre_, mesh_.point(edge.to) - centre_) / 2;
     fit_.area_error = static_cast<double>(std::abs(meshed - wanted) / std::abs(wanted));
-    if (!(fit_.area_error <= largest_area_error)) fault("the area differs from the geometry's by more than 5 percent", centre_);
+    if (!(fit_.area_error <= largest_area_error))
+      fault("the area differs from the geometry's by more than 5 percent", centre_);
   }
 
   const Mesh& mesh_;

@@ -26,7 +26,10 @@ constexpr std::size_t most_components = 2000;  // whose winding is counted; beyo
 
 struct Segment {
   Point from, to;
-  IndexBox box() const { return {{std::min(from.x, to.x), std::min(from.y, to.y)}, {std::max(from.x, to.x), std::max(from.y, to.y)}}; }
+  IndexBox box() const {
+    return {{std::min(from.x, to.x), std::min(from.y, to.y)},
+            {std::max(from.x, to.x), std::max(from.y, to.y)}};
+  }
 };
 
 /// Whether two boundary edges meet but at a common end.
@@ -74,13 +77,16 @@ std::vector<Point> piece_seeds(const Mesh& mesh) {
     }
     return i;
   };
-  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) { parent[static_cast<std::size_t>(root(from.value()))] = root(to.value()); });
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
+    parent[static_cast<std::size_t>(root(from.value()))] = root(to.value());
+  });
   std::vector<char> seen(mesh.points.size(), 0);
   std::vector<Point> seeds;
   const auto visit = [&](const auto& cells) {
     for (const auto& cell : cells) {
       char& known = seen[static_cast<std::size_t>(root(cell[0].value()))];
-      if (known == 0) seeds.push_back(1.0 / 3.0 * (mesh.point(cell[0]) + mesh.point(cell[1]) + mesh.point(cell[2])));
+      if (known == 0)
+        seeds.push_back(1.0 / 3.0 * (mesh.point(cell[0]) + mesh.point(cell[1]) + mesh.point(cell[2])));
       known = 1;
     }
   };
@@ -97,7 +103,8 @@ std::vector<double> turns_around_nodes(const Mesh& mesh) {
       const std::size_t width = cell.size();
       for (std::size_t k = 0; k < width; ++k) {
         turns[static_cast<std::size_t>(cell[k].value())] +=
-            corner_degrees(mesh.point(cell[(k + width - 1) % width]), mesh.point(cell[k]), mesh.point(cell[(k + 1) % width]));
+            corner_degrees(mesh.point(cell[(k + width - 1) % width]), mesh.point(cell[k]),
+                           mesh.point(cell[(k + 1) % width]));
       }
     }
   };
@@ -116,12 +123,13 @@ void check_area(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
   const auto at = [&](NodeId node) { return mesh.point(node); };
   for (const auto& t : mesh.triangles) cells += cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0])) / 2;
   for (const auto& q : mesh.quads) cells += cross(at(q[2]) - at(q[0]), at(q[3]) - at(q[1])) / 2;
-  for (const OuterEdge& edge : outer_edges(mesh, table)) enclosed += cross(at(edge.from) - origin, at(edge.to) - origin) / 2;
+  for (const OuterEdge& edge : outer_edges(mesh, table))
+    enclosed += cross(at(edge.from) - origin, at(edge.to) - origin) / 2;
   if (std::abs(cells - enclosed) <= area_tolerance * std::abs(enclosed)) return;
-  faults.push_back(
-      {MeshRule::area,
-       "the cells cover " + std::to_string(static_cast<double>(cells)) + ", the boundary encloses " + std::to_string(static_cast<double>(enclosed)),
-       origin});
+  faults.push_back({MeshRule::area,
+                    "the cells cover " + std::to_string(static_cast<double>(cells)) +
+                        ", the boundary encloses " + std::to_string(static_cast<double>(enclosed)),
+                    origin});
 }
 
 void check_overlap(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
@@ -132,17 +140,24 @@ void check_overlap(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
     segments.push_back({mesh.point(edge.from), mesh.point(edge.to)});
   }
   const std::vector<double> turns = turns_around_nodes(mesh);
-  const bool inverted = std::any_of(faults.begin(), faults.end(), [](const MeshFault& f) { return f.rule == MeshRule::positive; });
-  for (std::size_t i = 0; i < turns.size() && !inverted; ++i) {  // around an inverted cell the sum says nothing
+  const bool inverted = std::any_of(faults.begin(), faults.end(),
+                                    [](const MeshFault& f) { return f.rule == MeshRule::positive; });
+  for (std::size_t i = 0; i < turns.size() && !inverted;
+       ++i) {  // around an inverted cell the sum says nothing
     const bool inner = passages[i] == 0;
-    const bool wrong = inner ? std::abs(turns[i] - full_turn) > turn_tolerance : turns[i] > full_turn + turn_tolerance;
-    if (wrong && turns[i] > 0) faults.push_back({MeshRule::overlap, "the cells around a node do not go round it once", mesh.points[i]});
+    const bool wrong =
+        inner ? std::abs(turns[i] - full_turn) > turn_tolerance : turns[i] > full_turn + turn_tolerance;
+    if (wrong && turns[i] > 0)
+      faults.push_back(
+          {MeshRule::overlap, "the cells around a node do not go round it once", mesh.points[i]});
   }
   check_boundary_crossings(segments, faults);
   const std::vector<Point> seeds = piece_seeds(mesh);
   for (const Point seed : seeds.size() < most_components ? seeds : std::vector<Point>{}) {
     const std::int32_t times = winding(segments, seed);
-    if (times != 1) faults.push_back({MeshRule::overlap, "the boundary goes " + std::to_string(times) + " times round a cell", seed});
+    if (times != 1)
+      faults.push_back(
+          {MeshRule::overlap, "the boundary goes " + std::to_string(times) + " times round a cell", seed});
   }
 }
 

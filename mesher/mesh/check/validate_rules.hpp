@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "mesher/mesh/topology.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
 

@@ -42,7 +42,8 @@ TEST(EndedWithGuard, TheSolverItself) {
   const CycleFolder folder;
   folder.script("echo $PPID > guard; echo $$ > self; while :; do sleep 0.1; done");
   const Probe probe(folder);
-  const pid_t guard = test::written_process(folder.file("guard")), solver = test::written_process(folder.file("self"));
+  const pid_t guard = test::written_process(folder.file("guard")),
+              solver = test::written_process(folder.file("self"));
   ASSERT_GT(guard, 0);
   ASSERT_GT(solver, 0);
   probe.stop();
@@ -58,7 +59,8 @@ TEST_P(EndedWithQuadloop, AllProcessesOfTheSolver) {
   folder.script(test::start_stubborn_processes + "echo $$ > self; while :; do sleep 1; done");
   const Probe probe(folder);
   std::vector<pid_t> processes{test::written_process(folder.file("self"))};
-  for (const std::string& name : test::stubborn_processes) processes.push_back(test::written_process(folder.file(name)));
+  for (const std::string& name : test::stubborn_processes)
+    processes.push_back(test::written_process(folder.file(name)));
   for (const pid_t process : processes) {
     ASSERT_GT(process, 0);
     EXPECT_EQ(kill(process, 0), 0);
@@ -68,7 +70,9 @@ TEST_P(EndedWithQuadloop, AllProcessesOfTheSolver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, EndedWithQuadloop, testing::Values(SIGKILL, SIGTERM, SIGINT),
-                         [](const testing::TestParamInfo<int>& signal) { return std::string(sigabbrev_np(signal.param)); });
+                         [](const testing::TestParamInfo<int>& signal) {
+                           return std::string(sigabbrev_np(signal.param));
+                         });
 
 }  // namespace
 }  // namespace quadloop

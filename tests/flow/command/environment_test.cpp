@@ -39,8 +39,9 @@ TEST(Environment, LauncherVariablesAreKnown) {
 }
 
 TEST(Environment, UserVariablesAreKept) {
-  for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_btl", "OMPI_MCA_btl_vader_single_copy_mechanism",
-                           "OMPI_MCA_rmaps_base_oversubscribe", "OMPI_MCA_osc", "PMIX_MCA_gds", "PRTE_MCA_x", "OPAL_PREFIX", "PATH", "HOME",
+  for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_btl",
+                           "OMPI_MCA_btl_vader_single_copy_mechanism", "OMPI_MCA_rmaps_base_oversubscribe",
+                           "OMPI_MCA_osc", "PMIX_MCA_gds", "PRTE_MCA_x", "OPAL_PREFIX", "PATH", "HOME",
                            "SLURM_JOB_ID", "OMP_NUM_THREADS", "WM_PROJECT_DIR"})
     EXPECT_FALSE(set_by_launcher(name)) << name;
 }

@@ -20,10 +20,13 @@ using test::text_of;
 
 Launch launch_in(const CycleFolder& folder, std::vector<std::string> arguments) {
   const std::string program = arguments.front();
-  return {program, std::move(arguments), {"PATH=/usr/bin:/bin", "A=b c"}, folder.path(), folder.file("log"), 30};
+  return {program,       std::move(arguments), {"PATH=/usr/bin:/bin", "A=b c"},
+          folder.path(), folder.file("log"),   30};
 }
 
-Ending run(const CycleFolder& folder, const std::vector<std::string>& arguments) { return run_to_its_end(launch_in(folder, arguments)); }
+Ending run(const CycleFolder& folder, const std::vector<std::string>& arguments) {
+  return run_to_its_end(launch_in(folder, arguments));
+}
 
 TEST(GuardedRun, GivesFolderEnvironmentAndEmptyInput) {
   const CycleFolder folder;
@@ -70,7 +73,8 @@ TEST(GuardedRun, ScriptWithoutInterpreterIsNotGivenToAShell) {
 
 TEST(GuardedRun, GuardLostTakesTheProgramAlong) {
   const CycleFolder folder;
-  EXPECT_EQ(run(folder, {"/bin/sh", "-c", "echo $$ > self; kill -9 $PPID; sleep 1000"}).kind, Ending::Kind::guard_lost);
+  EXPECT_EQ(run(folder, {"/bin/sh", "-c", "echo $$ > self; kill -9 $PPID; sleep 1000"}).kind,
+            Ending::Kind::guard_lost);
   EXPECT_TRUE(test::vanishes(test::written_process(folder.file("self"))));
 }
 
@@ -79,12 +83,15 @@ TEST(GuardedRun, ProcessesLeftBehindAreEnded) {
   const Ending ending = run(folder, {"/bin/sh", "-c", test::start_stubborn_processes + "exit 5"});
   EXPECT_EQ(ending.kind, Ending::Kind::status);
   EXPECT_EQ(ending.value, 5);
-  for (const std::string& name : test::stubborn_processes) EXPECT_TRUE(test::vanishes(test::written_process(folder.file(name)))) << name;
+  for (const std::string& name : test::stubborn_processes)
+    EXPECT_TRUE(test::vanishes(test::written_process(folder.file(name)))) << name;
 }
 
 TEST(GuardedRun, TimeIsOverForTheWholeTree) {
   const CycleFolder folder;
-  Launch launch = launch_in(folder, {"/bin/sh", "-c", test::start_stubborn_processes + "echo $$ > self; while :; do sleep 1; done"});
+  Launch launch = launch_in(
+      folder,
+      {"/bin/sh", "-c", test::start_stubborn_processes + "echo $$ > self; while :; do sleep 1; done"});
   launch.timeout = 0.5;
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(run_to_its_end(launch).kind, Ending::Kind::timed_out);
@@ -92,12 +99,14 @@ TEST(GuardedRun, TimeIsOverForTheWholeTree) {
   EXPECT_GT(seconds.count(), 0.5);
   EXPECT_LT(seconds.count(), 6);
   EXPECT_TRUE(test::vanishes(test::written_process(folder.file("self"))));
-  for (const std::string& name : test::stubborn_processes) EXPECT_TRUE(test::vanishes(test::written_process(folder.file(name)))) << name;
+  for (const std::string& name : test::stubborn_processes)
+    EXPECT_TRUE(test::vanishes(test::written_process(folder.file(name)))) << name;
 }
 
 TEST(GuardedRun, ProgramMayTidyUpWhenItsTimeIsOver) {
   const CycleFolder folder;
-  Launch launch = launch_in(folder, {"/bin/sh", "-c", "trap 'echo tidy; exit 0' TERM; while :; do sleep 0.05; done"});
+  Launch launch =
+      launch_in(folder, {"/bin/sh", "-c", "trap 'echo tidy; exit 0' TERM; while :; do sleep 0.05; done"});
   launch.timeout = 0.3;
   EXPECT_EQ(run_to_its_end(launch).kind, Ending::Kind::timed_out);
   EXPECT_TRUE(test::holds(text_of(folder.file("log")), "tidy"));

@@ -35,7 +35,9 @@ TEST(LogTail, LongLinesAreCutBetweenCharacters) {
   EXPECT_EQ(tail_of("ab\u00e9d", 4), "ab\u00e9...");
 }
 
-TEST(LogTail, ControlCharactersAreNotPassedOn) { EXPECT_EQ(tail_of(std::string("a\tb\x1b[31mc\0d\n", 11)), "a b?[31mc?d"); }
+TEST(LogTail, ControlCharactersAreNotPassedOn) {
+  EXPECT_EQ(tail_of(std::string("a\tb\x1b[31mc\0d\n", 11)), "a b?[31mc?d");
+}
 
 TEST(LogTail, OnlyTheEndIsRead) {
   EXPECT_EQ(tail_of("end\n" + std::string(3 << 20, '-')), "");

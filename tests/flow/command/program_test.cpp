@@ -33,11 +33,12 @@ TEST(Program, WithASlashIsAPath) {
 }
 
 TEST(Program, ThatIsMissingIsNamedWithTheCure) {
-  EXPECT_EQ(
-      message_of("no_such_solver", "/bin:/usr/bin", "/tmp"),
-      "[solver] command: the program 'no_such_solver' is in no folder of PATH; install it, write its full path, or {case}/no_such_solver for one "
-      "beside the case file");
-  EXPECT_TRUE(test::holds(message_of("bin/run", "/bin", "/tmp"), "write {case}/bin/run for one beside the case file"));
+  EXPECT_EQ(message_of("no_such_solver", "/bin:/usr/bin", "/tmp"),
+            "[solver] command: the program 'no_such_solver' is in no folder of PATH; install it, write its "
+            "full path, or {case}/no_such_solver for one "
+            "beside the case file");
+  EXPECT_TRUE(test::holds(message_of("bin/run", "/bin", "/tmp"),
+                          "write {case}/bin/run for one beside the case file"));
   EXPECT_TRUE(test::holds(message_of("/no/such/solver", "/bin", "/tmp"), "'/no/such/solver' is no file"));
   message_of("", "/bin", "/tmp");
   message_of("/bin", "/bin", "/tmp");

@@ -33,7 +33,8 @@ std::string failure(const SolverCommand& command, const CycleFolder& folder) {
 
 TEST(RunSolver, RunsOnceWithItsArgumentsAndKeepsItsLog) {
   const CycleFolder folder;
-  SolverCommand command = folder.script("echo run >> runs; echo out; echo err >&2; shift; printf '%s\\n' \"$@\" > solution.mesh");
+  SolverCommand command =
+      folder.script("echo run >> runs; echo out; echo err >&2; shift; printf '%s\\n' \"$@\" > solution.mesh");
   command.arguments.insert(command.arguments.end(), {"$(touch x); *", "", "{cycle} {ranks}"});
   run_solver(world(), command, folder.files());
   EXPECT_EQ(text_of(folder.file("runs")), "run\n");
@@ -44,26 +45,31 @@ TEST(RunSolver, RunsOnceWithItsArgumentsAndKeepsItsLog) {
 
 TEST(RunSolver, StatusIsToldWithTheLastLine) {
   const CycleFolder folder;
-  const SolverCommand command = folder.script("for i in 1 2 3 4 5 6 7; do echo line $i; done; echo density is negative >&2; exit 7");
-  EXPECT_EQ(failure(command, folder),
-            "the solver '{case}/solver.sh' of cycle 4 ended with exit status 7; " + folder.file("solver.log") + " ends: density is negative");
+  const SolverCommand command =
+      folder.script("for i in 1 2 3 4 5 6 7; do echo line $i; done; echo density is negative >&2; exit 7");
+  EXPECT_EQ(failure(command, folder), "the solver '{case}/solver.sh' of cycle 4 ended with exit status 7; " +
+                                          folder.file("solver.log") + " ends: density is negative");
 }
 
 TEST(RunSolver, OfATracebackTheErrorIsTold) {
   const CycleFolder folder;
   const SolverCommand command = folder.script(
-      "printf 'Traceback (most recent call last):\\n  File \"solver.py\", line 3, in <module>\\n    solve(mesh)\\n    ~~~~~^^^^^^\\n"
+      "printf 'Traceback (most recent call last):\\n  File \"solver.py\", line 3, in <module>\\n    "
+      "solve(mesh)\\n    ~~~~~^^^^^^\\n"
       "ValueError: the density is negative\\n-------\\n\\n' >&2; exit 1");
   const std::string message = failure(command, folder);
-  EXPECT_TRUE(holds(message, folder.file("solver.log") + " ends: ValueError: the density is negative")) << message;
+  EXPECT_TRUE(holds(message, folder.file("solver.log") + " ends: ValueError: the density is negative"))
+      << message;
   EXPECT_FALSE(holds(message, "Traceback")) << message;
 }
 
 TEST(RunSolver, SignalIsNamed) {
   const CycleFolder folder;
   EXPECT_TRUE(holds(failure(folder.script("kill -SEGV $$"), folder),
-                    "was killed by signal 11 (Segmentation fault); it wrote nothing to its log, " + folder.file("solver.log")));
-  EXPECT_TRUE(holds(failure(folder.script("kill -9 $$"), folder), "was killed by signal 9 (Killed), by somebody or for want of memory"));
+                    "was killed by signal 11 (Segmentation fault); it wrote nothing to its log, " +
+                        folder.file("solver.log")));
+  EXPECT_TRUE(holds(failure(folder.script("kill -9 $$"), folder),
+                    "was killed by signal 9 (Killed), by somebody or for want of memory"));
 }
 
 TEST(RunSolver, TimeIsLimited) {
@@ -92,23 +98,29 @@ TEST(RunSolver, ScriptWithoutInterpreterIsToldWithTheCure) {
   const CycleFolder folder;
   const SolverCommand command = folder.script("");
   folder.write("solver.sh", "touch x\n");
-  EXPECT_TRUE(holds(failure(command, folder), "cannot be started: Exec format error (a script must begin with a line as #!/bin/sh)"));
+  EXPECT_TRUE(holds(failure(command, folder),
+                    "cannot be started: Exec format error (a script must begin with a line as #!/bin/sh)"));
 }
 
 TEST(RunSolver, SolutionOfAnEarlierRunDoesNotPass) {
   const CycleFolder folder;
   folder.write("solution.mesh", "old");
   const std::string message = failure(folder.script("echo all is well"), folder);
-  EXPECT_TRUE(holds(message, "ended without leaving its solution, " + folder.file("solution.mesh"))) << message;
+  EXPECT_TRUE(holds(message, "ended without leaving its solution, " + folder.file("solution.mesh")))
+      << message;
   EXPECT_TRUE(holds(message, "ends: all is well")) << message;
-  EXPECT_TRUE(holds(failure(folder.script("cp -p solver.sh $1; touch -d '1 hour ago' $1"), folder), "left a file older than its run"));
+  EXPECT_TRUE(holds(failure(folder.script("cp -p solver.sh $1; touch -d '1 hour ago' $1"), folder),
+                    "left a file older than its run"));
 }
 
 TEST(RunSolver, SolutionMustBeAFileWithContent) {
   const CycleFolder folder;
-  EXPECT_TRUE(holds(failure(folder.script(": > $1"), folder), "left an empty solution, " + folder.file("solution.mesh")));
-  EXPECT_TRUE(holds(failure(folder.script("mkdir $1"), folder), "left something that is no file as its solution"));
-  EXPECT_EQ(refusal(folder.script("echo"), folder).status, ExitStatus::bad_input);  // the folder is still there
+  EXPECT_TRUE(holds(failure(folder.script(": > $1"), folder),
+                    "left an empty solution, " + folder.file("solution.mesh")));
+  EXPECT_TRUE(
+      holds(failure(folder.script("mkdir $1"), folder), "left something that is no file as its solution"));
+  EXPECT_EQ(refusal(folder.script("echo"), folder).status,
+            ExitStatus::bad_input);  // the folder is still there
 }
 
 TEST(RunSolver, SolutionMayBeALink) {
@@ -130,7 +142,9 @@ TEST(RunSolver, MeshIsNotTakenForAnOldSolution) {
 
 TEST(RunSolver, LauncherVariablesAreGone) {
   const CycleFolder folder;
-  run_solver(world(), folder.script("env | grep -cE '^(OMPI_COMM_WORLD|OMPI_MCA_orte|OMPI_MCA_ess|PMIX|PMI_)' > $1; pwd -P >> $1; echo $PWD >> $1"),
+  run_solver(world(),
+             folder.script("env | grep -cE '^(OMPI_COMM_WORLD|OMPI_MCA_orte|OMPI_MCA_ess|PMIX|PMI_)' > $1; "
+                           "pwd -P >> $1; echo $PWD >> $1"),
              folder.files());
   EXPECT_EQ(text_of(folder.file("solution.mesh")), "0\n" + folder.path() + "\n" + folder.path() + "\n");
 }
@@ -147,8 +161,9 @@ TEST(RunSolver, SolverMayBeAnMpirunOfItsOwn) {
 TEST(RunSolver, MessageCanBeMadeForWhatItWrote) {
   const CycleFolder folder;
   run_solver(world(), folder.script("echo nan > $1; echo diverged"), folder.files());
-  EXPECT_EQ(solver_message({{"my_solver"}, 1}, folder.files(), "left rubbish"),
-            "the solver 'my_solver' of cycle 4 left rubbish; " + folder.file("solver.log") + " ends: diverged");
+  EXPECT_EQ(
+      solver_message({{"my_solver"}, 1}, folder.files(), "left rubbish"),
+      "the solver 'my_solver' of cycle 4 left rubbish; " + folder.file("solver.log") + " ends: diverged");
 }
 
 }  // namespace

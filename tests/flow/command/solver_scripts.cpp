@@ -55,7 +55,9 @@ CycleFolder::~CycleFolder() {
   if (world().is_root() && !path_.empty()) std::filesystem::remove_all(path_, ignored);
 }
 
-SolverFiles CycleFolder::files() const { return {path_, file("mesh.mesh"), file("solution.mesh"), path_, 6, 4}; }
+SolverFiles CycleFolder::files() const {
+  return {path_, file("mesh.mesh"), file("solution.mesh"), path_, 6, 4};
+}
 
 void CycleFolder::write(const std::string& name, const std::string& text) const {
   if (world().is_root()) std::ofstream(file(name), std::ios::binary) << text;

@@ -49,8 +49,8 @@ pid_t written_process(const std::string& path);
 /// True once there is no such process, or only its status is left; false after ten seconds.
 bool vanishes(pid_t process);
 
-/// Lines that leave processes of three kinds, all deaf to SIGTERM: a child, one with a session of its own, and an orphan with one. Their numbers go
-/// to files of the names in `stubborn_processes`.
+/// Lines that leave processes of three kinds, all deaf to SIGTERM: a child, one with a session of its own,
+/// and an orphan with one. Their numbers go to files of the names in `stubborn_processes`.
 extern const std::string start_stubborn_processes;
 extern const std::vector<std::string> stubborn_processes;
 

@@ -1,4 +1,5 @@
-// The parts of the scheme: the dual mesh closes, gradients are exact, fluxes are consistent and conserve, matrices are their derivatives.
+// The parts of the scheme: the dual mesh closes, gradients are exact, fluxes are consistent and conserve,
+// matrices are their derivatives.
 #include <gtest/gtest.h>
 
 #include "flow/euler/scheme/dual_mesh.hpp"
@@ -36,12 +37,15 @@ TEST(DualMesh, FillsTheMeshAndClosesRoundEachNode) {
   std::vector<Point> sums(dual.nodes());
   for (const DualEdge& edge : dual.edges()) {
     EXPECT_LT(dual.global(edge.low), dual.global(edge.high));
-    sums[static_cast<std::size_t>(edge.low)] = sums[static_cast<std::size_t>(edge.low)] + edge.size * edge.normal;
-    sums[static_cast<std::size_t>(edge.high)] = sums[static_cast<std::size_t>(edge.high)] - edge.size * edge.normal;
+    sums[static_cast<std::size_t>(edge.low)] =
+        sums[static_cast<std::size_t>(edge.low)] + edge.size * edge.normal;
+    sums[static_cast<std::size_t>(edge.high)] =
+        sums[static_cast<std::size_t>(edge.high)] - edge.size * edge.normal;
   }
   for (const BoundaryFace& face : dual.faces()) {
     for (const std::int32_t node : {face.from, face.to}) {
-      sums[static_cast<std::size_t>(node)] = sums[static_cast<std::size_t>(node)] + face.half_size * face.normal;
+      sums[static_cast<std::size_t>(node)] =
+          sums[static_cast<std::size_t>(node)] + face.half_size * face.normal;
     }
   }
   for (const Point& sum : sums) EXPECT_LT(length(sum), 1e-15);
@@ -62,7 +66,8 @@ TEST(LeastSquares, IsExactForLinearFields) {
   const std::array<Point, 4> slopes{{{1, 2}, {-0.5, 0.25}, {0, 3}, {-2, 0}}};
   std::vector<State> states(dual.nodes());
   for (std::int32_t node = 0; node < dual.owned_nodes(); ++node) {
-    for (std::size_t k = 0; k < 4; ++k) states[static_cast<std::size_t>(node)][k] = 1.0 + dot(slopes[k], dual.point(node));
+    for (std::size_t k = 0; k < 4; ++k)
+      states[static_cast<std::size_t>(node)][k] = 1.0 + dot(slopes[k], dual.point(node));
   }
   std::vector<Gradient> gradients(dual.nodes());
   LeastSquares(dual).compute(states, gradients);
@@ -109,7 +114,8 @@ TEST(RoeFlux, IsTheSameFromTheOtherSide) {
   for (int i = 0; i < 200; ++i) {
     const State left = made_up_state(2 * i), right = made_up_state(2 * i + 1);
     const Point normal = made_up_normal(i);
-    const Flux forth = roe_flux(gas, left, right, normal), back = roe_flux(gas, right, left, {-normal.x, -normal.y});
+    const Flux forth = roe_flux(gas, left, right, normal),
+               back = roe_flux(gas, right, left, {-normal.x, -normal.y});
     for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(forth[k], -back[k], 1e-13);
   }
 }
@@ -132,7 +138,8 @@ TEST(FluxChange, IsTheDerivativeOfTheFlux) {
       up[k] += step * direction[k];
       down[k] -= step * direction[k];
     }
-    const Flux more = physical_flux(gas, up, normal), less = physical_flux(gas, down, normal), change = flux_change(gas, state, direction, normal);
+    const Flux more = physical_flux(gas, up, normal), less = physical_flux(gas, down, normal),
+               change = flux_change(gas, state, direction, normal);
     for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(change[k], (more[k] - less[k]) / (2 * step), 1e-7);
   }
 }
@@ -149,18 +156,19 @@ TEST(FluxMatrix, IsTheDerivativeOfTheFlux) {
       const double step = 1e-6;
       const auto moved = [&](double by) {
         return physical_flux(gas,
-                             gas.state({w.mass + (column == 0) * by, w.x_momentum + (column == 1) * by, w.y_momentum + (column == 2) * by,
-                                        w.energy + (column == 3) * by}),
+                             gas.state({w.mass + (column == 0) * by, w.x_momentum + (column == 1) * by,
+                                        w.y_momentum + (column == 2) * by, w.energy + (column == 3) * by}),
                              normal);
       };
       const Flux up = moved(step), down = moved(-step);
-      for (std::size_t row = 0; row < 4; ++row) EXPECT_NEAR(matrix[4 * row + column], (up[row] - down[row]) / (2 * step), 1e-7);
+      for (std::size_t row = 0; row < 4; ++row)
+        EXPECT_NEAR(matrix[4 * row + column], (up[row] - down[row]) / (2 * step), 1e-7);
     }
   }
 }
 
-/// The pressure alone varies, linearly, in a gas at rest: each node's dual cell must feel exactly gradient times area, on any mesh and at its
-/// boundary.
+/// The pressure alone varies, linearly, in a gas at rest: each node's dual cell must feel exactly gradient
+/// times area, on any mesh and at its boundary.
 TEST(Residual, OfALinearPressureIsExact) {
   for (const bool quads : {true, false}) {
     Mesh mesh = test::irregular_grid(10, {1, 2}, 0.24, quads);
@@ -225,7 +233,8 @@ TEST(BoundaryFlux, OfTheFreeStreamIsPhysical) {
     for (const Condition condition : {Condition::farfield, Condition::inflow, Condition::outflow}) {
       for (int i = 0; i < 20; ++i) {
         const Point normal = made_up_normal(i);
-        const Flux flux = boundary_flux(model, {condition, 1 / model.gas.gamma, false}, model.free_stream, normal);
+        const Flux flux =
+            boundary_flux(model, {condition, 1 / model.gas.gamma, false}, model.free_stream, normal);
         const Flux physical = physical_flux(model.gas, model.free_stream, normal);
         for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(flux[k], physical[k], 1e-14);
       }
@@ -240,7 +249,8 @@ TEST(Vortex, BalancesItsPressureAndIsIsentropic) {
   for (const double r : {0.3, 1.0, 2.0}) {
     const auto at = [&](double radius) { return vortex.state({1 + radius, 2}, 0); };
     const State state = at(r);
-    const double turning = state[2] - vortex.free_stream[2], gradient = (at(r + step)[3] - at(r - step)[3]) / (2 * step);
+    const double turning = state[2] - vortex.free_stream[2],
+                 gradient = (at(r + step)[3] - at(r - step)[3]) / (2 * step);
     EXPECT_GT(turning, 0);
     EXPECT_NEAR(gradient, state[0] * turning * turning / r, 1e-8);
     EXPECT_NEAR(state[3] / std::pow(state[0], gas.gamma), 1 / gas.gamma, 1e-14);

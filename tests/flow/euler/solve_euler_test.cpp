@@ -19,9 +19,11 @@ using test::world;
 /// The largest difference between any node's state and the free stream.
 double departure(const EulerResult& result, const EulerOptions& options) {
   const double angle = options.alpha * std::acos(-1.0) / 180;
-  const std::array<double, 4> uniform{1, options.mach * std::cos(angle), options.mach * std::sin(angle), 1 / options.gamma};
+  const std::array<double, 4> uniform{1, options.mach * std::cos(angle), options.mach * std::sin(angle),
+                                      1 / options.gamma};
   double largest = 0;
-  for (std::size_t i = 0; i < result.states.size(); ++i) largest = std::max(largest, std::abs(result.states[i] - uniform[i % 4]));
+  for (std::size_t i = 0; i < result.states.size(); ++i)
+    largest = std::max(largest, std::abs(result.states[i] - uniform[i % 4]));
   return world().maximum(largest);
 }
 
@@ -33,7 +35,8 @@ std::vector<double> disturbed(const Mesh& mesh, const EulerOptions& options, dou
   std::vector<double> states;
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
     const double more = 1 + by * test::scattered(2, mesh.first_node + node, 0);
-    states.insert(states.end(), {more, options.mach * std::cos(angle), options.mach * std::sin(angle), more / options.gamma});
+    states.insert(states.end(), {more, options.mach * std::cos(angle), options.mach * std::sin(angle),
+                                 more / options.gamma});
   }
   return states;
 }
@@ -62,7 +65,9 @@ TEST(UniformFlow, IsKeptAndComesBack) {
 
 TEST(UniformFlow, IsKeptBetweenWalls) {
   Mesh whole = test::irregular_grid(12, {2, 1}, 0.2);
-  test::relabel(whole, [](Point p) { return p.y == 0 ? "symmetry" : p.y == 1 ? "wall" : p.x == 0 ? "inflow" : "outflow"; });
+  test::relabel(whole, [](Point p) {
+    return p.y == 0 ? "symmetry" : p.y == 1 ? "wall" : p.x == 0 ? "inflow" : "outflow";
+  });
   const Mesh mesh = shared(whole);
   EulerOptions options;
   options.alpha = 0;
@@ -78,7 +83,8 @@ TEST(UniformFlow, IsKeptBetweenWalls) {
 }
 
 TEST(SteadyFlow, RoundASymmetricBodyHasNoLiftAndEverLessDrag) {
-  const Mesh mesh = shared(test::ring_mesh(64, 28, 0.3, 20)), coarse = shared(test::ring_mesh(32, 14, 0.3, 20));
+  const Mesh mesh = shared(test::ring_mesh(64, 28, 0.3, 20)),
+             coarse = shared(test::ring_mesh(32, 14, 0.3, 20));
   EulerOptions options;
   options.mach = 0.3;
   options.iterations = 300;
@@ -86,7 +92,8 @@ TEST(SteadyFlow, RoundASymmetricBodyHasNoLiftAndEverLessDrag) {
   EXPECT_TRUE(result.converged) << result.residual;
   EXPECT_LT(result.residual, 1e-8);
   EXPECT_NEAR(result.cl, 0, 1e-5);
-  EXPECT_LT(std::abs(result.cd), 0.5 * std::abs(solve_euler(world(), coarse, options).cd));  // d'Alembert: none in the end
+  EXPECT_LT(std::abs(result.cd),
+            0.5 * std::abs(solve_euler(world(), coarse, options).cd));  // d'Alembert: none in the end
   options.alpha = 3;
   EXPECT_GT(solve_euler(world(), mesh, options).cl, 0.02);
 }
@@ -96,14 +103,16 @@ TEST(SteadyFlow, StartsFromWhatItIsGiven) {
   EulerOptions options;
   options.mach = 0.4;
   options.limiter = EulerOptions::Limiter::none;  // its factors are no part of a start
-  const EulerResult cold = solve_euler(world(), mesh, options), warm = solve_euler(world(), mesh, options, cold.states);
+  const EulerResult cold = solve_euler(world(), mesh, options),
+                    warm = solve_euler(world(), mesh, options, cold.states);
   EXPECT_TRUE(cold.converged);
   EXPECT_GT(cold.iterations, 20);
   EXPECT_TRUE(warm.converged);
   EXPECT_EQ(warm.iterations, 0);
   EXPECT_EQ(warm.states, cold.states);
   options.limiter = EulerOptions::Limiter::venkatakrishnan;
-  const EulerResult limited = solve_euler(world(), mesh, options), again = solve_euler(world(), mesh, options, limited.states);
+  const EulerResult limited = solve_euler(world(), mesh, options),
+                    again = solve_euler(world(), mesh, options, limited.states);
   EXPECT_TRUE(again.converged);
   EXPECT_LT(2 * again.iterations, limited.iterations);
 }
@@ -118,7 +127,8 @@ TEST(BowShock, StandsBeforeABluntBody) {
   EXPECT_TRUE(result.converged) << result.residual;
   double largest = 0;
   for (std::size_t i = 3; i < result.states.size(); i += 4) largest = std::max(largest, result.states[i]);
-  EXPECT_NEAR(world().maximum(largest) * 1.4, 5.640, 0.08);  // pressure behind a normal shock at Mach 2, brought to rest
+  EXPECT_NEAR(world().maximum(largest) * 1.4, 5.640,
+              0.08);  // pressure behind a normal shock at Mach 2, brought to rest
   EXPECT_NEAR(result.cl, 0, 2e-3);
 }
 

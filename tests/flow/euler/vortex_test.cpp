@@ -15,7 +15,8 @@ constexpr std::array<std::int32_t, 2> sizes{40, 80};
 #endif
 
 double order(EulerOptions::Limiter limiter, bool quads) {
-  const double before = test::vortex_error(sizes[sizes.size() - 2], limiter, quads), after = test::vortex_error(sizes.back(), limiter, quads);
+  const double before = test::vortex_error(sizes[sizes.size() - 2], limiter, quads),
+               after = test::vortex_error(sizes.back(), limiter, quads);
   testing::Test::RecordProperty("error", std::to_string(after));
   return std::log2(before / after);
 }
@@ -25,7 +26,8 @@ TEST(Vortex, IsKeptToSecondOrderWithoutLimiter) {
 }
 
 TEST(Vortex, IsKeptWithTheLimiterToo) {
-  for (const bool quads : {true, false}) EXPECT_GE(order(EulerOptions::Limiter::venkatakrishnan, quads), 1.5) << quads;
+  for (const bool quads : {true, false})
+    EXPECT_GE(order(EulerOptions::Limiter::venkatakrishnan, quads), 1.5) << quads;
 }
 
 }  // namespace

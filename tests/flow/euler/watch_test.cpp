@@ -1,4 +1,5 @@
-// What watches a steady run: swings of single nodes, a residual that stalls or rises, and what is said of a run that did not converge.
+// What watches a steady run: swings of single nodes, a residual that stalls or rises, and what is said of a
+// run that did not converge.
 #include <gtest/gtest.h>
 
 #include "flow/euler/residual_watch.hpp"
@@ -80,7 +81,9 @@ TEST(Shortfall, SaysWhatHelps) {
   EulerResult result;
   result.iterations = result.kept_iteration = 300;
   result.residual = 1e-4;
-  const auto says = [&](const char* what) { return shortfall(result, options).find(what) != std::string::npos; };
+  const auto says = [&](const char* what) {
+    return shortfall(result, options).find(what) != std::string::npos;
+  };
   EXPECT_TRUE(says("raise solver.iterations"));
   result.stalled = true;
   EXPECT_TRUE(says("raise solver.tolerance"));

@@ -1,4 +1,5 @@
-// The shock from a wedge of 10 degrees at Mach 2: theory gives an angle of 39.3139 degrees and a pressure ratio of 1.706579.
+// The shock from a wedge of 10 degrees at Mach 2: theory gives an angle of 39.3139 degrees and a pressure
+// ratio of 1.706579.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +26,9 @@ struct WedgeFlow {
     options.iterations = 500;
     result = solve_euler(self, mesh, options);
   }
-  double pressure_ratio(std::int32_t i, std::int32_t j) const { return 1.4 * result.states[static_cast<std::size_t>(4 * (j * (n + 1) + i) + 3)]; }
+  double pressure_ratio(std::int32_t i, std::int32_t j) const {
+    return 1.4 * result.states[static_cast<std::size_t>(4 * (j * (n + 1) + i) + 3)];
+  }
 
   /// Where the pressure of a column falls through the middle of the jump.
   Point shock(std::int32_t i) const {
@@ -46,7 +49,9 @@ const WedgeFlow& flow() {
   return one;
 }
 
-TEST(Wedge, Converges) { EXPECT_TRUE(flow().result.converged) << flow().result.residual << " after " << flow().result.iterations; }
+TEST(Wedge, Converges) {
+  EXPECT_TRUE(flow().result.converged) << flow().result.residual << " after " << flow().result.iterations;
+}
 
 TEST(Wedge, HasThePressureOfTheory) {
   double sum = 0;
