@@ -99,7 +99,7 @@ void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const
   });
 }
 
-void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution,
+void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution,
                 double gamma) {
   const std::string format = mesh_format_of(path);
   if (format == "mesh") write_native(outputs, mesh, path, solution);

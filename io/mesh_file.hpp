@@ -39,7 +39,7 @@ bool holds_solution(const std::string& path);
 /// place for one. A .csv holds the solution alone (write_su2_csv(), which wants `gamma`), and is not written
 /// without one. *Collective.* Throws OutputError on all ranks.
 void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path,
-                const Solution* solution = nullptr, double gamma = 1.4);
+                const Field* solution = nullptr, double gamma = 1.4);
 
 /// One line that counts the boundaries whose names the format, or else that of the suffix, cannot hold, and
 /// says how the first is written; none where all are kept.

@@ -26,7 +26,7 @@ void require_values(const LoadedMesh& loaded, const std::string& path) {
 }
 
 /// Finite, and so small that differences, squares and integrals over the mesh are finite too.
-void require_usable(const Solution& solution, const std::string& path) {
+void require_usable(const Field& solution, const std::string& path) {
   constexpr double largest = 1e150;
   const std::size_t width = solution.names.size();
   for (std::size_t i = 0; i < solution.values.size(); ++i) {

@@ -32,7 +32,7 @@ double gamma_of(const FlowSolver& solver);
 
 /// A flow on a mesh, and what the solver said of it.
 struct SolvedFlow {
-  Solution solution;  ///< a row for each owned node
+  Field solution;  ///< a row for each owned node
   std::optional<double> cl, cd, residual;
   std::vector<std::string> notes, warnings;  ///< for the cycle's log; for the user too
 };
@@ -40,6 +40,6 @@ struct SolvedFlow {
 /// Solves on a mesh whose native file, with the starting state where there is one, stands in the folder
 /// already. Throws InputError, SolverError. *Collective.*
 SolvedFlow solve_flow(const Communicator& comm, const FlowSolver& solver, const Mesh& mesh,
-                      const std::optional<Solution>& start, const std::string& folder, int cycle);
+                      const std::optional<Field>& start, const std::string& folder, int cycle);
 
 }  // namespace quadloop

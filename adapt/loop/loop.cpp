@@ -98,7 +98,7 @@ class AdaptiveRun {
                                        : CarriedMesh{generate_mesh(comm_, case_.mesh), {}, {}, 0, {}};
     const MeshResult& result = carried.generated.result;
     times.begin("write");
-    std::optional<Solution> start;
+    std::optional<Field> start;
     if (before) start = carried.start;
     write_start(folder, result, start);
     times.begin("solve");
@@ -122,14 +122,14 @@ class AdaptiveRun {
   }
 
   void write_start(const std::string& folder, const MeshResult& result,
-                   const std::optional<Solution>& start) const {
+                   const std::optional<Field>& start) const {
     OutputSet outputs(comm_);
     write_native(outputs, result.mesh, folder + "/mesh.mesh", start ? &*start : nullptr);
     write_tree(outputs, result.tree, folder + "/mesh.tree.h5");
     outputs.commit();
   }
 
-  void write_solved(const std::string& folder, const Mesh& mesh, const Solution& solution) const {
+  void write_solved(const std::string& folder, const Mesh& mesh, const Field& solution) const {
     OutputSet outputs(comm_);
     write_native(outputs, mesh, folder + "/mesh.mesh", &solution);
     write_cgns(outputs, mesh, folder + "/mesh.cgns", &solution);

@@ -16,7 +16,7 @@ namespace quadloop {
 struct SolvedMesh {
   Mesh mesh;
   TreeRecord tree;
-  Solution solution;
+  Field solution;
   std::string file;  ///< where the solution was read, for messages
 };
 

@@ -8,9 +8,6 @@
 
 namespace quadloop {
 
-/// The root's solution on every rank, but for its values. *Collective.*
-Solution share_solution(const Communicator& comm, const Solution& of_root);
-
 /// The whole mesh on the root, its cells in the order of the tree's leaves, and its tree, spread over the
 /// ranks. *Collective.*
 SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, TreeRecord tree);
@@ -18,7 +15,7 @@ SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, Tree
 /// A new mesh and the old one's solution on it.
 struct CarriedMesh {
   GeneratedMesh generated;
-  Solution start;
+  Field start;
   StageTimes times;                                   ///< those of meshing, and "transfer"
   std::int64_t outside = 0;                           ///< new nodes outside the old mesh
   std::vector<std::pair<std::string, double>> drift;  ///< of each variable's integral

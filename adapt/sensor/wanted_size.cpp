@@ -12,10 +12,10 @@
 namespace quadloop {
 
 std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves,
-                               const NodeField& size) {
+                               const Field& size) {
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
   check_field(comm, mesh, size, FieldSign::positive);
-  const std::vector<double> values = with_copies(comm, mesh, size);
+  const std::vector<double> values = with_copies(comm, mesh, size).column(0);
   std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(),
                                std::numeric_limits<double>::infinity());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t cell) {

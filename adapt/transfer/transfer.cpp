@@ -10,7 +10,6 @@
 #include "adapt/transfer/locate_points.hpp"
 #include "adapt/transfer/mesh_integrals.hpp"
 #include "adapt/transfer/nearest_boundary.hpp"
-#include "adapt/transfer/node_rows.hpp"
 #include "adapt/transfer/point_cells.hpp"
 #include "adapt/transfer/triangle_piece.hpp"
 
@@ -21,16 +20,12 @@ namespace {
 template <class T>
 using ForRanks = std::vector<std::vector<T>>;
 
-/// Rows of new values at owned nodes, as they are found.
-struct NewRows {
-  std::size_t width = 0;
-  std::vector<double> values;
-
-  void put(std::int32_t node, const double* row) {
-    std::copy(row, row + width,
-              values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node) * width));
-  }
-};
+/// Copies the next row to a node and moves on.
+void take_row(Field& field, std::int32_t node, const double*& from) {
+  const auto row = field.row(NodeId{node});
+  std::copy_n(from, row.size(), row.begin());
+  from += row.size();
+}
 
 /// Which new nodes were asked of each rank, and its answers: a row for each that lies in a triangle there,
 /// one after another.
@@ -43,7 +38,7 @@ struct Answers {
 /// The old mesh, and by which shares of the plane it is asked.
 struct OldMesh {
   const Mesh& mesh;
-  const NodeRows& rows;
+  const Field& field;
   std::span<const CellTriangle> triangles;
   const CurveShares& shares;
 };
@@ -51,7 +46,7 @@ struct OldMesh {
 /// Old nodes with their rows, those of one share of the plane.
 struct NodeShare {
   std::vector<Point> points;
-  NodeRows rows;
+  Field field;
 };
 
 template <class T>
@@ -69,12 +64,12 @@ NodeShare gather_nodes(const Communicator& comm, const OldMesh& old) {
   for (std::int32_t node = 0; node < old.mesh.owned_nodes; ++node) {
     const Point p = old.mesh.point(NodeId{node});
     const auto rank = static_cast<std::size_t>(old.shares.rank_of(p));
-    const auto row = old.rows.of(NodeId{node});
+    const auto row = old.field.row(NodeId{node});
     points[rank].push_back(p);
     rows[rank].insert(rows[rank].end(), row.begin(), row.end());
   }
   return {joined(exchange_pieces(comm, std::move(points))),
-          {old.rows.width, joined(exchange_pieces(comm, std::move(rows)))}};
+          {old.field.names, joined(exchange_pieces(comm, std::move(rows))), {}}};
 }
 
 /// Only triangles that may hold one of the points leave their rank.
@@ -86,7 +81,7 @@ TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, std
     for (const NodeId node : triangle.nodes) box.include(old.mesh.point(node));
     if (cells.meet(box)) near.push_back(triangle);
   }
-  return gather_piece(comm, old.shares, old.mesh, old.rows, near);
+  return gather_piece(comm, old.shares, old.mesh, old.field, near);
 }
 
 /// The old mesh's values at points of this rank's share of the plane.
@@ -108,7 +103,7 @@ class Found {
   bool next(std::span<double> row) {
     const std::size_t point = next_point_++;
     if (const std::int32_t node = at_node_[point]; node >= 0) {
-      const auto values = nodes_.rows.of(NodeId{node});
+      const auto values = nodes_.field.row(NodeId{node});
       std::copy(values.begin(), values.end(), row.begin());
       return true;
     }
@@ -117,7 +112,8 @@ class Found {
     const CellTriangle& triangle = piece_.triangles[static_cast<std::size_t>(found)];
     const auto& [a, b, c] = triangle.nodes;
     interpolate_in_triangle(piece_.corners(triangle),
-                            {piece_.rows.of(a), piece_.rows.of(b), piece_.rows.of(c)}, points_[point], row);
+                            {piece_.field.row(a), piece_.field.row(b), piece_.field.row(c)}, points_[point],
+                            row);
     return true;
   }
 
@@ -145,7 +141,7 @@ Answers ask(const Communicator& comm, const OldMesh& old, const Mesh& mesh) {
   for (const auto& of_rank : questions) counts.push_back(of_rank.size());
   const std::vector<Point> points = joined(std::move(questions));
   Found found(comm, old, points);
-  std::vector<double> row(static_cast<std::size_t>(old.rows.width));
+  std::vector<double> row(old.field.width());
   for (std::size_t rank = 0; rank < ranks; ++rank) {
     answers.inside[rank].reserve(counts[rank]);
     answers.rows[rank].reserve(counts[rank] * row.size());
@@ -161,7 +157,7 @@ Answers ask(const Communicator& comm, const OldMesh& old, const Mesh& mesh) {
 }
 
 /// The nodes that lie in no triangle.
-std::vector<std::int32_t> take(const Answers& answers, NewRows& rows) {
+std::vector<std::int32_t> take(const Answers& answers, Field& field) {
   std::vector<std::int32_t> outside;
   for (std::size_t rank = 0; rank < answers.asked.size(); ++rank) {
     const double* row = answers.rows[rank].data();
@@ -170,16 +166,15 @@ std::vector<std::int32_t> take(const Answers& answers, NewRows& rows) {
         outside.push_back(answers.asked[rank][i]);
         continue;
       }
-      rows.put(answers.asked[rank][i], row);
-      row += rows.width;
+      take_row(field, answers.asked[rank][i], row);
     }
   }
   return outside;
 }
 
 /// Each rank that has an edge tells the values there.
-void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const NodeRows& old_rows,
-                        const Mesh& new_mesh, const std::vector<std::int32_t>& outside, NewRows& rows) {
+void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
+                        const Mesh& new_mesh, const std::vector<std::int32_t>& outside, Field& field) {
   const NearestBoundary boundary(comm, old_mesh);
   const auto ranks = static_cast<std::size_t>(comm.size());
   ForRanks<std::int32_t> asked(ranks);
@@ -191,19 +186,19 @@ void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const No
   }
   questions = exchange_pieces(comm, std::move(questions));
   const auto edges = boundary_edges_of(old_mesh);
-  std::vector<double> row(rows.width);
+  std::vector<double> row(field.width());
   ForRanks<double> answers(ranks);
   for (std::size_t rank = 0; rank < ranks; ++rank) {
     for (const BoundaryPlace& place : questions[rank]) {
       const auto& [from, to] = edges[static_cast<std::size_t>(place.edge)];
-      interpolate_on_segment(old_rows.of(from), old_rows.of(to), place.parameter, row);
+      interpolate_on_segment(old_field.row(from), old_field.row(to), place.parameter, row);
       answers[rank].insert(answers[rank].end(), row.begin(), row.end());
     }
   }
   answers = exchange_pieces(comm, std::move(answers));
   for (std::size_t rank = 0; rank < ranks; ++rank) {
-    for (std::size_t i = 0; i < asked[rank].size(); ++i)
-      rows.put(asked[rank][i], answers[rank].data() + i * rows.width);
+    const double* from = answers[rank].data();
+    for (const std::int32_t node : asked[rank]) take_row(field, node, from);
   }
 }
 
@@ -212,11 +207,10 @@ struct OldIntegrals {
   std::vector<double> of_values, of_sizes;
 };
 
-void report_drift(const Communicator& comm, const Mesh& new_mesh, const std::vector<double>& values,
+void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& field,
                   const OldIntegrals& before, TransferReport& report) {
   const auto triangles = cell_triangles(comm, new_mesh, centre_of_nodes(comm, new_mesh));
-  const NodeRows rows = rows_with_copies(comm, new_mesh, values, static_cast<int>(before.of_values.size()));
-  const std::vector<double> after = integrate(comm, new_mesh, triangles, rows);
+  const std::vector<double> after = integrate(comm, new_mesh, triangles, with_copies(comm, new_mesh, field));
   for (std::size_t k = 0; k < after.size(); ++k) {
     report.drift.push_back(after[k] - before.of_values[k]);
     report.relative_drift.push_back(before.of_sizes[k] > 0 ? report.drift[k] / before.of_sizes[k] : 0);
@@ -225,25 +219,24 @@ void report_drift(const Communicator& comm, const Mesh& new_mesh, const std::vec
 
 }  // namespace
 
-Transferred transfer(const Communicator& comm, const Mesh& old_mesh, std::span<const double> old_values,
-                     int width, const Mesh& new_mesh) {
-  const NodeRows old_rows = rows_with_copies(comm, old_mesh, old_values, width);
+Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
+                     const Mesh& new_mesh) {
+  const Field old = with_copies(comm, old_mesh, old_field);
   const auto triangles = cell_triangles(comm, old_mesh, centre_of_nodes(comm, old_mesh));
   const auto owned = [](const Mesh& mesh) {
     return std::span(mesh.points).first(static_cast<std::size_t>(mesh.owned_nodes));
   };
   const CurveShares shares(comm, owned(old_mesh), owned(new_mesh));
-  NewRows rows{static_cast<std::size_t>(width),
-               std::vector<double>(owned(new_mesh).size() * static_cast<std::size_t>(width))};
-  const std::vector<std::int32_t> outside =
-      take(ask(comm, {old_mesh, old_rows, triangles, shares}, new_mesh), rows);
   Transferred transferred;
+  Field& field = transferred.field;
+  field = {old.names, std::vector<double>(owned(new_mesh).size() * old.width()), old.constants};
+  const std::vector<std::int32_t> outside =
+      take(ask(comm, {old_mesh, old, triangles, shares}, new_mesh), field);
   transferred.report.outside = comm.sum(static_cast<std::int64_t>(outside.size()));
-  if (transferred.report.outside > 0) take_from_boundary(comm, old_mesh, old_rows, new_mesh, outside, rows);
-  transferred.values = std::move(rows.values);
-  OldIntegrals before{integrate(comm, old_mesh, triangles, old_rows), {}};
-  before.of_sizes = integrate_sizes(comm, old_mesh, triangles, old_rows, before.of_values);
-  report_drift(comm, new_mesh, transferred.values, before, transferred.report);
+  if (transferred.report.outside > 0) take_from_boundary(comm, old_mesh, old, new_mesh, outside, field);
+  OldIntegrals before{integrate(comm, old_mesh, triangles, old), {}};
+  before.of_sizes = integrate_sizes(comm, old_mesh, triangles, old, before.of_values);
+  report_drift(comm, new_mesh, field, before, transferred.report);
   return transferred;
 }
 

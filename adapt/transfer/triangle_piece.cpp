@@ -43,7 +43,7 @@ void append(TrianglePiece& piece, const std::vector<Point>& points, const std::v
             const std::vector<CellTriangle>& triangles) {
   const auto before = static_cast<std::int32_t>(piece.points.size());
   piece.points.insert(piece.points.end(), points.begin(), points.end());
-  piece.rows.values.insert(piece.rows.values.end(), values.begin(), values.end());
+  piece.field.values.insert(piece.field.values.end(), values.begin(), values.end());
   for (CellTriangle triangle : triangles) {
     for (NodeId& node : triangle.nodes) node = NodeId{before + node.value()};
     piece.triangles.push_back(triangle);
@@ -53,7 +53,7 @@ void append(TrianglePiece& piece, const std::vector<Point>& points, const std::v
 }  // namespace
 
 TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, const Mesh& mesh,
-                           const NodeRows& rows, std::span<const CellTriangle> triangles) {
+                           const Field& field, std::span<const CellTriangle> triangles) {
   ForRanks<CellTriangle> triangles_out = triangles_by_rank(comm, shares, mesh, triangles);
   ForRanks<Point> points_out(triangles_out.size());
   ForRanks<double> values_out(triangles_out.size());
@@ -61,7 +61,7 @@ TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, 
   for (std::size_t rank = 0; rank < triangles_out.size(); ++rank) {
     for (const NodeId node : renumber(triangles_out[rank], place_of)) {
       points_out[rank].push_back(mesh.point(node));
-      const auto row = rows.of(node);
+      const auto row = field.row(node);
       values_out[rank].insert(values_out[rank].end(), row.begin(), row.end());
     }
   }
@@ -69,7 +69,7 @@ TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, 
   const auto all_points = exchange_pieces(comm, std::move(points_out));
   const auto all_values = exchange_pieces(comm, std::move(values_out));
   TrianglePiece piece;
-  piece.rows.width = rows.width;
+  piece.field.names = field.names;
   for (std::size_t rank = 0; rank < all_triangles.size(); ++rank)
     append(piece, all_points[rank], all_values[rank], all_triangles[rank]);
   return piece;

@@ -297,7 +297,7 @@ class ZoneReader {
     int fields = 0;
     file_.check(cg_nfields(file_.id(), base_, zone_, solution, &fields));
     if (!loaded_.solution) loaded_.solution.emplace();
-    Solution& result = *loaded_.solution;
+    Field& result = *loaded_.solution;
     const auto width = static_cast<std::size_t>(fields);
     if (first_node_ > 0 && result.names.size() != width)
       refuse("its solution has other variables than the first zone's");

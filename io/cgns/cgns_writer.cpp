@@ -210,7 +210,7 @@ class CgnsWriter {
     write_section("QUAD_4", QUAD_4, std::span(mesh_.quads), counts_.quads);
   }
 
-  void write_solution(const Solution& solution) {
+  void write_solution(const Field& solution) {
     const std::size_t width = solution.names.size();
     if (width == 0) return;
     const std::vector<std::string> names = cgns_variable_names(solution.names);
@@ -308,15 +308,14 @@ class CgnsWriter {
 
 }  // namespace
 
-void write_cgns(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
+void write_cgns(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution) {
   CgnsWriter writer(outputs, mesh, path);
   writer.write_mesh();
   if (solution != nullptr) writer.write_solution(*solution);
   writer.write_boundaries();
 }
 
-void write_cgns(const Communicator& comm, const Mesh& mesh, const std::string& path,
-                const Solution* solution) {
+void write_cgns(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field* solution) {
   OutputSet outputs(comm);
   write_cgns(outputs, mesh, path, solution);
   outputs.commit();

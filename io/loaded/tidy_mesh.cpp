@@ -23,7 +23,7 @@ void for_each_named_node(Mesh& mesh, const Visit& visit) {
   }
 }
 
-void move_row(Solution& solution, std::size_t from, std::size_t to) {
+void move_row(Field& solution, std::size_t from, std::size_t to) {
   const std::size_t width = solution.names.size();
   if (from != to)
     std::copy_n(solution.values.begin() + static_cast<std::ptrdiff_t>(from * width), width,

@@ -103,7 +103,7 @@ class NativeReader {
   }
 
   void read_solution() {
-    Solution solution;
+    Field solution;
     solution.constants.resize(scan_.count("constants", 1));
     for (double& value : solution.constants) value = scan_.real("a constant");
     if (scan_.at_end()) {

@@ -31,7 +31,7 @@ class NativeWriter {
     write_boundaries();
   }
 
-  void write_solution(const Solution& solution) {
+  void write_solution(const Field& solution) {
     std::string head = "#Number of constants\n" + std::to_string(solution.constants.size()) + "\n";
     TextRows constants(static_cast<std::int64_t>(solution.constants.size()), 1);
     for (const double value : solution.constants) constants.put(value, '\n');
@@ -99,7 +99,7 @@ class NativeWriter {
 
 }  // namespace
 
-void write_native(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
+void write_native(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution) {
   NativeWriter writer(outputs, mesh, path);
   writer.write_mesh();
   if (solution != nullptr) writer.write_solution(*solution);
@@ -114,7 +114,7 @@ void write_native(OutputSet& outputs, const LoadedMesh& whole, const std::string
 }
 
 void write_native(const Communicator& comm, const Mesh& mesh, const std::string& path,
-                  const Solution* solution) {
+                  const Field* solution) {
   OutputSet outputs(comm);
   write_native(outputs, mesh, path, solution);
   outputs.commit();

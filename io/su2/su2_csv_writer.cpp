@@ -80,7 +80,7 @@ std::array<double, 4> conserved(const double* row, const Columns& at, double gam
 
 }  // namespace
 
-void write_su2_csv(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution& solution,
+void write_su2_csv(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                    double gamma) {
   const CsvTable table(solution.names);
   std::string header = R"("PointID","x","y")";

@@ -170,7 +170,7 @@ class VtuReader {
       if (array.section == "PointData" && array.type != "String") add_columns(array, names, columns);
     }
     if (names.empty()) return;
-    Solution solution{{}, names, {}};
+    Field solution{names, {}, {}};
     solution.values.resize(names.size() * loaded.mesh.points.size());
     for (std::size_t k = 0; k < names.size(); ++k) {
       for (std::size_t i = 0; i < columns[k].size(); ++i)

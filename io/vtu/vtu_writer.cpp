@@ -48,7 +48,7 @@ class VtuWriter {
   VtuWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
       : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path}, boundaries_{comm_, mesh} {}
 
-  void write(const LoadedMesh* blocks, const Solution* solution) {
+  void write(const LoadedMesh* blocks, const Field* solution) {
     write_head(blocks);
     write_points();
     write_cells();
@@ -136,7 +136,7 @@ class VtuWriter {
     file_.write_rows(rows, 1, [&](TextRows& text, std::size_t) { text.put(number, '\n'); });
   }
 
-  void write_solution(const Solution* solution) {
+  void write_solution(const Field* solution) {
     if (solution == nullptr || solution->names.empty()) return;
     const std::size_t width = solution->names.size();
     file_.write("<PointData>\n");
@@ -181,7 +181,7 @@ class VtuWriter {
 
 }  // namespace
 
-void write_vtu(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
+void write_vtu(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution) {
   VtuWriter(outputs, mesh, path).write(nullptr, solution);
 }
 
@@ -190,8 +190,7 @@ void write_vtu(OutputSet& outputs, const LoadedMesh& whole, const std::string& p
       .write(whole.blocks > 1 ? &whole : nullptr, whole.solution ? &*whole.solution : nullptr);
 }
 
-void write_vtu(const Communicator& comm, const Mesh& mesh, const std::string& path,
-               const Solution* solution) {
+void write_vtu(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field* solution) {
   OutputSet outputs(comm);
   write_vtu(outputs, mesh, path, solution);
   outputs.commit();

@@ -37,11 +37,16 @@ std::vector<std::uint64_t> curve_places(const Mesh& mesh) {
   return places;
 }
 
+std::vector<std::int32_t> numbers_to(std::size_t count) {
+  std::vector<std::int32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
 /// Numbers in the order of their keys, equal ones as they are.
 template <class Key>
 std::vector<std::int32_t> ordered_by(const std::vector<Key>& keys) {
-  std::vector<std::int32_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<std::int32_t> order = numbers_to(keys.size());
   std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
     return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
   });
@@ -93,26 +98,30 @@ std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whol
   return scatter_evenly(comm, std::span<const GlobalEdge>(edges));
 }
 
+/// The root's words on every rank. *Collective.*
+std::vector<std::string> broadcast_words(const Communicator& comm, const std::vector<std::string>& words) {
+  std::vector<char> text;
+  for (const std::string& word : words) text.insert(text.end(), word.c_str(), word.c_str() + word.size() + 1);
+  comm.broadcast(text);
+  std::vector<std::string> shared;
+  for (auto at = text.begin(); at != text.end();) {
+    const auto end = std::find(at, text.end(), '\0');
+    shared.emplace_back(at, end);
+    at = end + 1;
+  }
+  return shared;
+}
+
 /// The root's boundaries on every rank, without their edges.
 std::vector<BoundaryEdges> broadcast_boundaries(const Communicator& comm, const Mesh& whole) {
-  std::vector<char> text;
-  for (std::size_t b = 0; comm.is_root() && b < whole.boundaries.size(); ++b) {
-    for (const std::string* word : {&whole.boundaries[b].name, &whole.boundaries[b].condition}) {
-      text.insert(text.end(), word->begin(), word->end());
-      text.push_back('\0');
-    }
+  std::vector<std::string> words;
+  for (const BoundaryEdges& boundary : whole.boundaries) {
+    words.push_back(boundary.name);
+    words.push_back(boundary.condition);
   }
-  comm.broadcast(text);
+  words = broadcast_words(comm, words);
   std::vector<BoundaryEdges> boundaries;
-  for (auto at = text.begin(); at != text.end();) {
-    std::array<std::string, 2> words;
-    for (std::string& word : words) {
-      const auto end = std::find(at, text.end(), '\0');
-      word.assign(at, end);
-      at = end + 1;
-    }
-    boundaries.push_back({words[0], words[1], {}});
-  }
+  for (std::size_t i = 0; i < words.size(); i += 2) boundaries.push_back({words[i], words[i + 1], {}});
   return boundaries;
 }
 
@@ -200,6 +209,11 @@ MeshOrder space_filling_order(const Mesh& whole) {
   return order;
 }
 
+MeshOrder own_order(const Mesh& whole) {
+  return {numbers_to(whole.points.size()), numbers_to(whole.triangles.size()),
+          numbers_to(whole.quads.size())};
+}
+
 Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& order) {
   const std::vector<std::int32_t> numbers = inverse_of(order.nodes);
   PartBuilder builder(comm, scatter_nodes(comm, whole.points, order));
@@ -208,6 +222,36 @@ Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& 
   builder.part().boundaries = broadcast_boundaries(comm, whole);
   builder.add_edges(scatter_edges(comm, whole, numbers));
   return builder.finish(comm);
+}
+
+Field scatter_field(const Communicator& comm, const Field& of_whole, const Mesh& part,
+                    const MeshOrder& order) {
+  Field field{broadcast_words(comm, of_whole.names), {}, of_whole.constants};
+  comm.broadcast(field.constants);
+  const std::vector<std::int32_t> owned = comm.all_gather(part.owned_nodes);
+  std::vector<std::vector<double>> out(owned.size());
+  auto node = order.nodes.begin();
+  for (std::size_t rank = 0; comm.is_root() && rank < out.size(); ++rank) {
+    out[rank].reserve(static_cast<std::size_t>(owned[rank]) * field.width());
+    for (std::int32_t i = 0; i < owned[rank]; ++i) {
+      const auto row = of_whole.row(NodeId{*node++});
+      out[rank].insert(out[rank].end(), row.begin(), row.end());
+    }
+  }
+  field.values = std::move(comm.exchange(out)[0]);
+  return field;
+}
+
+Field gather_field(const Communicator& comm, const Field& field, const MeshOrder& order) {
+  Field whole{field.names, gather_values(comm, field.values), field.constants};
+  const std::vector<double> by_rank = whole.values;
+  auto from = by_rank.begin();
+  for (std::size_t i = 0; i < order.nodes.size() && comm.is_root(); ++i) {
+    const auto row = whole.row(NodeId{order.nodes[i]});
+    std::copy_n(from, row.size(), row.begin());
+    from += static_cast<std::ptrdiff_t>(row.size());
+  }
+  return whole;
 }
 
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
+#include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
@@ -18,6 +19,9 @@ struct MeshOrder {
 /// Nodes along a space-filling curve over the mesh's box, cells by their first node along it. A function of
 /// the mesh alone, linear but for sorting.
 MeshOrder space_filling_order(const Mesh& whole);
+
+/// Nodes and cells as the mesh numbers them.
+MeshOrder own_order(const Mesh& whole);
 
 /// Spreads a mesh that the root rank holds whole over all ranks, in the order given: an even share of nodes,
 /// triangles, quads and boundary edges for each. `whole` and `order` count on the root alone. *Collective.*
@@ -33,6 +37,15 @@ std::vector<T> scatter_nodes(const Communicator& comm, const std::vector<T>& of_
 template <class T>
 std::vector<T> scatter_triangles(const Communicator& comm, const std::vector<T>& of_whole,
                                  const MeshOrder& order);
+
+/// The root's field on a whole mesh, spread over the ranks as scatter_mesh() spread the mesh, into `part`, in
+/// the same order. `of_whole` and `order` count on the root alone. *Collective.*
+Field scatter_field(const Communicator& comm, const Field& of_whole, const Mesh& part,
+                    const MeshOrder& order);
+
+/// The way back: on the root the field on the whole mesh, elsewhere one without values. Rows of copies must
+/// not stand in `field`. *Collective.*
+Field gather_field(const Communicator& comm, const Field& field, const MeshOrder& order);
 
 /// Puts the parts' positions and cells back into their places in the whole mesh on the root. *Collective.*
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole);

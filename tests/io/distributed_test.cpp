@@ -40,7 +40,7 @@ void expect_same_mesh(const LoadedMesh& loaded, const Mesh& mesh) {
   EXPECT_TRUE(validate(loaded.mesh).empty());
 }
 
-void expect_same_solution(const LoadedMesh& loaded, const Solution& solution) {
+void expect_same_solution(const LoadedMesh& loaded, const Field& solution) {
   ASSERT_TRUE(loaded.solution);
   EXPECT_EQ(loaded.solution->values, solution.values);
 }
@@ -48,9 +48,9 @@ void expect_same_solution(const LoadedMesh& loaded, const Solution& solution) {
 /// The whole sample, and this rank's part of it.
 struct Sample {
   Mesh mesh = test::sample_mesh(columns);
-  Solution solution = test::sample_solution(mesh);
+  Field solution = test::sample_solution(mesh);
   Mesh own = test::share_of(mesh, world().rank(), world().size());
-  Solution own_solution = test::share_of(solution, mesh, own);
+  Field own_solution = test::share_of(solution, mesh, own);
   Communicator alone{MPI_COMM_SELF};
 };
 

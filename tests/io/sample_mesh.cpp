@@ -78,8 +78,8 @@ Mesh sample_mesh(std::int32_t columns) {
   return mesh;
 }
 
-Solution sample_solution(const Mesh& mesh) {
-  Solution solution{{12, 0.1, -3e-300}, {"density", "pressure"}, {}};
+Field sample_solution(const Mesh& mesh) {
+  Field solution{{"density", "pressure"}, {}, {12, 0.1, -3e-300}};
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
     solution.values.push_back(1 + i / 3.0);
     solution.values.push_back(-1e17 / (i + 7));
@@ -104,8 +104,8 @@ Mesh share_of(const Mesh& whole, int rank, int ranks) {
   return part;
 }
 
-Solution share_of(const Solution& whole, const Mesh& mesh, const Mesh& share) {
-  Solution part{whole.constants, whole.names, {}};
+Field share_of(const Field& whole, const Mesh& mesh, const Mesh& share) {
+  Field part{whole.names, {}, whole.constants};
   const std::size_t width = whole.values.size() / mesh.points.size();
   const auto begin =
       whole.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(share.first_node) * width);

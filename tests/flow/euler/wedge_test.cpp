@@ -27,7 +27,7 @@ struct WedgeFlow {
     result = solve_euler(self, mesh, options);
   }
   double pressure_ratio(std::int32_t i, std::int32_t j) const {
-    return 1.4 * result.states[static_cast<std::size_t>(4 * (j * (n + 1) + i) + 3)];
+    return 1.4 * result.flow.values[static_cast<std::size_t>(4 * (j * (n + 1) + i) + 3)];
   }
 
   /// Where the pressure of a column falls through the middle of the jump.
