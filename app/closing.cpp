@@ -19,7 +19,9 @@ using Clock = std::chrono::steady_clock;
 constexpr int failure_note = 7;                             // the tag of "I have failed"
 constexpr auto patience = std::chrono::milliseconds(2000);  // how far apart ranks may come to the same error
 
-bool print(const std::string& record) { return std::fputs(record.c_str(), stdout) >= 0 && std::fflush(stdout) == 0; }
+bool print(const std::string& record) {
+  return std::fputs(record.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
+}
 
 void say(const Outcome& outcome) {
   print(outcome.record);
@@ -41,7 +43,8 @@ bool completes_within(MPI_Request& request, std::chrono::milliseconds time) {
   }
 }
 
-/// Tells all other ranks that this one failed. The notes are small enough to be on their way without anybody's help.
+/// Tells all other ranks that this one failed. The notes are small enough to be on their way without
+/// anybody's help.
 void send_notes(MPI_Comm comm, int rank, int ranks, std::vector<MPI_Request>& notes) {
   static const char note = 1;
   for (int r = 0; r < ranks; ++r) {
@@ -52,7 +55,8 @@ void send_notes(MPI_Comm comm, int rank, int ranks, std::vector<MPI_Request>& no
 void receive_notes(MPI_Comm comm, int rank, const std::vector<int>& statuses) {
   char note = 0;
   for (int r = 0; r < static_cast<int>(statuses.size()); ++r) {
-    if (r != rank && statuses[static_cast<std::size_t>(r)] != 0) MPI_Recv(&note, 1, MPI_CHAR, r, failure_note, comm, MPI_STATUS_IGNORE);
+    if (r != rank && statuses[static_cast<std::size_t>(r)] != 0)
+      MPI_Recv(&note, 1, MPI_CHAR, r, failure_note, comm, MPI_STATUS_IGNORE);
   }
 }
 

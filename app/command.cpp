@@ -24,7 +24,8 @@ void CommandContext::warn(const std::vector<std::string>& warnings) const {
   if (quiet && json) return;
   const std::size_t shown = verbose ? warnings.size() : std::min(most_shown, warnings.size());
   for (std::size_t i = 0; i < shown; ++i) log::warning(warnings[i]);
-  if (shown < warnings.size()) log::warning(std::to_string(warnings.size() - shown) + " more warnings; --verbose shows them");
+  if (shown < warnings.size())
+    log::warning(std::to_string(warnings.size() - shown) + " more warnings; --verbose shows them");
 }
 
 }  // namespace quadloop

@@ -14,25 +14,28 @@ class App;
 
 namespace quadloop {
 
-/// What `--json` prints of a command: one object on one line. A failure has it too, with what was known by then.
+/// What `--json` prints of a command: one object on one line. A failure has it too, with what was known by
+/// then.
 struct CommandRecord {
   std::string command;
   JsonObject figures;                        ///< what the table says, on the root rank
   std::vector<std::string> warnings, files;  ///< all warnings; the files that were written
 };
 
-/// The record of a command that ended so: {"command", "status", "error", figures ..., "warnings", "files"}; "error" is null where there is none.
+/// The record of a command that ended so: {"command", "status", "error", figures ..., "warnings", "files"};
+/// "error" is null where there is none.
 std::string record_text(const CommandRecord& record, const Outcome& outcome);
 
 /// What every command is given, and where it leaves its work.
 ///
 ///     add_x_command(app, context)      adds the subcommand `x` with its options
 ///     app.parse(...)                   the subcommand's callback only sets `context.run`
-///     context.run()                    does the work, *collectively*, and throws an Error of mesher/base/error.hpp
+///     context.run()                    does the work, *collectively*, and throws an Error of
+///     mesher/base/error.hpp
 ///
-/// Options live in a shared_ptr that the callback captures. `quiet` and `verbose` are known when `run` is called, not before.
-/// Results for the user go to stdout from the rank and in the manner that `shows_table` says, and into `record` always; logs go through
-/// mesher/base/log.hpp, warnings through `warn`.
+/// Options live in a shared_ptr that the callback captures. `quiet` and `verbose` are known when `run` is
+/// called, not before. Results for the user go to stdout from the rank and in the manner that `shows_table`
+/// says, and into `record` always; logs go through mesher/base/log.hpp, warnings through `warn`.
 struct CommandContext {
   const Communicator& comm;
   bool quiet = false;
@@ -43,7 +46,8 @@ struct CommandContext {
 
   /// Whether this rank prints the table for people.
   bool shows_table() const { return comm.is_root() && !quiet && !json; }
-  /// From the root rank: the first few, unless `verbose`; all of them into the record, which with `quiet` is the only place.
+  /// From the root rank: the first few, unless `verbose`; all of them into the record, which with `quiet` is
+  /// the only place.
   void warn(const std::vector<std::string>& warnings) const;
 };
 

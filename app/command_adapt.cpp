@@ -10,13 +10,13 @@
 #include <set>
 #include <variant>
 
-#include "adapt/loop.hpp"
-#include "app/case_input.hpp"
+#include "adapt/loop/loop.hpp"
 #include "app/command.hpp"
-#include "app/solver_settings.hpp"
 #include "io/input/case_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
+#include "quadloop/case/case_input.hpp"
+#include "quadloop/case/solver_settings.hpp"
 
 namespace quadloop {
 
@@ -33,38 +33,56 @@ struct AdaptArguments {
 /// What would stop the loop after the first mesh, found out before it.
 void require_solver_files(const AdaptArguments& arguments, const CommandSolver& solver) {
   const CaseTable table = *read_case(arguments.case_path, arguments.assignments).table("solver");
-  const std::string ending = std::filesystem::path(solver.mesh).extension(), of_solution = std::filesystem::path(solver.solution).extension();
+  const std::string ending = std::filesystem::path(solver.mesh).extension(),
+                    of_solution = std::filesystem::path(solver.solution).extension();
   const auto is_one_of = [](const std::string& text, std::initializer_list<const char*> all) {
     return std::find(all.begin(), all.end(), text) != all.end();
   };
   if (!is_one_of(ending, {".mesh", ".cgns", ".vtu", ".su2", ".msh"}))
-    table.refuse("mesh", "is '" + solver.mesh + "', but meshes are written as .mesh, .cgns, .vtu, .su2 or .msh; end the name in one of these");
+    table.refuse(
+        "mesh",
+        "is '" + solver.mesh +
+            "', but meshes are written as .mesh, .cgns, .vtu, .su2 or .msh; end the name in one of these");
   if (!is_one_of(of_solution, {".mesh", ".cgns", ".vtu", ".csv"}))
-    table.refuse("solution", "is '" + solver.solution + "', but solutions are read from .mesh, .cgns, .vtu and .csv; end the name in one of these");
+    table.refuse(
+        "solution",
+        "is '" + solver.solution +
+            "', but solutions are read from .mesh, .cgns, .vtu and .csv; end the name in one of these");
   if (solver.solution == solver.mesh || std::filesystem::path(solver.solution).stem() == "mesh")
-    table.refuse("solution", "is '" + solver.solution + "', the name of a mesh that is given to the solver; write the solution to a file of its own");
+    table.refuse(
+        "solution",
+        "is '" + solver.solution +
+            "', the name of a mesh that is given to the solver; write the solution to a file of its own");
   if (solver.solution == solver.state())
-    table.refuse("solution", "is '" + solver.solution + "', where the starting state stands that belongs to " + solver.mesh +
+    table.refuse("solution", "is '" + solver.solution +
+                                 "', where the starting state stands that belongs to " + solver.mesh +
                                  "; write the solution to a file of its own");
 }
 
 AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, std::string& note) {
   CaseInput input = load_case({arguments.case_path, arguments.assignments, {}, {}});
-  if (!input.settings.adapt) throw InputError(arguments.case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
+  if (!input.settings.adapt)
+    throw InputError(arguments.case_path +
+                     ": has no table [adapt]; it says from what the mesh is to be adapted");
   warnings = std::move(input.warnings);
   const Settings& settings = input.settings;
   require_known_variables(settings.solver, settings.adapt->variables, arguments.case_path);
   const EulerOptions& flow = settings.solver.euler;
-  if (!settings.solver.given) note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach, flow.alpha);
-  FlowSolver solver = flow_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
+  if (!settings.solver.given)
+    note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach,
+                       flow.alpha);
+  FlowSolver solver =
+      flow_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const auto* command = std::get_if<CommandSolver>(&solver)) require_solver_files(arguments, *command);
-  AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.formats, settings.values};
+  AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.formats,
+                        settings.values};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }
 
 std::string line_of(const CycleRecord& record) {
-  std::string line = fmt::format("cycle {:>2}  {:>8} nodes  smallest angle {:>4.1f}", record.cycle, record.nodes, record.worst_angle);
+  std::string line = fmt::format("cycle {:>2}  {:>8} nodes  smallest angle {:>4.1f}", record.cycle,
+                                 record.nodes, record.worst_angle);
   if (record.cl) line += fmt::format("  cl {:.5f}  cd {:.5f}", *record.cl, *record.cd);
   if (record.residual) line += fmt::format("  residual {:.1e}", *record.residual);
   double seconds = 0;
@@ -73,21 +91,25 @@ std::string line_of(const CycleRecord& record) {
 }
 
 /// A cycle's figures and files join those of the run.
-void keep(const CycleRecord& record, const std::string& folder, std::vector<JsonObject>& cycles, CommandRecord& of_run) {
+void keep(const CycleRecord& record, const std::string& folder, std::vector<JsonObject>& cycles,
+          CommandRecord& of_run) {
   cycles.push_back(figures_of(record));
   cycles.back().add("seconds", seconds_of(record));
   of_run.figures = {};
   of_run.figures.add("folder", folder);
   of_run.figures.add("cycles", cycles);
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(fmt::format("{}/cycle_{:02}", folder, record.cycle))) files.push_back(entry.path());
+  for (const auto& entry :
+       std::filesystem::directory_iterator(fmt::format("{}/cycle_{:02}", folder, record.cycle)))
+    files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   of_run.files.insert(of_run.files.end(), files.begin(), files.end());
 }
 
 std::string closing_line(const std::string& folder, const RunEnd& end) {
   const auto& [first, last, nothing_to_change] = end;
-  if (first > last) return fmt::format("  all cycles are there already: {}/cycle_00 to cycle_{:02}\n", folder, last);
+  if (first > last)
+    return fmt::format("  all cycles are there already: {}/cycle_00 to cycle_{:02}\n", folder, last);
   if (first == last) return fmt::format("  wrote {}/cycle_{:02}\n", folder, last);
   return fmt::format("  wrote {}/cycle_{:02} to cycle_{:02}\n", folder, first, last);
 }
@@ -121,7 +143,9 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const RunEnd end = run_adaptation(comm, *adaptive, folder, arguments.resume, report);
   if (comm.is_root()) context.record.figures.add("nothing_to_change", end.nothing_to_change);
   if (!context.shows_table()) return;
-  if (end.nothing_to_change) std::cout << fmt::format("  cycle {} marks no leaf: there is nothing left to change, and no further cycle\n", end.last);
+  if (end.nothing_to_change)
+    std::cout << fmt::format(
+        "  cycle {} marks no leaf: there is nothing left to change, and no further cycle\n", end.last);
   std::cout << closing_line(folder, end);
 }
 
@@ -130,15 +154,23 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
 void add_adapt_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<AdaptArguments>();
   CLI::App* command = app.add_subcommand("adapt", "mesh, solve and adapt in turn, as a case file says");
-  command->add_option("case", arguments->case_path, "the case file (TOML)")->required()->type_name("CASE.toml");
-  command->add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")->type_name("DIR");
-  command->add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")->type_name("N")->check(CLI::Range(0, 10000));
+  command->add_option("case", arguments->case_path, "the case file (TOML)")
+      ->required()
+      ->type_name("CASE.toml");
+  command->add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")
+      ->type_name("DIR");
+  command->add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")
+      ->type_name("N")
+      ->check(CLI::Range(0, 10000));
   command->add_flag("--resume", arguments->resume, "go on after the last whole cycle in the folder");
   add_max_cells_option(*command, arguments->max_cells);
-  command->add_option("--set", arguments->assignments, "set a key of the case file, as in solver.mach=0.7; one or more")
+  command
+      ->add_option("--set", arguments->assignments,
+                   "set a key of the case file, as in solver.mach=0.7; one or more")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->callback([&context, arguments] { context.run = [&context, arguments] { run_adapt(context, *arguments); }; });
+  command->callback(
+      [&context, arguments] { context.run = [&context, arguments] { run_adapt(context, *arguments); }; });
 }
 
 }  // namespace quadloop

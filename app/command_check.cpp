@@ -6,12 +6,12 @@
 #include <memory>
 #include <span>
 
-#include "app/check_report.hpp"
 #include "app/command.hpp"
-#include "app/refusals.hpp"
+#include "app/report/check_report.hpp"
+#include "app/report/refusals.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
-#include "mesher/geometry/assemble.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 
 namespace quadloop {
 
@@ -21,7 +21,8 @@ struct CheckArguments {
   std::string input, geometry;
 };
 
-/// The outline as `mesh` would take it: joined, its loops turned. That of several blocks is no outline of one domain and stays as it is.
+/// The outline as `mesh` would take it: joined, its loops turned. That of several blocks is no outline of one
+/// domain and stays as it is.
 std::vector<Chain> load_chains(const CommandContext& context, const std::string& path, bool one_domain) {
   Warnings warnings;
   std::vector<Chain> chains = read_geometry(path, warnings);
@@ -37,7 +38,8 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   const Mesh& mesh = loaded.mesh;
   CheckReport report;
   report.blocks = loaded.blocks;
-  for (const BoundaryEdges& boundary : mesh.boundaries) report.boundaries.emplace_back(boundary.name, boundary.edges.size());
+  for (const BoundaryEdges& boundary : mesh.boundaries)
+    report.boundaries.emplace_back(boundary.name, boundary.edges.size());
   report.quality = summarise_quality(Communicator(MPI_COMM_SELF), mesh);
   report.shape = shape_statistics(mesh, chains == nullptr ? std::span<const Chain>() : std::span(*chains));
   report.figures = shape_figures(Communicator(MPI_COMM_SELF), mesh);
@@ -68,8 +70,11 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
 void add_check_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check", "say whether a mesh is valid");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")->required()->type_name("IN");
-  command->add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")->type_name("FILE.geom");
+  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")
+      ->required()
+      ->type_name("IN");
+  command->add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")
+      ->type_name("FILE.geom");
   command->callback([&context, arguments] {
     context.run = [&context, arguments] {
       context.comm.together([&] {  // the root rank alone works; what it finds is every rank's exit status

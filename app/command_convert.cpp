@@ -6,8 +6,8 @@
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/figures.hpp"
-#include "app/refusals.hpp"
+#include "app/report/figures.hpp"
+#include "app/report/refusals.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 
@@ -21,8 +21,10 @@ struct ConvertArguments {
 
 void require_format(const ConvertArguments& arguments) {
   if (!arguments.format.empty() || !mesh_format_of(arguments.output).empty()) return;
-  throw InputError(fmt::format("{}: its suffix names none of the formats that meshes are written in; end it in .{}, or give --format NAME",
-                               arguments.output, fmt::join(mesh_formats(), ", .")));
+  throw InputError(
+      fmt::format("{}: its suffix names none of the formats that meshes are written in; end it in .{}, or "
+                  "give --format NAME",
+                  arguments.output, fmt::join(mesh_formats(), ", .")));
 }
 
 Figures figures_of(const LoadedMesh& whole) {
@@ -37,7 +39,8 @@ Figures figures_of(const LoadedMesh& whole) {
   return figures;
 }
 
-/// The root rank alone holds the mesh, as the file gives it: nothing is turned, moved or left out but for want of a place. *Collective.*
+/// The root rank alone holds the mesh, as the file gives it: nothing is turned, moved or left out but for
+/// want of a place. *Collective.*
 void run_convert(const CommandContext& context, const ConvertArguments& arguments) {
   const Communicator& comm = context.comm;
   LoadedMesh whole;
@@ -49,7 +52,8 @@ void run_convert(const CommandContext& context, const ConvertArguments& argument
     whole = read_mesh(arguments.input);
     warnings = whole.warnings;
     for (std::string& warning : doubts_about(whole, arguments.input)) warnings.push_back(std::move(warning));
-    for (std::string& loss : losses_in(whole, arguments.output, arguments.format)) warnings.push_back(std::move(loss));
+    for (std::string& loss : losses_in(whole, arguments.output, arguments.format))
+      warnings.push_back(std::move(loss));
   });
   write_mesh_of_root(comm, whole, arguments.output, arguments.format);
   context.warn(warnings);
@@ -65,14 +69,21 @@ void run_convert(const CommandContext& context, const ConvertArguments& argument
 void add_convert_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* command = app.add_subcommand("convert", "write a mesh, as it is, in another format");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh), with a solution where it has one")
+  command
+      ->add_option("input", arguments->input,
+                   "the mesh (.mesh, .cgns, .vtu, .su2 or .msh), with a solution where it has one")
       ->required()
       ->type_name("IN");
-  command->add_option("output", arguments->output, "the same mesh, in the format of its suffix; IN itself is overwritten")
+  command
+      ->add_option("output", arguments->output,
+                   "the same mesh, in the format of its suffix; IN itself is overwritten")
       ->required()
       ->type_name("OUT");
-  command->add_option("--format", arguments->format, "the format to write, whatever OUT ends in")->type_name("NAME")->check(one_of(mesh_formats()));
-  command->callback([&context, arguments] { context.run = [&context, arguments] { run_convert(context, *arguments); }; });
+  command->add_option("--format", arguments->format, "the format to write, whatever OUT ends in")
+      ->type_name("NAME")
+      ->check(one_of(mesh_formats()));
+  command->callback(
+      [&context, arguments] { context.run = [&context, arguments] { run_convert(context, *arguments); }; });
 }
 
 }  // namespace quadloop

@@ -23,7 +23,8 @@ std::string without_command(CLI::App& app) {
   const std::vector<std::string> words = app.remaining();
   const bool names_one = !words.empty() && !words.front().starts_with('-');
   const std::string fault = names_one ? "'" + words.front() + "' is no command" : "a command is missing";
-  return fmt::format("{}; the commands are: {}{}", fault, fmt::join(commands, ", "), names_one ? guess_for(words.front(), commands) : "");
+  return fmt::format("{}; the commands are: {}{}", fault, fmt::join(commands, ", "),
+                     names_one ? guess_for(words.front(), commands) : "");
 }
 
 void append_options(const CLI::App& app, std::vector<std::string>& names) {
@@ -36,7 +37,9 @@ void append_options(const CLI::App& app, std::vector<std::string>& names) {
 /// What is wrong with the first word that looks like an option and is none; empty where all are known.
 std::string unknown_option(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining(true);
-  const auto unknown = std::find_if(words.begin(), words.end(), [](const std::string& word) { return word.size() > 1 && word.starts_with('-'); });
+  const auto unknown = std::find_if(words.begin(), words.end(), [](const std::string& word) {
+    return word.size() > 1 && word.starts_with('-');
+  });
   if (unknown == words.end() || *unknown == "--") return {};
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands()) append_options(*command, names);

@@ -16,12 +16,13 @@ namespace quadloop {
 /// The commands that an app knows.
 std::vector<CLI::App*> commands_of(CLI::App& app);
 
-/// The command line, last word first as CLI11 takes it, with --set before each of the assignments that follow one: an option of many values would
-/// take the case file for one of them. A word that names a file is the case file, whatever it looks like.
+/// The command line, last word first as CLI11 takes it, with --set before each of the assignments that follow
+/// one: an option of many values would take the case file for one of them. A word that names a file is the
+/// case file, whatever it looks like.
 std::vector<std::string> words_of(int argc, char** argv);
 
-/// Lets CLI11 say what it has to say (help, version) on the root rank; what is wrong becomes our own one line, a UsageError: an option or a command
-/// that is not known comes first, with the one that is nearest.
+/// Lets CLI11 say what it has to say (help, version) on the root rank; what is wrong becomes our own one
+/// line, a UsageError: an option or a command that is not known comes first, with the one that is nearest.
 void answer(CLI::App& app, const CLI::ParseError& request, const Communicator& comm);
 
 /// An option's value must be one of these words.

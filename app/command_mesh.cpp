@@ -6,20 +6,20 @@
 #include <memory>
 #include <optional>
 
-#include "adapt/restart.hpp"
-#include "app/case_input.hpp"
+#include "adapt/remesh/restart.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/summary.hpp"
+#include "app/report/summary.hpp"
+#include "io/files/output_file.hpp"
+#include "io/files/output_path.hpp"
 #include "io/input/geom_text.hpp"
 #include "io/mesh_file.hpp"
-#include "io/output_file.hpp"
-#include "io/output_path.hpp"
-#include "io/tree_file.hpp"
+#include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/mesh/islands.hpp"
+#include "mesher/build/islands.hpp"
+#include "quadloop/case/case_input.hpp"
 
 namespace quadloop {
 
@@ -40,7 +40,8 @@ struct Prepared {
 /// `-o out.mesh` would write out.mesh.mesh.
 void require_prefix(const std::string& prefix) {
   const std::string suffix = format_suffix_of(prefix);
-  if (!suffix.empty()) throw UsageError("-o " + prefix + ": give the prefix without " + suffix + ", which is added");
+  if (!suffix.empty())
+    throw UsageError("-o " + prefix + ": give the prefix without " + suffix + ", which is added");
 }
 
 Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>& saved) {
@@ -53,8 +54,10 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   Settings& settings = prepared.input.settings;
   if (!arguments.prefix.empty()) settings.output_prefix = arguments.prefix;
   if (std::erase(settings.formats, "csv") > 0)
-    prepared.input.warnings.push_back("output.formats: a .csv holds a solution alone, and a new mesh has none; it is left out");
-  for (const std::string& format : settings.formats) prepared.files.push_back(settings.output_prefix + "." + format);
+    prepared.input.warnings.push_back(
+        "output.formats: a .csv holds a solution alone, and a new mesh has none; it is left out");
+  for (const std::string& format : settings.formats)
+    prepared.files.push_back(settings.output_prefix + "." + format);
   if (!arguments.geometry_out.empty()) prepared.files.push_back(arguments.geometry_out);
   prepared.files.push_back(settings.output_prefix + ".tree.h5");
   for (const std::string& file : prepared.files) require_possible_output(file);
@@ -78,7 +81,8 @@ void write_geometry(OutputSet& outputs, const Geometry& geometry, const std::str
   });
 }
 
-void write_outputs(const Communicator& comm, const MeshResult& result, const Prepared& prepared, const std::string& geometry_out) {
+void write_outputs(const Communicator& comm, const MeshResult& result, const Prepared& prepared,
+                   const std::string& geometry_out) {
   OutputSet outputs(comm);
   const Settings& settings = prepared.input.settings;
   for (const std::string& format : settings.formats) {
@@ -93,14 +97,16 @@ void write_outputs(const Communicator& comm, const MeshResult& result, const Pre
 Warnings solver_warnings(const Settings& settings, const ShapeFigures& shape) {
   constexpr double few = 0.98;  // of the quads are parallelograms
   const auto& formats = settings.formats;
-  if (std::find(formats.begin(), formats.end(), "su2") == formats.end() || shape.parallelogram_share() > few) return {};
-  return {fmt::format(
-      "{}.su2: {:.0f} % of the quads are skew, on which node-centred solvers such as SU2 lose accuracy; mesh.quads = \"parallel\" divides them",
-      settings.output_prefix, 100 * (1 - shape.parallelogram_share()))};
+  if (std::find(formats.begin(), formats.end(), "su2") == formats.end() || shape.parallelogram_share() > few)
+    return {};
+  return {
+      fmt::format("{}.su2: {:.0f} % of the quads are skew, on which node-centred solvers such as SU2 lose "
+                  "accuracy; mesh.quads = \"parallel\" divides them",
+                  settings.output_prefix, 100 * (1 - shape.parallelogram_share()))};
 }
 
-/// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere), meshes, writes. Warnings
-/// come when all is done, so that a failure is one line.
+/// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere),
+/// meshes, writes. Warnings come when all is done, so that a failure is one line.
 void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   const Communicator& comm = context.comm;
   StageTimes times;
@@ -135,19 +141,32 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
 void add_mesh_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<MeshArguments>();
   CLI::App* command = app.add_subcommand("mesh", "mesh the domain that a case file describes");
-  command->add_option("case", arguments->case_path, "the case file (TOML)")->required()->type_name("CASE.toml");
-  command->add_option("-o,--output", arguments->prefix, "what the output files begin with, instead of output.prefix")->type_name("PREFIX");
+  command->add_option("case", arguments->case_path, "the case file (TOML)")
+      ->required()
+      ->type_name("CASE.toml");
+  command
+      ->add_option("-o,--output", arguments->prefix,
+                   "what the output files begin with, instead of output.prefix")
+      ->type_name("PREFIX");
   command->add_option("--type", arguments->type, "kind of mesh, instead of mesh.type: hybrid or delaunay")
       ->type_name("TYPE")
       ->check(one_of({"hybrid", "delaunay"}));
-  command->add_option("--tree", arguments->tree, "restart from the tree of an earlier run: what it wanted refined stays so")->type_name("TREE.h5");
-  command->add_option("--geometry-out", arguments->geometry_out, "write the geometry as it is meshed, without the islands that are dropped")
+  command
+      ->add_option("--tree", arguments->tree,
+                   "restart from the tree of an earlier run: what it wanted refined stays so")
+      ->type_name("TREE.h5");
+  command
+      ->add_option("--geometry-out", arguments->geometry_out,
+                   "write the geometry as it is meshed, without the islands that are dropped")
       ->type_name("OUT.geom");
   add_max_cells_option(*command, arguments->max_cells);
-  command->add_option("--set", arguments->assignments, "set a key of the case file, as in spacing.min=0.1; may be repeated")
+  command
+      ->add_option("--set", arguments->assignments,
+                   "set a key of the case file, as in spacing.min=0.1; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->callback([&context, arguments] { context.run = [&context, arguments] { run_mesh(context, *arguments); }; });
+  command->callback(
+      [&context, arguments] { context.run = [&context, arguments] { run_mesh(context, *arguments); }; });
 }
 
 }  // namespace quadloop

@@ -9,9 +9,9 @@
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "io/files/output_file.hpp"
 #include "io/mesh_file.hpp"
-#include "io/mesh_plot.hpp"
-#include "io/output_file.hpp"
+#include "io/plot/mesh_plot.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 
@@ -29,7 +29,8 @@ PlotFormat format_of(const std::string& path) {
   if (suffix == ".png") return PlotFormat::png;
   if (suffix == ".svg") return PlotFormat::svg;
   if (suffix == ".pdf") return PlotFormat::pdf;
-  throw InputError(path + ": a picture cannot be written in the format '" + suffix + "'; end its name in .png, .svg or .pdf");
+  throw InputError(path + ": a picture cannot be written in the format '" + suffix +
+                   "'; end its name in .png, .svg or .pdf");
 }
 
 /// X0,X1,Y0,Y1. Four numbers that span no area are left to draw_mesh.
@@ -52,7 +53,8 @@ PlotOptions options_of(const PlotArguments& arguments) {
   if (!arguments.window.empty()) options.window = window_of(arguments.window);
   options.field = arguments.field;
   options.size = arguments.size;
-  if (arguments.colouring == "rank") throw UsageError("--colour-by rank: a mesh file holds no ranks; colour by block, quality or type");
+  if (arguments.colouring == "rank")
+    throw UsageError("--colour-by rank: a mesh file holds no ranks; colour by block, quality or type");
   if (arguments.colouring == "quality") options.colouring = PlotColouring::quality;
   if (arguments.colouring == "block") options.colouring = PlotColouring::block;
   return options;
@@ -96,18 +98,29 @@ void run_plot(const CommandContext& context, const PlotArguments& arguments) {
 void add_plot_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<PlotArguments>();
   CLI::App* command = app.add_subcommand("plot", "draw a mesh, or a field on it");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")->required()->type_name("IN");
-  command->add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")->required()->type_name("OUT");
-  command->add_option("--window", arguments->window, "the part of the plane to show")->type_name("X0,X1,Y0,Y1");
-  CLI::Option* field = command->add_option("--field", arguments->field, "a variable of the solution, as colours")->type_name("NAME");
+  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")
+      ->required()
+      ->type_name("IN");
+  command->add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")
+      ->required()
+      ->type_name("OUT");
+  command->add_option("--window", arguments->window, "the part of the plane to show")
+      ->type_name("X0,X1,Y0,Y1");
+  CLI::Option* field =
+      command->add_option("--field", arguments->field, "a variable of the solution, as colours")
+          ->type_name("NAME");
   command
       ->add_option("--colour-by,--color-by", arguments->colouring,
-                   "what the cells' colours tell: block, quality or type (the default); rank is refused, as a mesh file holds no ranks")
+                   "what the cells' colours tell: block, quality or type (the default); rank is refused, as "
+                   "a mesh file holds no ranks")
       ->type_name("WHAT")
       ->check(one_of({"block", "quality", "type", "rank"}))
       ->excludes(field);
-  command->add_option("--size", arguments->size, "pixels along the longer side: 1600")->type_name("N")->check(CLI::Range(400, 20000));
-  command->callback([&context, arguments] { context.run = [&context, arguments] { run_plot(context, *arguments); }; });
+  command->add_option("--size", arguments->size, "pixels along the longer side: 1600")
+      ->type_name("N")
+      ->check(CLI::Range(400, 20000));
+  command->callback(
+      [&context, arguments] { context.run = [&context, arguments] { run_plot(context, *arguments); }; });
 }
 
 }  // namespace quadloop

@@ -6,20 +6,20 @@
 #include <memory>
 #include <optional>
 
-#include "adapt/own_mesh.hpp"
-#include "adapt/remesh.hpp"
-#include "adapt/tree_mesh.hpp"
-#include "app/case_input.hpp"
+#include "adapt/remesh/own_mesh.hpp"
+#include "adapt/remesh/remesh.hpp"
+#include "adapt/remesh/tree_mesh.hpp"
 #include "app/command.hpp"
-#include "app/summary.hpp"
+#include "app/report/summary.hpp"
+#include "io/files/output_file.hpp"
+#include "io/files/output_path.hpp"
 #include "io/mesh_file.hpp"
-#include "io/output_file.hpp"
-#include "io/output_path.hpp"
 #include "io/solution_file.hpp"
-#include "io/tree_file.hpp"
+#include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
+#include "quadloop/case/case_input.hpp"
 
 namespace quadloop {
 
@@ -46,23 +46,28 @@ std::string mesh_beside(const std::string& tree) {
   for (const std::string& file : files) {
     if (std::filesystem::exists(file, no_such_file)) return file;
   }
-  throw InputError(tree + ": its mesh is not beside it, but the solution's file has no cells; put it there as " + files.front());
+  throw InputError(tree +
+                   ": its mesh is not beside it, but the solution's file has no cells; put it there as " +
+                   files.front());
 }
 
-/// The solution's own mesh where its file has one, else the one beside the tree; of the tree's size. On the calling rank alone.
+/// The solution's own mesh where its file has one, else the one beside the tree; of the tree's size. On the
+/// calling rank alone.
 LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
   LoadedSolution solution = read_solution(arguments.solution);
   LoadedMesh whole = read_mesh(solution.has_cells ? arguments.solution : mesh_beside(arguments.tree));
   require_same_mesh(solution, whole.mesh);
   const auto count = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
-  require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0}, tree, arguments.solution, arguments.tree);
+  require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0}, tree,
+                 arguments.solution, arguments.tree);
   whole.solution = std::move(solution.solution);
   return whole;
 }
 
-/// The cases that the tree may have been made from: this one, and where --geometry names another outline the one with its own. Where that cannot be
-/// read it is no matter. On every rank.
-std::vector<MeshInput> former_inputs(const RemeshArguments& arguments, const TreeRecord& tree, const CaseInput& input) {
+/// The cases that the tree may have been made from: this one, and where --geometry names another outline the
+/// one with its own. Where that cannot be read it is no matter. On every rank.
+std::vector<MeshInput> former_inputs(const RemeshArguments& arguments, const TreeRecord& tree,
+                                     const CaseInput& input) {
   std::vector<MeshInput> inputs{*input.mesh};
   if (arguments.geometry.empty()) return inputs;
   try {
@@ -73,8 +78,10 @@ std::vector<MeshInput> former_inputs(const RemeshArguments& arguments, const Tre
   return inputs;
 }
 
-/// Compares the mesh that the solution came with to the tree's own, and settles on one of them. Returns warnings. *Collective.*
-Warnings settle(const Communicator& comm, const RemeshArguments& arguments, const TreeRecord& tree, const CaseInput& input, LoadedMesh& whole) {
+/// Compares the mesh that the solution came with to the tree's own, and settles on one of them. Returns
+/// warnings. *Collective.*
+Warnings settle(const Communicator& comm, const RemeshArguments& arguments, const TreeRecord& tree,
+                const CaseInput& input, LoadedMesh& whole) {
   const std::vector<MeshInput> inputs = former_inputs(arguments, tree, input);
   const TreeMesh own = mesh_of_tree(comm, tree, whole.mesh, files_beside(arguments.tree), inputs);
   comm.together([&] {
@@ -82,12 +89,14 @@ Warnings settle(const Communicator& comm, const RemeshArguments& arguments, cons
   });
   if (own.known) return {};
   return {
-      fmt::format("{}: its nodes cannot be compared with those of the tree's own mesh, as case or outline have changed since; keep that mesh "
+      fmt::format("{}: its nodes cannot be compared with those of the tree's own mesh, as case or outline "
+                  "have changed since; keep that mesh "
                   "beside the tree, as {}",
                   arguments.solution, files_beside(arguments.tree).front())};
 }
 
-void write(const Communicator& comm, const CarriedMesh& carried, const std::vector<std::string>& files, double gamma) {
+void write(const Communicator& comm, const CarriedMesh& carried, const std::vector<std::string>& files,
+           double gamma) {
   OutputSet outputs(comm);
   const MeshResult& result = carried.generated.result;
   for (const std::string& file : files) {
@@ -101,7 +110,8 @@ void write(const Communicator& comm, const CarriedMesh& carried, const std::vect
 
 Figures transfer_figures(const CarriedMesh& carried) {
   Figures figures;
-  figures.add_raw("nodes outside the old mesh", std::to_string(carried.outside), json_of(carried.outside), "outside");
+  figures.add_raw("nodes outside the old mesh", std::to_string(carried.outside), json_of(carried.outside),
+                  "outside");
   for (const auto& [name, drift] : carried.drift) figures.add("drift of " + name, drift, "{:.3e}");
   return figures;
 }
@@ -109,7 +119,9 @@ Figures transfer_figures(const CarriedMesh& carried) {
 void run_remesh(const CommandContext& context, const RemeshArguments& arguments) {
   const Communicator& comm = context.comm;
   if (arguments.tree.empty()) {
-    throw UsageError("--tree is required: 'quadloop mesh' writes it beside the mesh, as PREFIX.tree.h5; see 'quadloop remesh --help'");
+    throw UsageError(
+        "--tree is required: 'quadloop mesh' writes it beside the mesh, as PREFIX.tree.h5; see 'quadloop "
+        "remesh --help'");
   }
   StageTimes times;
   times.begin("read");
@@ -133,7 +145,9 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   times.begin("adapt");
   MeshInput& mesh = *input.mesh;
   mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
-  const AdaptationPlan plan = input.settings.adapt ? plan_adaptation(comm, mesh, *input.settings.adapt, solved) : standing_plan(solved.tree, mesh);
+  const AdaptationPlan plan = input.settings.adapt
+                                  ? plan_adaptation(comm, mesh, *input.settings.adapt, solved)
+                                  : standing_plan(solved.tree, mesh);
   times.end();
   const CarriedMesh carried = carry_over(comm, mesh, plan, solved);
   times.append(carried.times);
@@ -157,20 +171,35 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
 
 void add_remesh_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<RemeshArguments>();
-  CLI::App* command = app.add_subcommand("remesh", "one pass of the loop for a solution that was computed elsewhere");
-  command->add_option("case", arguments->case_path, "the case file (TOML)")->required()->type_name("CASE.toml");
-  command->add_option("--tree", arguments->tree, "the tree of the mesh that was solved on: quadloop mesh writes it beside the mesh")
+  CLI::App* command =
+      app.add_subcommand("remesh", "one pass of the loop for a solution that was computed elsewhere");
+  command->add_option("case", arguments->case_path, "the case file (TOML)")
+      ->required()
+      ->type_name("CASE.toml");
+  command
+      ->add_option("--tree", arguments->tree,
+                   "the tree of the mesh that was solved on: quadloop mesh writes it beside the mesh")
       ->type_name("TREE.h5 REQUIRED");
-  command->add_option("--solution", arguments->solution, "the solution at its nodes: .mesh, .cgns, .vtu, or .csv (SU2) with the mesh beside the tree")
+  command
+      ->add_option(
+          "--solution", arguments->solution,
+          "the solution at its nodes: .mesh, .cgns, .vtu, or .csv (SU2) with the mesh beside the tree")
       ->required()
       ->type_name("IN");
-  command->add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")->type_name("NEW.geom");
-  command->add_option("-o,--output", arguments->prefix, "what the output files begin with, instead of output.prefix")->type_name("PREFIX");
+  command->add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")
+      ->type_name("NEW.geom");
+  command
+      ->add_option("-o,--output", arguments->prefix,
+                   "what the output files begin with, instead of output.prefix")
+      ->type_name("PREFIX");
   add_max_cells_option(*command, arguments->max_cells);
-  command->add_option("--set", arguments->assignments, "set a key of the case file, as in adapt.refine=0.5; one or more")
+  command
+      ->add_option("--set", arguments->assignments,
+                   "set a key of the case file, as in adapt.refine=0.5; one or more")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->callback([&context, arguments] { context.run = [&context, arguments] { run_remesh(context, *arguments); }; });
+  command->callback(
+      [&context, arguments] { context.run = [&context, arguments] { run_remesh(context, *arguments); }; });
 }
 
 }  // namespace quadloop

@@ -8,20 +8,20 @@
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/refusals.hpp"
-#include "app/smooth_report.hpp"
-#include "app/summary.hpp"
+#include "app/report/refusals.hpp"
+#include "app/report/smooth_report.hpp"
+#include "app/report/summary.hpp"
+#include "io/files/output_path.hpp"
 #include "io/input/geometry_file.hpp"
+#include "io/loaded/tidy_mesh.hpp"
 #include "io/mesh_file.hpp"
-#include "io/output_path.hpp"
-#include "io/tidy_mesh.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/geometry/assemble.hpp"
-#include "mesher/mesh/delaunay_check.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/mesh/check/delaunay_check.hpp"
+#include "mesher/mesh/check/shape_figures.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
-#include "mesher/mesh/shape_figures.hpp"
-#include "smoother/outline_match.hpp"
+#include "smoother/outline/outline_match.hpp"
 #include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
@@ -66,7 +66,9 @@ Geometry read_outline(const std::string& path, Warnings& warnings) {
   return assemble(read_geometry(path, warnings), options, warnings);
 }
 
-void append(Warnings& warnings, const Warnings& more) { warnings.insert(warnings.end(), more.begin(), more.end()); }
+void append(Warnings& warnings, const Warnings& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
 
 /// The root reads the mesh, every rank the geometry (files are small beside a mesh). *Collective.*
 Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
@@ -91,7 +93,8 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     if (loaded.whole.blocks > 1) loaded.pinned = interface_nodes(loaded.whole);
     loaded.delaunay = is_delaunay(loaded.whole.mesh, loaded.whole.triangle_to_block);
     if (loaded.whole.solution && arguments.sweeps > 0)
-      warnings.push_back(arguments.input + ": the solution stays with its nodes, which move; it is that of the old mesh");
+      warnings.push_back(arguments.input +
+                         ": the solution stays with its nodes, which move; it is that of the old mesh");
     append(warnings, losses_in(loaded.whole, arguments.output));
   });
   context.comm.broadcast(turned);
@@ -104,10 +107,13 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
 Point centre_of(const Communicator& comm, const Mesh& part) {
   Box box;
   for (const Point p : part.points) box.include(p);
-  return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)}, {comm.maximum(box.high.x), comm.maximum(box.high.y)}}.centre();
+  return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)},
+             {comm.maximum(box.high.x), comm.maximum(box.high.y)}}
+      .centre();
 }
 
-SmoothOptions options_of(const Communicator& comm, const SmoothArguments& arguments, const Loaded& loaded, const Mesh& part) {
+SmoothOptions options_of(const Communicator& comm, const SmoothArguments& arguments, const Loaded& loaded,
+                         const Mesh& part) {
   SmoothOptions options;
   options.sweeps = arguments.sweeps;
   options.method = arguments.method == "nlopt" ? Method::nlopt : Method::perturb;
@@ -128,17 +134,20 @@ void require_valid_result(const Communicator& comm, const Loaded& loaded, const 
 }
 
 /// All quads were parallelograms, as node-centred solvers want them, and cells stay cells here.
-void warn_of_skew_quads(const CommandContext& context, const std::string& output, const ShapeFigures& figures) {
+void warn_of_skew_quads(const CommandContext& context, const std::string& output,
+                        const ShapeFigures& figures) {
   const std::int64_t skew = figures.quads - figures.parallelograms;
   if (skew == 0) return;
   context.warn(
-      {fmt::format("{}: {} of the {} quads, which were parallelograms, are none any more; smoothed by `mesh` with mesh.quads = \"parallel\" they "
+      {fmt::format("{}: {} of the {} quads, which were parallelograms, are none any more; smoothed by `mesh` "
+                   "with mesh.quads = \"parallel\" they "
                    "would be divided",
                    output, skew, figures.quads)});
 }
 
 /// Smooths and writes; the text to be shown, on the root alone. *Collective.*
-std::string smooth_and_write(const CommandContext& context, const SmoothArguments& arguments, Loaded& loaded, StageTimes& times) {
+std::string smooth_and_write(const CommandContext& context, const SmoothArguments& arguments, Loaded& loaded,
+                             StageTimes& times) {
   const Communicator& comm = context.comm;
   Mesh part = scatter_mesh(comm, loaded.whole.mesh, loaded.order);
   const ShapeFigures figures = shape_figures(comm, part);
@@ -192,20 +201,33 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
 void add_smooth_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<SmoothArguments>();
   CLI::App* command = app.add_subcommand("smooth", "move a mesh's nodes to better the shapes of its cells");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")->required()->type_name("IN");
-  command->add_option("-o,--output", arguments->output, "the smoothed mesh, in the format of its suffix; IN itself is overwritten")
+  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")
+      ->required()
+      ->type_name("IN");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "the smoothed mesh, in the format of its suffix; IN itself is overwritten")
       ->required()
       ->type_name("OUT");
-  command->add_option("--sweeps", arguments->sweeps, "how often each node is visited at most: 20")->type_name("N")->check(CLI::Range(0, 100000));
-  command->add_option("--method", arguments->method, "how a node's place is looked for: perturb (the default) or nlopt")
+  command->add_option("--sweeps", arguments->sweeps, "how often each node is visited at most: 20")
+      ->type_name("N")
+      ->check(CLI::Range(0, 100000));
+  command
+      ->add_option("--method", arguments->method,
+                   "how a node's place is looked for: perturb (the default) or nlopt")
       ->type_name("METHOD")
       ->check(one_of({"perturb", "nlopt"}));
-  command->add_option("--objective", arguments->objective, "what is lowered: power (the default) or thesis (Eq. 3.4)")
+  command
+      ->add_option("--objective", arguments->objective,
+                   "what is lowered: power (the default) or thesis (Eq. 3.4)")
       ->type_name("COST")
       ->check(one_of({"power", "thesis"}));
-  command->add_option("--geometry", arguments->geometry, "the outline that boundary nodes may slide along, as `mesh --geometry-out` wrote it")
+  command
+      ->add_option("--geometry", arguments->geometry,
+                   "the outline that boundary nodes may slide along, as `mesh --geometry-out` wrote it")
       ->type_name("FILE.geom");
-  command->callback([&context, arguments] { context.run = [&context, arguments] { run_smooth(context, *arguments); }; });
+  command->callback(
+      [&context, arguments] { context.run = [&context, arguments] { run_smooth(context, *arguments); }; });
 }
 
 }  // namespace quadloop

@@ -8,17 +8,17 @@
 #include <iostream>
 #include <memory>
 
-#include "adapt/euler/shortfall.hpp"
-#include "adapt/euler/solve_euler.hpp"
 #include "app/command.hpp"
-#include "app/settings.hpp"
-#include "app/summary.hpp"
+#include "app/report/summary.hpp"
+#include "flow/euler/shortfall.hpp"
+#include "flow/euler/solve_euler.hpp"
+#include "io/files/output_path.hpp"
 #include "io/mesh_file.hpp"
-#include "io/output_path.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "quadloop/case/settings.hpp"
 
 namespace quadloop {
 
@@ -43,7 +43,8 @@ struct Problem {
 
 void require_outputs(const std::string& output) {
   require_writable_suffix(output);
-  if (!holds_solution(output)) throw InputError(output + ": this format has no place for the flow; name a .mesh, .cgns or .vtu file");
+  if (!holds_solution(output))
+    throw InputError(output + ": this format has no place for the flow; name a .mesh, .cgns or .vtu file");
 }
 
 /// Where a mesh brings density, velocity and pressure along.
@@ -52,17 +53,23 @@ std::vector<Row> start_of(const LoadedMesh& whole, const std::string& path, Warn
   const std::vector<std::string>& names = whole.solution->names;
   std::array<std::size_t, 4> columns{};
   for (std::size_t k = 0; k < 4; ++k) {
-    columns[k] = static_cast<std::size_t>(std::find(names.begin(), names.end(), state_names[k]) - names.begin());
+    columns[k] =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), state_names[k]) - names.begin());
     if (columns[k] < names.size()) continue;
-    warnings.push_back(fmt::format("{}: its solution has no {}, so the flow starts afresh and its solution is replaced", path, state_names[k]));
+    warnings.push_back(
+        fmt::format("{}: its solution has no {}, so the flow starts afresh and its solution is replaced",
+                    path, state_names[k]));
     return {};
   }
   std::vector<Row> rows(whole.mesh.points.size());
   for (std::size_t node = 0; node < rows.size(); ++node) {
-    for (std::size_t k = 0; k < 4; ++k) rows[node][k] = whole.solution->values[node * names.size() + columns[k]];
+    for (std::size_t k = 0; k < 4; ++k)
+      rows[node][k] = whole.solution->values[node * names.size() + columns[k]];
     if (rows[node][0] > 0 && rows[node][3] > 0) continue;
-    throw InputError(fmt::format("{}: density {} and pressure {} of node {} in its solution must be above 0; take the solution out to start afresh",
-                                 path, rows[node][0], rows[node][3], node + 1));
+    throw InputError(
+        fmt::format("{}: density {} and pressure {} of node {} in its solution must be above 0; take the "
+                    "solution out to start afresh",
+                    path, rows[node][0], rows[node][3], node + 1));
   }
   return rows;
 }
@@ -76,7 +83,8 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
     problem.settings = read_settings(arguments.case_path, arguments.assignments);
     if (problem.settings.solver.kind != SolverSettings::Kind::euler) {
       throw InputError(arguments.case_path +
-                       ": 'solver.kind' is 'command', but 'quadloop solve' runs the built-in solver alone; set kind = \"euler\"");
+                       ": 'solver.kind' is 'command', but 'quadloop solve' runs the built-in solver alone; "
+                       "set kind = \"euler\"");
     }
     if (!context.comm.is_root()) return;
     require_possible_output(arguments.output);
@@ -90,19 +98,22 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
 
 std::vector<double> start_states(const Communicator& comm, const Problem& problem) {
   std::vector<double> states;
-  for (const Row& row : scatter_nodes(comm, problem.start, problem.order)) states.insert(states.end(), row.begin(), row.end());
+  for (const Row& row : scatter_nodes(comm, problem.start, problem.order))
+    states.insert(states.end(), row.begin(), row.end());
   return states;
 }
 
 /// All ranks' states in the order of the whole mesh, on the root. *Collective.*
-std::vector<double> gather_states(const Communicator& comm, const std::vector<double>& states, const MeshOrder& order) {
+std::vector<double> gather_states(const Communicator& comm, const std::vector<double>& states,
+                                  const MeshOrder& order) {
   std::vector<std::vector<double>> out(static_cast<std::size_t>(comm.size()));
   out[0] = states;
   std::vector<double> whole(4 * order.nodes.size());
   std::size_t next = 0;
   for (const auto& from_rank : comm.exchange(out)) {
     for (std::size_t i = 0; i < from_rank.size(); i += 4, ++next) {
-      std::copy_n(from_rank.begin() + static_cast<std::ptrdiff_t>(i), 4, whole.begin() + 4 * std::ptrdiff_t{order.nodes[next]});
+      std::copy_n(from_rank.begin() + static_cast<std::ptrdiff_t>(i), 4,
+                  whole.begin() + 4 * std::ptrdiff_t{order.nodes[next]});
     }
   }
   return whole;
@@ -116,7 +127,13 @@ void write(const Communicator& comm, Problem& problem, const EulerResult& result
     const EulerOptions& options = problem.settings.solver.euler;
     Solution solution{{}, state_names, std::move(states)};
     if (std::filesystem::path(path).extension() == ".mesh") {
-      solution.constants = {static_cast<double>(result.iterations), result.time, options.mach, options.alpha, result.cl, result.cd, result.residual};
+      solution.constants = {static_cast<double>(result.iterations),
+                            result.time,
+                            options.mach,
+                            options.alpha,
+                            result.cl,
+                            result.cd,
+                            result.residual};
     }
     problem.whole.solution = std::move(solution);
     for (std::string& loss : losses_in(problem.whole, path)) problem.warnings.push_back(std::move(loss));
@@ -133,7 +150,8 @@ EulerResult solve(const Communicator& comm, const Problem& problem, const Mesh& 
   options.progress = [&comm, steady](const EulerProgress& p) {
     if (!comm.is_root()) return;
     const std::string time = steady ? "" : fmt::format(", time {:.6g}", p.time);
-    log::information(fmt::format("step {}: residual {:.2e}, cl {:.6f}, cd {:.6f}{}", p.iteration, p.residual, p.cl, p.cd, time));
+    log::information(fmt::format("step {}: residual {:.2e}, cl {:.6f}, cd {:.6f}{}", p.iteration, p.residual,
+                                 p.cl, p.cd, time));
   };
   return solve_euler(comm, part, options, start_states(comm, problem));
 }
@@ -170,23 +188,34 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   context.record.figures.add("converged", result.converged);
   context.record.figures.add("seconds", record_of(stages));
   context.record.files = {arguments.output};
-  if (context.shows_table()) std::cout << figures.table() << stage_table(stages) << "  wrote " << arguments.output << "\n";
+  if (context.shows_table())
+    std::cout << figures.table() << stage_table(stages) << "  wrote " << arguments.output << "\n";
 }
 
 }  // namespace
 
 void add_solve_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<SolveArguments>();
-  CLI::App* command = app.add_subcommand("solve", "run the built-in flow solver (2D Euler equations) on a mesh");
-  command->add_option("case", arguments->case_path, "the case file (TOML)")->required()->type_name("CASE.toml");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh); a flow in it is started from")
+  CLI::App* command =
+      app.add_subcommand("solve", "run the built-in flow solver (2D Euler equations) on a mesh");
+  command->add_option("case", arguments->case_path, "the case file (TOML)")
+      ->required()
+      ->type_name("CASE.toml");
+  command
+      ->add_option("input", arguments->input,
+                   "the mesh (.mesh, .cgns, .vtu, .su2 or .msh); a flow in it is started from")
       ->required()
       ->type_name("IN");
-  command->add_option("-o,--output", arguments->output, "the mesh with the flow (.mesh, .cgns or .vtu)")->required()->type_name("OUT");
-  command->add_option("--set", arguments->assignments, "set a key of the case file, as in solver.mach=0.5; may be repeated")
+  command->add_option("-o,--output", arguments->output, "the mesh with the flow (.mesh, .cgns or .vtu)")
+      ->required()
+      ->type_name("OUT");
+  command
+      ->add_option("--set", arguments->assignments,
+                   "set a key of the case file, as in solver.mach=0.5; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->callback([&context, arguments] { context.run = [&context, arguments] { run_solve(context, *arguments); }; });
+  command->callback(
+      [&context, arguments] { context.run = [&context, arguments] { run_solve(context, *arguments); }; });
 }
 
 }  // namespace quadloop

@@ -14,11 +14,11 @@
 #include "app/closing.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "io/interruption.hpp"
+#include "io/files/input_file.hpp"
+#include "io/files/interruption.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/free_memory.hpp"
-#include "mesher/base/input_file.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/progress.hpp"
 
@@ -36,7 +36,8 @@ void throw_mpi_error(MPI_Comm* /*unused*/, int* code, ...) {
   throw Fault(std::string("MPI: ") + text.data());
 }
 
-/// MPI from its beginning to its end. Its errors are exceptions, also those of communicators made from the first one.
+/// MPI from its beginning to its end. Its errors are exceptions, also those of communicators made from the
+/// first one.
 class MpiGuard {
  public:
   MpiGuard(int& argc, char**& argv) {
@@ -71,10 +72,10 @@ void add_commands(CLI::App& app, CommandContext& context) {
   add_plot_command(app, context);
   add_convert_command(app, context);
   for (CLI::App* command : commands_of(app)) {
-    command->footer(
-        fmt::format("With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n"
-                    "  --json                      {}\n  --version",
-                    about_quiet, about_verbose, about_json));
+    command->footer(fmt::format(
+        "With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n"
+        "  --json                      {}\n  --version",
+        about_quiet, about_verbose, about_json));
   }
 }
 
@@ -123,8 +124,8 @@ Outcome recorded_run(int argc, char** argv, const Communicator& comm) {
   return outcome;
 }
 
-/// Arrays of many megabytes come and go between the stages: kept, their pages need not be asked for and cleared again each time (a seventh of the
-/// run for a million cells).
+/// Arrays of many megabytes come and go between the stages: kept, their pages need not be asked for and
+/// cleared again each time (a seventh of the run for a million cells).
 void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 1 << 30);

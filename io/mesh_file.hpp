@@ -3,12 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "io/loaded_mesh.hpp"
-#include "io/output_file.hpp"
+#include "io/files/output_file.hpp"
+#include "io/loaded/loaded_mesh.hpp"
 
 namespace quadloop {
 
-/// Reads a mesh in the format that the file's suffix tells, .mesh, .cgns, .vtu, .su2 or .msh, on the calling rank alone. Throws InputError.
+/// Reads a mesh in the format that the file's suffix tells, .mesh, .cgns, .vtu, .su2 or .msh, on the calling
+/// rank alone. Throws InputError.
 LoadedMesh read_mesh(const std::string& path);
 
 /// Throw InputError unless the suffix is that of a format which is read, or written.
@@ -20,25 +21,34 @@ const std::vector<std::string>& mesh_formats();
 /// That of the file's suffix; empty where it is none.
 std::string mesh_format_of(const std::string& path);
 
-/// Writes a mesh that the set's only rank holds whole, with its solution and blocks as far as the format has a place for them. The format is one of
-/// mesh_formats(), where none is named that of the suffix. Throws OutputError.
-void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path, const std::string& format = {});
+/// Writes a mesh that the set's only rank holds whole, with its solution and blocks as far as the format has
+/// a place for them. The format is one of mesh_formats(), where none is named that of the suffix. Throws
+/// OutputError.
+void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path,
+                const std::string& format = {});
 
-/// The same for the mesh that the root rank of `comm` holds, as the only file of a set. *Collective.* Throws OutputError on all ranks.
-void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path, const std::string& format = {});
+/// The same for the mesh that the root rank of `comm` holds, as the only file of a set. *Collective.* Throws
+/// OutputError on all ranks.
+void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path,
+                        const std::string& format = {});
 
 /// Whether the format that the suffix tells has a place for a solution beside the mesh.
 bool holds_solution(const std::string& path);
 
-/// Writes a distributed mesh in the format that the suffix tells, with a solution where the format has a place for one. A .csv holds the solution
-/// alone (write_su2_csv(), which wants `gamma`), and is not written without one. *Collective.* Throws OutputError on all ranks.
-void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution = nullptr, double gamma = 1.4);
+/// Writes a distributed mesh in the format that the suffix tells, with a solution where the format has a
+/// place for one. A .csv holds the solution alone (write_su2_csv(), which wants `gamma`), and is not written
+/// without one. *Collective.* Throws OutputError on all ranks.
+void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path,
+                const Solution* solution = nullptr, double gamma = 1.4);
 
-/// One line that counts the boundaries whose names the format, or else that of the suffix, cannot hold, and says how the first is written; none where all
-/// are kept.
-std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path, const std::string& format = {});
+/// One line that counts the boundaries whose names the format, or else that of the suffix, cannot hold, and
+/// says how the first is written; none where all are kept.
+std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path,
+                                    const std::string& format = {});
 
-/// What the format, or else that of the suffix, has no place for and the mesh has: one line each, with the file's name; renames among them.
-std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path, const std::string& format = {});
+/// What the format, or else that of the suffix, has no place for and the mesh has: one line each, with the
+/// file's name; renames among them.
+std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path,
+                                   const std::string& format = {});
 
 }  // namespace quadloop

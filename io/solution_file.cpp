@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "io/mesh_file.hpp"
-#include "io/su2_csv_file.hpp"
-#include "io/variable_names.hpp"
+#include "io/su2/su2_csv_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/topology.hpp"
+#include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop {
 
@@ -33,7 +33,8 @@ void require_usable(const Solution& solution, const std::string& path) {
     const double value = solution.values[i];
     if (std::fabs(value) <= largest) continue;
     const std::string fault = std::isfinite(value) ? fmt::format("is beyond {}", largest) : "is not finite";
-    throw InputError(fmt::format("{}: {} {} at node {}: {}", path, solution.names[i % width], fault, i / width + 1, value));
+    throw InputError(fmt::format("{}: {} {} at node {}: {}", path, solution.names[i % width], fault,
+                                 i / width + 1, value));
   }
 }
 
@@ -50,13 +51,16 @@ template <std::size_t width>
 std::string cell_difference(const std::string& kind, const std::vector<std::array<NodeId, width>>& found,
                             const std::vector<std::array<NodeId, width>>& wanted) {
   if (found.size() != wanted.size())
-    return fmt::format("has {} {}, the mesh {}; it is a solution of another mesh; solve on this one", found.size(), kind, wanted.size());
+    return fmt::format("has {} {}, the mesh {}; it is a solution of another mesh; solve on this one",
+                       found.size(), kind, wanted.size());
   const auto of_file = in_one_order(found), of_mesh = in_one_order(wanted);
   const auto [at_file, at_mesh] = std::mismatch(of_file.begin(), of_file.end(), of_mesh.begin());
   if (at_file == of_file.end()) return {};
   std::string nodes;
   for (const NodeId node : *at_file) nodes += (nodes.empty() ? "" : " ") + std::to_string(node.value() + 1);
-  return fmt::format("of its {} the one of nodes {} is not the mesh's; it is a solution of another mesh; solve on this one", kind, nodes);
+  return fmt::format(
+      "of its {} the one of nodes {} is not the mesh's; it is a solution of another mesh; solve on this one",
+      kind, nodes);
 }
 
 /// The shortest edge at each node, squared.
@@ -79,7 +83,8 @@ std::string place_difference(const LoadedSolution& solution, const Mesh& mesh) {
   const auto i = static_cast<std::size_t>(first - elsewhere.begin());
   const Point p = solution.points[i], wanted = mesh.points[i];
   return fmt::format(
-      "node {} lies at ({}, {}), in the mesh at ({}, {}); it is a solution of another mesh, or its rows are in another order; solve on this mesh "
+      "node {} lies at ({}, {}), in the mesh at ({}, {}); it is a solution of another mesh, or its rows are "
+      "in another order; solve on this mesh "
       "and keep its order of nodes",
       i + 1, p.x, p.y, wanted.x, wanted.y);
 }
@@ -87,7 +92,9 @@ std::string place_difference(const LoadedSolution& solution, const Mesh& mesh) {
 LoadedSolution read_with_mesh(const std::string& path) {
   LoadedMesh loaded = read_mesh(path);
   require_values(loaded, path);
-  LoadedSolution result{path, std::move(*loaded.solution), static_cast<std::int64_t>(loaded.mesh.points.size()), {}, true, {}, {}};
+  LoadedSolution result{
+      path, std::move(*loaded.solution), static_cast<std::int64_t>(loaded.mesh.points.size()), {}, true, {},
+      {}};
   result.points = std::move(loaded.mesh.points);
   result.triangles = std::move(loaded.mesh.triangles);
   result.quads = std::move(loaded.mesh.quads);
@@ -108,7 +115,8 @@ LoadedSolution read_solution(const std::string& path) {
 void require_solution_suffix(const std::string& path) {
   const std::string suffix = std::filesystem::path(path).extension();
   if (suffix == ".mesh" || suffix == ".cgns" || suffix == ".vtu" || suffix == ".csv") return;
-  throw InputError(path + ": no solution is read from the format '" + suffix + "'; give a .mesh, .cgns, .vtu or .csv file");
+  throw InputError(path + ": no solution is read from the format '" + suffix +
+                   "'; give a .mesh, .cgns, .vtu or .csv file");
 }
 
 std::vector<char> nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {
@@ -122,13 +130,15 @@ std::vector<char> nodes_elsewhere(const std::vector<Point>& points, const Mesh& 
 }
 
 bool same_cells_in_any_order(const Mesh& one, const Mesh& other) {
-  return in_one_order(one.triangles) == in_one_order(other.triangles) && in_one_order(one.quads) == in_one_order(other.quads);
+  return in_one_order(one.triangles) == in_one_order(other.triangles) &&
+         in_one_order(one.quads) == in_one_order(other.quads);
 }
 
 std::string difference(const LoadedSolution& solution, const Mesh& whole) {
   if (solution.nodes != static_cast<std::int64_t>(whole.points.size())) {
-    return fmt::format("holds values at {} nodes, the mesh has {}; it is a solution of another mesh; solve on this one", solution.nodes,
-                       whole.points.size());
+    return fmt::format(
+        "holds values at {} nodes, the mesh has {}; it is a solution of another mesh; solve on this one",
+        solution.nodes, whole.points.size());
   }
   std::string found = solution.points.empty() ? "" : place_difference(solution, whole);
   if (!solution.has_cells) return found;

@@ -1,36 +1,26 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "io/loaded_mesh.hpp"
+#include "io/loaded/loaded_solution.hpp"
 
 namespace quadloop {
 
-/// A solution as a file gives it, whole on one rank, with what the file says of its mesh. Names are words (distinct_words()); variable() finds one.
-struct LoadedSolution {
-  std::string path;
-  Solution solution;
-  std::int64_t nodes = 0;     ///< rows of the solution
-  std::vector<Point> points;  ///< empty where the file has no coordinates
-  bool has_cells = false;
-  std::vector<std::array<NodeId, 3>> triangles;
-  std::vector<std::array<NodeId, 4>> quads;
-};
-
-/// Reads .mesh, .cgns and .vtu with a solution, and .csv as SU2 leaves its restart file, on the calling rank alone. Throws InputError, also
-/// where the file holds no values at its nodes, two variables of one name, or a value that is not finite or beyond 1e150.
+/// Reads .mesh, .cgns and .vtu with a solution, and .csv as SU2 leaves its restart file, on the calling rank
+/// alone. Throws InputError, also where the file holds no values at its nodes, two variables of one name, or
+/// a value that is not finite or beyond 1e150.
 LoadedSolution read_solution(const std::string& path);
 
 /// Throws InputError unless the suffix is one that read_solution() knows; it lists them.
 void require_solution_suffix(const std::string& path);
 
-/// Of a local edge: how far a node may lie off and still be the same; solvers write coordinates with few digits.
+/// Of a local edge: how far a node may lie off and still be the same; solvers write coordinates with few
+/// digits.
 inline constexpr double solution_tolerance = 1e-6;
 
-/// A flag for each node of a whole mesh whose place in `points` is farther off than that, of the shortest cell edge at it. As many points as nodes.
+/// A flag for each node of a whole mesh whose place in `points` is farther off than that, of the shortest
+/// cell edge at it. As many points as nodes.
 std::vector<char> nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh);
 
 /// Whether two whole meshes have the same cells, in whatever order.
@@ -39,8 +29,9 @@ bool same_cells_in_any_order(const Mesh& one, const Mesh& other);
 /// What require_same_mesh() would say, without the file's name; empty where it finds nothing.
 std::string difference(const LoadedSolution& solution, const Mesh& whole);
 
-/// Throws InputError unless the solution's mesh is `whole`, a mesh that the rank holds whole: as many nodes, each within 1e-6 of the shortest cell
-/// edge at it, and the same cells in any order, as far as the file tells. Names the file, and the count, node (from 1) or cell that differs.
+/// Throws InputError unless the solution's mesh is `whole`, a mesh that the rank holds whole: as many nodes,
+/// each within 1e-6 of the shortest cell edge at it, and the same cells in any order, as far as the file
+/// tells. Names the file, and the count, node (from 1) or cell that differs.
 void require_same_mesh(const LoadedSolution& solution, const Mesh& whole);
 
 }  // namespace quadloop

@@ -8,8 +8,10 @@ namespace quadloop {
 BinaryUnit::BinaryUnit(const Communicator& comm, const Mesh& mesh) {
   Box box;
   for (const Point p : mesh.points) box.include(p);
-  const Point low{comm.minimum(box.low.x), comm.minimum(box.low.y)}, high{comm.maximum(box.high.x), comm.maximum(box.high.y)};
-  const double half = std::max(high.x / 2 - low.x / 2, high.y / 2 - low.y / 2);  // halves, as a whole extent may overflow
+  const Point low{comm.minimum(box.low.x), comm.minimum(box.low.y)},
+      high{comm.maximum(box.high.x), comm.maximum(box.high.y)};
+  const double half =
+      std::max(high.x / 2 - low.x / 2, high.y / 2 - low.y / 2);  // halves, as a whole extent may overflow
   if (!(half > 0) || !std::isfinite(half)) return;
   const int exponent = std::ilogb(half);
   if (std::abs(exponent) > largest_ordinary) exponent_ = exponent;
@@ -25,7 +27,8 @@ Geometry BinaryUnit::into(const Geometry& geometry) const {
     segment_boundary.push_back(geometry.boundary_of(v));
   }
   std::vector<std::int32_t> loop_starts;
-  for (std::int32_t loop = 0; loop <= geometry.loop_count(); ++loop) loop_starts.push_back(geometry.loop_start(loop));
+  for (std::int32_t loop = 0; loop <= geometry.loop_count(); ++loop)
+    loop_starts.push_back(geometry.loop_start(loop));
   return {std::move(boundaries), std::move(points), std::move(loop_starts), std::move(segment_boundary)};
 }
 

@@ -8,8 +8,9 @@
 
 namespace quadloop {
 
-/// A unit of length, a power of two, in which products of four lengths of a mesh neither vanish nor overflow: 1 for all ordinary meshes, else near
-/// the mesh's extent. Into it and out of it no bit of a coordinate changes, but for those below 1e-300 of the extent.
+/// A unit of length, a power of two, in which products of four lengths of a mesh neither vanish nor overflow:
+/// 1 for all ordinary meshes, else near the mesh's extent. Into it and out of it no bit of a coordinate
+/// changes, but for those below 1e-300 of the extent.
 class BinaryUnit {
  public:
   /// *Collective.*

@@ -6,17 +6,20 @@
 #include <tuple>
 #include <type_traits>
 
-#include "smoother/condition_number.hpp"
+#include "smoother/objective/condition_number.hpp"
 
 namespace quadloop {
 
 namespace {
 
-constexpr double step = 0.25;        ///< of the smaller square's edge
-constexpr double rounding = 1e-6;    ///< of that edge: coordinates that went through a file are on the lattice nearly
-constexpr unsigned unfit = 1U << 8;  ///< a flag beside those of the quadrants: the node's cells are not those of a level line
+constexpr double step = 0.25;  ///< of the smaller square's edge
+constexpr double rounding =
+    1e-6;  ///< of that edge: coordinates that went through a file are on the lattice nearly
+constexpr unsigned unfit =
+    1U << 8;  ///< a flag beside those of the quadrants: the node's cells are not those of a level line
 
-/// What lies round a node: bit k of `quadrants` stands for a square in quadrant k (0: right and up, then counter-clockwise).
+/// What lies round a node: bit k of `quadrants` stands for a square in quadrant k (0: right and up, then
+/// counter-clockwise).
 struct Surroundings {
   double edge = 0;  ///< of the squares
   unsigned quadrants = 0;
@@ -36,7 +39,8 @@ Point into_squares(unsigned quadrants) {
 
 bool near(double a, double b) { return std::abs(a - b) <= rounding; }
 
-/// The quadrant in which a square lies with `opposite` its far corner from p, if it is a square with its sides along the axes, and its edge.
+/// The quadrant in which a square lies with `opposite` its far corner from p, if it is a square with its
+/// sides along the axes, and its edge.
 struct SquareCorner {
   unsigned quadrant = unfit;
   double edge = 0;
@@ -44,8 +48,10 @@ struct SquareCorner {
 SquareCorner square_at(Point p, Point next, Point opposite, Point previous) {
   const Point u = next - p, v = previous - p, d = opposite - p;
   const double edge = std::abs(d.x);
-  const bool along_axes = edge > 0 && near(std::abs(d.y) / edge, 1) && near(length(u) / edge, 1) && near(length(v) / edge, 1) &&
-                          near(std::min(std::abs(u.x), std::abs(u.y)) / edge, 0) && near(std::min(std::abs(v.x), std::abs(v.y)) / edge, 0);
+  const bool along_axes = edge > 0 && near(std::abs(d.y) / edge, 1) && near(length(u) / edge, 1) &&
+                          near(length(v) / edge, 1) &&
+                          near(std::min(std::abs(u.x), std::abs(u.y)) / edge, 0) &&
+                          near(std::min(std::abs(v.x), std::abs(v.y)) / edge, 0);
   if (!along_axes) return {};
   if (d.y > 0) return {d.x > 0 ? 0U : 1U, edge};
   return {d.x < 0 ? 2U : 3U, edge};
@@ -54,7 +60,8 @@ SquareCorner square_at(Point p, Point next, Point opposite, Point previous) {
 /// Finds the nodes of level lines among those that this rank owns.
 class LevelLines {
  public:
-  explicit LevelLines(const HaloMesh& mesh) : mesh_{mesh}, round_(static_cast<std::size_t>(mesh.owned_nodes())) {
+  explicit LevelLines(const HaloMesh& mesh)
+      : mesh_{mesh}, round_(static_cast<std::size_t>(mesh.owned_nodes())) {
     mesh.for_each_cell([&](const auto& nodes) { look_at_squares(nodes); });
     mesh.for_each_cell([&](const auto& nodes) { look_at_triangles(nodes); });
     for (const HaloEdge& edge : mesh.boundary_edges()) {
@@ -79,8 +86,8 @@ class LevelLines {
   void look_at_squares(const std::array<NodeId, 4>& nodes) {
     for (std::size_t k = 0; k < 4; ++k) {
       if (!is_owned(nodes[k])) continue;
-      const SquareCorner square =
-          square_at(mesh_.point(nodes[k]), mesh_.point(nodes[(k + 1) % 4]), mesh_.point(nodes[(k + 2) % 4]), mesh_.point(nodes[(k + 3) % 4]));
+      const SquareCorner square = square_at(mesh_.point(nodes[k]), mesh_.point(nodes[(k + 1) % 4]),
+                                            mesh_.point(nodes[(k + 2) % 4]), mesh_.point(nodes[(k + 3) % 4]));
       Surroundings& s = round(nodes[k]);
       const bool fits = square.quadrant != unfit && (s.quadrants == 0 || near(s.edge / square.edge, 1));
       s.quadrants |= fits ? 1U << square.quadrant : unfit;
@@ -89,7 +96,8 @@ class LevelLines {
   }
   void look_at_squares(const std::array<NodeId, 3>&) {}
 
-  /// The node's triangles reach the points that the division of a larger square has on and behind the line, and no others.
+  /// The node's triangles reach the points that the division of a larger square has on and behind the line,
+  /// and no others.
   void look_at_triangles(const std::array<NodeId, 3>& nodes) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (!is_owned(nodes[k])) continue;
@@ -120,11 +128,14 @@ double ideal_cost(const auto& nodes, const std::vector<Point>& points) {
   return cell_cost(corners, ideal_targets<width>());
 }
 
-/// Puts owned nodes of cells that have become too bad back. Returns whether there are any over all ranks. *Collective.*
+/// Puts owned nodes of cells that have become too bad back. Returns whether there are any over all ranks.
+/// *Collective.*
 bool take_back(const Communicator& comm, HaloMesh& mesh, const std::vector<Point>& before, double limit) {
   std::vector<Point>& points = mesh.points();
   std::vector<std::int32_t> back;
-  const auto has_moved = [&](NodeId n) { return mesh.point(n) != before[static_cast<std::size_t>(n.value())]; };
+  const auto has_moved = [&](NodeId n) {
+    return mesh.point(n) != before[static_cast<std::size_t>(n.value())];
+  };
   mesh.for_each_cell([&](const auto& nodes) {
     if (std::none_of(nodes.begin(), nodes.end(), has_moved)) return;
     const double cost = ideal_cost(nodes, points);
@@ -133,14 +144,16 @@ bool take_back(const Communicator& comm, HaloMesh& mesh, const std::vector<Point
       if (node.value() < mesh.owned_nodes()) back.push_back(node.value());
     }
   });
-  for (const std::int32_t node : back) points[static_cast<std::size_t>(node)] = before[static_cast<std::size_t>(node)];
+  for (const std::int32_t node : back)
+    points[static_cast<std::size_t>(node)] = before[static_cast<std::size_t>(node)];
   mesh.exchange().update(points);
   return comm.any(!back.empty());
 }
 
 }  // namespace
 
-bool move_level_lines(const Communicator& comm, HaloMesh& mesh, const std::vector<char>& pinned, double limit) {
+bool move_level_lines(const Communicator& comm, HaloMesh& mesh, const std::vector<char>& pinned,
+                      double limit) {
   const LevelLines lines(mesh);
   std::vector<Point>& points = mesh.points();
   const std::vector<Point> before = points;

@@ -10,8 +10,8 @@ namespace {
 template <std::size_t width>
 constexpr std::size_t corners_of_cell = width == 3 ? 1 : 3;
 
-/// Targets as the nodes of a cell see its corners. A triangle: for each node its own corner. A quad: for each node its own corner, then that of the
-/// next node, then that of the previous one.
+/// Targets as the nodes of a cell see its corners. A triangle: for each node its own corner. A quad: for each
+/// node its own corner, then that of the next node, then that of the previous one.
 template <std::size_t width>
 std::vector<CornerTarget> seen_targets(const std::array<CornerTarget, width>& of_corners) {
   std::vector<CornerTarget> seen;
@@ -31,17 +31,21 @@ std::size_t ideal_begin() {
 
 }  // namespace
 
-NodeStars::NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes, const std::vector<CellTarget>& targets)
+NodeStars::NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes,
+                     const std::vector<CellTarget>& targets)
     : mesh_{mesh}, nodes_{std::move(free_nodes)}, starts_(nodes_.size() + 1, 0) {
   for (const auto& seen : {seen_targets<3>(ideal_targets<3>()), seen_targets<4>(ideal_targets<4>())}) {
     targets_.insert(targets_.end(), seen.begin(), seen.end());
   }
   std::vector<std::int32_t> place(mesh.points().size(), -1);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) place[static_cast<std::size_t>(nodes_[i])] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    place[static_cast<std::size_t>(nodes_[i])] = static_cast<std::int32_t>(i);
   mesh.for_each_cell([&](const auto& cell) {
     for (const NodeId node : cell) {
       const std::int32_t i = place[static_cast<std::size_t>(node.value())];
-      if (i >= 0) starts_[static_cast<std::size_t>(i) + 1] += corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
+      if (i >= 0)
+        starts_[static_cast<std::size_t>(i) + 1] +=
+            corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
     }
   });
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
@@ -64,8 +68,8 @@ std::int32_t NodeStars::first_target(const CellTarget& target) {
 }
 
 template <std::size_t width>
-void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target, std::span<const std::int32_t> place,
-                         std::vector<std::size_t>& ends) {
+void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
+                         std::span<const std::int32_t> place, std::vector<std::size_t>& ends) {
   constexpr auto per_node = static_cast<std::int32_t>(corners_of_cell<width>);
   std::int32_t targets = -1;
   for (std::size_t k = 0; k < width; ++k) {
@@ -86,7 +90,8 @@ void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget
 
 void NodeStars::gather(std::size_t i, Star& star) const {
   star.clear();
-  for (const Corner& c : corners_of(i)) star.add({mesh_.point(c.q), mesh_.point(c.r), targets_[static_cast<std::size_t>(c.target)], c.angle});
+  for (const Corner& c : corners_of(i))
+    star.add({mesh_.point(c.q), mesh_.point(c.r), targets_[static_cast<std::size_t>(c.target)], c.angle});
 }
 
 }  // namespace quadloop

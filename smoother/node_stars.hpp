@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "mesher/mesh/halo_mesh.hpp"
-#include "smoother/star.hpp"
+#include "smoother/objective/star.hpp"
 
 namespace quadloop {
 
-/// The shape that a cell should have: its edges from its first node, to the second and to the last. A default-constructed one asks for the ideal
-/// cell, equilateral or square.
+/// The shape that a cell should have: its edges from its first node, to the second and to the last. A
+/// default-constructed one asks for the ideal cell, equilateral or square.
 struct CellTarget {
   Point w1, w2;
   bool ideal() const { return w1 == Point{} && w2 == Point{}; }
@@ -20,7 +20,8 @@ struct CellTarget {
 class NodeStars {
  public:
   /// `free_nodes` ascend. `targets` has an entry for each cell of the halo mesh, or none at all.
-  NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes, const std::vector<CellTarget>& targets);
+  NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes,
+            const std::vector<CellTarget>& targets);
 
   const std::vector<std::int32_t>& nodes() const { return nodes_; }
   std::size_t size() const { return nodes_.size(); }
@@ -43,9 +44,12 @@ class NodeStars {
     std::int32_t target = 0;  ///< in targets_
     CellAngle angle = CellAngle::all;
   };
-  std::span<const Corner> corners_of(std::size_t i) const { return std::span(corners_).subspan(starts_[i], starts_[i + 1] - starts_[i]); }
+  std::span<const Corner> corners_of(std::size_t i) const {
+    return std::span(corners_).subspan(starts_[i], starts_[i + 1] - starts_[i]);
+  }
   template <std::size_t width>
-  void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target, std::span<const std::int32_t> place, std::vector<std::size_t>& ends);
+  void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
+                std::span<const std::int32_t> place, std::vector<std::size_t>& ends);
   template <std::size_t width>
   std::int32_t first_target(const CellTarget& target);
 

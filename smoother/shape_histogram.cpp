@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "mesher/mesh/quality.hpp"
-#include "smoother/condition_number.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "smoother/objective/condition_number.hpp"
 
 namespace quadloop {
 
@@ -31,7 +31,8 @@ void add_cell(const std::array<Point, width>& cell, std::vector<Histogram>& hist
     shortest = std::min(shortest, edge);
     skew = std::max({skew, (degrees - ideal) / (flat_degrees - ideal), (ideal - degrees) / ideal});
     const CornerForm form = corner_form(cell[k], next, previous);
-    worst = std::max(worst, is_inverted(form) ? std::numeric_limits<double>::infinity() : condition_number(form, targets[k]));
+    worst = std::max(worst, is_inverted(form) ? std::numeric_limits<double>::infinity()
+                                              : condition_number(form, targets[k]));
   }
   histograms[aspect].add(longest / shortest);
   histograms[skewness].add(skew);
@@ -40,7 +41,9 @@ void add_cell(const std::array<Point, width>& cell, std::vector<Histogram>& hist
 
 }  // namespace
 
-void Histogram::add(double value) { ++counts[static_cast<std::size_t>(std::upper_bound(limits.begin(), limits.end(), value) - limits.begin())]; }
+void Histogram::add(double value) {
+  ++counts[static_cast<std::size_t>(std::upper_bound(limits.begin(), limits.end(), value) - limits.begin())];
+}
 
 std::vector<Histogram> shape_histograms(const Communicator& comm, const Mesh& mesh) {
   std::vector<Histogram> histograms{{"angle", {0, 15, 20, 25, 30, 45, 60, 75, 90, 105, 120, 135, 150}, {}},

@@ -5,10 +5,10 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
+#include "mesher/delaunay/restore_delaunay.hpp"
 #include "mesher/geometry/predicates.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/node_exchange.hpp"
-#include "mesher/mesh/quality.hpp"
-#include "mesher/mesh/restore_delaunay.hpp"
 #include "smoother/binary_unit.hpp"
 #include "smoother/level_lines.hpp"
 #include "smoother/sweeper.hpp"
@@ -17,9 +17,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr int free_rings = 3;            ///< of nodes round those of cells above the threshold that may come to move
+constexpr int free_rings = 3;  ///< of nodes round those of cells above the threshold that may come to move
 constexpr double cost_rounding = 1e-12;  ///< relative: by so much a cost seen from another corner may differ
-constexpr int pinned_rings = 2;          ///< round triangles that flips have made too bad; so many more each time
+constexpr int pinned_rings = 2;  ///< round triangles that flips have made too bad; so many more each time
 constexpr int most_attempts = 5;
 
 template <std::size_t width>
@@ -31,17 +31,20 @@ std::array<Point, width> corners_of(const HaloMesh& mesh, const std::array<NodeI
 
 /// Most cells are whole leaves, whose cost is 0 to the last bit.
 bool is_square(const std::array<Point, 4>& p) {
-  return p[0].y == p[1].y && p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x && p[1].x - p[0].x == p[2].y - p[1].y && p[0].x < p[1].x;
+  return p[0].y == p[1].y && p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x &&
+         p[1].x - p[0].x == p[2].y - p[1].y && p[0].x < p[1].x;
 }
 bool is_square(const std::array<Point, 3>&) { return false; }
 
 /// The cost of a cell by its number in the halo mesh.
 template <std::size_t width>
-double cost_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes, const std::vector<CellTarget>& targets, std::size_t number) {
+double cost_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes,
+               const std::vector<CellTarget>& targets, std::size_t number) {
   const bool ideal = targets.empty() || targets[number].ideal();
   const auto corners = corners_of(mesh, nodes);
   if (ideal && is_square(corners)) return 0;
-  return cell_cost(corners, ideal ? ideal_targets<width>() : stretched_targets<width>(targets[number].w1, targets[number].w2));
+  return cell_cost(corners, ideal ? ideal_targets<width>()
+                                  : stretched_targets<width>(targets[number].w1, targets[number].w2));
 }
 
 template <std::size_t width>
@@ -59,14 +62,15 @@ struct WorstCell {
 /// What has to be known before the first sweep: the worst cell, and the nodes that may come to move.
 struct Survey {
   WorstCell worst;
-  std::vector<double> costs;   ///< of each cell of the halo mesh
-  std::vector<char> near;      ///< a flag for each node: of a cell above the threshold, or some rings round those
+  std::vector<double> costs;  ///< of each cell of the halo mesh
+  std::vector<char> near;  ///< a flag for each node: of a cell above the threshold, or some rings round those
   std::vector<char> parallel;  ///< a flag for each node: of a parallelogram; right for owned nodes
 };
 
 template <class Nodes>
 bool any_flagged(const std::vector<char>& flags, const Nodes& nodes) {
-  return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[static_cast<std::size_t>(n.value())] != 0; });
+  return std::any_of(nodes.begin(), nodes.end(),
+                     [&](NodeId n) { return flags[static_cast<std::size_t>(n.value())] != 0; });
 }
 
 template <class Nodes>
@@ -74,7 +78,9 @@ void flag_all(const Nodes& nodes, std::vector<char>& flags) {
   for (const NodeId node : nodes) flags[static_cast<std::size_t>(node.value())] = 1;
 }
 
-WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) { return {comm.maximum(worst.cost), comm.sum(worst.inverted)}; }
+WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) {
+  return {comm.maximum(worst.cost), comm.sum(worst.inverted)};
+}
 
 /// Adds a cell to a rank's worst; those that other ranks have too count where their first node is owned.
 void include(WorstCell& worst, const HaloMesh& mesh, NodeId first, double cost) {
@@ -82,7 +88,8 @@ void include(WorstCell& worst, const HaloMesh& mesh, NodeId first, double cost) 
   worst.inverted += cost >= 1 && first.value() < mesh.owned_nodes() ? 1 : 0;
 }
 
-/// Flags the nodes of cells that have a flagged one, so many times; `flags` count for owned nodes alone and are right for all. *Collective.*
+/// Flags the nodes of cells that have a flagged one, so many times; `flags` count for owned nodes alone and
+/// are right for all. *Collective.*
 void grow(const HaloMesh& mesh, std::vector<char>& flags, int rings) {
   for (int ring = 0; ring < rings; ++ring) {
     mesh.exchange().update(flags);
@@ -106,7 +113,8 @@ std::vector<char> nodes_of_parallelograms(const HaloMesh& mesh) {
 }
 
 /// *Collective.*
-Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets, double threshold) {
+Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets,
+              double threshold) {
   Survey result;
   std::vector<char>& near = result.near;
   near.assign(mesh.points().size(), 0);
@@ -117,27 +125,31 @@ Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<
     result.costs.push_back(cost);
     if (cost > threshold) flag_all(nodes, near);
   });
-  result.parallel = targets.empty() ? nodes_of_parallelograms(mesh) : std::vector<char>(mesh.points().size(), 0);
+  result.parallel =
+      targets.empty() ? nodes_of_parallelograms(mesh) : std::vector<char>(mesh.points().size(), 0);
   grow(mesh, near, free_rings);
   result.worst = over_ranks(comm, result.worst);
   return result;
 }
 
-/// Flags the nodes of cells that cost more than `bad` and so many rings round them; only those with a node near are looked at. Right for all nodes.
-/// *Collective.*
-std::vector<char> nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>& targets, const Survey& surveyed, double bad, int rings) {
+/// Flags the nodes of cells that cost more than `bad` and so many rings round them; only those with a node
+/// near are looked at. Right for all nodes. *Collective.*
+std::vector<char> nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>& targets,
+                                     const Survey& surveyed, double bad, int rings) {
   std::vector<char> flags(mesh.points().size(), 0);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t cell = number++;
-    if (any_flagged(surveyed.near, nodes) && cost_of(mesh, nodes, targets, cell) > bad) flag_all(nodes, flags);
+    if (any_flagged(surveyed.near, nodes) && cost_of(mesh, nodes, targets, cell) > bad)
+      flag_all(nodes, flags);
   });
   grow(mesh, flags, rings);
   return flags;
 }
 
 /// The nodes near that may move: those of no parallelogram, and the ones flagged in `yielding`.
-std::vector<std::int32_t> free_nodes(const Survey& surveyed, const HaloMesh& mesh, const BoundarySlide& slide, const std::vector<char>& yielding) {
+std::vector<std::int32_t> free_nodes(const Survey& surveyed, const HaloMesh& mesh, const BoundarySlide& slide,
+                                     const std::vector<char>& yielding) {
   std::vector<std::int32_t> free;
   for (std::int32_t node = 0; node < mesh.owned_nodes(); ++node) {
     const auto n = static_cast<std::size_t>(node);
@@ -148,11 +160,13 @@ std::vector<std::int32_t> free_nodes(const Survey& surveyed, const HaloMesh& mes
 }
 
 /// The worst cell now; cells away from nodes that may have moved are as they were. *Collective.*
-WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets, const Survey& before) {
+WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets,
+                     const Survey& before) {
   WorstCell worst;
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& nodes) {
-    const double cost = any_flagged(before.near, nodes) ? cost_of(mesh, nodes, targets, number) : before.costs[number];
+    const double cost =
+        any_flagged(before.near, nodes) ? cost_of(mesh, nodes, targets, number) : before.costs[number];
     include(worst, mesh, nodes[0], cost);
     ++number;
   });
@@ -171,8 +185,9 @@ std::vector<char> take_positions(const HaloMesh& from, Mesh& to) {
 
 /// Whether a triangle is inverted or flat, exactly: some that count as flat when they are smoothed are none.
 bool any_turns_right(const Mesh& mesh) {
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
-                     [&](const auto& t) { return orientation(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])) <= 0; });
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    return orientation(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])) <= 0;
+  });
 }
 
 /// The worst of a mesh of triangles, each of which one rank has. *Collective.*
@@ -186,14 +201,16 @@ WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
   return over_ranks(comm, worst);
 }
 
-/// Rounds of sweeps: parallelograms stay in the first; in the next ones those yield that a bad cell touches, then those in rings round it, until no
-/// cell is bad. *Collective.*
-void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide, const std::vector<CellTarget>& targets,
-                     const Survey& surveyed, const SmoothOptions& options, SmoothReport& report) {
+/// Rounds of sweeps: parallelograms stay in the first; in the next ones those yield that a bad cell touches,
+/// then those in rings round it, until no cell is bad. *Collective.*
+void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
+                     const std::vector<CellTarget>& targets, const Survey& surveyed,
+                     const SmoothOptions& options, SmoothReport& report) {
   std::vector<char> yielding(halo.points().size(), 0);
   for (int round = 0;; ++round) {
     const NodeStars stars(halo, free_nodes(surveyed, halo, slide, yielding), targets);
-    Sweeper sweeper(comm, halo, stars, slide, options.method, options.objective, round == 0 ? options.threshold : options.bad);
+    Sweeper sweeper(comm, halo, stars, slide, options.method, options.objective,
+                    round == 0 ? options.threshold : options.bad);
     progress::Stage stage("smoothing", options.sweeps, "sweeps");
     std::int64_t moves = 1;
     for (int sweep = 0; sweep < options.sweeps && moves > 0; ++sweep, ++report.sweeps) {
@@ -215,12 +232,14 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
   std::optional<OutlinePath> outline;
   if (options.geometry != nullptr) outline.emplace(*options.geometry);
   HaloMesh halo(comm, mesh);
-  const std::vector<CellTarget> targets = comm.any(!options.targets.empty()) ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
+  const std::vector<CellTarget> targets =
+      comm.any(!options.targets.empty()) ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
   const BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
   Survey before = survey(comm, halo, targets, options.threshold);
   const WorstCell first = before.worst;
   const bool may_move_lines = options.level_lines && options.sweeps > 0 && targets.empty();
-  if (may_move_lines && move_level_lines(comm, halo, options.pinned, options.bad)) before = survey(comm, halo, targets, options.threshold);
+  if (may_move_lines && move_level_lines(comm, halo, options.pinned, options.bad))
+    before = survey(comm, halo, targets, options.threshold);
   sweep_in_rounds(comm, halo, slide, targets, before, options, report);
   WorstCell after = worst_cell(comm, halo, targets, before);
   const std::vector<char> moved = take_positions(halo, mesh);
@@ -237,13 +256,17 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
   return report;
 }
 
-/// Flags owned nodes: those of triangles that cost more than `limit`, and some rings round them in the mesh as it was before flips. *Collective.*
-std::vector<char> nodes_near_worse(const Communicator& comm, const Mesh& flipped, const Mesh& before, double limit, int rings) {
+/// Flags owned nodes: those of triangles that cost more than `limit`, and some rings round them in the mesh
+/// as it was before flips. *Collective.*
+std::vector<char> nodes_near_worse(const Communicator& comm, const Mesh& flipped, const Mesh& before,
+                                   double limit, int rings) {
   const NodeOwners owners(comm, before.first_node);
   std::vector<std::vector<std::int64_t>> to_owner(static_cast<std::size_t>(comm.size()));
   for (const auto& nodes : flipped.triangles) {
     if (ideal_cost(flipped, nodes) <= limit) continue;
-    for (const NodeId node : nodes) to_owner[static_cast<std::size_t>(owners.rank_of(flipped.global(node)))].push_back(flipped.global(node).value());
+    for (const NodeId node : nodes)
+      to_owner[static_cast<std::size_t>(owners.rank_of(flipped.global(node)))].push_back(
+          flipped.global(node).value());
   }
   const HaloMesh halo(comm, before);
   std::vector<char> near(halo.points().size(), 0);
@@ -255,11 +278,13 @@ std::vector<char> nodes_near_worse(const Communicator& comm, const Mesh& flipped
   return near;
 }
 
-/// A flip to Delaunay raises the smallest angle but may raise the largest cost. Where that gets worse than it was, the nodes near the worse triangles
-/// are left where they were and the rest is smoothed again; in the end the whole mesh is left as it was. *Collective.*
+/// A flip to Delaunay raises the smallest angle but may raise the largest cost. Where that gets worse than it
+/// was, the nodes near the worse triangles are left where they were and the rest is smoothed again; in the
+/// end the whole mesh is left as it was. *Collective.*
 SmoothReport smooth_delaunay(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
   QUADLOOP_REQUIRE(!comm.any(!options.targets.empty()), "flips would leave cells without targets");
-  QUADLOOP_REQUIRE(options.keep_places || !comm.any(!options.triangle_to_block.empty()), "blocks are known by places");
+  QUADLOOP_REQUIRE(options.keep_places || !comm.any(!options.triangle_to_block.empty()),
+                   "blocks are known by places");
   const Mesh before = mesh;
   SmoothOptions careful = options;
   careful.pinned.resize(static_cast<std::size_t>(mesh.owned_nodes), 0);
@@ -292,7 +317,8 @@ SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptio
   if (unit.is_one()) return smooth_ordinary(comm, mesh, options);
   SmoothOptions scaled_options = options;
   std::optional<Geometry> scaled_geometry;
-  if (options.geometry != nullptr) scaled_options.geometry = &scaled_geometry.emplace(unit.into(*options.geometry));
+  if (options.geometry != nullptr)
+    scaled_options.geometry = &scaled_geometry.emplace(unit.into(*options.geometry));
   if (options.delaunay) scaled_options.delaunay = [&](Point p) { return options.delaunay(unit.out_of(p)); };
   for (Point& p : mesh.points) p = unit.into(p);
   const SmoothReport report = smooth_ordinary(comm, mesh, scaled_options);

@@ -1,12 +1,12 @@
 #include "smoother/sweeper.hpp"
 
 #include "smoother/colouring.hpp"
-#include "smoother/untangle.hpp"
+#include "smoother/node/untangle.hpp"
 
 namespace quadloop {
 
-Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide, Method method, Objective objective,
-                 double threshold)
+Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide,
+                 Method method, Objective objective, double threshold)
     : comm_{comm},
       mesh_{mesh},
       stars_{stars},
@@ -40,7 +40,8 @@ std::int64_t Sweeper::sweep() {
 /// Whether the node or one that it shares a cell with has moved since it was last visited.
 bool Sweeper::is_stale(std::size_t i) const {
   bool stale = moved_at(node(i)) >= visited_at_[i];
-  stars_.for_each_neighbour(i, [&](std::int32_t other) { stale = stale || moved_at(other) >= visited_at_[i]; });
+  stars_.for_each_neighbour(i,
+                            [&](std::int32_t other) { stale = stale || moved_at(other) >= visited_at_[i]; });
   return stale;
 }
 
@@ -49,14 +50,16 @@ void Sweeper::find_bad() {
   for (std::size_t i = 0; i < stars_.size(); ++i) {
     if (!is_stale(i)) continue;
     stars_.gather(i, star_);
-    bad_[static_cast<std::size_t>(node(i))] = star_.worst_cost(mesh_.points()[static_cast<std::size_t>(node(i))]) > threshold_ ? 1 : 0;
+    bad_[static_cast<std::size_t>(node(i))] =
+        star_.worst_cost(mesh_.points()[static_cast<std::size_t>(node(i))]) > threshold_ ? 1 : 0;
   }
   mesh_.exchange().update(bad_);
 }
 
 bool Sweeper::is_active(std::size_t i) const {
   bool active = bad_[static_cast<std::size_t>(node(i))] != 0;
-  stars_.for_each_neighbour(i, [&](std::int32_t other) { active = active || bad_[static_cast<std::size_t>(other)] != 0; });
+  stars_.for_each_neighbour(
+      i, [&](std::int32_t other) { active = active || bad_[static_cast<std::size_t>(other)] != 0; });
   return active;
 }
 

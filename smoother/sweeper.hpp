@@ -5,17 +5,18 @@
 #include <optional>
 #include <vector>
 
-#include "smoother/boundary_slide.hpp"
 #include "smoother/node_stars.hpp"
+#include "smoother/outline/boundary_slide.hpp"
 
 namespace quadloop {
 
-/// Visits the nodes sweep by sweep, colour by colour: those of cells above a threshold and their neighbours, where something near has moved since.
+/// Visits the nodes sweep by sweep, colour by colour: those of cells above a threshold and their neighbours,
+/// where something near has moved since.
 class Sweeper {
  public:
   /// `stars` are those of the nodes that may move. Mesh, stars and slide must outlive it. *Collective.*
-  Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide, Method method, Objective objective,
-          double threshold);
+  Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide,
+          Method method, Objective objective, double threshold);
 
   /// Returns the number of nodes moved over all ranks. *Collective.*
   std::int64_t sweep();

@@ -23,11 +23,14 @@ std::vector<double> CellShare::bring(const Communicator& comm, std::span<const d
   QUADLOOP_REQUIRE(all_held() == all_wanted(), "the cells held are not the cells wanted");
   const auto self = static_cast<std::size_t>(comm.rank());
   const std::int64_t begin = first_held_[self], end = first_held_[self + 1];
-  QUADLOOP_REQUIRE(static_cast<std::int64_t>(held.size()) == end - begin, "there must be one value for each cell");
+  QUADLOOP_REQUIRE(static_cast<std::int64_t>(held.size()) == end - begin,
+                   "there must be one value for each cell");
   std::vector<std::vector<double>> out(static_cast<std::size_t>(comm.size()));
   for (std::size_t rank = 0; rank < out.size(); ++rank) {
-    const std::int64_t from = std::clamp(first_wanted_[rank], begin, end), to = std::clamp(first_wanted_[rank + 1], begin, end);
-    const auto piece = held.subspan(static_cast<std::size_t>(from - begin), static_cast<std::size_t>(to - from));
+    const std::int64_t from = std::clamp(first_wanted_[rank], begin, end),
+                       to = std::clamp(first_wanted_[rank + 1], begin, end);
+    const auto piece =
+        held.subspan(static_cast<std::size_t>(from - begin), static_cast<std::size_t>(to - from));
     out[rank].assign(piece.begin(), piece.end());
   }
   std::vector<double> wanted;

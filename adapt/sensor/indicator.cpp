@@ -16,8 +16,9 @@ T change(std::span<const T> of_nodes, NodeId from, NodeId to) {
   return of_nodes[static_cast<std::size_t>(to.value())] - of_nodes[static_cast<std::size_t>(from.value())];
 }
 
-/// Raises each cell's value to the largest of its edges. `of_edge(from, to)` must have the same bits as `of_edge(to, from)`: the cells on both sides
-/// of an edge see it in different directions, and so do different ranks. Absolute values of a change do, and products of two changes.
+/// Raises each cell's value to the largest of its edges. `of_edge(from, to)` must have the same bits as
+/// `of_edge(to, from)`: the cells on both sides of an edge see it in different directions, and so do
+/// different ranks. Absolute values of a change do, and products of two changes.
 template <class OfEdge>
 void raise_by_edges(const Mesh& mesh, const OfEdge& of_edge, std::vector<double>& of_cells) {
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
@@ -26,22 +27,31 @@ void raise_by_edges(const Mesh& mesh, const OfEdge& of_edge, std::vector<double>
   });
 }
 
-void raise_by_field(const Communicator& comm, const Mesh& mesh, const ScaledField& field, Indicator kind, std::vector<double>& of_cells) {
+void raise_by_field(const Communicator& comm, const Mesh& mesh, const ScaledField& field, Indicator kind,
+                    std::vector<double>& of_cells) {
   const std::span<const double> values(field.values);
   const std::span<const Point> points(mesh.points);
-  const auto unless_rounding = [&](double difference) { return difference > field.rounding ? difference : 0; };
-  const auto difference = [&](NodeId from, NodeId to) { return unless_rounding(std::abs(change(values, from, to))); };
+  const auto unless_rounding = [&](double difference) {
+    return difference > field.rounding ? difference : 0;
+  };
+  const auto difference = [&](NodeId from, NodeId to) {
+    return unless_rounding(std::abs(change(values, from, to)));
+  };
   switch (kind) {
     case Indicator::difference: raise_by_edges(mesh, difference, of_cells); break;
     case Indicator::gradient: {
-      const auto slope = [&](NodeId from, NodeId to) { return difference(from, to) / length(change(points, from, to)); };
+      const auto slope = [&](NodeId from, NodeId to) {
+        return difference(from, to) / length(change(points, from, to));
+      };
       raise_by_edges(mesh, slope, of_cells);
       break;
     }
     case Indicator::hessian: {
       const std::vector<Point> of_nodes = node_gradients(comm, mesh, values);
       const std::span<const Point> gradients(of_nodes);
-      const auto bend = [&](NodeId from, NodeId to) { return unless_rounding(std::abs(dot(change(gradients, from, to), change(points, from, to)))); };
+      const auto bend = [&](NodeId from, NodeId to) {
+        return unless_rounding(std::abs(dot(change(gradients, from, to), change(points, from, to))));
+      };
       raise_by_edges(mesh, bend, of_cells);
       break;
     }
@@ -50,7 +60,8 @@ void raise_by_field(const Communicator& comm, const Mesh& mesh, const ScaledFiel
 
 }  // namespace
 
-std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves, std::span<const NodeField> fields,
+std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
+                                   std::span<const LeafRecord> leaves, std::span<const NodeField> fields,
                                    Indicator kind) {
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
   std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(), 0);
@@ -62,7 +73,8 @@ std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh, s
   return cells_of_leaves.largest(comm, of_cells);
 }
 
-std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves, const NodeField& error) {
+std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh,
+                                std::span<const LeafRecord> leaves, const NodeField& error) {
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
   check_field(comm, mesh, error, FieldSign::not_negative);
   const std::vector<double> values = with_copies(comm, mesh, error);

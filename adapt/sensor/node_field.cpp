@@ -15,19 +15,23 @@ namespace {
 /// What is wrong with a value, and what to do; nullptr if nothing.
 const char* fault_of(double value, FieldSign sign) {
   if (!std::isfinite(value)) return "which is not finite; correct the solution";
-  if (sign == FieldSign::not_negative && value < 0) return "but an error is never negative; correct what the solver writes";
-  if (sign == FieldSign::positive && value <= 0) return "but a wanted size is larger than 0; correct what the solver writes";
+  if (sign == FieldSign::not_negative && value < 0)
+    return "but an error is never negative; correct what the solver writes";
+  if (sign == FieldSign::positive && value <= 0)
+    return "but a wanted size is larger than 0; correct what the solver writes";
   return nullptr;
 }
 
 void require_values(const Mesh& mesh, const NodeField& field) {
-  QUADLOOP_REQUIRE(field.values.size() >= static_cast<std::size_t>(mesh.owned_nodes), "a field must have a value for each owned node");
+  QUADLOOP_REQUIRE(field.values.size() >= static_cast<std::size_t>(mesh.owned_nodes),
+                   "a field must have a value for each owned node");
 }
 
 }  // namespace
 
 void check_field(const Communicator& comm, const Mesh& mesh, const NodeField& field, FieldSign sign) {
-  comm.together([&] {  // nodes are numbered in the order of ranks, so that the lowest rank that throws has the first node
+  comm.together([&] {  // nodes are numbered in the order of ranks, so that the lowest rank that throws has
+                       // the first node
     require_values(mesh, field);
     for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
       const double value = field.values[static_cast<std::size_t>(node)];
@@ -36,8 +40,8 @@ void check_field(const Communicator& comm, const Mesh& mesh, const NodeField& fi
       const Point p = mesh.point(NodeId{node});
       std::ostringstream message;
       message.precision(12);
-      message << "variable '" << field.name << "': node " << mesh.first_node + node + 1 << " at (" << p.x << ", " << p.y << ") has the value "
-              << value << ", " << fault;
+      message << "variable '" << field.name << "': node " << mesh.first_node + node + 1 << " at (" << p.x
+              << ", " << p.y << ") has the value " << value << ", " << fault;
       throw InputError(message.str());
     }
   });
@@ -65,7 +69,8 @@ ScaledField scaled_by_range(const Communicator& comm, const Mesh& mesh, const No
   const double size = std::max(std::abs(smallest), std::abs(largest));
   const double half_range = 0.5 * largest - 0.5 * smallest;  // the whole one may overflow
   scaled.constant = !(half_range > 0.5 * share * size);      // holds where there are no nodes too
-  for (double& value : scaled.values) value = scaled.constant ? 0 : (0.5 * value - 0.5 * smallest) / half_range;
+  for (double& value : scaled.values)
+    value = scaled.constant ? 0 : (0.5 * value - 0.5 * smallest) / half_range;
   scaled.rounding = scaled.constant ? 0 : share * (0.5 * size / half_range);
   return scaled;
 }

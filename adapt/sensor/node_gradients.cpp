@@ -13,11 +13,14 @@ struct Integral {
   Point gradient;
 };
 
-/// Of one cell, from its outline: the field is linear along each edge. Counted from the first node, so that a constant field has no gradient at all
-/// and little is lost far from the origin.
+/// Of one cell, from its outline: the field is linear along each edge. Counted from the first node, so that a
+/// constant field has no gradient at all and little is lost far from the origin.
 template <class Nodes>
 Integral integral_over(const Nodes& nodes, const HaloMesh& halo, std::span<const double> values) {
-  const auto value = [&](NodeId node) { return values[static_cast<std::size_t>(node.value())] - values[static_cast<std::size_t>(nodes[0].value())]; };
+  const auto value = [&](NodeId node) {
+    return values[static_cast<std::size_t>(node.value())] -
+           values[static_cast<std::size_t>(nodes[0].value())];
+  };
   const auto place = [&](NodeId node) { return halo.point(node) - halo.point(nodes[0]); };
   Integral sum;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -31,7 +34,8 @@ Integral integral_over(const Nodes& nodes, const HaloMesh& halo, std::span<const
 
 }  // namespace
 
-std::vector<Point> node_gradients(const Communicator& comm, const Mesh& mesh, std::span<const double> values) {
+std::vector<Point> node_gradients(const Communicator& comm, const Mesh& mesh,
+                                  std::span<const double> values) {
   QUADLOOP_REQUIRE(values.size() == mesh.points.size(), "there must be one value for each node");
   const HaloMesh halo(comm, mesh);
   std::vector<double> halo_values(values.begin(), values.end());

@@ -10,12 +10,15 @@
 
 namespace quadloop {
 
-OrderedValues::OrderedValues(const Communicator& comm, std::span<const LeafRecord> leaves, std::span<const double> values) : comm_{&comm} {
+OrderedValues::OrderedValues(const Communicator& comm, std::span<const LeafRecord> leaves,
+                             std::span<const double> values)
+    : comm_{&comm} {
   comm.together([&] {
     QUADLOOP_REQUIRE(leaves.size() == values.size(), "there must be one indicator for each leaf");
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!has_cells(leaves[i])) continue;
-      QUADLOOP_REQUIRE(std::isfinite(values[i]) && values[i] >= 0, "an indicator must be finite and not negative");
+      QUADLOOP_REQUIRE(std::isfinite(values[i]) && values[i] >= 0,
+                       "an indicator must be finite and not negative");
       own_.push_back(values[i] + 0.0);  // -0 becomes 0, whose bits are in order with the others
     }
   });
@@ -28,7 +31,8 @@ OrderedValues::OrderedValues(const Communicator& comm, std::span<const LeafRecor
 
 double OrderedValues::kth_smallest(std::int64_t k) const {
   QUADLOOP_REQUIRE(1 <= k && k <= count_, "there is no such value");
-  // The bits of doubles that are not negative are integers in the same order, so halving an interval of them ends at the very value.
+  // The bits of doubles that are not negative are integers in the same order, so halving an interval of them
+  // ends at the very value.
   auto low = std::bit_cast<std::uint64_t>(smallest_), high = std::bit_cast<std::uint64_t>(largest_);
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;

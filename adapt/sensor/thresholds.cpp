@@ -33,9 +33,12 @@ struct ByRule {
     return {refine_threshold_from(mean + rule.refine * deviation, statistics.floor),
             coarsen_threshold_from(mean - rule.coarsen * deviation, statistics.floor)};
   }
-  Thresholds operator()(const FractionRule& rule) const { return {values.refine_threshold(rule.refine), values.coarsen_threshold(rule.coarsen)}; }
+  Thresholds operator()(const FractionRule& rule) const {
+    return {values.refine_threshold(rule.refine), values.coarsen_threshold(rule.coarsen)};
+  }
   Thresholds operator()(const NodesRule& rule) const {
-    return {Thresholds{}.refine, coarsen_threshold_from(statistics.mean - rule.coarsen * statistics.deviation, statistics.floor)};
+    return {Thresholds{}.refine,
+            coarsen_threshold_from(statistics.mean - rule.coarsen * statistics.deviation, statistics.floor)};
   }
 };
 
@@ -56,11 +59,13 @@ IndicatorStatistics statistics_of(const Communicator& comm, const OrderedValues&
   return statistics;
 }
 
-Thresholds thresholds_by(const ThresholdRule& rule, const OrderedValues& values, const IndicatorStatistics& statistics) {
+Thresholds thresholds_by(const ThresholdRule& rule, const OrderedValues& values,
+                         const IndicatorStatistics& statistics) {
   return statistics.flat ? Thresholds{} : std::visit(ByRule{values, statistics}, rule);
 }
 
-std::vector<Mark> marks_above(std::span<const LeafRecord> leaves, std::span<const double> values, const Thresholds& thresholds) {
+std::vector<Mark> marks_above(std::span<const LeafRecord> leaves, std::span<const double> values,
+                              const Thresholds& thresholds) {
   QUADLOOP_REQUIRE(leaves.size() == values.size(), "there must be one indicator for each leaf");
   std::vector<Mark> marks(leaves.size(), Mark::keep);
   for (std::size_t i = 0; i < leaves.size(); ++i) {
@@ -75,12 +80,15 @@ std::vector<Mark> marks_above(std::span<const LeafRecord> leaves, std::span<cons
 }
 
 void count_marks(const Communicator& comm, MarkedLeaves& marked) {
-  const auto count_of = [&](Mark mark) { return comm.sum(std::int64_t{std::count(marked.marks.begin(), marked.marks.end(), mark)}); };
+  const auto count_of = [&](Mark mark) {
+    return comm.sum(std::int64_t{std::count(marked.marks.begin(), marked.marks.end(), mark)});
+  };
   marked.report.refined = count_of(Mark::refine);
   marked.report.coarsened = count_of(Mark::coarsen);
 }
 
-MarkedLeaves mark_leaves(const Communicator& comm, std::span<const LeafRecord> leaves, std::span<const double> values, const ThresholdRule& rule) {
+MarkedLeaves mark_leaves(const Communicator& comm, std::span<const LeafRecord> leaves,
+                         std::span<const double> values, const ThresholdRule& rule) {
   const OrderedValues ordered(comm, leaves, values);
   const IndicatorStatistics statistics = statistics_of(comm, ordered);
   MarkedLeaves marked;

@@ -11,11 +11,13 @@
 
 namespace quadloop {
 
-std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves, const NodeField& size) {
+std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves,
+                               const NodeField& size) {
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
   check_field(comm, mesh, size, FieldSign::positive);
   const std::vector<double> values = with_copies(comm, mesh, size);
-  std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(),
+                               std::numeric_limits<double>::infinity());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t cell) {
     double& value = of_cells[static_cast<std::size_t>(cell)];
     value = std::min(value, values[static_cast<std::size_t>(from.value())]);
@@ -35,7 +37,9 @@ MarkedLeaves mark_by_size(const Communicator& comm, const TreeRecord& tree, std:
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const LeafRecord& leaf = tree.leaves[i];
     const int wanted = has_cells(leaf) ? level_for_size(tree.attributes.tree_edge, sizes[i]) : leaf.level;
-    marked.marks.push_back(wanted > leaf.level ? Mark::refine : wanted < leaf.level ? Mark::coarsen : Mark::keep);
+    marked.marks.push_back(wanted > leaf.level   ? Mark::refine
+                           : wanted < leaf.level ? Mark::coarsen
+                                                 : Mark::keep);
   }
   count_marks(comm, marked);
   return marked;

@@ -19,7 +19,8 @@ std::array<std::array<NodeId, 3>, 2> halves(const std::array<NodeId, 4>& quad, s
   return {{{at(0), at(1), at(2)}, {at(2), at(3), at(0)}}};
 }
 
-void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int64_t number, std::vector<CellTriangle>& triangles) {
+void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int64_t number,
+            std::vector<CellTriangle>& triangles) {
   const int turn = turn_of(mesh, nodes);
   if (turn == 0) return;
   if (turn < 0) std::swap(nodes[1], nodes[2]);
@@ -31,10 +32,13 @@ void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int64_t number, 
 Point centre_of_nodes(const Communicator& comm, const Mesh& mesh) {
   Box box;
   for (const Point p : mesh.points) box.include(p);
-  return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)}, {comm.maximum(box.high.x), comm.maximum(box.high.y)}}.centre();
+  return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)},
+             {comm.maximum(box.high.x), comm.maximum(box.high.y)}}
+      .centre();
 }
 
-std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
+std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
+                                                const std::array<NodeId, 4>& quad) {
   std::array<TieRank, 4> ranks;
   for (std::size_t k = 0; k < 4; ++k) ranks[k] = tie_rank(centre, mesh.point(quad[k]));
   const auto highest = static_cast<std::size_t>(std::max_element(ranks.begin(), ranks.end()) - ranks.begin());
@@ -45,7 +49,8 @@ std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre, 
 }
 
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre) {
-  const auto own_triangles = static_cast<std::int64_t>(mesh.triangles.size()), own_quads = static_cast<std::int64_t>(mesh.quads.size());
+  const auto own_triangles = static_cast<std::int64_t>(mesh.triangles.size()),
+             own_quads = static_cast<std::int64_t>(mesh.quads.size());
   std::int64_t number = comm.exclusive_sum(own_triangles);
   std::int64_t quad_number = comm.sum(own_triangles) + comm.exclusive_sum(own_quads);
   std::vector<CellTriangle> triangles;

@@ -24,18 +24,22 @@ std::uint32_t step_at(double offset, double scale) {
 CurveGrid::CurveGrid(const Communicator& comm, std::span<const Point> points) {
   Box box;
   for (const Point p : points) box.include(p);
-  box = {{comm.minimum(box.low.x), comm.minimum(box.low.y)}, {comm.maximum(box.high.x), comm.maximum(box.high.y)}};
+  box = {{comm.minimum(box.low.x), comm.minimum(box.low.y)},
+         {comm.maximum(box.high.x), comm.maximum(box.high.y)}};
   const double side = std::max(box.width(), box.height());
   low_ = box.low;
   scale_ = side > 0 ? std::min(0x1p32 / side, std::numeric_limits<double>::max()) : 0;
 }
 
-CurveGrid::Corner CurveGrid::corner_of(Point p) const { return {step_at(p.x - low_.x, scale_), step_at(p.y - low_.y, scale_)}; }
+CurveGrid::Corner CurveGrid::corner_of(Point p) const {
+  return {step_at(p.x - low_.x, scale_), step_at(p.y - low_.y, scale_)};
+}
 
 std::uint64_t CurveGrid::key_at(Corner corner) { return morton_key(corner.x, corner.y); }
 
 CurveGrid::Square CurveGrid::square_around(const Steps& steps) {
-  const auto bits = static_cast<int>(std::bit_width((steps.low.x ^ steps.high.x) | (steps.low.y ^ steps.high.y)));
+  const auto bits =
+      static_cast<int>(std::bit_width((steps.low.x ^ steps.high.x) | (steps.low.y ^ steps.high.y)));
   const auto start = [bits](std::uint32_t step) { return bits == all_bits ? 0U : step >> bits << bits; };
   return {{start(steps.low.x), start(steps.low.y)}, bits};
 }

@@ -8,8 +8,8 @@
 
 namespace quadloop {
 
-/// A grid of 2^32 by 2^32 steps over a box, numbered along a Morton curve. Rounding to steps keeps the order of coordinates; a point outside the box
-/// counts as the nearest one of its rim.
+/// A grid of 2^32 by 2^32 steps over a box, numbered along a Morton curve. Rounding to steps keeps the order
+/// of coordinates; a point outside the box counts as the nearest one of its rim.
 class CurveGrid {
  public:
   struct Corner {

@@ -10,14 +10,18 @@ constexpr std::int64_t samples_per_rank = 512;
 
 }  // namespace
 
-CurveShares::CurveShares(const Communicator& comm, std::span<const Point> in_grid, std::span<const Point> more) : grid_(comm, in_grid) {
+CurveShares::CurveShares(const Communicator& comm, std::span<const Point> in_grid,
+                         std::span<const Point> more)
+    : grid_(comm, in_grid) {
   set_splits(comm, in_grid, more);
 }
 
 /// Cuts at the quantiles of a sample: every so many-th point of all ranks.
-void CurveShares::set_splits(const Communicator& comm, std::span<const Point> points, std::span<const Point> more) {
+void CurveShares::set_splits(const Communicator& comm, std::span<const Point> points,
+                             std::span<const Point> more) {
   const auto own = static_cast<std::int64_t>(points.size() + more.size());
-  const std::int64_t before = comm.exclusive_sum(own), step = std::max<std::int64_t>(1, comm.sum(own) / (samples_per_rank * comm.size()));
+  const std::int64_t before = comm.exclusive_sum(own),
+                     step = std::max<std::int64_t>(1, comm.sum(own) / (samples_per_rank * comm.size()));
   std::vector<std::uint64_t> keys;
   for (std::int64_t i = (step - before % step) % step; i < own; i += step) {
     const auto at = static_cast<std::size_t>(i);
@@ -26,7 +30,8 @@ void CurveShares::set_splits(const Communicator& comm, std::span<const Point> po
   keys = comm.all_gather_values(std::span<const std::uint64_t>(keys));
   std::sort(keys.begin(), keys.end());
   const auto ranks = static_cast<std::size_t>(comm.size());
-  for (std::size_t rank = 1; rank < ranks; ++rank) splits_.push_back(keys.empty() ? 0 : keys[keys.size() * rank / ranks]);
+  for (std::size_t rank = 1; rank < ranks; ++rank)
+    splits_.push_back(keys.empty() ? 0 : keys[keys.size() * rank / ranks]);
 }
 
 int CurveShares::rank_of_key(std::uint64_t key) const {
@@ -44,7 +49,8 @@ void CurveShares::ranks_meeting(const Box& box, std::vector<int>& ranks) const {
   descend(steps, CurveGrid::square_around(steps), ranks);
 }
 
-void CurveShares::descend(const CurveGrid::Steps& steps, const CurveGrid::Square& square, std::vector<int>& ranks) const {
+void CurveShares::descend(const CurveGrid::Steps& steps, const CurveGrid::Square& square,
+                          std::vector<int>& ranks) const {
   if (!square.meets(steps)) return;
   const int first = rank_of_key(CurveGrid::key_at(square.begin));
   if (first == rank_of_key(CurveGrid::key_at(square.last()))) {

@@ -8,8 +8,8 @@
 
 namespace quadloop {
 
-/// The plane in one piece for each rank: stretches of a Morton curve with about equally many of the points given. Who has what depends on the
-/// number of ranks; nothing of a result may.
+/// The plane in one piece for each rank: stretches of a Morton curve with about equally many of the points
+/// given. Who has what depends on the number of ranks; nothing of a result may.
 class CurveShares {
  public:
   /// `points` are this rank's; the first list gives the grid. *Collective.*

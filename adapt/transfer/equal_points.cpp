@@ -17,7 +17,8 @@ std::uint64_t hash_of(Point p) {
 /// A hash table of points with open addressing, at most half full.
 class PointTable {
  public:
-  explicit PointTable(std::span<const Point> points) : points_{points}, slots_(std::bit_ceil(2 * points.size() + 1), -1) {
+  explicit PointTable(std::span<const Point> points)
+      : points_{points}, slots_(std::bit_ceil(2 * points.size() + 1), -1) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       std::int32_t& slot = slot_of(points[i]);
       if (slot < 0) slot = static_cast<std::int32_t>(i);

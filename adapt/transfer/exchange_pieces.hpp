@@ -8,7 +8,8 @@
 
 namespace quadloop {
 
-/// Communicator::exchange for messages of any size: those above `largest` bytes go in several rounds. *Collective.*
+/// Communicator::exchange for messages of any size: those above `largest` bytes go in several rounds.
+/// *Collective.*
 template <class T>
 std::vector<std::vector<T>> exchange_pieces(const Communicator& comm, std::vector<std::vector<T>> to_rank,
                                             std::size_t largest = std::size_t{1} << 28) {
@@ -22,11 +23,14 @@ std::vector<std::vector<T>> exchange_pieces(const Communicator& comm, std::vecto
   for (std::size_t begin = 0; begin < longest; begin += step) {
     for (std::size_t rank = 0; rank < piece.size(); ++rank) {
       const std::vector<T>& all = to_rank[rank];
-      const auto at = [&](std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(std::min(i, all.size())); };
+      const auto at = [&](std::size_t i) {
+        return all.begin() + static_cast<std::ptrdiff_t>(std::min(i, all.size()));
+      };
       piece[rank].assign(at(begin), at(begin + step));
     }
     const auto arrived = comm.exchange(piece);
-    for (std::size_t rank = 0; rank < piece.size(); ++rank) received[rank].insert(received[rank].end(), arrived[rank].begin(), arrived[rank].end());
+    for (std::size_t rank = 0; rank < piece.size(); ++rank)
+      received[rank].insert(received[rank].end(), arrived[rank].begin(), arrived[rank].end());
   }
   return received;
 }

@@ -6,9 +6,12 @@ namespace quadloop {
 
 namespace {
 
-void copy(std::span<const double> from, std::span<double> to) { std::copy(from.begin(), from.end(), to.begin()); }
+void copy(std::span<const double> from, std::span<double> to) {
+  std::copy(from.begin(), from.end(), to.begin());
+}
 
-/// Of the three corners the one nearest to p, the first of equals: weights that grow from there lose the least.
+/// Of the three corners the one nearest to p, the first of equals: weights that grow from there lose the
+/// least.
 std::size_t nearest_corner(const std::array<Point, 3>& corners, Point p) {
   std::size_t nearest = 0;
   for (std::size_t k = 1; k < 3; ++k) {
@@ -17,7 +20,8 @@ std::size_t nearest_corner(const std::array<Point, 3>& corners, Point p) {
   return nearest;
 }
 
-void interpolate_on_nearest_side(const std::array<Point, 3>& corners, const std::array<std::span<const double>, 3>& at_corners, Point p,
+void interpolate_on_nearest_side(const std::array<Point, 3>& corners,
+                                 const std::array<std::span<const double>, 3>& at_corners, Point p,
                                  std::span<double> values) {
   std::size_t side = 0;
   NearestOnSegment best = nearest_along_segment(corners[0], corners[1], p);
@@ -40,7 +44,8 @@ NearestOnSegment nearest_along_segment(Point a, Point b, Point p) {
   return {parameter, dot(off, off)};
 }
 
-void interpolate_on_segment(std::span<const double> at_a, std::span<const double> at_b, double parameter, std::span<double> values) {
+void interpolate_on_segment(std::span<const double> at_a, std::span<const double> at_b, double parameter,
+                            std::span<double> values) {
   if (parameter <= 0) return copy(at_a, values);
   if (parameter >= 1) return copy(at_b, values);
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -49,14 +54,16 @@ void interpolate_on_segment(std::span<const double> at_a, std::span<const double
   }
 }
 
-void interpolate_in_triangle(const std::array<Point, 3>& corners, const std::array<std::span<const double>, 3>& at_corners, Point p,
+void interpolate_in_triangle(const std::array<Point, 3>& corners,
+                             const std::array<std::span<const double>, 3>& at_corners, Point p,
                              std::span<double> values) {
   const std::size_t i = nearest_corner(corners, p), j = (i + 1) % 3, k = (i + 2) % 3;
   if (p == corners[i]) return copy(at_corners[i], values);
   const Point first = corners[j] - corners[i], second = corners[k] - corners[i], off = p - corners[i];
   const double area = cross(first, second);
   if (!(area > 0)) return interpolate_on_nearest_side(corners, at_corners, p, values);
-  double s = std::clamp(cross(off, second) / area, 0.0, 1.0), t = std::clamp(cross(first, off) / area, 0.0, 1.0);
+  double s = std::clamp(cross(off, second) / area, 0.0, 1.0),
+         t = std::clamp(cross(first, off) / area, 0.0, 1.0);
   if (s + t > 1) {
     const double sum = s + t;
     s /= sum;
@@ -64,7 +71,8 @@ void interpolate_in_triangle(const std::array<Point, 3>& corners, const std::arr
   }
   for (std::size_t n = 0; n < values.size(); ++n) {
     const double a = at_corners[i][n], b = at_corners[j][n], c = at_corners[k][n];
-    values[n] = std::clamp(std::max(0.0, 1 - s - t) * a + s * b + t * c, std::min({a, b, c}), std::max({a, b, c}));
+    values[n] =
+        std::clamp(std::max(0.0, 1 - s - t) * a + s * b + t * c, std::min({a, b, c}), std::max({a, b, c}));
   }
 }
 

@@ -17,10 +17,12 @@ bool contains(const std::array<Point, 3>& corners, Point p) {
   return orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0;
 }
 
-/// Points and triangles together are shared out to ever smaller boxes, those of the points that are left, until the few are tried with each other.
+/// Points and triangles together are shared out to ever smaller boxes, those of the points that are left,
+/// until the few are tried with each other.
 class Search {
  public:
-  Search(const TrianglePiece& piece, std::span<const Point> points) : piece_{piece}, points_{points}, found_(points.size(), -1) {
+  Search(const TrianglePiece& piece, std::span<const Point> points)
+      : piece_{piece}, points_{points}, found_(points.size(), -1) {
     boxes_.reserve(piece.triangles.size());
     for (const CellTriangle& triangle : piece.triangles) {
       Box box;
@@ -66,8 +68,9 @@ class Search {
   void halve(std::span<std::int32_t> order, std::size_t begin, const Box& box, int depth) {
     const Point centre = box.centre();
     const bool wide = box.width() > box.height();
-    const auto middle =
-        std::partition(order.begin(), order.end(), [&](std::int32_t index) { return wide ? point(index).x < centre.x : point(index).y < centre.y; });
+    const auto middle = std::partition(order.begin(), order.end(), [&](std::int32_t index) {
+      return wide ? point(index).x < centre.x : point(index).y < centre.y;
+    });
     const auto low = static_cast<std::size_t>(middle - order.begin());
     share_out(order.first(low), begin, depth + 1);
     share_out(order.subspan(low), begin, depth + 1);
@@ -79,13 +82,18 @@ class Search {
       std::int32_t& best = found_[static_cast<std::size_t>(index)];
       for (std::size_t i = begin; i < candidates_.size(); ++i) {
         const std::int32_t candidate = candidates_[i];
-        if (!boxes_[static_cast<std::size_t>(candidate)].contains(p) || (best >= 0 && number_of(best) < number_of(candidate))) continue;
-        if (contains(piece_.corners(piece_.triangles[static_cast<std::size_t>(candidate)]), p)) best = candidate;
+        if (!boxes_[static_cast<std::size_t>(candidate)].contains(p) ||
+            (best >= 0 && number_of(best) < number_of(candidate)))
+          continue;
+        if (contains(piece_.corners(piece_.triangles[static_cast<std::size_t>(candidate)]), p))
+          best = candidate;
       }
     }
   }
 
-  std::int64_t number_of(std::int32_t triangle) const { return piece_.triangles[static_cast<std::size_t>(triangle)].number; }
+  std::int64_t number_of(std::int32_t triangle) const {
+    return piece_.triangles[static_cast<std::size_t>(triangle)].number;
+  }
 
   const TrianglePiece& piece_;
   std::span<const Point> points_;
@@ -96,6 +104,8 @@ class Search {
 
 }  // namespace
 
-std::vector<std::int32_t> locate_points(const TrianglePiece& piece, std::span<const Point> points) { return Search(piece, points).run(); }
+std::vector<std::int32_t> locate_points(const TrianglePiece& piece, std::span<const Point> points) {
+  return Search(piece, points).run();
+}
 
 }  // namespace quadloop

@@ -10,7 +10,8 @@ namespace {
 
 /// Of the node values that `value_of` gives. The halves of a quad make one term: sums cost more than terms.
 template <class ValueOf>
-double integral(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles, const ValueOf& value_of) {
+double integral(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles,
+                const ValueOf& value_of) {
   std::vector<double> terms;
   terms.reserve(triangles.size());
   std::int64_t last_cell = -1;
@@ -31,13 +32,15 @@ double integral(const Communicator& comm, const Mesh& mesh, std::span<const Cell
 /// Over the nodes of all ranks.
 bool has_negative(const Communicator& comm, const NodeRows& rows, std::size_t column) {
   bool negative = false;
-  for (std::size_t i = column; i < rows.values.size(); i += static_cast<std::size_t>(rows.width)) negative = negative || rows.values[i] < 0;
+  for (std::size_t i = column; i < rows.values.size(); i += static_cast<std::size_t>(rows.width))
+    negative = negative || rows.values[i] < 0;
   return comm.any(negative);
 }
 
 }  // namespace
 
-std::vector<double> integrate(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles, const NodeRows& rows) {
+std::vector<double> integrate(const Communicator& comm, const Mesh& mesh,
+                              std::span<const CellTriangle> triangles, const NodeRows& rows) {
   std::vector<double> integrals;
   for (std::size_t k = 0; k < static_cast<std::size_t>(rows.width); ++k) {
     integrals.push_back(integral(comm, mesh, triangles, [&](NodeId node) { return rows.of(node)[k]; }));
@@ -45,7 +48,8 @@ std::vector<double> integrate(const Communicator& comm, const Mesh& mesh, std::s
   return integrals;
 }
 
-std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles, const NodeRows& rows,
+std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh,
+                                    std::span<const CellTriangle> triangles, const NodeRows& rows,
                                     const std::vector<double>& of_values) {
   std::vector<double> integrals = of_values;  // densities and pressures are their own absolute values
   for (std::size_t k = 0; k < integrals.size(); ++k) {

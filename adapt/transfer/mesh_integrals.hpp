@@ -8,12 +8,15 @@
 
 namespace quadloop {
 
-/// For each variable area times the mean of the corners, summed over the triangles of all ranks; the same bits on any number of ranks.
-/// *Collective.*
-std::vector<double> integrate(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles, const NodeRows& rows);
+/// For each variable area times the mean of the corners, summed over the triangles of all ranks; the same
+/// bits on any number of ranks. *Collective.*
+std::vector<double> integrate(const Communicator& comm, const Mesh& mesh,
+                              std::span<const CellTriangle> triangles, const NodeRows& rows);
 
-/// The same of the variables' absolute values, where the integrals of the values themselves are known. *Collective.*
-std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles, const NodeRows& rows,
+/// The same of the variables' absolute values, where the integrals of the values themselves are known.
+/// *Collective.*
+std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh,
+                                    std::span<const CellTriangle> triangles, const NodeRows& rows,
                                     const std::vector<double>& of_values);
 
 }  // namespace quadloop

@@ -19,7 +19,8 @@ using TreeBox = geometry::model::box<TreePoint>;
 using TreeItem = std::pair<TreeBox, std::int32_t>;
 using EdgeTree = geometry::index::rtree<TreeItem, geometry::index::quadratic<16>>;
 
-constexpr double slack = 1 + 1e-12;  ///< a box's distance is rounded too: boxes this much farther are still looked into
+constexpr double slack =
+    1 + 1e-12;  ///< a box's distance is rounded too: boxes this much farther are still looked into
 
 struct Edge {
   std::int64_t number = 0;
@@ -35,7 +36,8 @@ std::vector<Edge> gather_edges(const Communicator& comm, const Mesh& mesh) {
     const auto count = static_cast<std::int64_t>(boundary.edges.size());
     std::int64_t number = before + comm.exclusive_sum(count);
     for (const auto& [from, to] : boundary.edges) {
-      own.push_back({number++, mesh.point(from), mesh.point(to), comm.rank(), static_cast<std::int32_t>(own.size())});
+      own.push_back(
+          {number++, mesh.point(from), mesh.point(to), comm.rank(), static_cast<std::int32_t>(own.size())});
     }
     before += comm.sum(count);
   }
@@ -51,7 +53,8 @@ std::vector<TreeItem> items_of(const std::vector<Edge>& edges) {
     Box box;
     box.include(edges[i].from);
     box.include(edges[i].to);
-    items.emplace_back(TreeBox{{box.low.x, box.low.y}, {box.high.x, box.high.y}}, static_cast<std::int32_t>(i));
+    items.emplace_back(TreeBox{{box.low.x, box.low.y}, {box.high.x, box.high.y}},
+                       static_cast<std::int32_t>(i));
   }
   return items;
 }
@@ -63,10 +66,12 @@ struct NearestBoundary::Tree {
   EdgeTree boxes;
 };
 
-NearestBoundary::NearestBoundary(const Communicator& comm, const Mesh& mesh) : tree_{std::make_unique<Tree>()} {
+NearestBoundary::NearestBoundary(const Communicator& comm, const Mesh& mesh)
+    : tree_{std::make_unique<Tree>()} {
   tree_->edges = gather_edges(comm, mesh);
   tree_->boxes = EdgeTree(items_of(tree_->edges));
-  QUADLOOP_REQUIRE(!tree_->edges.empty(), "a mesh without boundary edges has no values for points outside it");
+  QUADLOOP_REQUIRE(!tree_->edges.empty(),
+                   "a mesh without boundary edges has no values for points outside it");
 }
 
 NearestBoundary::~NearestBoundary() = default;
@@ -75,13 +80,15 @@ BoundaryPlace NearestBoundary::nearest(Point p) const {
   const TreePoint at(p.x, p.y);
   std::int32_t best = -1;
   NearestOnSegment place;
-  for (auto item = tree_->boxes.qbegin(geometry::index::nearest(at, static_cast<unsigned>(tree_->edges.size()))); item != tree_->boxes.qend();
-       ++item) {
+  for (auto item =
+           tree_->boxes.qbegin(geometry::index::nearest(at, static_cast<unsigned>(tree_->edges.size())));
+       item != tree_->boxes.qend(); ++item) {
     if (best >= 0 && geometry::comparable_distance(at, item->first) > slack * place.squared_distance) break;
     const Edge& edge = tree_->edges[static_cast<std::size_t>(item->second)];
     const NearestOnSegment other = nearest_along_segment(edge.from, edge.to, p);
     const bool nearer = other.squared_distance < place.squared_distance;
-    if (best >= 0 && !nearer && !(other.squared_distance == place.squared_distance && item->second < best)) continue;
+    if (best >= 0 && !nearer && !(other.squared_distance == place.squared_distance && item->second < best))
+      continue;
     best = item->second;
     place = other;
   }
@@ -91,7 +98,8 @@ BoundaryPlace NearestBoundary::nearest(Point p) const {
 
 std::vector<std::array<NodeId, 2>> boundary_edges_of(const Mesh& mesh) {
   std::vector<std::array<NodeId, 2>> edges;
-  for (const BoundaryEdges& boundary : mesh.boundaries) edges.insert(edges.end(), boundary.edges.begin(), boundary.edges.end());
+  for (const BoundaryEdges& boundary : mesh.boundaries)
+    edges.insert(edges.end(), boundary.edges.begin(), boundary.edges.end());
   return edges;
 }
 

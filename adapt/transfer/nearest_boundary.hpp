@@ -15,7 +15,8 @@ struct BoundaryPlace {
   double parameter = 0;  ///< along the edge, 0 at its first node
 };
 
-/// The boundary edges of all ranks, on each of them (they are few beside the cells), and which is the nearest.
+/// The boundary edges of all ranks, on each of them (they are few beside the cells), and which is the
+/// nearest.
 class NearestBoundary {
  public:
   /// *Collective.*
@@ -24,7 +25,8 @@ class NearestBoundary {
   NearestBoundary(const NearestBoundary&) = delete;
   NearestBoundary& operator=(const NearestBoundary&) = delete;
 
-  /// Of edges as near the one with the lowest number: numbers run through the boundaries in order, within one through the ranks.
+  /// Of edges as near the one with the lowest number: numbers run through the boundaries in order, within one
+  /// through the ranks.
   BoundaryPlace nearest(Point p) const;
 
  private:

@@ -5,9 +5,11 @@
 
 namespace quadloop {
 
-NodeRows rows_with_copies(const Communicator& comm, const Mesh& mesh, std::span<const double> owned, int width) {
+NodeRows rows_with_copies(const Communicator& comm, const Mesh& mesh, std::span<const double> owned,
+                          int width) {
   const auto columns = static_cast<std::size_t>(width);
-  QUADLOOP_REQUIRE(width >= 0 && owned.size() == static_cast<std::size_t>(mesh.owned_nodes) * columns, "values must hold a row for each owned node");
+  QUADLOOP_REQUIRE(width >= 0 && owned.size() == static_cast<std::size_t>(mesh.owned_nodes) * columns,
+                   "values must hold a row for each owned node");
   NodeRows rows{width, {owned.begin(), owned.end()}};
   rows.values.resize(mesh.points.size() * columns);
   if (comm.size() == 1) return rows;

@@ -20,6 +20,7 @@ struct NodeRows {
 };
 
 /// The rows of the owned nodes, and after them those of the copies, fetched from their owners. *Collective.*
-NodeRows rows_with_copies(const Communicator& comm, const Mesh& mesh, std::span<const double> owned, int width);
+NodeRows rows_with_copies(const Communicator& comm, const Mesh& mesh, std::span<const double> owned,
+                          int width);
 
 }  // namespace quadloop

@@ -11,23 +11,28 @@ constexpr CurveGrid::Square whole_grid{{}, 32};
 
 }  // namespace
 
-PointCells::PointCells(const Communicator& comm, const CurveGrid& grid, std::span<const Point> points) : grid_{&grid} {
+PointCells::PointCells(const Communicator& comm, const CurveGrid& grid, std::span<const Point> points)
+    : grid_{&grid} {
   std::vector<std::uint64_t> keys;
   keys.reserve(points.size());
   for (const Point p : points) keys.push_back(grid.key_of(p));
   std::sort(keys.begin(), keys.end());
-  const std::int64_t few = std::max(few_points, 4 * comm.sum(static_cast<std::int64_t>(keys.size())) / most_cells);
+  const std::int64_t few =
+      std::max(few_points, 4 * comm.sum(static_cast<std::int64_t>(keys.size())) / most_cells);
   std::vector<Stretch> own;
   split(keys, whole_grid, static_cast<std::size_t>(few), own);
   own = comm.all_gather_values(std::span<const Stretch>(own));
-  std::sort(own.begin(), own.end(), [](const Stretch& a, const Stretch& b) { return a.first != b.first ? a.first < b.first : a.last > b.last; });
+  std::sort(own.begin(), own.end(), [](const Stretch& a, const Stretch& b) {
+    return a.first != b.first ? a.first < b.first : a.last > b.last;
+  });
   for (const Stretch& stretch : own) {  // squares lie in each other or apart
     if (stretches_.empty() || stretches_.back().last < stretch.first) stretches_.push_back(stretch);
   }
 }
 
 /// `keys` are those in the square, ascending.
-void PointCells::split(std::span<const std::uint64_t> keys, const CurveGrid::Square& square, std::size_t few, std::vector<Stretch>& stretches) {
+void PointCells::split(std::span<const std::uint64_t> keys, const CurveGrid::Square& square, std::size_t few,
+                       std::vector<Stretch>& stretches) {
   if (keys.empty()) return;
   if (keys.size() <= few || square.bits == 0) {
     stretches.push_back({CurveGrid::key_at(square.begin), CurveGrid::key_at(square.last())});
@@ -44,7 +49,8 @@ void PointCells::split(std::span<const std::uint64_t> keys, const CurveGrid::Squ
 
 /// The first that does not end before the key.
 const PointCells::Stretch* PointCells::next(std::uint64_t key) const {
-  const auto found = std::partition_point(stretches_.begin(), stretches_.end(), [key](const Stretch& stretch) { return stretch.last < key; });
+  const auto found = std::partition_point(stretches_.begin(), stretches_.end(),
+                                          [key](const Stretch& stretch) { return stretch.last < key; });
   return found == stretches_.end() ? nullptr : &*found;
 }
 

@@ -8,7 +8,8 @@
 
 namespace quadloop {
 
-/// Where points lie, in squares of the grid that hold a few of them each; every rank has all ranks' squares, at most some 65 000.
+/// Where points lie, in squares of the grid that hold a few of them each; every rank has all ranks' squares,
+/// at most some 65 000.
 class PointCells {
  public:
   /// `points` are this rank's. The grid must outlive the cells. *Collective.*
@@ -22,7 +23,8 @@ class PointCells {
   struct Stretch {
     std::uint64_t first = 0, last = 0;
   };
-  static void split(std::span<const std::uint64_t> keys, const CurveGrid::Square& square, std::size_t few, std::vector<Stretch>& stretches);
+  static void split(std::span<const std::uint64_t> keys, const CurveGrid::Square& square, std::size_t few,
+                    std::vector<Stretch>& stretches);
   const Stretch* next(std::uint64_t key) const;
   bool descend(const CurveGrid::Steps& steps, const CurveGrid::Square& square) const;
 

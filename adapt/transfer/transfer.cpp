@@ -27,11 +27,13 @@ struct NewRows {
   std::vector<double> values;
 
   void put(std::int32_t node, const double* row) {
-    std::copy(row, row + width, values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node) * width));
+    std::copy(row, row + width,
+              values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node) * width));
   }
 };
 
-/// Which new nodes were asked of each rank, and its answers: a row for each that lies in a triangle there, one after another.
+/// Which new nodes were asked of each rank, and its answers: a row for each that lies in a triangle there,
+/// one after another.
 struct Answers {
   ForRanks<std::int32_t> asked;
   ForRanks<char> inside;
@@ -71,7 +73,8 @@ NodeShare gather_nodes(const Communicator& comm, const OldMesh& old) {
     points[rank].push_back(p);
     rows[rank].insert(rows[rank].end(), row.begin(), row.end());
   }
-  return {joined(exchange_pieces(comm, std::move(points))), {old.rows.width, joined(exchange_pieces(comm, std::move(rows)))}};
+  return {joined(exchange_pieces(comm, std::move(points))),
+          {old.rows.width, joined(exchange_pieces(comm, std::move(rows)))}};
 }
 
 /// Only triangles that may hold one of the points leave their rank.
@@ -90,7 +93,8 @@ TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, std
 class Found {
  public:
   /// *Collective.*
-  Found(const Communicator& comm, const OldMesh& old, std::span<const Point> points) : points_{points}, nodes_{gather_nodes(comm, old)} {
+  Found(const Communicator& comm, const OldMesh& old, std::span<const Point> points)
+      : points_{points}, nodes_{gather_nodes(comm, old)} {
     at_node_ = find_equal_points(nodes_.points, points);
     std::vector<Point> moved;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -112,7 +116,8 @@ class Found {
     if (found < 0) return false;
     const CellTriangle& triangle = piece_.triangles[static_cast<std::size_t>(found)];
     const auto& [a, b, c] = triangle.nodes;
-    interpolate_in_triangle(piece_.corners(triangle), {piece_.rows.of(a), piece_.rows.of(b), piece_.rows.of(c)}, points_[point], row);
+    interpolate_in_triangle(piece_.corners(triangle),
+                            {piece_.rows.of(a), piece_.rows.of(b), piece_.rows.of(c)}, points_[point], row);
     return true;
   }
 
@@ -173,8 +178,8 @@ std::vector<std::int32_t> take(const Answers& answers, NewRows& rows) {
 }
 
 /// Each rank that has an edge tells the values there.
-void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const NodeRows& old_rows, const Mesh& new_mesh,
-                        const std::vector<std::int32_t>& outside, NewRows& rows) {
+void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const NodeRows& old_rows,
+                        const Mesh& new_mesh, const std::vector<std::int32_t>& outside, NewRows& rows) {
   const NearestBoundary boundary(comm, old_mesh);
   const auto ranks = static_cast<std::size_t>(comm.size());
   ForRanks<std::int32_t> asked(ranks);
@@ -197,7 +202,8 @@ void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const No
   }
   answers = exchange_pieces(comm, std::move(answers));
   for (std::size_t rank = 0; rank < ranks; ++rank) {
-    for (std::size_t i = 0; i < asked[rank].size(); ++i) rows.put(asked[rank][i], answers[rank].data() + i * rows.width);
+    for (std::size_t i = 0; i < asked[rank].size(); ++i)
+      rows.put(asked[rank][i], answers[rank].data() + i * rows.width);
   }
 }
 
@@ -206,8 +212,8 @@ struct OldIntegrals {
   std::vector<double> of_values, of_sizes;
 };
 
-void report_drift(const Communicator& comm, const Mesh& new_mesh, const std::vector<double>& values, const OldIntegrals& before,
-                  TransferReport& report) {
+void report_drift(const Communicator& comm, const Mesh& new_mesh, const std::vector<double>& values,
+                  const OldIntegrals& before, TransferReport& report) {
   const auto triangles = cell_triangles(comm, new_mesh, centre_of_nodes(comm, new_mesh));
   const NodeRows rows = rows_with_copies(comm, new_mesh, values, static_cast<int>(before.of_values.size()));
   const std::vector<double> after = integrate(comm, new_mesh, triangles, rows);
@@ -219,13 +225,18 @@ void report_drift(const Communicator& comm, const Mesh& new_mesh, const std::vec
 
 }  // namespace
 
-Transferred transfer(const Communicator& comm, const Mesh& old_mesh, std::span<const double> old_values, int width, const Mesh& new_mesh) {
+Transferred transfer(const Communicator& comm, const Mesh& old_mesh, std::span<const double> old_values,
+                     int width, const Mesh& new_mesh) {
   const NodeRows old_rows = rows_with_copies(comm, old_mesh, old_values, width);
   const auto triangles = cell_triangles(comm, old_mesh, centre_of_nodes(comm, old_mesh));
-  const auto owned = [](const Mesh& mesh) { return std::span(mesh.points).first(static_cast<std::size_t>(mesh.owned_nodes)); };
+  const auto owned = [](const Mesh& mesh) {
+    return std::span(mesh.points).first(static_cast<std::size_t>(mesh.owned_nodes));
+  };
   const CurveShares shares(comm, owned(old_mesh), owned(new_mesh));
-  NewRows rows{static_cast<std::size_t>(width), std::vector<double>(owned(new_mesh).size() * static_cast<std::size_t>(width))};
-  const std::vector<std::int32_t> outside = take(ask(comm, {old_mesh, old_rows, triangles, shares}, new_mesh), rows);
+  NewRows rows{static_cast<std::size_t>(width),
+               std::vector<double>(owned(new_mesh).size() * static_cast<std::size_t>(width))};
+  const std::vector<std::int32_t> outside =
+      take(ask(comm, {old_mesh, old_rows, triangles, shares}, new_mesh), rows);
   Transferred transferred;
   transferred.report.outside = comm.sum(static_cast<std::int64_t>(outside.size()));
   if (transferred.report.outside > 0) take_from_boundary(comm, old_mesh, old_rows, new_mesh, outside, rows);

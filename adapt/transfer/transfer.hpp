@@ -11,9 +11,10 @@ namespace quadloop {
 
 /// What a transfer did to the variables, the same on every rank.
 struct TransferReport {
-  std::int64_t outside = 0;            ///< nodes of the new mesh outside the old one
-  std::vector<double> drift;           ///< of each variable: its integral over the new mesh less that over the old one
-  std::vector<double> relative_drift;  ///< the same as a share of the old mesh's integral of its absolute value; 0 where that is 0
+  std::int64_t outside = 0;   ///< nodes of the new mesh outside the old one
+  std::vector<double> drift;  ///< of each variable: its integral over the new mesh less that over the old one
+  std::vector<double> relative_drift;  ///< the same as a share of the old mesh's integral of its absolute
+                                       ///< value; 0 where that is 0
 };
 
 struct Transferred {
@@ -21,13 +22,16 @@ struct Transferred {
   TransferReport report;
 };
 
-/// Carries values from the nodes of one mesh to those of another. A node inside an old triangle, or in half of a quad (split_quad), takes the values
-/// interpolated linearly there: those of an old node at the same place bit for bit, linear fields to rounding. Of several triangles that it lies in
-/// it is the one of the lowest number over all ranks. A node outside the old mesh takes the values at the nearest point of its boundary edges, of
-/// several edges as near those of the lowest number. So no value leaves the range of the nodes that it is made from, and the bits depend on the two
-/// meshes alone, not on how they are spread over the ranks.
-/// `old_values` holds a row of `width` finite numbers for each owned node. Each rank works on a share of the old triangles and new nodes, told by
-/// place; the old boundary edges are gathered on all ranks if some node is outside. *Collective.*
-Transferred transfer(const Communicator& comm, const Mesh& old_mesh, std::span<const double> old_values, int width, const Mesh& new_mesh);
+/// Carries values from the nodes of one mesh to those of another. A node inside an old triangle, or in half
+/// of a quad (split_quad), takes the values interpolated linearly there: those of an old node at the same
+/// place bit for bit, linear fields to rounding. Of several triangles that it lies in it is the one of the
+/// lowest number over all ranks. A node outside the old mesh takes the values at the nearest point of its
+/// boundary edges, of several edges as near those of the lowest number. So no value leaves the range of the
+/// nodes that it is made from, and the bits depend on the two meshes alone, not on how they are spread over
+/// the ranks. `old_values` holds a row of `width` finite numbers for each owned node. Each rank works on a
+/// share of the old triangles and new nodes, told by place; the old boundary edges are gathered on all ranks
+/// if some node is outside. *Collective.*
+Transferred transfer(const Communicator& comm, const Mesh& old_mesh, std::span<const double> old_values,
+                     int width, const Mesh& new_mesh);
 
 }  // namespace quadloop

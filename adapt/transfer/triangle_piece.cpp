@@ -9,8 +9,8 @@ namespace {
 template <class T>
 using ForRanks = std::vector<std::vector<T>>;
 
-ForRanks<CellTriangle> triangles_by_rank(const Communicator& comm, const CurveShares& shares, const Mesh& mesh,
-                                         std::span<const CellTriangle> triangles) {
+ForRanks<CellTriangle> triangles_by_rank(const Communicator& comm, const CurveShares& shares,
+                                         const Mesh& mesh, std::span<const CellTriangle> triangles) {
   ForRanks<CellTriangle> by_rank(static_cast<std::size_t>(comm.size()));
   std::vector<int> ranks;
   for (const CellTriangle& triangle : triangles) {
@@ -39,7 +39,8 @@ std::vector<NodeId> renumber(std::vector<CellTriangle>& triangles, std::vector<s
   return nodes;
 }
 
-void append(TrianglePiece& piece, const std::vector<Point>& points, const std::vector<double>& values, const std::vector<CellTriangle>& triangles) {
+void append(TrianglePiece& piece, const std::vector<Point>& points, const std::vector<double>& values,
+            const std::vector<CellTriangle>& triangles) {
   const auto before = static_cast<std::int32_t>(piece.points.size());
   piece.points.insert(piece.points.end(), points.begin(), points.end());
   piece.rows.values.insert(piece.rows.values.end(), values.begin(), values.end());
@@ -51,8 +52,8 @@ void append(TrianglePiece& piece, const std::vector<Point>& points, const std::v
 
 }  // namespace
 
-TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, const Mesh& mesh, const NodeRows& rows,
-                           std::span<const CellTriangle> triangles) {
+TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, const Mesh& mesh,
+                           const NodeRows& rows, std::span<const CellTriangle> triangles) {
   ForRanks<CellTriangle> triangles_out = triangles_by_rank(comm, shares, mesh, triangles);
   ForRanks<Point> points_out(triangles_out.size());
   ForRanks<double> values_out(triangles_out.size());
@@ -69,7 +70,8 @@ TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, 
   const auto all_values = exchange_pieces(comm, std::move(values_out));
   TrianglePiece piece;
   piece.rows.width = rows.width;
-  for (std::size_t rank = 0; rank < all_triangles.size(); ++rank) append(piece, all_points[rank], all_values[rank], all_triangles[rank]);
+  for (std::size_t rank = 0; rank < all_triangles.size(); ++rank)
+    append(piece, all_points[rank], all_values[rank], all_triangles[rank]);
   return piece;
 }
 

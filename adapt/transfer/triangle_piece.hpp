@@ -16,13 +16,16 @@ struct TrianglePiece {
   std::vector<CellTriangle> triangles;
 
   std::array<Point, 3> corners(const CellTriangle& triangle) const {
-    const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(triangle.nodes[k].value())]; };
+    const auto at = [&](std::size_t k) {
+      return points[static_cast<std::size_t>(triangle.nodes[k].value())];
+    };
     return {at(0), at(1), at(2)};
   }
 };
 
-/// From all ranks the triangles that meet this rank's part of the plane, with the values at their nodes. *Collective.*
-TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, const Mesh& mesh, const NodeRows& rows,
-                           std::span<const CellTriangle> triangles);
+/// From all ranks the triangles that meet this rank's part of the plane, with the values at their nodes.
+/// *Collective.*
+TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, const Mesh& mesh,
+                           const NodeRows& rows, std::span<const CellTriangle> triangles);
 
 }  // namespace quadloop

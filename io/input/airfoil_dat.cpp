@@ -20,7 +20,8 @@ double chord_of(const std::vector<Point>& rows) {
   return std::max(box.width(), box.height());
 }
 
-/// Two whole numbers from 2 on can only be the counts of a Lednicer file: coordinates are shares of the chord.
+/// Two whole numbers from 2 on can only be the counts of a Lednicer file: coordinates are shares of the
+/// chord.
 bool are_counts(Point p) { return p.x >= 2 && p.y >= 2 && p.x == std::floor(p.x) && p.y == std::floor(p.y); }
 
 Point read_point(const LineReader& lines) {
@@ -30,13 +31,20 @@ Point read_point(const LineReader& lines) {
   return {lines.real(0), lines.real(1)};
 }
 
-bool is_point(const LineReader& lines) { return lines.words().size() == 2 && lines.is_number(0) && lines.is_number(1); }
+bool is_point(const LineReader& lines) {
+  return lines.words().size() == 2 && lines.is_number(0) && lines.is_number(1);
+}
 
 /// A file without a name begins with a point; "2412 63" is a name all the same.
-bool is_name(const LineReader& lines) { return !is_point(lines) || lines.row().find('.') == std::string_view::npos; }
+bool is_name(const LineReader& lines) {
+  return !is_point(lines) || lines.row().find('.') == std::string_view::npos;
+}
 
-/// Words alone are a remark; a row that begins with a number was meant to be a point. In the head a remark may begin with a number.
-bool is_remark(const LineReader& lines, bool in_head) { return !lines.is_number(0) || (in_head && lines.words().size() > 2 && !lines.is_number(1)); }
+/// Words alone are a remark; a row that begins with a number was meant to be a point. In the head a remark
+/// may begin with a number.
+bool is_remark(const LineReader& lines, bool in_head) {
+  return !lines.is_number(0) || (in_head && lines.words().size() > 2 && !lines.is_number(1));
+}
 
 /// "999. 999." divides the elements of a wing in several files of the collections.
 bool is_divider(Point p) { return p.x == p.y && p.x >= 999 && p.x < 1000; }
@@ -57,26 +65,32 @@ struct PassedOver {
 /// The numbers of a file: its points in their order, and before them the counts where it is Lednicer's.
 class AirfoilRows {
  public:
-  /// Reads to the end of the file. What stands in the head beside the name, between the surfaces as words, and after the last point is passed over.
+  /// Reads to the end of the file. What stands in the head beside the name, between the surfaces as words,
+  /// and after the last point is passed over.
   explicit AirfoilRows(LineReader& lines) {
     lines.require_next("the airfoil's name");
     if (!is_name(lines)) add_point(lines);
     while (lines.next()) take(lines);
     if (rows_.empty()) lines.refuse("the file ends here, but the coordinates are missing");
     if (counts_ && rows_.size() != expected()) {
-      lines.refuse(fmt::format("the file has {} points, but its head says {} and {}; correct the counts, or complete the file", rows_.size(),
-                               counts_->x, counts_->y));
+      lines.refuse(fmt::format(
+          "the file has {} points, but its head says {} and {}; correct the counts, or complete the file",
+          rows_.size(), counts_->x, counts_->y));
     }
   }
 
   std::vector<Point>& rows() { return rows_; }
-  std::optional<std::size_t> upper() const { return counts_ ? std::optional(static_cast<std::size_t>(counts_->x)) : std::nullopt; }
+  std::optional<std::size_t> upper() const {
+    return counts_ ? std::optional(static_cast<std::size_t>(counts_->x)) : std::nullopt;
+  }
 
   void warn(const std::string& path, std::vector<std::string>& warnings) const {
     if (passed_.count == 0) return;
-    warnings.push_back(fmt::format("{}:{}: {} row{} beside the name that {} no point{} of the airfoil, the first '{}', {} passed over", path,
-                                   passed_.first_line, passed_.count, passed_.count == 1 ? "" : "s", passed_.count == 1 ? "is" : "are",
-                                   passed_.count == 1 ? "" : "s", passed_.first_row, passed_.count == 1 ? "was" : "were"));
+    warnings.push_back(fmt::format(
+        "{}:{}: {} row{} beside the name that {} no point{} of the airfoil, the first '{}', {} passed over",
+        path, passed_.first_line, passed_.count, passed_.count == 1 ? "" : "s",
+        passed_.count == 1 ? "is" : "are", passed_.count == 1 ? "" : "s", passed_.first_row,
+        passed_.count == 1 ? "was" : "were"));
   }
 
  private:
@@ -91,9 +105,12 @@ class AirfoilRows {
   void add_point(const LineReader& lines) {
     const Point p = read_point(lines);
     if (is_divider(p)) {
-      lines.refuse("this row divides the elements of a wing; give each element a file of its own, and [geometry] file = [...] all of them");
+      lines.refuse(
+          "this row divides the elements of a wing; give each element a file of its own, and [geometry] file "
+          "= [...] all of them");
     }
-    if (rows_.size() == 1) usual_step_ = lines.line() - last_point_line_;  // some files have every other row blank
+    if (rows_.size() == 1)
+      usual_step_ = lines.line() - last_point_line_;  // some files have every other row blank
     last_point_line_ = lines.line();
     if (rows_.empty() && !counts_ && are_counts(p)) {
       counts_ = p;
@@ -102,7 +119,9 @@ class AirfoilRows {
     }
   }
 
-  std::size_t expected() const { return static_cast<std::size_t>(counts_->x) + static_cast<std::size_t>(counts_->y); }
+  std::size_t expected() const {
+    return static_cast<std::size_t>(counts_->x) + static_cast<std::size_t>(counts_->y);
+  }
 
   /// Whether the points go round the section: as many as the head says, or back to where they began.
   bool is_whole() const {
@@ -117,8 +136,8 @@ class AirfoilRows {
   bool ended_ = false;  ///< what follows is no part of the airfoil
 };
 
-/// Where the second of two surfaces begins that both run from the leading edge to the trailing edge, though no counts say so: the one step back over
-/// most of the chord. 0 where there is none.
+/// Where the second of two surfaces begins that both run from the leading edge to the trailing edge, though
+/// no counts say so: the one step back over most of the chord. 0 where there is none.
 std::size_t second_surface(const std::vector<Point>& rows) {
   constexpr double most = 0.8;
   std::size_t found = 0;
@@ -132,11 +151,13 @@ std::size_t second_surface(const std::vector<Point>& rows) {
   return found;
 }
 
-/// From the trailing edge over the upper side to the leading edge and back along the lower one, as Selig has it.
+/// From the trailing edge over the upper side to the leading edge and back along the lower one, as Selig has
+/// it.
 std::vector<Point> around(const std::vector<Point>& rows, std::size_t upper) {
   std::vector<Point> points(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(upper));
   std::reverse(points.begin(), points.end());
-  const std::size_t skip = upper < rows.size() && rows[upper] == rows.front() ? 1 : 0;  // the leading edge stands in both lists
+  const std::size_t skip =
+      upper < rows.size() && rows[upper] == rows.front() ? 1 : 0;  // the leading edge stands in both lists
   points.insert(points.end(), rows.begin() + static_cast<std::ptrdiff_t>(upper + skip), rows.end());
   return points;
 }
@@ -149,12 +170,15 @@ double area(const std::vector<Point>& points) {
 }
 
 /// The trailing edge may be blunt, but a file with one side alone is not to pass in silence.
-void warn_of_gap(const std::vector<Point>& rows, const std::string& source, std::vector<std::string>& warnings) {
+void warn_of_gap(const std::vector<Point>& rows, const std::string& source,
+                 std::vector<std::string>& warnings) {
   if (rows.size() < 2) return;
   const double gap = length(rows.back() - rows.front());
   if (gap <= blunt * chord_of(rows)) return;
-  warnings.push_back(fmt::format("{}: the airfoil's first and last point, ({}, {}) and ({}, {}), are {:.3g} apart and were joined by a straight line",
-                                 source, rows.front().x, rows.front().y, rows.back().x, rows.back().y, gap));
+  warnings.push_back(
+      fmt::format("{}: the airfoil's first and last point, ({}, {}) and ({}, {}), are {:.3g} apart and were "
+                  "joined by a straight line",
+                  source, rows.front().x, rows.front().y, rows.back().x, rows.back().y, gap));
 }
 
 }  // namespace
@@ -169,7 +193,9 @@ std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string
     rows = around(rows, *airfoil.upper());
   } else if (const std::size_t upper = second_surface(rows)) {
     warnings.push_back(
-        fmt::format("{}: both surfaces run from the leading edge, though the head has no counts; point {} begins the second", path, upper + 1));
+        fmt::format("{}: both surfaces run from the leading edge, though the head has no counts; point {} "
+                    "begins the second",
+                    path, upper + 1));
     rows = around(rows, upper);
   }
   warn_of_gap(rows, source, warnings);

@@ -7,9 +7,9 @@
 #include <charconv>
 #include <sstream>
 
-#include "mesher/base/decimal_comma.hpp"
+#include "io/files/input_file.hpp"
+#include "io/text/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/input_file.hpp"
 
 namespace quadloop {
 
@@ -20,8 +20,9 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-/// KEY=VALUE, the key split at its dots. A part may stand in quotes and then hold dots and more: boundary."a.b=c".spacing. Shells eat quotes, so
-/// a part without them may be a pattern or hold blanks as well.
+/// KEY=VALUE, the key split at its dots. A part may stand in quotes and then hold dots and more:
+/// boundary."a.b=c".spacing. Shells eat quotes, so a part without them may be a pattern or hold blanks as
+/// well.
 struct Assignment {
   std::vector<std::string> parts{{}};
   std::string value;
@@ -67,7 +68,8 @@ toml::table parse_value(const std::string& text) {
   try {
     toml::table parsed = toml::parse("value = " + text + "\n");
     if (parsed.size() == 1) return parsed;
-  } catch (const toml::parse_error&) {  // a text without quotes: the shell has eaten them, or nobody wrote any
+  } catch (
+      const toml::parse_error&) {  // a text without quotes: the shell has eaten them, or nobody wrote any
   }
   toml::table plain;
   plain.insert("value", text);
@@ -79,12 +81,15 @@ toml::node* step_down(toml::node& node, const std::string& part, const std::stri
   if (toml::array* list = node.as_array()) {
     std::size_t index = 0;
     const auto [stop, fault] = std::from_chars(part.data(), part.data() + part.size(), index);
-    if (fault == std::errc{} && stop == part.data() + part.size() && index < list->size()) return list->get(index);
-    throw InputError(fmt::format("{}: '{}' is not a number from 0 to {}, which is what picks one of a list", place, part,
-                                 static_cast<std::int64_t>(list->size()) - 1));
+    if (fault == std::errc{} && stop == part.data() + part.size() && index < list->size())
+      return list->get(index);
+    throw InputError(fmt::format("{}: '{}' is not a number from 0 to {}, which is what picks one of a list",
+                                 place, part, static_cast<std::int64_t>(list->size()) - 1));
   }
   toml::table* table = node.as_table();
-  if (table == nullptr) throw InputError(fmt::format("{}: there is no table to hold '{}'; its parent is a single value", place, part));
+  if (table == nullptr)
+    throw InputError(
+        fmt::format("{}: there is no table to hold '{}'; its parent is a single value", place, part));
   if (table->get(part) == nullptr) table->insert(part, toml::table{});
   return table->get(part);
 }
@@ -97,18 +102,22 @@ std::string row_of(const std::string& text, std::uint32_t number) {
   return row;
 }
 
-/// The slips that beginners make, told from the row that is not TOML: a pattern or a text without quotes, a decimal comma.
+/// The slips that beginners make, told from the row that is not TOML: a pattern or a text without quotes, a
+/// decimal comma.
 std::string hint_for(const std::string& row) {
   const auto begin = row.find_first_not_of(" \t");
   if (begin == std::string::npos) return "";
   if (row[begin] == '[') {
-    const bool bare_pattern = row.find_first_of("*?") != std::string::npos && row.find_first_of("\"'") == std::string::npos;
+    const bool bare_pattern =
+        row.find_first_of("*?") != std::string::npos && row.find_first_of("\"'") == std::string::npos;
     return bare_pattern ? "; quote it: [boundary.\"*\"]" : "";
   }
   const auto equals = row.find('=', begin);
   const auto value = equals == std::string::npos ? equals : row.find_first_not_of(" \t[", equals + 1);
   if (value == std::string::npos) return "";
-  if (const std::string comma = decimal_comma_in(trimmed(row.substr(value, row.find('#', value) - value))); !comma.empty()) return "; " + comma;
+  if (const std::string comma = decimal_comma_in(trimmed(row.substr(value, row.find('#', value) - value)));
+      !comma.empty())
+    return "; " + comma;
   const std::string word = row.substr(value, row.find_first_of(" \t\r,]#", value) - value);
   if (std::isalpha(static_cast<unsigned char>(row[value])) == 0) return "";
   return word == "true" || word == "false" ? "" : "; put text in quotes: \"" + word + "\"";
@@ -125,7 +134,8 @@ std::string CaseTable::Data::place(const std::string& path, const toml::node* no
   }
   const auto below = assigned.lower_bound(path + ".");  // a table that exists through an assignment alone
   const auto line = node == nullptr ? 0 : node->source().begin.line;
-  if (line == 0 && below != assigned.end() && below->first.starts_with(path + ".")) return "--set " + below->second;
+  if (line == 0 && below != assigned.end() && below->first.starts_with(path + "."))
+    return "--set " + below->second;
   return line == 0 ? file : fmt::format("{}:{}", file, line);
 }
 
@@ -138,7 +148,8 @@ void parse_case(CaseTable::Data& data, const std::string& path) {
     std::string what(error.description());
     for (char& c : what) c = c == '\n' ? ' ' : c;
     const toml::source_position at = error.source().begin;
-    throw InputError(fmt::format("{}:{}: {}; correct this line (column {}){}", path, at.line, what, at.column, hint_for(row_of(text, at.line))));
+    throw InputError(fmt::format("{}:{}: {}; correct this line (column {}){}", path, at.line, what, at.column,
+                                 hint_for(row_of(text, at.line))));
   }
 }
 
@@ -152,12 +163,15 @@ void assign(CaseTable::Data& data, const std::string& text) {
   const Assignment assignment(text);
   const std::vector<std::string>& parts = assignment.parts;
   if (!assignment.has_value) throw InputError(place + ": has no '='; write as in spacing.min=0.1");
-  if (!assignment.has_key()) throw InputError(place + ": what stands before the '=' is not a key; write as in spacing.min=0.1");
+  if (!assignment.has_key())
+    throw InputError(place + ": what stands before the '=' is not a key; write as in spacing.min=0.1");
   toml::node* node = &data.root;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) node = step_down(*node, parts[i], place);
   const toml::table parsed = parse_value(assignment.value);
   toml::table* table = node->as_table();
-  if (table == nullptr) throw InputError(fmt::format("{}: there is no table to hold '{}'; its parent is not one", place, parts.back()));
+  if (table == nullptr)
+    throw InputError(
+        fmt::format("{}: there is no table to hold '{}'; its parent is not one", place, parts.back()));
   parsed.get("value")->visit([&](const auto& value) { table->insert_or_assign(parts.back(), value); });
   data.assigned[fmt::format("{}", fmt::join(parts, "."))] = text;
 }

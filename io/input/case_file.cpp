@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "io/input/case_data.hpp"
-#include "mesher/base/decimal_comma.hpp"
+#include "io/text/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 
@@ -41,7 +41,8 @@ std::string json_of(const toml::node& node) {
     return "[" + join(parts) + "]";
   }
   if (const toml::table* table = node.as_table()) {
-    for (const auto& [key, value] : *table) parts.push_back(json_of(toml::value<std::string>(std::string(key.str()))) + ": " + json_of(value));
+    for (const auto& [key, value] : *table)
+      parts.push_back(json_of(toml::value<std::string>(std::string(key.str()))) + ": " + json_of(value));
     return "{" + join(parts) + "}";
   }
   std::ostringstream text;
@@ -49,7 +50,8 @@ std::string json_of(const toml::node& node) {
   return text.str();
 }
 
-void append_values(const toml::table& table, const std::string& above, const std::vector<std::string>& without,
+void append_values(const toml::table& table, const std::string& above,
+                   const std::vector<std::string>& without,
                    std::vector<std::pair<std::string, std::string>>& result) {
   for (const auto& [key, node] : table) {
     const std::string name = above + std::string(key.str());
@@ -64,25 +66,29 @@ void append_values(const toml::table& table, const std::string& above, const std
 }  // namespace
 
 bool Range::contains(double value) const {
-  return std::isfinite(value) && (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+  return std::isfinite(value) && (low_open ? value > low : value >= low) &&
+         (high_open ? value < high : value <= high);
 }
 
 std::string Range::text() const {
   std::string text;
   if (std::isfinite(low)) text = fmt::format("{} {}", low_open ? "above" : "at least", low);
-  if (std::isfinite(high)) text += fmt::format("{}{} {}", text.empty() ? "" : " and ", high_open ? "below" : "at most", high);
+  if (std::isfinite(high))
+    text += fmt::format("{}{} {}", text.empty() ? "" : " and ", high_open ? "below" : "at most", high);
   return text.empty() ? "finite" : text;
 }
 
 /// Lookups of one table with the refusals that they share.
 class Lookup {
  public:
-  Lookup(const CaseTable& table, const std::string& key, const Range& range = {}) : table_{table}, key_{key}, range_{range} {}
+  Lookup(const CaseTable& table, const std::string& key, const Range& range = {})
+      : table_{table}, key_{key}, range_{range} {}
 
   double number(const toml::node& node) const {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value) refuse("a number", node);
-    if (!range_.contains(*value)) table_.refuse(key_, fmt::format("is {}, but must be {}", *value, range_.text()));
+    if (!range_.contains(*value))
+      table_.refuse(key_, fmt::format("is {}, but must be {}", *value, range_.text()));
     return *value;
   }
   std::string text(const toml::node& node) const {
@@ -96,14 +102,16 @@ class Lookup {
   std::vector<double> numbers(const toml::node& node, std::size_t count) const {
     const std::string wanted = fmt::format("a list of {} numbers", count);
     const toml::array& values = list(node, wanted);
-    if (values.size() != count) table_.refuse(key_, fmt::format("is a list of {}, but must be {}", values.size(), wanted));
+    if (values.size() != count)
+      table_.refuse(key_, fmt::format("is a list of {}, but must be {}", values.size(), wanted));
     std::vector<double> result;
     for (const toml::node& value : values) result.push_back(number(value));
     return result;
   }
   [[noreturn]] void refuse(const std::string& wanted, const toml::node& node) const {
     const std::string comma = node.is_string() ? decimal_comma_in(*node.value<std::string>()) : "";
-    table_.refuse(key_, fmt::format("must be {}, not {}{}", wanted, kind_of(node), comma.empty() ? "" : "; " + comma));
+    table_.refuse(
+        key_, fmt::format("must be {}, not {}{}", wanted, kind_of(node), comma.empty() ? "" : "; " + comma));
   }
 
  private:
@@ -113,7 +121,10 @@ class Lookup {
 };
 
 CaseTable::CaseTable(std::shared_ptr<Data> data, const void* table, std::string path)
-    : data_{std::move(data)}, table_{table}, path_{std::move(path)}, known_{std::make_shared<std::vector<std::string>>()} {}
+    : data_{std::move(data)},
+      table_{table},
+      path_{std::move(path)},
+      known_{std::make_shared<std::vector<std::string>>()} {}
 
 bool CaseTable::has(const std::string& key) const {
   if (std::find(known_->begin(), known_->end(), key) == known_->end()) known_->push_back(key);
@@ -130,15 +141,18 @@ std::optional<std::string> CaseTable::text(const std::string& key) const {
   return Lookup(*this, key).text(*as_table(table_).get(key));
 }
 
-std::optional<std::string> CaseTable::choice(const std::string& key, const std::vector<std::string>& words) const {
+std::optional<std::string> CaseTable::choice(const std::string& key,
+                                             const std::vector<std::string>& words) const {
   const auto word = text(key);
   if (word && std::find(words.begin(), words.end(), *word) == words.end()) {
-    refuse(key, fmt::format("is '{}', but must be one of: {}{}", *word, join(words), guess_for(*word, words)));
+    refuse(key,
+           fmt::format("is '{}', but must be one of: {}{}", *word, join(words), guess_for(*word, words)));
   }
   return word;
 }
 
-std::optional<std::vector<double>> CaseTable::numbers(const std::string& key, std::size_t count, const Range& range) const {
+std::optional<std::vector<double>> CaseTable::numbers(const std::string& key, std::size_t count,
+                                                      const Range& range) const {
   if (!has(key)) return std::nullopt;
   return Lookup(*this, key, range).numbers(*as_table(table_).get(key), count);
 }
@@ -149,7 +163,8 @@ std::vector<std::string> CaseTable::texts(const std::string& key) const {
   const toml::node& node = *as_table(table_).get(key);
   if (node.is_string()) return {lookup.text(node)};
   std::vector<std::string> result;
-  for (const toml::node& value : lookup.list(node, "a text in quotes or a list of them")) result.push_back(lookup.text(value));
+  for (const toml::node& value : lookup.list(node, "a text in quotes or a list of them"))
+    result.push_back(lookup.text(value));
   return result;
 }
 
@@ -159,7 +174,8 @@ std::vector<double> CaseTable::numbers_or_one(const std::string& key, const Rang
   const toml::node& node = *as_table(table_).get(key);
   if (node.is_number()) return {lookup.number(node)};
   std::vector<double> result;
-  for (const toml::node& value : lookup.list(node, "a number or a list of them")) result.push_back(lookup.number(value));
+  for (const toml::node& value : lookup.list(node, "a number or a list of them"))
+    result.push_back(lookup.number(value));
   return result;
 }
 
@@ -174,9 +190,12 @@ std::vector<std::vector<double>> CaseTable::pairs(const std::string& key) const 
   return result;
 }
 
-bool CaseTable::is_table(const std::string& key) const { return has(key) && as_table(table_).get(key)->is_table(); }
+bool CaseTable::is_table(const std::string& key) const {
+  return has(key) && as_table(table_).get(key)->is_table();
+}
 
-std::vector<std::pair<std::string, std::string>> CaseTable::values(const std::vector<std::string>& without) const {
+std::vector<std::pair<std::string, std::string>> CaseTable::values(
+    const std::vector<std::string>& without) const {
   std::vector<std::pair<std::string, std::string>> result;
   append_values(as_table(table_), "", without, result);
   return result;
@@ -196,7 +215,8 @@ std::vector<CaseTable> CaseTable::tables(const std::string& key) const {
   const std::string wanted = "a list of tables, each begun by [[" + full_name(key) + "]]";
   const toml::node& node = *as_table(table_).get(key);
   if (node.is_table() && node.source().begin.line == 0) {  // made by an assignment to key.0.x
-    refuse(key, "has nothing in the case file that --set could change; write a [[" + full_name(key) + "]] there first (the first is number 0)");
+    refuse(key, "has nothing in the case file that --set could change; write a [[" + full_name(key) +
+                    "]] there first (the first is number 0)");
   }
   for (const toml::node& value : lookup.list(node, wanted)) {
     if (!value.is_table()) lookup.refuse(wanted, value);
@@ -209,9 +229,11 @@ std::vector<std::string> CaseTable::table_names() const {
   std::vector<std::pair<std::uint64_t, std::string>> by_line;  // toml++ keeps keys in alphabetical order
   for (const auto& [key, node] : as_table(table_)) {
     const auto line = node.source().begin.line;
-    by_line.emplace_back(line == 0 ? std::numeric_limits<std::uint64_t>::max() : line, std::string(key.str()));
+    by_line.emplace_back(line == 0 ? std::numeric_limits<std::uint64_t>::max() : line,
+                         std::string(key.str()));
   }
-  std::stable_sort(by_line.begin(), by_line.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(by_line.begin(), by_line.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> names;
   for (auto& entry : by_line) names.push_back(std::move(entry.second));
   return names;
@@ -227,8 +249,8 @@ void CaseTable::finish() const {
     first_key = key.str();
   }
   if (first == nullptr) return;
-  throw InputError(
-      fmt::format("{}: unknown key '{}'; known here: {}{}", place(first_key), full_name(first_key), join(*known_), guess_for(first_key, *known_)));
+  throw InputError(fmt::format("{}: unknown key '{}'; known here: {}{}", place(first_key),
+                               full_name(first_key), join(*known_), guess_for(first_key, *known_)));
 }
 
 std::string CaseTable::place(const std::string& key) const {
@@ -238,7 +260,9 @@ std::string CaseTable::place(const std::string& key) const {
 
 std::string CaseTable::place() const { return data_->place(path_, &as_table(table_)); }
 
-std::string CaseTable::full_name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+std::string CaseTable::full_name(const std::string& key) const {
+  return path_.empty() ? key : path_ + "." + key;
+}
 
 void CaseTable::refuse(const std::string& key, const std::string& message) const {
   throw InputError(fmt::format("{}: '{}' {}", place(key), full_name(key), message));

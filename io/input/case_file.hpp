@@ -22,9 +22,10 @@ struct Range {
   std::string text() const;
 };
 
-/// One table of a case file. Each lookup makes its key known; finish() then refuses every key that nobody asked for, so that a
-/// mistyped key cannot pass. Refusals are InputErrors that begin with the place: "case.toml:12: " or, for what came from the
-/// command line, "--set spacing.min=x: ". A view: cheap to copy, and it keeps the file's data alive.
+/// One table of a case file. Each lookup makes its key known; finish() then refuses every key that nobody
+/// asked for, so that a mistyped key cannot pass. Refusals are InputErrors that begin with the place:
+/// "case.toml:12: " or, for what came from the command line, "--set spacing.min=x: ". A view: cheap to copy,
+/// and it keeps the file's data alive.
 class CaseTable {
  public:
   struct Data;  ///< of the whole file; toml++ stays behind it
@@ -36,7 +37,8 @@ class CaseTable {
   std::optional<std::string> text(const std::string& key) const;
   /// One of the given words.
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& words) const;
-  std::optional<std::vector<double>> numbers(const std::string& key, std::size_t count, const Range& range = {}) const;
+  std::optional<std::vector<double>> numbers(const std::string& key, std::size_t count,
+                                             const Range& range = {}) const;
   /// Both "a" and ["a", "b"] are lists of texts, both 1 and [1, 2] lists of numbers.
   std::vector<std::string> texts(const std::string& key) const;
   std::vector<double> numbers_or_one(const std::string& key, const Range& range = {}) const;
@@ -55,8 +57,9 @@ class CaseTable {
   /// Where the key stands (this table, if it is absent), for messages of the caller's own.
   std::string place(const std::string& key) const;
   std::string place() const;
-  /// All values below this table with all assignments, by their dotted names in alphabetical order, each value as JSON on one line; without the keys
-  /// and tables of the dotted names given. The same for every way to write the same case.
+  /// All values below this table with all assignments, by their dotted names in alphabetical order, each
+  /// value as JSON on one line; without the keys and tables of the dotted names given. The same for every way
+  /// to write the same case.
   std::vector<std::pair<std::string, std::string>> values(const std::vector<std::string>& without) const;
   /// The dotted name of a key.
   std::string full_name(const std::string& key) const;
@@ -69,11 +72,13 @@ class CaseTable {
   std::shared_ptr<std::vector<std::string>> known_;
 };
 
-/// Whether a word of the command line is KEY=VALUE, its key a path of TOML keys: neither an option nor the path of a file.
+/// Whether a word of the command line is KEY=VALUE, its key a path of TOML keys: neither an option nor the
+/// path of a file.
 bool is_assignment(std::string_view word);
 
-/// Reads a case file (TOML) and lays `assignments` ("spacing.min=0.1", as --set has them) over it, in their order. A value is
-/// TOML, or a plain text where it is not. Throws InputError "file:line: ...". On the calling rank alone.
+/// Reads a case file (TOML) and lays `assignments` ("spacing.min=0.1", as --set has them) over it, in their
+/// order. A value is TOML, or a plain text where it is not. Throws InputError "file:line: ...". On the
+/// calling rank alone.
 CaseTable read_case(const std::string& path, const std::vector<std::string>& assignments = {});
 
 }  // namespace quadloop

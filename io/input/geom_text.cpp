@@ -14,18 +14,22 @@ Chain read_chain(LineReader& lines, std::int64_t number, std::int64_t total) {
   lines.require_next(fmt::format("the name of boundary {} of {}", number, total));
   const auto& words = lines.words();
   if (words.size() > 2 || (words.size() == 2 && words[1] != "open")) {
-    lines.refuse(fmt::format("'{}' is not a boundary's name; it is one word, followed by 'open' where it is an open chain (is a count too small?)",
-                             fmt::join(words, " ")));
+    lines.refuse(
+        fmt::format("'{}' is not a boundary's name; it is one word, followed by 'open' where it is an open "
+                    "chain (is a count too small?)",
+                    fmt::join(words, " ")));
   }
   Chain chain{std::string(words[0]), words.size() == 2, {}, lines.place()};
   lines.require_next(fmt::format("the number of points of boundary '{}'", chain.name));
-  if (lines.words().size() != 1) lines.refuse(fmt::format("the number of points of boundary '{}' should stand here alone", chain.name));
+  if (lines.words().size() != 1)
+    lines.refuse(fmt::format("the number of points of boundary '{}' should stand here alone", chain.name));
   const std::int64_t count = lines.count(0, fmt::format("points of boundary '{}'", chain.name));
   for (std::int64_t i = 1; i <= count; ++i) {
     lines.require_next(fmt::format("point {} of {} of boundary '{}'", i, count, chain.name));
     if (lines.words().size() != 2) {
-      lines.refuse(fmt::format("point {} of {} of boundary '{}' should be two numbers, not '{}' (is the count too large?)", i, count, chain.name,
-                               fmt::join(lines.words(), " ")));
+      lines.refuse(fmt::format(
+          "point {} of {} of boundary '{}' should be two numbers, not '{}' (is the count too large?)", i,
+          count, chain.name, fmt::join(lines.words(), " ")));
     }
     chain.points.push_back({lines.real(0), lines.real(1)});
   }
@@ -55,8 +59,10 @@ std::vector<Chain> read_geom(const std::string& path) {
   std::vector<Chain> chains;
   for (std::int64_t i = 1; i <= total; ++i) chains.push_back(read_chain(lines, i, total));
   if (lines.next()) {
-    lines.refuse(fmt::format(
-        "more text after the last of {} boundaries; correct the number of boundaries in the first row or of points before this one", total));
+    lines.refuse(
+        fmt::format("more text after the last of {} boundaries; correct the number of boundaries in the "
+                    "first row or of points before this one",
+                    total));
   }
   return chains;
 }

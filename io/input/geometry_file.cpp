@@ -15,13 +15,16 @@ namespace quadloop {
 
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings) {
   std::string suffix = std::filesystem::path(path).extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (suffix == ".geom") return read_geom(path);
   if (suffix == ".dat") return read_airfoil(path, warnings);
   for (const char* known : {".dxf", ".geojson", ".shp", ".gpkg"}) {
     if (suffix == known) return read_ogr(path, warnings);
   }
-  throw InputError(fmt::format("{}: '{}' is not the suffix of a geometry file; known: .geom, .dat, .dxf, .geojson, .shp, .gpkg", path, suffix));
+  throw InputError(fmt::format(
+      "{}: '{}' is not the suffix of a geometry file; known: .geom, .dat, .dxf, .geojson, .shp, .gpkg", path,
+      suffix));
 }
 
 }  // namespace quadloop

@@ -7,20 +7,23 @@
 #include <limits>
 #include <optional>
 
-#include "mesher/base/decimal_comma.hpp"
+#include "io/files/input_file.hpp"
+#include "io/text/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/input_file.hpp"
 
 namespace quadloop {
 
 namespace {
 
 /// The old end-of-file character (0x1A) of DOS is a blank too.
-bool is_blank(char c) { return c == '\x1a' || c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == ','; }
+bool is_blank(char c) {
+  return c == '\x1a' || c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == ',';
+}
 
 constexpr std::string_view between_numbers = " \t\r\f\v;";  // of a row whose commas are decimal ones
 
-/// The number that is the whole word; infinite where it is too large for a double; nothing where it is no number.
+/// The number that is the whole word; infinite where it is too large for a double; nothing where it is no
+/// number.
 std::optional<double> number_of(std::string_view word) {
   std::string text(word);
   for (char& c : text) c = c == 'd' || c == 'D' ? 'e' : c;
@@ -62,13 +65,15 @@ bool LineReader::next() {
 }
 
 void LineReader::require_next(const std::string& expected) {
-  if (!next()) refuse(fmt::format("the file ends here, but {} is missing; it may have been cut off", expected));
+  if (!next())
+    refuse(fmt::format("the file ends here, but {} is missing; it may have been cut off", expected));
 }
 
 void LineReader::refuse_decimal_commas() const {
   if (row_.find(',') == std::string_view::npos) return;
   std::vector<std::string_view> numbers;
-  for (std::size_t i = row_.find_first_not_of(between_numbers); i < row_.size(); i = row_.find_first_not_of(between_numbers, i)) {
+  for (std::size_t i = row_.find_first_not_of(between_numbers); i < row_.size();
+       i = row_.find_first_not_of(between_numbers, i)) {
     const std::size_t end = std::min(row_.find_first_of(between_numbers, i), row_.size());
     numbers.push_back(row_.substr(i, end - i));
     i = end;

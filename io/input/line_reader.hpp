@@ -7,8 +7,8 @@
 
 namespace quadloop {
 
-/// Reads a text file row by row: comments (from a '#' to the end of its line) and blank lines are passed over, CRLF is a line end.
-/// Every refusal is an InputError "file:line: what, what to do".
+/// Reads a text file row by row: comments (from a '#' to the end of its line) and blank lines are passed
+/// over, CRLF is a line end. Every refusal is an InputError "file:line: what, what to do".
 class LineReader {
  public:
   /// Reads the file whole; InputError where it cannot be read.
@@ -27,7 +27,8 @@ class LineReader {
   std::int64_t line() const { return line_; }
   std::string place() const { return path_ + ":" + std::to_string(line_); }
 
-  /// A word of the row as a finite number, with or without a Fortran exponent (1.0D-3), the same in every locale.
+  /// A word of the row as a finite number, with or without a Fortran exponent (1.0D-3), the same in every
+  /// locale.
   double real(std::size_t word) const;
   std::int64_t count(std::size_t word, const std::string& of_what) const;
   /// Whether the word is a number of any kind.

@@ -11,8 +11,8 @@
 #include <numbers>
 #include <span>
 
+#include "io/files/input_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/input_file.hpp"
 
 namespace quadloop {
 
@@ -91,8 +91,11 @@ class Collector {
   std::int64_t left_out_ = 0;
 };
 
-/// A box of longitudes and latitudes, if it can be one: some programs write metres into files that declare degrees.
-bool are_degrees(const Box& box) { return box.low.x >= -360 && box.high.x <= 360 && box.low.y >= -90 && box.high.y <= 90; }
+/// A box of longitudes and latitudes, if it can be one: some programs write metres into files that declare
+/// degrees.
+bool are_degrees(const Box& box) {
+  return box.low.x >= -360 && box.high.x <= 360 && box.low.y >= -90 && box.high.y <= 90;
+}
 
 /// The projection for the zone of 6 degrees that the box's middle lies in (UTM).
 int utm_code(Point middle) {
@@ -101,7 +104,8 @@ int utm_code(Point middle) {
 }
 
 /// Lengths in degrees are seldom meant: a spacing would be in degrees, and cells too narrow along x.
-void warn_of_degrees(const std::string& path, std::span<const Chain> chains, std::vector<std::string>& warnings) {
+void warn_of_degrees(const std::string& path, std::span<const Chain> chains,
+                     std::vector<std::string>& warnings) {
   Box box;
   for (const Chain& chain : chains) {
     for (const Point p : chain.points) box.include(p);
@@ -110,8 +114,10 @@ void warn_of_degrees(const std::string& path, std::span<const Chain> chains, std
   const Point middle = box.centre();
   const std::string name = std::filesystem::path(path).filename().string();
   warnings.push_back(
-      fmt::format("{}: its coordinates are degrees (longitude, latitude), and so all lengths of the case are; at latitude {:.1f} a degree "
-                  "along x is {:.2f} of one along y. Project it first, as by 'ogr2ogr -t_srs EPSG:{} projected.gpkg {}' (metres)",
+      fmt::format("{}: its coordinates are degrees (longitude, latitude), and so all lengths of the case "
+                  "are; at latitude {:.1f} a degree "
+                  "along x is {:.2f} of one along y. Project it first, as by 'ogr2ogr -t_srs EPSG:{} "
+                  "projected.gpkg {}' (metres)",
                   path, middle.y, std::cos(middle.y * std::numbers::pi / 180), utm_code(middle), name));
 }
 
@@ -124,12 +130,15 @@ void read_layer(OGRLayer& layer, const std::string& path, Collector& collector) 
   while (const auto feature = std::unique_ptr<OGRFeature>(layer.GetNextFeature())) {
     const OGRGeometry* geometry = feature->GetGeometryRef();
     if (geometry == nullptr) continue;
-    const auto straight = std::unique_ptr<OGRGeometry>(geometry->hasCurveGeometry() ? geometry->getLinearGeometry() : geometry->clone());
-    const std::string source = fmt::format("{}: layer '{}', feature {}", path, layer.GetName(), feature->GetFID());
+    const auto straight = std::unique_ptr<OGRGeometry>(
+        geometry->hasCurveGeometry() ? geometry->getLinearGeometry() : geometry->clone());
+    const std::string source =
+        fmt::format("{}: layer '{}', feature {}", path, layer.GetName(), feature->GetFID());
     collector.add(*straight, name_of(*feature, layer), source);
   }
   if (CPLGetLastErrorType() >= CE_Failure)
-    throw InputError(fmt::format("{}: {}; correct or export the file anew", path, one_line(CPLGetLastErrorMsg())));
+    throw InputError(
+        fmt::format("{}: {}; correct or export the file anew", path, one_line(CPLGetLastErrorMsg())));
 }
 
 }  // namespace
@@ -141,7 +150,8 @@ std::vector<Chain> read_ogr(const std::string& path, std::vector<std::string>& w
   const GDALDatasetUniquePtr data(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   if (!data) {
     throw InputError(
-        fmt::format("{}: cannot be read as the kind of file that its suffix says ({}); export it anew", path, one_line(CPLGetLastErrorMsg())));
+        fmt::format("{}: cannot be read as the kind of file that its suffix says ({}); export it anew", path,
+                    one_line(CPLGetLastErrorMsg())));
   }
   std::vector<Chain> chains;
   Collector collector(chains);
@@ -152,10 +162,12 @@ std::vector<Chain> read_ogr(const std::string& path, std::vector<std::string>& w
     read_layer(*layer, path, collector);
     if (is_in_degrees(*layer)) in_degrees.insert(in_degrees.end(), chains.begin() + before, chains.end());
   }
-  if (chains.empty()) throw InputError(path + ": holds no lines and no polygons; a geometry needs closed outlines");
+  if (chains.empty())
+    throw InputError(path + ": holds no lines and no polygons; a geometry needs closed outlines");
   warn_of_degrees(path, in_degrees, warnings);
   if (collector.left_out() > 0) {
-    warnings.push_back(fmt::format("{}: left out {} features that are neither lines nor polygons", path, collector.left_out()));
+    warnings.push_back(fmt::format("{}: left out {} features that are neither lines nor polygons", path,
+                                   collector.left_out()));
   }
   return chains;
 }

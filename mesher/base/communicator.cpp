@@ -15,7 +15,8 @@ namespace quadloop {
 namespace {
 
 constexpr auto shortest_nap = std::chrono::microseconds(100), longest_nap = std::chrono::microseconds(10000);
-constexpr std::size_t largest_message = std::size_t{1} << 30;  // MPI counts are 32-bit: longer data go in pieces
+constexpr std::size_t largest_message = std::size_t{1}
+                                        << 30;  // MPI counts are 32-bit: longer data go in pieces
 
 template <class T>
 T reduced(T value, MPI_Datatype type, MPI_Op operation, MPI_Comm comm) {
@@ -60,9 +61,15 @@ Communicator::Communicator(MPI_Comm to_duplicate) {
 
 Communicator::~Communicator() { MPI_Comm_free(&comm_); }
 
-std::int64_t Communicator::sum(std::int64_t value) const { return reduced(value, MPI_INT64_T, MPI_SUM, comm_); }
-std::int64_t Communicator::minimum(std::int64_t value) const { return reduced(value, MPI_INT64_T, MPI_MIN, comm_); }
-std::int64_t Communicator::maximum(std::int64_t value) const { return reduced(value, MPI_INT64_T, MPI_MAX, comm_); }
+std::int64_t Communicator::sum(std::int64_t value) const {
+  return reduced(value, MPI_INT64_T, MPI_SUM, comm_);
+}
+std::int64_t Communicator::minimum(std::int64_t value) const {
+  return reduced(value, MPI_INT64_T, MPI_MIN, comm_);
+}
+std::int64_t Communicator::maximum(std::int64_t value) const {
+  return reduced(value, MPI_INT64_T, MPI_MAX, comm_);
+}
 double Communicator::minimum(double value) const { return reduced(value, MPI_DOUBLE, MPI_MIN, comm_); }
 double Communicator::maximum(double value) const { return reduced(value, MPI_DOUBLE, MPI_MAX, comm_); }
 
@@ -103,7 +110,8 @@ void Communicator::broadcast_bytes(std::vector<std::byte>& bytes) const {
   }
 }
 
-std::vector<std::vector<std::byte>> Communicator::exchange_bytes(const std::vector<std::span<const std::byte>>& to_rank) const {
+std::vector<std::vector<std::byte>> Communicator::exchange_bytes(
+    const std::vector<std::span<const std::byte>>& to_rank) const {
   const auto ranks = static_cast<std::size_t>(size_);
   std::vector<int> send_counts(ranks), receive_counts(ranks);
   for (std::size_t r = 0; r < ranks; ++r) send_counts[r] = count_of(to_rank[r].size());
@@ -113,11 +121,13 @@ std::vector<std::vector<std::byte>> Communicator::exchange_bytes(const std::vect
   for (std::size_t r = 0; r < ranks; ++r) {
     received[r].resize(static_cast<std::size_t>(receive_counts[r]));
     if (receive_counts[r] == 0) continue;
-    MPI_Irecv(received[r].data(), receive_counts[r], MPI_BYTE, static_cast<int>(r), 1, comm_, &requests.emplace_back());
+    MPI_Irecv(received[r].data(), receive_counts[r], MPI_BYTE, static_cast<int>(r), 1, comm_,
+              &requests.emplace_back());
   }
   for (std::size_t r = 0; r < ranks; ++r) {
     if (send_counts[r] == 0) continue;
-    MPI_Isend(to_rank[r].data(), send_counts[r], MPI_BYTE, static_cast<int>(r), 1, comm_, &requests.emplace_back());
+    MPI_Isend(to_rank[r].data(), send_counts[r], MPI_BYTE, static_cast<int>(r), 1, comm_,
+              &requests.emplace_back());
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   return received;
@@ -136,7 +146,8 @@ std::vector<std::byte> Communicator::receive_bytes(int from) const {
   MPI_Recv(&size, 1, MPI_UINT64_T, from, 2, comm_, MPI_STATUS_IGNORE);
   std::vector<std::byte> bytes(size);
   for (std::size_t begin = 0; begin < size; begin += largest_message) {
-    MPI_Recv(bytes.data() + begin, count_of(std::min(largest_message, size - begin)), MPI_BYTE, from, 3, comm_, MPI_STATUS_IGNORE);
+    MPI_Recv(bytes.data() + begin, count_of(std::min(largest_message, size - begin)), MPI_BYTE, from, 3,
+             comm_, MPI_STATUS_IGNORE);
   }
   return bytes;
 }

@@ -10,9 +10,9 @@
 
 namespace quadloop {
 
-/// A group of ranks that work together; the only place where MPI is called. Every member function but rank() and size() is
-/// *collective* (all ranks enter it, in the same order) unless it says otherwise. Data are trivially copyable values.
-/// There is no floating-point sum: its result would depend on the number of ranks.
+/// A group of ranks that work together; the only place where MPI is called. Every member function but rank()
+/// and size() is *collective* (all ranks enter it, in the same order) unless it says otherwise. Data are
+/// trivially copyable values. There is no floating-point sum: its result would depend on the number of ranks.
 class Communicator {
  public:
   explicit Communicator(MPI_Comm to_duplicate);
@@ -34,8 +34,9 @@ class Communicator {
   /// The sum of the values of all lower ranks.
   std::int64_t exclusive_sum(std::int64_t value) const;
   void barrier() const;
-  /// A barrier for a wait of seconds to hours: a rank that waits sleeps between its looks, so that the processors are free for another program,
-  /// where barrier() keeps each of them busy. Ranks leave it up to 10 ms late for each doubling of their number.
+  /// A barrier for a wait of seconds to hours: a rank that waits sleeps between its looks, so that the
+  /// processors are free for another program, where barrier() keeps each of them busy. Ranks leave it up to
+  /// 10 ms late for each doubling of their number.
   void patient_barrier() const;
 
   /// One value from every rank, in the order of ranks, on every rank.
@@ -64,7 +65,8 @@ class Communicator {
  private:
   std::vector<std::byte> all_gather_bytes(std::span<const std::byte> bytes) const;
   void broadcast_bytes(std::vector<std::byte>& bytes) const;
-  std::vector<std::vector<std::byte>> exchange_bytes(const std::vector<std::span<const std::byte>>& to_rank) const;
+  std::vector<std::vector<std::byte>> exchange_bytes(
+      const std::vector<std::span<const std::byte>>& to_rank) const;
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0;

@@ -6,9 +6,17 @@
 namespace quadloop {
 
 /// How the program ends; the numbers are part of its outer face.
-enum class ExitStatus : int { done = 0, bad_input = 1, wrong_usage = 2, solver_failed = 3, output_failed = 4, fault = 70 };
+enum class ExitStatus : int {
+  done = 0,
+  bad_input = 1,
+  wrong_usage = 2,
+  solver_failed = 3,
+  output_failed = 4,
+  fault = 70
+};
 
-/// A refusal that reaches the user as one line: where, what is wrong, what to do. Throw one of the derived types.
+/// A refusal that reaches the user as one line: where, what is wrong, what to do. Throw one of the derived
+/// types.
 class Error : public std::runtime_error {
  public:
   Error(ExitStatus status, const std::string& message) : std::runtime_error(message), status_{status} {}

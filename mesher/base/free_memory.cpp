@@ -19,7 +19,8 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double kib = 1024;
 
-/// The number after a word of a text file, as in "MemAvailable: 123 kB"; the file's first number where the word is empty.
+/// The number after a word of a text file, as in "MemAvailable: 123 kB"; the file's first number where the
+/// word is empty.
 std::optional<double> number_in(const std::string& path, const std::string& word) {
   std::ifstream file(path);
   if (word.empty()) {
@@ -37,7 +38,8 @@ std::optional<double> number_in(const std::string& path, const std::string& word
 }
 
 /// What one control group leaves; file pages that it need not keep count as free.
-double free_in_group(const std::string& folder, const char* limit, const char* usage, const char* reclaimable) {
+double free_in_group(const std::string& folder, const char* limit, const char* usage,
+                     const char* reclaimable) {
   const auto most = number_in(folder + limit, ""), used = number_in(folder + usage, "");
   if (!most || !used) return unlimited;
   return std::max(0.0, *most - *used + number_in(folder + "/memory.stat", reclaimable).value_or(0));
@@ -46,8 +48,10 @@ double free_in_group(const std::string& folder, const char* limit, const char* u
 /// A limit of this process less what it has.
 double left_of(int resource, const char* taken) {
   rlimit limit{};
-  if (getrlimit(static_cast<decltype(RLIMIT_AS)>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
-  return std::max(0.0, static_cast<double>(limit.rlim_cur) - kib * number_in("/proc/self/status", taken).value_or(0));
+  if (getrlimit(static_cast<decltype(RLIMIT_AS)>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return unlimited;
+  return std::max(
+      0.0, static_cast<double>(limit.rlim_cur) - kib * number_in("/proc/self/status", taken).value_or(0));
 }
 
 std::size_t name_of_machine() {
@@ -78,10 +82,13 @@ double free_in_control_groups(const std::string& membership, const std::string& 
     const bool unified = controllers.empty();
     if (!unified && ("," + controllers + ",").find(",memory,") == std::string::npos) continue;
     const std::string mounted = unified ? root : root + "/memory";
-    for (std::filesystem::path group = line.substr(second + 1);; group = group.parent_path()) {  // the groups above limit it too
+    for (std::filesystem::path group = line.substr(second + 1);;
+         group = group.parent_path()) {  // the groups above limit it too
       const std::string folder = mounted + (group == "/" ? "" : group.string());
-      least = std::min(least, unified ? free_in_group(folder, "/memory.max", "/memory.current", "inactive_file")
-                                      : free_in_group(folder, "/memory.limit_in_bytes", "/memory.usage_in_bytes", "total_inactive_file"));
+      least =
+          std::min(least, unified ? free_in_group(folder, "/memory.max", "/memory.current", "inactive_file")
+                                  : free_in_group(folder, "/memory.limit_in_bytes", "/memory.usage_in_bytes",
+                                                  "total_inactive_file"));
       if (!group.has_relative_path()) break;
     }
   }

@@ -5,8 +5,8 @@
 
 namespace quadloop {
 
-/// A number that names one entity of one kind, so that a node never meets a leaf, nor a local number a global one.
-/// A default-constructed id names no entity.
+/// A number that names one entity of one kind, so that a node never meets a leaf, nor a local number a global
+/// one. A default-constructed id names no entity.
 template <class Tag, class Rep>
 class Id {
  public:
@@ -23,11 +23,13 @@ class Id {
   Rep value_ = -1;
 };
 
-using NodeId = Id<struct NodeTag, std::int32_t>;              ///< a mesh node, numbered on this rank
-using GlobalNodeId = Id<struct GlobalNodeTag, std::int64_t>;  ///< a mesh node, numbered over all ranks, from 0
-using LeafId = Id<struct LeafTag, std::int32_t>;              ///< a leaf of the forest, numbered on this rank
-using VertexId = Id<struct VertexTag, std::int32_t>;          ///< a point of the geometry (replicated on all ranks)
-using SegmentId = Id<struct SegmentTag, std::int32_t>;        ///< a segment of the geometry (replicated on all ranks)
-using BoundaryId = Id<struct BoundaryTag, std::int32_t>;      ///< a named boundary
+using NodeId = Id<struct NodeTag, std::int32_t>;  ///< a mesh node, numbered on this rank
+using GlobalNodeId =
+    Id<struct GlobalNodeTag, std::int64_t>;           ///< a mesh node, numbered over all ranks, from 0
+using LeafId = Id<struct LeafTag, std::int32_t>;      ///< a leaf of the forest, numbered on this rank
+using VertexId = Id<struct VertexTag, std::int32_t>;  ///< a point of the geometry (replicated on all ranks)
+using SegmentId =
+    Id<struct SegmentTag, std::int32_t>;  ///< a segment of the geometry (replicated on all ranks)
+using BoundaryId = Id<struct BoundaryTag, std::int32_t>;  ///< a named boundary
 
 }  // namespace quadloop

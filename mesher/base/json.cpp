@@ -45,13 +45,16 @@ std::string json_of(std::string_view text) {
 
 std::string json_of(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
-std::string json_list(const std::vector<std::string>& values) { return fmt::format("[{}]", fmt::join(values, ", ")); }
+std::string json_list(const std::vector<std::string>& values) {
+  return fmt::format("[{}]", fmt::join(values, ", "));
+}
 
 std::string JsonObject::text() const { return fmt::format("{{{}}}", fmt::join(members_, ", ")); }
 
 std::string JsonObject::lines(const std::string& indent) const {
   const std::string inner = "\n" + indent + "  ";
-  return members_.empty() ? "{\n" + indent + "}" : fmt::format("{{{}{}\n{}}}", inner, fmt::join(members_, "," + inner), indent);
+  return members_.empty() ? "{\n" + indent + "}"
+                          : fmt::format("{{{}{}\n{}}}", inner, fmt::join(members_, "," + inner), indent);
 }
 
 }  // namespace quadloop

@@ -32,7 +32,8 @@ std::string json_of(const std::optional<Value>& value);
 template <class Value>
 std::string json_of(const std::vector<Value>& values);
 
-/// A JSON object with its members in the order in which they are added. Names are not looked at for repetition.
+/// A JSON object with its members in the order in which they are added. Names are not looked at for
+/// repetition.
 class JsonObject {
  public:
   template <class Value>
@@ -40,8 +41,12 @@ class JsonObject {
     add_raw(name, json_of(value));
   }
   /// A value that is JSON already.
-  void add_raw(std::string_view name, std::string_view value) { members_.push_back(json_of(name) + ": " + std::string(value)); }
-  void append(const JsonObject& other) { members_.insert(members_.end(), other.members_.begin(), other.members_.end()); }
+  void add_raw(std::string_view name, std::string_view value) {
+    members_.push_back(json_of(name) + ": " + std::string(value));
+  }
+  void append(const JsonObject& other) {
+    members_.insert(members_.end(), other.members_.begin(), other.members_.end());
+  }
 
   /// On one line.
   std::string text() const;

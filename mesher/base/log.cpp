@@ -11,10 +11,12 @@ namespace quadloop::log {
 
 namespace {
 
-/// The program's one logger, on stderr, without spdlog's registry, so that a library user's own loggers stay apart.
+/// The program's one logger, on stderr, without spdlog's registry, so that a library user's own loggers stay
+/// apart.
 spdlog::logger& logger() {
   static const auto instance = [] {
-    auto made = std::make_shared<spdlog::logger>("quadloop", std::make_shared<spdlog::sinks::stderr_sink_st>());
+    auto made =
+        std::make_shared<spdlog::logger>("quadloop", std::make_shared<spdlog::sinks::stderr_sink_st>());
     made->set_pattern("quadloop: %l: %v");
     return made;
   }();
@@ -25,7 +27,8 @@ spdlog::logger& logger() {
 
 void configure(const Options& options) {
   const bool names_rank = options.verbose && options.ranks > 1;
-  logger().set_pattern(names_rank ? "quadloop[" + std::to_string(options.rank) + "]: %l: %v" : std::string("quadloop: %l: %v"));
+  logger().set_pattern(names_rank ? "quadloop[" + std::to_string(options.rank) + "]: %l: %v"
+                                  : std::string("quadloop: %l: %v"));
   if (options.verbose) {
     logger().set_level(spdlog::level::debug);
   } else if (options.rank != 0) {

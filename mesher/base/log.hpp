@@ -4,8 +4,8 @@
 
 namespace quadloop::log {
 
-/// How much of what is logged is shown. Warnings and information come from the root rank alone; `verbose` adds the details, and
-/// those of every rank, each line with its rank.
+/// How much of what is logged is shown. Warnings and information come from the root rank alone; `verbose`
+/// adds the details, and those of every rank, each line with its rank.
 struct Options {
   int rank = 0, ranks = 1;
   bool quiet = false;    ///< nothing but warnings

@@ -15,6 +15,8 @@ constexpr std::uint64_t spread_bits(std::uint32_t number) {
 }
 
 /// The place of a square on the Morton curve (Morton 1966).
-constexpr std::uint64_t morton_key(std::uint32_t x, std::uint32_t y) { return spread_bits(x) | (spread_bits(y) << 1); }
+constexpr std::uint64_t morton_key(std::uint32_t x, std::uint32_t y) {
+  return spread_bits(x) | (spread_bits(y) << 1);
+}
 
 }  // namespace quadloop

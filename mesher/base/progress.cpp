@@ -29,7 +29,9 @@ Terminal& terminal() {
   return instance;
 }
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 std::size_t columns() {
   winsize size{};
@@ -47,8 +49,11 @@ std::string formatted(const char* format, Values... values) {
 std::string duration_text(double seconds) {
   constexpr double minute = 60, hour = 3600;
   if (seconds < minute) return formatted("%.0f s", std::max(1.0, seconds));
-  if (seconds < hour) return formatted("%d min %02d s", static_cast<int>(seconds / minute), static_cast<int>(seconds) % static_cast<int>(minute));
-  return formatted("%d h %02d min", static_cast<int>(seconds / hour), static_cast<int>(seconds / minute) % static_cast<int>(minute));
+  if (seconds < hour)
+    return formatted("%d min %02d s", static_cast<int>(seconds / minute),
+                     static_cast<int>(seconds) % static_cast<int>(minute));
+  return formatted("%d h %02d min", static_cast<int>(seconds / hour),
+                   static_cast<int>(seconds / minute) % static_cast<int>(minute));
 }
 
 std::string rate_text(double rate) {
@@ -77,7 +82,8 @@ void clear() {
   t.dirty = false;
 }
 
-Stage::Stage(const char* name, double total, const char* unit) : name_{name}, unit_{unit}, total_{total}, started_{now()}, outer_{terminal().stage} {
+Stage::Stage(const char* name, double total, const char* unit)
+    : name_{name}, unit_{unit}, total_{total}, started_{now()}, outer_{terminal().stage} {
   terminal().stage = this;
   look();
 }
@@ -109,7 +115,8 @@ void Stage::draw() {
   if (total_ > 0) line += formatted("  %3.0f %%", 100 * share);
   for (const std::string* text : {&text_, &then_}) line += text->empty() ? "" : "  " + *text;
   if (done_ > 0 && seconds > 0) line += "  " + rate_text(done_ / seconds) + " " + unit_ + "/s";
-  if (share > 0 && share < 1 && seconds > between_lines) line += "  " + duration_text(seconds * (1 - share) / share) + " left";
+  if (share > 0 && share < 1 && seconds > between_lines)
+    line += "  " + duration_text(seconds * (1 - share) / share) + " left";
   line.resize(std::min(line.size(), columns() - 1));
   std::fprintf(stderr, "\r%s\033[K", line.c_str());
   std::fflush(stderr);

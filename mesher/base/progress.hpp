@@ -2,12 +2,14 @@
 
 #include <string>
 
-/// One line on a terminal that says what a long run is doing: stage, share done, rate, time left. It is written anew in place, some times a second,
-/// and goes before anything else is said. Without a terminal, and on ranks that are not to show it, nothing happens. No communication: the share is
-/// the calling rank's own. No influence on results.
+/// One line on a terminal that says what a long run is doing: stage, share done, rate, time left. It is
+/// written anew in place, some times a second, and goes before anything else is said. Without a terminal, and
+/// on ranks that are not to show it, nothing happens. No communication: the share is the calling rank's own.
+/// No influence on results.
 namespace quadloop::progress {
 
-/// Shows the line on stderr from now on, where that is a terminal. Runs of less than half a second show nothing.
+/// Shows the line on stderr from now on, where that is a terminal. Runs of less than half a second show
+/// nothing.
 void show();
 
 /// What all lines begin with, as in "cycle 2 of 5"; empty for none.

@@ -19,7 +19,8 @@ class StageTimes {
   }
   void end() {
     if (!running_) return;
-    stages_.back().second = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+    stages_.back().second =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     running_ = false;
   }
   /// The other's stages come after these.

@@ -12,7 +12,8 @@ namespace {
 
 // Shares of the local edge, where crossings nearer than usual_snap take a corner.
 constexpr double usual_snap = 0.4, corner_reach = 0.45, edge_reach = 0.34;
-constexpr double pointed_degrees = 45;  ///< a point that turns by more takes corners and edges along even where it is not kept
+constexpr double pointed_degrees =
+    45;  ///< a point that turns by more takes corners and edges along even where it is not kept
 constexpr double crossing_reach = 0.4;  ///< a crossing nearer to the point than this is taken by its edge
 
 /// A leaf edge without nodes inside: a side of a leaf, or half of one that has a hanging node.
@@ -38,14 +39,17 @@ class PointCapture {
   std::optional<CornerCapture> corner_near(std::int32_t leaf, Point p) const {
     const Quadrant& q = graph_.leaf(leaf);
     const std::int64_t s = q.size(), h = s / 2;
-    const std::array<std::array<std::int64_t, 2>, 8> places{{{0, 0}, {s, 0}, {s, s}, {0, s}, {h, 0}, {s, h}, {h, s}, {0, h}}};
+    const std::array<std::array<std::int64_t, 2>, 8> places{
+        {{0, 0}, {s, 0}, {s, s}, {0, s}, {h, 0}, {s, h}, {h, s}, {0, h}}};
     std::optional<CornerCapture> nearest;
     bool contested = false;
     for (std::size_t k = 0; k < places.size(); ++k) {
       if (k >= 4 && !graph_.has_hanging(leaf, static_cast<LeafGraph::Side>(k - 4))) continue;
       const std::int64_t x = q.x + places[k][0], y = q.y + places[k][1];
       const double distance = length(lattice_.corner(x, y) - p);
-      if (distance >= share_ * corner_reach * shortest_edge_at(graph_, lattice_, x, y) || (nearest && distance > nearest->distance)) continue;
+      if (distance >= share_ * corner_reach * shortest_edge_at(graph_, lattice_, x, y) ||
+          (nearest && distance > nearest->distance))
+        continue;
       contested = nearest && distance == nearest->distance;
       nearest = CornerCapture{x, y, distance, -1, -1, -1};
     }
@@ -53,14 +57,16 @@ class PointCapture {
   }
 
   /// The edge of the leaf that is near enough, with the crossings that it loses to the point.
-  std::optional<Snap> edge_near(std::int32_t leaf, std::int32_t vertex, const LeafTrace& view, const Piece& piece) const {
+  std::optional<Snap> edge_near(std::int32_t leaf, std::int32_t vertex, const LeafTrace& view,
+                                const Piece& piece) const {
     const Point p = geometry_.point(vertex);
     LeafEdge nearest;
     bool contested = false;
     double least = share_ * edge_reach;
     for (int side = 0; side < 4; ++side) {
       const LeafEdge edge = edge_at(leaf, side, p);
-      const double distance = std::abs((edge.vertical() ? p.x : p.y) - line(edge.vertical(), edge.fixed)) / length_of(edge);
+      const double distance =
+          std::abs((edge.vertical() ? p.x : p.y) - line(edge.vertical(), edge.fixed)) / length_of(edge);
       if (distance > least) continue;
       contested = distance == least;
       nearest = edge;
@@ -81,7 +87,9 @@ class PointCapture {
 
  private:
   double line(bool of_x, std::int64_t i) const { return of_x ? lattice_.x(i) : lattice_.y(i); }
-  double length_of(const LeafEdge& edge) const { return line(!edge.vertical(), edge.to) - line(!edge.vertical(), edge.from); }
+  double length_of(const LeafEdge& edge) const {
+    return line(!edge.vertical(), edge.to) - line(!edge.vertical(), edge.from);
+  }
 
   LeafEdge edge_at(std::int32_t leaf, int side, Point p) const {
     const Quadrant& q = graph_.leaf(leaf);
@@ -106,12 +114,15 @@ class PointCapture {
 
   bool on_edge(const LeafEdge& edge, const Crossing& c) const {
     const double at = edge.vertical() ? c.position.y : c.position.x;
-    return c.side == edge.side && line(!edge.vertical(), edge.from) <= at && at <= line(!edge.vertical(), edge.to);
+    return c.side == edge.side && line(!edge.vertical(), edge.from) <= at &&
+           at <= line(!edge.vertical(), edge.to);
   }
 
-  /// The crossings of the point's own piece that lie on the edge and near it. False where another one lies between, or another kept point near, or
-  /// where what lies between point and crossing, which vanishes, holds a kept point or reaches far: a bay behind a narrow mouth.
-  bool take_crossings(const LeafEdge& edge, std::int32_t vertex, const LeafTrace& view, const Piece& piece, Snap& snap) const {
+  /// The crossings of the point's own piece that lie on the edge and near it. False where another one lies
+  /// between, or another kept point near, or where what lies between point and crossing, which vanishes,
+  /// holds a kept point or reaches far: a bay behind a narrow mouth.
+  bool take_crossings(const LeafEdge& edge, std::int32_t vertex, const LeafTrace& view, const Piece& piece,
+                      Snap& snap) const {
     const Point p = geometry_.point(vertex);
     const double size = length_of(edge);
     const auto along = [&](Point point) { return edge.vertical() ? point.y : point.x; };
@@ -120,7 +131,8 @@ class PointCapture {
     for (const std::int32_t c : {piece.entry, piece.exit}) {
       const Crossing& crossing = view.crossing(c);
       if (!on_edge(edge, crossing) || length(crossing.position - p) >= crossing_reach * size) continue;
-      if (!may_vanish(between(view.vertices_of(piece), vertex, c == piece.entry), p, crossing_reach * size)) return false;
+      if (!may_vanish(between(view.vertices_of(piece), vertex, c == piece.entry), p, crossing_reach * size))
+        return false;
       snap.absorbed.push_back({crossing.segment, edge.vertical()});
       taken.push_back(c);
       low = std::min(low, along(crossing.position));
@@ -132,19 +144,23 @@ class PointCapture {
       if (low <= along(crossing.position) && along(crossing.position) <= high) return false;
     }
     const auto vertices = view.vertices_of(piece);
-    return std::none_of(vertices.begin(), vertices.end(),
-                        [&](std::int32_t v) { return v != vertex && geometry_.kept(v) && length(geometry_.point(v) - p) < crossing_reach * size; });
+    return std::none_of(vertices.begin(), vertices.end(), [&](std::int32_t v) {
+      return v != vertex && geometry_.kept(v) && length(geometry_.point(v) - p) < crossing_reach * size;
+    });
   }
 
   /// The vertices of a piece before one of them, or after it.
-  static std::span<const std::int32_t> between(std::span<const std::int32_t> vertices, std::int32_t vertex, bool before) {
-    const auto at = static_cast<std::size_t>(std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin());
+  static std::span<const std::int32_t> between(std::span<const std::int32_t> vertices, std::int32_t vertex,
+                                               bool before) {
+    const auto at =
+        static_cast<std::size_t>(std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin());
     return before ? vertices.first(at) : vertices.subspan(at + 1);
   }
 
   bool may_vanish(std::span<const std::int32_t> vertices, Point into, double reach) const {
-    return std::none_of(vertices.begin(), vertices.end(),
-                        [&](std::int32_t v) { return geometry_.kept(v) || length(geometry_.point(v) - into) >= reach; });
+    return std::none_of(vertices.begin(), vertices.end(), [&](std::int32_t v) {
+      return geometry_.kept(v) || length(geometry_.point(v) - into) >= reach;
+    });
   }
 
   const LeafGraph& graph_;
@@ -161,14 +177,16 @@ std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
   std::vector<CornerCapture> settled;
   for (std::size_t begin = 0, end = 0; begin < claims.size(); begin = end) {
     while (end < claims.size() && claims[end].x == claims[begin].x && claims[end].y == claims[begin].y) ++end;
-    if (end - begin == 1 || claims[begin].distance < claims[begin + 1].distance) settled.push_back(claims[begin]);
+    if (end - begin == 1 || claims[begin].distance < claims[begin + 1].distance)
+      settled.push_back(claims[begin]);
   }
   return settled;
 }
 
-/// Moves one hanging node onto the nearest point of the outline in its leaf, if that is within reach and the node is the only one to be there.
-std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometry, const LeafTrace& view, std::int64_t x, std::int64_t y,
-                                 double reach) {
+/// Moves one hanging node onto the nearest point of the outline in its leaf, if that is within reach and the
+/// node is the only one to be there.
+std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometry, const LeafTrace& view,
+                                 std::int64_t x, std::int64_t y, double reach) {
   const Point node = lattice.corner(x, y);
   Snap snap;
   snap.x = x;
@@ -196,10 +214,12 @@ std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometr
 /// An edge that two points claim goes to neither.
 std::vector<Snap> settle_edges(std::vector<Snap> claims) {
   const auto same = [](const Snap& a, const Snap& b) { return a.x == b.x && a.y == b.y; };
-  std::sort(claims.begin(), claims.end(), [](const Snap& a, const Snap& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::sort(claims.begin(), claims.end(),
+            [](const Snap& a, const Snap& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   std::vector<Snap> settled;
   for (std::size_t i = 0; i < claims.size(); ++i) {
-    const bool contested = (i > 0 && same(claims[i - 1], claims[i])) || (i + 1 < claims.size() && same(claims[i], claims[i + 1]));
+    const bool contested = (i > 0 && same(claims[i - 1], claims[i])) ||
+                           (i + 1 < claims.size() && same(claims[i], claims[i + 1]));
     if (!contested) settled.push_back(claims[i]);
   }
   return settled;
@@ -229,7 +249,8 @@ double shortest_edge_at(const LeafGraph& graph, const Lattice& lattice, std::int
   return lattice.edge(finest);
 }
 
-Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, const TracedForest& traced, double snap) {
+Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
+                        const TracedForest& traced, double snap) {
   const PointCapture capture(graph, lattice, geometry, snap);
   std::vector<CornerCapture> corners;
   std::vector<Snap> edges;
@@ -247,7 +268,8 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
           corner->trace = trace;
           corner->piece = static_cast<std::int32_t>(p);
           corners.push_back(*corner);
-        } else if (auto edge = !geometry.kept(v) ? std::nullopt : capture.edge_near(leaf, v, view, view.pieces[p])) {
+        } else if (auto edge =
+                       !geometry.kept(v) ? std::nullopt : capture.edge_near(leaf, v, view, view.pieces[p])) {
           edges.push_back(std::move(*edge));
         }
       }
@@ -256,7 +278,8 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
   return {settle_corners(std::move(corners)), settle_edges(std::move(edges))};
 }
 
-std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, const TracedForest& traced, double share) {
+std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
+                                const TracedForest& traced, double share) {
   std::vector<Snap> snaps;
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
     const std::int32_t trace = traced.trace_of[static_cast<std::size_t>(leaf)];
@@ -267,7 +290,8 @@ std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, 
     for (int side = 0; side < 4; ++side) {
       if (!graph.has_hanging(leaf, static_cast<LeafGraph::Side>(side))) continue;
       const auto& [dx, dy] = middles[static_cast<std::size_t>(side)];
-      auto snap = hanging_snap(lattice, geometry, traced.traces[trace], q.x + dx, q.y + dy, share * lattice.edge(q.level + 1));
+      auto snap = hanging_snap(lattice, geometry, traced.traces[trace], q.x + dx, q.y + dy,
+                               share * lattice.edge(q.level + 1));
       if (snap) snaps.push_back(std::move(*snap));
     }
   }

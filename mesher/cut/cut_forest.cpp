@@ -11,7 +11,9 @@ namespace quadloop {
 
 namespace {
 
-Point centre_of(const Lattice& lattice, const Quadrant& q) { return lattice.corner(q.x + q.size() / 2, q.y + q.size() / 2); }
+Point centre_of(const Lattice& lattice, const Quadrant& q) {
+  return lattice.corner(q.x + q.size() / 2, q.y + q.size() / 2);
+}
 
 /// Cells with a smaller angle are shaped by rounding: another way to cut the leaf is looked for first.
 constexpr double thinnest_sine = 1e-11;
@@ -28,15 +30,22 @@ TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const Shifted
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
     const auto segments = sizes.segments_in(graph.leaf(leaf));
     if (!segments.empty())
-      traced.trace_of[static_cast<std::size_t>(leaf)] = traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
+      traced.trace_of[static_cast<std::size_t>(leaf)] =
+          traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
   }
   return traced;
 }
 
 class ForestCutter {
  public:
-  ForestCutter(const LeafGraph& graph, const Lattice& lattice, const ShiftedOutline& outline, const InsideTest& inside, const TracedForest& traced)
-      : graph_{graph}, lattice_{lattice}, outline_{outline}, inside_{inside}, traced_{traced}, cutter_{outline, inside} {
+  ForestCutter(const LeafGraph& graph, const Lattice& lattice, const ShiftedOutline& outline,
+               const InsideTest& inside, const TracedForest& traced)
+      : graph_{graph},
+        lattice_{lattice},
+        outline_{outline},
+        inside_{inside},
+        traced_{traced},
+        cutter_{outline, inside} {
     const auto count = static_cast<std::size_t>(graph.local_end() - graph.local_begin());
     result_.states.resize(count);
     result_.entry_of.assign(count, -1);
@@ -52,7 +61,8 @@ class ForestCutter {
       while (next != snaps.end() && next->leaf == leaf) ++next;
       const std::span<const LeafSnap> own(first, next);
       const bool holds_geometry = trace_of(leaf) >= 0;
-      if (!holds_geometry) state(leaf) = lies_inside(leaf) ? CutForest::State::inside : CutForest::State::outside;
+      if (!holds_geometry)
+        state(leaf) = lies_inside(leaf) ? CutForest::State::inside : CutForest::State::outside;
       if (holds_geometry || !own.empty()) cut(leaf, own);
     }
   }
@@ -61,14 +71,16 @@ class ForestCutter {
   void cut_again(const std::vector<LeafSnap>& snaps, const std::vector<Veto>& vetoes) {
     std::vector<std::int32_t> leaves;
     for (const Veto& v : vetoes) {
-      for (const auto& [dx, dy] : {std::pair{-1, -1}, {0, -1}, {-1, 0}, {0, 0}}) leaves.push_back(graph_.leaf_at(v.x + dx, v.y + dy));
+      for (const auto& [dx, dy] : {std::pair{-1, -1}, {0, -1}, {-1, 0}, {0, 0}})
+        leaves.push_back(graph_.leaf_at(v.x + dx, v.y + dy));
     }
     std::sort(leaves.begin(), leaves.end());
     leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
     for (const std::int32_t leaf : leaves) {
       if (!graph_.is_local(leaf)) continue;
-      const auto [first, last] = std::equal_range(snaps.begin(), snaps.end(), LeafSnap{leaf, 0, nullptr},
-                                                  [](const LeafSnap& a, const LeafSnap& b) { return a.leaf < b.leaf; });
+      const auto [first, last] =
+          std::equal_range(snaps.begin(), snaps.end(), LeafSnap{leaf, 0, nullptr},
+                           [](const LeafSnap& a, const LeafSnap& b) { return a.leaf < b.leaf; });
       if (trace_of(leaf) < 0 && entry_of(leaf) >= 0) {
         const bool inside = result_.entries[static_cast<std::size_t>(entry_of(leaf))].half_inside != 0;
         state(leaf) = inside ? CutForest::State::inside : CutForest::State::outside;
@@ -78,8 +90,8 @@ class ForestCutter {
     }
   }
 
-  /// A chord along a side that meets one against it in the leaf across the side would swallow what lies between: the snaps at its ends are to be
-  /// taken back. *Collective.*
+  /// A chord along a side that meets one against it in the leaf across the side would swallow what lies
+  /// between: the snaps at its ends are to be taken back. *Collective.*
   void veto_opposed_chords(const Communicator& comm, const std::vector<Snap>& snaps) {
     const OpposedChords opposed(comm, graph_, result_);
     for (const Point p : opposed.ends()) {
@@ -118,13 +130,16 @@ class ForestCutter {
       }
       if (!done(Detail::full) && !done(Detail::exact)) refuse(input.trace);
     }
-    const bool bent = std::any_of(snaps.begin(), snaps.end(), [](const LeafSnap& s) { return s.snap->on_edge; });  // a node of the neighbour's
+    const bool bent = std::any_of(snaps.begin(), snaps.end(), [](const LeafSnap& s) {
+      return s.snap->on_edge;
+    });  // a node of the neighbour's
     if (state(leaf) != CutForest::State::outside || trace_of(leaf) >= 0 || bent) store(leaf);
   }
 
   CutForest::Mark mark() const {
-    return {static_cast<std::int32_t>(result_.nodes.size()), static_cast<std::int32_t>(result_.triangles.size()),
-            static_cast<std::int32_t>(result_.quads.size()), static_cast<std::int32_t>(result_.outline.size())};
+    return {
+        static_cast<std::int32_t>(result_.nodes.size()), static_cast<std::int32_t>(result_.triangles.size()),
+        static_cast<std::int32_t>(result_.quads.size()), static_cast<std::int32_t>(result_.outline.size())};
   }
 
   void store(std::int32_t leaf) {
@@ -140,11 +155,14 @@ class ForestCutter {
     result_.entries.push_back(entry);
   }
 
-  /// From the leaf to its left or below, which comes earlier along the curve; from a count of crossings where neither is at hand.
+  /// From the leaf to its left or below, which comes earlier along the curve; from a count of crossings where
+  /// neither is at hand.
   bool lies_inside(std::int32_t leaf) {
     const Quadrant& q = graph_.leaf(leaf);
     const LeafGraph::Around& around = graph_.around(leaf);
-    const auto known = [&](std::int32_t other) { return graph_.is_local(other) && other < leaf && (trace_of(other) < 0 || entry_of(other) >= 0); };
+    const auto known = [&](std::int32_t other) {
+      return graph_.is_local(other) && other < leaf && (trace_of(other) < 0 || entry_of(other) >= 0);
+    };
     if (known(around.west)) {
       const Quadrant& west = graph_.leaf(around.west);
       return side_inside(around.west, LeafGraph::right, west.level < q.level && q.y != west.y);
@@ -169,9 +187,10 @@ class ForestCutter {
     const std::string first = name(trace.pieces.front()), last = name(trace.pieces.back());
     std::ostringstream message;
     message.precision(17);
-    message << "boundary " << first << (first == last ? "" : " and boundary " + last) << " near (" << trace.box.centre().x << ", "
-            << trace.box.centre().y
-            << "): the outline comes so near to itself that double precision cannot part the two sides; move or remove points there";
+    message << "boundary " << first << (first == last ? "" : " and boundary " + last) << " near ("
+            << trace.box.centre().x << ", " << trace.box.centre().y
+            << "): the outline comes so near to itself that double precision cannot part the two sides; move "
+               "or remove points there";
     throw InputError(message.str());
   }
 
@@ -189,8 +208,8 @@ class ForestCutter {
 
 }  // namespace
 
-CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline, const InsideTest& inside,
-                     double snap) {
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
+                     const ShiftedOutline& outline, const InsideTest& inside, double snap) {
   const TracedForest traced = trace_forest(graph, sizes, outline);
   std::vector<Snap> snaps = choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap);
   std::vector<LeafSnap> leaf_snaps = snaps_of_leaves(graph, snaps);
@@ -203,7 +222,9 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
     if (vetoes.empty()) break;
     std::sort(vetoes.begin(), vetoes.end());
     vetoes.erase(std::unique(vetoes.begin(), vetoes.end()), vetoes.end());
-    std::erase_if(snaps, [&](const Snap& s) { return std::binary_search(vetoes.begin(), vetoes.end(), Veto{s.x, s.y}); });
+    std::erase_if(snaps, [&](const Snap& s) {
+      return std::binary_search(vetoes.begin(), vetoes.end(), Veto{s.x, s.y});
+    });
     leaf_snaps = snaps_of_leaves(graph, snaps);
     comm.together([&] { cutter.cut_again(leaf_snaps, vetoes); });
   }

@@ -41,15 +41,16 @@ struct CutForest {
   }
 };
 
-/// Cuts the local leaves and tells inside from outside. No rank waits for another: an uncut leaf takes its state from a local neighbour, or from an
-/// exact count of crossings. A snap that leaves a leaf unsound is taken back. *Collective.* Throws InputError on all ranks where boundaries come
-/// nearer to each other than double precision can resolve.
-/// `snap`: how near a crossing takes a lattice corner along, as a share of the local edge.
-CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline, const InsideTest& inside,
-                     double snap);
+/// Cuts the local leaves and tells inside from outside. No rank waits for another: an uncut leaf takes its
+/// state from a local neighbour, or from an exact count of crossings. A snap that leaves a leaf unsound is
+/// taken back. *Collective.* Throws InputError on all ranks where boundaries come nearer to each other than
+/// double precision can resolve. `snap`: how near a crossing takes a lattice corner along, as a share of the
+/// local edge.
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
+                     const ShiftedOutline& outline, const InsideTest& inside, double snap);
 
-/// Whether a leaf of this place needs to be refined to be cut: a whole loop inside it, chords that would cross, or that would stray too far
-/// from the outline.
+/// Whether a leaf of this place needs to be refined to be cut: a whole loop inside it, chords that would
+/// cross, or that would stray too far from the outline.
 class ResolutionTest {
  public:
   ResolutionTest(const Lattice& lattice, const ShiftedOutline& outline, const InsideTest& inside)

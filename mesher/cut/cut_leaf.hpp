@@ -14,8 +14,8 @@ namespace quadloop {
 
 /// What is left of a leaf inside the domain: closed loops over nodes on its sides and in its inside.
 struct CutLeaf {
-  /// Where a node sits: 0 to 3 the corners from the lower left one counter-clockwise, 4 to 7 the hanging nodes of the sides,
-  /// 8 to 11 a crossing on a side, 12 a point of the geometry inside.
+  /// Where a node sits: 0 to 3 the corners from the lower left one counter-clockwise, 4 to 7 the hanging
+  /// nodes of the sides, 8 to 11 a crossing on a side, 12 a point of the geometry inside.
   struct Node {
     Point position;
     int place = 12;
@@ -24,22 +24,29 @@ struct CutLeaf {
   /// A directed edge with the domain to its left.
   struct Edge {
     std::int32_t from = 0, to = 0;
-    std::int32_t segment = -1;  ///< a segment of the outline that it stands for; -1: part of a side of the leaf
+    std::int32_t segment =
+        -1;  ///< a segment of the outline that it stands for; -1: part of a side of the leaf
   };
 
-  std::vector<Node> nodes;                ///< round the sides first, counter-clockwise from the lower left corner; then those inside, by position
-  std::vector<Edge> outline;              ///< the chords that stand for the outline, also those that only bound a neighbour's cells
+  std::vector<Node> nodes;  ///< round the sides first, counter-clockwise from the lower left corner; then
+                            ///< those inside, by position
+  std::vector<Edge>
+      outline;  ///< the chords that stand for the outline, also those that only bound a neighbour's cells
   std::vector<std::int32_t> loop_nodes;   ///< the loops one after another
   std::vector<std::int32_t> loop_starts;  ///< one more than there are loops
   std::int32_t side_nodes = 0;            ///< how many nodes lie on the sides
-  std::uint8_t half_inside =
-      0;                 ///< bit 2s+h: the first (h=0) or second half of side s, counter-clockwise, lies in the domain, where no crossing parts it
-  bool simple = false;   ///< one piece of outline was merged into one chord: convex loops, nothing can be wrong
-  bool refined = false;  ///< more points of the geometry were kept than its corners, to follow it closely enough
+  std::uint8_t half_inside = 0;  ///< bit 2s+h: the first (h=0) or second half of side s, counter-clockwise,
+                                 ///< lies in the domain, where no crossing parts it
+  bool simple =
+      false;  ///< one piece of outline was merged into one chord: convex loops, nothing can be wrong
+  bool refined =
+      false;  ///< more points of the geometry were kept than its corners, to follow it closely enough
 
   std::size_t loop_count() const { return loop_starts.size() - 1; }
   std::span<const std::int32_t> loop(std::size_t i) const {
-    return std::span(loop_nodes).subspan(static_cast<std::size_t>(loop_starts[i]), static_cast<std::size_t>(loop_starts[i + 1] - loop_starts[i]));
+    return std::span(loop_nodes)
+        .subspan(static_cast<std::size_t>(loop_starts[i]),
+                 static_cast<std::size_t>(loop_starts[i + 1] - loop_starts[i]));
   }
 };
 
@@ -53,7 +60,8 @@ enum class Detail {
 /// Cuts leaves; keeps its working memory from one to the next.
 class LeafCutter {
  public:
-  LeafCutter(const ShiftedOutline& outline, const InsideTest& inside) : outline_{&outline}, inside_{&inside} {}
+  LeafCutter(const ShiftedOutline& outline, const InsideTest& inside)
+      : outline_{&outline}, inside_{&inside} {}
 
   /// One leaf as the cutter needs it.
   struct Input {
@@ -64,8 +72,9 @@ class LeafCutter {
     std::optional<bool> inside;       ///< where the leaf holds no geometry: whether it lies in the domain
   };
 
-  /// Cuts a leaf. Returns whether the loops are sound: simple, nested as outlines and holes, none overlapping another (always so with exact detail
-  /// and no snaps, but for boundaries that double precision cannot part). The result is valid until the next call.
+  /// Cuts a leaf. Returns whether the loops are sound: simple, nested as outlines and holes, none overlapping
+  /// another (always so with exact detail and no snaps, but for boundaries that double precision cannot
+  /// part). The result is valid until the next call.
   bool cut(const Input& input, Detail detail);
 
   const CutLeaf& result() const { return leaf_; }
@@ -121,12 +130,14 @@ class LeafCutter {
 /// Strings the edges into loops, each split where it touches itself. False where they do not close.
 bool trace_loops(std::span<const CutLeaf::Edge> edges, CutLeaf& leaf);
 
-/// Whether no two edges meet but at their ends and the loops are nested as outlines (counter-clockwise) and holes in them. Exact.
+/// Whether no two edges meet but at their ends and the loops are nested as outlines (counter-clockwise) and
+/// holes in them. Exact.
 bool loops_are_sound(std::span<const CutLeaf::Edge> edges, const CutLeaf& leaf);
 
-/// Whether the sides of a leaf, after snaps, are still a simple counter-clockwise loop, which no chord crosses: then the leaf keeps clear of its
-/// neighbours, also where it lies outside the domain. Exact.
-bool sides_are_sound(std::span<const CutLeaf::Edge> edges, std::span<const CutLeaf::Edge> bare_sides, const CutLeaf& leaf);
+/// Whether the sides of a leaf, after snaps, are still a simple counter-clockwise loop, which no chord
+/// crosses: then the leaf keeps clear of its neighbours, also where it lies outside the domain. Exact.
+bool sides_are_sound(std::span<const CutLeaf::Edge> edges, std::span<const CutLeaf::Edge> bare_sides,
+                     const CutLeaf& leaf);
 
 /// +1 for a counter-clockwise simple loop, -1 for a clockwise one. Exact.
 int winding_of(const CutLeaf& leaf, std::span<const std::int32_t> loop);

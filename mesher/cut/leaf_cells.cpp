@@ -11,26 +11,31 @@ namespace quadloop {
 
 namespace {
 
-// Of the corners of quadrilaterals: at most 50 degrees from the right angle in a whole leaf, whose corners may have been snapped, 40 in a cut one.
+// Of the corners of quadrilaterals: at most 50 degrees from the right angle in a whole leaf, whose corners
+// may have been snapped, 40 in a cut one.
 constexpr double whole_cosine = 0.766, cut_cosine = 0.643;
 
 /// Trailing zeros of a lattice coordinate, at most those of a tree's edge: the sides of the root rank alike.
 std::int8_t rank_of(std::int64_t coordinate) {
-  return static_cast<std::int8_t>(coordinate == 0 ? Quadrant::unit_level
-                                                  : std::min(Quadrant::unit_level, std::countr_zero(static_cast<std::uint64_t>(coordinate))));
+  return static_cast<std::int8_t>(
+      coordinate == 0
+          ? Quadrant::unit_level
+          : std::min(Quadrant::unit_level, std::countr_zero(static_cast<std::uint64_t>(coordinate))));
 }
 
 TieKey key_of_lattice_node(std::int64_t x, std::int64_t y) {
-  const auto [low, high] = std::minmax({rank_of(x), rank_of(y)});  // a list: values, not references to temporaries
+  const auto [low, high] =
+      std::minmax({rank_of(x), rank_of(y)});  // a list: values, not references to temporaries
   return {low, high, 0, 0};
 }
 
 bool is_whole(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
-  return std::all_of(loop.begin(), loop.end(), [&](std::int32_t n) { return leaf.nodes[static_cast<std::size_t>(n)].place < 4; });
+  return std::all_of(loop.begin(), loop.end(),
+                     [&](std::int32_t n) { return leaf.nodes[static_cast<std::size_t>(n)].place < 4; });
 }
 
-/// Strictly convex, in plain doubles as every reader of the mesh will compute it, and no corner far from a right angle: such a quadrilateral stays
-/// one.
+/// Strictly convex, in plain doubles as every reader of the mesh will compute it, and no corner far from a
+/// right angle: such a quadrilateral stays one.
 bool is_well_shaped(const CutLeaf& leaf, std::span<const std::int32_t> loop, double largest_cosine) {
   const auto at = [&](std::size_t i) { return leaf.nodes[static_cast<std::size_t>(loop[i % 4])].position; };
   for (std::size_t i = 0; i < 4; ++i) {
@@ -59,15 +64,20 @@ constexpr Template two_hanging{{{0, 4, 3}, {4, 5, 3}, {4, 1, 5}, {5, 2, 3}, {}}}
 
 void LeafCellMaker::set_keys(const Quadrant& q, const Box& box, const CutLeaf& leaf) {
   const std::int64_t s = q.size(), half = s / 2;
-  const std::array<std::array<std::int64_t, 2>, 8> offset{{{0, 0}, {s, 0}, {s, s}, {0, s}, {half, 0}, {s, half}, {half, s}, {0, half}}};
-  const std::array<Point, 4> corner{box.low, Point{box.high.x, box.low.y}, box.high, Point{box.low.x, box.high.y}};
+  const std::array<std::array<std::int64_t, 2>, 8> offset{
+      {{0, 0}, {s, 0}, {s, s}, {0, s}, {half, 0}, {s, half}, {half, s}, {0, half}}};
+  const std::array<Point, 4> corner{box.low, Point{box.high.x, box.low.y}, box.high,
+                                    Point{box.low.x, box.high.y}};
   std::array<TieKey, 8> lattice;
-  for (std::size_t i = 0; i < 8; ++i) lattice[i] = key_of_lattice_node(q.x + offset[i][0], q.y + offset[i][1]);
-  const auto origin = corner[static_cast<std::size_t>(std::max_element(lattice.begin(), lattice.begin() + 4) - lattice.begin())];
+  for (std::size_t i = 0; i < 8; ++i)
+    lattice[i] = key_of_lattice_node(q.x + offset[i][0], q.y + offset[i][1]);
+  const auto origin = corner[static_cast<std::size_t>(std::max_element(lattice.begin(), lattice.begin() + 4) -
+                                                      lattice.begin())];
   keys_.clear();
   for (const CutLeaf::Node& node : leaf.nodes) {
     TieKey key = node.place < 8 ? lattice[static_cast<std::size_t>(node.place)] : TieKey{};
-    const auto [near, far] = std::minmax({std::abs(node.position.x - origin.x), std::abs(node.position.y - origin.y)});  // a list: values
+    const auto [near, far] = std::minmax(
+        {std::abs(node.position.x - origin.x), std::abs(node.position.y - origin.y)});  // a list: values
     key.farther = far;
     key.nearer = near;
     keys_.push_back(key);
@@ -105,9 +115,12 @@ bool LeafCellMaker::triangulate(std::span<const std::span<const std::int32_t>> l
 }
 
 std::span<const LocalTriangle> hanging_template(unsigned finer) {
-  static const std::array<Template, 4> one{one_hanging, turned(one_hanging, 1), turned(one_hanging, 2), turned(one_hanging, 3)};
-  static const std::array<Template, 4> two{two_hanging, turned(two_hanging, 1), turned(two_hanging, 2), turned(two_hanging, 3)};
-  if (std::has_single_bit(finer)) return std::span(one[static_cast<std::size_t>(std::countr_zero(finer))]).first(3);
+  static const std::array<Template, 4> one{one_hanging, turned(one_hanging, 1), turned(one_hanging, 2),
+                                           turned(one_hanging, 3)};
+  static const std::array<Template, 4> two{two_hanging, turned(two_hanging, 1), turned(two_hanging, 2),
+                                           turned(two_hanging, 3)};
+  if (std::has_single_bit(finer))
+    return std::span(one[static_cast<std::size_t>(std::countr_zero(finer))]).first(3);
   const int side = finer == 0b1001 ? 3 : std::countr_zero(finer);
   QUADLOOP_REQUIRE(finer == 0b1001 || finer == 0b11U << side, "a leaf has hanging nodes on opposite sides");
   return std::span(two[static_cast<std::size_t>(side)]).first(4);

@@ -14,7 +14,8 @@ struct LeafCells {
   std::vector<LocalQuad> quads;
 };
 
-/// Makes the cells of cut leaves: four nodes in good shape stay a quadrilateral, anything else is triangulated.
+/// Makes the cells of cut leaves: four nodes in good shape stay a quadrilateral, anything else is
+/// triangulated.
 class LeafCellMaker {
  public:
   /// Replaces `cells`. False where double precision leaves no room for cells of positive area.
@@ -33,8 +34,9 @@ class LeafCellMaker {
   std::vector<TieKey> keys_;
 };
 
-/// The closed templates for an uncut leaf (thesis 3.6.2). Nodes are named as CutLeaf::Node::place: 0 to 3 corners, 4 to 7 hanging nodes.
-/// `finer` has bit s set where side s has a hanging node: none, one, or two on adjacent sides.
+/// The closed templates for an uncut leaf (thesis 3.6.2). Nodes are named as CutLeaf::Node::place: 0 to 3
+/// corners, 4 to 7 hanging nodes. `finer` has bit s set where side s has a hanging node: none, one, or two on
+/// adjacent sides.
 std::span<const LocalTriangle> hanging_template(unsigned finer);
 
 }  // namespace quadloop

@@ -6,12 +6,16 @@ namespace quadloop {
 
 namespace {
 
-constexpr double stray_of_leaf = 0.15;  ///< how far the outline may lie from its chord, as a share of the leaf's edge
+constexpr double stray_of_leaf =
+    0.15;  ///< how far the outline may lie from its chord, as a share of the leaf's edge
 constexpr double stray_of_chord = 0.2;  ///< and as a share of the chord
 
-std::array<Point, 4> corners_of(const Box& box) { return {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}}; }
+std::array<Point, 4> corners_of(const Box& box) {
+  return {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+}
 
-/// The same for the segment b-a and for mirror images, so that mirrored outlines keep mirrored points: rounded only at the end.
+/// The same for the segment b-a and for mirror images, so that mirrored outlines keep mirrored points:
+/// rounded only at the end.
 double distance_to_segment(Point p, Point a, Point b) {
   using Wide = long double;
   const Wide abx = Wide(b.x) - a.x, aby = Wide(b.y) - a.y, apx = Wide(p.x) - a.x, apy = Wide(p.y) - a.y;
@@ -39,17 +43,21 @@ bool LeafCutter::cut(const Input& input, Detail detail) {
   add_chords(detail);
   sort_inner_nodes();
   const auto& crossings = input_.trace.crossings;
-  const bool simple = input_.snaps.empty() && input_.trace.pieces.size() == 1 && leaf_.outline.size() == 1 && crossings.size() == 2 &&
-                      crossings[0].side != crossings[1].side;
+  const bool simple = input_.snaps.empty() && input_.trace.pieces.size() == 1 && leaf_.outline.size() == 1 &&
+                      crossings.size() == 2 && crossings[0].side != crossings[1].side;
   if (!cancel_opposites() || !trace_loops(edges_, leaf_)) return false;
-  return simple || (loops_are_sound(edges_, leaf_) && (input_.snaps.empty() || sides_are_sound(edges_, bare_sides_, leaf_)));
+  return simple || (loops_are_sound(edges_, leaf_) &&
+                    (input_.snaps.empty() || sides_are_sound(edges_, bare_sides_, leaf_)));
 }
 
 void LeafCutter::add_stop(int side, Point position, int place, std::int32_t crossing, std::int32_t snap) {
   const std::array<Point, 4> corner = corners_of(input_.trace.box);
   const auto next = static_cast<std::size_t>((side + 1) % 4);
   if (position == corner[next]) side = static_cast<int>(next);
-  const double along = side == 0 ? position.x : side == 1 ? position.y : side == 2 ? -position.x : -position.y;
+  const double along = side == 0   ? position.x
+                       : side == 1 ? position.y
+                       : side == 2 ? -position.x
+                                   : -position.y;
   stops_.push_back({side, along, position, place, crossing, snap});
 }
 
@@ -59,7 +67,8 @@ void LeafCutter::gather_stops() {
   const Box& box = input_.trace.box;
   const Point centre = input_.centre;
   const std::array<Point, 4> corner = corners_of(box);
-  const std::array<Point, 4> middle{Point{centre.x, box.low.y}, {box.high.x, centre.y}, {centre.x, box.high.y}, {box.low.x, centre.y}};
+  const std::array<Point, 4> middle{
+      Point{centre.x, box.low.y}, {box.high.x, centre.y}, {centre.x, box.high.y}, {box.low.x, centre.y}};
   for (int side = 0; side < 4; ++side) {
     const auto s = static_cast<std::size_t>(side);
     add_stop(side, corner[s], side, -1);
@@ -73,7 +82,8 @@ void LeafCutter::gather_stops() {
     const int side = input_.snaps[s].place - 8;
     if (side < 0) continue;
     const Point p = input_.snaps[s].snap->position, from = corner[static_cast<std::size_t>(side)];
-    add_stop(side, side % 2 == 0 ? Point{p.x, from.y} : Point{from.x, p.y}, 8, -1, static_cast<std::int32_t>(s));
+    add_stop(side, side % 2 == 0 ? Point{p.x, from.y} : Point{from.x, p.y}, 8, -1,
+             static_cast<std::int32_t>(s));
   }
   std::sort(stops_.begin(), stops_.end(), [](const Stop& a, const Stop& b) {
     return a.side != b.side     ? a.side < b.side
@@ -87,8 +97,8 @@ void LeafCutter::gather_stops() {
 /// The snap that takes the crossing; null for none.
 const LeafSnap* LeafCutter::absorbing_snap(const Crossing& crossing) const {
   for (const LeafSnap& s : input_.snaps) {
-    const bool on_side =
-        s.place == crossing.side || s.place == 4 + crossing.side || s.place == 8 + crossing.side || s.place == (crossing.side + 1) % 4;
+    const bool on_side = s.place == crossing.side || s.place == 4 + crossing.side ||
+                         s.place == 8 + crossing.side || s.place == (crossing.side + 1) % 4;
     if (!on_side) continue;
     const auto& absorbed = s.snap->absorbed;
     const Snap::Absorbed wanted{crossing.segment, crossing.side % 2 == 1};
@@ -105,7 +115,8 @@ void LeafCutter::name_stops() {
   std::array<std::int32_t, 8> place_node{};
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const Stop& stop = stops_[i];
-    const bool absorbed = stop.crossing >= 0 && absorbing_snap(input_.trace.crossing(stop.crossing)) != nullptr;
+    const bool absorbed =
+        stop.crossing >= 0 && absorbing_snap(input_.trace.crossing(stop.crossing)) != nullptr;
     if (absorbed) continue;
     const bool at_last = i > 0 && stops_[i - 1].position == stop.position && stop_node_[i - 1] >= 0;
     if (!at_last) leaf_.nodes.push_back({stop.position, stop.place < 8 ? stop.place : 8 + stop.side});
@@ -114,7 +125,8 @@ void LeafCutter::name_stops() {
     if (stop.snap >= 0) snap_node_[static_cast<std::size_t>(stop.snap)] = stop_node_[i];
   }
   for (std::size_t s = 0; s < input_.snaps.size(); ++s) {
-    if (input_.snaps[s].place < 8) snap_node_[s] = place_node[static_cast<std::size_t>(input_.snaps[s].place)];
+    if (input_.snaps[s].place < 8)
+      snap_node_[s] = place_node[static_cast<std::size_t>(input_.snaps[s].place)];
   }
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const std::int32_t c = stops_[i].crossing;
@@ -130,8 +142,8 @@ void LeafCutter::name_stops() {
   leaf_.side_nodes = static_cast<std::int32_t>(leaf_.nodes.size());
 }
 
-/// Adds the parts of the sides that lie in the domain. Walking round the leaf, an outline that leaves it has the domain after it, one that
-/// enters has it before. False where that does not come out even.
+/// Adds the parts of the sides that lie in the domain. Walking round the leaf, an outline that leaves it has
+/// the domain after it, one that enters has it before. False where that does not come out even.
 bool LeafCutter::walk_sides() {
   bool inside = false;
   if (!status_at_start(inside)) return false;
@@ -144,16 +156,21 @@ bool LeafCutter::walk_sides() {
     if (stops_[i].position == stops_[next].position) continue;
     if (status != 0 && status != 1) return false;
     if (status == 1) note_side(stops_[i], stops_[next]);
-    if (stop_node_[i] != stop_node_[next]) (status == 1 ? edges_ : bare_sides_).push_back({stop_node_[i], stop_node_[next], -1});
+    if (stop_node_[i] != stop_node_[next])
+      (status == 1 ? edges_ : bare_sides_).push_back({stop_node_[i], stop_node_[next], -1});
   }
   return true;
 }
 
 /// A part of a side, from one stop to the next, lies in the domain.
 void LeafCutter::note_side(const Stop& from, const Stop& to) {
-  const double middle = from.side == 0 ? input_.centre.x : from.side == 1 ? input_.centre.y : from.side == 2 ? -input_.centre.x : -input_.centre.y;
+  const double middle = from.side == 0   ? input_.centre.x
+                        : from.side == 1 ? input_.centre.y
+                        : from.side == 2 ? -input_.centre.x
+                                         : -input_.centre.y;
   const bool first = from.along < middle, second = to.side != from.side || to.along > middle;
-  leaf_.half_inside = static_cast<std::uint8_t>(leaf_.half_inside | (first << (2 * from.side)) | (second << (2 * from.side + 1)));
+  leaf_.half_inside = static_cast<std::uint8_t>(leaf_.half_inside | (first << (2 * from.side)) |
+                                                (second << (2 * from.side + 1)));
 }
 
 /// Whether the domain lies just before the first stop (counter-clockwise).
@@ -168,10 +185,12 @@ bool LeafCutter::status_at_start(bool& inside) const {
     inside = change < 0;
     return change == 1 || change == -1;
   }
-  // Every crossing shares its place with its opposite: the parts of the sides between such places are all alike.
+  // Every crossing shares its place with its opposite: the parts of the sides between such places are all
+  // alike.
   std::size_t i = 0;
   while (stops_[i + 1].position == stops_[i].position) ++i;
-  inside = input_.inside ? *input_.inside : inside_->contains(0.5 * (stops_[i].position + stops_[i + 1].position));
+  inside =
+      input_.inside ? *input_.inside : inside_->contains(0.5 * (stops_[i].position + stops_[i + 1].position));
   return true;
 }
 
@@ -187,22 +206,25 @@ void LeafCutter::add_chords(Detail detail) {
   for (const Piece& piece : input_.trace.pieces) add_chord_run(piece, detail);
 }
 
-/// The chords for one piece: from its entry over the kept points to its exit, one boundary each. A piece that a snapped corner swallowed has
-/// none.
+/// The chords for one piece: from its entry over the kept points to its exit, one boundary each. A piece that
+/// a snapped corner swallowed has none.
 void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
   const bool closed = piece.entry < 0;
   if (!closed) {
-    const LeafSnap *entry = absorbing_snap(input_.trace.crossing(piece.entry)), *exit = absorbing_snap(input_.trace.crossing(piece.exit));
+    const LeafSnap *entry = absorbing_snap(input_.trace.crossing(piece.entry)),
+                   *exit = absorbing_snap(input_.trace.crossing(piece.exit));
     if (entry != nullptr && exit != nullptr && entry->snap == exit->snap) return;
   }
   list_points(piece, trimmed_vertices(piece));
   choose_points(closed, detail);
   std::size_t from = 0;
-  std::int32_t from_node = closed ? node_at(run_[0].position) : crossing_node_[static_cast<std::size_t>(piece.entry)];
+  std::int32_t from_node =
+      closed ? node_at(run_[0].position) : crossing_node_[static_cast<std::size_t>(piece.entry)];
   for (std::size_t i = 1; i < run_.size(); ++i) {
     if (!run_[i].chosen) continue;
     const bool at_exit = !closed && i + 1 == run_.size();
-    const std::int32_t to_node = at_exit ? crossing_node_[static_cast<std::size_t>(piece.exit)] : node_at(run_[i].position);
+    const std::int32_t to_node =
+        at_exit ? crossing_node_[static_cast<std::size_t>(piece.exit)] : node_at(run_[i].position);
     if (from_node != to_node) leaf_.outline.push_back({from_node, to_node, run_[from].segment});
     from = i;
     from_node = to_node;
@@ -213,12 +235,15 @@ void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
 std::span<const std::int32_t> LeafCutter::trimmed_vertices(const Piece& piece) const {
   auto vertices = input_.trace.vertices_of(piece);
   if (piece.entry < 0) return vertices;
-  const auto vanishes = [&](const LeafSnap& s, std::int32_t v) { return length(outline_->geometry().point(v) - s.snap->corner) < s.snap->radius; };
+  const auto vanishes = [&](const LeafSnap& s, std::int32_t v) {
+    return length(outline_->geometry().point(v) - s.snap->corner) < s.snap->radius;
+  };
   if (const LeafSnap* entry = absorbing_snap(input_.trace.crossing(piece.entry))) {
     while (!vertices.empty() && vanishes(*entry, vertices.front())) vertices = vertices.subspan(1);
   }
   if (const LeafSnap* exit = absorbing_snap(input_.trace.crossing(piece.exit))) {
-    while (!vertices.empty() && vanishes(*exit, vertices.back())) vertices = vertices.first(vertices.size() - 1);
+    while (!vertices.empty() && vanishes(*exit, vertices.back()))
+      vertices = vertices.first(vertices.size() - 1);
   }
   return vertices;
 }
@@ -234,11 +259,14 @@ void LeafCutter::list_points(const Piece& piece, std::span<const std::int32_t> v
   if (!closed) {
     const auto all = input_.trace.vertices_of(piece);
     const auto trimmed = vertices.data() - all.data();  // in front
-    run_.push_back({node_position(piece.entry), trimmed == 0 ? piece.first_segment : all[static_cast<std::size_t>(trimmed) - 1], true, true});
+    run_.push_back({node_position(piece.entry),
+                    trimmed == 0 ? piece.first_segment : all[static_cast<std::size_t>(trimmed) - 1], true,
+                    true});
   }
   for (const std::int32_t v : vertices) {
     if (!run_.empty()) add_hanging_nodes(g.point(v));
-    const bool holds_node = std::any_of(input_.snaps.begin(), input_.snaps.end(), [&](const LeafSnap& s) { return s.snap->position == g.point(v); });
+    const bool holds_node = std::any_of(input_.snaps.begin(), input_.snaps.end(),
+                                        [&](const LeafSnap& s) { return s.snap->position == g.point(v); });
     run_.push_back({g.point(v), v, !g.straight(v), g.kept(v) || holds_node});
   }
   const Point last = closed ? run_.front().position : node_position(piece.exit);
@@ -252,11 +280,15 @@ void LeafCutter::add_hanging_nodes(Point segment_end) {
   const std::size_t first = run_.size();
   for (const LeafSnap& s : input_.snaps) {
     const Point p = s.snap->position;
-    if (s.place < 4 || s.place >= 8 || s.snap->segment != start.segment || p == start.position || p == segment_end) continue;
+    if (s.place < 4 || s.place >= 8 || s.snap->segment != start.segment || p == start.position ||
+        p == segment_end)
+      continue;
     run_.push_back({p, start.segment, true, true});
   }
   std::sort(run_.begin() + static_cast<std::ptrdiff_t>(first), run_.end(),
-            [&](const RunPoint& a, const RunPoint& b) { return length(a.position - start.position) < length(b.position - start.position); });
+            [&](const RunPoint& a, const RunPoint& b) {
+              return length(a.position - start.position) < length(b.position - start.position);
+            });
 }
 
 /// Marks the points of a piece that the chords go through.
@@ -276,7 +308,8 @@ void LeafCutter::choose_points(bool closed, Detail detail) {
   }
 }
 
-/// Keeps the points between two kept ones from which the chord would stray too far (the rule of Douglas and Peucker 1973).
+/// Keeps the points between two kept ones from which the chord would stray too far (the rule of Douglas and
+/// Peucker 1973).
 void LeafCutter::keep_strays(std::size_t from, std::size_t to) {
   if (to - from < 2) return;
   const Point a = run_[from].position, b = run_[to].position;
@@ -302,7 +335,8 @@ void LeafCutter::sort_inner_nodes() {
   std::vector<std::int32_t> order;
   for (std::size_t i = first; i < leaf_.nodes.size(); ++i) order.push_back(static_cast<std::int32_t>(i));
   const auto position = [&](std::int32_t i) { return leaf_.nodes[static_cast<std::size_t>(i)].position; };
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return position(a) < position(b); });
+  std::sort(order.begin(), order.end(),
+            [&](std::int32_t a, std::int32_t b) { return position(a) < position(b); });
   std::vector<std::int32_t> renamed(leaf_.nodes.size());
   for (std::size_t i = 0; i < first; ++i) renamed[i] = static_cast<std::int32_t>(i);
   std::vector<CutLeaf::Node> sorted;
@@ -317,8 +351,8 @@ void LeafCutter::sort_inner_nodes() {
   }
 }
 
-/// A chord along a side of the leaf, against the sense of the side, leaves nothing between the two: neither bounds a cell here. Two chords
-/// against each other would swallow what lies between: false.
+/// A chord along a side of the leaf, against the sense of the side, leaves nothing between the two: neither
+/// bounds a cell here. Two chords against each other would swallow what lies between: false.
 bool LeafCutter::cancel_opposites() {
   const std::size_t sides = edges_.size();
   for (const CutLeaf::Edge& chord : leaf_.outline) {

@@ -10,9 +10,12 @@ namespace {
 
 using Edges = std::span<const CutLeaf::Edge>;
 
-Point at(const CutLeaf& leaf, std::int32_t node) { return leaf.nodes[static_cast<std::size_t>(node)].position; }
+Point at(const CutLeaf& leaf, std::int32_t node) {
+  return leaf.nodes[static_cast<std::size_t>(node)].position;
+}
 
-/// How far a ray from `hub` must turn clockwise from the ray to `start` until it meets p: 0 for less than half a turn, 1 for half, 2 for more.
+/// How far a ray from `hub` must turn clockwise from the ray to `start` until it meets p: 0 for less than
+/// half a turn, 1 for half, 2 for more.
 int clockwise_half(Point hub, Point start, Point p) {
   const int side = orientation(hub, start, p);
   if (side != 0) return side < 0 ? 0 : 2;
@@ -25,13 +28,15 @@ bool clockwise_before(Point hub, Point start, Point a, Point b) {
   return half_a != half_b ? half_a < half_b : orientation(hub, a, b) < 0;
 }
 
-/// The edge that goes on from edge `e` with the same part of the domain to its left: where loops touch, the sharpest turn left.
+/// The edge that goes on from edge `e` with the same part of the domain to its left: where loops touch, the
+/// sharpest turn left.
 std::size_t next_edge(Edges edges, const CutLeaf& leaf, const std::vector<char>& used, std::size_t e) {
   std::size_t best = edges.size();
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (used[i] != 0 || edges[i].from != edges[e].to) continue;
     const bool better =
-        best == edges.size() || clockwise_before(at(leaf, edges[e].to), at(leaf, edges[e].from), at(leaf, edges[i].to), at(leaf, edges[best].to));
+        best == edges.size() || clockwise_before(at(leaf, edges[e].to), at(leaf, edges[e].from),
+                                                 at(leaf, edges[i].to), at(leaf, edges[best].to));
     if (better) best = i;
   }
   return best;
@@ -53,11 +58,13 @@ void split_into_loops(const std::vector<std::int32_t>& walk, CutLeaf& leaf) {
 
 bool edges_conflict(const CutLeaf& leaf, const CutLeaf::Edge& e, const CutLeaf::Edge& f) {
   const Point a = at(leaf, e.from), b = at(leaf, e.to), c = at(leaf, f.from), d = at(leaf, f.to);
-  if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x) || std::max(a.y, b.y) < std::min(c.y, d.y) ||
-      std::max(c.y, d.y) < std::min(a.y, b.y)) {
+  if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x) ||
+      std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y)) {
     return false;
   }
-  const auto folds = [](Point hub, Point p, Point q) { return orientation(hub, p, q) == 0 && dot(p - hub, q - hub) > 0; };
+  const auto folds = [](Point hub, Point p, Point q) {
+    return orientation(hub, p, q) == 0 && dot(p - hub, q - hub) > 0;
+  };
   if (e.to == f.from && e.from == f.to) return true;
   if (e.to == f.from) return folds(b, a, d);
   if (e.from == f.to) return folds(a, b, c);
@@ -80,15 +87,17 @@ int times_round(const CutLeaf& leaf, std::span<const std::int32_t> loop, Point p
   return times;
 }
 
-/// Every hole lies in one outline, every outline in none or in a hole: the loops around a loop add up to 0 for an outline, to 1 for a hole.
+/// Every hole lies in one outline, every outline in none or in a hole: the loops around a loop add up to 0
+/// for an outline, to 1 for a hole.
 bool nesting_is_sound(const CutLeaf& leaf) {
   for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
     int around = 0;
     for (std::size_t j = 0; j < leaf.loop_count(); ++j) {
       if (i == j) continue;
       const auto other = leaf.loop(j);
-      const auto apart = std::find_if(leaf.loop(i).begin(), leaf.loop(i).end(),
-                                      [&](std::int32_t n) { return std::find(other.begin(), other.end(), n) == other.end(); });
+      const auto apart = std::find_if(leaf.loop(i).begin(), leaf.loop(i).end(), [&](std::int32_t n) {
+        return std::find(other.begin(), other.end(), n) == other.end();
+      });
       if (apart == leaf.loop(i).end()) return false;
       around += times_round(leaf, other, at(leaf, *apart));
     }
@@ -99,7 +108,8 @@ bool nesting_is_sound(const CutLeaf& leaf) {
 
 /// Whether a chord that ends at a node on the sides leaves it into the leaf, or along a side.
 bool starts_inwards(const CutLeaf& leaf, std::int32_t node, std::int32_t towards) {
-  const std::int32_t before = (node + leaf.side_nodes - 1) % leaf.side_nodes, after = (node + 1) % leaf.side_nodes;
+  const std::int32_t before = (node + leaf.side_nodes - 1) % leaf.side_nodes,
+                     after = (node + 1) % leaf.side_nodes;
   if (towards == before || towards == after) return true;
   return clockwise_before(at(leaf, node), at(leaf, before), at(leaf, towards), at(leaf, after));
 }
@@ -118,8 +128,8 @@ bool trace_loops(Edges edges, CutLeaf& leaf) {
       walk.push_back(edges[e].to);
       if (edges[e].to == edges[start].from) {
         const std::size_t next = next_edge(edges, leaf, used, e);
-        if (next == edges.size() ||
-            !clockwise_before(at(leaf, edges[e].to), at(leaf, edges[e].from), at(leaf, edges[next].to), at(leaf, edges[start].to))) {
+        if (next == edges.size() || !clockwise_before(at(leaf, edges[e].to), at(leaf, edges[e].from),
+                                                      at(leaf, edges[next].to), at(leaf, edges[start].to))) {
           break;
         }
       }
@@ -138,7 +148,8 @@ int winding_of(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
     if (at(leaf, loop[i]) < at(leaf, loop[lowest])) lowest = i;
   }
   const std::size_t n = loop.size();
-  return orientation(at(leaf, loop[(lowest + n - 1) % n]), at(leaf, loop[lowest]), at(leaf, loop[(lowest + 1) % n]));
+  return orientation(at(leaf, loop[(lowest + n - 1) % n]), at(leaf, loop[lowest]),
+                     at(leaf, loop[(lowest + 1) % n]));
 }
 
 bool loops_are_sound(Edges edges, const CutLeaf& leaf) {

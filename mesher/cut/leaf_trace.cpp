@@ -8,7 +8,8 @@ namespace quadloop {
 
 namespace {
 
-/// The numbers of the crossings of one segment with the sides of the leaf: at most one inwards and one outwards.
+/// The numbers of the crossings of one segment with the sides of the leaf: at most one inwards and one
+/// outwards.
 struct Passage {
   std::int32_t entry = -1, exit = -1;
 };
@@ -23,7 +24,8 @@ Point crossing_of_horizontal(const Geometry& g, std::int32_t s, double y, double
 }
 
 /// Appends the crossings of one segment.
-Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& box, std::size_t first, std::vector<Crossing>& crossings) {
+Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& box, std::size_t first,
+                     std::vector<Crossing>& crossings) {
   const Geometry& g = outline.geometry();
   const std::int32_t end = g.next(s);
   Passage passage;
@@ -52,9 +54,11 @@ Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& b
   return passage;
 }
 
-/// Follows the outline from the segment at `start` to where it leaves the leaf or comes back; appends the vertices on the way.
-Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::span<const Passage> passages, std::vector<char>& seen, std::size_t start,
-             std::size_t first_vertex, std::vector<std::int32_t>& vertices) {
+/// Follows the outline from the segment at `start` to where it leaves the leaf or comes back; appends the
+/// vertices on the way.
+Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::span<const Passage> passages,
+             std::vector<char>& seen, std::size_t start, std::size_t first_vertex,
+             std::vector<std::int32_t>& vertices) {
   Piece piece;
   piece.first_segment = segments[start];
   piece.entry = passages[start].entry;
@@ -77,20 +81,24 @@ Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::spa
 
 }  // namespace
 
-std::int32_t LeafTraces::add(const ShiftedOutline& outline, const Box& box, std::span<const std::int32_t> segments) {
-  begins_.push_back(
-      {box, static_cast<std::int32_t>(crossings_.size()), static_cast<std::int32_t>(pieces_.size()), static_cast<std::int32_t>(vertices_.size())});
+std::int32_t LeafTraces::add(const ShiftedOutline& outline, const Box& box,
+                             std::span<const std::int32_t> segments) {
+  begins_.push_back({box, static_cast<std::int32_t>(crossings_.size()),
+                     static_cast<std::int32_t>(pieces_.size()), static_cast<std::int32_t>(vertices_.size())});
   const std::size_t first_crossing = crossings_.size(), first_vertex = vertices_.size();
   thread_local std::vector<Passage> passages;
   thread_local std::vector<char> seen;
   passages.clear();
-  for (const std::int32_t s : segments) passages.push_back(find_passage(outline, s, box, first_crossing, crossings_));
+  for (const std::int32_t s : segments)
+    passages.push_back(find_passage(outline, s, box, first_crossing, crossings_));
   seen.assign(segments.size(), 0);
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (passages[i].entry >= 0) pieces_.push_back(follow(outline.geometry(), segments, passages, seen, i, first_vertex, vertices_));
+    if (passages[i].entry >= 0)
+      pieces_.push_back(follow(outline.geometry(), segments, passages, seen, i, first_vertex, vertices_));
   }
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (seen[i] == 0) pieces_.push_back(follow(outline.geometry(), segments, passages, seen, i, first_vertex, vertices_));
+    if (seen[i] == 0)
+      pieces_.push_back(follow(outline.geometry(), segments, passages, seen, i, first_vertex, vertices_));
   }
   return static_cast<std::int32_t>(begins_.size()) - 1;
 }
@@ -102,9 +110,13 @@ LeafTrace LeafTraces::operator[](std::int32_t trace) const {
   const auto part = [](const auto& all, std::int32_t from, std::size_t to) {
     return std::span(all).subspan(static_cast<std::size_t>(from), to - static_cast<std::size_t>(from));
   };
-  return {begin.box, part(crossings_, begin.crossings, last ? crossings_.size() : static_cast<std::size_t>(begins_[i + 1].crossings)),
-          part(pieces_, begin.pieces, last ? pieces_.size() : static_cast<std::size_t>(begins_[i + 1].pieces)),
-          part(vertices_, begin.vertices, last ? vertices_.size() : static_cast<std::size_t>(begins_[i + 1].vertices))};
+  return {
+      begin.box,
+      part(crossings_, begin.crossings,
+           last ? crossings_.size() : static_cast<std::size_t>(begins_[i + 1].crossings)),
+      part(pieces_, begin.pieces, last ? pieces_.size() : static_cast<std::size_t>(begins_[i + 1].pieces)),
+      part(vertices_, begin.vertices,
+           last ? vertices_.size() : static_cast<std::size_t>(begins_[i + 1].vertices))};
 }
 
 void LeafTraces::clear() {

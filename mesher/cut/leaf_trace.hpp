@@ -18,8 +18,8 @@ struct Crossing {
   Point position;       ///< rounded once; the same for both leaves at the side
 };
 
-/// The outline's run through a leaf: from a crossing over vertices inside to a crossing, or a whole loop inside (no crossings). Numbers count
-/// from the first of its leaf.
+/// The outline's run through a leaf: from a crossing over vertices inside to a crossing, or a whole loop
+/// inside (no crossings). Numbers count from the first of its leaf.
 struct Piece {
   std::int32_t entry = -1, exit = -1;                 ///< numbers of crossings; -1 for a loop
   std::int32_t first_segment = -1;                    ///< the segment that the piece begins on
@@ -35,15 +35,17 @@ struct LeafTrace {
 
   const Crossing& crossing(std::int32_t c) const { return crossings[static_cast<std::size_t>(c)]; }
   std::span<const std::int32_t> vertices_of(const Piece& p) const {
-    return vertices.subspan(static_cast<std::size_t>(p.vertices_begin), static_cast<std::size_t>(p.vertices_end - p.vertices_begin));
+    return vertices.subspan(static_cast<std::size_t>(p.vertices_begin),
+                            static_cast<std::size_t>(p.vertices_end - p.vertices_begin));
   }
 };
 
 /// The outline inside any number of leaves.
 class LeafTraces {
  public:
-  /// Traces the outline through one more leaf. `segments` are those that meet its inside, in ascending order. Exact in its decisions; the
-  /// positions of crossings are rounded. Work and memory depend on these segments alone. Returns the number of the trace.
+  /// Traces the outline through one more leaf. `segments` are those that meet its inside, in ascending order.
+  /// Exact in its decisions; the positions of crossings are rounded. Work and memory depend on these segments
+  /// alone. Returns the number of the trace.
   std::int32_t add(const ShiftedOutline& outline, const Box& box, std::span<const std::int32_t> segments);
 
   LeafTrace operator[](std::int32_t trace) const;

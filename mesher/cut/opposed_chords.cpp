@@ -42,18 +42,21 @@ OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, c
       const unsigned common = sides_of(from.place) & sides_of(to.place);
       if (common == 0) continue;
       const bool rising = from.position < to.position;
-      const SideChord chord{rising ? from.position : to.position, rising ? to.position : from.position, rising};
+      const SideChord chord{rising ? from.position : to.position, rising ? to.position : from.position,
+                            rising};
       chords.push_back(chord);
       if (comm.size() == 1) continue;
       for (int side = 0; side < 4; ++side) {
         if (((common >> side) & 1) == 0) continue;
         for (const std::int32_t other : across(graph, leaf, side)) {
-          if (other != LeafGraph::none && !graph.is_local(other)) to_rank[static_cast<std::size_t>(graph.place_of(other).rank)].push_back(chord);
+          if (other != LeafGraph::none && !graph.is_local(other))
+            to_rank[static_cast<std::size_t>(graph.place_of(other).rank)].push_back(chord);
         }
       }
     }
   }
-  for (const auto& received : comm.exchange(to_rank)) chords.insert(chords.end(), received.begin(), received.end());
+  for (const auto& received : comm.exchange(to_rank))
+    chords.insert(chords.end(), received.begin(), received.end());
   std::sort(chords.begin(), chords.end());
   for (std::size_t i = 0; i + 1 < chords.size(); ++i) {
     const SideChord &a = chords[i], &b = chords[i + 1];

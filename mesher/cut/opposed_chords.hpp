@@ -6,7 +6,8 @@
 
 namespace quadloop {
 
-/// Finds the chords along leaf sides that run against each other on the two sides of it: a spike that was squeezed flat.
+/// Finds the chords along leaf sides that run against each other on the two sides of it: a spike that was
+/// squeezed flat.
 class OpposedChords {
  public:
   /// *Collective.*

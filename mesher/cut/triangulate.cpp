@@ -9,13 +9,17 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t most_ears = 24;  ///< nodes; beyond, clipping ears in square time loses to a real triangulation
+constexpr std::size_t most_ears =
+    24;  ///< nodes; beyond, clipping ears in square time loses to a real triangulation
 
-std::int64_t name_of(std::int32_t a, std::int32_t b) { return (std::int64_t{std::min(a, b)} << 32) | std::max(a, b); }
+std::int64_t name_of(std::int32_t a, std::int32_t b) {
+  return (std::int64_t{std::min(a, b)} << 32) | std::max(a, b);
+}
 
 }  // namespace
 
-bool Triangulator::triangulate(std::span<const Point> points, std::span<const TieKey> keys, std::span<const std::span<const std::int32_t>> loops,
+bool Triangulator::triangulate(std::span<const Point> points, std::span<const TieKey> keys,
+                               std::span<const std::span<const std::int32_t>> loops,
                                std::vector<LocalTriangle>& triangles) {
   points_ = points;
   keys_ = keys;
@@ -45,10 +49,12 @@ void Triangulator::measure() {
   }
 }
 
-/// Positive exactly, and by the plain products in doubles that every reader of the mesh will use, at each corner.
+/// Positive exactly, and by the plain products in doubles that every reader of the mesh will use, at each
+/// corner.
 bool Triangulator::positive(std::int32_t a, std::int32_t b, std::int32_t c) const {
   const Point p = at(a), q = at(b), r = at(c);
-  return cross(q - p, r - p) > 0 && cross(r - q, p - q) > 0 && cross(p - r, q - r) > 0 && orientation(p, q, r) > 0;
+  return cross(q - p, r - p) > 0 && cross(r - q, p - q) > 0 && cross(p - r, q - r) > 0 &&
+         orientation(p, q, r) > 0;
 }
 
 bool Triangulator::is_ear(std::size_t i) const {
@@ -58,7 +64,9 @@ bool Triangulator::is_ear(std::size_t i) const {
   for (const std::int32_t other : ring_) {
     if (other == a || other == b || other == c) continue;
     const Point p = at(other);
-    if (orientation(at(a), at(b), p) >= 0 && orientation(at(b), at(c), p) >= 0 && orientation(at(c), at(a), p) >= 0) return false;
+    if (orientation(at(a), at(b), p) >= 0 && orientation(at(b), at(c), p) >= 0 &&
+        orientation(at(c), at(a), p) >= 0)
+      return false;
   }
   return true;
 }
@@ -80,7 +88,8 @@ bool Triangulator::clip_ears(std::span<const std::int32_t> loop) {
 void Triangulator::flip_to_delaunay(std::span<const std::span<const std::int32_t>> loops) {
   fixed_.clear();
   for (const auto loop : loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) fixed_.push_back({name_of(loop[i], loop[(i + 1) % loop.size()]), -1, 0});
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      fixed_.push_back({name_of(loop[i], loop[(i + 1) % loop.size()]), -1, 0});
   }
   std::size_t passes = 4 * points_.size() + 16;
   while (flip_pass() && --passes > 0) {
@@ -92,12 +101,13 @@ bool Triangulator::flip_pass() {
   half_edges_ = fixed_;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
-      half_edges_.push_back(
-          {name_of(triangles_[t][(k + 1) % 3], triangles_[t][(k + 2) % 3]), static_cast<std::int32_t>(t), static_cast<std::int32_t>(k)});
+      half_edges_.push_back({name_of(triangles_[t][(k + 1) % 3], triangles_[t][(k + 2) % 3]),
+                             static_cast<std::int32_t>(t), static_cast<std::int32_t>(k)});
     }
   }
-  std::sort(half_edges_.begin(), half_edges_.end(),
-            [](const HalfEdge& e, const HalfEdge& f) { return e.name != f.name ? e.name < f.name : e.triangle < f.triangle; });
+  std::sort(half_edges_.begin(), half_edges_.end(), [](const HalfEdge& e, const HalfEdge& f) {
+    return e.name != f.name ? e.name < f.name : e.triangle < f.triangle;
+  });
   touched_.assign(triangles_.size(), 0);
   bool any = false;
   for (std::size_t i = 0; i + 1 < half_edges_.size(); ++i) {

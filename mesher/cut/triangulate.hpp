@@ -10,25 +10,32 @@
 
 namespace quadloop {
 
-/// Decides between the two diagonals of four points on one circle: the diagonal through the point of the highest key. Made of numbers that mirror
-/// images and quarter turns of the lattice keep, so that mirrored input gives mirrored triangles.
+/// Decides between the two diagonals of four points on one circle: the diagonal through the point of the
+/// highest key. Made of numbers that mirror images and quarter turns of the lattice keep, so that mirrored
+/// input gives mirrored triangles.
 struct TieKey {
-  std::int8_t coarser = -1, finer = -1;  ///< trailing zeros of a lattice node's coordinates, the smaller first; -1 for other nodes
-  double farther = 0, nearer = 0;        ///< distances along the axes from the leaf's corner of highest rank, the larger first
+  std::int8_t
+      coarser = -1,
+      finer = -1;  ///< trailing zeros of a lattice node's coordinates, the smaller first; -1 for other nodes
+  double farther = 0,
+         nearer = 0;  ///< distances along the axes from the leaf's corner of highest rank, the larger first
   friend auto operator<=>(const TieKey&, const TieKey&) = default;
 };
 
 using LocalTriangle = std::array<std::int32_t, 3>;
 
-/// The constrained Delaunay triangulation of the region between loops: outlines counter-clockwise, holes clockwise, which do not meet but
-/// at nodes. `loops` name nodes of `points`; no node is added. Ties are broken by `keys`. Appends counter-clockwise triangles to `triangles`. Returns
-/// false where rounding would leave a triangle without positive area in double precision.
+/// The constrained Delaunay triangulation of the region between loops: outlines counter-clockwise, holes
+/// clockwise, which do not meet but at nodes. `loops` name nodes of `points`; no node is added. Ties are
+/// broken by `keys`. Appends counter-clockwise triangles to `triangles`. Returns false where rounding would
+/// leave a triangle without positive area in double precision.
 class Triangulator {
  public:
-  bool triangulate(std::span<const Point> points, std::span<const TieKey> keys, std::span<const std::span<const std::int32_t>> loops,
+  bool triangulate(std::span<const Point> points, std::span<const TieKey> keys,
+                   std::span<const std::span<const std::int32_t>> loops,
                    std::vector<LocalTriangle>& triangles);
 
-  /// The sine of the smallest angle of the triangles made last; below about 1e-11 rounding, not the outline, shaped a triangle.
+  /// The sine of the smallest angle of the triangles made last; below about 1e-11 rounding, not the outline,
+  /// shaped a triangle.
   double smallest_sine() const { return smallest_sine_; }
 
  private:

@@ -6,9 +6,13 @@
 
 namespace quadloop {
 
-DelaunayPatch::DelaunayPatch(std::vector<Point> points, std::vector<TieRank> ranks, std::vector<Triangle> triangles, const std::vector<char>& open,
+DelaunayPatch::DelaunayPatch(std::vector<Point> points, std::vector<TieRank> ranks,
+                             std::vector<Triangle> triangles, const std::vector<char>& open,
                              const std::vector<std::int32_t>& blocks)
-    : points_{std::move(points)}, ranks_{std::move(ranks)}, triangles_{std::move(triangles)}, across_(3 * triangles_.size(), border) {
+    : points_{std::move(points)},
+      ranks_{std::move(ranks)},
+      triangles_{std::move(triangles)},
+      across_(3 * triangles_.size(), border) {
   join(open, blocks);
 }
 
@@ -28,7 +32,8 @@ void DelaunayPatch::join(const std::vector<char>& open, const std::vector<std::i
     return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.edge < b.edge;
   });
   for (std::size_t i = 0; i < named.size(); ++i) {
-    const bool paired = i + 1 < named.size() && named[i].low == named[i + 1].low && named[i].high == named[i + 1].high;
+    const bool paired =
+        i + 1 < named.size() && named[i].low == named[i + 1].low && named[i].high == named[i + 1].high;
     if (paired) {
       const Edge e = named[i].edge, f = named[i + 1].edge;
       const bool flips = blocks.empty() || blocks[triangle_of(e)] == blocks[triangle_of(f)];
@@ -62,7 +67,8 @@ void DelaunayPatch::flip_to_delaunay() {
 /// By the plain products in doubles that every reader of the mesh will use, at each corner.
 bool DelaunayPatch::positive(std::int32_t a, std::int32_t b, std::int32_t c) const {
   const Point p = point(a), q = point(b), r = point(c);
-  return cross(q - p, r - p) > 0 && cross(r - q, p - q) > 0 && cross(p - r, q - r) > 0 && orientation(p, q, r) > 0;
+  return cross(q - p, r - p) > 0 && cross(r - q, p - q) > 0 && cross(p - r, q - r) > 0 &&
+         orientation(p, q, r) > 0;
 }
 
 bool DelaunayPatch::should_flip(Edge e) const {
@@ -127,7 +133,8 @@ bool DelaunayPatch::circle_reaches(std::size_t triangle, Point from, Point to) c
   const Point a = point(i), u = point(j) - a, v = point(k) - a;
   const Wide twice_area = Wide(u.x) * v.y - Wide(u.y) * v.x;
   const Wide uu = Wide(u.x) * u.x + Wide(u.y) * u.y, vv = Wide(v.x) * v.x + Wide(v.y) * v.y;
-  const Wide x = (v.y * uu - u.y * vv) / (2 * twice_area), y = (u.x * vv - v.x * uu) / (2 * twice_area);  // the centre, from a
+  const Wide x = (v.y * uu - u.y * vv) / (2 * twice_area),
+             y = (u.x * vv - v.x * uu) / (2 * twice_area);  // the centre, from a
   const Wide square = x * x + y * y;
   if (!(square < 1e12L * (uu + vv))) return true;  // next to a half plane
   const Point p = from - a, d = to - from;

@@ -5,25 +5,25 @@
 #include <compare>
 #include <cstdint>
 
-#include "mesher/forest/lattice.hpp"
+#include "mesher/geometry/point.hpp"
 
 namespace quadloop {
 
-/// Ranks the nodes of a mesh for a choice between the diagonals of four nodes on one circle: the diagonal through the node of the highest rank wins.
-/// Made of numbers that mirror images and quarter turns of the root keep; only nodes that are mirror images of each other are told apart
-/// by their coordinates. The order is strict, so that a constrained Delaunay triangulation is unique under it: nodes on one circle are joined to
-/// the highest of them.
+/// Ranks the nodes of a mesh for a choice between the diagonals of four nodes on one circle: the diagonal
+/// through the node of the highest rank wins. Made of numbers that mirror images and quarter turns of the
+/// root keep; only nodes that are mirror images of each other are told apart by their coordinates. The order
+/// is strict, so that a constrained Delaunay triangulation is unique under it: nodes on one circle are joined
+/// to the highest of them.
 struct TieRank {
-  std::int8_t coarser = -1, finer = -1;  ///< trailing zeros of a lattice node's coordinates, the smaller first; -1 for other nodes
-  double farther = 0, nearer = 0;        ///< distances along the axes from the root's centre, the larger first
+  std::int8_t
+      coarser = -1,
+      finer = -1;  ///< trailing zeros of a lattice node's coordinates, the smaller first; -1 for other nodes
+  double farther = 0, nearer = 0;  ///< distances along the axes from the root's centre, the larger first
   double x = 0, y = 0;
   friend auto operator<=>(const TieRank&, const TieRank&) = default;
 };
 
-/// From a node's position alone.
-TieRank tie_rank(const Lattice& lattice, int finest_level, Point position);
-
-/// The same without a lattice: nodes farther from the centre of a box rank higher.
+/// From a node's position alone: nodes farther from the centre of a box rank higher.
 inline TieRank tie_rank(Point centre, Point position) {
   const double across = std::abs(position.x - centre.x), up = std::abs(position.y - centre.y);
   return {-1, -1, std::max(across, up), std::min(across, up), position.x, position.y};

@@ -16,10 +16,12 @@ constexpr std::size_t block = 16;
 constexpr std::uint8_t children_bits = 0xf, asked_bit = 0x10;
 constexpr std::uint64_t children_of_word = 0x0f0f0f0f0f0f0f0fULL;
 
-/// Of the quadrant of this level that holds a place. No quadrant deeper than this is split: its coordinates in units of its size fit into 32 bits.
+/// Of the quadrant of this level that holds a place. No quadrant deeper than this is split: its coordinates
+/// in units of its size fit into 32 bits.
 std::uint64_t key_of(const Quadrant& place, int level) {
   const int shift = Quadrant::unit_level - level;
-  return morton_key(static_cast<std::uint32_t>(place.x >> shift), static_cast<std::uint32_t>(place.y >> shift));
+  return morton_key(static_cast<std::uint32_t>(place.x >> shift),
+                    static_cast<std::uint32_t>(place.y >> shift));
 }
 
 void make_unique(std::vector<std::uint64_t>& keys) {
@@ -35,7 +37,8 @@ KeysOfLevels gather_asked(const Communicator& comm, std::span<const SplitDemand>
   for (const SplitDemand& demand : demands) {
     for (std::uint32_t levels = demand.levels; levels != 0; levels &= levels - 1) {
       const int level = std::countr_zero(levels);
-      QUADLOOP_REQUIRE(level <= demand.leaf.level && level < Quadrant::unit_level - 1, "a split below its leaf, or below the lattice");
+      QUADLOOP_REQUIRE(level <= demand.leaf.level && level < Quadrant::unit_level - 1,
+                       "a split below its leaf, or below the lattice");
       auto& keys = asked[static_cast<std::size_t>(level)];
       const std::uint64_t key = key_of(demand.leaf, level);
       if (keys.empty() || keys.back() != key) keys.push_back(key);
@@ -67,7 +70,8 @@ DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDe
   std::int32_t first = 0;
   for (std::size_t level = 0; level < all.size() && !all[level].empty(); ++level) {
     const auto begin = static_cast<std::int32_t>(masks_.size());
-    append_level(all[level], asked[level], level == 0 ? std::span<const Key>{} : std::span<const Key>(all[level - 1]), first);
+    append_level(all[level], asked[level],
+                 level == 0 ? std::span<const Key>{} : std::span<const Key>(all[level - 1]), first);
     first = begin;
     finest_ = static_cast<int>(level) + 1;
   }
@@ -80,7 +84,8 @@ DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDe
 }
 
 /// `first_above` is the number of the first of the level above. Marks the parents.
-void DemandedSplits::append_level(std::span<const Key> all, std::span<const Key> asked, std::span<const Key> above, std::int32_t first_above) {
+void DemandedSplits::append_level(std::span<const Key> all, std::span<const Key> asked,
+                                  std::span<const Key> above, std::int32_t first_above) {
   std::size_t next_asked = 0, parent = 0;
   for (const Key key : all) {
     const bool is_asked = next_asked < asked.size() && asked[next_asked] == key;
@@ -101,7 +106,8 @@ std::int32_t DemandedSplits::root(std::int64_t tree_x, std::int64_t tree_y) cons
 std::int32_t DemandedSplits::child(std::int32_t number, int k) const {
   const auto at = static_cast<std::size_t>(number);
   if ((masks_[at] >> k & 1) == 0) return none;
-  std::array<std::uint64_t, block / sizeof(std::uint64_t)> masks{};  // of the block, up to this one: whole words are counted at once
+  std::array<std::uint64_t, block / sizeof(std::uint64_t)>
+      masks{};  // of the block, up to this one: whole words are counted at once
   if (at % block != 0) std::memcpy(masks.data(), &masks_[at - at % block], at % block);
   std::int32_t before = children_before_[at / block];
   for (const std::uint64_t word : masks) before += std::popcount(word & children_of_word);
@@ -109,12 +115,15 @@ std::int32_t DemandedSplits::child(std::int32_t number, int k) const {
   return static_cast<std::int32_t>(roots_.size()) + before;
 }
 
-bool DemandedSplits::asked(std::int32_t number) const { return (masks_[static_cast<std::size_t>(number)] & asked_bit) != 0; }
+bool DemandedSplits::asked(std::int32_t number) const {
+  return (masks_[static_cast<std::size_t>(number)] & asked_bit) != 0;
+}
 
 /// The steps that lead to this leaf too.
 void DemandPath::keep_above(const Quadrant& leaf) {
   const auto different = static_cast<std::uint64_t>((leaf.x ^ last_.x) | (leaf.y ^ last_.y));
-  const int common = Quadrant::unit_level - static_cast<int>(std::bit_width(different));  // negative where even the trees are others
+  const int common = Quadrant::unit_level -
+                     static_cast<int>(std::bit_width(different));  // negative where even the trees are others
   const int kept = std::min({static_cast<int>(steps_.size()), common + 1, leaf.level + 1});
   steps_.resize(static_cast<std::size_t>(std::max(kept, 0)));
   last_ = leaf;
@@ -122,7 +131,8 @@ void DemandPath::keep_above(const Quadrant& leaf) {
 
 std::uint32_t DemandPath::levels_above(const Quadrant& leaf) {
   keep_above(leaf);
-  if (steps_.empty()) steps_.push_back({demanded_->root(leaf.x >> Quadrant::unit_level, leaf.y >> Quadrant::unit_level), 0});
+  if (steps_.empty())
+    steps_.push_back({demanded_->root(leaf.x >> Quadrant::unit_level, leaf.y >> Quadrant::unit_level), 0});
   while (true) {
     const auto [number, levels] = steps_.back();
     const int level = static_cast<int>(steps_.size()) - 1, shift = Quadrant::unit_level - 1 - level;

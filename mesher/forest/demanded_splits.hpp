@@ -9,14 +9,16 @@
 
 namespace quadloop {
 
-/// A leaf and which of its ancestors, and itself, are to be split: bit l for the quadrant of level l that holds it.
+/// A leaf and which of its ancestors, and itself, are to be split: bit l for the quadrant of level l that
+/// holds it.
 struct SplitDemand {
   Quadrant leaf;
   std::uint32_t levels = 0;
 };
 
-/// The quadrants that adaptation has asked to split, whatever case and geometry say, with all quadrants above them. Every rank has them all, in
-/// little more than a byte for each: a third of a byte for a leaf of the tree.
+/// The quadrants that adaptation has asked to split, whatever case and geometry say, with all quadrants above
+/// them. Every rank has them all, in little more than a byte for each: a third of a byte for a leaf of the
+/// tree.
 class DemandedSplits {
  public:
   static constexpr std::int32_t none = -1;
@@ -39,12 +41,16 @@ class DemandedSplits {
   bool asked(std::int32_t number) const;
 
  private:
-  using Key = std::uint64_t;  ///< place of a quadrant on the Morton curve over all trees, among those of its level
-  void append_level(std::span<const Key> all, std::span<const Key> asked, std::span<const Key> above, std::int32_t first_above);
+  using Key =
+      std::uint64_t;  ///< place of a quadrant on the Morton curve over all trees, among those of its level
+  void append_level(std::span<const Key> all, std::span<const Key> asked, std::span<const Key> above,
+                    std::int32_t first_above);
 
-  // In the order of levels, then along the curve: bits 0 to 3 for children that are split, bit 4 where the quadrant itself was asked for.
+  // In the order of levels, then along the curve: bits 0 to 3 for children that are split, bit 4 where the
+  // quadrant itself was asked for.
   std::vector<std::uint8_t> masks_;
-  std::vector<std::int32_t> children_before_;  ///< for each block of masks: split quadrants below the roots that come before the block's children
+  std::vector<std::int32_t> children_before_;  ///< for each block of masks: split quadrants below the roots
+                                               ///< that come before the block's children
   std::vector<Key> roots_;
   int finest_ = 0;
 };

@@ -84,7 +84,8 @@ int weight_by_function(p4est_t* forest, p4est_topidx_t tree, p4est_quadrant_t* q
 }  // namespace
 
 struct Forest::Impl {
-  std::unique_ptr<p4est_connectivity_t, Releaser<p4est_connectivity_destroy>> connectivity;  // outlives the forest
+  std::unique_ptr<p4est_connectivity_t, Releaser<p4est_connectivity_destroy>>
+      connectivity;  // outlives the forest
   std::unique_ptr<p4est_t, Releaser<p4est_destroy>> forest;
   std::vector<Quadrant> tree_corners;
   std::vector<std::int32_t> tree_numbers;  ///< row by row
@@ -127,7 +128,8 @@ void Forest::partition() { p4est_partition_ext(impl_->forest.get(), 0, nullptr);
 void Forest::partition(const std::function<int(const Quadrant&)>& weight) {
   Callbacks callbacks{.tree_corners = &impl_->tree_corners, .weight = &weight};
   impl_->forest->user_pointer = &callbacks;
-  p4est_partition_ext(impl_->forest.get(), 0, weight_by_function);  // on every rank, also on one without leaves
+  p4est_partition_ext(impl_->forest.get(), 0,
+                      weight_by_function);  // on every rank, also on one without leaves
 }
 
 std::int32_t Forest::local_leaves() const { return impl_->forest->local_num_quadrants; }
@@ -155,7 +157,8 @@ std::vector<CurvePlace> Forest::begins() const {
 }
 
 std::int32_t Forest::tree_at(const Quadrant& q) const {
-  return impl_->tree_numbers[static_cast<std::size_t>((q.y >> Quadrant::unit_level) * impl_->trees_x + (q.x >> Quadrant::unit_level))];
+  return impl_->tree_numbers[static_cast<std::size_t>((q.y >> Quadrant::unit_level) * impl_->trees_x +
+                                                      (q.x >> Quadrant::unit_level))];
 }
 
 }  // namespace quadloop

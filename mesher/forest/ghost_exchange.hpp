@@ -15,7 +15,8 @@ class GhostExchange {
   /// *Collective.*
   GhostExchange(const Communicator& comm, const LeafGraph& graph);
 
-  /// `values` has one entry for each leaf of the graph; those of the ghosts are replaced by their owners'. *Collective.*
+  /// `values` has one entry for each leaf of the graph; those of the ghosts are replaced by their owners'.
+  /// *Collective.*
   template <class T>
   void update(std::vector<T>& values) const;
 
@@ -30,16 +31,18 @@ template <class T>
 void GhostExchange::update(std::vector<T>& values) const {
   std::vector<std::vector<T>> answers(asked_.size());
   for (std::size_t rank = 0; rank < asked_.size(); ++rank) {
-    for (const std::int32_t index : asked_[rank]) answers[rank].push_back(values[static_cast<std::size_t>(graph_.from_local(index))]);
+    for (const std::int32_t index : asked_[rank])
+      answers[rank].push_back(values[static_cast<std::size_t>(graph_.from_local(index))]);
   }
   const auto received = comm_.exchange(answers);
   for (std::size_t rank = 0; rank < received.size(); ++rank) {
-    for (std::size_t i = 0; i < received[rank].size(); ++i) values[static_cast<std::size_t>(ghosts_[rank][i])] = received[rank][i];
+    for (std::size_t i = 0; i < received[rank].size(); ++i)
+      values[static_cast<std::size_t>(ghosts_[rank][i])] = received[rank][i];
   }
 }
 
-/// Calls `visit` for the leaves of the graph that touch a leaf, by an edge or a corner; for some of them more than once. Touching leaves must
-/// differ by one level at most.
+/// Calls `visit` for the leaves of the graph that touch a leaf, by an edge or a corner; for some of them more
+/// than once. Touching leaves must differ by one level at most.
 template <class Visit>
 void for_touching_leaves(const LeafGraph& graph, std::int32_t leaf, const Visit& visit) {
   const Quadrant& q = graph.leaf(leaf);

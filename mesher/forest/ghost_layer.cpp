@@ -24,7 +24,11 @@ struct Stretch {
 class GhostFinder {
  public:
   GhostFinder(int rank, const Lattice& lattice, const Forest& forest)
-      : rank_{rank}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()}, forest_{forest}, begins_{forest.begins()} {}
+      : rank_{rank},
+        trees_x_{lattice.trees_x()},
+        trees_y_{lattice.trees_y()},
+        forest_{forest},
+        begins_{forest.begins()} {}
 
   /// Visits the leaves below `place`, which are this rank's, as far as a neighbour may be another rank's.
   void search(const Quadrant& place, std::span<const Quadrant> leaves, std::int32_t first) {
@@ -35,7 +39,8 @@ class GhostFinder {
     }
     for (int k = 0; k < 4; ++k) {
       const Quadrant child = place.child(k);
-      const auto end = std::partition_point(leaves.begin(), leaves.end(), [&](const Quadrant& q) { return child_of(place, q) <= k; });
+      const auto end = std::partition_point(leaves.begin(), leaves.end(),
+                                            [&](const Quadrant& q) { return child_of(place, q) <= k; });
       const auto count = static_cast<std::size_t>(end - leaves.begin());
       search(child, leaves.first(count), first);
       leaves = leaves.subspan(count);
@@ -52,13 +57,15 @@ class GhostFinder {
   }
 
   bool in_root(const Quadrant& q) const {
-    return q.x >= 0 && q.y >= 0 && (q.x >> Quadrant::unit_level) < trees_x_ && (q.y >> Quadrant::unit_level) < trees_y_;
+    return q.x >= 0 && q.y >= 0 && (q.x >> Quadrant::unit_level) < trees_x_ &&
+           (q.y >> Quadrant::unit_level) < trees_y_;
   }
 
   Stretch stretch_of(const Quadrant& q) const {
     constexpr std::int64_t within = (std::int64_t{1} << Quadrant::unit_level) - 1;
     const auto squares = std::uint64_t{1} << (2 * (Quadrant::unit_level - q.level));
-    const std::uint64_t first = spread(static_cast<std::uint64_t>(q.x & within)) | spread(static_cast<std::uint64_t>(q.y & within)) << 1;
+    const std::uint64_t first = spread(static_cast<std::uint64_t>(q.x & within)) |
+                                spread(static_cast<std::uint64_t>(q.y & within)) << 1;
     const std::int32_t tree = forest_.tree_at(q);
     return {{tree, first}, {tree, first + squares - 1}};
   }
@@ -122,20 +129,26 @@ class GhostFinder {
 
 }  // namespace
 
-std::vector<Ghost> ghost_layer(const Communicator& comm, const Lattice& lattice, const Forest& forest, std::span<const Quadrant> leaves) {
+std::vector<Ghost> ghost_layer(const Communicator& comm, const Lattice& lattice, const Forest& forest,
+                               std::span<const Quadrant> leaves) {
   std::vector<Ghost> ghosts;
   if (comm.size() == 1) return ghosts;
   GhostFinder finder(comm.rank(), lattice, forest);
-  const auto tree_of = [](const Quadrant& q) { return Quadrant{q.x >> Quadrant::unit_level, q.y >> Quadrant::unit_level, 0}; };
+  const auto tree_of = [](const Quadrant& q) {
+    return Quadrant{q.x >> Quadrant::unit_level, q.y >> Quadrant::unit_level, 0};
+  };
   for (std::size_t begin = 0, end = 0; begin < leaves.size(); begin = end) {
     const Quadrant tree = tree_of(leaves[begin]);
     const auto rest = leaves.subspan(begin);
-    end = begin + static_cast<std::size_t>(std::partition_point(rest.begin(), rest.end(), [&](const Quadrant& q) { return tree_of(q) == tree; }) -
-                                           rest.begin());
+    end = begin + static_cast<std::size_t>(
+                      std::partition_point(rest.begin(), rest.end(),
+                                           [&](const Quadrant& q) { return tree_of(q) == tree; }) -
+                      rest.begin());
     const Quadrant root{tree.x << Quadrant::unit_level, tree.y << Quadrant::unit_level, 0};
     finder.search(root, leaves.subspan(begin, end - begin), static_cast<std::int32_t>(begin));
   }
-  for (const auto& from_rank : comm.exchange(finder.take_shared())) ghosts.insert(ghosts.end(), from_rank.begin(), from_rank.end());
+  for (const auto& from_rank : comm.exchange(finder.take_shared()))
+    ghosts.insert(ghosts.end(), from_rank.begin(), from_rank.end());
   return ghosts;
 }
 

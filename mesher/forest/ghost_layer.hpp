@@ -16,8 +16,10 @@ struct Ghost {
   std::int32_t index = 0;  ///< its number on its owner
 };
 
-/// All of them, in the order of the curve. `leaves` are this rank's. Only the quadrants that touch the border of this rank's part are
-/// looked at, so that the work grows with the border and not with the leaves. *Collective.*
-std::vector<Ghost> ghost_layer(const Communicator& comm, const Lattice& lattice, const Forest& forest, std::span<const Quadrant> leaves);
+/// All of them, in the order of the curve. `leaves` are this rank's. Only the quadrants that touch the border
+/// of this rank's part are looked at, so that the work grows with the border and not with the leaves.
+/// *Collective.*
+std::vector<Ghost> ghost_layer(const Communicator& comm, const Lattice& lattice, const Forest& forest,
+                               std::span<const Quadrant> leaves);
 
 }  // namespace quadloop

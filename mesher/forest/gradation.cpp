@@ -1,4 +1,5 @@
-// The part of SizeTree that keeps the gradation: which quadrants are too large for a leaf of the wanted tree near them.
+// The part of SizeTree that keeps the gradation: which quadrants are too large for a leaf of the wanted tree
+// near them.
 #include <algorithm>
 
 #include "mesher/forest/size_tree.hpp"
@@ -10,7 +11,9 @@ namespace {
 constexpr int slope_bits = 20;
 
 /// Whether a leaf of size `small` at this gap forbids a leaf of size `large`.
-bool forbids(std::int64_t small, std::int64_t gap, std::int64_t large, std::int64_t slope) { return ((large - small) << slope_bits) > gap * slope; }
+bool forbids(std::int64_t small, std::int64_t gap, std::int64_t large, std::int64_t slope) {
+  return ((large - small) << slope_bits) > gap * slope;
+}
 
 /// The edge of the leaves of a level.
 std::int64_t leaf_size(int level) { return std::int64_t{1} << (Quadrant::unit_level - level); }
@@ -20,13 +23,15 @@ std::int64_t leaf_size(int level) { return std::int64_t{1} << (Quadrant::unit_le
 bool SizeTree::must_split(const Quadrant& q) {
   if (q.level >= finest_) return false;
   if (q.level < coarsest_) {
-    const bool near_domain = forbids(leaf_size(coarsest_), gap_to_domain(q), q.size(), slope_);  // whose leaves are as small as that at least
+    const bool near_domain = forbids(leaf_size(coarsest_), gap_to_domain(q), q.size(),
+                                     slope_);  // whose leaves are as small as that at least
     if (near_domain || in_domains_box(q)) return true;
   }
   return forced(q, step_above(q).near);
 }
 
-/// The path's last step becomes the parent of q, with its list of near nodes. A step depends on its place alone, so those that still hold q stay.
+/// The path's last step becomes the parent of q, with its list of near nodes. A step depends on its place
+/// alone, so those that still hold q stay.
 SizeTree::Step& SizeTree::step_above(const Quadrant& q) {
   const auto depth = static_cast<std::size_t>(q.level);  // steps at levels 0 .. depth-1
   if (path_.size() < depth) path_.resize(depth);
@@ -48,18 +53,23 @@ void SizeTree::fill_near(Step& step, const std::vector<std::int32_t>& parents) {
   const std::int64_t half = step.place.size() / 2;
   for (const std::int32_t parent : parents) {
     const Node& whole = nodes_[static_cast<std::size_t>(parent)];
-    if (!forbids(leaf_size(whole.finest), chebyshev_gap(step.place, whole.place), half, slope_) || !is_split(parent)) continue;
+    if (!forbids(leaf_size(whole.finest), chebyshev_gap(step.place, whole.place), half, slope_) ||
+        !is_split(parent))
+      continue;
     const std::int32_t first = nodes_[static_cast<std::size_t>(parent)].children;
     for (std::int32_t child = first; child < first + 4; ++child) {
       const Node& node = nodes_[static_cast<std::size_t>(child)];
       if (node.plain) continue;  // its leaves are as large as any in the domain may be
-      if (forbids(leaf_size(node.finest), chebyshev_gap(step.place, node.place), half, slope_) && is_split(child)) step.near.push_back(child);
+      if (forbids(leaf_size(node.finest), chebyshev_gap(step.place, node.place), half, slope_) &&
+          is_split(child))
+        step.near.push_back(child);
     }
   }
 }
 
 bool SizeTree::forced(const Quadrant& q, const std::vector<std::int32_t>& near) {
-  // First what needs no search: a node split at level l holds a leaf of size size(l)/2 or smaller somewhere within it.
+  // First what needs no search: a node split at level l holds a leaf of size size(l)/2 or smaller somewhere
+  // within it.
   for (const std::int32_t n : near) {
     const Node& node = nodes_[static_cast<std::size_t>(n)];
     const std::int64_t small = std::int64_t{1} << (Quadrant::unit_level - node.deepest_split - 1);

@@ -11,9 +11,10 @@ namespace quadloop {
 
 namespace {
 
-constexpr int most_trees = 16;          ///< along one side of the brick
-constexpr int deepest_level = 29;       ///< p4est's limit
-constexpr int root_mantissa_bits = 16;  ///< of a padded root's tree edge, so that lattice coordinates are exact
+constexpr int most_trees = 16;     ///< along one side of the brick
+constexpr int deepest_level = 29;  ///< p4est's limit
+constexpr int root_mantissa_bits =
+    16;  ///< of a padded root's tree edge, so that lattice coordinates are exact
 
 std::string text(Point p) {
   std::ostringstream out;
@@ -22,13 +23,15 @@ std::string text(Point p) {
   return out.str();
 }
 
-/// Whether segments of the outline cover the whole side of its bounding box; `along` and `across` pick the coordinates.
+/// Whether segments of the outline cover the whole side of its bounding box; `along` and `across` pick the
+/// coordinates.
 template <class Along, class Across>
 bool side_is_boundary(const Geometry& g, double at, double low, double high, Along along, Across across) {
   std::vector<std::pair<double, double>> covered;
   for (std::int32_t v = 0; v < g.size(); ++v) {
     const Point a = g.point(v), b = g.point(g.next(v));
-    if (across(a) == at && across(b) == at) covered.emplace_back(std::min(along(a), along(b)), std::max(along(a), along(b)));
+    if (across(a) == at && across(b) == at)
+      covered.emplace_back(std::min(along(a), along(b)), std::max(along(a), along(b)));
   }
   std::sort(covered.begin(), covered.end());
   double reached = low;
@@ -43,16 +46,20 @@ bool is_own_root(const Geometry& g) {
   const Box& box = g.box();
   const auto x = [](Point p) { return p.x; };
   const auto y = [](Point p) { return p.y; };
-  return side_is_boundary(g, box.low.y, box.low.x, box.high.x, x, y) && side_is_boundary(g, box.high.y, box.low.x, box.high.x, x, y) &&
-         side_is_boundary(g, box.low.x, box.low.y, box.high.y, y, x) && side_is_boundary(g, box.high.x, box.low.y, box.high.y, y, x);
+  return side_is_boundary(g, box.low.y, box.low.x, box.high.x, x, y) &&
+         side_is_boundary(g, box.high.y, box.low.x, box.high.x, x, y) &&
+         side_is_boundary(g, box.low.x, box.low.y, box.high.y, y, x) &&
+         side_is_boundary(g, box.high.x, box.low.y, box.high.y, y, x);
 }
 
 /// The smallest number of trees that tile the box with squares, if any.
 std::optional<std::pair<int, int>> tiling(const Box& box) {
   for (int longer = 1; longer <= most_trees; ++longer) {
     for (int shorter = 1; shorter <= longer; ++shorter) {
-      const int nx = box.width() >= box.height() ? longer : shorter, ny = box.width() >= box.height() ? shorter : longer;
-      if (std::abs(box.width() / nx - box.height() / ny) <= 1e-12 * box.width() / nx) return std::pair{nx, ny};
+      const int nx = box.width() >= box.height() ? longer : shorter,
+                ny = box.width() >= box.height() ? shorter : longer;
+      if (std::abs(box.width() / nx - box.height() / ny) <= 1e-12 * box.width() / nx)
+        return std::pair{nx, ny};
     }
   }
   return std::nullopt;
@@ -76,14 +83,17 @@ Lattice padded_root(const Box& box) {
   along = std::min(along, most_trees);
   const double edge = round_up_mantissa((longer + 2 * pad) / along);
   const double grain = edge / 256;
-  const Point centre{grain * std::nearbyint(box.centre().x / grain), grain * std::nearbyint(box.centre().y / grain)};
-  const int nx = box.width() >= box.height() ? along : across, ny = box.width() >= box.height() ? across : along;
+  const Point centre{grain * std::nearbyint(box.centre().x / grain),
+                     grain * std::nearbyint(box.centre().y / grain)};
+  const int nx = box.width() >= box.height() ? along : across,
+            ny = box.width() >= box.height() ? across : along;
   const Point half{0.5 * nx * edge, 0.5 * ny * edge};
   return {{centre - half, centre + half}, nx, ny};
 }
 
 Lattice users_root(const Geometry& g, const RootOptions& root) {
-  const Box box{root.corner, root.corner + Point{root.trees_x * root.tree_edge, root.trees_y * root.tree_edge}};
+  const Box box{root.corner,
+                root.corner + Point{root.trees_x * root.tree_edge, root.trees_y * root.tree_edge}};
   for (std::int32_t v = 0; v < g.size(); ++v) {
     if (box.contains(g.point(v))) continue;
     throw InputError("boundary " + g.boundary(g.boundary_of(v)).name + ": the point " + text(g.point(v)) +
@@ -137,13 +147,15 @@ Lattice::Lattice(const Box& box, int trees_x, int trees_y)
 int Lattice::finest_level(double min, const char* setting) const {
   int level = 1;
   while (level < deepest_level && edge(level + 1) >= min) ++level;
-  const double largest = std::max({std::abs(box_.low.x), std::abs(box_.low.y), std::abs(box_.high.x), std::abs(box_.high.y)});
+  const double largest =
+      std::max({std::abs(box_.low.x), std::abs(box_.low.y), std::abs(box_.high.x), std::abs(box_.high.y)});
   const bool too_deep = edge(level + 1) >= min;
   const bool too_fine = edge(level) < largest * 0x1p-44;
   if (too_deep || too_fine) {
     std::ostringstream out;
     out << setting << " = " << min << " is too small for a root edge of " << tree_edge_
-        << (too_deep ? " (more than 29 levels)" : " at these coordinates (double precision)") << "; make it larger";
+        << (too_deep ? " (more than 29 levels)" : " at these coordinates (double precision)")
+        << "; make it larger";
     throw InputError(out.str());
   }
   return level;

@@ -8,8 +8,8 @@
 
 namespace quadloop {
 
-/// A square of the forest by its place alone. x and y count lattice units from the root's lower left corner; a tree's edge is
-/// 2^30 units.
+/// A square of the forest by its place alone. x and y count lattice units from the root's lower left corner;
+/// a tree's edge is 2^30 units.
 struct Quadrant {
   static constexpr int unit_level = 30;
 
@@ -21,7 +21,9 @@ struct Quadrant {
     const std::int64_t half = size() / 2;
     return {x + (k & 1) * half, y + (k >> 1) * half, level + 1};
   }
-  constexpr bool contains(const Quadrant& q) const { return level <= q.level && x <= q.x && q.x < x + size() && y <= q.y && q.y < y + size(); }
+  constexpr bool contains(const Quadrant& q) const {
+    return level <= q.level && x <= q.x && q.x < x + size() && y <= q.y && q.y < y + size();
+  }
   friend constexpr bool operator==(const Quadrant&, const Quadrant&) = default;
 };
 
@@ -34,8 +36,8 @@ constexpr std::int64_t chebyshev_gap(const Quadrant& a, const Quadrant& b) {
   return gap;
 }
 
-/// Where the lattice lines lie. Every coordinate is one double, computed the same way wherever it is needed; mirrored roots have
-/// mirrored coordinates, bit for bit.
+/// Where the lattice lines lie. Every coordinate is one double, computed the same way wherever it is needed;
+/// mirrored roots have mirrored coordinates, bit for bit.
 class Lattice {
  public:
   /// `box` is cut into trees_x by trees_y square trees (square but for rounding).
@@ -50,14 +52,14 @@ class Lattice {
   double x(std::int64_t i) const { return x_.at(i); }
   double y(std::int64_t j) const { return y_.at(j); }
   Point corner(std::int64_t i, std::int64_t j) const { return {x(i), y(j)}; }
-  /// The last line at or before a coordinate inside the root (the last but the root's side at most); the unit square right of it, above it holds
-  /// the coordinate.
+  /// The last line at or before a coordinate inside the root (the last but the root's side at most); the unit
+  /// square right of it, above it holds the coordinate.
   std::int64_t column_at(double x) const { return x_.line_before(x); }
   std::int64_t row_at(double y) const { return y_.line_before(y); }
   Box box_of(const Quadrant& q) const { return {corner(q.x, q.y), corner(q.x + q.size(), q.y + q.size())}; }
 
-  /// The finest level whose leaves are not smaller than `min`. Throws InputError where that is deeper than the forest or than
-  /// double precision can tell apart; it names the setting.
+  /// The finest level whose leaves are not smaller than `min`. Throws InputError where that is deeper than
+  /// the forest or than double precision can tell apart; it names the setting.
   int finest_level(double min, const char* setting = "spacing.min") const;
 
  private:
@@ -77,8 +79,9 @@ class Lattice {
   Axis x_, y_;
 };
 
-/// The root for a geometry: as the user gave it; the geometry's own bounding box where all four sides are boundary and square
-/// trees tile it; else that box, padded. Throws InputError where the geometry sticks out of the user's root.
+/// The root for a geometry: as the user gave it; the geometry's own bounding box where all four sides are
+/// boundary and square trees tile it; else that box, padded. Throws InputError where the geometry sticks out
+/// of the user's root.
 Lattice choose_root(const Geometry& geometry, const std::optional<RootOptions>& wanted);
 
 }  // namespace quadloop

@@ -14,11 +14,15 @@ constexpr double followed = 192;  ///< split quadrants of a level, about
 struct Sampled {
   Quadrant place;
   double weight = 1;
-  enum class Side : std::uint8_t { unknown, inside, outside } side = Side::unknown;  ///< known where it holds no outline
+  enum class Side : std::uint8_t {
+    unknown,
+    inside,
+    outside
+  } side = Side::unknown;  ///< known where it holds no outline
 };
 
-/// The chances of being followed: half by the leaves expected, a quarter by the outline inside, a quarter for each alike, so that a wrong guess of
-/// any one kind cannot hide much.
+/// The chances of being followed: half by the leaves expected, a quarter by the outline inside, a quarter for
+/// each alike, so that a wrong guess of any one kind cannot hide much.
 std::vector<double> chances_of(const std::vector<Sampled>& splits, SizeTree& sizes) {
   std::vector<double> ahead, outline;
   double all_ahead = 0, all_outline = 0, all = 0;
@@ -32,7 +36,8 @@ std::vector<double> chances_of(const std::vector<Sampled>& splits, SizeTree& siz
   std::vector<double> chances;
   for (std::size_t i = 0; i < splits.size(); ++i) {
     const double by_outline = all_outline > 0 ? outline[i] / all_outline : 0;
-    chances.push_back(std::min(1.0, followed * (0.5 * ahead[i] / all_ahead + 0.25 * by_outline + 0.25 * splits[i].weight / all)));
+    chances.push_back(std::min(
+        1.0, followed * (0.5 * ahead[i] / all_ahead + 0.25 * by_outline + 0.25 * splits[i].weight / all)));
   }
   return chances;
 }
@@ -85,7 +90,9 @@ class LeafCount {
       if (sizes_.must_split(q.place)) {
         splits.push_back(q);
       } else {
-        (cut ? counted_.cut : q.side == Sampled::Side::inside ? counted_.inside : counted_.outside) += q.weight;
+        (cut                               ? counted_.cut
+         : q.side == Sampled::Side::inside ? counted_.inside
+                                           : counted_.outside) += q.weight;
       }
     }
     return splits;
@@ -104,6 +111,8 @@ class LeafCount {
 
 }  // namespace
 
-LeafEstimate estimate_leaves(SizeTree& sizes, const InsideTest& inside) { return LeafCount(sizes, inside).count(); }
+LeafEstimate estimate_leaves(SizeTree& sizes, const InsideTest& inside) {
+  return LeafCount(sizes, inside).count();
+}
 
 }  // namespace quadloop

@@ -13,9 +13,10 @@ struct LeafEstimate {
   double all() const { return cut + inside + outside; }
 };
 
-/// Estimates the leaves of the forest that the size tree leads to, without making it: of the quadrants that are to be split on each level only some
-/// hundreds are followed, more of them where more leaves are to be expected, each for as many others as its chance says. A forest with fewer is
-/// counted. Time grows with the levels, not with the leaves. The same on any number of ranks; not collective.
+/// Estimates the leaves of the forest that the size tree leads to, without making it: of the quadrants that
+/// are to be split on each level only some hundreds are followed, more of them where more leaves are to be
+/// expected, each for as many others as its chance says. A forest with fewer is counted. Time grows with the
+/// levels, not with the leaves. The same on any number of ranks; not collective.
 LeafEstimate estimate_leaves(SizeTree& sizes, const InsideTest& inside);
 
 }  // namespace quadloop

@@ -24,7 +24,9 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
   build_trees(lattice);
   around_.resize(leaves_.size());
   const int nx = lattice.trees_x(), ny = lattice.trees_y();
-  const auto root = [&](int x, int y) { return x < 0 || y < 0 || x >= nx || y >= ny ? none : roots_[static_cast<std::size_t>(y * nx + x)]; };
+  const auto root = [&](int x, int y) {
+    return x < 0 || y < 0 || x >= nx || y >= ny ? none : roots_[static_cast<std::size_t>(y * nx + x)];
+  };
   for (int y = 0; y < ny; ++y) {
     for (int x = 0; x < nx; ++x) {
       visit(root(x, y), {root(x - 1, y), root(x, y - 1), root(x + 1, y), root(x, y + 1), root(x - 1, y - 1)});
@@ -61,7 +63,8 @@ void LeafGraph::build_trees(const Lattice& lattice) {
   Quadrant last;
   for (std::int32_t i = 0; i < size(); ++i) {
     const Quadrant& q = leaf(i);
-    const std::int64_t tree = (q.y >> Quadrant::unit_level) * lattice.trees_x() + (q.x >> Quadrant::unit_level);
+    const std::int64_t tree =
+        (q.y >> Quadrant::unit_level) * lattice.trees_x() + (q.x >> Quadrant::unit_level);
     int common = 0;  // the level of the deepest inner node on both paths
     if (tree == last_tree) {
       const auto differing = static_cast<std::uint64_t>((q.x ^ last.x) | (q.y ^ last.y));
@@ -81,7 +84,8 @@ void LeafGraph::build_trees(const Lattice& lattice) {
   }
 }
 
-/// Hands each child its neighbours: its siblings, and the children of its parent's neighbours (or those themselves where they are leaves).
+/// Hands each child its neighbours: its siblings, and the children of its parent's neighbours (or those
+/// themselves where they are leaves).
 void LeafGraph::visit(Ref ref, const Neighbours& n) {
   if (ref == none) return;
   if (!is_inner(ref)) {
@@ -106,8 +110,8 @@ void LeafGraph::visit_leaf(std::int32_t leaf, const Neighbours& n) {
   around.west = deepest(n.west, 3);
   if (is_inner(n.south)) around.south_half = deepest(down(n.south, 2), 3);
   if (is_inner(n.west)) around.west_half = deepest(down(n.west, 1), 3);
-  around.finer = static_cast<std::uint8_t>((is_inner(n.south) << bottom) | (is_inner(n.east) << right) | (is_inner(n.north) << top) |
-                                           (is_inner(n.west) << left));
+  around.finer = static_cast<std::uint8_t>((is_inner(n.south) << bottom) | (is_inner(n.east) << right) |
+                                           (is_inner(n.north) << top) | (is_inner(n.west) << left));
 }
 
 }  // namespace quadloop

@@ -9,8 +9,9 @@
 
 namespace quadloop {
 
-/// This rank's leaves and the ghost leaves around them, in the order of the curve, and which of them touch. A leaf is known by its
-/// number here; `none` where there is no leaf (outside the root, or out of this rank's sight).
+/// This rank's leaves and the ghost leaves around them, in the order of the curve, and which of them touch. A
+/// leaf is known by its number here; `none` where there is no leaf (outside the root, or out of this rank's
+/// sight).
 class LeafGraph {
  public:
   static constexpr std::int32_t none = -1;
@@ -35,18 +36,20 @@ class LeafGraph {
   /// The number here of a local leaf from its number counted from this rank's first leaf.
   std::int32_t from_local(std::int32_t index) const { return local_begin_ + index; }
 
-  /// The leaf that holds the unit square right above the lattice corner (x, y); none where there is none in sight.
+  /// The leaf that holds the unit square right above the lattice corner (x, y); none where there is none in
+  /// sight.
   std::int32_t leaf_at(std::int64_t x, std::int64_t y) const;
 
-  /// The leaves around the lower left part of a leaf, each named by the point of it that they touch; such a leaf is the first along the
-  /// curve of all that touch the point.
+  /// The leaves around the lower left part of a leaf, each named by the point of it that they touch; such a
+  /// leaf is the first along the curve of all that touch the point.
   struct Around {
     std::int32_t south_west = none;  ///< beyond the lower left corner, diagonally
     std::int32_t south = none;       ///< below the lower right corner (below the bottom side)
     std::int32_t west = none;        ///< left of the upper left corner (left of the left side)
     std::int32_t south_half = none;  ///< below the bottom side's left half, where the leaves below are finer
     std::int32_t west_half = none;   ///< left of the left side's lower half, where the leaves there are finer
-    std::uint8_t finer = 0;          ///< bit s: the neighbours across side s are finer, so the side has a hanging node
+    std::uint8_t finer =
+        0;  ///< bit s: the neighbours across side s are finer, so the side has a hanging node
   };
   const Around& around(std::int32_t leaf) const { return around_[static_cast<std::size_t>(leaf)]; }
   bool has_hanging(std::int32_t leaf, Side side) const { return ((around(leaf).finer >> side) & 1) != 0; }
@@ -57,8 +60,12 @@ class LeafGraph {
     Ref west = none, south = none, east = none, north = none, south_west = none;
   };
   static constexpr bool is_inner(Ref ref) { return ref < none; }
-  Ref& child(Ref inner, int k) { return inner_[static_cast<std::size_t>(-2 - inner)][static_cast<std::size_t>(k)]; }
-  Ref down(Ref ref, int k) const { return is_inner(ref) ? inner_[static_cast<std::size_t>(-2 - ref)][static_cast<std::size_t>(k)] : ref; }
+  Ref& child(Ref inner, int k) {
+    return inner_[static_cast<std::size_t>(-2 - inner)][static_cast<std::size_t>(k)];
+  }
+  Ref down(Ref ref, int k) const {
+    return is_inner(ref) ? inner_[static_cast<std::size_t>(-2 - ref)][static_cast<std::size_t>(k)] : ref;
+  }
   Ref new_inner();
   void build_trees(const Lattice& lattice);
   void visit(Ref ref, const Neighbours& n);

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double slope_unit = 0x1p-20, turning_unit = 0x1p-20;
 
-/// Leaves in a square of this size at a gap from leaves of size h, where sizes grow with the slope away from them.
+/// Leaves in a square of this size at a gap from leaves of size h, where sizes grow with the slope away from
+/// them.
 double graded_leaves(double size, double gap, double h, double slope) {
   const double near = h + slope * gap, far = near + slope * size;
   return size / slope * (1 / near - 1 / far);
@@ -22,7 +23,8 @@ double covered_share(const Source& source, const Box& square) {
   if (const auto* area = std::get_if<Box>(&source.shape)) {
     box = *area;
   } else if (const auto* disc = std::get_if<Source::Disc>(&source.shape)) {
-    box = {disc->centre - Point{disc->radius, disc->radius}, disc->centre + Point{disc->radius, disc->radius}};
+    box = {disc->centre - Point{disc->radius, disc->radius},
+           disc->centre + Point{disc->radius, disc->radius}};
   } else {
     return 0;
   }
@@ -41,7 +43,8 @@ double SizeTree::leaves_ahead(const Quadrant& q) {
     const auto gap = static_cast<double>(chebyshev_gap(q, nodes_[static_cast<std::size_t>(n)].place));
     lines = std::max(lines, graded_leaves(size, gap, h, slope));
   }
-  const double whole = q.level < coarsest_ && in_domains_box(q) ? std::ldexp(1.0, 2 * (coarsest_ - q.level)) : 0;
+  const double whole =
+      q.level < coarsest_ && in_domains_box(q) ? std::ldexp(1.0, 2 * (coarsest_ - q.level)) : 0;
   return 1 + lines + whole + source_leaves(q);
 }
 

@@ -12,14 +12,16 @@ namespace {
 constexpr std::int64_t leaves_to_share = 64;    ///< for each rank, before the first partition
 constexpr std::int64_t leaves_to_judge = 4096;  ///< for each rank: enough to estimate the leaves to come well
 constexpr double quadrants_of_leaf = 4.0 / 3;   ///< leaves and what was split into them
-constexpr int last_levels = 3;                  ///< refined after the second partition, where such an estimate cannot be had
-constexpr int weight_unfinished = 16;           ///< of a leaf that is yet to be split, down those levels
+constexpr int last_levels = 3;  ///< refined after the second partition, where such an estimate cannot be had
+constexpr int weight_unfinished = 16;  ///< of a leaf that is yet to be split, down those levels
 
-/// Finds the leaves that have finer neighbours on opposite sides, and those that get them when these are split.
+/// Finds the leaves that have finer neighbours on opposite sides, and those that get them when these are
+/// split.
 class SqueezedLeaves {
  public:
   explicit SqueezedLeaves(const LeafGraph& graph) : graph_{graph} {
-    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) finer_.push_back(graph.around(leaf).finer);
+    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf)
+      finer_.push_back(graph.around(leaf).finer);
     marked_.assign(finer_.size(), 0);
     for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) mark(leaf);
     while (!waiting_.empty()) {
@@ -49,11 +51,13 @@ class SqueezedLeaves {
     const Quadrant& q = graph_.leaf(leaf);
     const std::int64_t s = q.size();
     constexpr int sides = 4;
-    const std::array<std::int32_t, sides> across{graph_.leaf_at(q.x, q.y - 1), graph_.leaf_at(q.x + s, q.y), graph_.leaf_at(q.x, q.y + s),
-                                                 graph_.leaf_at(q.x - 1, q.y)};
+    const std::array<std::int32_t, sides> across{graph_.leaf_at(q.x, q.y - 1), graph_.leaf_at(q.x + s, q.y),
+                                                 graph_.leaf_at(q.x, q.y + s), graph_.leaf_at(q.x - 1, q.y)};
     for (int side = 0; side < sides; ++side) {
       const std::int32_t neighbour = across[static_cast<std::size_t>(side)];
-      if (neighbour == LeafGraph::none || !graph_.is_local(neighbour) || graph_.leaf(neighbour).level != q.level) continue;
+      if (neighbour == LeafGraph::none || !graph_.is_local(neighbour) ||
+          graph_.leaf(neighbour).level != q.level)
+        continue;
       finer_[local(neighbour)] |= static_cast<std::uint8_t>(1U << ((side + 2) % sides));
       mark(neighbour);
     }
@@ -73,11 +77,13 @@ int level_with(std::int64_t leaves) {
   return level;
 }
 
-/// The levels down to which the forest is refined before the leaves are shared out anew. Passes over finished leaves cost, so there are few.
+/// The levels down to which the forest is refined before the leaves are shared out anew. Passes over finished
+/// leaves cost, so there are few.
 std::vector<int> stops_of(const Communicator& comm, const SizeTree& sizes) {
   const int finest = sizes.finest_level();
   if (comm.size() == 1) return {finest};
-  const int first = std::min(finest, level_with(leaves_to_share * comm.size())), judged = level_with(leaves_to_judge * comm.size());
+  const int first = std::min(finest, level_with(leaves_to_share * comm.size())),
+            judged = level_with(leaves_to_judge * comm.size());
   std::vector<int> stops{first};
   const int last = judged < sizes.coarsest_level() ? judged : finest - last_levels;
   if (last > first) stops.push_back(last);
@@ -85,16 +91,17 @@ std::vector<int> stops_of(const Communicator& comm, const SizeTree& sizes) {
   return stops;
 }
 
-/// An estimate of the leaves that a quadrant will hold, in the end, for each that it holds where there is no outline: those as large as
-/// any may be, and about `leaves_across` of each finer size beside the outline.
+/// An estimate of the leaves that a quadrant will hold, in the end, for each that it holds where there is no
+/// outline: those as large as any may be, and about `leaves_across` of each finer size beside the outline.
 int leaves_to_come(const Quadrant& q, SizeTree& sizes) {
   constexpr int leaves_across = 4, deepest = 12;
   if (sizes.segments_in(q).empty()) return 1;
-  return 1 +
-         (leaves_across << std::min(sizes.finest_level() - q.level, deepest)) / (1 << 2 * std::clamp(sizes.coarsest_level() - q.level, 0, deepest));
+  return 1 + (leaves_across << std::min(sizes.finest_level() - q.level, deepest)) /
+                 (1 << 2 * std::clamp(sizes.coarsest_level() - q.level, 0, deepest));
 }
 
-/// The weight of a leaf when the leaves are shared out at a stop: at the last one by the work of cutting, before by the leaves still to come.
+/// The weight of a leaf when the leaves are shared out at a stop: at the last one by the work of cutting,
+/// before by the leaves still to come.
 int weight_at(const Quadrant& q, SizeTree& sizes, int stop) {
   if (stop == sizes.finest_level()) return sizes.segments_in(q).empty() ? weight_uncut : weight_cut;
   if (stop < sizes.coarsest_level()) return leaves_to_come(q, sizes);

@@ -27,7 +27,8 @@ struct Source {
 /// Whether the closed shape and the closed box have a point in common.
 bool meets(const Source& source, const Box& box);
 
-/// The root as the user may fix it: trees_x by trees_y square trees, the first one's lower left corner at `corner`.
+/// The root as the user may fix it: trees_x by trees_y square trees, the first one's lower left corner at
+/// `corner`.
 struct RootOptions {
   Point corner;
   double tree_edge = 0;

@@ -12,8 +12,8 @@ constexpr double turning_unit = 0x1p-20;  // degrees; integers, so that a sum do
 
 }  // namespace
 
-SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options, Unresolved unresolved,
-                   const DemandedSplits& demanded)
+SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
+                   Unresolved unresolved, const DemandedSplits& demanded)
     : outline_{&outline},
       lattice_{&lattice},
       options_{options},
@@ -25,10 +25,12 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
       slope_{std::llround((options.gradation - 1) / 2 * static_cast<double>(1 << slope_bits))} {
   while (coarsest_ < finest_of_case_ && lattice.edge(coarsest_) > options.max) ++coarsest_;
   const Geometry& g = outline.geometry();
-  const auto line_after = [](std::int64_t line, double at, double coordinate) { return at < coordinate ? line + 1 : line; };
+  const auto line_after = [](std::int64_t line, double at, double coordinate) {
+    return at < coordinate ? line + 1 : line;
+  };
   const std::int64_t right = lattice.column_at(g.box().high.x), top = lattice.row_at(g.box().high.y);
-  domain_ = {lattice.column_at(g.box().low.x), line_after(right, lattice.x(right), g.box().high.x), lattice.row_at(g.box().low.y),
-             line_after(top, lattice.y(top), g.box().high.y)};
+  domain_ = {lattice.column_at(g.box().low.x), line_after(right, lattice.x(right), g.box().high.x),
+             lattice.row_at(g.box().low.y), line_after(top, lattice.y(top), g.box().high.y)};
   if (options.gap) gap_test_.emplace(g);
   for (std::int32_t s = 0; s < g.size(); ++s) {
     spacing_.push_back(g.spacing_of(s));
@@ -90,13 +92,15 @@ void SizeTree::grow(std::int32_t node) {
     judge(child, box);
     nodes_.push_back(child);
   }
-  for (std::int32_t n = node; n >= 0 && nodes_[static_cast<std::size_t>(n)].deepest_split < parent.place.level;
+  for (std::int32_t n = node;
+       n >= 0 && nodes_[static_cast<std::size_t>(n)].deepest_split < parent.place.level;
        n = nodes_[static_cast<std::size_t>(n)].parent) {
     nodes_[static_cast<std::size_t>(n)].deepest_split = parent.place.level;
   }
 }
 
-/// Those of the parent's corners that touch the node. A corner on a lattice line touches the leaves on both its sides, so that mirror images agree.
+/// Those of the parent's corners that touch the node. A corner on a lattice line touches the leaves on both
+/// its sides, so that mirror images agree.
 void SizeTree::take_corners(Node& node, const Node& parent, const Box& box) {
   node.corners_begin = static_cast<std::int32_t>(corners_.size());
   for (std::int32_t i = parent.corners_begin; i < parent.corners_end; ++i) {
@@ -107,13 +111,16 @@ void SizeTree::take_corners(Node& node, const Node& parent, const Box& box) {
 }
 
 std::span<const std::int32_t> SizeTree::corners_of(const Node& node) const {
-  return {corners_.data() + node.corners_begin, static_cast<std::size_t>(node.corners_end - node.corners_begin)};
+  return {corners_.data() + node.corners_begin,
+          static_cast<std::size_t>(node.corners_end - node.corners_begin)};
 }
 
 /// What can be said of a node's leaves without splitting it.
 void SizeTree::judge(Node& node, const Box& box) const {
-  const bool holds_outline = node.segments_begin < node.segments_end, demanded = node.demanded != DemandedSplits::none;
-  const bool made_by_demand = node.parent >= 0 && nodes_[static_cast<std::size_t>(node.parent)].demanded != DemandedSplits::none;
+  const bool holds_outline = node.segments_begin < node.segments_end,
+             demanded = node.demanded != DemandedSplits::none;
+  const bool made_by_demand =
+      node.parent >= 0 && nodes_[static_cast<std::size_t>(node.parent)].demanded != DemandedSplits::none;
   node.plain = !holds_outline && !demanded && !made_by_demand;
   int finest = holds_outline || demanded ? finest_ : coarsest_;
   if (made_by_demand) finest = std::max(finest, node.place.level);
@@ -129,14 +136,16 @@ void SizeTree::judge(Node& node, const Box& box) const {
   node.finest = static_cast<std::int8_t>(finest);
 }
 
-/// Whether any of the domain can lie in the quadrant. Where none does, leaves may be larger than `max`: a wide root costs nothing.
+/// Whether any of the domain can lie in the quadrant. Where none does, leaves may be larger than `max`: a
+/// wide root costs nothing.
 bool SizeTree::in_domains_box(const Quadrant& q) const {
   return q.x < domain_[1] && domain_[0] < q.x + q.size() && q.y < domain_[3] && domain_[2] < q.y + q.size();
 }
 
 /// As chebyshev_gap.
 std::int64_t SizeTree::gap_to_domain(const Quadrant& q) const {
-  return std::max({std::int64_t{0}, domain_[0] - (q.x + q.size()), q.x - domain_[1], domain_[2] - (q.y + q.size()), q.y - domain_[3]});
+  return std::max({std::int64_t{0}, domain_[0] - (q.x + q.size()), q.x - domain_[1],
+                   domain_[2] - (q.y + q.size()), q.y - domain_[3]});
 }
 
 /// The coarsest level that a source of this spacing is content with.
@@ -157,10 +166,13 @@ bool SizeTree::wants_split(const Node& node) {
   for (const Source& source : options_.sources) {
     if (size > source.spacing && meets(source, box)) return true;
   }
-  const auto too_large_for = [&](std::int32_t vertex) { return size > corner_spacing_[static_cast<std::size_t>(vertex)]; };
+  const auto too_large_for = [&](std::int32_t vertex) {
+    return size > corner_spacing_[static_cast<std::size_t>(vertex)];
+  };
   if (std::ranges::any_of(corners_of(node), too_large_for)) return true;
-  const std::span<const std::int32_t> inside(segments_.data() + node.segments_begin,
-                                             static_cast<std::size_t>(node.segments_end - node.segments_begin));
+  const std::span<const std::int32_t> inside(
+      segments_.data() + node.segments_begin,
+      static_cast<std::size_t>(node.segments_end - node.segments_begin));
   if (inside.empty()) return false;
   for (const std::int32_t s : inside) {
     if (size > spacing_[static_cast<std::size_t>(s)]) return true;
@@ -174,11 +186,12 @@ bool SizeTree::turns_too_far(std::span<const std::int32_t> segments, const Box& 
   const Geometry& g = outline_->geometry();
   turned_.clear();
   for (const std::int32_t v : segments) {
-    const bool inside = outline_->beyond_x(v, box.low.x) && !outline_->beyond_x(v, box.high.x) && outline_->beyond_y(v, box.low.y) &&
-                        !outline_->beyond_y(v, box.high.y);
+    const bool inside = outline_->beyond_x(v, box.low.x) && !outline_->beyond_x(v, box.high.x) &&
+                        outline_->beyond_y(v, box.low.y) && !outline_->beyond_y(v, box.high.y);
     if (!inside) continue;
     const BoundaryId boundary = g.boundary_of(v);
-    const auto known = std::find_if(turned_.begin(), turned_.end(), [&](const auto& entry) { return entry.first == boundary; });
+    const auto known = std::find_if(turned_.begin(), turned_.end(),
+                                    [&](const auto& entry) { return entry.first == boundary; });
     if (known == turned_.end()) {
       turned_.emplace_back(boundary, turning_[static_cast<std::size_t>(v)]);
     } else {
@@ -186,15 +199,19 @@ bool SizeTree::turns_too_far(std::span<const std::int32_t> segments, const Box& 
     }
   }
   const auto allowed = std::llround(*options_.curvature / turning_unit);
-  return std::any_of(turned_.begin(), turned_.end(), [&](const auto& entry) { return entry.second > allowed; });
+  return std::any_of(turned_.begin(), turned_.end(),
+                     [&](const auto& entry) { return entry.second > allowed; });
 }
 
-/// From the node last asked for up to one that holds q, and down again, but not into a plain one: few steps along the curve.
+/// From the node last asked for up to one that holds q, and down again, but not into a plain one: few steps
+/// along the curve.
 std::int32_t SizeTree::deepest_node_at(const Quadrant& q) {
   std::int32_t node = cursor_;
-  while (node >= 0 && !nodes_[static_cast<std::size_t>(node)].place.contains(q)) node = nodes_[static_cast<std::size_t>(node)].parent;
+  while (node >= 0 && !nodes_[static_cast<std::size_t>(node)].place.contains(q))
+    node = nodes_[static_cast<std::size_t>(node)].parent;
   if (node < 0) node = root_of(q);
-  while (nodes_[static_cast<std::size_t>(node)].place.level < q.level && !nodes_[static_cast<std::size_t>(node)].plain && is_split(node)) {
+  while (nodes_[static_cast<std::size_t>(node)].place.level < q.level &&
+         !nodes_[static_cast<std::size_t>(node)].plain && is_split(node)) {
     const Node& at = nodes_[static_cast<std::size_t>(node)];
     const std::int64_t half = at.place.size() / 2;
     const int k = (q.x >= at.place.x + half ? 1 : 0) + (q.y >= at.place.y + half ? 2 : 0);
@@ -205,8 +222,9 @@ std::int32_t SizeTree::deepest_node_at(const Quadrant& q) {
 
 std::span<const std::int32_t> SizeTree::segments_in(const Quadrant& q) {
   const Node& node = nodes_[static_cast<std::size_t>(deepest_node_at(q))];
-  const std::span<const std::int32_t> inside(segments_.data() + node.segments_begin,
-                                             static_cast<std::size_t>(node.segments_end - node.segments_begin));
+  const std::span<const std::int32_t> inside(
+      segments_.data() + node.segments_begin,
+      static_cast<std::size_t>(node.segments_end - node.segments_begin));
   if (inside.empty() || node.place == q) return inside;
   found_.clear();
   const Box box = lattice_->box_of(q);
@@ -217,7 +235,8 @@ std::span<const std::int32_t> SizeTree::segments_in(const Quadrant& q) {
 }
 
 int SizeTree::wanted_level(const Quadrant& leaf) {
-  return std::min(leaf.level, std::max(nodes_[static_cast<std::size_t>(deepest_node_at(leaf))].place.level, coarsest_));
+  return std::min(leaf.level,
+                  std::max(nodes_[static_cast<std::size_t>(deepest_node_at(leaf))].place.level, coarsest_));
 }
 
 }  // namespace quadloop

@@ -14,32 +14,37 @@
 
 namespace quadloop {
 
-/// Which quadrants must be split: those that the case and the geometry inside them ask to (the *wanted* tree), and those that
-/// gradation then forbids to be so large. The answer depends on geometry and options alone, so that every rank can give it for
-/// every quadrant without asking another one. The wanted tree grows as it is asked for, and it is the index of the segments too.
+/// Which quadrants must be split: those that the case and the geometry inside them ask to (the *wanted*
+/// tree), and those that gradation then forbids to be so large. The answer depends on geometry and options
+/// alone, so that every rank can give it for every quadrant without asking another one. The wanted tree grows
+/// as it is asked for, and it is the index of the segments too.
 ///
-/// Gradation: a leaf of size h at Chebyshev gap d from a leaf of the wanted tree of size h' has h <= h' + (g-1)/2 d. The result
-/// is the smallest such tree. It follows that two leaves of the final tree which touch differ by at most one level.
+/// Gradation: a leaf of size h at Chebyshev gap d from a leaf of the wanted tree of size h' has h <= h' +
+/// (g-1)/2 d. The result is the smallest such tree. It follows that two leaves of the final tree which touch
+/// differ by at most one level.
 class SizeTree {
  public:
   /// Tells whether a leaf of this place, holding these segments, cannot be cut as it is.
   using Unresolved = std::function<bool(const Quadrant&, std::span<const std::int32_t>)>;
 
-  /// The arguments but the options must outlive the tree. `demanded` are split beside those that case and geometry ask to, also below the case's
-  /// `min`.
-  SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options, Unresolved unresolved, const DemandedSplits& demanded);
+  /// The arguments but the options must outlive the tree. `demanded` are split beside those that case and
+  /// geometry ask to, also below the case's `min`.
+  SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
+           Unresolved unresolved, const DemandedSplits& demanded);
 
   const Lattice& lattice() const { return *lattice_; }
   int finest_level() const { return finest_; }
   int coarsest_level() const { return coarsest_; }  ///< at which leaves are no larger than `max`
 
-  /// Whether the quadrant must be split. Constant time on average where the quadrants come in the order of the curve.
+  /// Whether the quadrant must be split. Constant time on average where the quadrants come in the order of
+  /// the curve.
   bool must_split(const Quadrant& q);
   /// The segments that meet the inside of the quadrant, in ascending order; valid until the next call.
   std::span<const std::int32_t> segments_in(const Quadrant& q);
   /// The level at which case, geometry and demands alone would have stopped at this leaf's place.
   int wanted_level(const Quadrant& leaf);
-  /// A guess of how many leaves a quadrant that must be split will hold in the end, at least 1: good enough to tell where most are to be looked for.
+  /// A guess of how many leaves a quadrant that must be split will hold in the end, at least 1: good enough
+  /// to tell where most are to be looked for.
   double leaves_ahead(const Quadrant& q);
   const DemandedSplits& demanded() const { return *demanded_; }
 
@@ -50,10 +55,10 @@ class SizeTree {
     std::int32_t children = unknown;  ///< index of the first of four, or one of the two below
     std::int32_t segments_begin = 0, segments_end = 0;
     std::int32_t corners_begin = 0, corners_end = 0;  ///< those with a size of their own that it touches
-    bool plain = false;                               ///< nothing inside asks for leaves finer than `max` does; no leaf made by a demand
-    std::int8_t finest = 0;                           ///< no leaf inside is deeper than this level; it may be reached or not
-    std::int32_t demanded = DemandedSplits::none;     ///< its number there
-    std::int32_t deepest_split = -1;                  ///< level of the deepest split node known at or below this one
+    bool plain = false;  ///< nothing inside asks for leaves finer than `max` does; no leaf made by a demand
+    std::int8_t finest = 0;  ///< no leaf inside is deeper than this level; it may be reached or not
+    std::int32_t demanded = DemandedSplits::none;  ///< its number there
+    std::int32_t deepest_split = -1;  ///< level of the deepest split node known at or below this one
     static constexpr std::int32_t unknown = -2, leaf = -1;
   };
   /// One step of the path from the root to the quadrant last asked for.

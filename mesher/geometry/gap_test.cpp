@@ -15,8 +15,10 @@ using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
 using Extent = bg::model::box<Corner>;
 using Entry = std::pair<Extent, std::int32_t>;
 
-constexpr double facing_cosine = 0.5;          ///< two pieces face each other where the way across leaves both within 60 degrees of the normal
-constexpr double bend_length = 3;              ///< of the gap: a shorter piece of outline between its two sides is a bend, not a gap
+constexpr double facing_cosine =
+    0.5;  ///< two pieces face each other where the way across leaves both within 60 degrees of the normal
+constexpr double bend_length =
+    3;  ///< of the gap: a shorter piece of outline between its two sides is a bend, not a gap
 constexpr double straight_sides_degrees = 30;  ///< what the two sides of a corner may turn by besides
 
 Point nearest(Point p, Point a, Point b) {

@@ -8,7 +8,8 @@
 
 namespace quadloop {
 
-/// Finds where two pieces of the outline face each other across a narrow part of the domain. O(log n + k) a segment, k the segments near it.
+/// Finds where two pieces of the outline face each other across a narrow part of the domain. O(log n + k) a
+/// segment, k the segments near it.
 class GapTest {
  public:
   explicit GapTest(const Geometry& geometry);
@@ -16,9 +17,10 @@ class GapTest {
   GapTest(const GapTest&) = delete;
   GapTest& operator=(const GapTest&) = delete;
 
-  /// Whether the domain between a piece of these segments inside the box and another piece of the outline is narrower than `width`. The gap is
-  /// measured through the domain, between pieces that face each other within 60 degrees; the two sides of a kept corner, or of any bend
-  /// that is shorter than three times the gap, are no gap.
+  /// Whether the domain between a piece of these segments inside the box and another piece of the outline is
+  /// narrower than `width`. The gap is measured through the domain, between pieces that face each other
+  /// within 60 degrees; the two sides of a kept corner, or of any bend that is shorter than three times the
+  /// gap, are no gap.
   bool narrower(std::span<const std::int32_t> segments, const Box& box, double width) const;
 
  private:

@@ -26,7 +26,9 @@ class Digest {
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
 
-const std::string& name_of(const Geometry& geometry, std::int32_t segment) { return geometry.boundary(geometry.boundary_of(segment)).name; }
+const std::string& name_of(const Geometry& geometry, std::int32_t segment) {
+  return geometry.boundary(geometry.boundary_of(segment)).name;
+}
 
 /// The first segment of a loop before which the boundary changes, or -1 where it never does.
 std::int32_t first_change(const Geometry& geometry, std::int32_t loop) {
@@ -49,8 +51,8 @@ Chain open_chain(const Geometry& geometry, std::int32_t first) {
 
 }  // namespace
 
-Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
-                   std::vector<BoundaryId> segment_boundary)
+Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
+                   std::vector<std::int32_t> loop_starts, std::vector<BoundaryId> segment_boundary)
     : boundaries_{std::move(boundaries)},
       points_{std::move(points)},
       loop_starts_{std::move(loop_starts)},
@@ -93,7 +95,8 @@ double Geometry::corner_spacing_of(std::int32_t v) const {
   double least = 0;
   for (const BoundaryId b : {boundary_of(previous(v)), boundary_of(v)}) {
     const double wanted = boundary(b).corner_spacing;
-    if (wanted > 0 && (least == 0 || wanted < least) && turn_degrees(v) > boundary(b).corner_degrees) least = wanted;
+    if (wanted > 0 && (least == 0 || wanted < least) && turn_degrees(v) > boundary(b).corner_degrees)
+      least = wanted;
   }
   return least;
 }
@@ -105,7 +108,8 @@ std::uint64_t Geometry::digest() const {
     digest.add(b.condition);
     digest.add(b.spacing);
     digest.add(b.corner_degrees);
-    if (b.corner_spacing > 0) digest.add(b.corner_spacing);  // without it trees from before there was such a thing stay good
+    if (b.corner_spacing > 0)
+      digest.add(b.corner_spacing);  // without it trees from before there was such a thing stay good
   }
   for (const Point p : points_) {
     digest.add(p.x);
@@ -119,9 +123,11 @@ std::uint64_t Geometry::digest() const {
 std::vector<Chain> chains_of(const Geometry& geometry) {
   std::vector<Chain> chains;
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
-    const std::int32_t begin = geometry.loop_start(loop), end = geometry.loop_start(loop + 1), change = first_change(geometry, loop);
+    const std::int32_t begin = geometry.loop_start(loop), end = geometry.loop_start(loop + 1),
+                       change = first_change(geometry, loop);
     if (change < 0) {
-      const auto points = geometry.points().subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+      const auto points =
+          geometry.points().subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
       chains.push_back({name_of(geometry, begin), false, {points.begin(), points.end()}, {}});
       continue;
     }

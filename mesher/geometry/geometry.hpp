@@ -10,7 +10,8 @@
 
 namespace quadloop {
 
-/// One polyline as a file gives it: a closed loop (the first point is not repeated) or an open chain. The domain lies to its left.
+/// One polyline as a file gives it: a closed loop (the first point is not repeated) or an open chain. The
+/// domain lies to its left.
 struct Chain {
   std::string name;
   bool open = false;
@@ -24,19 +25,21 @@ struct Boundary {
   double spacing = 0;              ///< length wanted along it; 0: the geometry's own point spacing
   double corner_degrees = 30;      ///< a point that turns by more is kept as a node; 180 keeps none
   std::string condition = "none";  ///< wall | farfield | inflow | outflow | symmetry | interface | none
-  double corner_spacing = 0;       ///< size wanted of the leaves at its sharp corners; 0: that of any other place
+  double corner_spacing = 0;  ///< size wanted of the leaves at its sharp corners; 0: that of any other place
 };
 
-/// The outline of the domain: simple closed loops that do not meet, each walked with the domain to its left, made of named
-/// boundaries. Replicated on all ranks. Vertex v is where segment v starts; it ends at next(v).
+/// The outline of the domain: simple closed loops that do not meet, each walked with the domain to its left,
+/// made of named boundaries. Replicated on all ranks. Vertex v is where segment v starts; it ends at next(v).
 class Geometry {
  public:
-  /// `loop_starts` has one entry more than there are loops; loop l owns vertices loop_starts[l] .. loop_starts[l+1]-1.
-  /// `segment_boundary[v]` is the boundary of the segment from vertex v to the next one.
+  /// `loop_starts` has one entry more than there are loops; loop l owns vertices loop_starts[l] ..
+  /// loop_starts[l+1]-1. `segment_boundary[v]` is the boundary of the segment from vertex v to the next one.
   Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
            std::vector<BoundaryId> segment_boundary);
 
-  std::int32_t size() const { return static_cast<std::int32_t>(points_.size()); }  ///< number of vertices, and of segments
+  std::int32_t size() const {
+    return static_cast<std::int32_t>(points_.size());
+  }  ///< number of vertices, and of segments
   std::int32_t loop_count() const { return static_cast<std::int32_t>(loop_starts_.size()) - 1; }
   std::int32_t loop_start(std::int32_t loop) const { return loop_starts_[static_cast<std::size_t>(loop)]; }
   std::int32_t loop_of(std::int32_t v) const { return loop_of_[static_cast<std::size_t>(v)]; }
@@ -44,26 +47,31 @@ class Geometry {
   Point point(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
   std::int32_t next(std::int32_t v) const { return next_[static_cast<std::size_t>(v)]; }
   std::int32_t previous(std::int32_t v) const { return previous_[static_cast<std::size_t>(v)]; }
-  BoundaryId boundary_of(std::int32_t segment) const { return segment_boundary_[static_cast<std::size_t>(segment)]; }
+  BoundaryId boundary_of(std::int32_t segment) const {
+    return segment_boundary_[static_cast<std::size_t>(segment)];
+  }
 
   std::span<const Boundary> boundaries() const { return boundaries_; }
   const Boundary& boundary(BoundaryId b) const { return boundaries_[static_cast<std::size_t>(b.value())]; }
   std::span<const Point> points() const { return points_; }
   const Box& box() const { return box_; }
 
-  /// Whether the vertex must become a mesh node: it turns by more than its boundary's corner, or two boundaries meet there.
+  /// Whether the vertex must become a mesh node: it turns by more than its boundary's corner, or two
+  /// boundaries meet there.
   bool kept(std::int32_t v) const { return kept_[static_cast<std::size_t>(v)] != 0; }
-  /// Whether the outline runs straight on through the vertex (to straight_degrees) within one boundary: such a point is no feature, so a mesh does
-  /// not change when segments are split.
+  /// Whether the outline runs straight on through the vertex (to straight_degrees) within one boundary: such
+  /// a point is no feature, so a mesh does not change when segments are split.
   bool straight(std::int32_t v) const { return straight_[static_cast<std::size_t>(v)] != 0; }
   static constexpr double straight_degrees = 1e-6;
   /// By how much the outline turns at the vertex, in degrees, 0 to 180.
   double turn_degrees(std::int32_t v) const;
-  /// The length that the segment asks of the leaves which hold it: its boundary's spacing, else its own length.
+  /// The length that the segment asks of the leaves which hold it: its boundary's spacing, else its own
+  /// length.
   double spacing_of(std::int32_t segment) const;
 
-  /// The length that a sharp corner asks of the leaves which touch it: the smaller one of the boundaries that meet there and by whose
-  /// `corner_degrees` the outline turns too far to be smooth. 0 at all other vertices, also where two boundaries merely meet.
+  /// The length that a sharp corner asks of the leaves which touch it: the smaller one of the boundaries that
+  /// meet there and by whose `corner_degrees` the outline turns too far to be smooth. 0 at all other
+  /// vertices, also where two boundaries merely meet.
   double corner_spacing_of(std::int32_t v) const;
 
   /// A number that changes with any coordinate, name or setting of the geometry.
@@ -78,8 +86,9 @@ class Geometry {
   Box box_;
 };
 
-/// The outline as polylines, loop after loop: a closed chain where one boundary goes all the way round, else an open one for each stretch of a
-/// boundary, with the shared end points in both. The domain lies to their left.
+/// The outline as polylines, loop after loop: a closed chain where one boundary goes all the way round, else
+/// an open one for each stretch of a boundary, with the shared end points in both. The domain lies to their
+/// left.
 std::vector<Chain> chains_of(const Geometry& geometry);
 
 }  // namespace quadloop

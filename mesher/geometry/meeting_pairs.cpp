@@ -39,7 +39,8 @@ FlatOutline::FlatOutline(const Outline& outline) {
 
 bool FlatOutline::faulty(std::int32_t s, std::int32_t t) const {
   if (next(t) == s) std::swap(s, t);
-  if (next(s) == t) return on_segment(point(s), point(t), point(next(t))) || on_segment(point(next(t)), point(s), point(t));
+  if (next(s) == t)
+    return on_segment(point(s), point(t), point(next(t))) || on_segment(point(next(t)), point(s), point(t));
   return segments_meet(point(s), point(next(s)), point(t), point(next(t)));
 }
 

@@ -7,7 +7,8 @@
 
 namespace quadloop {
 
-/// The points of all loops one after another, with who follows whom. A segment has the number of the point that it starts from.
+/// The points of all loops one after another, with who follows whom. A segment has the number of the point
+/// that it starts from.
 struct FlatOutline {
   explicit FlatOutline(const Outline& outline);
 
@@ -15,12 +16,19 @@ struct FlatOutline {
   std::vector<std::int32_t> loop_of, loop_starts;
 
   std::size_t loop_count() const { return loop_starts.size() - 1; }
-  std::size_t loop(std::int32_t v) const { return static_cast<std::size_t>(loop_of[static_cast<std::size_t>(v)]); }
+  std::size_t loop(std::int32_t v) const {
+    return static_cast<std::size_t>(loop_of[static_cast<std::size_t>(v)]);
+  }
   Point point(std::int32_t v) const { return points[static_cast<std::size_t>(v)]; }
-  std::int32_t next(std::int32_t v) const { return v + 1 < loop_starts[loop(v) + 1] ? v + 1 : loop_starts[loop(v)]; }
-  std::int32_t previous(std::int32_t v) const { return v > loop_starts[loop(v)] ? v - 1 : loop_starts[loop(v) + 1] - 1; }
+  std::int32_t next(std::int32_t v) const {
+    return v + 1 < loop_starts[loop(v) + 1] ? v + 1 : loop_starts[loop(v)];
+  }
+  std::int32_t previous(std::int32_t v) const {
+    return v > loop_starts[loop(v)] ? v - 1 : loop_starts[loop(v) + 1] - 1;
+  }
 
-  /// Whether two different segments meet where they must not: anywhere, or for neighbours outside their common point.
+  /// Whether two different segments meet where they must not: anywhere, or for neighbours outside their
+  /// common point.
   bool faulty(std::int32_t s, std::int32_t t) const;
   /// A point where two segments for which faulty() holds meet; rounded where they cross.
   Point meeting_point(std::int32_t s, std::int32_t t) const;

@@ -9,8 +9,9 @@
 
 namespace quadloop {
 
-/// Closed loops on their way to a Geometry: joined and free of repeated points, but not yet known to be simple, nor turned the
-/// right way. Segment s of a loop runs from points[s] to the next point; its boundary is boundary[s].
+/// Closed loops on their way to a Geometry: joined and free of repeated points, but not yet known to be
+/// simple, nor turned the right way. Segment s of a loop runs from points[s] to the next point; its boundary
+/// is boundary[s].
 struct OutlineLoop {
   std::vector<Point> points;
   std::vector<BoundaryId> boundary;

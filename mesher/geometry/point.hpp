@@ -19,7 +19,8 @@ struct Point {
 };
 
 constexpr double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
-/// The z component of the vector product; rounded, so nothing of the topology may hang on its sign (see predicates.hpp).
+/// The z component of the vector product; rounded, so nothing of the topology may hang on its sign (see
+/// predicates.hpp).
 constexpr double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 inline double length(Point a) { return std::sqrt(dot(a, a)); }
 
@@ -35,8 +36,12 @@ struct Box {
   constexpr double width() const { return high.x - low.x; }
   constexpr double height() const { return high.y - low.y; }
   constexpr Point centre() const { return {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)}; }
-  constexpr bool contains(Point p) const { return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y; }
-  constexpr bool meets(const Box& b) const { return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y; }
+  constexpr bool contains(Point p) const {
+    return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
+  }
+  constexpr bool meets(const Box& b) const {
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y;
+  }
 };
 
 }  // namespace quadloop

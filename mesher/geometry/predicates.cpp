@@ -12,13 +12,17 @@ Kernel::Point_2 exact(Point p) { return {p.x, p.y}; }
 
 }  // namespace
 
-int exact_orientation(Point a, Point b, Point c) { return static_cast<int>(CGAL::orientation(exact(a), exact(b), exact(c))); }
+int exact_orientation(Point a, Point b, Point c) {
+  return static_cast<int>(CGAL::orientation(exact(a), exact(b), exact(c)));
+}
 
-int in_circle(Point a, Point b, Point c, Point d) { return static_cast<int>(CGAL::side_of_oriented_circle(exact(a), exact(b), exact(c), exact(d))); }
+int in_circle(Point a, Point b, Point c, Point d) {
+  return static_cast<int>(CGAL::side_of_oriented_circle(exact(a), exact(b), exact(c), exact(d)));
+}
 
 bool on_segment(Point p, Point a, Point b) {
-  return orientation(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
-         p.y <= std::max(a.y, b.y);
+  return orientation(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) &&
+         std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
 }
 
 bool segments_meet(Point a, Point b, Point c, Point d) {

@@ -6,16 +6,16 @@
 
 namespace quadloop {
 
-/// Exact decisions on the coordinates as they are given (filtered floating point first, exact arithmetic where that
-/// cannot tell). Each obeys, exactly: a cyclic shift of the arguments keeps the answer, an exchange of two negates it, and so
-/// does a mirror image.
+/// Exact decisions on the coordinates as they are given (filtered floating point first, exact arithmetic
+/// where that cannot tell). Each obeys, exactly: a cyclic shift of the arguments keeps the answer, an
+/// exchange of two negates it, and so does a mirror image.
 
 /// As orientation, without the filter.
 int exact_orientation(Point a, Point b, Point c);
 
-/// +1 where a, b, c turn left (counter-clockwise), -1 where they turn right, 0 where they lie on one line. The filter's bound is that of
-/// Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates" (1997), section 4.3; it does not hold where products
-/// underflow.
+/// +1 where a, b, c turn left (counter-clockwise), -1 where they turn right, 0 where they lie on one line.
+/// The filter's bound is that of Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
+/// geometric predicates" (1997), section 4.3; it does not hold where products underflow.
 inline int orientation(Point a, Point b, Point c) {
   constexpr double bound_of_sum = 3.3306690738754716e-16, no_underflow = 0x1p-960;
   const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);

@@ -11,27 +11,33 @@ namespace {
 
 int sign(double value) { return (value > 0) - (value < 0); }
 
-/// The sign along one axis of the mitre at a vertex that the outline enters along `in` and leaves along `out` (signs of the
-/// components along this axis and, counter-clockwise from it, the other one), turning left (+1), right (-1) or not (0).
+/// The sign along one axis of the mitre at a vertex that the outline enters along `in` and leaves along `out`
+/// (signs of the components along this axis and, counter-clockwise from it, the other one), turning left
+/// (+1), right (-1) or not (0).
 ///
-/// A left normal has the component -other along this axis for the x axis and +other for the y axis: `handed` is that sign.
+/// A left normal has the component -other along this axis for the x axis and +other for the y axis: `handed`
+/// is that sign.
 std::int8_t mitre_sign(int in_along, int in_other, int out_along, int out_other, int turn, int handed) {
   if (in_along == 0) return static_cast<std::int8_t>(handed * in_other);
   if (out_along == 0) return static_cast<std::int8_t>(handed * out_other);
-  if (in_along != out_along) return static_cast<std::int8_t>(turn > 0 ? out_along : in_along);  // touches the line, and turns back
+  if (in_along != out_along)
+    return static_cast<std::int8_t>(turn > 0 ? out_along : in_along);  // touches the line, and turns back
   const int other = in_other + out_other;
   if (in_other * out_other >= 0 && other != 0) return static_cast<std::int8_t>(handed * sign(other));
-  return static_cast<std::int8_t>(-in_along);  // passes through a peak on the line: both answers give the same crossing
+  return static_cast<std::int8_t>(
+      -in_along);  // passes through a peak on the line: both answers give the same crossing
 }
 
 /// A bound on the rounding error of the orientation determinant (Shewchuk 1997, Section 4.1, first stage).
 constexpr double orientation_error = 3.3306690738754716e-16;
 
-using Wide = long double;  // 11 bits more than the result has; each operation is the same for mirrored arguments
+using Wide =
+    long double;  // 11 bits more than the result has; each operation is the same for mirrored arguments
 
 }  // namespace
 
-ShiftedOutline::ShiftedOutline(const Geometry& geometry) : geometry_{&geometry}, shift_(static_cast<std::size_t>(geometry.size())) {
+ShiftedOutline::ShiftedOutline(const Geometry& geometry)
+    : geometry_{&geometry}, shift_(static_cast<std::size_t>(geometry.size())) {
   for (std::int32_t v = 0; v < geometry.size(); ++v) shift_[static_cast<std::size_t>(v)] = shift_of(v);
 }
 
@@ -57,7 +63,8 @@ bool ShiftedOutline::has_left(std::int32_t segment, Point p) const {
 bool ShiftedOutline::meets(std::int32_t segment, const Box& box) const {
   const std::int32_t end = geometry_->next(segment);
   const Point a = geometry_->point(segment), b = geometry_->point(end);
-  if (std::max(a.x, b.x) < box.low.x || std::min(a.x, b.x) > box.high.x || std::max(a.y, b.y) < box.low.y || std::min(a.y, b.y) > box.high.y) {
+  if (std::max(a.x, b.x) < box.low.x || std::min(a.x, b.x) > box.high.x || std::max(a.y, b.y) < box.low.y ||
+      std::min(a.y, b.y) > box.high.y) {
     return false;
   }
   const bool a_right = beyond_x(segment, box.low.x), b_right = beyond_x(end, box.low.x);
@@ -81,7 +88,8 @@ double crossing_height(Point a, Point b, double x) {
   const double to_a = std::abs(x - a.x), to_b = std::abs(x - b.x);
   if (to_a > to_b) std::swap(a, b);  // from the nearer end
   const Wide run = Wide(b.x) - a.x, rise = Wide(b.y) - a.y;
-  if (to_a == to_b) return static_cast<double>((Wide(a.y) + b.y) / 2 + (Wide(x) - (Wide(a.x) + b.x) / 2) * rise / run);
+  if (to_a == to_b)
+    return static_cast<double>((Wide(a.y) + b.y) / 2 + (Wide(x) - (Wide(a.x) + b.x) / 2) * rise / run);
   return static_cast<double>(a.y + (Wide(x) - a.x) * rise / run);
 }
 

@@ -14,19 +14,25 @@ namespace quadloop {
 
 namespace {
 
-/// Sweeps a line over the plane from left to right (points ordered by x, then y: it leans a little, so that no segment is
-/// parallel to it) and keeps the segments that it crosses in their order along it (Shamos and Hoey 1976). If two segments meet, two
-/// neighbours in that order do. The segment below a loop's first point says what the loop lies in.
+/// Sweeps a line over the plane from left to right (points ordered by x, then y: it leans a little, so that
+/// no segment is parallel to it) and keeps the segments that it crosses in their order along it (Shamos and
+/// Hoey 1976). If two segments meet, two neighbours in that order do. The segment below a loop's first point
+/// says what the loop lies in.
 class Sweep {
  public:
   explicit Sweep(const FlatOutline& flat)
-      : flat_{flat}, status_{Below{this}}, place_(flat.points.size()), below_(flat.loop_count(), none), begun_(flat.loop_count()) {}
+      : flat_{flat},
+        status_{Below{this}},
+        place_(flat.points.size()),
+        below_(flat.loop_count(), none),
+        begun_(flat.loop_count()) {}
 
   /// Whether no two segments meet. Stops at the first sign that some do.
   bool run() {
     std::vector<std::int32_t> order(flat_.points.size());
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return flat_.point(a) < flat_.point(b); });
+    std::sort(order.begin(), order.end(),
+              [&](std::int32_t a, std::int32_t b) { return flat_.point(a) < flat_.point(b); });
     for (std::size_t i = 0; i < order.size() && !met_; ++i) {
       if (i > 0 && flat_.point(order[i]) == flat_.point(order[i - 1])) return false;
       visit(order[i]);
@@ -65,7 +71,8 @@ class Sweep {
 
   void visit(std::int32_t v) {
     const std::int32_t before = flat_.previous(v), after = v;  // a segment has the number of its first point
-    const bool first_ends = flat_.point(before) < flat_.point(v), second_ends = flat_.point(flat_.next(v)) < flat_.point(v);
+    const bool first_ends = flat_.point(before) < flat_.point(v),
+               second_ends = flat_.point(flat_.next(v)) < flat_.point(v);
     if (first_ends) leave(before);
     if (second_ends) leave(after);
     if (!first_ends) enter(before);
@@ -108,7 +115,8 @@ std::vector<LoopPlace> Sweep::places() const {
   std::vector<LoopPlace> places(flat_.loop_count());
   for (const std::int32_t v : first_points_) {
     LoopPlace& place = places[flat_.loop(v)];
-    place.counter_clockwise = orientation(flat_.point(flat_.previous(v)), flat_.point(v), flat_.point(flat_.next(v))) > 0;
+    place.counter_clockwise =
+        orientation(flat_.point(flat_.previous(v)), flat_.point(v), flat_.point(flat_.next(v))) > 0;
     const std::int32_t below = below_[flat_.loop(v)];
     if (below == none) continue;
     const LoopPlace& other = places[flat_.loop(below)];  // begun before: its first point lies further left
@@ -123,7 +131,8 @@ std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::
   const OutlineLoop& loop = outline.loops[flat.loop(s)];
   const Point a = flat.point(s), b = flat.point(flat.next(s));
   const BoundaryId boundary = loop.boundary[static_cast<std::size_t>(s - loop_begin)];
-  return fmt::format("'{}' between ({}, {}) and ({}, {})", outline.names[static_cast<std::size_t>(boundary.value())], a.x, a.y, b.x, b.y);
+  return fmt::format("'{}' between ({}, {}) and ({}, {})",
+                     outline.names[static_cast<std::size_t>(boundary.value())], a.x, a.y, b.x, b.y);
 }
 
 [[noreturn]] void refuse(const Outline& outline, const FlatOutline& flat) {
@@ -131,15 +140,19 @@ std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::
   QUADLOOP_REQUIRE(pairs.count > 0, "the sweep found segments that meet, the search did not");
   const Point at = flat.meeting_point(pairs.first, pairs.second);
   const std::int64_t more = pairs.count - 1;
-  const std::string others = more == 0 ? ""
-                                       : fmt::format(" ({}{} more pair{} of segments meet{})", pairs.complete ? "" : "at least ", more,
-                                                     more == 1 ? "" : "s", more == 1 ? "s" : "");
-  const std::string &source = outline.loops[flat.loop(pairs.first)].source, &other_source = outline.loops[flat.loop(pairs.second)].source;
+  const std::string others =
+      more == 0 ? ""
+                : fmt::format(" ({}{} more pair{} of segments meet{})", pairs.complete ? "" : "at least ",
+                              more, more == 1 ? "" : "s", more == 1 ? "s" : "");
+  const std::string &source = outline.loops[flat.loop(pairs.first)].source,
+                    &other_source = outline.loops[flat.loop(pairs.second)].source;
   const std::string place_of_other = source == other_source ? "" : fmt::format(" ({})", other_source);
   throw InputError(
-      fmt::format("{}: boundary {} meets boundary {}{} at ({}, {}){}; boundaries must neither cross nor touch: move or remove the points "
+      fmt::format("{}: boundary {} meets boundary {}{} at ({}, {}){}; boundaries must neither cross nor "
+                  "touch: move or remove the points "
                   "there",
-                  source, boundary_text(outline, flat, pairs.first), boundary_text(outline, flat, pairs.second), place_of_other, at.x, at.y, others));
+                  source, boundary_text(outline, flat, pairs.first),
+                  boundary_text(outline, flat, pairs.second), place_of_other, at.x, at.y, others));
 }
 
 }  // namespace

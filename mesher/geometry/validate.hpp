@@ -13,9 +13,10 @@ struct LoopPlace {
   bool counter_clockwise = false;  ///< as it is given
 };
 
-/// Checks that no two segments of the outline meet but neighbours at their common point: no crossing, no touching, no spike of
-/// zero width. Exact, O(n log n). Returns how the loops are nested. Throws InputError that names the first pair that
-/// meets, in the order of input, and says how many others there are. Loops have three points or more, none repeated in a row.
+/// Checks that no two segments of the outline meet but neighbours at their common point: no crossing, no
+/// touching, no spike of zero width. Exact, O(n log n). Returns how the loops are nested. Throws InputError
+/// that names the first pair that meets, in the order of input, and says how many others there are. Loops
+/// have three points or more, none repeated in a row.
 std::vector<LoopPlace> validate(const Outline& outline);
 
 }  // namespace quadloop

@@ -30,7 +30,8 @@ void CellReach::build() {
     for (const auto& nodes : cells) {
       Box box;
       for (const NodeId node : nodes) box.include(mesh_.point(node));
-      entries.emplace_back(IndexBox{{box.low.x, box.low.y}, {box.high.x, box.high.y}}, static_cast<std::int32_t>(entries.size()));
+      entries.emplace_back(IndexBox{{box.low.x, box.low.y}, {box.high.x, box.high.y}},
+                           static_cast<std::int32_t>(entries.size()));
     }
   };
   add(mesh_.triangles);
@@ -42,7 +43,8 @@ double CellReach::distance_to(std::int32_t cell, Point p) const {
   const auto at = static_cast<std::size_t>(cell);
   const bool triangle = at < mesh_.triangles.size();
   const std::span<const NodeId> nodes =
-      triangle ? std::span<const NodeId>(mesh_.triangles[at]) : std::span<const NodeId>(mesh_.quads[at - mesh_.triangles.size()]);
+      triangle ? std::span<const NodeId>(mesh_.triangles[at])
+               : std::span<const NodeId>(mesh_.quads[at - mesh_.triangles.size()]);
   double nearest = std::numeric_limits<double>::infinity();
   bool inside = true;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -53,7 +55,8 @@ double CellReach::distance_to(std::int32_t cell, Point p) const {
   return inside ? 0 : nearest;
 }
 
-/// The largest of longest edge less `slope` times the distance, over the cells within `distance`; 0 where there are none.
+/// The largest of longest edge less `slope` times the distance, over the cells within `distance`; 0 where
+/// there are none.
 double CellReach::largest_within(Point p, double distance, double slope) const {
   const IndexBox around{{p.x - distance, p.y - distance}, {p.x + distance, p.y + distance}};
   double size = 0;
@@ -75,7 +78,8 @@ double CellReach::size_at(Point p, double enough) {
   constexpr int farthest = 16;
   if (cells_.empty()) build();
   double size = 0;
-  for (int times = 1; times <= farthest && size < enough; times *= 2) size = largest_within(p, times * enough, largest_slope);
+  for (int times = 1; times <= farthest && size < enough; times *= 2)
+    size = largest_within(p, times * enough, largest_slope);
   return size > 0 ? size : longest_of_nearest(p);
 }
 

@@ -11,18 +11,22 @@
 
 namespace quadloop {
 
-/// Inside validate_geometry() only: how coarse a mesh is at a place, where the cells themselves may be fragments of larger leaves. Sizes of leaves
-/// change by half of their distance at most (the largest gradation), so a long cell near by says that leaves are not much smaller here.
+/// Inside validate_geometry() only: how coarse a mesh is at a place, where the cells themselves may be
+/// fragments of larger leaves. Sizes of leaves change by half of their distance at most (the largest
+/// gradation), so a long cell near by says that leaves are not much smaller here.
 class CellReach {
  public:
-  /// `mesh` is whole on this rank and outlives this; `longest` has the longest edge of each cell, triangles first.
+  /// `mesh` is whole on this rank and outlives this; `longest` has the longest edge of each cell, triangles
+  /// first.
   CellReach(const Mesh& mesh, const std::vector<double>& longest) : mesh_{mesh}, longest_{longest} {}
 
-  /// The largest of longest edge less half the distance to the point, over the cells near it; `enough` ends the search, which goes no farther than 16
-  /// times as far. Of the nearest cell the longest edge, where none is as near. Builds its index when first asked.
+  /// The largest of longest edge less half the distance to the point, over the cells near it; `enough` ends
+  /// the search, which goes no farther than 16 times as far. Of the nearest cell the longest edge, where none
+  /// is as near. Builds its index when first asked.
   double size_at(Point p, double enough);
 
-  /// The longest edge of the cells that come within `distance` of the point; of the nearest cell, where none does.
+  /// The longest edge of the cells that come within `distance` of the point; of the nearest cell, where none
+  /// does.
   double longest_within(Point p, double distance);
 
  private:

@@ -12,15 +12,17 @@
 
 namespace quadloop {
 
-/// Colours for nodes that are to be visited, no two neighbours the same, so that all of one colour can be visited at once.
+/// Colours for nodes that are to be visited, no two neighbours the same, so that all of one colour can be
+/// visited at once.
 struct Colouring {
-  std::vector<std::int8_t> colour_of;  ///< of each node, owned and copies; none for those that are not visited
-  std::int8_t count = 0;               ///< over all ranks
+  std::vector<std::int8_t>
+      colour_of;          ///< of each node, owned and copies; none for those that are not visited
+  std::int8_t count = 0;  ///< over all ranks
   static constexpr std::int8_t none = -1;
 };
 
-/// Who chooses first. Scatters the numbers, so that no long chain of nodes waits one for the next (the finaliser of SplitMix64; Steele, Lea and
-/// Flood 2014).
+/// Who chooses first. Scatters the numbers, so that no long chain of nodes waits one for the next (the
+/// finaliser of SplitMix64; Steele, Lea and Flood 2014).
 inline std::uint64_t colouring_priority(std::int64_t number) {
   auto z = static_cast<std::uint64_t>(number) + 0x9e3779b97f4a7c15U;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -28,12 +30,14 @@ inline std::uint64_t colouring_priority(std::int64_t number) {
   return z ^ (z >> 31);
 }
 
-/// Nodes choose, in an order that their numbers over all ranks alone decide, the first colour that no neighbour before them has (Jones and Plassmann
-/// 1993). There are `all` nodes, owned and copies; number_of(node) is that over all ranks. `nodes` are the owned ones to be visited;
-/// for_each_neighbour(i, visit) calls visit with the neighbours of the i-th of them, itself and repetitions allowed. *Collective.*
+/// Nodes choose, in an order that their numbers over all ranks alone decide, the first colour that no
+/// neighbour before them has (Jones and Plassmann 1993). There are `all` nodes, owned and copies;
+/// number_of(node) is that over all ranks. `nodes` are the owned ones to be visited; for_each_neighbour(i,
+/// visit) calls visit with the neighbours of the i-th of them, itself and repetitions allowed. *Collective.*
 template <class NumberOf, class ForEachNeighbour>
-Colouring colour_nodes(const Communicator& comm, const NodeExchange& exchange, std::size_t all, const NumberOf& number_of,
-                       std::span<const std::int32_t> nodes, const ForEachNeighbour& for_each_neighbour) {
+Colouring colour_nodes(const Communicator& comm, const NodeExchange& exchange, std::size_t all,
+                       const NumberOf& number_of, std::span<const std::int32_t> nodes,
+                       const ForEachNeighbour& for_each_neighbour) {
   constexpr std::int8_t waiting = -2;
   Colouring colouring;
   auto& colours = colouring.colour_of;
@@ -44,7 +48,8 @@ Colouring colour_nodes(const Communicator& comm, const NodeExchange& exchange, s
     order.push_back(i);
   }
   const auto priority = [&](std::int32_t node) { return colouring_priority(number_of(node)); };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return priority(nodes[a]) > priority(nodes[b]); });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return priority(nodes[a]) > priority(nodes[b]); });
   const auto choose = [&](std::size_t i) {
     const std::uint64_t own = priority(nodes[i]);
     std::uint64_t taken = 0;
@@ -66,7 +71,8 @@ Colouring colour_nodes(const Communicator& comm, const NodeExchange& exchange, s
     exchange.update(colours);
   } while (comm.any(!order.empty()));
   const auto largest = std::max_element(colours.begin(), colours.end());
-  colouring.count = static_cast<std::int8_t>(comm.maximum(std::int64_t{largest == colours.end() ? Colouring::none : *largest}) + 1);
+  colouring.count = static_cast<std::int8_t>(
+      comm.maximum(std::int64_t{largest == colours.end() ? Colouring::none : *largest}) + 1);
   return colouring;
 }
 

@@ -65,7 +65,8 @@ class HaloMesh::Numbering {
   std::unordered_map<std::int64_t, std::int32_t> local_;
 };
 
-HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh) : mesh_{&mesh}, points_{mesh.points}, copies_{mesh.copies}, exchange_{gather(comm)} {}
+HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh)
+    : mesh_{&mesh}, points_{mesh.points}, copies_{mesh.copies}, exchange_{gather(comm)} {}
 
 std::int64_t HaloMesh::global(std::int32_t node) const {
   if (node < owned_nodes()) return mesh_->first_node + node;
@@ -75,22 +76,25 @@ std::int64_t HaloMesh::global(std::int32_t node) const {
 NodeExchange HaloMesh::gather(const Communicator& comm) {
   const NodeOwners owners(comm, mesh_->first_node);
   Numbering numbering(*this);
-  receive_cells(comm, owners, mesh_->triangles, numbering, triangles_before_, triangles_after_, triangles_sent_);
+  receive_cells(comm, owners, mesh_->triangles, numbering, triangles_before_, triangles_after_,
+                triangles_sent_);
   receive_cells(comm, owners, mesh_->quads, numbering, quads_before_, quads_after_, quads_sent_);
   receive_edges(comm, owners, numbering);
   return {comm, owners, owned_nodes(), copies_};
 }
 
 template <std::size_t width>
-void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own, Numbering& numbering, Cells<width>& before,
-                             Cells<width>& after, CellLists& sent) {
+void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own,
+                             Numbering& numbering, Cells<width>& before, Cells<width>& after,
+                             CellLists& sent) {
   std::vector<std::vector<TravellingCell<width>>> out(static_cast<std::size_t>(comm.size()));
   sent.resize(out.size());
   for (std::size_t i = 0; i < own.size(); ++i) {
     const auto& nodes = own[i];
     for (const int rank : other_owners(*mesh_, owners, nodes)) {
       TravellingCell<width> cell;
-      for (std::size_t k = 0; k < width; ++k) cell[k] = {mesh_->global(nodes[k]).value(), mesh_->point(nodes[k])};
+      for (std::size_t k = 0; k < width; ++k)
+        cell[k] = {mesh_->global(nodes[k]).value(), mesh_->point(nodes[k])};
       out[static_cast<std::size_t>(rank)].push_back(cell);
       sent[static_cast<std::size_t>(rank)].push_back(static_cast<std::int32_t>(i));
     }
@@ -118,7 +122,8 @@ void HaloMesh::receive_edges(const Communicator& comm, const NodeOwners& owners,
     }
   }
   for (const auto& from_rank : comm.exchange(out)) {
-    for (const TravellingEdge& edge : from_rank) edges_.push_back({numbering.find(edge.from), numbering.find(edge.to), edge.boundary});
+    for (const TravellingEdge& edge : from_rank)
+      edges_.push_back({numbering.find(edge.from), numbering.find(edge.to), edge.boundary});
   }
 }
 

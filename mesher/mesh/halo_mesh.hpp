@@ -17,8 +17,9 @@ struct HaloEdge {
   std::int32_t boundary = -1;
 };
 
-/// One rank's part of a mesh with all cells, of other ranks too, that touch its owned nodes. The cells come in their global order, so what is added
-/// up over the cells round a node does not depend on where ranks meet.
+/// One rank's part of a mesh with all cells, of other ranks too, that touch its owned nodes. The cells come
+/// in their global order, so what is added up over the cells round a node does not depend on where ranks
+/// meet.
 class HaloMesh {
  public:
   /// `mesh` must outlive it and keep its cells. *Collective.*
@@ -35,7 +36,8 @@ class HaloMesh {
   /// Those that touch an owned node, among others.
   const std::vector<HaloEdge>& boundary_edges() const { return edges_; }
 
-  /// A value for each of the mesh's own cells, triangles, then quads, becomes one for each cell here, in the order of for_each_cell. *Collective.*
+  /// A value for each of the mesh's own cells, triangles, then quads, becomes one for each cell here, in the
+  /// order of for_each_cell. *Collective.*
   template <class T>
   std::vector<T> spread(const Communicator& comm, const std::vector<T>& own) const;
 
@@ -57,10 +59,11 @@ class HaloMesh {
   class Numbering;
   using CellLists = std::vector<std::vector<std::int32_t>>;  ///< for each rank
   template <std::size_t width>
-  void receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own, Numbering& numbering, Cells<width>& before,
-                     Cells<width>& after, CellLists& sent);
+  void receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own,
+                     Numbering& numbering, Cells<width>& before, Cells<width>& after, CellLists& sent);
   template <class T>
-  void append_spread(const Communicator& comm, const CellLists& sent, std::span<const T> own, std::vector<T>& all) const;
+  void append_spread(const Communicator& comm, const CellLists& sent, std::span<const T> own,
+                     std::vector<T>& all) const;
   void receive_edges(const Communicator& comm, const NodeOwners& owners, const Numbering& numbering);
   NodeExchange gather(const Communicator& comm);
 
@@ -75,7 +78,8 @@ class HaloMesh {
 };
 
 template <class T>
-void HaloMesh::append_spread(const Communicator& comm, const CellLists& sent, std::span<const T> own, std::vector<T>& all) const {
+void HaloMesh::append_spread(const Communicator& comm, const CellLists& sent, std::span<const T> own,
+                             std::vector<T>& all) const {
   std::vector<std::vector<T>> out(sent.size());
   for (std::size_t rank = 0; rank < sent.size(); ++rank) {
     for (const std::int32_t cell : sent[rank]) out[rank].push_back(own[static_cast<std::size_t>(cell)]);

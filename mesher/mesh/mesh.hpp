@@ -17,10 +17,11 @@ struct BoundaryEdges {
   std::vector<std::array<NodeId, 2>> edges;
 };
 
-/// One rank's part of a mesh of triangles and quadrilaterals. Cells are counter-clockwise. Nodes are owned by one rank each and
-/// numbered over all ranks in the order of ranks: this rank's owned nodes come first, in global order, then copies of other
-/// ranks' nodes that its cells touch. The global order of cells is the order of ranks, then the order here. `boundaries` has
-/// the same entries in the same order on every rank (also where this rank has no edge of it).
+/// One rank's part of a mesh of triangles and quadrilaterals. Cells are counter-clockwise. Nodes are owned by
+/// one rank each and numbered over all ranks in the order of ranks: this rank's owned nodes come first, in
+/// global order, then copies of other ranks' nodes that its cells touch. The global order of cells is the
+/// order of ranks, then the order here. `boundaries` has the same entries in the same order on every rank
+/// (also where this rank has no edge of it).
 struct Mesh {
   std::vector<Point> points;    ///< owned nodes, then copies
   std::int64_t first_node = 0;  ///< global number of points[0]
@@ -32,7 +33,8 @@ struct Mesh {
 
   const Point& point(NodeId node) const { return points[static_cast<std::size_t>(node.value())]; }
   GlobalNodeId global(NodeId node) const {
-    return node.value() < owned_nodes ? GlobalNodeId{first_node + node.value()} : copies[static_cast<std::size_t>(node.value() - owned_nodes)];
+    return node.value() < owned_nodes ? GlobalNodeId{first_node + node.value()}
+                                      : copies[static_cast<std::size_t>(node.value() - owned_nodes)];
   }
 };
 

@@ -8,7 +8,8 @@ int NodeOwners::rank_of(GlobalNodeId node) const {
   return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), node.value()) - first_.begin()) - 1;
 }
 
-NodeExchange::NodeExchange(const Communicator& comm, const NodeOwners& owners, std::int32_t owned_nodes, std::span<const GlobalNodeId> copies)
+NodeExchange::NodeExchange(const Communicator& comm, const NodeOwners& owners, std::int32_t owned_nodes,
+                           std::span<const GlobalNodeId> copies)
     : comm_{comm}, wanted_(static_cast<std::size_t>(comm.size())) {
   std::vector<std::vector<std::int32_t>> asked(wanted_.size());
   for (std::size_t i = 0; i < copies.size(); ++i) {

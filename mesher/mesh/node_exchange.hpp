@@ -16,7 +16,9 @@ class NodeOwners {
   NodeOwners(const Communicator& comm, std::int64_t first_node) : first_{comm.all_gather(first_node)} {}
 
   int rank_of(GlobalNodeId node) const;
-  std::int32_t index_of(GlobalNodeId node) const { return static_cast<std::int32_t>(node.value() - first_[static_cast<std::size_t>(rank_of(node))]); }
+  std::int32_t index_of(GlobalNodeId node) const {
+    return static_cast<std::int32_t>(node.value() - first_[static_cast<std::size_t>(rank_of(node))]);
+  }
 
  private:
   std::vector<std::int64_t> first_;
@@ -26,9 +28,11 @@ class NodeOwners {
 class NodeExchange {
  public:
   /// `copies` names the nodes after the owned ones, in the order of this rank's numbering. *Collective.*
-  NodeExchange(const Communicator& comm, const NodeOwners& owners, std::int32_t owned_nodes, std::span<const GlobalNodeId> copies);
+  NodeExchange(const Communicator& comm, const NodeOwners& owners, std::int32_t owned_nodes,
+               std::span<const GlobalNodeId> copies);
 
-  /// `values` has one entry for each owned node and each copy; those of the copies are replaced by their owners'. *Collective.*
+  /// `values` has one entry for each owned node and each copy; those of the copies are replaced by their
+  /// owners'. *Collective.*
   template <class T>
   void update(std::vector<T>& values) const {
     update(values, [](std::int32_t) { return true; });
@@ -40,7 +44,8 @@ class NodeExchange {
  private:
   const Communicator& comm_;
   std::vector<std::vector<std::int32_t>> wanted_;  ///< of each rank: this rank's copies of its nodes
-  std::vector<std::vector<std::int32_t>> shared_;  ///< with each rank: owned nodes, in the order in which it wants them
+  std::vector<std::vector<std::int32_t>>
+      shared_;  ///< with each rank: owned nodes, in the order in which it wants them
 };
 
 template <class T, class Changed>
@@ -54,7 +59,8 @@ void NodeExchange::update(std::vector<T>& values, const Changed& changed) const 
   for (std::size_t rank = 0; rank < shared_.size(); ++rank) {
     for (std::size_t i = 0; i < shared_[rank].size(); ++i) {
       const std::int32_t node = shared_[rank][i];
-      if (changed(node)) out[rank].push_back({static_cast<std::int32_t>(i), values[static_cast<std::size_t>(node)]});
+      if (changed(node))
+        out[rank].push_back({static_cast<std::int32_t>(i), values[static_cast<std::size_t>(node)]});
     }
   }
   const auto received = comm_.exchange(out);

@@ -11,7 +11,8 @@ class NodeTable {
  public:
   /// The mesh must outlive the table, and others leave its nodes alone meanwhile.
   explicit NodeTable(Mesh& mesh) : mesh_{mesh} {
-    for (std::size_t i = 0; i < mesh.copies.size(); ++i) copies_.emplace(mesh.copies[i].value(), mesh.owned_nodes + static_cast<std::int32_t>(i));
+    for (std::size_t i = 0; i < mesh.copies.size(); ++i)
+      copies_.emplace(mesh.copies[i].value(), mesh.owned_nodes + static_cast<std::int32_t>(i));
   }
 
   /// The node of a number over all ranks; a new copy gets the position.

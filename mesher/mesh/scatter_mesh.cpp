@@ -28,7 +28,9 @@ std::vector<std::uint64_t> curve_places(const Mesh& mesh) {
   for (const Point p : mesh.points) box.include(p);
   const double side = std::max(box.width(), box.height());
   constexpr double steps = (std::uint64_t{1} << 31) - 1;
-  const auto step = [&](double at, double low) { return static_cast<std::uint32_t>(side > 0 ? (at - low) / side * steps : 0); };
+  const auto step = [&](double at, double low) {
+    return static_cast<std::uint32_t>(side > 0 ? (at - low) / side * steps : 0);
+  };
   std::vector<std::uint64_t> places;
   places.reserve(mesh.points.size());
   for (const Point p : mesh.points) places.push_back(morton_key(step(p.x, box.low.x), step(p.y, box.low.y)));
@@ -40,15 +42,17 @@ template <class Key>
 std::vector<std::int32_t> ordered_by(const std::vector<Key>& keys) {
   std::vector<std::int32_t> order(keys.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::int32_t a, std::int32_t b) { return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+    return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
+  });
   return order;
 }
 
 /// For each node of the whole mesh its number in the order.
 std::vector<std::int32_t> inverse_of(const std::vector<std::int32_t>& order) {
   std::vector<std::int32_t> inverse(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) inverse[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    inverse[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
   return inverse;
 }
 
@@ -64,22 +68,26 @@ std::vector<std::int32_t> ordered_cells(const Cells<width>& cells, const std::ve
 }
 
 template <std::size_t width>
-GlobalCells<width> scatter_cells(const Communicator& comm, const Cells<width>& cells, const std::vector<std::int32_t>& order,
+GlobalCells<width> scatter_cells(const Communicator& comm, const Cells<width>& cells,
+                                 const std::vector<std::int32_t>& order,
                                  const std::vector<std::int32_t>& numbers) {
   GlobalCells<width> ordered;
   for (const std::int32_t cell : order) {
     std::array<std::int64_t, width> nodes;
-    for (std::size_t k = 0; k < width; ++k) nodes[k] = numbers[static_cast<std::size_t>(cells[static_cast<std::size_t>(cell)][k].value())];
+    for (std::size_t k = 0; k < width; ++k)
+      nodes[k] = numbers[static_cast<std::size_t>(cells[static_cast<std::size_t>(cell)][k].value())];
     ordered.push_back(nodes);
   }
   return scatter_evenly(comm, std::span<const std::array<std::int64_t, width>>(ordered));
 }
 
-std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whole, const std::vector<std::int32_t>& numbers) {
+std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whole,
+                                      const std::vector<std::int32_t>& numbers) {
   std::vector<GlobalEdge> edges;
   for (std::size_t b = 0; comm.is_root() && b < whole.boundaries.size(); ++b) {
     for (const auto& [from, to] : whole.boundaries[b].edges) {
-      edges.push_back({numbers[static_cast<std::size_t>(from.value())], numbers[static_cast<std::size_t>(to.value())], static_cast<std::int32_t>(b)});
+      edges.push_back({numbers[static_cast<std::size_t>(from.value())],
+                       numbers[static_cast<std::size_t>(to.value())], static_cast<std::int32_t>(b)});
     }
   }
   return scatter_evenly(comm, std::span<const GlobalEdge>(edges));
@@ -126,7 +134,8 @@ class PartBuilder {
     }
   }
   void add_edges(const std::vector<GlobalEdge>& edges) {
-    for (const GlobalEdge& e : edges) part_.boundaries[static_cast<std::size_t>(e.boundary)].edges.push_back({local(e.from), local(e.to)});
+    for (const GlobalEdge& e : edges)
+      part_.boundaries[static_cast<std::size_t>(e.boundary)].edges.push_back({local(e.from), local(e.to)});
   }
   Mesh& part() { return part_; }
 
@@ -142,7 +151,8 @@ class PartBuilder {
   NodeId local(std::int64_t number) {
     const std::int64_t offset = number - part_.first_node;
     if (0 <= offset && offset < part_.owned_nodes) return NodeId{static_cast<std::int32_t>(offset)};
-    const auto [found, added] = copies_.emplace(number, part_.owned_nodes + static_cast<std::int32_t>(part_.copies.size()));
+    const auto [found, added] =
+        copies_.emplace(number, part_.owned_nodes + static_cast<std::int32_t>(part_.copies.size()));
     if (added) part_.copies.push_back(GlobalNodeId{number});
     return NodeId{found->second};
   }
@@ -162,8 +172,8 @@ std::vector<T> gather_values(const Communicator& comm, std::vector<T> values) {
 }
 
 template <std::size_t width>
-void gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>& cells, const MeshOrder& order,
-                  const std::vector<std::int32_t>& cell_order, Cells<width>& whole) {
+void gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>& cells,
+                  const MeshOrder& order, const std::vector<std::int32_t>& cell_order, Cells<width>& whole) {
   GlobalCells<width> named;
   for (const auto& nodes : cells) {
     std::array<std::int64_t, width> numbers;
@@ -173,7 +183,8 @@ void gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>
   named = gather_values(comm, std::move(named));
   for (std::size_t i = 0; i < named.size(); ++i) {
     for (std::size_t k = 0; k < width; ++k) {
-      whole[static_cast<std::size_t>(cell_order[i])][k] = NodeId{order.nodes[static_cast<std::size_t>(named[i][k])]};
+      whole[static_cast<std::size_t>(cell_order[i])][k] =
+          NodeId{order.nodes[static_cast<std::size_t>(named[i][k])]};
     }
   }
 }
@@ -202,7 +213,8 @@ Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& 
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole) {
   const auto owned = part.points.begin() + part.owned_nodes;
   const std::vector<Point> points = gather_values(comm, std::vector<Point>(part.points.begin(), owned));
-  for (std::size_t i = 0; i < points.size(); ++i) whole.points[static_cast<std::size_t>(order.nodes[i])] = points[i];
+  for (std::size_t i = 0; i < points.size(); ++i)
+    whole.points[static_cast<std::size_t>(order.nodes[i])] = points[i];
   gather_cells(comm, part, part.triangles, order, order.triangles, whole.triangles);
   gather_cells(comm, part, part.quads, order, order.quads, whole.quads);
 }

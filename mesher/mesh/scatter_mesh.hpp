@@ -9,26 +9,30 @@
 
 namespace quadloop {
 
-/// An order of a whole mesh's nodes and cells in which neighbours stand near each other, so that ranks which take it in pieces share little.
-/// Entry i is the number, in the whole mesh, of the i-th node or cell.
+/// An order of a whole mesh's nodes and cells in which neighbours stand near each other, so that ranks which
+/// take it in pieces share little. Entry i is the number, in the whole mesh, of the i-th node or cell.
 struct MeshOrder {
   std::vector<std::int32_t> nodes, triangles, quads;
 };
 
-/// Nodes along a space-filling curve over the mesh's box, cells by their first node along it. A function of the mesh alone, linear but for sorting.
+/// Nodes along a space-filling curve over the mesh's box, cells by their first node along it. A function of
+/// the mesh alone, linear but for sorting.
 MeshOrder space_filling_order(const Mesh& whole);
 
-/// Spreads a mesh that the root rank holds whole over all ranks, in the order given: an even share of nodes, triangles, quads and boundary edges for
-/// each. `whole` and `order` count on the root alone. *Collective.*
+/// Spreads a mesh that the root rank holds whole over all ranks, in the order given: an even share of nodes,
+/// triangles, quads and boundary edges for each. `whole` and `order` count on the root alone. *Collective.*
 Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& order);
 
-/// The values of each rank's owned nodes, from one for each node of the whole mesh on the root, or from none. *Collective.*
+/// The values of each rank's owned nodes, from one for each node of the whole mesh on the root, or from none.
+/// *Collective.*
 template <class T>
-std::vector<T> scatter_nodes(const Communicator& comm, const std::vector<T>& of_whole, const MeshOrder& order);
+std::vector<T> scatter_nodes(const Communicator& comm, const std::vector<T>& of_whole,
+                             const MeshOrder& order);
 
 /// The same for each rank's triangles. *Collective.*
 template <class T>
-std::vector<T> scatter_triangles(const Communicator& comm, const std::vector<T>& of_whole, const MeshOrder& order);
+std::vector<T> scatter_triangles(const Communicator& comm, const std::vector<T>& of_whole,
+                                 const MeshOrder& order);
 
 /// Puts the parts' positions and cells back into their places in the whole mesh on the root. *Collective.*
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole);
@@ -38,14 +42,17 @@ template <class T>
 std::vector<T> scatter_evenly(const Communicator& comm, std::span<const T> values) {
   std::vector<std::vector<T>> out(static_cast<std::size_t>(comm.size()));
   for (std::size_t rank = 0; comm.is_root() && rank < out.size(); ++rank) {
-    const std::size_t begin = values.size() * rank / out.size(), end = values.size() * (rank + 1) / out.size();
-    out[rank].assign(values.begin() + static_cast<std::ptrdiff_t>(begin), values.begin() + static_cast<std::ptrdiff_t>(end));
+    const std::size_t begin = values.size() * rank / out.size(),
+                      end = values.size() * (rank + 1) / out.size();
+    out[rank].assign(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                     values.begin() + static_cast<std::ptrdiff_t>(end));
   }
   return std::move(comm.exchange(out)[0]);
 }
 
 template <class T>
-std::vector<T> scatter_ordered(const Communicator& comm, const std::vector<T>& of_whole, const std::vector<std::int32_t>& order) {
+std::vector<T> scatter_ordered(const Communicator& comm, const std::vector<T>& of_whole,
+                               const std::vector<std::int32_t>& order) {
   std::vector<T> ordered;
   for (const std::int32_t i : order) {
     if (!of_whole.empty()) ordered.push_back(of_whole[static_cast<std::size_t>(i)]);
@@ -54,12 +61,14 @@ std::vector<T> scatter_ordered(const Communicator& comm, const std::vector<T>& o
 }
 
 template <class T>
-std::vector<T> scatter_nodes(const Communicator& comm, const std::vector<T>& of_whole, const MeshOrder& order) {
+std::vector<T> scatter_nodes(const Communicator& comm, const std::vector<T>& of_whole,
+                             const MeshOrder& order) {
   return scatter_ordered(comm, of_whole, order.nodes);
 }
 
 template <class T>
-std::vector<T> scatter_triangles(const Communicator& comm, const std::vector<T>& of_whole, const MeshOrder& order) {
+std::vector<T> scatter_triangles(const Communicator& comm, const std::vector<T>& of_whole,
+                                 const MeshOrder& order) {
   return scatter_ordered(comm, of_whole, order.triangles);
 }
 

@@ -4,7 +4,8 @@
 
 namespace quadloop {
 
-StarHalo::StarHalo(const Communicator& comm, const NodeOwners& owners, std::span<const NumberedTriangle> own) : comm_{comm}, owners_{owners} {
+StarHalo::StarHalo(const Communicator& comm, const NodeOwners& owners, std::span<const NumberedTriangle> own)
+    : comm_{comm}, owners_{owners} {
   gather_stars(own);
   if (comm.size() > 1) list_spokes();
 }
@@ -34,7 +35,8 @@ void StarHalo::gather_stars(std::span<const NumberedTriangle> own) {
       }
     }
   }
-  for (const auto& from_rank : comm_.exchange(to_rank)) std::for_each(from_rank.begin(), from_rank.end(), [&](const auto& t) { add(t); });
+  for (const auto& from_rank : comm_.exchange(to_rank))
+    std::for_each(from_rank.begin(), from_rank.end(), [&](const auto& t) { add(t); });
 }
 
 void StarHalo::add(const NumberedTriangle& triangle) {
@@ -63,17 +65,20 @@ std::vector<NumberedTriangle> StarHalo::around(std::span<const std::int64_t> nod
 void StarHalo::grow(bool wanted) {
   std::vector<std::vector<std::int64_t>> asking(static_cast<std::size_t>(comm_.size()));
   if (wanted) {
-    for (const std::int64_t node : frontier_) asking[static_cast<std::size_t>(owners_.rank_of(GlobalNodeId{node}))].push_back(node);
+    for (const std::int64_t node : frontier_)
+      asking[static_cast<std::size_t>(owners_.rank_of(GlobalNodeId{node}))].push_back(node);
     fetched_.insert(frontier_.begin(), frontier_.end());
     frontier_.clear();
   }
   std::vector<std::vector<NumberedTriangle>> answers;
   for (const auto& nodes : comm_.exchange(asking)) answers.push_back(around(nodes));
-  for (const auto& from_rank : comm_.exchange(answers)) std::for_each(from_rank.begin(), from_rank.end(), [&](const auto& t) { add(t); });
+  for (const auto& from_rank : comm_.exchange(answers))
+    std::for_each(from_rank.begin(), from_rank.end(), [&](const auto& t) { add(t); });
 }
 
 bool StarHalo::at_rim(const NumberedTriangle& triangle) const {
-  return std::count_if(triangle.nodes.begin(), triangle.nodes.end(), [&](std::int64_t node) { return !known(node); }) > 1;
+  return std::count_if(triangle.nodes.begin(), triangle.nodes.end(),
+                       [&](std::int64_t node) { return !known(node); }) > 1;
 }
 
 }  // namespace quadloop

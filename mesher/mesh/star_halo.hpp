@@ -20,11 +20,13 @@ struct NumberedTriangle {
   std::array<char, 3> core{};  ///< a flag for each node: no triangle around it is missing from the region
 };
 
-/// The triangles of a region, which all ranks hold together, around the nodes that this rank owns; then those around their nodes, ring by ring.
-/// Owners of nodes know all triangles around them, wherever these are kept, so that it works on any distributed mesh.
+/// The triangles of a region, which all ranks hold together, around the nodes that this rank owns; then those
+/// around their nodes, ring by ring. Owners of nodes know all triangles around them, wherever these are kept,
+/// so that it works on any distributed mesh.
 class StarHalo {
  public:
-  /// `own` are the triangles of the region that this rank keeps; `owners` must outlive the halo. *Collective.*
+  /// `own` are the triangles of the region that this rank keeps; `owners` must outlive the halo.
+  /// *Collective.*
   StarHalo(const Communicator& comm, const NodeOwners& owners, std::span<const NumberedTriangle> own);
 
   /// Fetches the triangles around all nodes of those at hand, on ranks that want it. *Collective.*

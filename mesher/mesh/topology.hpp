@@ -9,7 +9,8 @@
 
 namespace quadloop {
 
-/// Calls `visit(from, to, cell)` for every edge of every cell, counter-clockwise; cells are numbered triangles first, then quads.
+/// Calls `visit(from, to, cell)` for every edge of every cell, counter-clockwise; cells are numbered
+/// triangles first, then quads.
 template <class Visit>
 void for_each_cell_edge(const Mesh& mesh, const Visit& visit) {
   std::int32_t cell = 0;
@@ -23,7 +24,8 @@ void for_each_cell_edge(const Mesh& mesh, const Visit& visit) {
   visit_cells(mesh.quads);
 }
 
-/// Which cell lies to the left of each directed edge of one rank's cells. Linear in time and memory; the nodes that the cells name must exist.
+/// Which cell lies to the left of each directed edge of one rank's cells. Linear in time and memory; the
+/// nodes that the cells name must exist.
 class EdgeTable {
  public:
   struct Edge {
@@ -36,12 +38,14 @@ class EdgeTable {
   /// The cell edges that leave a node, in the order of the cells.
   std::span<const Edge> from(NodeId node) const {
     const auto at = static_cast<std::size_t>(node.value());
-    return std::span(edges_).subspan(static_cast<std::size_t>(starts_[at]), static_cast<std::size_t>(starts_[at + 1] - starts_[at]));
+    return std::span(edges_).subspan(static_cast<std::size_t>(starts_[at]),
+                                     static_cast<std::size_t>(starts_[at + 1] - starts_[at]));
   }
   /// -1 where no cell has this directed edge; the first where several have it.
   std::int32_t cell_left_of(NodeId from_node, NodeId to) const {
     const auto edges = from(from_node);
-    const auto found = std::find_if(edges.begin(), edges.end(), [&](const Edge& edge) { return edge.to == to; });
+    const auto found =
+        std::find_if(edges.begin(), edges.end(), [&](const Edge& edge) { return edge.to == to; });
     return found == edges.end() ? -1 : found->cell;
   }
 

@@ -1,5 +1,5 @@
 // What record.json keeps of a run's case, and which changes of it are told apart. On one rank alone.
-#include "adapt/record.hpp"
+#include "adapt/loop/record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,9 @@ CycleRecord sample() {
   record.cycle = 3;
   record.case_digest = 0x0123456789abcdef;
   record.geometry_digest = 0xfedcba9876543210;
-  record.settings = {{"adapt.refine", "0.5"}, {"boundary.is \"a\" \\ b.spacing", "2"}, {"solver.command", R"(["a, b", "\"{mesh}\": "])"}};
+  record.settings = {{"adapt.refine", "0.5"},
+                     {"boundary.is \"a\" \\ b.spacing", "2"},
+                     {"solver.command", R"(["a, b", "\"{mesh}\": "])"}};
   record.seconds = {{"mesh", 0.25}};
   return record;
 }
@@ -60,7 +62,8 @@ TEST(Record, ItsBytesStay) {
 
 TEST(Record, NoPartOfOneIsWhole) {
   const std::string text = json_text(sample());
-  for (std::size_t length = 0; length < text.size(); ++length) EXPECT_FALSE(recorded_case(text.substr(0, length)).has_value()) << length;
+  for (std::size_t length = 0; length < text.size(); ++length)
+    EXPECT_FALSE(recorded_case(text.substr(0, length)).has_value()) << length;
 }
 
 TEST(CaseSettings, ChangesAreToldByKey) {
@@ -72,7 +75,8 @@ TEST(CaseSettings, ChangesAreToldByKey) {
 }
 
 TEST(CaseSettings, TheDigestLeavesOutWhatMayChange) {
-  const CaseSettings settings{{"adapt.refine", "0.5"}, {"solver.command", "[\"a\"]"}, {"solver.iterations", "7"}};
+  const CaseSettings settings{
+      {"adapt.refine", "0.5"}, {"solver.command", "[\"a\"]"}, {"solver.iterations", "7"}};
   CaseSettings other = settings;
   other[1].second = "[\"b\"]";
   other[2].second = "8";

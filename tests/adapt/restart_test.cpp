@@ -1,5 +1,6 @@
-// A tree read from its record gives itself again; marks change it by a level, and the same marks take back what they made.
-#include "adapt/restart.hpp"
+// A tree read from its record gives itself again; marks change it by a level, and the same marks take back
+// what they made.
+#include "adapt/remesh/restart.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,12 +35,14 @@ MeshInput disc_input() {
   return input;
 }
 
-TreeRecord tree_of(const MeshInput& input, const std::vector<SplitDemand>& demands, const Communicator& comm = world()) {
+TreeRecord tree_of(const MeshInput& input, const std::vector<SplitDemand>& demands,
+                   const Communicator& comm = world()) {
   return build_mesh(comm, input.geometry, input.mesh, DemandedSplits(comm, demands)).tree;
 }
 
 /// All ranks' leaves, bit for bit.
-std::vector<std::array<std::int64_t, 6>> all_leaves(const TreeRecord& tree, const Communicator& comm = world()) {
+std::vector<std::array<std::int64_t, 6>> all_leaves(const TreeRecord& tree,
+                                                    const Communicator& comm = world()) {
   std::vector<std::array<std::int64_t, 6>> own;
   for (const LeafRecord& leaf : tree.leaves) {
     const Quadrant q = place_of(leaf);
@@ -49,20 +52,24 @@ std::vector<std::array<std::int64_t, 6>> all_leaves(const TreeRecord& tree, cons
 }
 
 /// By place alone, so the same on any number of ranks: about one leaf in seven.
-bool chosen(const Quadrant& q) { return (static_cast<std::uint64_t>(q.x * 31 + q.y * 17 + q.level) * 0x9e3779b97f4a7c15ULL >> 32) % 7 == 0; }
+bool chosen(const Quadrant& q) {
+  return (static_cast<std::uint64_t>(q.x * 31 + q.y * 17 + q.level) * 0x9e3779b97f4a7c15ULL >> 32) % 7 == 0;
+}
 
 constexpr int finest = 12;
 
 ChangedSplits refined_by_choice(const TreeRecord& tree, const Communicator& comm = world()) {
   std::vector<Mark> marks;
-  for (const LeafRecord& leaf : tree.leaves) marks.push_back(chosen(place_of(leaf)) ? Mark::refine : Mark::keep);
+  for (const LeafRecord& leaf : tree.leaves)
+    marks.push_back(chosen(place_of(leaf)) ? Mark::refine : Mark::keep);
   return changed_splits(comm, tree, marks, finest);
 }
 
 class RestartUnderGradation : public testing::TestWithParam<double> {};
 
-/// Each rank alone makes the tree that all make together, also where demands of one rank's leaves reach into those of another: by gradation from leaf
-/// to leaf, and twice, so that the second demands stand on what the first led to.
+/// Each rank alone makes the tree that all make together, also where demands of one rank's leaves reach into
+/// those of another: by gradation from leaf to leaf, and twice, so that the second demands stand on what the
+/// first led to.
 TEST_P(RestartUnderGradation, OneRankAndAllRanksMakeTheSameTree) {
   MeshInput input = disc_input();
   input.mesh.size.gradation = GetParam();
@@ -77,8 +84,10 @@ TEST_P(RestartUnderGradation, OneRankAndAllRanksMakeTheSameTree) {
     ASSERT_EQ(all_leaves(together), all_leaves(single, alone)) << "refined " << cycle + 1 << " times";
   }
   for (int cycle = 0; cycle < 2; ++cycle) {
-    const std::vector<Mark> of_all(together.leaves.size(), Mark::coarsen), of_one(single.leaves.size(), Mark::coarsen);
-    const ChangedSplits by_all = changed_splits(world(), together, of_all, finest), by_one = changed_splits(alone, single, of_one, finest);
+    const std::vector<Mark> of_all(together.leaves.size(), Mark::coarsen),
+        of_one(single.leaves.size(), Mark::coarsen);
+    const ChangedSplits by_all = changed_splits(world(), together, of_all, finest),
+                        by_one = changed_splits(alone, single, of_one, finest);
     EXPECT_EQ(by_all.coarsened, by_one.coarsened);
     EXPECT_GT(by_all.coarsened, 0);
     together = tree_of(input, by_all.demands);
@@ -113,7 +122,8 @@ TEST(Restart, RefiningThenCoarseningByTheSameMarksGivesTheTreeBack) {
   const MeshInput input = disc_input();
   const TreeRecord first = tree_of(input, {});
   const TreeRecord second = tree_of(input, refined_by_choice(first).demands);
-  // The leaves in a quadrant that was marked go; its children may have been split further by gradation, then it takes a cycle for each level.
+  // The leaves in a quadrant that was marked go; its children may have been split further by gradation, then
+  // it takes a cycle for each level.
   std::vector<Mark> marks(second.leaves.size(), Mark::coarsen);
   TreeRecord third = tree_of(input, changed_splits(world(), second, marks, finest).demands);
   for (int cycle = 0; cycle < 4; ++cycle) {
@@ -124,9 +134,11 @@ TEST(Restart, RefiningThenCoarseningByTheSameMarksGivesTheTreeBack) {
 }
 
 /// As a sensor leaves them: no mark where there are no cells.
-std::vector<Mark> marks_of_cells(const TreeRecord& tree, Mark mark, const std::function<bool(const Quadrant&)>& where) {
+std::vector<Mark> marks_of_cells(const TreeRecord& tree, Mark mark,
+                                 const std::function<bool(const Quadrant&)>& where) {
   std::vector<Mark> marks;
-  for (const LeafRecord& leaf : tree.leaves) marks.push_back(leaf.triangles + leaf.quads > 0 && where(place_of(leaf)) ? mark : Mark::keep);
+  for (const LeafRecord& leaf : tree.leaves)
+    marks.push_back(leaf.triangles + leaf.quads > 0 && where(place_of(leaf)) ? mark : Mark::keep);
   return marks;
 }
 
@@ -136,32 +148,39 @@ TEST(Restart, LeavesAtWallsGoBackThoughTheirSiblingsHaveNoCells) {
   const TreeRecord first = tree_of(input, {});
   TreeRecord tree = first;
   for (int cycle = 0; cycle < 2; ++cycle) {
-    const auto marks = marks_of_cells(tree, Mark::refine, [](const Quadrant& q) { return q.level >= 6; });  // those at the disc
+    const auto marks = marks_of_cells(tree, Mark::refine,
+                                      [](const Quadrant& q) { return q.level >= 6; });  // those at the disc
     tree = tree_of(input, changed_splits(world(), tree, marks, finest).demands);
   }
-  EXPECT_GT(world().sum(static_cast<std::int64_t>(tree.leaves.size())), 2 * world().sum(static_cast<std::int64_t>(first.leaves.size())));
+  EXPECT_GT(world().sum(static_cast<std::int64_t>(tree.leaves.size())),
+            2 * world().sum(static_cast<std::int64_t>(first.leaves.size())));
   const std::vector<Mark> nothing(tree.leaves.size(), Mark::keep);
-  EXPECT_EQ(all_leaves(tree_of(input, changed_splits(world(), tree, nothing, finest).demands)), all_leaves(tree));
+  EXPECT_EQ(all_leaves(tree_of(input, changed_splits(world(), tree, nothing, finest).demands)),
+            all_leaves(tree));
   for (int cycle = 0; cycle < 4; ++cycle) {
-    tree = tree_of(input, changed_splits(world(), tree, marks_of_cells(tree, Mark::coarsen, everywhere), finest).demands);
+    tree = tree_of(
+        input,
+        changed_splits(world(), tree, marks_of_cells(tree, Mark::coarsen, everywhere), finest).demands);
   }
   EXPECT_EQ(all_leaves(tree), all_leaves(first));
 }
 
 /// One cycle of a mark on every leaf.
 TreeRecord all_marked(const MeshInput& input, const TreeRecord& tree, Mark mark) {
-  const ChangedSplits changed = changed_splits(world(), tree, std::vector<Mark>(tree.leaves.size(), mark), finest);
+  const ChangedSplits changed =
+      changed_splits(world(), tree, std::vector<Mark>(tree.leaves.size(), mark), finest);
   const std::int64_t leaves = world().sum(static_cast<std::int64_t>(tree.leaves.size()));
   EXPECT_EQ(mark == Mark::refine ? changed.refined : changed.coarsened, leaves);
   return tree_of(input, changed.demands);
 }
 
-/// Where a quadrant was split twice over, one cycle of marks takes back the last of the two splits, and no more. The case's own leaves are all of one
-/// size, so that gradation asks for nothing.
+/// Where a quadrant was split twice over, one cycle of marks takes back the last of the two splits, and no
+/// more. The case's own leaves are all of one size, so that gradation asks for nothing.
 TEST(Restart, CoarseningGoesBackALevelEachCycle) {
   MeshInput input = disc_input();
   input.mesh.size.min = input.mesh.size.max = 0.125;
-  const TreeRecord first = tree_of(input, {}), second = all_marked(input, first, Mark::refine), third = all_marked(input, second, Mark::refine);
+  const TreeRecord first = tree_of(input, {}), second = all_marked(input, first, Mark::refine),
+                   third = all_marked(input, second, Mark::refine);
   const auto leaves = all_leaves(first).size();
   EXPECT_EQ(all_leaves(second).size(), 4 * leaves);
   EXPECT_EQ(all_leaves(third).size(), 16 * leaves);
@@ -192,10 +211,12 @@ TEST(Restart, WantedLevelsStandUnderACoarserCase) {
   MeshInput coarser = input;
   coarser.mesh.size.min = 0.1;
   coarser.digest = 1;
-  const auto before = all_leaves(first), after = all_leaves(tree_of(coarser, standing_splits(first, coarser)));
+  const auto before = all_leaves(first),
+             after = all_leaves(tree_of(coarser, standing_splits(first, coarser)));
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t i = 0; i < before.size(); ++i)
-    EXPECT_EQ((std::array{before[i][0], before[i][1], before[i][2]}), (std::array{after[i][0], after[i][1], after[i][2]}));
+    EXPECT_EQ((std::array{before[i][0], before[i][1], before[i][2]}),
+              (std::array{after[i][0], after[i][1], after[i][2]}));
 }
 
 TEST(Restart, TheRootStaysAndAGeometryOutsideIsRefused) {

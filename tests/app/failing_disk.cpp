@@ -1,5 +1,5 @@
-// Loaded before the C library (LD_PRELOAD): calls of the system on files whose path has ".part" in it, as outputs on their way have, fail or are
-// slow.
+// Loaded before the C library (LD_PRELOAD): calls of the system on files whose path has ".part" in it, as
+// outputs on their way have, fail or are slow.
 //   QUADLOOP_DISK_CALL    write, fsync, close or rename
 //   QUADLOOP_DISK_FULL    the number of the first such call that fails with ENOSPC; all later ones fail too
 //   QUADLOOP_DISK_DELAY   milliseconds before each such call
@@ -18,7 +18,8 @@ bool is_under_way(std::string_view path) { return path.find(".part") != std::str
 
 bool is_under_way(int descriptor) {
   std::array<char, 4096> path;
-  const ssize_t length = ::readlink(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), path.data(), path.size());
+  const ssize_t length =
+      ::readlink(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), path.data(), path.size());
   return length > 0 && is_under_way(std::string_view(path.data(), static_cast<std::size_t>(length)));
 }
 
@@ -53,16 +54,22 @@ ssize_t write(int descriptor, const void* data, size_t size) {
 }
 
 ssize_t pwrite(int descriptor, const void* data, size_t size, off_t at) {
-  return fails("write", descriptor) ? -1 : original<decltype(&::pwrite)>("pwrite")(descriptor, data, size, at);
+  return fails("write", descriptor) ? -1
+                                    : original<decltype(&::pwrite)>("pwrite")(descriptor, data, size, at);
 }
 
 ssize_t pwrite64(int descriptor, const void* data, size_t size, off64_t at) {
-  return fails("write", descriptor) ? -1 : original<decltype(&::pwrite64)>("pwrite64")(descriptor, data, size, at);
+  return fails("write", descriptor) ? -1
+                                    : original<decltype(&::pwrite64)>("pwrite64")(descriptor, data, size, at);
 }
 
-int fsync(int descriptor) { return fails("fsync", descriptor) ? -1 : original<decltype(&::fsync)>("fsync")(descriptor); }
+int fsync(int descriptor) {
+  return fails("fsync", descriptor) ? -1 : original<decltype(&::fsync)>("fsync")(descriptor);
+}
 
-int rename(const char* from, const char* to) { return fails("rename", from) ? -1 : original<decltype(&::rename)>("rename")(from, to); }
+int rename(const char* from, const char* to) {
+  return fails("rename", from) ? -1 : original<decltype(&::rename)>("rename")(from, to);
+}
 
 // As the system has it: the descriptor is gone all the same.
 int close(int descriptor) {

@@ -1,5 +1,5 @@
-// Ends as main() does, with errors on the ranks that the arguments name; the other ranks wait in a barrier that never completes, or,
-// with "go on" as the first argument, come to their end.
+// Ends as main() does, with errors on the ranks that the arguments name; the other ranks wait in a barrier
+// that never completes, or, with "go on" as the first argument, come to their end.
 #include <mpi.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
   {
     const quadloop::Communicator comm(MPI_COMM_WORLD), closing(MPI_COMM_WORLD);
     const bool others_wait = std::string(argv[1]) == "wait";
-    const bool fails = std::any_of(argv + 2, argv + argc, [&](const char* rank) { return std::stoi(rank) == comm.rank(); });
+    const bool fails =
+        std::any_of(argv + 2, argv + argc, [&](const char* rank) { return std::stoi(rank) == comm.rank(); });
     quadloop::Outcome outcome;
     if (fails)
       outcome = {quadloop::ExitStatus::output_failed, "rank " + std::to_string(comm.rank()) + "\nfailed"};

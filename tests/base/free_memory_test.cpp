@@ -55,7 +55,9 @@ TEST(FreeMemory, TheOlderKindOfGroupsIsReadToo) {
   EXPECT_EQ(free_in_control_groups("5:cpu,cpuacct:/other\n4:memory:/job\n0::/\n", root.path), 600);
 }
 
-TEST(FreeMemory, WithoutGroupsThereIsNoLimit) { EXPECT_TRUE(std::isinf(free_in_control_groups("0::/\n", "/nowhere"))); }
+TEST(FreeMemory, WithoutGroupsThereIsNoLimit) {
+  EXPECT_TRUE(std::isinf(free_in_control_groups("0::/\n", "/nowhere")));
+}
 
 }  // namespace
 }  // namespace quadloop

@@ -19,7 +19,8 @@ using test::world;
 /// This rank's share of the values.
 std::vector<double> share_of(const std::vector<double>& values) {
   std::vector<double> share;
-  for (std::size_t i = static_cast<std::size_t>(world().rank()); i < values.size(); i += static_cast<std::size_t>(world().size()))
+  for (std::size_t i = static_cast<std::size_t>(world().rank()); i < values.size();
+       i += static_cast<std::size_t>(world().size()))
     share.push_back(values[i]);
   return share;
 }
@@ -29,7 +30,9 @@ std::vector<double> random_values(int exponent_range) {
   std::vector<double> values;
   for (int i = 0; i < 5000; ++i) {
     const double mantissa = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
-    values.push_back(std::ldexp(mantissa, static_cast<int>(random() % static_cast<std::uint64_t>(exponent_range)) - exponent_range / 2));
+    values.push_back(std::ldexp(
+        mantissa,
+        static_cast<int>(random() % static_cast<std::uint64_t>(exponent_range)) - exponent_range / 2));
   }
   return values;
 }
@@ -53,12 +56,14 @@ TEST(ReproducibleSum, IsAsNearAsLongDouble) {
   const std::vector<double> values = random_values(20);
   long double sum = 0;
   for (const double value : values) sum += value;
-  EXPECT_NEAR(reproducible_sum(world(), share_of(values)), static_cast<double>(sum), 1e-14 * std::abs(static_cast<double>(sum)) + 1e-12);
+  EXPECT_NEAR(reproducible_sum(world(), share_of(values)), static_cast<double>(sum),
+              1e-14 * std::abs(static_cast<double>(sum)) + 1e-12);
 }
 
 TEST(ReproducibleSum, KeepsWhatCancels) {
   EXPECT_EQ(reproducible_sum(world(), share_of({1e16, 1, -1e16, 1})), 2);
-  const double smallest = std::numeric_limits<double>::denorm_min(), largest = std::numeric_limits<double>::max();
+  const double smallest = std::numeric_limits<double>::denorm_min(),
+               largest = std::numeric_limits<double>::max();
   EXPECT_EQ(reproducible_sum(world(), share_of({smallest, smallest})), 2 * smallest);
   EXPECT_EQ(reproducible_sum(world(), share_of({largest, -largest, largest / 2})), largest / 2);
 }

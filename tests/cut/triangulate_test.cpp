@@ -78,7 +78,8 @@ TEST(Triangulate, TheHighestKeyTakesTheDiagonalOfASquare) {
   for (std::size_t best = 0; best < 4; ++best) {
     std::vector<TieKey> keys(4);
     keys[best].coarser = 5;
-    for (const auto& t : triangulated(square, keys)) EXPECT_NE(std::find(t.begin(), t.end(), static_cast<std::int32_t>(best)), t.end());
+    for (const auto& t : triangulated(square, keys))
+      EXPECT_NE(std::find(t.begin(), t.end(), static_cast<std::int32_t>(best)), t.end());
   }
 }
 

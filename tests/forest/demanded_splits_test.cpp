@@ -1,4 +1,5 @@
-// What adaptation asks to split: every rank knows all of it, the tree follows, and what was asked for can be read off the leaves again.
+// What adaptation asks to split: every rank knows all of it, the tree follows, and what was asked for can be
+// read off the leaves again.
 #include "mesher/forest/demanded_splits.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,8 @@ std::vector<SplitDemand> random_demands(int count) {
     const int level = static_cast<int>(random() % 12);
     const std::int64_t size = std::int64_t{1} << (Quadrant::unit_level - level);
     const auto coordinate = [&](std::int64_t trees) {
-      return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(trees * tree_edge)) / size * size;
+      return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(trees * tree_edge)) / size *
+             size;
     };
     const Quadrant leaf{coordinate(3), coordinate(2), level};
     demands.push_back({leaf, static_cast<std::uint32_t>(random()) & ((2U << level) - 1)});
@@ -42,7 +44,8 @@ std::vector<SplitDemand> random_demands(int count) {
 
 std::vector<SplitDemand> share_of(const std::vector<SplitDemand>& all) {
   std::vector<SplitDemand> share;
-  for (std::size_t i = static_cast<std::size_t>(world().rank()); i < all.size(); i += static_cast<std::size_t>(world().size()))
+  for (std::size_t i = static_cast<std::size_t>(world().rank()); i < all.size();
+       i += static_cast<std::size_t>(world().size()))
     share.push_back(all[i]);
   return share;
 }
@@ -84,7 +87,8 @@ TEST(DemandedSplits, HoldWhatWasAskedForAndAllAbove) {
   DemandPath path(splits);
   for (const auto& [leaf, levels] : demands) {
     std::uint32_t expected = 0;
-    for (int level = 0; level < leaf.level; ++level) expected |= asked.contains(place_of(leaf, level)) ? 1U << level : 0U;
+    for (int level = 0; level < leaf.level; ++level)
+      expected |= asked.contains(place_of(leaf, level)) ? 1U << level : 0U;
     EXPECT_EQ(path.levels_above(leaf), expected);
     for (int level = 0; level <= leaf.level; ++level) {
       const auto [l, x, y] = place_of(leaf, level);

@@ -12,10 +12,12 @@ Forest refined_brick(const Lattice& lattice) {
   Forest forest(test::world(), lattice);
   forest.refine(
       [](const Quadrant& q) {
-        return q.level < 2 || (q.contains({(std::int64_t{3} << 29) + 5, (std::int64_t{1} << 30) - 7, 30}) && q.level < 6);
+        return q.level < 2 ||
+               (q.contains({(std::int64_t{3} << 29) + 5, (std::int64_t{1} << 30) - 7, 30}) && q.level < 6);
       },
       6);
-  forest.refine([](const Quadrant& q) { return q.level < 4; }, 4);  // levels 4 to 6: touching leaves may differ by two, which the graph must stand
+  forest.refine([](const Quadrant& q) { return q.level < 4; },
+                4);  // levels 4 to 6: touching leaves may differ by two, which the graph must stand
   forest.partition();
   return forest;
 }
@@ -44,7 +46,9 @@ TEST(LeafGraph, NeighboursAreTheLeavesThatTouch) {
     EXPECT_EQ(around.south_west, graph.leaf_at(q.x - 1, q.y - 1));
     EXPECT_EQ(around.south, graph.leaf_at(q.x + last, q.y - 1));
     EXPECT_EQ(around.west, graph.leaf_at(q.x - 1, q.y + last));
-    const auto finer = [&](std::int32_t other) { return other != LeafGraph::none && graph.leaf(other).level > q.level; };
+    const auto finer = [&](std::int32_t other) {
+      return other != LeafGraph::none && graph.leaf(other).level > q.level;
+    };
     EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::right), finer(graph.leaf_at(q.x + q.size(), q.y)));
     EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::top), finer(graph.leaf_at(q.x, q.y + q.size())));
     EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::left), finer(around.west));
@@ -56,7 +60,9 @@ TEST(LeafGraph, EarlierNeighboursComeEarlierAlongTheCurve) {
   const Forest forest = refined_brick(brick_lattice);
   const LeafGraph graph(test::world(), brick_lattice, forest);
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    for (const std::int32_t before : {graph.around(leaf).south_west, graph.around(leaf).south, graph.around(leaf).west}) EXPECT_LT(before, leaf);
+    for (const std::int32_t before :
+         {graph.around(leaf).south_west, graph.around(leaf).south, graph.around(leaf).west})
+      EXPECT_LT(before, leaf);
   }
 }
 
@@ -64,7 +70,8 @@ TEST(LeafGraph, PlacesNameTheOwners) {
   const Forest forest = refined_brick(brick_lattice);
   const LeafGraph graph(test::world(), brick_lattice, forest);
   std::vector<Quadrant> local;
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) local.push_back(graph.leaf(leaf));
+  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf)
+    local.push_back(graph.leaf(leaf));
   const auto counts = test::world().all_gather(static_cast<std::int64_t>(local.size()));
   const auto all = test::world().all_gather_values(std::span<const Quadrant>(local));
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {

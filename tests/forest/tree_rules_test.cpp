@@ -19,7 +19,8 @@ Geometry circle_in_square(double spacing, double second_spacing = 0) {
     points.push_back({0.3 + 0.2 * std::cos(angle), -0.1 + 0.2 * std::sin(angle)});
     boundary.push_back(BoundaryId{1});
   }
-  return {{{"frame", second_spacing, 30, "none"}, {"circle", spacing, 30, "wall"}}, points, {0, 4, 68}, boundary};
+  return {
+      {{"frame", second_spacing, 30, "none"}, {"circle", spacing, 30, "wall"}}, points, {0, 4, 68}, boundary};
 }
 
 struct Tree {
@@ -27,10 +28,12 @@ struct Tree {
       : outline{geometry},
         lattice{choose_root(geometry, options.root)},
         demanded{test::world(), demands},
-        sizes{outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; }, demanded},
+        sizes{outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
+              demanded},
         graph{refine_forest(test::world(), sizes)} {
     std::vector<Quadrant> local;
-    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) local.push_back(graph.leaf(leaf));
+    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf)
+      local.push_back(graph.leaf(leaf));
     leaves = test::world().all_gather_values(std::span<const Quadrant>(local));
   }
   ShiftedOutline outline;
@@ -65,7 +68,8 @@ TEST(TreeRules, SpacingIsKeptWhereTheGeometryIs) {
     EXPECT_LE(size, 0.25);
     EXPECT_GE(size, 0.001);
     const auto segments = tree.sizes.segments_in(q);
-    const bool holds_circle = std::any_of(segments.begin(), segments.end(), [](std::int32_t s) { return s >= 4; });
+    const bool holds_circle =
+        std::any_of(segments.begin(), segments.end(), [](std::int32_t s) { return s >= 4; });
     if (holds_circle) {
       EXPECT_LE(size, 0.02);
     }
@@ -80,10 +84,12 @@ TEST_P(Gradation, NoLeafIsTooLargeForAWantedOne) {
   const double slope = (GetParam() - 1) / 2;
   int wanted_leaves = 0;
   for (const Quadrant& w : tree.leaves) {
-    if (tree.sizes.wanted_level(w) != w.level) continue;  // smaller than it was asked to be: it asks for nothing
+    if (tree.sizes.wanted_level(w) != w.level)
+      continue;  // smaller than it was asked to be: it asks for nothing
     ++wanted_leaves;
     for (const Quadrant& q : tree.leaves) {
-      EXPECT_LE(static_cast<double>(q.size()), static_cast<double>(w.size()) + slope * static_cast<double>(chebyshev_gap(q, w)) + 1);
+      EXPECT_LE(static_cast<double>(q.size()),
+                static_cast<double>(w.size()) + slope * static_cast<double>(chebyshev_gap(q, w)) + 1);
     }
   }
   EXPECT_GT(wanted_leaves, 10);
@@ -108,7 +114,8 @@ INSTANTIATE_TEST_SUITE_P(Values, Gradation, testing::Values(1.25, 1.5, 2.0));
 /// Whether the leaf r lies on side s of q (0 the bottom, counter-clockwise) and is finer.
 bool finer_on_side(const Quadrant& q, const Quadrant& r, int s) {
   if (r.level <= q.level) return false;
-  const bool beside_x = r.x < q.x + q.size() && q.x < r.x + r.size(), beside_y = r.y < q.y + q.size() && q.y < r.y + r.size();
+  const bool beside_x = r.x < q.x + q.size() && q.x < r.x + r.size(),
+             beside_y = r.y < q.y + q.size() && q.y < r.y + r.size();
   switch (s) {
     case 0: return beside_x && r.y + r.size() == q.y;
     case 1: return beside_y && r.x == q.x + q.size();
@@ -141,12 +148,14 @@ Places sorted_places(const std::vector<Quadrant>& leaves) {
   return places;
 }
 
-/// What sizes and gradation ask for, then leaves between finer ones split, one after another, until there is none.
+/// What sizes and gradation ask for, then leaves between finer ones split, one after another, until there is
+/// none.
 std::vector<Quadrant> smallest_tree(Tree& tree) {
   std::vector<Quadrant> leaves;
   for (int ty = 0; ty < tree.lattice.trees_y(); ++ty) {
     for (int tx = 0; tx < tree.lattice.trees_x(); ++tx)
-      split_by_size({std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0}, tree.sizes, leaves);
+      split_by_size({std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0},
+                    tree.sizes, leaves);
   }
   for (std::size_t i = 0; i < leaves.size();) {
     const Quadrant q = leaves[i];
@@ -175,12 +184,14 @@ std::vector<Quadrant> wanted_leaves(Tree& tree) {
 /// Whether sizes or gradation forbid a leaf here: a wanted one lies in it, or is too small and too near.
 bool is_forbidden(const Quadrant& q, const std::vector<Quadrant>& wanted, double slope) {
   return std::any_of(wanted.begin(), wanted.end(), [&](const Quadrant& w) {
-    const bool too_near = static_cast<double>(q.size() - w.size()) > slope * static_cast<double>(chebyshev_gap(q, w));
+    const bool too_near =
+        static_cast<double>(q.size() - w.size()) > slope * static_cast<double>(chebyshev_gap(q, w));
     return (q.contains(w) && w.level > q.level) || too_near;
   });
 }
 
-/// Nothing is split but what sizes and gradation ask for, and leaves between two finer ones, in the end and one after another.
+/// Nothing is split but what sizes and gradation ask for, and leaves between two finer ones, in the end and
+/// one after another.
 TEST_P(Gradation, TheTreeIsTheSmallest) {
   const Geometry even = circle_in_square(0.02), uneven = circle_in_square(0.05, 0.06);
   int squeezed = 0;
@@ -195,7 +206,8 @@ TEST_P(Gradation, TheTreeIsTheSmallest) {
       EXPECT_EQ(forbidden, tree.sizes.must_split(parent));
       if (forbidden) continue;
       ++squeezed;
-      EXPECT_TRUE(is_squeezed(parent, tree.leaves)) << parent.x << ", " << parent.y << ", level " << parent.level;
+      EXPECT_TRUE(is_squeezed(parent, tree.leaves))
+          << parent.x << ", " << parent.y << ", level " << parent.level;
     }
   }
   EXPECT_EQ(squeezed, GetParam() == 1.25 ? 0 : GetParam() == 1.5 ? 11 : 6);
@@ -216,7 +228,8 @@ TEST(TreeRules, SourcesRefineWithoutGeometry) {
   Box box;
   box.include({-0.9, -0.9});
   box.include({-0.7, -0.8});
-  options.sources = {{box, 0.01}, {Source::Disc{{-0.5, 0.5}, 0.1}, 0.02}, {Source::Line{{0.5, 0.6}, {0.9, 0.9}}, 0.02}};
+  options.sources = {
+      {box, 0.01}, {Source::Disc{{-0.5, 0.5}, 0.1}, 0.02}, {Source::Line{{0.5, 0.6}, {0.9, 0.9}}, 0.02}};
   const Tree tree(geometry, options);
   const auto size_at = [&](Point p) {
     for (const Quadrant& q : tree.leaves) {
@@ -235,7 +248,8 @@ TEST(TreeRules, DemandsRefineBelowTheCasesSmallestLeaf) {
   const SizeOptions options = options_with(0.05, 0.5, 1.5);
   const Tree before(geometry, options);
   const auto coarsest =
-      std::min_element(before.leaves.begin(), before.leaves.end(), [](const Quadrant& a, const Quadrant& b) { return a.level < b.level; });
+      std::min_element(before.leaves.begin(), before.leaves.end(),
+                       [](const Quadrant& a, const Quadrant& b) { return a.level < b.level; });
   const Quadrant deep = coarsest->child(3).child(0).child(3).child(3).child(0);
   const std::vector<SplitDemand> demands{{deep, 1U << deep.level}};
   const Tree after(geometry, options, test::world().is_root() ? demands : std::vector<SplitDemand>{});
@@ -252,18 +266,21 @@ TEST(TreeRules, DemandsRefineBelowTheCasesSmallestLeaf) {
   }
   EXPECT_EQ(split, 4);
   for (const Quadrant& q : before.leaves) {
-    const bool kept = std::any_of(after.leaves.begin(), after.leaves.end(), [&](const Quadrant& r) { return q.contains(r); });
+    const bool kept = std::any_of(after.leaves.begin(), after.leaves.end(),
+                                  [&](const Quadrant& r) { return q.contains(r); });
     EXPECT_TRUE(kept) << "the new tree is a refinement of the old one";
   }
 }
 
 TEST(TreeRules, GapsAreResolvedButCornersAreNot) {
   // Two bars 0.02 apart, which their own spacing of 0.2 would not resolve.
-  const std::vector<Point> points{{-1, -1},    {1, -1},     {1, 1},        {-1, 1},       {-0.5, 0.01}, {-0.5, 0.21},
-                                  {0.5, 0.21}, {0.5, 0.01}, {-0.5, -0.21}, {-0.5, -0.01}, {0.5, -0.01}, {0.5, -0.21}};
+  const std::vector<Point> points{{-1, -1},      {1, -1},       {1, 1},       {-1, 1},
+                                  {-0.5, 0.01},  {-0.5, 0.21},  {0.5, 0.21},  {0.5, 0.01},
+                                  {-0.5, -0.21}, {-0.5, -0.01}, {0.5, -0.01}, {0.5, -0.21}};
   std::vector<BoundaryId> boundary(4, BoundaryId{0});
   boundary.resize(12, BoundaryId{1});
-  const Geometry geometry({{"frame", 0.5, 30, "none"}, {"bars", 0.2, 30, "wall"}}, points, {0, 4, 8, 12}, boundary);
+  const Geometry geometry({{"frame", 0.5, 30, "none"}, {"bars", 0.2, 30, "wall"}}, points, {0, 4, 8, 12},
+                          boundary);
   SizeOptions options = options_with(0.001, 0.5, 1.5);
   const Tree coarse(geometry, options);
   options.gap = 2;
@@ -277,17 +294,23 @@ TEST(TreeRules, GapsAreResolvedButCornersAreNot) {
   EXPECT_GT(fine.lattice.edge(finest_coarse), 0.05);
   EXPECT_LE(fine.lattice.edge(finest_fine), 0.01);
   EXPECT_GT(fine.lattice.edge(finest_fine), 0.004);
-  EXPECT_GE(fine.lattice.edge(at_frame_corner), 0.1) << "the two sides of a corner are no gap; gradation from the bars allows 0.125 there";
+  EXPECT_GE(fine.lattice.edge(at_frame_corner), 0.1)
+      << "the two sides of a corner are no gap; gradation from the bars allows 0.125 there";
 }
 
-/// A kite whose tip at the origin, on lattice lines, turns by 150 degrees or so; its two boundaries merely meet in the bend at its widest point
-/// below.
+/// A kite whose tip at the origin, on lattice lines, turns by 150 degrees or so; its two boundaries merely
+/// meet in the bend at its widest point below.
 Geometry kite_in_square(double corner_degrees) {
-  const std::vector<Point> points{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, 0}, {-0.5, -0.13}, {-0.77, -0.18}, {-0.77, 0.13}, {-0.5, 0.13}};
+  const std::vector<Point> points{{-1, -1},      {1, -1},        {1, 1},        {-1, 1},     {0, 0},
+                                  {-0.5, -0.13}, {-0.77, -0.18}, {-0.77, 0.13}, {-0.5, 0.13}};
   std::vector<BoundaryId> boundary(4, BoundaryId{0});
   boundary.resize(9, BoundaryId{1});
   boundary[4] = BoundaryId{2};
-  return {{{"frame", 0.5, 30, "none"}, {"kite", 0.5, corner_degrees, "wall", 0.01}, {"below", 0.5, 140, "wall"}}, points, {0, 4, 9}, boundary};
+  return {
+      {{"frame", 0.5, 30, "none"}, {"kite", 0.5, corner_degrees, "wall", 0.01}, {"below", 0.5, 140, "wall"}},
+      points,
+      {0, 4, 9},
+      boundary};
 }
 
 /// The edges of the largest and of the smallest leaf that touch a point.
@@ -295,7 +318,8 @@ std::pair<double, double> edges_at(const Tree& tree, Point p) {
   std::pair<double, double> edges{0, 10};
   for (const Quadrant& q : tree.leaves) {
     if (!tree.lattice.box_of(q).contains(p)) continue;
-    edges = {std::max(edges.first, tree.lattice.edge(q.level)), std::min(edges.second, tree.lattice.edge(q.level))};
+    edges = {std::max(edges.first, tree.lattice.edge(q.level)),
+             std::min(edges.second, tree.lattice.edge(q.level))};
   }
   return edges;
 }
@@ -303,14 +327,17 @@ std::pair<double, double> edges_at(const Tree& tree, Point p) {
 TEST(TreeRules, SharpCornersRefineAllLeavesThatTouchThem) {
   const Geometry geometry = kite_in_square(120);
   const Tree tree(geometry, options_with(0.001, 0.5, 1.5));
-  EXPECT_LE(edges_at(tree, {0, 0}).first, 0.01) << "the tip lies where four leaves meet: mirror images must agree";
+  EXPECT_LE(edges_at(tree, {0, 0}).first, 0.01)
+      << "the tip lies where four leaves meet: mirror images must agree";
   EXPECT_GT(edges_at(tree, {0, 0}).second, 0.004);
-  EXPECT_GT(edges_at(tree, {-0.5, -0.13}).second, 0.05) << "two boundaries meet there, but the outline hardly turns";
+  EXPECT_GT(edges_at(tree, {-0.5, -0.13}).second, 0.05)
+      << "two boundaries meet there, but the outline hardly turns";
   EXPECT_GT(edges_at(tree, {-0.77, 0.13}).second, 0.05) << "it turns by less than 'corner'";
   EXPECT_GT(edges_at(tree, {1, 1}).second, 0.05) << "the frame asks for nothing at its corners";
   const Geometry with_all_corners = kite_in_square(30);
   EXPECT_LE(edges_at(Tree(with_all_corners, options_with(0.001, 0.5, 1.5)), {-0.77, 0.13}).first, 0.01);
-  EXPECT_GT(edges_at(Tree(with_all_corners, options_with(0.04, 0.5, 1.5)), {0, 0}).second, 0.04) << "min bounds it";
+  EXPECT_GT(edges_at(Tree(with_all_corners, options_with(0.04, 0.5, 1.5)), {0, 0}).second, 0.04)
+      << "min bounds it";
 }
 
 TEST(TreeRules, CornerSpacingCountsInTheDigestOnlyWhereItIsSet) {

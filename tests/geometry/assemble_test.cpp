@@ -1,4 +1,4 @@
-#include "mesher/geometry/assemble.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,8 @@ TEST(Assemble, KeepsAGoodLoopAsItIs) {
 
 TEST(Assemble, TurnsLoopsByNestingDepth) {
   Warnings warnings;
-  const auto lake = square("lake", {0, 0}, 1), island = square("island", {0, 0}, 2), sea = square("sea", {0, 0}, 4);
+  const auto lake = square("lake", {0, 0}, 1), island = square("island", {0, 0}, 2),
+             sea = square("sea", {0, 0}, 4);
   const Geometry g = assembled({reversed(lake), island, sea}, &warnings);
   EXPECT_GT(loop_area(g, 0), 0);
   EXPECT_LT(loop_area(g, 1), 0);
@@ -61,13 +62,15 @@ TEST(Assemble, SaysNothingOfADomainThatIsKnown) {
   Warnings warnings;
   AssembleOptions options;
   options.domain_is_known = true;
-  const Geometry g = assemble({reversed(square("fore", {0, 0}, 1)), square("aft", {5, 0}, 1)}, options, warnings);
+  const Geometry g =
+      assemble({reversed(square("fore", {0, 0}, 1)), square("aft", {5, 0}, 1)}, options, warnings);
   EXPECT_EQ(g.loop_count(), 2);
   EXPECT_TRUE(warnings.empty());
 }
 
 TEST(Assemble, JoinsOpenChains) {
-  const Geometry g = assembled({open("coast", {{0, 0}, {1, 0}, {1, 1}}), open("sea", {{1, 1}, {0, 1}, {0, 0}})});
+  const Geometry g =
+      assembled({open("coast", {{0, 0}, {1, 0}, {1, 1}}), open("sea", {{1, 1}, {0, 1}, {0, 0}})});
   ASSERT_EQ(g.size(), 4);
   EXPECT_EQ(g.boundary(g.boundary_of(0)).name, "coast");
   EXPECT_EQ(g.boundary(g.boundary_of(1)).name, "coast");
@@ -76,14 +79,17 @@ TEST(Assemble, JoinsOpenChains) {
 }
 
 TEST(Assemble, JoinsChainsInAnyDirection) {
-  const Geometry straight = assembled({open("a", {{0, 0}, {1, 0}, {1, 1}}), open("b", {{1, 1}, {0, 1}, {0, 0}})});
-  const Geometry mixed = assembled({open("a", {{0, 0}, {1, 0}, {1, 1}}), open("b", {{0, 0}, {0, 1}, {1, 1}})});
+  const Geometry straight =
+      assembled({open("a", {{0, 0}, {1, 0}, {1, 1}}), open("b", {{1, 1}, {0, 1}, {0, 0}})});
+  const Geometry mixed =
+      assembled({open("a", {{0, 0}, {1, 0}, {1, 1}}), open("b", {{0, 0}, {0, 1}, {1, 1}})});
   EXPECT_EQ(straight.digest(), mixed.digest());
 }
 
 TEST(Assemble, TurnsALoopOfChainsWithItsBoundaries) {
   Warnings warnings;
-  const Geometry g = assembled({open("a", {{0, 0}, {0, 1}, {1, 1}}), open("b", {{1, 1}, {1, 0}, {0, 0}})}, &warnings);
+  const Geometry g =
+      assembled({open("a", {{0, 0}, {0, 1}, {1, 1}}), open("b", {{1, 1}, {1, 0}, {0, 0}})}, &warnings);
   EXPECT_EQ(warnings.size(), 1u);
   EXPECT_GT(loop_area(g, 0), 0);
   for (std::int32_t s = 0; s < g.size(); ++s) {
@@ -93,7 +99,8 @@ TEST(Assemble, TurnsALoopOfChainsWithItsBoundaries) {
 }
 
 TEST(Assemble, MakesOneBoundaryOfOneName) {
-  const Geometry g = assembled({square("sea", {0, 0}, 9), reversed(square("island", {-3, 0}, 1)), reversed(square("island", {3, 0}, 1))});
+  const Geometry g = assembled({square("sea", {0, 0}, 9), reversed(square("island", {-3, 0}, 1)),
+                                reversed(square("island", {3, 0}, 1))});
   EXPECT_EQ(g.boundaries().size(), 2u);
   EXPECT_EQ(g.loop_count(), 3);
   EXPECT_EQ(g.boundary_of(4), g.boundary_of(8));
@@ -116,7 +123,8 @@ TEST(Assemble, RefusesWhatIsNoDomain) {
 }
 
 TEST(Assemble, RefusesALooseEndWithItsPlace) {
-  const std::string message = refused({open("coast", {{0, 0}, {1, 0}, {1, 1}}), open("sea", {{1, 1}, {0, 1}, {0, 1e-9}})});
+  const std::string message =
+      refused({open("coast", {{0, 0}, {1, 0}, {1, 1}}), open("sea", {{1, 1}, {0, 1}, {0, 1e-9}})});
   EXPECT_NE(message.find("'coast'"), std::string::npos) << message;
   EXPECT_NE(message.find("(0, 0)"), std::string::npos) << message;
   EXPECT_NE(message.find("watertight"), std::string::npos) << message;
@@ -125,21 +133,26 @@ TEST(Assemble, RefusesALooseEndWithItsPlace) {
 
 TEST(Assemble, RefusesThreeEndsAtOnePoint) {
   const std::string message =
-      refused({open("a", {{0, 0}, {1, 0}, {1, 1}}), open("b", {{1, 1}, {0, 1}, {0, 0}}), open("c", {{0, 0}, {0.5, 0.5}, {1, 1}})});
+      refused({open("a", {{0, 0}, {1, 0}, {1, 1}}), open("b", {{1, 1}, {0, 1}, {0, 0}}),
+               open("c", {{0, 0}, {0.5, 0.5}, {1, 1}})});
   EXPECT_NE(message.find("3 chains end at (0, 0)"), std::string::npos) << message;
 }
 
 TEST(Assemble, RefusesCoordinatesThatAreNotFinite) {
-  const std::string message = refused({closed("bad", {{0, 0}, {1, 0}, {1, std::numeric_limits<double>::quiet_NaN()}})});
+  const std::string message =
+      refused({closed("bad", {{0, 0}, {1, 0}, {1, std::numeric_limits<double>::quiet_NaN()}})});
   EXPECT_NE(message.find("'bad': point 3 is (1, nan)"), std::string::npos) << message;
 }
 
 TEST(Assemble, NestsByExactSidesThroughVertices) {
   // The inner loop's leftmost points lie level with vertices of the outer ones.
   std::vector<Chain> chains{square("sea", {0, 0}, 64)};
-  for (int ring = 1; ring <= 30; ++ring) chains.push_back(closed("diamond", {{-2.0 * ring, 0}, {0, -2.0 * ring}, {2.0 * ring, 0}, {0, 2.0 * ring}}));
+  for (int ring = 1; ring <= 30; ++ring)
+    chains.push_back(
+        closed("diamond", {{-2.0 * ring, 0}, {0, -2.0 * ring}, {2.0 * ring, 0}, {0, 2.0 * ring}}));
   const Geometry g = assembled(chains);
-  for (std::int32_t loop = 1; loop <= 30; ++loop) EXPECT_EQ(loop_area(g, loop) > 0, (31 - loop) % 2 == 0) << loop;
+  for (std::int32_t loop = 1; loop <= 30; ++loop)
+    EXPECT_EQ(loop_area(g, loop) > 0, (31 - loop) % 2 == 0) << loop;
 }
 
 TEST(Assemble, JoinsEndsThatDifferByRounding) {
@@ -160,7 +173,8 @@ TEST(Assemble, JoinsEndsThatDifferByRounding) {
 
 TEST(Assemble, ClosesAChainWhoseEndsDifferByRounding) {
   Warnings warnings;
-  const Geometry geometry = assemble({{"ring", true, {{0.1, 0.3}, {1, 0}, {1, 1}, {0.1 + 1e-16, 0.3}}, "a:1"}}, {}, warnings);
+  const Geometry geometry =
+      assemble({{"ring", true, {{0.1, 0.3}, {1, 0}, {1, 1}, {0.1 + 1e-16, 0.3}}, "a:1"}}, {}, warnings);
   EXPECT_EQ(geometry.size(), 3);
   EXPECT_EQ(warnings.size(), 1u);
 }

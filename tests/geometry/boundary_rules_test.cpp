@@ -1,4 +1,4 @@
-#include "mesher/geometry/boundary_rules.hpp"
+#include "mesher/geometry/assemble/boundary_rules.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,13 @@
 
 namespace quadloop::test {
 
-Chain closed(const std::string& name, std::vector<Point> points) { return {name, false, std::move(points), "test:" + name}; }
+Chain closed(const std::string& name, std::vector<Point> points) {
+  return {name, false, std::move(points), "test:" + name};
+}
 
-Chain open(const std::string& name, std::vector<Point> points) { return {name, true, std::move(points), "test:" + name}; }
+Chain open(const std::string& name, std::vector<Point> points) {
+  return {name, true, std::move(points), "test:" + name};
+}
 
 Chain square(const std::string& name, Point c, double w) {
   return closed(name, {{c.x - w, c.y - w}, {c.x + w, c.y - w}, {c.x + w, c.y + w}, {c.x - w, c.y + w}});

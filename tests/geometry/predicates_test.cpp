@@ -33,7 +33,8 @@ TEST(Orientation, IsExactBesideALine) {
 }
 
 TEST(Orientation, IsExactWhereProductsUnderflowOrOverflow) {
-  for (const double size : {std::numeric_limits<double>::denorm_min(), 0x1p-540, 0x1p-500, 0x1p-480, 1.0, 0x1p500, 0x1p520}) {
+  for (const double size :
+       {std::numeric_limits<double>::denorm_min(), 0x1p-540, 0x1p-500, 0x1p-480, 1.0, 0x1p500, 0x1p520}) {
     expect_exact({0, 0}, {3 * size, 0}, {3 * size, size});
     expect_exact({0, 0}, {3 * size, size}, {6 * size, 2 * size});
     expect_exact({0, 0}, {5 * size, 3 * size}, {7 * size, 4 * size});

@@ -1,4 +1,4 @@
-#include "mesher/geometry/transform.hpp"
+#include "mesher/geometry/assemble/transform.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,14 +36,18 @@ TEST(FarField, EnclosesTheGeometryAroundItsCentre) {
 
 TEST(FarField, RefusesATooSmallOne) {
   std::vector<Chain> chains{square("body", {3, 4}, 1)};
-  const std::string message = refusal([&] { add_far_field(chains, far_field_box(chains, 1, "case.toml:3"), "case.toml:3"); });
+  const std::string message =
+      refusal([&] { add_far_field(chains, far_field_box(chains, 1, "case.toml:3"), "case.toml:3"); });
   EXPECT_EQ(message.find("case.toml:3"), 0u) << message;
   EXPECT_NE(message.find("does not enclose"), std::string::npos) << message;
 }
 
 TEST(FarField, RefusesASecondOne) {
   std::vector<Chain> chains{square("farfield", {3, 4}, 1)};
-  EXPECT_NE(refusal([&] { add_far_field(chains, far_field_box(chains, 9, "case.toml:3"), "case.toml:3"); }).find("already"), std::string::npos);
+  EXPECT_NE(refusal([&] {
+              add_far_field(chains, far_field_box(chains, 9, "case.toml:3"), "case.toml:3");
+            }).find("already"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "mesher/base/error.hpp"
-#include "mesher/geometry/join_chains.hpp"
+#include "mesher/geometry/assemble/join_chains.hpp"
 #include "mesher/geometry/meeting_pairs.hpp"
 #include "tests/geometry/outlines.hpp"
 
@@ -26,36 +26,46 @@ std::string refused(const std::vector<Chain>& chains) {
 }
 
 void expect_all_in(const std::string& message, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
+  for (const std::string& part : parts)
+    EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
 }
 
 TEST(Validate, NamesWhereABoundaryCrossesItself) {
-  expect_all_in(refused({closed("bow", {{0, 0}, {2, 2}, {2, 0}, {0, 2}})}), {"test:bow", "'bow'", "(1, 1)", "cross"});
+  expect_all_in(refused({closed("bow", {{0, 0}, {2, 2}, {2, 0}, {0, 2}})}),
+                {"test:bow", "'bow'", "(1, 1)", "cross"});
 }
 
 TEST(Validate, NamesBothBoundariesThatMeet) {
-  expect_all_in(refused({square("one", {0, 0}, 2), square("two", {2, 2}, 1)}), {"'one'", "'two'", "(2, 1)", "1 more"});
+  expect_all_in(refused({square("one", {0, 0}, 2), square("two", {2, 2}, 1)}),
+                {"'one'", "'two'", "(2, 1)", "1 more"});
 }
 
 TEST(Validate, RefusesTouchingAtAVertex) {
   expect_all_in(refused({square("one", {0, 0}, 1), square("two", {2, 2}, 1)}), {"'one'", "'two'", "(1, 1)"});
 }
 
-TEST(Validate, RefusesTouchingAtASide) { expect_all_in(refused({square("one", {0, 0}, 1), closed("two", {{1, 0}, {2, -1}, {2, 1}})}), {"(1, 0)"}); }
+TEST(Validate, RefusesTouchingAtASide) {
+  expect_all_in(refused({square("one", {0, 0}, 1), closed("two", {{1, 0}, {2, -1}, {2, 1}})}), {"(1, 0)"});
+}
 
 TEST(Validate, RefusesAVertexVisitedTwice) {
   expect_all_in(refused({closed("eight", {{0, 0}, {1, 1}, {2, 0}, {2, 2}, {1, 1}, {0, 2}})}), {"(1, 1)"});
 }
 
 TEST(Validate, RefusesASpikeOfZeroWidth) {
-  expect_all_in(refused({closed("spike", {{0, 0}, {4, 0}, {4, 2}, {8, 2}, {4, 2}, {4, 4}, {0, 4}})}), {"'spike'"});
-  expect_all_in(refused({closed("spike", {{0, 0}, {4, 0}, {4, 4}, {2, 4}, {2, 9}, {2, 3}, {0, 4}})}), {"'spike'"});
+  expect_all_in(refused({closed("spike", {{0, 0}, {4, 0}, {4, 2}, {8, 2}, {4, 2}, {4, 4}, {0, 4}})}),
+                {"'spike'"});
+  expect_all_in(refused({closed("spike", {{0, 0}, {4, 0}, {4, 4}, {2, 4}, {2, 9}, {2, 3}, {0, 4}})}),
+                {"'spike'"});
 }
 
-TEST(Validate, RefusesTheSameLoopTwice) { expect_all_in(refused({square("one", {0, 0}, 1), square("one", {0, 0}, 1)}), {"'one'"}); }
+TEST(Validate, RefusesTheSameLoopTwice) {
+  expect_all_in(refused({square("one", {0, 0}, 1), square("one", {0, 0}, 1)}), {"'one'"});
+}
 
 TEST(Validate, AcceptsCollinearPoints) {
-  const auto places = validate(join_chains({closed("box", {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}})}));
+  const auto places = validate(
+      join_chains({closed("box", {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}})}));
   ASSERT_EQ(places.size(), 1u);
   EXPECT_TRUE(places[0].counter_clockwise);
   EXPECT_EQ(places[0].depth, 0);
@@ -141,7 +151,8 @@ TEST(Validate, IsFastForLongParallelSegments) {
   }
   const auto start = std::chrono::steady_clock::now();
   validate(join_chains(chains));
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 20) << "quadratic?";
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 20)
+      << "quadratic?";
 }
 
 }  // namespace

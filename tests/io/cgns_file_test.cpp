@@ -1,6 +1,6 @@
-// CGNS files that others write, whole and wrong, put together by the library and, where that refuses to write what is wrong, by HDF5. On one rank
-// alone.
-#include "io/cgns_file.hpp"
+// CGNS files that others write, whole and wrong, put together by the library and, where that refuses to write
+// what is wrong, by HDF5. On one rank alone.
+#include "io/cgns/cgns_file.hpp"
 
 #include <cgnslib.h>
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "io/tree_file.hpp"
+#include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -25,19 +25,25 @@ using test::TemporaryFolder;
 
 constexpr std::int32_t largest = std::numeric_limits<std::int32_t>::max();
 
-/// Puts other data, of a type and size that the file did not have, in the place of a dataset's; what is only declared is nowhere in the file.
-void replace_data(const std::string& path, const std::string& dataset, const std::vector<hsize_t>& size, const std::vector<std::int32_t>& numbers) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), space = H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr);
+/// Puts other data, of a type and size that the file did not have, in the place of a dataset's; what is only
+/// declared is nowhere in the file.
+void replace_data(const std::string& path, const std::string& dataset, const std::vector<hsize_t>& size,
+                  const std::vector<std::int32_t>& numbers) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+              space = H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr);
   ASSERT_GE(H5Ldelete(file, dataset.c_str(), H5P_DEFAULT), 0) << dataset;
-  const hid_t data = H5Dcreate2(file, dataset.c_str(), H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  const bool written = numbers.empty() || H5Dwrite(data, H5T_NATIVE_INT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0;
+  const hid_t data =
+      H5Dcreate2(file, dataset.c_str(), H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const bool written =
+      numbers.empty() || H5Dwrite(data, H5T_NATIVE_INT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0;
   EXPECT_TRUE(written) << dataset;
   H5Dclose(data);
   H5Sclose(space);
   H5Fclose(file);
 }
 
-/// A unit square of one quad and, to its right, two triangles; the edges below are bars 4 and 5, the boundary "wall".
+/// A unit square of one quad and, to its right, two triangles; the edges below are bars 4 and 5, the boundary
+/// "wall".
 void write_sample(const std::string& path, bool mixed) {
   int file = 0, base = 0, zone = 0, at = 0;
   const std::array<cgsize_t, 3> size{6, 3, 0};
@@ -49,9 +55,12 @@ void write_sample(const std::string& path, bool mixed) {
   cg_coord_write(file, base, zone, RealDouble, "CoordinateX", x.data(), &at);
   cg_coord_write(file, base, zone, RealDouble, "CoordinateY", y.data(), &at);
   if (mixed) {
-    const std::array<cgsize_t, 19> elements{QUAD_4, 1, 2, 5, 4, TRI_3, 2, 3, 6, TRI_3, 2, 6, 5, BAR_2, 1, 2, BAR_2, 2, 3};
+    const std::array<cgsize_t, 19> elements{QUAD_4, 1, 2, 5,     4, TRI_3, 2,     3, 6, TRI_3,
+                                            2,      6, 5, BAR_2, 1, 2,     BAR_2, 2, 3};
     const std::array<cgsize_t, 6> offsets{0, 5, 9, 13, 16, 19};
-    EXPECT_EQ(cg_poly_section_write(file, base, zone, "All", MIXED, 1, 5, 0, elements.data(), offsets.data(), &at), CG_OK);
+    EXPECT_EQ(
+        cg_poly_section_write(file, base, zone, "All", MIXED, 1, 5, 0, elements.data(), offsets.data(), &at),
+        CG_OK);
   } else {
     const std::array<cgsize_t, 4> quad{1, 2, 5, 4}, bars{1, 2, 2, 3};
     const std::array<cgsize_t, 6> triangles{2, 3, 6, 2, 6, 5};
@@ -59,7 +68,9 @@ void write_sample(const std::string& path, bool mixed) {
     cg_section_write(file, base, zone, "Triangles", TRI_3, 2, 3, 0, triangles.data(), &at);
     cg_section_write(file, base, zone, "Bars", BAR_2, 4, 5, 0, bars.data(), &at);
   }
-  EXPECT_EQ(cg_boco_write(file, base, zone, "wall", BCWall, PointRange, 2, std::array<cgsize_t, 2>{4, 5}.data(), &at), CG_OK);
+  EXPECT_EQ(cg_boco_write(file, base, zone, "wall", BCWall, PointRange, 2,
+                          std::array<cgsize_t, 2>{4, 5}.data(), &at),
+            CG_OK);
   cg_boco_gridlocation_write(file, base, zone, at, EdgeCenter);
   ASSERT_EQ(cg_close(file), CG_OK);
 }
@@ -80,10 +91,14 @@ std::string refusal_after(const std::function<void(const std::string&)>& change,
 
 /// The same, where the numbers of the boundary's range are others.
 std::string refusal_of_range(const std::vector<std::int32_t>& numbers) {
-  return refusal_after([&](const std::string& path) { replace_data(path, "/Base/Zone/ZoneBC/wall/PointRange/ data", {numbers.size(), 1}, numbers); });
+  return refusal_after([&](const std::string& path) {
+    replace_data(path, "/Base/Zone/ZoneBC/wall/PointRange/ data", {numbers.size(), 1}, numbers);
+  });
 }
 
-void expect_in(const std::string& text, const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << text << "\nlacks\n" << part; }
+void expect_in(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << text << "\nlacks\n" << part;
+}
 
 TEST(CgnsReader, ReadsSectionsOfOneKindAndMixedOnes) {
   for (const bool mixed : {false, true}) {
@@ -95,12 +110,14 @@ TEST(CgnsReader, ReadsSectionsOfOneKindAndMixedOnes) {
     ASSERT_EQ(loaded.mesh.boundaries.size(), 1U);
     EXPECT_EQ(loaded.mesh.boundaries[0].name, "wall");
     EXPECT_EQ(loaded.mesh.boundaries[0].condition, "wall");
-    EXPECT_EQ(loaded.mesh.boundaries[0].edges, (std::vector<std::array<NodeId, 2>>{{NodeId{0}, NodeId{1}}, {NodeId{1}, NodeId{2}}}));
+    EXPECT_EQ(loaded.mesh.boundaries[0].edges,
+              (std::vector<std::array<NodeId, 2>>{{NodeId{0}, NodeId{1}}, {NodeId{1}, NodeId{2}}}));
   }
 }
 
 TEST(CgnsReader, RefusesRangesThatAreNone) {
-  expect_in(refusal_of_range({5, 1}), "m.cgns: zone Zone: boundary wall is of the elements 5 to 1, which is no range");
+  expect_in(refusal_of_range({5, 1}),
+            "m.cgns: zone Zone: boundary wall is of the elements 5 to 1, which is no range");
   expect_in(refusal_of_range({4, largest}), "boundary wall names element 6, which is no BAR_2");
   expect_in(refusal_of_range({1, largest}), "boundary wall names element 1, which is no BAR_2");
   expect_in(refusal_of_range({4}), "m.cgns: ");
@@ -109,24 +126,36 @@ TEST(CgnsReader, RefusesRangesThatAreNone) {
 
 TEST(CgnsReader, RefusesSectionsThatDoNotHoldTheirRange) {
   const auto refusal = [](const std::vector<std::int32_t>& range) {
-    return refusal_after([&](const std::string& path) { replace_data(path, "/Base/Zone/Bars/ElementRange/ data", {2}, range); });
+    return refusal_after([&](const std::string& path) {
+      replace_data(path, "/Base/Zone/Bars/ElementRange/ data", {2}, range);
+    });
   };
-  for (const std::vector<std::int32_t>& range : {std::vector<std::int32_t>{5, 4}, {4, largest}, {4, 4}, {-3, largest}, {0, 1}}) {
+  for (const std::vector<std::int32_t>& range :
+       {std::vector<std::int32_t>{5, 4}, {4, largest}, {4, 4}, {-3, largest}, {0, 1}}) {
     expect_in(refusal(range), "m.cgns: ");
   }
 }
 
-/// The library writes as many offsets as the file has, whatever the section's range: more than there is room for.
+/// The library writes as many offsets as the file has, whatever the section's range: more than there is room
+/// for.
 TEST(CgnsReader, TakesNoOffsetsOfMixedSectionsThatItHasNoRoomFor) {
   const std::vector<std::int32_t> offsets(100000, 0);
-  const std::string refusal =
-      refusal_after([&](const std::string& path) { replace_data(path, "/Base/Zone/All/ElementStartOffset/ data", {offsets.size()}, offsets); }, true);
+  const std::string refusal = refusal_after(
+      [&](const std::string& path) {
+        replace_data(path, "/Base/Zone/All/ElementStartOffset/ data", {offsets.size()}, offsets);
+      },
+      true);
   EXPECT_EQ(refusal.find("crashed"), std::string::npos) << refusal;
 }
 
 TEST(CgnsReader, TakesNoMemoryForWhatIsOnlyDeclared) {
-  expect_in(refusal_after([](const std::string& path) { replace_data(path, "/Base/Zone/ data", {3, 1}, {largest, 3, 0}); }), "m.cgns: ");
-  expect_in(refusal_after([](const std::string& path) { replace_data(path, "/Base/Zone/Quads/ElementConnectivity/ data", {1U << 30}, {}); }),
+  expect_in(refusal_after([](const std::string& path) {
+              replace_data(path, "/Base/Zone/ data", {3, 1}, {largest, 3, 0});
+            }),
+            "m.cgns: ");
+  expect_in(refusal_after([](const std::string& path) {
+              replace_data(path, "/Base/Zone/Quads/ElementConnectivity/ data", {1U << 30}, {});
+            }),
             "m.cgns: ");
 }
 

@@ -1,6 +1,6 @@
-// Damaged files of the formats that we parse ourselves: flipped bits, cut ends, other numbers, pieces that stand twice. Whatever comes is read as a
-// mesh or refused with a place; nothing else is thrown, and no memory is taken that the file does not explain. Seeded; QUADLOOP_DAMAGES sets how
-// many.
+// Damaged files of the formats that we parse ourselves: flipped bits, cut ends, other numbers, pieces that
+// stand twice. Whatever comes is read as a mesh or refused with a place; nothing else is thrown, and no
+// memory is taken that the file does not explain. Seeded; QUADLOOP_DAMAGES sets how many.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "io/loaded/tidy_mesh.hpp"
 #include "io/mesh_file.hpp"
 #include "io/solution_file.hpp"
-#include "io/tidy_mesh.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -39,7 +39,9 @@ void limit_memory() {
   std::array<rlim_t, 6> pages{};
   for (rlim_t& number : pages) statm >> number;
   const rlim_t bytes = pages[5] * 4096 + (rlim_t{1} << 30);
-  const rlimit limit{bytes, bytes};
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_DATA, &limit), 0);
+  limit.rlim_cur = std::min(bytes, limit.rlim_max);
   ASSERT_EQ(setrlimit(RLIMIT_DATA, &limit), 0);
 }
 
@@ -72,9 +74,20 @@ class Damager {
   }
 
   void replace_number(std::string& text, std::size_t at) {
-    static const std::array<const char*, 14> numbers{
-        "-1",  "0",    "2147483647", "2147483648", "4294967295", "9223372036854775807", "99999999999999999999", "1e999",
-        "nan", "-inf", "268435456",  "1",          "0x10",       "-9223372036854775808"};
+    static const std::array<const char*, 14> numbers{"-1",
+                                                     "0",
+                                                     "2147483647",
+                                                     "2147483648",
+                                                     "4294967295",
+                                                     "9223372036854775807",
+                                                     "99999999999999999999",
+                                                     "1e999",
+                                                     "nan",
+                                                     "-inf",
+                                                     "268435456",
+                                                     "1",
+                                                     "0x10",
+                                                     "-9223372036854775808"};
     const std::size_t begin = text.find_first_of("0123456789", at);
     if (begin == std::string::npos) return;
     const std::size_t end = std::min(text.find_first_not_of("0123456789.e+-", begin), text.size());
@@ -93,7 +106,8 @@ void expect_read_or_refused(const std::string& path, const std::function<void(co
   int refused = 0;
   for (int n = 0; n < damages(); ++n) {
     const std::string text = damager.damaged(whole);
-    std::filesystem::remove(path);  // a file cut to nothing and written again is brought to the disk at once, a new one is not
+    std::filesystem::remove(
+        path);  // a file cut to nothing and written again is brought to the disk at once, a new one is not
     test::write_bytes(path, text);
     try {
       read(path);
@@ -101,7 +115,8 @@ void expect_read_or_refused(const std::string& path, const std::function<void(co
       ++refused;
     } catch (const std::exception& other) {
       test::write_bytes("/tmp/quadloop_damaged" + path.substr(path.rfind('.')), text);
-      FAIL() << "damage " << n << ": " << other.what() << "; the file is kept as /tmp/quadloop_damaged" << path.substr(path.rfind('.'));
+      FAIL() << "damage " << n << ": " << other.what() << "; the file is kept as /tmp/quadloop_damaged"
+             << path.substr(path.rfind('.'));
     }
   }
   EXPECT_GT(refused, damages() / 4);
@@ -132,10 +147,14 @@ TEST(DamagedFile, OfGmsh) { damage_written("m.msh"); }
 TEST(DamagedFile, OfGmshsNewFormat) {
   const TemporaryFolder folder;
   test::write_bytes(folder.file("m.msh"),
-                    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 5 \"wall\"\n2 6 \"water\"\n$EndPhysicalNames\n"
-                    "$Entities\n1 2 1 0\n1 0 0 0 0\n1 0 0 0 2 0 0 1 5 2 1 -1\n2 0 0 0 0 1 0 0 2 1 -1\n1 0 0 0 2 1 0 1 6 2 1 2\n$EndEntities\n"
-                    "$Nodes\n2 6 1 6\n1 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n2 0 0\n2 1 0\n2 1 0 2\n5\n6\n1 1 0\n0 1 0\n$EndNodes\n"
-                    "$Elements\n3 5 1 5\n1 1 1 2\n1 1 2\n2 2 3\n2 1 3 1\n3 1 2 5 6\n2 1 2 2\n4 2 3 4\n5 2 4 5\n$EndElements\n");
+                    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 5 \"wall\"\n2 6 "
+                    "\"water\"\n$EndPhysicalNames\n"
+                    "$Entities\n1 2 1 0\n1 0 0 0 0\n1 0 0 0 2 0 0 1 5 2 1 -1\n2 0 0 0 0 1 0 0 2 1 -1\n1 0 0 "
+                    "0 2 1 0 1 6 2 1 2\n$EndEntities\n"
+                    "$Nodes\n2 6 1 6\n1 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n2 0 0\n2 1 0\n2 1 0 2\n5\n6\n1 1 "
+                    "0\n0 1 0\n$EndNodes\n"
+                    "$Elements\n3 5 1 5\n1 1 1 2\n1 1 2\n2 2 3\n2 1 3 1\n3 1 2 5 6\n2 1 2 2\n4 2 3 4\n5 2 4 "
+                    "5\n$EndElements\n");
   expect_read_or_refused(folder.file("m.msh"), read_and_look);
 }
 
@@ -152,19 +171,24 @@ std::string with_size(const std::vector<T>& values) {
 TEST(DamagedFile, OfVtkWithRawData) {
   const TemporaryFolder folder;
   const std::array<std::string, 4> arrays{with_size<double>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0.5, 0}),
-                                          with_size<std::int64_t>({0, 1, 2, 3, 1, 4, 2}), with_size<std::int64_t>({4, 7}),
-                                          with_size<std::uint8_t>({9, 5})};
+                                          with_size<std::int64_t>({0, 1, 2, 3, 1, 4, 2}),
+                                          with_size<std::int64_t>({4, 7}), with_size<std::uint8_t>({9, 5})};
   std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
       "<UnstructuredGrid><Piece NumberOfPoints=\"5\" NumberOfCells=\"2\"><Points>\n"
-      "<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/></Points><Cells>\n";
+      "<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"appended\" "
+      "offset=\"0\"/></Points><Cells>\n";
   std::string data = arrays[0];
-  const std::array<const char*, 3> heads{"Int64\" Name=\"connectivity", "Int64\" Name=\"offsets", "UInt8\" Name=\"types"};
+  const std::array<const char*, 3> heads{"Int64\" Name=\"connectivity", "Int64\" Name=\"offsets",
+                                         "UInt8\" Name=\"types"};
   for (std::size_t k = 0; k < heads.size(); ++k) {
-    text += std::string("<DataArray type=\"") + heads[k] + "\" format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"/>\n";
+    text += std::string("<DataArray type=\"") + heads[k] + "\" format=\"appended\" offset=\"" +
+            std::to_string(data.size()) + "\"/>\n";
     data += arrays[k + 1];
   }
-  text += "</Cells></Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_" + data + "</AppendedData></VTKFile>\n";
+  text += "</Cells></Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_" + data +
+          "</AppendedData></VTKFile>\n";
   test::write_bytes(folder.file("m.vtu"), text);
   expect_read_or_refused(folder.file("m.vtu"), read_and_look);
 }
@@ -172,7 +196,8 @@ TEST(DamagedFile, OfVtkWithRawData) {
 TEST(DamagedFile, OfSu2sRestart) {
   const TemporaryFolder folder;
   test::write_bytes(folder.file("s.csv"),
-                    "\"PointID\",\"x\",\"y\",\"Density\",\"Momentum_x\"\n0, 0.0, 0, 1.0, 2e-1\n1, 1, 0.5, 3, -4\n2, 1, 2, 5, 6\n");
+                    "\"PointID\",\"x\",\"y\",\"Density\",\"Momentum_x\"\n0, 0.0, 0, 1.0, 2e-1\n1, 1, 0.5, 3, "
+                    "-4\n2, 1, 2, 5, 6\n");
   expect_read_or_refused(folder.file("s.csv"), [](const std::string& path) { read_solution(path); });
 }
 

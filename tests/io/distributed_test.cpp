@@ -1,5 +1,5 @@
-// What is written does not depend on how many ranks hold it, and comes back as it was. The references are written by each rank's
-// own communicator of one.
+// What is written does not depend on how many ranks hold it, and comes back as it was. The references are
+// written by each rank's own communicator of one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,15 +7,16 @@
 #include <limits>
 #include <utility>
 
-#include "io/cgns_file.hpp"
-#include "io/msh_file.hpp"
-#include "io/native_file.hpp"
-#include "io/su2_csv_file.hpp"
-#include "io/su2_file.hpp"
-#include "io/tree_file.hpp"
-#include "io/vtu_file.hpp"
+#include "io/cgns/cgns_file.hpp"
+#include "io/msh/msh_file.hpp"
+#include "io/native/native_file.hpp"
+#include "io/solution_file.hpp"
+#include "io/su2/su2_csv_file.hpp"
+#include "io/su2/su2_file.hpp"
+#include "io/tree/tree_file.hpp"
+#include "io/vtu/vtu_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -145,7 +146,8 @@ TEST(CgnsFile, RefusesWhatIsNone) {
 
 TEST(TreeFile, SameBytesEachTimeAndOnAnyNumberOfRanks) {
   const TemporaryFolder folder;
-  const TreeRecord own = test::sample_tree(leaves, world().rank(), world().size()), all = test::sample_tree(leaves, 0, 1);
+  const TreeRecord own = test::sample_tree(leaves, world().rank(), world().size()),
+                   all = test::sample_tree(leaves, 0, 1);
   const Communicator alone(MPI_COMM_SELF);
   write_tree(world(), own, folder.file("many.h5"));
   write_tree(world(), own, folder.file("again.h5"));
@@ -169,8 +171,9 @@ TEST(TreeFile, ComesBackInShares) {
   for (std::int64_t i = 0; i < count; ++i) {
     const LeafRecord& a = read.leaves[static_cast<std::size_t>(i)];
     const LeafRecord& b = all.leaves[static_cast<std::size_t>(first + i)];
-    const bool same = a.tree_x == b.tree_x && a.tree_y == b.tree_y && a.x == b.x && a.y == b.y && a.level == b.level && a.wanted == b.wanted &&
-                      a.mark == b.mark && a.triangles == b.triangles && a.quads == b.quads && a.adapted == b.adapted;
+    const bool same = a.tree_x == b.tree_x && a.tree_y == b.tree_y && a.x == b.x && a.y == b.y &&
+                      a.level == b.level && a.wanted == b.wanted && a.mark == b.mark &&
+                      a.triangles == b.triangles && a.quads == b.quads && a.adapted == b.adapted;
     ASSERT_TRUE(same) << first + i;
   }
 }
@@ -179,18 +182,23 @@ TEST(TreeFile, RefusesWhatIsNoneOnAllRanks) {
   const TemporaryFolder folder;
   EXPECT_EQ(test::status_of([&] { read_tree(world(), folder.file("missing.h5")); }), ExitStatus::bad_input);
   write_tree(world(), test::sample_tree(100, world().rank(), world().size()), folder.file("t.h5"));
-  if (world().is_root()) test::write_bytes(folder.file("t.h5"), test::bytes_of(folder.file("t.h5")).substr(0, 1500));
+  if (world().is_root())
+    test::write_bytes(folder.file("t.h5"), test::bytes_of(folder.file("t.h5")).substr(0, 1500));
   world().barrier();
   EXPECT_EQ(test::status_of([&] { read_tree(world(), folder.file("t.h5")); }), ExitStatus::bad_input);
 }
 
-/// The refusal of a sample tree of a hundred leaves after one change; the same on every rank, or "not one refusal".
+/// The refusal of a sample tree of a hundred leaves after one change; the same on every rank, or "not one
+/// refusal".
 std::string refusal_of_tree(const std::function<void(TreeRecord& whole)>& change) {
   const TemporaryFolder folder;
   TreeRecord whole = test::sample_tree(100, 0, 1);
   change(whole);
-  const std::int64_t count = static_cast<std::int64_t>(whole.leaves.size()), rank = world().rank(), ranks = world().size();
-  TreeRecord own{whole.attributes, {whole.leaves.begin() + count * rank / ranks, whole.leaves.begin() + count * (rank + 1) / ranks}};
+  const std::int64_t count = static_cast<std::int64_t>(whole.leaves.size()), rank = world().rank(),
+                     ranks = world().size();
+  TreeRecord own{
+      whole.attributes,
+      {whole.leaves.begin() + count * rank / ranks, whole.leaves.begin() + count * (rank + 1) / ranks}};
   write_tree(world(), own, folder.file("t.h5"));
   std::string refusal;
   try {
@@ -206,7 +214,8 @@ TEST(TreeFile, RefusesImpossibleLeavesAndAttributesByName) {
   EXPECT_EQ(refusal_of_tree([](TreeRecord&) {}), "");
   using Change = std::function<void(TreeRecord&)>;
   const std::vector<std::pair<std::string, Change>> refused{
-      {"tree (0, 0) at (536870912, 0), level 1 has splits below itself", [](TreeRecord& t) { t.leaves[1].adapted = 2; }},
+      {"tree (0, 0) at (536870912, 0), level 1 has splits below itself",
+       [](TreeRecord& t) { t.leaves[1].adapted = 2; }},
       {"has splits below itself", [](TreeRecord& t) { t.leaves[60].adapted = 0x80000000; }},
       {"wanted level 2", [](TreeRecord& t) { t.leaves[1].wanted = 2; }},
       {"impossible level", [](TreeRecord& t) { t.leaves[50].level = 31; }},

@@ -1,5 +1,5 @@
-// Meshes of thousands of boundaries: coasts have as many islands. What the ranks say to each other does not grow with them, time grows with their
-// number and not with its square, and each comes back under its name.
+// Meshes of thousands of boundaries: coasts have as many islands. What the ranks say to each other does not
+// grow with them, time grows with their number and not with its square, and each comes back under its name.
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/mesh_file.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -21,16 +21,18 @@ int collectives = 0;
 
 // MPI's profiling interface: these stand before the library's own.
 extern "C" {
-int MPI_Allreduce(const void* send, void* receive, int count, MPI_Datatype type, MPI_Op operation, MPI_Comm comm) {
+int MPI_Allreduce(const void* send, void* receive, int count, MPI_Datatype type, MPI_Op operation,
+                  MPI_Comm comm) {
   ++collectives;
   return PMPI_Allreduce(send, receive, count, type, operation, comm);
 }
-int MPI_Exscan(const void* send, void* receive, int count, MPI_Datatype type, MPI_Op operation, MPI_Comm comm) {
+int MPI_Exscan(const void* send, void* receive, int count, MPI_Datatype type, MPI_Op operation,
+               MPI_Comm comm) {
   ++collectives;
   return PMPI_Exscan(send, receive, count, type, operation, comm);
 }
-int MPI_Allgatherv(const void* send, int count, MPI_Datatype type, void* receive, const int* counts, const int* offsets, MPI_Datatype to_type,
-                   MPI_Comm comm) {
+int MPI_Allgatherv(const void* send, int count, MPI_Datatype type, void* receive, const int* counts,
+                   const int* offsets, MPI_Datatype to_type, MPI_Comm comm) {
   ++collectives;
   return PMPI_Allgatherv(send, count, type, receive, counts, offsets, to_type, comm);
 }
@@ -50,19 +52,22 @@ Mesh mesh_of_many_boundaries(std::int32_t columns) {
   std::vector<BoundaryEdges> many;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     for (const auto& edge : boundary.edges)
-      many.push_back({"an_island_that_has_a_long_name_" + std::to_string(many.size()), boundary.condition, {edge}});
+      many.push_back(
+          {"an_island_that_has_a_long_name_" + std::to_string(many.size()), boundary.condition, {edge}});
   }
   mesh.boundaries = std::move(many);
   return mesh;
 }
 
-/// Of a boundary of one edge share_of() gives all to the last rank: here they are dealt out in turn, to ranks that have copies of the nodes.
+/// Of a boundary of one edge share_of() gives all to the last rank: here they are dealt out in turn, to ranks
+/// that have copies of the nodes.
 Mesh own_share(const Mesh& whole) {
   Mesh dealt = whole;
   for (std::size_t b = 0; b < dealt.boundaries.size(); ++b) {
     BoundaryEdges& boundary = dealt.boundaries[b];
     const auto rank = b % static_cast<std::size_t>(world().size());
-    boundary.edges.assign(static_cast<std::size_t>(world().size()), boundary.edges.front());  // one for each rank, of which one is kept
+    boundary.edges.assign(static_cast<std::size_t>(world().size()),
+                          boundary.edges.front());  // one for each rank, of which one is kept
     if (rank != static_cast<std::size_t>(world().rank())) boundary.name += " not here";
   }
   Mesh share = test::share_of(dealt, world().rank(), world().size());
@@ -106,14 +111,17 @@ TEST(ManyBoundaries, ComeBackFromAnyNumberOfRanks) {
     if (!world().is_root()) continue;
     write(alone, whole, folder.file("one." + format));
     const bool stamped = format == "cgns";  // by the library, with the time
-    EXPECT_TRUE(stamped || test::bytes_of(folder.file("many." + format)) == test::bytes_of(folder.file("one." + format))) << format;
+    EXPECT_TRUE(stamped ||
+                test::bytes_of(folder.file("many." + format)) == test::bytes_of(folder.file("one." + format)))
+        << format;
     const LoadedMesh loaded = read_mesh(folder.file("many." + format));
     EXPECT_TRUE(validate(loaded.mesh).empty()) << format;
     ASSERT_EQ(loaded.mesh.boundaries.size(), whole.boundaries.size()) << format;
     for (std::size_t b = 0; b < whole.boundaries.size(); ++b) {
       ASSERT_EQ(loaded.mesh.boundaries[b].name, whole.boundaries[b].name) << format;
       ASSERT_EQ(loaded.mesh.boundaries[b].edges, whole.boundaries[b].edges) << format;
-      ASSERT_EQ(loaded.mesh.boundaries[b].condition, stamped ? whole.boundaries[b].condition : "none") << format;
+      ASSERT_EQ(loaded.mesh.boundaries[b].condition, stamped ? whole.boundaries[b].condition : "none")
+          << format;
     }
   }
 }

@@ -1,4 +1,5 @@
-// Every pair of formats: what both have a place for comes through to the bit, and what is lost is said. On one rank alone.
+// Every pair of formats: what both have a place for comes through to the bit, and what is lost is said. On
+// one rank alone.
 #include "io/mesh_file.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,9 @@ namespace {
 
 enum class Kind { hybrid, triangles };
 
-bool holds_solution(const std::string& format) { return format == "mesh" || format == "cgns" || format == "vtu"; }
+bool holds_solution(const std::string& format) {
+  return format == "mesh" || format == "cgns" || format == "vtu";
+}
 
 /// A mesh with coordinates that need all digits, as a file gives it.
 LoadedMesh sample(Kind kind, bool solved) {
@@ -68,8 +71,8 @@ void convert_and_compare(const LoadedMesh& loaded, const std::string& first, con
   }
   const std::string condition = first == "cgns" && second == "cgns" ? "wall" : "none";
   EXPECT_EQ(back.mesh.boundaries[0].condition, condition);
-  const std::size_t losses =
-      (first == "cgns" && second != "cgns" ? 1U : 0U) + (carried && !kept ? 1U : 0U) + (kept && first == "mesh" && second != "mesh" ? 1U : 0U);
+  const std::size_t losses = (first == "cgns" && second != "cgns" ? 1U : 0U) + (carried && !kept ? 1U : 0U) +
+                             (kept && first == "mesh" && second != "mesh" ? 1U : 0U);
   EXPECT_EQ(losses_in(between, folder.file("b." + second)).size(), losses);
 }
 

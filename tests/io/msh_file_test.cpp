@@ -1,11 +1,12 @@
-// The reader of Gmsh's files: what it accepts and puts right, and what it refuses by line. It works on one rank alone.
-#include "io/msh_file.hpp"
+// The reader of Gmsh's files: what it accepts and puts right, and what it refuses by line. It works on one
+// rank alone.
+#include "io/msh/msh_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -18,23 +19,27 @@ using test::TemporaryFolder;
 
 const test::ReaderCheck check{read_msh, "m.msh"};
 
-/// A unit square as a quad with a triangle on top, tags with gaps, a node of no cell; the line numbers below count in it.
+/// A unit square as a quad with a triangle on top, tags with gaps, a node of no cell; the line numbers below
+/// count in it.
 const std::string old_house =
-    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"                                                           // 1-3
-    "$PhysicalNames\n3\n1 7 \"ground floor\"\n1 8 \"walls\"\n2 9 \"room\"\n$EndPhysicalNames\n"        // 4-9
-    "$Nodes\n6\n10 0 0 3\n20 1 0 3\n30 1 1 3\n99 5 5 3\n40 0 1 3\n5 0.5 1.5 3\n$EndNodes\n"            // 10-18
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"                                                     // 1-3
+    "$PhysicalNames\n3\n1 7 \"ground floor\"\n1 8 \"walls\"\n2 9 \"room\"\n$EndPhysicalNames\n"  // 4-9
+    "$Nodes\n6\n10 0 0 3\n20 1 0 3\n30 1 1 3\n99 5 5 3\n40 0 1 3\n5 0.5 1.5 3\n$EndNodes\n"      // 10-18
     "$Elements\n8\n1 15 2 0 1 10\n2 1 2 7 1 10 20\n3 1 2 8 2 20 30\n4 1 2 8 2 30 5\n5 1 2 8 3 5 40\n"  // 19-25
-    "6 1 2 8 3 40 10\n7 3 2 9 1 10 20 30 40\n8 2 2 9 1 40 30 5\n$EndElements\n";                       // 26-29
+    "6 1 2 8 3 40 10\n7 3 2 9 1 10 20 30 40\n8 2 2 9 1 40 30 5\n$EndElements\n";  // 26-29
 
 /// The same in version 4.1, with parameters of nodes and without the node of no cell.
 const std::string new_house =
-    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"                                                                              // 1-3
-    "$PhysicalNames\n3\n1 7 \"ground floor\"\n1 8 \"walls\"\n2 9 \"room\"\n$EndPhysicalNames\n"                           // 4-9
-    "$Entities\n1 3 1 0\n1 0 0 3 0\n1 0 0 3 1 0 3 1 7 2 1 -2\n2 0 0 3 1 2 3 2 8 7 2 2 -3\n3 0 0 3 1 2 3 1 -8 0\n"         // 10-15
-    "1 0 0 3 1 2 3 1 9 3 1 2 3\n$EndEntities\n"                                                                           // 16-17
-    "$Nodes\n2 5 5 40\n1 1 1 2\n10\n20\n0 0 3 0.5\n1 0 3 0.75\n2 1 0 3\n30\n40\n5\n1 1 3\n0 1 3\n0.5 1.5 3\n$EndNodes\n"  // 18-32
-    "$Elements\n6 8 1 8\n0 1 15 1\n1 10\n1 1 1 1\n2 10 20\n1 2 1 2\n3 20 30\n4 30 5\n1 3 1 2\n5 5 40\n6 40 10\n"          // 33-44
-    "2 1 3 1\n7 10 20 30 40\n2 1 2 1\n8 40 30 5\n$EndElements\n";                                                         // 45-49
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"                                                     // 1-3
+    "$PhysicalNames\n3\n1 7 \"ground floor\"\n1 8 \"walls\"\n2 9 \"room\"\n$EndPhysicalNames\n"  // 4-9
+    "$Entities\n1 3 1 0\n1 0 0 3 0\n1 0 0 3 1 0 3 1 7 2 1 -2\n2 0 0 3 1 2 3 2 8 7 2 2 -3\n3 0 0 3 1 2 3 1 -8 "
+    "0\n"                                        // 10-15
+    "1 0 0 3 1 2 3 1 9 3 1 2 3\n$EndEntities\n"  // 16-17
+    "$Nodes\n2 5 5 40\n1 1 1 2\n10\n20\n0 0 3 0.5\n1 0 3 0.75\n2 1 0 3\n30\n40\n5\n1 1 3\n0 1 3\n0.5 1.5 "
+    "3\n$EndNodes\n"  // 18-32
+    "$Elements\n6 8 1 8\n0 1 15 1\n1 10\n1 1 1 1\n2 10 20\n1 2 1 2\n3 20 30\n4 30 5\n1 3 1 2\n5 5 40\n6 40 "
+    "10\n"                                                         // 33-44
+    "2 1 3 1\n7 10 20 30 40\n2 1 2 1\n8 40 30 5\n$EndElements\n";  // 45-49
 
 NodeId node(std::int32_t number) { return NodeId{number}; }
 
@@ -82,28 +87,36 @@ TEST(MshReader, TurnsCellsAndEdges) {
 }
 
 TEST(MshReader, NamesWhatHasNoName) {
-  const std::string names = old_house.substr(old_house.find("$Phys"), old_house.find("$Nodes") - old_house.find("$Phys"));
-  EXPECT_EQ(boundary_names(check.of(replaced(old_house, names, ""))), (std::vector<std::string>{"physical_7", "physical_8"}));
+  const std::string names =
+      old_house.substr(old_house.find("$Phys"), old_house.find("$Nodes") - old_house.find("$Phys"));
+  EXPECT_EQ(boundary_names(check.of(replaced(old_house, names, ""))),
+            (std::vector<std::string>{"physical_7", "physical_8"}));
   std::string no_groups = replaced(replaced(old_house, "2 7 1", "2 0 1"), "9 1 10", "0 1 10");
   for (int i = 0; i < 4; ++i) no_groups = replaced(no_groups, "1 2 8 ", "1 2 0 ");
-  EXPECT_EQ(boundary_names(check.of(no_groups)), (std::vector<std::string>{"boundary_1", "boundary_2", "boundary_3"}));
-  EXPECT_NE(check.of(no_groups).warnings.back().find("m.msh: 3 curves are in no physical group; their boundaries are called boundary_"),
+  EXPECT_EQ(boundary_names(check.of(no_groups)),
+            (std::vector<std::string>{"boundary_1", "boundary_2", "boundary_3"}));
+  EXPECT_NE(check.of(no_groups).warnings.back().find(
+                "m.msh: 3 curves are in no physical group; their boundaries are called boundary_"),
             std::string::npos);
-  EXPECT_EQ(check.of(replaced(no_groups, "2 9 1 40", "2 0 1 40")).block_names, std::vector<std::string>{"domain"});
+  EXPECT_EQ(check.of(replaced(no_groups, "2 9 1 40", "2 0 1 40")).block_names,
+            std::vector<std::string>{"domain"});
 }
 
 TEST(MshReader, MakesOneBoundaryWhereNoLinesAre) {
   const std::size_t lines = old_house.find("2 1 2 7"), cells = old_house.find("7 3 2 9");
-  const std::string bare = replaced(old_house.substr(0, lines) + old_house.substr(cells), "$Elements\n8", "$Elements\n3");
+  const std::string bare =
+      replaced(old_house.substr(0, lines) + old_house.substr(cells), "$Elements\n8", "$Elements\n3");
   const LoadedMesh loaded = check.of(bare);
   EXPECT_EQ(boundary_names(loaded), std::vector<std::string>{"boundary"});
   EXPECT_TRUE(validate(loaded.mesh).empty());
-  const LoadedMesh inner = check.of(replaced(replaced(bare, "ments\n3", "ments\n4"), "$EndEl", "9 1 2 7 1 40 30\n$EndEl"));
+  const LoadedMesh inner =
+      check.of(replaced(replaced(bare, "ments\n3", "ments\n4"), "$EndEl", "9 1 2 7 1 40 30\n$EndEl"));
   EXPECT_EQ(boundary_names(inner), std::vector<std::string>{"boundary"});
 }
 
 TEST(MshReader, LeavesOutLinesInsideABlock) {
-  const LoadedMesh loaded = check.of(replaced(replaced(old_house, "ments\n8", "ments\n9"), "$EndEl", "9 1 2 8 4 40 30\n$EndEl"));
+  const LoadedMesh loaded =
+      check.of(replaced(replaced(old_house, "ments\n8", "ments\n9"), "$EndEl", "9 1 2 8 4 40 30\n$EndEl"));
   expect_house(loaded);
   EXPECT_NE(loaded.warnings.back().find("1 edges between two cells"), std::string::npos);
 }
@@ -115,27 +128,33 @@ TEST(MshReader, KeepsBlocksApart) {
   EXPECT_EQ(loaded.block_names, (std::vector<std::string>{"room", "physical_10"}));
   EXPECT_EQ(loaded.triangle_to_block, std::vector<std::int32_t>{1});
   EXPECT_EQ(boundary_names(loaded).back(), "physical_11");
-  EXPECT_EQ(loaded.mesh.boundaries.back().edges.at(0), (std::array{node(2), node(3)}));  // the first block to its left
+  EXPECT_EQ(loaded.mesh.boundaries.back().edges.at(0),
+            (std::array{node(2), node(3)}));  // the first block to its left
   EXPECT_TRUE(validate(loaded.mesh, {2, loaded.triangle_to_block, loaded.quad_to_block}).empty());
 }
 
 /// The top is pulled down into the room below, which is another block: its triangle is inverted, not turned.
 TEST(MshReader, LeavesInvertedCellsToValidate) {
-  const std::string two = replaced(replaced(old_house, "2 2 9 1 40", "2 2 10 2 40"), "5 0.5 1.5", "5 0.5 0.5");
-  for (const std::string& text : {two, replaced(replaced(two, "40 30 5\n$End", "40 5 30\n$End"), " 10 20 30 40\n", " 10 40 30 20\n")}) {
+  const std::string two =
+      replaced(replaced(old_house, "2 2 9 1 40", "2 2 10 2 40"), "5 0.5 1.5", "5 0.5 0.5");
+  for (const std::string& text :
+       {two, replaced(replaced(two, "40 30 5\n$End", "40 5 30\n$End"), " 10 20 30 40\n", " 10 40 30 20\n")}) {
     const LoadedMesh loaded = check.of(text);
     EXPECT_EQ(loaded.mesh.quads, check.of(old_house).mesh.quads);
     EXPECT_EQ(loaded.mesh.triangles, check.of(old_house).mesh.triangles);
     EXPECT_EQ(loaded.mesh.boundaries.at(1).edges, check.of(old_house).mesh.boundaries.at(1).edges);
-    const std::vector<MeshFault> faults = validate(loaded.mesh, {2, loaded.triangle_to_block, loaded.quad_to_block});
-    EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [](const MeshFault& fault) { return fault.rule == MeshRule::positive; }));
+    const std::vector<MeshFault> faults =
+        validate(loaded.mesh, {2, loaded.triangle_to_block, loaded.quad_to_block});
+    EXPECT_TRUE(std::any_of(faults.begin(), faults.end(),
+                            [](const MeshFault& fault) { return fault.rule == MeshRule::positive; }));
   }
 }
 
 /// Two triangles, then a third, in blocks that alternate.
 TEST(MshReader, SortsCellsByBlock) {
   const LoadedMesh loaded = check.of(
-      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 -1 0 0\n$EndNodes\n"
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 -1 0 "
+      "0\n$EndNodes\n"
       "$Elements\n3\n1 2 2 1 1 1 2 3\n2 2 2 2 2 1 3 4\n3 2 2 1 3 1 4 5\n$EndElements\n");
   EXPECT_EQ(loaded.triangle_to_block, (std::vector<std::int32_t>{0, 0, 1}));
   EXPECT_EQ(loaded.mesh.triangles.at(1), (std::array{node(0), node(3), node(4)}));
@@ -169,20 +188,24 @@ TEST(MshReader, RefusesBadRowsByLine) {
   check.expect_refusal(replaced(old_house, "30 1 1 3", "30 1 nan 3"), "m.msh:14: ", "nan");
   check.expect_refusal(replaced(old_house, "30 1 1 3", "30 1 1 4"), "m.msh:14: ", "plane");
   check.expect_refusal(replaced(old_house, "30 1 1 3", "10 1 1 3"), "m.msh:", "two nodes have the tag 10");
-  check.expect_refusal(replaced(old_house, "8 2 20 30", "8 2 20 5"), "m.msh:23: ", "walls, from (1, 0) to (0.5, 1.5), belongs to no cell");
+  check.expect_refusal(replaced(old_house, "8 2 20 30", "8 2 20 5"),
+                       "m.msh:23: ", "walls, from (1, 0) to (0.5, 1.5), belongs to no cell");
   check.expect_refusal(replaced(old_house, "2 7 1", "2 70000000000 1"), "m.msh:22: ", "physical group");
 }
 
 TEST(MshReader, RefusesWhatItDoesNotKnow) {
   check.expect_refusal(replaced(old_house, "7 3 2 9 1", "7 4 2 9 1"), "m.msh:27: ", "4 (tetrahedron)");
   check.expect_refusal(replaced(old_house, "8 2 2 9 1", "8 9 2 9 1"), "m.msh:28: ", "ElementOrder = 1");
-  check.expect_refusal(replaced(new_house, "2 1 3 1", "2 1 16 1"), "m.msh:45: ", "16 (quadrilateral of second order");
+  check.expect_refusal(replaced(new_house, "2 1 3 1", "2 1 16 1"),
+                       "m.msh:45: ", "16 (quadrilateral of second order");
   check.expect_refusal(replaced(old_house, "2.2 0 8", "4 0 8"), "m.msh:2: ", "version 4;");
   check.expect_refusal(replaced(old_house, "2.2 0 8", "2.2 1 8"), "m.msh:2: ", "binary");
   check.expect_refusal("$PartitionedEntities\n" + new_house, "m.msh:1: ", "partitioned");
   check.expect_refusal("", "m.msh:1: ", "no MSH file");
   check.expect_refusal(old_house.substr(0, old_house.find("7 3 2 9")) + "$EndElements\n", "m.msh:", "");
-  check.expect_refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n0\n$EndElements\n", "m.msh:", "needs cells");
+  check.expect_refusal(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n0\n$EndElements\n",
+      "m.msh:", "needs cells");
 }
 
 TEST(MshReader, RefusesEarlyEnd) {
@@ -196,7 +219,8 @@ TEST(MshWriter, KeepsNamesInQuotes) {
   mesh.boundaries[0].name = "5\" tube";
   mesh.boundaries.push_back({"nothing", "none", {}});
   write_msh(test::world(), mesh, folder.file("m.msh"));
-  EXPECT_EQ(boundary_names(read_msh(folder.file("m.msh"))), (std::vector<std::string>{"5' tube", "far field"}));
+  EXPECT_EQ(boundary_names(read_msh(folder.file("m.msh"))),
+            (std::vector<std::string>{"5' tube", "far field"}));
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // The native reader: what it accepts, and what it refuses by line. It works on one rank alone.
-#include "io/native_file.hpp"
+#include "io/native/native_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
 
 namespace quadloop {
@@ -14,11 +14,12 @@ using test::TemporaryFolder;
 
 /// One square of two triangles; the line numbers below count in it.
 const std::string square =
-    "#Number of grid points\n4\n0 0\n1 0\n1 1\n0 1\n"                                                                     // 1-6
-    "#Number of blocks\n1\n#Number of triangular elements\n2\n1 2 3\n1 3 4\n"                                             // 7-12
-    "#Number of quadrilateral elements\n0\n#Number of boundaries\n1\n"                                                    // 13-16
-    "#Number of edges for boundary 1 (wall)\n4\n1 2\n2 3\n3 4\n4 1\n";                                                    // 17-22
-const std::string solution = "#Number of constants\n1\n0.5\n#Number of variables\n2\n#names: a b\n1 2\n3 4\n5 6\n7 8\n";  // 23-32
+    "#Number of grid points\n4\n0 0\n1 0\n1 1\n0 1\n"                          // 1-6
+    "#Number of blocks\n1\n#Number of triangular elements\n2\n1 2 3\n1 3 4\n"  // 7-12
+    "#Number of quadrilateral elements\n0\n#Number of boundaries\n1\n"         // 13-16
+    "#Number of edges for boundary 1 (wall)\n4\n1 2\n2 3\n3 4\n4 1\n";         // 17-22
+const std::string solution =
+    "#Number of constants\n1\n0.5\n#Number of variables\n2\n#names: a b\n1 2\n3 4\n5 6\n7 8\n";  // 23-32
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
   const std::size_t at = text.find(what);
@@ -68,15 +69,19 @@ TEST(NativeReader, TakesAnyWhitespaceCommentsAndExponents) {
   std::string crlf;
   for (const char c : square) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
   EXPECT_EQ(read_text(crlf).mesh.boundaries.at(0).name, "wall");
-  const LoadedMesh fortran = read_text(replaced(square, "1 0\n1 1\n", "# between rows\n  +1.0D+00\t0.0d0\n\n1\n# within a row\n 1E0\n"));
+  const LoadedMesh fortran = read_text(
+      replaced(square, "1 0\n1 1\n", "# between rows\n  +1.0D+00\t0.0d0\n\n1\n# within a row\n 1E0\n"));
   EXPECT_EQ(fortran.mesh.points, read_text(square).mesh.points);
   const LoadedMesh unnamed = read_text(replaced(square + solution, "#names: a b\n", ""));
   EXPECT_EQ(unnamed.solution->names, (std::vector<std::string>{"v1", "v2"}));
-  EXPECT_EQ(read_text(replaced(square, "#Number of edges for boundary 1 (wall)\n", "")).mesh.boundaries.at(0).name, "boundary_1");
+  EXPECT_EQ(
+      read_text(replaced(square, "#Number of edges for boundary 1 (wall)\n", "")).mesh.boundaries.at(0).name,
+      "boundary_1");
 }
 
 TEST(NativeReader, KeepsBlocksApart) {
-  const std::string two = replaced(replaced(square, "blocks\n1\n", "blocks\n2\n"), "2\n1 2 3\n1 3 4\n#Number of quadrilateral elements\n0\n",
+  const std::string two = replaced(replaced(square, "blocks\n1\n", "blocks\n2\n"),
+                                   "2\n1 2 3\n1 3 4\n#Number of quadrilateral elements\n0\n",
                                    "1\n1 2 3\n#Q\n0\n#T\n1\n1 3 4\n#Q\n0\n");
   const LoadedMesh loaded = read_text(two);
   EXPECT_EQ(loaded.blocks, 2);

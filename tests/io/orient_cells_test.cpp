@@ -1,13 +1,13 @@
 // Directions of cells by their neighbours: alone, and by what a reader makes of them and of the boundary.
-#include "io/orient_cells.hpp"
+#include "io/loaded/orient_cells.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "io/su2_file.hpp"
-#include "mesher/mesh/validate.hpp"
+#include "io/su2/su2_file.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 
 namespace quadloop {
@@ -15,15 +15,16 @@ namespace {
 
 const test::ReaderCheck check{read_su2, "m.su2"};
 
-/// Cells by the numbers of their nodes, as a file lists them, and an outline of which each edge stands in any direction.
+/// Cells by the numbers of their nodes, as a file lists them, and an outline of which each edge stands in any
+/// direction.
 struct Listing {
   std::vector<Point> points;
   std::vector<std::vector<int>> cells;
   std::vector<std::array<int, 2>> outline;
 };
 
-/// Adds 4 x 4 nodes with the lower left at (x, 0), the lowest row of cells triangles, the others quads, all counter-clockwise; the
-/// outline's edges run up and to the right.
+/// Adds 4 x 4 nodes with the lower left at (x, 0), the lowest row of cells triangles, the others quads, all
+/// counter-clockwise; the outline's edges run up and to the right.
 void add_grid(Listing& listing, double x) {
   const auto first = static_cast<int>(listing.points.size());
   const auto at = [&](int i, int j) { return first + 4 * j + i; };
@@ -33,7 +34,8 @@ void add_grid(Listing& listing, double x) {
   for (int i = 0; i < 3; ++i) {
     listing.cells.push_back({at(i, 0), at(i + 1, 0), at(i + 1, 1)});
     listing.cells.push_back({at(i, 0), at(i + 1, 1), at(i, 1)});
-    for (int j = 1; j < 3; ++j) listing.cells.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    for (int j = 1; j < 3; ++j)
+      listing.cells.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
     for (const int end : {0, 3}) {
       listing.outline.push_back({at(i, end), at(i + 1, end)});
       listing.outline.push_back({at(end, i), at(end, i + 1)});
@@ -87,7 +89,8 @@ std::string su2_text(const Listing& listing) {
 
 std::int64_t faults_of(const Mesh& mesh, MeshRule rule) {
   const std::vector<MeshFault> faults = validate(mesh);
-  return std::count_if(faults.begin(), faults.end(), [&](const MeshFault& fault) { return fault.rule == rule; });
+  return std::count_if(faults.begin(), faults.end(),
+                       [&](const MeshFault& fault) { return fault.rule == rule; });
 }
 
 void expect_same_cells_and_boundary(const Mesh& mesh, const Mesh& expected) {
@@ -97,15 +100,16 @@ void expect_same_cells_and_boundary(const Mesh& mesh, const Mesh& expected) {
   EXPECT_EQ(mesh.boundaries[0].edges, expected.boundaries.at(0).edges);
 }
 
-/// Expects that a listing, however the chosen of its cells are turned, reads as it does without; also where the reader itself has to
-/// find the outline. The number of cells turned is in the warning.
+/// Expects that a listing, however the chosen of its cells are turned, reads as it does without; also where
+/// the reader itself has to find the outline. The number of cells turned is in the warning.
 template <class Chosen>
 void expect_turned_back(const Listing& listing, const Chosen& chosen, const std::string& count) {
   const LoadedMesh plain = check.of(su2_text(listing)), loaded = check.of(su2_text(turned(listing, chosen)));
   EXPECT_TRUE(plain.warnings.empty());
   expect_same_cells_and_boundary(loaded.mesh, plain.mesh);
   ASSERT_EQ(loaded.warnings.size(), 1U);
-  EXPECT_NE(loaded.warnings[0].find(": " + count + " cells ran clockwise"), std::string::npos) << loaded.warnings[0];
+  EXPECT_NE(loaded.warnings[0].find(": " + count + " cells ran clockwise"), std::string::npos)
+      << loaded.warnings[0];
   Listing bare = listing;
   bare.outline.clear();
   const Mesh found = check.of(su2_text(turned(bare, chosen))).mesh;

@@ -1,5 +1,5 @@
 // Outputs appear whole or not at all, and every rank learns of a failure.
-#include "io/output_file.hpp"
+#include "io/files/output_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -12,11 +12,11 @@
 #include <thread>
 #include <utility>
 
-#include "io/cgns_file.hpp"
-#include "io/folder_lock.hpp"
+#include "io/cgns/cgns_file.hpp"
+#include "io/files/folder_lock.hpp"
 #include "io/mesh_file.hpp"
-#include "io/native_file.hpp"
-#include "io/tree_file.hpp"
+#include "io/native/native_file.hpp"
+#include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -27,7 +27,8 @@ namespace {
 using test::TemporaryFolder;
 using test::world;
 
-/// Lets no file of this process grow beyond a size, which fails as a full disk does; from one call to the next of the tests' own thread.
+/// Lets no file of this process grow beyond a size, which fails as a full disk does; from one call to the
+/// next of the tests' own thread.
 class SmallFiles {
  public:
   explicit SmallFiles(rlim_t bytes) : handler_{std::signal(SIGXFSZ, SIG_IGN)} {
@@ -60,9 +61,12 @@ TEST(OutputSet, MissingFolderIsRefusedOnAllRanks) {
   const TemporaryFolder folder;
   const Mesh own = test::share_of(test::sample_mesh(5), world().rank(), world().size());
   const std::string inside = folder.file("missing/out");
-  EXPECT_EQ(test::status_of([&] { write_native(world(), own, inside + ".mesh"); }), ExitStatus::output_failed);
+  EXPECT_EQ(test::status_of([&] { write_native(world(), own, inside + ".mesh"); }),
+            ExitStatus::output_failed);
   EXPECT_EQ(test::status_of([&] { write_cgns(world(), own, inside + ".cgns"); }), ExitStatus::output_failed);
-  EXPECT_EQ(test::status_of([&] { write_tree(world(), test::sample_tree(10, world().rank(), world().size()), inside + ".h5"); }),
+  EXPECT_EQ(test::status_of([&] {
+              write_tree(world(), test::sample_tree(10, world().rank(), world().size()), inside + ".h5");
+            }),
             ExitStatus::output_failed);
   EXPECT_EQ(test::status_of([&] { write_native(world(), own, folder.path()); }), ExitStatus::output_failed);
   EXPECT_EQ(test::files_in(folder.path()), 0U);
@@ -94,7 +98,8 @@ TEST(OutputSet, FullDiskLeavesNothingBehindWhereverItIsMet) {
 
 TEST(OutputSet, OldFilesComeBackWhereOneCannotBeReplaced) {
   const TemporaryFolder folder;
-  const std::string first = folder.file("a.mesh"), second = folder.file("b.mesh"), third = folder.file("c.mesh");
+  const std::string first = folder.file("a.mesh"), second = folder.file("b.mesh"),
+                    third = folder.file("c.mesh");
   const Mesh own = test::share_of(test::sample_mesh(5), world().rank(), world().size());
   if (world().is_root()) test::write_bytes(first, "old");
   {
@@ -153,7 +158,8 @@ TEST(OutputSet, OldFilesStandUntilTheCommit) {
     OutputSet outputs(world());
     write_native(outputs, own, first);
     EXPECT_EQ(test::bytes_of(first), "old");
-    EXPECT_EQ(test::status_of([&] { write_native(outputs, own, folder.file("missing/b.mesh")); }), ExitStatus::output_failed);
+    EXPECT_EQ(test::status_of([&] { write_native(outputs, own, folder.file("missing/b.mesh")); }),
+              ExitStatus::output_failed);
   }
   world().barrier();
   EXPECT_EQ(test::bytes_of(first), "old");

@@ -25,7 +25,8 @@ LoadedMesh ReaderCheck::of(const std::string& text) const {
   return read(folder.file(name));
 }
 
-void ReaderCheck::expect_refusal(const std::string& text, const std::string& begins, const std::string& says) const {
+void ReaderCheck::expect_refusal(const std::string& text, const std::string& begins,
+                                 const std::string& says) const {
   const TemporaryFolder folder;
   write_bytes(folder.file(name), text);
   std::string found;
@@ -39,7 +40,8 @@ void ReaderCheck::expect_refusal(const std::string& text, const std::string& beg
 }
 
 void ReaderCheck::expect_early_ends_refused(const std::string& text) const {
-  for (std::size_t at = 0; at + 1 < text.size(); at = text.find('\n', at) + 1) expect_refusal(text.substr(0, at), name + ":", "");
+  for (std::size_t at = 0; at + 1 < text.size(); at = text.find('\n', at) + 1)
+    expect_refusal(text.substr(0, at), name + ":", "");
 }
 
 }  // namespace quadloop::test

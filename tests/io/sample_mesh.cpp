@@ -38,7 +38,8 @@ class Localiser {
   template <class Rows>
   Rows rows(const Rows& all, int rank, int ranks) {
     const auto [begin, end] = share(all.size(), rank, ranks);
-    Rows own(all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end));
+    Rows own(all.begin() + static_cast<std::ptrdiff_t>(begin),
+             all.begin() + static_cast<std::ptrdiff_t>(end));
     for (auto& row : own) {
       for (NodeId& node : row) node = (*this)(node);
     }
@@ -57,7 +58,8 @@ Mesh sample_mesh(std::int32_t columns) {
   Mesh mesh;
   const auto node = [&](std::int32_t i, std::int32_t j) { return NodeId{j * (columns + 1) + i}; };
   for (std::int32_t j = 0; j <= 2; ++j) {
-    for (std::int32_t i = 0; i <= columns; ++i) mesh.points.push_back({static_cast<double>(i), static_cast<double>(j)});
+    for (std::int32_t i = 0; i <= columns; ++i)
+      mesh.points.push_back({static_cast<double>(i), static_cast<double>(j)});
   }
   mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
   BoundaryEdges wall{"wall", "wall", {}}, sides{"far field", "farfield", {}};
@@ -90,12 +92,14 @@ Mesh share_of(const Mesh& whole, int rank, int ranks) {
   const auto [begin, end] = share(whole.points.size(), rank, ranks);
   part.first_node = static_cast<std::int64_t>(begin);
   part.owned_nodes = static_cast<std::int32_t>(end - begin);
-  part.points.assign(whole.points.begin() + static_cast<std::ptrdiff_t>(begin), whole.points.begin() + static_cast<std::ptrdiff_t>(end));
+  part.points.assign(whole.points.begin() + static_cast<std::ptrdiff_t>(begin),
+                     whole.points.begin() + static_cast<std::ptrdiff_t>(end));
   Localiser localise(whole, part);
   part.triangles = localise.rows(whole.triangles, rank, ranks);
   part.quads = localise.rows(whole.quads, rank, ranks);
   for (const BoundaryEdges& boundary : whole.boundaries) {
-    part.boundaries.push_back({boundary.name, boundary.condition, localise.rows(boundary.edges, rank, ranks)});
+    part.boundaries.push_back(
+        {boundary.name, boundary.condition, localise.rows(boundary.edges, rank, ranks)});
   }
   return part;
 }
@@ -103,8 +107,10 @@ Mesh share_of(const Mesh& whole, int rank, int ranks) {
 Solution share_of(const Solution& whole, const Mesh& mesh, const Mesh& share) {
   Solution part{whole.constants, whole.names, {}};
   const std::size_t width = whole.values.size() / mesh.points.size();
-  const auto begin = whole.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(share.first_node) * width);
-  part.values.assign(begin, begin + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(share.owned_nodes) * width));
+  const auto begin =
+      whole.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(share.first_node) * width);
+  part.values.assign(
+      begin, begin + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(share.owned_nodes) * width));
   return part;
 }
 
@@ -113,7 +119,8 @@ TreeRecord sample_tree(std::int32_t leaves, int rank, int ranks) {
   tree.attributes.root_x = -0.1;
   tree.attributes.tree_edge = 20;
   tree.attributes.coordinate_digest = 0xFEDCBA9876543210;
-  const std::int32_t split = (leaves - 1) / 4 % 2 == 0 ? 1 : 2;  // the first tree has 4 or 16 leaves, the others one
+  const std::int32_t split =
+      (leaves - 1) / 4 % 2 == 0 ? 1 : 2;  // the first tree has 4 or 16 leaves, the others one
   const std::int32_t in_first = 1 << (2 * split), edge = std::int32_t{1} << (30 - split);
   tree.attributes.trees_x = leaves - in_first + 1;
   const auto leaf = [&](std::int32_t n) {
@@ -121,8 +128,11 @@ TreeRecord sample_tree(std::int32_t leaves, int rank, int ranks) {
     const auto level = static_cast<std::int8_t>(n < in_first ? split : 0);
     const std::int32_t x = (n & 1) + (n >> 1 & 2), y = (n >> 1 & 1) + (n >> 2 & 2);
     const auto wanted = static_cast<std::int8_t>(level - n % 2 * (level > 0 ? 1 : 0));
-    return n < in_first ? LeafRecord{0, 0, x * edge, y * edge, level, wanted, mark, mark * (n % 4), mark * (n % 6), static_cast<std::uint32_t>(n % 2)}
-                        : LeafRecord{n - in_first + 1, 0, 0, 0, level, wanted, mark, mark * (n % 4), mark * (n % 6), 0};
+    return n < in_first
+               ? LeafRecord{0,      0,    x * edge,       y * edge,       level,
+                            wanted, mark, mark * (n % 4), mark * (n % 6), static_cast<std::uint32_t>(n % 2)}
+               : LeafRecord{n - in_first + 1, 0, 0, 0, level, wanted, mark, mark * (n % 4),
+                            mark * (n % 6),   0};
   };
   for (std::int32_t n = 0; n < leaves; ++n) {
     tree.attributes.triangles += leaf(n).triangles;
@@ -165,10 +175,13 @@ std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void write_bytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+void write_bytes(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
 
 std::size_t files_in(const std::string& folder) {
-  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+  return static_cast<std::size_t>(
+      std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
 }
 
 }  // namespace quadloop::test

@@ -3,21 +3,22 @@
 #include <functional>
 #include <string>
 
-#include "io/loaded_mesh.hpp"
+#include "io/loaded/loaded_mesh.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/forest/tree_record.hpp"
+#include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop::test {
 
-/// The rectangle [0, columns] x [0, 2] as two rows of unit squares, the lower ones quads, each upper one two triangles; the
-/// boundaries "wall" (below and above) and "far field" (the sides). Whole on this rank.
+/// The rectangle [0, columns] x [0, 2] as two rows of unit squares, the lower ones quads, each upper one two
+/// triangles; the boundaries "wall" (below and above) and "far field" (the sides). Whole on this rank.
 Mesh sample_mesh(std::int32_t columns);
 
 /// Two variables with rows that need all digits, and three constants.
 Solution sample_solution(const Mesh& mesh);
 
-/// What this rank holds of a whole mesh: its share of the nodes and the cells, in order, and copies of the nodes that they touch.
+/// What this rank holds of a whole mesh: its share of the nodes and the cells, in order, and copies of the
+/// nodes that they touch.
 Mesh share_of(const Mesh& whole, int rank, int ranks);
 Solution share_of(const Solution& whole, const Mesh& mesh, const Mesh& share);
 

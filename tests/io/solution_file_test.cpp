@@ -1,16 +1,17 @@
-// Solutions that solvers leave: tables of SU2, the formats that carry a mesh, names of variables, and solutions of another mesh. On one rank alone.
+// Solutions that solvers leave: tables of SU2, the formats that carry a mesh, names of variables, and
+// solutions of another mesh. On one rank alone.
 #include "io/solution_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "io/cgns_file.hpp"
-#include "io/native_file.hpp"
-#include "io/su2_csv_file.hpp"
-#include "io/variable_names.hpp"
-#include "io/vtu_file.hpp"
+#include "io/cgns/cgns_file.hpp"
+#include "io/native/native_file.hpp"
+#include "io/su2/su2_csv_file.hpp"
+#include "io/vtu/vtu_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/variable_names.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -31,7 +32,9 @@ std::string refusal_of(const Call& call) {
   return "no refusal";
 }
 
-void expect_in(const std::string& text, const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << text << "\nlacks\n" << part; }
+void expect_in(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << text << "\nlacks\n" << part;
+}
 
 LoadedSolution read_text(const std::string& text) {
   const TemporaryFolder folder;
@@ -39,7 +42,9 @@ LoadedSolution read_text(const std::string& text) {
   return read_solution(folder.file("s.csv"));
 }
 
-const std::string table = "\"PointID\",\"x\",\"y\",\"Density\",\"Momentum_x\"\n0, 0.0, 0, 1.0, 2e-1\n1, 1, 0.5, 3, -4\n2, 1, 2, 5, 6\n";
+const std::string table =
+    "\"PointID\",\"x\",\"y\",\"Density\",\"Momentum_x\"\n0, 0.0, 0, 1.0, 2e-1\n1, 1, 0.5, 3, -4\n2, 1, 2, 5, "
+    "6\n";
 
 TEST(Su2Csv, ReadsNamesCoordinatesAndRows) {
   const LoadedSolution loaded = read_text(table);
@@ -60,7 +65,9 @@ TEST(Su2Csv, PointIdsSortTheRows) {
 }
 
 TEST(Su2Csv, RefusesByLine) {
-  const auto expect = [](const std::string& text, const std::string& says) { expect_in(refusal_of([&] { read_text(text); }), says); };
+  const auto expect = [](const std::string& text, const std::string& says) {
+    expect_in(refusal_of([&] { read_text(text); }), says);
+  };
   expect(replaced(table, "3, -4", "3, nan"), "s.csv:3: Momentum_x is not finite: nan");
   expect(replaced(table, "3, -4", "3"), "s.csv:3: 4 values stand under 5 names");
   expect(replaced(table, "3, -4", "3, -4, 7"), "s.csv:3: 6 values stand under 5 names");
@@ -76,10 +83,12 @@ TEST(Su2Csv, RefusesByLine) {
 }
 
 /// What comes back of the sample mesh with a row of these values at each node.
-LoadedSolution through_csv(const std::vector<std::string>& names, const std::vector<double>& row, std::string* header = nullptr) {
+LoadedSolution through_csv(const std::vector<std::string>& names, const std::vector<double>& row,
+                           std::string* header = nullptr) {
   const Mesh mesh = test::sample_mesh(2);
   Solution solution{{}, names, {}};
-  for (std::size_t node = 0; node < mesh.points.size(); ++node) solution.values.insert(solution.values.end(), row.begin(), row.end());
+  for (std::size_t node = 0; node < mesh.points.size(); ++node)
+    solution.values.insert(solution.values.end(), row.begin(), row.end());
   const TemporaryFolder folder;
   OutputSet outputs(test::world());
   write_su2_csv(outputs, mesh, folder.file("s.csv"), solution, 1.5);
@@ -94,7 +103,8 @@ LoadedSolution through_csv(const std::vector<std::string>& names, const std::vec
 
 TEST(Su2Csv, IsWrittenWithConservativeVariablesInFront) {
   std::string header;
-  const LoadedSolution made = through_csv({"nut", "pressure", "density", "y_velocity", "x_velocity"}, {7, 3, 2, -1, 0.5}, &header);
+  const LoadedSolution made =
+      through_csv({"nut", "pressure", "density", "y_velocity", "x_velocity"}, {7, 3, 2, -1, 0.5}, &header);
   EXPECT_EQ(header, R"("PointID","x","y","Density","Momentum_x","Momentum_y","Energy","nut")");
   EXPECT_EQ(made.solution.values, (std::vector<double>{2, 1, -2, 3 / 0.5 + 0.5 * 2 * 1.25, 7}));
 }
@@ -103,14 +113,16 @@ TEST(Su2Csv, KeepsTheBitsOfSu2sOwnVariables) {
   const double third = 1.0 / 3, tiny = 5e-324;
   std::string header;
   const LoadedSolution kept =
-      through_csv({"Mach", "Density", "Energy", "Momentum_x", "Momentum_y", "Pressure"}, {0.1, third, 1e150, -tiny, 0.1, 3}, &header);
+      through_csv({"Mach", "Density", "Energy", "Momentum_x", "Momentum_y", "Pressure"},
+                  {0.1, third, 1e150, -tiny, 0.1, 3}, &header);
   EXPECT_EQ(header, R"("PointID","x","y","Density","Momentum_x","Momentum_y","Energy","Mach","Pressure")");
   EXPECT_EQ(kept.solution.values, (std::vector<double>{third, -tiny, 0.1, 1e150, 0.1, 3}));
 }
 
 TEST(Su2Csv, KeepsOtherVariablesUnderNamesThatAreReadBack) {
   const LoadedSolution kept = through_csv({"height", "x", "a,b", "a_b", "12", "PointID"}, {1, 2, 3, 4, 5, 6});
-  EXPECT_EQ(kept.solution.names, (std::vector<std::string>{"height", "x_", "a_b", "a_b_", "v12", "PointID_"}));
+  EXPECT_EQ(kept.solution.names,
+            (std::vector<std::string>{"height", "x_", "a_b", "a_b_", "v12", "PointID_"}));
   EXPECT_EQ(kept.solution.values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
 }
 
@@ -148,27 +160,32 @@ TEST_P(Formats, AMeshWithoutSolutionIsRefused) {
 TEST_P(Formats, SolutionsOfOtherMeshesAreTold) {
   const Mesh larger = test::sample_mesh(5);
   const Solution its = test::sample_solution(larger);
-  expect_in(refusal_of([&] { require_same_mesh(read_solution(write(larger, &its)), mesh); }), "holds values at 18 nodes, the mesh has 15");
+  expect_in(refusal_of([&] { require_same_mesh(read_solution(write(larger, &its)), mesh); }),
+            "holds values at 18 nodes, the mesh has 15");
   Mesh moved = mesh;
   moved.points[7].y += 2e-6;
-  expect_in(refusal_of([&] { require_same_mesh(read_solution(write(moved, &solution)), mesh); }), "node 8 lies at");
+  expect_in(refusal_of([&] { require_same_mesh(read_solution(write(moved, &solution)), mesh); }),
+            "node 8 lies at");
   moved.points[7].y = mesh.points[7].y + 0.5e-6;
   require_same_mesh(read_solution(write(moved, &solution)), mesh);
   Mesh flipped = mesh;  // the other diagonal
   flipped.triangles[0] = {mesh.triangles[0][0], mesh.triangles[0][1], mesh.triangles[1][2]};
   flipped.triangles[1] = {mesh.triangles[0][1], mesh.triangles[0][2], mesh.triangles[1][2]};
-  expect_in(refusal_of([&] { require_same_mesh(read_solution(write(flipped, &solution)), mesh); }), "of its triangles the one of nodes 6 7 11");
+  expect_in(refusal_of([&] { require_same_mesh(read_solution(write(flipped, &solution)), mesh); }),
+            "of its triangles the one of nodes 6 7 11");
   Mesh reordered = mesh;  // the same cells in another order, begun at other nodes
   std::reverse(reordered.quads.begin(), reordered.quads.end());
   for (auto& nodes : reordered.triangles) std::rotate(nodes.begin(), nodes.begin() + 1, nodes.end());
   require_same_mesh(read_solution(write(reordered, &solution)), mesh);
 }
 
-INSTANTIATE_TEST_SUITE_P(SolutionFile, Formats, testing::Values(".mesh", ".cgns", ".vtu"), [](const auto& format) { return format.param.substr(1); });
+INSTANTIATE_TEST_SUITE_P(SolutionFile, Formats, testing::Values(".mesh", ".cgns", ".vtu"),
+                         [](const auto& format) { return format.param.substr(1); });
 
 TEST(SolutionFile, OtherNumbersOfCellsAreTold) {
   const Mesh mesh = test::sample_mesh(2);
-  LoadedSolution loaded{"s.vtu", test::sample_solution(mesh), mesh.owned_nodes, mesh.points, true, mesh.triangles, mesh.quads};
+  LoadedSolution loaded{
+      "s.vtu", test::sample_solution(mesh), mesh.owned_nodes, mesh.points, true, mesh.triangles, mesh.quads};
   loaded.quads.pop_back();
   expect_in(refusal_of([&] { require_same_mesh(loaded, mesh); }), "s.vtu: has 1 quads, the mesh 2");
 }
@@ -194,14 +211,19 @@ TEST(VariableNames, FindsThemByUsualNames) {
 
 TEST(VariableNames, RefusesWithAList) {
   const std::vector<std::string> names{"rho", "Density", "p"};
-  expect_in(refusal_of([&] { variable(names, "mach", "s.vtu"); }), "s.vtu: no variable 'mach' in the solution; it has: rho, Density, p");
+  expect_in(refusal_of([&] { variable(names, "mach", "s.vtu"); }),
+            "s.vtu: no variable 'mach' in the solution; it has: rho, Density, p");
   expect_in(refusal_of([&] { variable({}, "mach", "s.vtu"); }), "it has: none");
   EXPECT_EQ(variable(names, "density", "s"), 1U);
-  expect_in(refusal_of([] { variable(std::vector<std::string>{"u", "Ux"}, "x_velocity", "s"); }), "'x_velocity' may be u or Ux");
+  expect_in(refusal_of([] {
+              variable(std::vector<std::string>{"u", "Ux"}, "x_velocity", "s");
+            }),
+            "'x_velocity' may be u or Ux");
 }
 
 TEST(VariableNames, BlanksBecomeUnderscoresInEveryFormat) {
-  EXPECT_EQ(read_text("wave height,b\n1,2\n2,3\n").solution.names, (std::vector<std::string>{"wave_height", "b"}));
+  EXPECT_EQ(read_text("wave height,b\n1,2\n2,3\n").solution.names,
+            (std::vector<std::string>{"wave_height", "b"}));
   const TemporaryFolder folder;
   const Mesh mesh = test::sample_mesh(5);
   Solution solution = test::sample_solution(mesh);
@@ -218,7 +240,8 @@ TEST(VariableNames, CgnsKeepsEachVariable) {
   const Mesh mesh = test::sample_mesh(5);
   Solution solution = test::sample_solution(mesh);
   const std::string of_40(40, 'a');
-  for (const auto& names : {std::vector<std::string>{of_40 + "1", of_40 + "2"}, {"density", "Density"}, {"a/b", "a_b"}}) {
+  for (const auto& names :
+       {std::vector<std::string>{of_40 + "1", of_40 + "2"}, {"density", "Density"}, {"a/b", "a_b"}}) {
     solution.names = names;
     write_cgns(test::world(), mesh, folder.file("a.cgns"), &solution);
     EXPECT_EQ(read_solution(folder.file("a.cgns")).solution.values, solution.values) << names[0];

@@ -1,9 +1,9 @@
 // The SU2 reader: what it accepts and puts right, and what it refuses by line. It works on one rank alone.
-#include "io/su2_file.hpp"
+#include "io/su2/su2_file.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -58,7 +58,8 @@ TEST(Su2Reader, TakesKeysInAnyOrderAndSpacing) {
   moved = replaced(replaced(moved, "0.5 1.5 4", "+.5 1.5D0 % top"), "NPOIN= 5", "NPOIN= 5 5");
   EXPECT_EQ(check.of(moved).mesh.points, check.of(house).mesh.points);
   EXPECT_EQ(check.of(test::with_crlf(house)).mesh.boundaries.at(0).name, "floor");
-  EXPECT_EQ(check.of(replaced(house, "= floor", "=   first floor  % name")).mesh.boundaries.at(0).name, "first floor");
+  EXPECT_EQ(check.of(replaced(house, "= floor", "=   first floor  % name")).mesh.boundaries.at(0).name,
+            "first floor");
 }
 
 TEST(Su2Reader, PassesOverWhatIsNoMesh) {
@@ -92,7 +93,8 @@ TEST(Su2Reader, RefusesWrongCounts) {
   check.expect_refusal(replaced(house, "NMARK= 2", "NMARK= 3"), "m.su2:11: ", "2 markers");
   check.expect_refusal(replaced(house, "ELEMS= 1\n", "ELEMS= 2\n"), "m.su2:15: ", "MARKER_TAG");
   check.expect_refusal(replaced(house, "ELEMS= 4\n", "ELEMS= 3\n"), "m.su2:20: ", "a row too many");
-  check.expect_refusal(replaced(house, "MARKER_ELEMS= 1\n3 0 1\n", ""), "m.su2:13: ", "floor has no MARKER_ELEMS");
+  check.expect_refusal(replaced(house, "MARKER_ELEMS= 1\n3 0 1\n", ""),
+                       "m.su2:13: ", "floor has no MARKER_ELEMS");
   check.expect_refusal(replaced(house, "MARKER_TAG= walls\n", ""), "m.su2:15: ", "without a MARKER_TAG");
   check.expect_refusal(house + "NELEM= 0\n", "m.su2:21: ", "a second time");
   check.expect_refusal("9 9\n" + house, "m.su2:1: ", "KEY= value");
@@ -105,13 +107,15 @@ TEST(Su2Reader, RefusesBadRowsByLine) {
   check.expect_refusal(replaced(house, "1 1 2\n", "1\n"), "m.su2:8: ", "this line ends");
   check.expect_refusal(replaced(house, "1 1 2\n", "1 1 0 2\n"), "m.su2:8: ", "too many");
   check.expect_refusal(replaced(house, "9 0 1 2 3 0", "9 0 1 2"), "m.su2:3: ", "this line ends");
-  check.expect_refusal(replaced(house, "3 2 4\n", "3 0 4\n"), "m.su2:18: ", "walls, from (0, 0) to (0.5, 1.5), belongs to no cell");
+  check.expect_refusal(replaced(house, "3 2 4\n", "3 0 4\n"),
+                       "m.su2:18: ", "walls, from (0, 0) to (0.5, 1.5), belongs to no cell");
 }
 
 TEST(Su2Reader, RefusesWhatItDoesNotKnow) {
   check.expect_refusal(replaced(house, "9 0 1 2 3", "10 0 1 2 3"), "m.su2:3: ", "tetrahedron");
   check.expect_refusal(replaced(house, "9 0 1 2 3", "77 0 1 2 3"), "m.su2:3: ", "type 77;");
-  check.expect_refusal(replaced(house, "3 0 1\n", "1 0\n"), "m.su2:14: ", "marker floor has an element of type 1 (vertex)");
+  check.expect_refusal(replaced(house, "3 0 1\n", "1 0\n"),
+                       "m.su2:14: ", "marker floor has an element of type 1 (vertex)");
   check.expect_refusal(replaced(house, "NDIME= 2", "NDIME= 3"), "m.su2:1: ", "3 dimensions");
   check.expect_refusal("NZONE= 2\n" + house, "m.su2:1: ", "several zones");
   check.expect_refusal("no mesh at all\n", "m.su2:1: ", "no SU2 mesh");

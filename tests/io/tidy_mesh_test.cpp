@@ -1,18 +1,19 @@
 // What is put right in a mesh before it is smoothed, and what is left for others to report.
-#include "io/tidy_mesh.hpp"
+#include "io/loaded/tidy_mesh.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 
 namespace quadloop {
 namespace {
 
 NodeId node(std::int32_t number) { return NodeId{number}; }
 
-/// The square [0, 2] x [0, 2]: two unit quads below, four triangles above; nodes row by row, node 4 in the middle.
+/// The square [0, 2] x [0, 2]: two unit quads below, four triangles above; nodes row by row, node 4 in the
+/// middle.
 LoadedMesh square() {
   LoadedMesh loaded;
   Mesh& mesh = loaded.mesh;
@@ -21,9 +22,13 @@ LoadedMesh square() {
   }
   mesh.owned_nodes = 9;
   mesh.quads = {{node(0), node(1), node(4), node(3)}, {node(1), node(2), node(5), node(4)}};
-  mesh.triangles = {{node(3), node(4), node(7)}, {node(3), node(7), node(6)}, {node(4), node(5), node(8)}, {node(4), node(8), node(7)}};
-  mesh.boundaries = {{"wall", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(5)}, {node(5), node(8)}}},
-                     {"far", "farfield", {{node(8), node(7)}, {node(7), node(6)}, {node(6), node(3)}, {node(3), node(0)}}}};
+  mesh.triangles = {{node(3), node(4), node(7)},
+                    {node(3), node(7), node(6)},
+                    {node(4), node(5), node(8)},
+                    {node(4), node(8), node(7)}};
+  mesh.boundaries = {
+      {"wall", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(5)}, {node(5), node(8)}}},
+      {"far", "farfield", {{node(8), node(7)}, {node(7), node(6)}, {node(6), node(3)}, {node(3), node(0)}}}};
   loaded.triangle_to_block.assign(4, 0);
   loaded.quad_to_block.assign(2, 0);
   return loaded;
@@ -66,8 +71,10 @@ TEST(TidyMesh, DropsNodesOfNoCellWithTheirRows) {
   for (int i = 0; i < 22; ++i) loaded.solution->values.push_back(i);
   tidy_mesh(loaded, "m.mesh");
   expect_same(mesh, square().mesh);
-  EXPECT_EQ(loaded.solution->values, (std::vector<double>{0, 1, 2, 3, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
-  EXPECT_EQ(loaded.warnings, std::vector<std::string>{"m.mesh: 2 nodes that belong to no cell were left out"});
+  EXPECT_EQ(loaded.solution->values,
+            (std::vector<double>{0, 1, 2, 3, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
+  EXPECT_EQ(loaded.warnings,
+            std::vector<std::string>{"m.mesh: 2 nodes that belong to no cell were left out"});
 }
 
 TEST(TidyMesh, TurnsCellsAndBoundaryEdges) {
@@ -104,7 +111,8 @@ TEST(TidyMesh, EdgesOfNoBoundaryBecomeOne) {
   EXPECT_TRUE(validate(loaded.mesh).empty());
   ASSERT_EQ(loaded.warnings.size(), 2U);
   EXPECT_EQ(loaded.warnings[0], "m.mesh: 1 boundaries without edges were left out");
-  EXPECT_EQ(loaded.warnings[1], "m.mesh: 5 edges of the outline belong to no boundary; they are the boundary \"boundary_2\" now");
+  EXPECT_EQ(loaded.warnings[1],
+            "m.mesh: 5 edges of the outline belong to no boundary; they are the boundary \"boundary_2\" now");
 }
 
 TEST(TidyMesh, AMeshWithoutBoundariesGetsOne) {

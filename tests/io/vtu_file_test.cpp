@@ -1,12 +1,13 @@
-// The VTU reader: what it accepts, in every encoding, and what it refuses by line; and that the writer's files come back. On one rank alone.
-#include "io/vtu_file.hpp"
+// The VTU reader: what it accepts, in every encoding, and what it refuses by line; and that the writer's
+// files come back. On one rank alone.
+#include "io/vtu/vtu_file.hpp"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <sstream>
 
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -21,19 +22,24 @@ const test::ReaderCheck check{read_vtu, "m.vtu"};
 
 NodeId node(std::int32_t number) { return NodeId{number}; }
 
-/// A unit square as a quad with a triangle on top, as a program that knows nothing of boundaries writes it; line numbers below count in it.
+/// A unit square as a quad with a triangle on top, as a program that knows nothing of boundaries writes it;
+/// line numbers below count in it.
 const std::string head =
-    "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+    "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
 const std::string house =
     head +
-    "<Piece NumberOfPoints=\"5\" NumberOfCells=\"2\">\n"                                                                    // 4
-    "<PointData Scalars=\"rho\">\n<DataArray type=\"Float32\" Name=\"rho\" format=\"ascii\">1 2 3 4 5.5</DataArray>\n"      // 6
-    "<DataArray type=\"Float64\" Name=\"Velocity\" NumberOfComponents=\"3\">\n1 2 0 3 4 0 5 6 0 7 8 0 9 1e1 0\n"            // 8
-    "</DataArray>\n</PointData>\n"                                                                                          // 10
-    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 2 1 0 2 1 1 2 0 1 2 .5 1.5 2</DataArray></Points>\n"  // 11
-    "<Cells>\n<DataArray type=\"Int32\" Name=\"connectivity\">0 1 2 3\n3 2 4</DataArray>\n"                                 // 14
-    "<DataArray type=\"Int32\" Name=\"offsets\">4 7</DataArray>\n"                                                          // 15
-    "<DataArray type=\"UInt8\" Name=\"types\">9 5</DataArray>\n</Cells>\n"                                                  // 17
+    "<Piece NumberOfPoints=\"5\" NumberOfCells=\"2\">\n"  // 4
+    "<PointData Scalars=\"rho\">\n<DataArray type=\"Float32\" Name=\"rho\" format=\"ascii\">1 2 3 4 "
+    "5.5</DataArray>\n"  // 6
+    "<DataArray type=\"Float64\" Name=\"Velocity\" NumberOfComponents=\"3\">\n1 2 0 3 4 0 5 6 0 7 8 0 9 1e1 "
+    "0\n"                           // 8
+    "</DataArray>\n</PointData>\n"  // 10
+    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 2 1 0 2 1 1 2 0 1 2 .5 1.5 "
+    "2</DataArray></Points>\n"                                                               // 11
+    "<Cells>\n<DataArray type=\"Int32\" Name=\"connectivity\">0 1 2 3\n3 2 4</DataArray>\n"  // 14
+    "<DataArray type=\"Int32\" Name=\"offsets\">4 7</DataArray>\n"                           // 15
+    "<DataArray type=\"UInt8\" Name=\"types\">9 5</DataArray>\n</Cells>\n"                   // 17
     "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 
 void expect_house(const LoadedMesh& loaded) {
@@ -75,12 +81,15 @@ TEST(VtuReader, KeepsAThirdComponentThatSaysSomething) {
 /// Exchanges the text of every array for what `encode` makes of its numbers.
 template <class Encode>
 std::string encoded(std::string text, const Encode& encode) {
-  for (std::size_t at = text.find("<DataArray"); at != std::string::npos; at = text.find("<DataArray", at + 1)) {
+  for (std::size_t at = text.find("<DataArray"); at != std::string::npos;
+       at = text.find("<DataArray", at + 1)) {
     const std::size_t begin = text.find('>', at) + 1, end = text.find("</DataArray>", begin);
     const std::size_t type_at = text.find("type=\"", at) + 6;
     const std::string type = text.substr(type_at, text.find('"', type_at) - type_at);
     std::string bytes;
-    const auto append = [&](auto value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof(value)); };
+    const auto append = [&](auto value) {
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    };
     std::istringstream numbers(text.substr(begin, end - begin));
     for (double number = 0; numbers >> number;) {
       if (type == "Float64") append(number);
@@ -103,8 +112,10 @@ std::string base64(const std::string& bytes) {
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63U] : '=';
+    for (std::size_t k = 0; k < 3; ++k)
+      bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63U] : '=';
   }
   return text;
 }
@@ -118,7 +129,8 @@ std::string size_bytes(std::size_t size) {
 std::string deflated(const std::string& bytes) {
   uLongf size = compressBound(bytes.size());
   std::string packed(size, '\0');
-  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+           bytes.size());
   packed.resize(size);
   return packed;
 }
@@ -127,18 +139,21 @@ using Encoded = std::pair<std::string, std::string>;
 
 std::string inline_base64(const std::string& text) {
   return encoded(text, [](const std::string& bytes) {
-    return Encoded{"format=\"binary\"", "\n  " + base64(size_bytes<std::uint32_t>(bytes.size()) + bytes) + "\n  "};
+    return Encoded{"format=\"binary\"",
+                   "\n  " + base64(size_bytes<std::uint32_t>(bytes.size()) + bytes) + "\n  "};
   });
 }
 
 std::string appended(const std::string& text, bool raw) {
   std::string data;
-  const std::string changed = encoded(replaced(text, "version=\"0.1\"", "version=\"1.0\" header_type=\"UInt64\""), [&](const std::string& bytes) {
-    const std::string attributes = "format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"";
-    const std::string with_size = size_bytes<std::uint64_t>(bytes.size()) + bytes;
-    data += raw ? with_size : base64(with_size);
-    return Encoded{attributes, ""};
-  });
+  const std::string changed = encoded(
+      replaced(text, "version=\"0.1\"", "version=\"1.0\" header_type=\"UInt64\""),
+      [&](const std::string& bytes) {
+        const std::string attributes = "format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"";
+        const std::string with_size = size_bytes<std::uint64_t>(bytes.size()) + bytes;
+        data += raw ? with_size : base64(with_size);
+        return Encoded{attributes, ""};
+      });
   const std::string tag = std::string("<AppendedData encoding=\"") + (raw ? "raw" : "base64") + "\">\n _";
   return replaced(changed, "</VTKFile>", tag + data + "\n</AppendedData>\n</VTKFile>");
 }
@@ -161,7 +176,8 @@ TEST(VtuReader, ReadsAppendedData) {
 }
 
 TEST(VtuReader, ReadsZlib) {
-  const std::string text = replaced(house, "version=\"0.1\"", "version=\"0.1\" compressor=\"vtkZLibDataCompressor\"");
+  const std::string text =
+      replaced(house, "version=\"0.1\"", "version=\"0.1\" compressor=\"vtkZLibDataCompressor\"");
   const auto packed = [&](std::size_t block) {
     return encoded(text, [block](const std::string& bytes) {
       std::string header, data;
@@ -171,19 +187,24 @@ TEST(VtuReader, ReadsZlib) {
         header += size_bytes<std::uint32_t>(piece.size());
         data += piece;
       }
-      header = size_bytes<std::uint32_t>(blocks) + size_bytes<std::uint32_t>(block) + size_bytes<std::uint32_t>(bytes.size() % block) + header;
+      header = size_bytes<std::uint32_t>(blocks) + size_bytes<std::uint32_t>(block) +
+               size_bytes<std::uint32_t>(bytes.size() % block) + header;
       return Encoded{"format=\"binary\"", base64(header) + base64(data)};
     });
   };
   for (const std::size_t block : {8U, 20U, 1000U}) expect_house(check.of(packed(block)));
-  check.expect_refusal(replaced(packed(1000), "vtkZLib", "vtkLZ4"), "m.vtu:2: ", "vtkLZ4DataCompressor; save it with zlib");
-  check.expect_refusal(replaced(inline_base64(house), "version=\"0.1\"", "compressor=\"vtkZLibDataCompressor\""),
-                       "m.vtu:", "cut short, or not what its header says");
+  check.expect_refusal(replaced(packed(1000), "vtkZLib", "vtkLZ4"),
+                       "m.vtu:2: ", "vtkLZ4DataCompressor; save it with zlib");
+  check.expect_refusal(
+      replaced(inline_base64(house), "version=\"0.1\"", "compressor=\"vtkZLibDataCompressor\""),
+      "m.vtu:", "cut short, or not what its header says");
 }
 
 TEST(VtuReader, RefusesWrongCountsAndNumbersByLine) {
-  check.expect_refusal(replaced(house, ">1 2 3 4 5.5<", ">1 2 3 4<"), "m.vtu:6: ", "'rho' of PointData holds 4 numbers, not 5");
-  check.expect_refusal(replaced(house, ">1 2 3 4 5.5<", ">1 2 nan 4 5<"), "m.vtu:6: ", "'rho' is not finite at node 3");
+  check.expect_refusal(replaced(house, ">1 2 3 4 5.5<", ">1 2 3 4<"),
+                       "m.vtu:6: ", "'rho' of PointData holds 4 numbers, not 5");
+  check.expect_refusal(replaced(house, ">1 2 3 4 5.5<", ">1 2 nan 4 5<"),
+                       "m.vtu:6: ", "'rho' is not finite at node 3");
   check.expect_refusal(replaced(house, "9 1e1 0\n", "9 ten 0\n"), "m.vtu:8: ", "ten");
   check.expect_refusal(replaced(house, ".5 1.5 2<", ".5 inf 2<"), "m.vtu:11: ", "not finite at node 5");
   check.expect_refusal(replaced(house, ".5 1.5 2<", ".5 1.5 3<"), "m.vtu:11: ", "node 5 lies at z = 3");
@@ -192,15 +213,18 @@ TEST(VtuReader, RefusesWrongCountsAndNumbersByLine) {
   check.expect_refusal(replaced(house, ">4 7<", ">9 7<"), "m.vtu:15: ", "offset of cell 1");
   check.expect_refusal(replaced(house, "\n3 2 4<", "\n3 2 5<"), "m.vtu:13: ", "cell 2 names point 5");
   check.expect_refusal(replaced(house, ">9 5<", ">9 22<"), "m.vtu:13: ", "cell 2 is of VTK type 22");
-  check.expect_refusal(replaced(house, "NumberOfCells=\"2\"", "NumberOfCells=\"-2\""), "m.vtu:4: ", "NumberOfCells");
-  check.expect_refusal(replaced(house, "NumberOfPoints=\"5\"", "NumberOfPoints=\"99999999999\""), "m.vtu:4: ", "2^31");
+  check.expect_refusal(replaced(house, "NumberOfCells=\"2\"", "NumberOfCells=\"-2\""),
+                       "m.vtu:4: ", "NumberOfCells");
+  check.expect_refusal(replaced(house, "NumberOfPoints=\"5\"", "NumberOfPoints=\"99999999999\""),
+                       "m.vtu:4: ", "2^31");
 }
 
 TEST(VtuReader, RefusesOtherFiles) {
   check.expect_refusal("no XML at all\n", "m.vtu:1: ", "no whole VTK XML file");
   check.expect_refusal("", "m.vtu:1: ", "no whole VTK XML file");
   check.expect_refusal("<a/>\n", "m.vtu:1: ", "no element VTKFile");
-  check.expect_refusal(replaced(house, "type=\"UnstructuredGrid\"", "type=\"PolyData\""), "m.vtu:2: ", "PolyData");
+  check.expect_refusal(replaced(house, "type=\"UnstructuredGrid\"", "type=\"PolyData\""),
+                       "m.vtu:2: ", "PolyData");
   check.expect_refusal(replaced(house, "</Piece>\n", "</Piece><Piece/>\n"), "m.vtu:18: ", "several pieces");
   check.expect_refusal(replaced(house, "\"types\"", "\"kinds\""), "m.vtu:4: ", "no array 'types'");
   check.expect_refusal(head + "</UnstructuredGrid></VTKFile>", "m.vtu:1: ", "no piece");
@@ -208,7 +232,8 @@ TEST(VtuReader, RefusesOtherFiles) {
 
 TEST(VtuReader, RefusesEarlyEnd) {
   check.expect_early_ends_refused(house);
-  const std::string raw = appended(house, true), text = appended(house, false), inlined = inline_base64(house);
+  const std::string raw = appended(house, true), text = appended(house, false),
+                    inlined = inline_base64(house);
   const std::size_t raw_data = raw.find("\n _") + 3, text_data = text.find("\n _") + 3;
   for (std::size_t cut = 1; cut < 40; ++cut) {
     check.expect_refusal(raw.substr(0, raw_data + 2 * cut), "m.vtu:", "");

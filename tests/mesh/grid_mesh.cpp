@@ -7,7 +7,8 @@
 namespace quadloop::test {
 
 double scattered(std::uint64_t seed, std::int64_t number, int which) {
-  std::seed_seq keys{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(which)};
+  std::seed_seq keys{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(number),
+                     static_cast<std::uint32_t>(which)};
   std::mt19937_64 random(keys);
   return static_cast<double>(random() >> 11) * 0x1p-52 - 1;
 }
@@ -17,7 +18,9 @@ bool Grid::inner(std::int32_t node) const {
   return 0 < i && i < n && 0 < j && j < n;
 }
 
-Point Grid::place(std::int32_t node) const { return {size.x * (node % (n + 1)) / n, size.y * (node / (n + 1)) / n}; }
+Point Grid::place(std::int32_t node) const {
+  return {size.x * (node % (n + 1)) / n, size.y * (node / (n + 1)) / n};
+}
 
 Mesh Grid::mesh() const {
   Mesh mesh;

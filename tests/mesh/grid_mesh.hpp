@@ -11,7 +11,8 @@ namespace quadloop::test {
 /// A number in [-1, 1) that its keys alone decide.
 double scattered(std::uint64_t seed, std::int64_t number, int which);
 
-/// A regular grid on a rectangle, whole, n x n cells: quads, some of them split into two triangles by either diagonal. Nodes row by row.
+/// A regular grid on a rectangle, whole, n x n cells: quads, some of them split into two triangles by either
+/// diagonal. Nodes row by row.
 struct Grid {
   std::int32_t n = 8;
   Point size{1, 1};
@@ -23,7 +24,8 @@ struct Grid {
   Point place(std::int32_t node) const;
 };
 
-/// Moves each node by up to `share` of the grid's steps, those of the sides along them, and no corner. Under a quarter no cell is inverted.
+/// Moves each node by up to `share` of the grid's steps, those of the sides along them, and no corner. Under
+/// a quarter no cell is inverted.
 void jitter(const Grid& grid, double share, std::uint64_t seed, Mesh& mesh);
 
 /// An order that leaves no neighbours together.

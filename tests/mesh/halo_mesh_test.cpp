@@ -1,4 +1,5 @@
-// Each rank has all cells and boundary edges that touch its nodes, in their global order, and values reach the ranks that have copies.
+// Each rank has all cells and boundary edges that touch its nodes, in their global order, and values reach
+// the ranks that have copies.
 #include "mesher/mesh/halo_mesh.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,9 @@ struct Pieces {
         first_triangle{world().exclusive_sum(static_cast<std::int64_t>(part.triangles.size()))},
         first_quad{world().exclusive_sum(static_cast<std::int64_t>(part.quads.size()))} {}
 
-  bool is_owned(NodeId number) const { return part.first_node <= number.value() && number.value() < part.first_node + part.owned_nodes; }
+  bool is_owned(NodeId number) const {
+    return part.first_node <= number.value() && number.value() < part.first_node + part.owned_nodes;
+  }
 
   Mesh whole, part;
   std::int64_t first_triangle, first_quad;
@@ -36,7 +39,8 @@ void for_each_distribution(const Check& check) {
     const test::Grid grid{n};
     Mesh mesh = grid.mesh();
     test::jitter(grid, 0.2, 3, mesh);
-    for (const MeshOrder& order : {space_filling_order(mesh), test::shuffled_order(mesh, 12)}) check(Pieces(mesh, order));
+    for (const MeshOrder& order : {space_filling_order(mesh), test::shuffled_order(mesh, 12)})
+      check(Pieces(mesh, order));
   }
 }
 
@@ -47,7 +51,8 @@ Numbers expected_numbers(const Pieces& pieces, const Cells& cells, std::int64_t 
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto number = static_cast<std::int64_t>(c);
     const bool is_own = first_own <= number && number < first_own + static_cast<std::int64_t>(own);
-    if (is_own || std::any_of(cells[c].begin(), cells[c].end(), [&](NodeId n) { return pieces.is_owned(n); })) numbers.push_back(number);
+    if (is_own || std::any_of(cells[c].begin(), cells[c].end(), [&](NodeId n) { return pieces.is_owned(n); }))
+      numbers.push_back(number);
   }
   return numbers;
 }
@@ -61,8 +66,10 @@ std::vector<Numbers> expected_cells(const Pieces& pieces) {
       for (const NodeId node : cells[static_cast<std::size_t>(number)]) rows.back().push_back(node.value());
     }
   };
-  add(pieces.whole.triangles, expected_numbers(pieces, pieces.whole.triangles, pieces.first_triangle, pieces.part.triangles.size()));
-  add(pieces.whole.quads, expected_numbers(pieces, pieces.whole.quads, pieces.first_quad, pieces.part.quads.size()));
+  add(pieces.whole.triangles,
+      expected_numbers(pieces, pieces.whole.triangles, pieces.first_triangle, pieces.part.triangles.size()));
+  add(pieces.whole.quads,
+      expected_numbers(pieces, pieces.whole.quads, pieces.first_quad, pieces.part.quads.size()));
   return rows;
 }
 
@@ -98,11 +105,13 @@ TEST(HaloMesh, HasAllBoundaryEdgesAtOwnedNodesOnce) {
     std::vector<Numbers> found, expected;
     for (const HaloEdge& e : halo.boundary_edges()) {
       ASSERT_TRUE(e.from.valid() && e.to.valid());
-      if (std::min(e.from, e.to).value() < halo.owned_nodes()) found.push_back({halo.global(e.from.value()), halo.global(e.to.value()), e.boundary});
+      if (std::min(e.from, e.to).value() < halo.owned_nodes())
+        found.push_back({halo.global(e.from.value()), halo.global(e.to.value()), e.boundary});
     }
     for (std::size_t b = 0; b < pieces.whole.boundaries.size(); ++b) {
       for (const auto& [from, to] : pieces.whole.boundaries[b].edges) {
-        if (pieces.is_owned(from) || pieces.is_owned(to)) expected.push_back({from.value(), to.value(), static_cast<std::int64_t>(b)});
+        if (pieces.is_owned(from) || pieces.is_owned(to))
+          expected.push_back({from.value(), to.value(), static_cast<std::int64_t>(b)});
       }
     }
     std::sort(found.begin(), found.end());
@@ -118,8 +127,10 @@ TEST(HaloMesh, SpreadsTheCellsValues) {
     const auto quads_begin = own.begin() + static_cast<std::ptrdiff_t>(pieces.part.triangles.size());
     std::iota(own.begin(), quads_begin, pieces.first_triangle);
     std::iota(quads_begin, own.end(), pieces.first_quad);
-    Numbers expected = expected_numbers(pieces, pieces.whole.triangles, pieces.first_triangle, pieces.part.triangles.size());
-    const Numbers quads = expected_numbers(pieces, pieces.whole.quads, pieces.first_quad, pieces.part.quads.size());
+    Numbers expected =
+        expected_numbers(pieces, pieces.whole.triangles, pieces.first_triangle, pieces.part.triangles.size());
+    const Numbers quads =
+        expected_numbers(pieces, pieces.whole.quads, pieces.first_quad, pieces.part.quads.size());
     expected.insert(expected.end(), quads.begin(), quads.end());
     EXPECT_TRUE(halo.spread(world(), own) == expected);
   });
@@ -133,7 +144,8 @@ TEST(HaloMesh, ExchangeBringsTheOwnersValues) {
       values.push_back(node < halo.owned_nodes() ? 0.5 * static_cast<double>(halo.global(node)) : -1);
     }
     halo.exchange().update(values);
-    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(values[i], 0.5 * static_cast<double>(halo.global(static_cast<std::int32_t>(i))));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      EXPECT_EQ(values[i], 0.5 * static_cast<double>(halo.global(static_cast<std::int32_t>(i))));
   });
 }
 
@@ -142,7 +154,8 @@ TEST(HaloMesh, ExchangeBringsOnlyWhatHasChanged) {
     const HaloMesh halo(world(), pieces.part);
     const auto is_even = [&](std::int32_t node) { return halo.global(node) % 2 == 0; };
     Numbers values(halo.points().size(), -1);
-    for (std::int32_t node = 0; node < halo.owned_nodes(); ++node) values[static_cast<std::size_t>(node)] = halo.global(node);
+    for (std::int32_t node = 0; node < halo.owned_nodes(); ++node)
+      values[static_cast<std::size_t>(node)] = halo.global(node);
     halo.exchange().update(values, is_even);
     for (std::int32_t node = 0; node < static_cast<std::int32_t>(values.size()); ++node) {
       const bool known = node < halo.owned_nodes() || is_even(node);

@@ -1,5 +1,5 @@
 // Figures against those worked out by hand, on any number of ranks.
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/check/quality.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,9 @@ using test::world;
 NodeId node(std::int32_t number) { return NodeId{number}; }
 
 TEST(Quality, OfTriangles) {
-  const std::array<Point, 3> equilateral{Point{0, 0}, Point{1, 0}, Point{0.5, std::sqrt(3.0) / 2}}, right{Point{0, 0}, Point{1, 0}, Point{0, 1}},
-      flat{Point{0, 0}, Point{1, 0}, Point{2, 0}}, inverted{Point{0, 0}, Point{0, 1}, Point{1, 0}}, nothing{};
+  const std::array<Point, 3> equilateral{Point{0, 0}, Point{1, 0}, Point{0.5, std::sqrt(3.0) / 2}},
+      right{Point{0, 0}, Point{1, 0}, Point{0, 1}}, flat{Point{0, 0}, Point{1, 0}, Point{2, 0}},
+      inverted{Point{0, 0}, Point{0, 1}, Point{1, 0}}, nothing{};
   EXPECT_NEAR(quality_of(equilateral), 1, 1e-15);
   EXPECT_NEAR(quality_of(right), std::sqrt(3.0) / 2, 1e-15);  // 4 sqrt(3) (1/2) / (1 + 1 + 2)
   EXPECT_EQ(quality_of(flat), 0);
@@ -26,7 +27,8 @@ TEST(Quality, OfTriangles) {
 }
 
 TEST(Quality, OfQuads) {
-  const std::array<Point, 4> unit{Point{0, 0}, Point{1, 0}, Point{1, 1}, Point{0, 1}}, oblong{Point{0, 0}, Point{2, 0}, Point{2, 1}, Point{0, 1}},
+  const std::array<Point, 4> unit{Point{0, 0}, Point{1, 0}, Point{1, 1}, Point{0, 1}},
+      oblong{Point{0, 0}, Point{2, 0}, Point{2, 1}, Point{0, 1}},
       dart{Point{0, 0}, Point{1, 0}, Point{0.25, 0.25}, Point{0, 1}};
   EXPECT_EQ(quality_of(unit), 1);
   EXPECT_NEAR(quality_of(oblong), 0.8, 1e-15);  // 2 * 2 / (4 + 1)
@@ -48,7 +50,10 @@ Mesh square_and_triangle() {
   mesh.first_node = 5 * world().rank();
   mesh.quads = {{node(0), node(1), node(2), node(3)}};
   mesh.triangles = {{node(1), node(4), node(2)}};
-  mesh.boundaries = {{"b", "wall", {{node(0), node(1)}, {node(1), node(4)}, {node(4), node(2)}, {node(2), node(3)}, {node(3), node(0)}}}};
+  mesh.boundaries = {
+      {"b",
+       "wall",
+       {{node(0), node(1)}, {node(1), node(4)}, {node(4), node(2)}, {node(2), node(3)}, {node(3), node(0)}}}};
   return mesh;
 }
 

@@ -1,5 +1,6 @@
-// After nodes have moved the mesh is made Delaunay again, with the same triangles in the same order on any number of ranks.
-#include "mesher/mesh/restore_delaunay.hpp"
+// After nodes have moved the mesh is made Delaunay again, with the same triangles in the same order on any
+// number of ranks.
+#include "mesher/delaunay/restore_delaunay.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +9,12 @@
 #include <numeric>
 #include <random>
 
-#include "mesher/geometry/assemble.hpp"
+#include "mesher/build/build_mesh.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
-#include "mesher/mesh/build_mesh.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/node_table.hpp"
 #include "mesher/mesh/topology.hpp"
-#include "mesher/mesh/validate.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -44,7 +45,8 @@ MeshResult two_holes(const Communicator& comm, MeshType type, double spacing) {
   at_box.spacing = 0.25;
   how.rules = {at_holes, at_box};
   Warnings warnings;
-  const Geometry geometry = assemble({box, circle("hole_1", {-0.29, 0.113}, 0.3, 60), circle("hole_2", {0.5, 0.3}, 0.25, 5)}, how, warnings);
+  const Geometry geometry = assemble(
+      {box, circle("hole_1", {-0.29, 0.113}, 0.3, 60), circle("hole_2", {0.5, 0.3}, 0.25, 5)}, how, warnings);
   MeshOptions options;
   options.type = type;
   options.size.min = spacing / 4;
@@ -63,10 +65,12 @@ Mesh delaunay_mesh(const Communicator& comm, double spacing = 0.05) {
   return mesh;
 }
 
-/// Where each node goes, on a whole mesh: those of every so many interior nodes by up to half of their star, as long as no triangle is inverted.
+/// Where each node goes, on a whole mesh: those of every so many interior nodes by up to half of their star,
+/// as long as no triangle is inverted.
 class Moves {
  public:
-  Moves(const Mesh& whole, std::int64_t every, unsigned seed) : points_{whole.points}, flags_(points_.size(), 0), around_(points_.size()) {
+  Moves(const Mesh& whole, std::int64_t every, unsigned seed)
+      : points_{whole.points}, flags_(points_.size(), 0), around_(points_.size()) {
     std::vector<char> outer(points_.size(), 0);
     for (const BoundaryEdges& b : whole.boundaries) {
       for (const auto& edge : b.edges) outer[index(edge[0])] = outer[index(edge[1])] = 1;
@@ -101,7 +105,8 @@ class Moves {
   void move(std::size_t i, Point by) {
     const Point before = points_[i];
     double size = 0;
-    for (const auto& t : around_[i]) size = std::max(size, length(points_[index(t[0])] - before) + length(points_[index(t[1])] - before));
+    for (const auto& t : around_[i])
+      size = std::max(size, length(points_[index(t[0])] - before) + length(points_[index(t[1])] - before));
     points_[i] = before + 0.4 * size * by;
     const bool sound = std::all_of(around_[i].begin(), around_[i].end(), [&](const auto& t) {
       const Point a = points_[index(t[0])], b = points_[index(t[1])], c = points_[index(t[2])];
@@ -123,7 +128,8 @@ class Moves {
 /// Nodes, triangles and boundary edges of all ranks, in the global order, on every rank.
 Mesh gather(const Communicator& comm, const Mesh& part) {
   Mesh whole;
-  whole.points = comm.all_gather_values(std::span(part.points).first(static_cast<std::size_t>(part.owned_nodes)));
+  whole.points =
+      comm.all_gather_values(std::span(part.points).first(static_cast<std::size_t>(part.owned_nodes)));
   whole.owned_nodes = static_cast<std::int32_t>(whole.points.size());
   const auto renumber = [&](auto rows) {
     for (auto& row : rows) {
@@ -132,7 +138,8 @@ Mesh gather(const Communicator& comm, const Mesh& part) {
     return comm.all_gather_values(std::span<const typename decltype(rows)::value_type>(rows));
   };
   whole.triangles = renumber(part.triangles);
-  for (const BoundaryEdges& b : part.boundaries) whole.boundaries.push_back({b.name, b.condition, renumber(b.edges)});
+  for (const BoundaryEdges& b : part.boundaries)
+    whole.boundaries.push_back({b.name, b.condition, renumber(b.edges)});
   return whole;
 }
 
@@ -140,7 +147,8 @@ void expect_same(const Mesh& a, const Mesh& b) {
   EXPECT_TRUE(a.points == b.points);
   EXPECT_TRUE(a.triangles == b.triangles);
   ASSERT_EQ(a.boundaries.size(), b.boundaries.size());
-  for (std::size_t i = 0; i < a.boundaries.size(); ++i) EXPECT_TRUE(a.boundaries[i].edges == b.boundaries[i].edges);
+  for (std::size_t i = 0; i < a.boundaries.size(); ++i)
+    EXPECT_TRUE(a.boundaries[i].edges == b.boundaries[i].edges);
 }
 
 /// The triangles of a whole mesh, whatever their order.
@@ -164,15 +172,18 @@ void expect_delaunay(const Mesh& whole) {
     if (other < 0) return;
     const auto apex = [&](std::int32_t t) {
       const auto& nodes = whole.triangles[static_cast<std::size_t>(t)];
-      return whole.point(*std::find_if(nodes.begin(), nodes.end(), [&](NodeId n) { return n != from && n != to; }));
+      return whole.point(
+          *std::find_if(nodes.begin(), nodes.end(), [&](NodeId n) { return n != from && n != to; }));
     };
-    EXPECT_TRUE(keeps_delaunay(whole.point(from), whole.point(to), apex(cell), apex(other))) << from.value() << " - " << to.value();
+    EXPECT_TRUE(keeps_delaunay(whole.point(from), whole.point(to), apex(cell), apex(other)))
+        << from.value() << " - " << to.value();
   });
 }
 
 void expect_consistent_copies(const Mesh& part, const Mesh& whole) {
   for (std::size_t i = 0; i < part.points.size(); ++i) {
-    EXPECT_EQ(part.points[i], whole.point(NodeId{static_cast<std::int32_t>(part.global(NodeId{static_cast<std::int32_t>(i)}).value())}));
+    EXPECT_EQ(part.points[i], whole.point(NodeId{static_cast<std::int32_t>(
+                                  part.global(NodeId{static_cast<std::int32_t>(i)}).value())}));
   }
 }
 
@@ -206,7 +217,9 @@ std::vector<std::array<NodeId, 3>> sorted(std::vector<std::array<NodeId, 3>> tri
   return triangles;
 }
 
-Point centroid(const Mesh& mesh, const std::array<NodeId, 3>& t) { return 1.0 / 3 * (mesh.point(t[0]) + mesh.point(t[1]) + mesh.point(t[2])); }
+Point centroid(const Mesh& mesh, const std::array<NodeId, 3>& t) {
+  return 1.0 / 3 * (mesh.point(t[0]) + mesh.point(t[1]) + mesh.point(t[2]));
+}
 
 /// Which of its nodes is farthest from its centroid, and how far.
 double reach(const Mesh& mesh, const std::array<NodeId, 3>& t) {
@@ -222,7 +235,8 @@ void expect_near(const Mesh& before, const Mesh& mesh, const std::vector<std::in
     for (std::int32_t k = 0; k < standing[place]; ++k) {
       const auto& then = before.triangles[place];
       const auto& now = mesh.triangles.at(next++);
-      EXPECT_LE(length(centroid(mesh, then) - centroid(mesh, now)), 1.0001 * (reach(mesh, then) + reach(mesh, now)));
+      EXPECT_LE(length(centroid(mesh, then) - centroid(mesh, now)),
+                1.0001 * (reach(mesh, then) + reach(mesh, now)));
     }
   }
   EXPECT_EQ(next, mesh.triangles.size());
@@ -295,14 +309,16 @@ TEST(RestoreDelaunay, ForgetsTheDiagonalsThatItBeganWith) {
   EXPECT_TRUE(sorted_triangles(results[0]) == sorted_triangles(delaunay_mesh(self)));
 }
 
-/// This rank's share of a whole mesh whose nodes and triangles have been shuffled, the first rank left without any of them where there are others.
+/// This rank's share of a whole mesh whose nodes and triangles have been shuffled, the first rank left
+/// without any of them where there are others.
 Mesh shuffled_part(const Communicator& comm, const Mesh& whole) {
   std::mt19937_64 random(7);
   std::vector<std::int32_t> number(whole.points.size());
   std::iota(number.begin(), number.end(), 0);
   std::shuffle(number.begin(), number.end(), random);
   std::vector<Point> points(number.size());
-  for (std::size_t i = 0; i < number.size(); ++i) points[static_cast<std::size_t>(number[i])] = whole.points[i];
+  for (std::size_t i = 0; i < number.size(); ++i)
+    points[static_cast<std::size_t>(number[i])] = whole.points[i];
   auto triangles = whole.triangles;
   std::shuffle(triangles.begin(), triangles.end(), random);
   const std::size_t shares = comm.size() > 1 ? static_cast<std::size_t>(comm.size()) - 1 : 1;
@@ -340,8 +356,8 @@ TEST(RestoreDelaunay, AnyDistributionWillDo) {
   }
 }
 
-/// A polygon on a circle, fanned from one of its nodes, and the tip of a triangle across its longest side, the last node, at a distance from the
-/// centre.
+/// A polygon on a circle, fanned from one of its nodes, and the tip of a triangle across its longest side,
+/// the last node, at a distance from the centre.
 Mesh polygon_with_tip(std::int32_t corners, double distance) {
   Mesh mesh;
   const auto node = [](std::int32_t i) { return NodeId{i}; };
@@ -352,7 +368,8 @@ Mesh polygon_with_tip(std::int32_t corners, double distance) {
   mesh.points.push_back({distance, 0});
   mesh.owned_nodes = corners + 1;
   mesh.boundaries = {{"outline", "wall", {}}};
-  for (std::int32_t i = 0; i <= corners; ++i) mesh.boundaries[0].edges.push_back({node(i), node((i + 1) % (corners + 1))});
+  for (std::int32_t i = 0; i <= corners; ++i)
+    mesh.boundaries[0].edges.push_back({node(i), node((i + 1) % (corners + 1))});
   for (std::int32_t i = 1; i + 1 < corners; ++i) mesh.triangles.push_back({node(0), node(i), node(i + 1)});
   mesh.triangles.push_back({node(0), node(corners - 1), node(corners)});
   return mesh;

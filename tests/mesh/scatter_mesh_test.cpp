@@ -46,7 +46,8 @@ TEST(SpaceFillingOrder, IsAPermutation) {
 TEST(SpaceFillingOrder, KeepsNeighboursTogether) {
   const test::Grid grid{15};
   const MeshOrder order = space_filling_order(grid.mesh());
-  for (std::size_t begin = 0; begin < order.nodes.size(); begin += 64) {  // 16 x 16 nodes: each quarter is one run of the curve
+  for (std::size_t begin = 0; begin < order.nodes.size();
+       begin += 64) {  // 16 x 16 nodes: each quarter is one run of the curve
     Box box;
     for (std::size_t i = begin; i < begin + 64; ++i) box.include(grid.place(order.nodes[i]));
     EXPECT_LT(std::max(box.width(), box.height()), 0.5);
@@ -57,7 +58,8 @@ TEST(SpaceFillingOrder, IsThatOfTheMeshAlone) {
   Mesh flat = jittered(3);
   for (Point& p : flat.points) p = {5, 5};  // a box without extent
   const MeshOrder order = space_filling_order(flat);
-  for (std::size_t i = 0; i < order.nodes.size(); ++i) EXPECT_EQ(order.nodes[i], static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < order.nodes.size(); ++i)
+    EXPECT_EQ(order.nodes[i], static_cast<std::int32_t>(i));
 }
 
 void expect_round_trip(const Mesh& whole, const MeshOrder& order) {
@@ -103,7 +105,8 @@ TEST(ScatterMesh, PartsNameTheNodesOfTheWhole) {
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(part.points.size()); ++i) {
     const std::int64_t number = part.global(NodeId{i}).value();
     EXPECT_TRUE(numbers.insert(number).second) << number << " twice";
-    EXPECT_EQ(part.point(NodeId{i}), whole.points[static_cast<std::size_t>(order.nodes[static_cast<std::size_t>(number)])]);
+    EXPECT_EQ(part.point(NodeId{i}),
+              whole.points[static_cast<std::size_t>(order.nodes[static_cast<std::size_t>(number)])]);
   }
 }
 
@@ -118,9 +121,11 @@ TEST(ScatterMesh, BoundariesAreOnEveryRank) {
     std::vector<std::array<NodeId, 2>> edges;
     for (const auto& edge : part.boundaries[b].edges) {
       edges.push_back(edge);
-      for (NodeId& node : edges.back()) node = NodeId{order.nodes[static_cast<std::size_t>(part.global(node).value())]};
+      for (NodeId& node : edges.back())
+        node = NodeId{order.nodes[static_cast<std::size_t>(part.global(node).value())]};
     }
-    EXPECT_TRUE(world().all_gather_values(std::span<const std::array<NodeId, 2>>(edges)) == whole.boundaries[b].edges);
+    EXPECT_TRUE(world().all_gather_values(std::span<const std::array<NodeId, 2>>(edges)) ==
+                whole.boundaries[b].edges);
   }
 }
 
@@ -131,9 +136,11 @@ TEST(ScatterMesh, GatherTakesWhatHasChanged) {
   for (Point& p : part.points) p = p + Point{1, 2};
   for (auto& t : part.triangles) t = {t[1], t[2], t[0]};
   gather_mesh(world(), part, on_root(order), back);
-  for (std::size_t i = 0; i < back.points.size(); ++i) EXPECT_EQ(back.points[i], whole.points[i] + (Point{1, 2}));
+  for (std::size_t i = 0; i < back.points.size(); ++i)
+    EXPECT_EQ(back.points[i], whole.points[i] + (Point{1, 2}));
   for (std::size_t i = 0; i < back.triangles.size(); ++i) {
-    EXPECT_EQ(back.triangles[i], (std::array<NodeId, 3>{whole.triangles[i][1], whole.triangles[i][2], whole.triangles[i][0]}));
+    EXPECT_EQ(back.triangles[i],
+              (std::array<NodeId, 3>{whole.triangles[i][1], whole.triangles[i][2], whole.triangles[i][0]}));
   }
 }
 

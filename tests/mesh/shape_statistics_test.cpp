@@ -1,5 +1,5 @@
 // Distributions of shapes against those worked out by hand.
-#include "mesher/mesh/shape_statistics.hpp"
+#include "mesher/mesh/check/shape_statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,9 @@ Mesh fan(std::span<const double> degrees) {
 Mesh fan(std::initializer_list<double> degrees) { return fan(std::span(degrees.begin(), degrees.size())); }
 
 /// The outline of a fan as one loop, counter-clockwise.
-std::vector<Chain> wedge(double degrees) { return {{"wedge", false, {{0, 0}, {1, 0}, at_degrees(degrees)}, ""}}; }
+std::vector<Chain> wedge(double degrees) {
+  return {{"wedge", false, {{0, 0}, {1, 0}, at_degrees(degrees)}, ""}};
+}
 
 void expect_excepted_tip(const Mesh& mesh, const std::vector<Chain>& geometry) {
   const ShapeStatistics shape = shape_statistics(mesh, geometry);
@@ -110,7 +112,8 @@ TEST(ShapeStatistics, TipCountsWithoutGeometry) {
 TEST(ShapeStatistics, TipOfTheOutlineIsExcepted) { expect_excepted_tip(fan({10}), wedge(10)); }
 
 TEST(ShapeStatistics, ChainsThatMeetAtTheTip) {
-  expect_excepted_tip(fan({10}), {{"low", true, {{0, 0}, {1, 0}, at_degrees(10)}, ""}, {"high", true, {at_degrees(10), {0, 0}}, ""}});
+  expect_excepted_tip(fan({10}), {{"low", true, {{0, 0}, {1, 0}, at_degrees(10)}, ""},
+                                  {"high", true, {at_degrees(10), {0, 0}}, ""}});
 }
 
 TEST(ShapeStatistics, RepeatedPointsAtTheTip) {
@@ -127,9 +130,12 @@ TEST(ShapeStatistics, SmallestCornerOfAPlace) {
 }
 
 TEST(ShapeStatistics, WhatTheOutlineDoesNotExcuse) {
-  expect_no_exception(fan({40}), wedge(40));                                                         // a corner that is not sharp
-  expect_no_exception(fan({20, 35}), {{"blunt", false, {{0, 0}, {2, 0}, 2 * at_degrees(65)}, ""}});  // a vertex that is not
-  expect_no_exception(fan({10, 40}), {{"hole", false, {{0, 0}, at_degrees(50), {1, 0}}, ""}});       // a domain of the other 310 degrees
+  expect_no_exception(fan({40}), wedge(40));  // a corner that is not sharp
+  expect_no_exception(fan({20, 35}),
+                      {{"blunt", false, {{0, 0}, {2, 0}, 2 * at_degrees(65)}, ""}});  // a vertex that is not
+  expect_no_exception(
+      fan({10, 40}),
+      {{"hole", false, {{0, 0}, at_degrees(50), {1, 0}}, ""}});  // a domain of the other 310 degrees
   expect_no_exception(fan({10, 40}), {{"near", false, {{1e-15, 0}, {1, 0}, at_degrees(50)}, ""}});
   expect_no_exception(fan({10, 40}), {{"loose", true, {{0, 0}, {1, 0}}, ""}});
 }
@@ -141,7 +147,8 @@ TEST(ShapeStatistics, CornerBetweenTwoBoundaryEdgesIsTheOutlines) {
 /// A channel of ten squares, 10 long and 1/10 wide, each cut in two, that opens into a square of side 10.
 Mesh channel() {
   Mesh mesh;
-  for (std::int32_t i = 0; i <= 10; ++i) mesh.points.insert(mesh.points.end(), {{1.0 * i, 0}, {1.0 * i, 0.1}});
+  for (std::int32_t i = 0; i <= 10; ++i)
+    mesh.points.insert(mesh.points.end(), {{1.0 * i, 0}, {1.0 * i, 0.1}});
   for (std::int32_t i = 0; i < 10; ++i) {
     mesh.triangles.push_back({node(2 * i), node(2 * i + 2), node(2 * i + 3)});
     mesh.triangles.push_back({node(2 * i), node(2 * i + 3), node(2 * i + 1)});
@@ -153,7 +160,8 @@ Mesh channel() {
 TEST(ShapeStatistics, CornersOfCellsThatFillAPassage) {
   const std::vector<Chain> outline{{"banks", false, {{0, 0}, {10, 0}, {10, 0.1}, {0, 0.1}}, ""}};
   const ShapeStatistics shape = shape_statistics(channel(), outline);
-  EXPECT_EQ(shape.corners_in_passages, 18);  // two in each half of a square, but for the halves at the ends, of which two edges meet on the boundary
+  EXPECT_EQ(shape.corners_in_passages, 18);  // two in each half of a square, but for the halves at the ends,
+                                             // of which two edges meet on the boundary
   ASSERT_EQ(shape.passages.size(), 18U);
   EXPECT_EQ(shape.corners_below_15, 2);
   EXPECT_EQ(shape.corners_of_outline, 0);
@@ -173,7 +181,8 @@ Mesh strip(std::int32_t squares) {
 }
 
 TEST(ShapeStatistics, AreaRatioOf99Percent) {
-  const ShapeStatistics hundred_edges = shape_statistics(strip(100), {}), few = shape_statistics(strip(98), {});
+  const ShapeStatistics hundred_edges = shape_statistics(strip(100), {}),
+                        few = shape_statistics(strip(98), {});
   EXPECT_EQ(hundred_edges.area_ratio_max, 3);
   EXPECT_EQ(hundred_edges.area_ratio_p99, 1);
   EXPECT_EQ(few.area_ratio_p99, 3);  // one edge of 98 is more than 1 percent

@@ -1,9 +1,10 @@
-// Quadrilaterals that are no parallelograms become two triangles in their leaf's place; mirror images are divided alike.
-#include "mesher/mesh/split_quads.hpp"
+// Quadrilaterals that are no parallelograms become two triangles in their leaf's place; mirror images are
+// divided alike.
+#include "mesher/build/split_quads.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/check/quality.hpp"
 
 namespace quadloop {
 namespace {
@@ -20,7 +21,9 @@ Mesh mesh_of(std::vector<Point> points, const std::vector<std::array<std::int32_
   return mesh;
 }
 
-std::array<NodeId, 3> triangle(std::int32_t a, std::int32_t b, std::int32_t c) { return {NodeId{a}, NodeId{b}, NodeId{c}}; }
+std::array<NodeId, 3> triangle(std::int32_t a, std::int32_t b, std::int32_t c) {
+  return {NodeId{a}, NodeId{b}, NodeId{c}};
+}
 
 LeafRecord leaf(std::int32_t triangles, std::int32_t quads) {
   LeafRecord record;
@@ -48,7 +51,8 @@ TEST(SplitQuads, PutsTrianglesIntoTheirLeafsPlace) {
   EXPECT_EQ(mesh.triangles.back(), triangle(4, 5, 2));
   EXPECT_EQ(mesh.quads.size(), 1U);
   const std::vector<std::pair<int, int>> expected{{1, 1}, {2, 0}, {1, 0}};
-  for (std::size_t i = 0; i < leaves.size(); ++i) EXPECT_EQ(std::pair(leaves[i].triangles, leaves[i].quads), expected[i]) << i;
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+    EXPECT_EQ(std::pair(leaves[i].triangles, leaves[i].quads), expected[i]) << i;
 }
 
 TEST(SplitQuads, TakesTheDelaunayDiagonal) {
@@ -68,7 +72,9 @@ TEST(SplitQuads, DividesMirrorImagesAlike) {
   std::vector<LeafRecord> of_mesh{leaf(0, 1)}, of_image{leaf(0, 1)};
   split_skew_quads(mesh, of_mesh, rank_from_origin);
   split_skew_quads(image, of_image, rank_from_origin);
-  EXPECT_EQ(mesh.triangles, (Triangles{triangle(0, 1, 3), triangle(1, 2, 3)}));   // the diagonal through (3, 1), farthest from the origin
+  EXPECT_EQ(mesh.triangles,
+            (Triangles{triangle(0, 1, 3),
+                       triangle(1, 2, 3)}));  // the diagonal through (3, 1), farthest from the origin
   EXPECT_EQ(image.triangles, (Triangles{triangle(0, 1, 3), triangle(1, 2, 3)}));  // and through (-3, 1)
 }
 

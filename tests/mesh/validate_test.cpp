@@ -1,5 +1,5 @@
 // Each kind of fault is found where it is, by its own name, and a valid mesh has none.
-#include "mesher/mesh/validate.hpp"
+#include "mesher/mesh/check/validate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,8 @@ namespace {
 
 NodeId node(std::int32_t number) { return NodeId{number}; }
 
-/// The square [0, 2] x [0, 2]: two unit quads below, four triangles above; nodes row by row, node 4 in the middle.
+/// The square [0, 2] x [0, 2]: two unit quads below, four triangles above; nodes row by row, node 4 in the
+/// middle.
 Mesh square() {
   Mesh mesh;
   for (int j = 0; j < 3; ++j) {
@@ -20,17 +21,24 @@ Mesh square() {
   }
   mesh.owned_nodes = 9;
   mesh.quads = {{node(0), node(1), node(4), node(3)}, {node(1), node(2), node(5), node(4)}};
-  mesh.triangles = {{node(3), node(4), node(7)}, {node(3), node(7), node(6)}, {node(4), node(5), node(8)}, {node(4), node(8), node(7)}};
-  mesh.boundaries = {{"wall", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(5)}, {node(5), node(8)}}},
-                     {"far", "farfield", {{node(8), node(7)}, {node(7), node(6)}, {node(6), node(3)}, {node(3), node(0)}}}};
+  mesh.triangles = {{node(3), node(4), node(7)},
+                    {node(3), node(7), node(6)},
+                    {node(4), node(5), node(8)},
+                    {node(4), node(8), node(7)}};
+  mesh.boundaries = {
+      {"wall", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(5)}, {node(5), node(8)}}},
+      {"far", "farfield", {{node(8), node(7)}, {node(7), node(6)}, {node(6), node(3)}, {node(3), node(0)}}}};
   return mesh;
 }
 
 /// The outline of square(), as two chains.
-std::vector<Chain> outline() { return {{"wall", true, {{0, 0}, {2, 0}, {2, 2}}, ""}, {"far", true, {{2, 2}, {0, 2}, {0, 0}}, ""}}; }
+std::vector<Chain> outline() {
+  return {{"wall", true, {{0, 0}, {2, 0}, {2, 2}}, ""}, {"far", true, {{2, 2}, {0, 2}, {0, 0}}, ""}};
+}
 
 bool has(const std::vector<MeshFault>& faults, MeshRule rule) {
-  return std::any_of(faults.begin(), faults.end(), [&](const MeshFault& fault) { return fault.rule == rule; });
+  return std::any_of(faults.begin(), faults.end(),
+                     [&](const MeshFault& fault) { return fault.rule == rule; });
 }
 
 void expect_fault(MeshRule rule, const std::function<void(Mesh&)>& spoil) {
@@ -41,7 +49,8 @@ void expect_fault(MeshRule rule, const std::function<void(Mesh&)>& spoil) {
 }
 
 TEST(Validate, ValidMeshHasNoFault) {
-  for (const MeshFault& fault : validate(square())) ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what;
+  for (const MeshFault& fault : validate(square()))
+    ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what;
   EXPECT_EQ(pinched_nodes(square()), 0);
 }
 
@@ -57,10 +66,11 @@ TEST(Validate, Indices) {
 }
 
 TEST(Validate, Coincident) {
-  expect_fault(MeshRule::coincident, [](Mesh& m) {  // a doubled node: the left half keeps node 4, the right half gets its own
-    m.points.push_back(m.points[4]);
-    m.triangles[2][0] = m.triangles[3][0] = m.quads[1][3] = node(9);
-  });
+  expect_fault(MeshRule::coincident,
+               [](Mesh& m) {  // a doubled node: the left half keeps node 4, the right half gets its own
+                 m.points.push_back(m.points[4]);
+                 m.triangles[2][0] = m.triangles[3][0] = m.quads[1][3] = node(9);
+               });
 }
 
 TEST(Validate, Positive) {
@@ -75,7 +85,8 @@ TEST(Validate, Conforming) {
   expect_fault(MeshRule::conforming, [](Mesh& m) { m.triangles.pop_back(); });
   expect_fault(MeshRule::conforming, [](Mesh& m) { m.triangles.push_back(m.triangles[0]); });
   expect_fault(MeshRule::conforming, [](Mesh& m) { m.boundaries[0].edges.push_back({node(3), node(4)}); });
-  expect_fault(MeshRule::conforming, [](Mesh& m) { std::swap(m.boundaries[0].edges[0][0], m.boundaries[0].edges[0][1]); });
+  expect_fault(MeshRule::conforming,
+               [](Mesh& m) { std::swap(m.boundaries[0].edges[0][0], m.boundaries[0].edges[0][1]); });
 }
 
 TEST(Validate, TopologyIsWhatMovingNodesCannotCure) {
@@ -127,8 +138,14 @@ TEST(Validate, PinchedNodesAreCountedButAllowed) {
   mesh.points = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   mesh.owned_nodes = 5;
   mesh.triangles = {{node(0), node(1), node(2)}, {node(0), node(3), node(4)}};
-  mesh.boundaries = {
-      {"b", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(0)}, {node(0), node(3)}, {node(3), node(4)}, {node(4), node(0)}}}};
+  mesh.boundaries = {{"b",
+                      "wall",
+                      {{node(0), node(1)},
+                       {node(1), node(2)},
+                       {node(2), node(0)},
+                       {node(0), node(3)},
+                       {node(3), node(4)},
+                       {node(4), node(0)}}}};
   EXPECT_TRUE(validate(mesh).empty());
   EXPECT_EQ(pinched_nodes(mesh), 1);
 }

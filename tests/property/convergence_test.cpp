@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesher/geometry/assemble.hpp"
-#include "mesher/mesh/build_mesh.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/build/build_mesh.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -31,7 +31,8 @@ Chain naca0012() {
   chain.name = "wall";
   for (int i = 0; i < vertices; ++i) {
     const double t = 2 * std::numbers::pi * i / vertices, x = (1 + std::cos(t)) / 2;
-    const double y = 0.6 * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x);
+    const double y = 0.6 * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x -
+                            0.1036 * x * x * x * x);
     chain.points.push_back({x - 0.487, i == 0 ? 0 : t < std::numbers::pi ? -y : y});
   }
   return chain;
@@ -39,7 +40,8 @@ Chain naca0012() {
 
 double area_within(const Chain& chain) {
   double twice = 0;
-  for (std::size_t i = 0; i < chain.points.size(); ++i) twice += cross(chain.points[i], chain.points[(i + 1) % chain.points.size()]);
+  for (std::size_t i = 0; i < chain.points.size(); ++i)
+    twice += cross(chain.points[i], chain.points[(i + 1) % chain.points.size()]);
   return twice / 2;
 }
 
@@ -69,7 +71,8 @@ double area_error(const Chain& wall, double spacing) {
 double order_of(const Chain& wall) {
   double n = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
   for (int level = 4; level <= 8; ++level) {
-    const double spacing = std::ldexp(1.0, -level), x = std::log(spacing), y = std::log(area_error(wall, spacing));
+    const double spacing = std::ldexp(1.0, -level), x = std::log(spacing),
+                 y = std::log(area_error(wall, spacing));
     n += 1;
     sum_x += x;
     sum_y += y;

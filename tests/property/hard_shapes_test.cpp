@@ -1,4 +1,5 @@
-// Thousands of small hard geometries: every one must end as a valid mesh or as a refusal that names a place, and none may hang.
+// Thousands of small hard geometries: every one must end as a valid mesh or as a refusal that names a place,
+// and none may hang.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,13 +9,14 @@
 #include <iostream>
 
 #include "mesher/base/error.hpp"
-#include "mesher/geometry/assemble.hpp"
+#include "mesher/build/build_mesh.hpp"
+#include "mesher/build/lattice_rank.hpp"
+#include "mesher/build/outline_losses.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
-#include "mesher/mesh/build_mesh.hpp"
-#include "mesher/mesh/outline_losses.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/topology.hpp"
-#include "mesher/mesh/validate.hpp"
 #include "smoother/smooth_mesh.hpp"
 #include "tests/property/shapes.hpp"
 #include "tests/support/world.hpp"
@@ -22,8 +24,10 @@
 namespace quadloop {
 namespace {
 
-constexpr double rounding = 1e-7;       // of costs near 1 and of angles in degrees: cells of these shapes may be as flat as doubles can tell
-constexpr double seconds_allowed = 10;  // for one shape of a few thousand leaves; the median is a few milliseconds
+constexpr double rounding = 1e-7;  // of costs near 1 and of angles in degrees: cells of these shapes may be
+                                   // as flat as doubles can tell
+constexpr double seconds_allowed =
+    10;  // for one shape of a few thousand leaves; the median is a few milliseconds
 
 /// Number of shapes: QUADLOOP_SHAPES where set.
 int shapes_wanted() {
@@ -55,11 +59,14 @@ void write_shape(const shapes::Shape& shape, std::uint64_t seed) {
   }
 }
 
-/// Empty, or what is wrong: an edge that the circumcircle of one triangle beside it would have flipped, though the other diagonal leaves room.
+/// Empty, or what is wrong: an edge that the circumcircle of one triangle beside it would have flipped,
+/// though the other diagonal leaves room.
 std::string delaunay_fault(const Mesh& mesh) {
   if (!mesh.quads.empty()) return "quads in a Delaunay mesh";
   const EdgeTable table(mesh);
-  const auto positive = [](Point a, Point b, Point c) { return cross(b - a, c - a) > 0 && cross(c - b, a - b) > 0 && cross(a - c, b - c) > 0; };
+  const auto positive = [](Point a, Point b, Point c) {
+    return cross(b - a, c - a) > 0 && cross(c - b, a - b) > 0 && cross(a - c, b - c) > 0;
+  };
   for (const auto& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const NodeId a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
@@ -68,7 +75,8 @@ std::string delaunay_fault(const Mesh& mesh) {
       for (const NodeId d : mesh.triangles[static_cast<std::size_t>(across)]) {
         if (d == a || d == b) continue;
         const Point pa = mesh.point(a), pb = mesh.point(b), pc = mesh.point(c), pd = mesh.point(d);
-        if (in_circle(pa, pb, pc, pd) > 0 && positive(pa, pd, pc) && positive(pd, pb, pc)) return "an edge is not Delaunay";
+        if (in_circle(pa, pb, pc, pd) > 0 && positive(pa, pd, pc) && positive(pd, pb, pc))
+          return "an edge is not Delaunay";
       }
     }
   }
@@ -85,8 +93,10 @@ std::string mesh_fault(Mesh mesh, const Geometry& geometry, MeshType type) {
   return type == MeshType::delaunay ? delaunay_fault(mesh) : "";
 }
 
-/// Smooths the mesh, boundary nodes along the geometry; empty where it stays valid and its worst cell and smallest angle get no worse.
-std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptions& options, double area_dropped) {
+/// Smooths the mesh, boundary nodes along the geometry; empty where it stays valid and its worst cell and
+/// smallest angle get no worse.
+std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptions& options,
+                            double area_dropped) {
   SmoothOptions how;
   how.geometry = &geometry;
   const Lattice lattice = choose_root(geometry, options.size.root);
@@ -98,11 +108,12 @@ std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptio
   const QualitySummary after = summarise_quality(test::world(), mesh);
   if (report.inverted_after > report.inverted_before) return "smoothed: more cells are flat";
   if (report.inverted_before == 0 && report.worst_cost_after > report.worst_cost_before + rounding) {
-    return "smoothed: the largest cost has risen from " + std::to_string(report.worst_cost_before) + " to " + std::to_string(report.worst_cost_after);
+    return "smoothed: the largest cost has risen from " + std::to_string(report.worst_cost_before) + " to " +
+           std::to_string(report.worst_cost_after);
   }
   if (report.inverted_before == 0 && after.smallest_degrees < before.smallest_degrees - rounding) {
-    return "smoothed: the smallest angle has fallen from " + std::to_string(before.smallest_degrees) + " to " +
-           std::to_string(after.smallest_degrees);
+    return "smoothed: the smallest angle has fallen from " + std::to_string(before.smallest_degrees) +
+           " to " + std::to_string(after.smallest_degrees);
   }
   require_area(test::world(), geometry, area_dropped, mesh);
   const std::string wrong = mesh_fault(std::move(mesh), geometry, options.type);
@@ -110,7 +121,8 @@ std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptio
 }
 
 /// Empty where all is well; else what is wrong.
-std::string outcome(const shapes::Shape& shape, const MeshOptions& options, double corner, std::int64_t& refused) {
+std::string outcome(const shapes::Shape& shape, const MeshOptions& options, double corner,
+                    std::int64_t& refused) {
   try {
     Warnings warnings;
     AssembleOptions how;
@@ -119,11 +131,13 @@ std::string outcome(const shapes::Shape& shape, const MeshOptions& options, doub
     MeshResult result = build_mesh(test::world(), geometry, options);
     require_area(test::world(), geometry, result.report.area_dropped, result.mesh);
     const std::string wrong = mesh_fault(result.mesh, geometry, options.type);
-    return wrong.empty() ? smoothing_fault(result.mesh, geometry, options, result.report.area_dropped) : wrong;
+    return wrong.empty() ? smoothing_fault(result.mesh, geometry, options, result.report.area_dropped)
+                         : wrong;
   } catch (const InputError& error) {
     ++refused;
     const std::string message = error.what();
-    if (message.find("boundary") == std::string::npos && message.find("loop") == std::string::npos) return "a refusal without a place: " + message;
+    if (message.find("boundary") == std::string::npos && message.find("loop") == std::string::npos)
+      return "a refusal without a place: " + message;
   } catch (const std::exception& error) {
     return std::string("a fault: ") + error.what();
   }
@@ -145,8 +159,9 @@ TEST(HardShapes, EndValidOrRefused) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     slowest = std::max(slowest, seconds);
     EXPECT_LT(seconds, seconds_allowed) << shape.name << ", seed " << seed;
-    EXPECT_EQ(wrong, "") << shape.name << ", seed " << seed << ", min " << options.size.min << ", snap " << options.snap << ", corner " << corner
-                         << ", gradation " << options.size.gradation << ", root " << options.size.root.has_value();
+    EXPECT_EQ(wrong, "") << shape.name << ", seed " << seed << ", min " << options.size.min << ", snap "
+                         << options.snap << ", corner " << corner << ", gradation " << options.size.gradation
+                         << ", root " << options.size.root.has_value();
     if (!wrong.empty()) write_shape(shape, seed);
   }
   std::cout << count << " shapes, " << refused << " refused, slowest " << slowest << " s\n";

@@ -36,6 +36,8 @@ int main(int argc, char** argv) {
   if (mistake == "returned_reference") result = larger(nearly_one, 0.5);
   if (mistake == "beyond_span") result = beyond_span(static_cast<std::size_t>(argc));
   if (mistake == "overflow") result = std::numeric_limits<int>::max() - 1 + argc;
-  if (mistake == "cast_of_nan") result = static_cast<double>(static_cast<std::int64_t>(nearly_one * std::numeric_limits<double>::quiet_NaN()));
+  if (mistake == "cast_of_nan")
+    result =
+        static_cast<double>(static_cast<std::int64_t>(nearly_one * std::numeric_limits<double>::quiet_NaN()));
   return std::isfinite(result) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

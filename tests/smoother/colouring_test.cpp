@@ -15,7 +15,8 @@ using test::world;
 
 /// The colours of a mesh's free nodes, on this communicator's share of it.
 struct Coloured {
-  Coloured(const Communicator& comm, const Mesh& whole, const MeshOrder& order, const std::vector<char>& is_free)
+  Coloured(const Communicator& comm, const Mesh& whole, const MeshOrder& order,
+           const std::vector<char>& is_free)
       : part{scatter_mesh(comm, whole, order)},
         halo(comm, part),
         colouring{colour_stars(comm, halo, NodeStars(halo, free_nodes(order, is_free), {}))} {}
@@ -23,7 +24,8 @@ struct Coloured {
   std::vector<std::int32_t> free_nodes(const MeshOrder& order, const std::vector<char>& is_free) const {
     std::vector<std::int32_t> nodes;
     for (std::int32_t i = 0; i < part.owned_nodes; ++i) {
-      if (is_free[static_cast<std::size_t>(order.nodes[static_cast<std::size_t>(part.first_node + i)])] != 0) nodes.push_back(i);
+      if (is_free[static_cast<std::size_t>(order.nodes[static_cast<std::size_t>(part.first_node + i)])] != 0)
+        nodes.push_back(i);
     }
     return nodes;
   }
@@ -50,7 +52,8 @@ void expect_sound(const Coloured& coloured) {
         const std::int8_t colour = coloured.colour(a.value());
         EXPECT_LT(colour, coloured.colouring.count);
         if (a != b && colour != Colouring::none) {
-          EXPECT_NE(colour, coloured.colour(b.value())) << coloured.halo.global(a.value()) << " and " << coloured.halo.global(b.value());
+          EXPECT_NE(colour, coloured.colour(b.value()))
+              << coloured.halo.global(a.value()) << " and " << coloured.halo.global(b.value());
         }
       }
     }

@@ -1,5 +1,5 @@
 // The weighted condition number and its cost, against values by hand and against the matrices of the thesis.
-#include "smoother/condition_number.hpp"
+#include "smoother/objective/condition_number.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,10 +19,13 @@ using test::uniform;
 constexpr double rounding = 1e-12;
 
 CornerForm corner_of(Point e1, Point e2) { return corner_form({0, 0}, e1, e2); }
-double cost_of(Point e1, Point e2, const CornerTarget& target) { return corner_cost(corner_of(e1, e2), target, 1); }
+double cost_of(Point e1, Point e2, const CornerTarget& target) {
+  return corner_cost(corner_of(e1, e2), target, 1);
+}
 
 Point turned(Point v, double radians) {
-  return {std::cos(radians) * v.x - std::sin(radians) * v.y, std::sin(radians) * v.x + std::cos(radians) * v.y};
+  return {std::cos(radians) * v.x - std::sin(radians) * v.y,
+          std::sin(radians) * v.x + std::cos(radians) * v.y};
 }
 
 Eigen::Matrix2d columns(Point e1, Point e2) {
@@ -32,12 +35,15 @@ Eigen::Matrix2d columns(Point e1, Point e2) {
 }
 
 /// Eq. 3.3 as it is written.
-double by_matrices(const Eigen::Matrix2d& a, const Eigen::Matrix2d& w) { return (a * w.inverse()).norm() * (w * a.inverse()).norm() / 2; }
+double by_matrices(const Eigen::Matrix2d& a, const Eigen::Matrix2d& w) {
+  return (a * w.inverse()).norm() * (w * a.inverse()).norm() / 2;
+}
 
 /// Two edges that turn left, not too flat.
 std::array<Point, 2> random_edges(Random& random) {
   const Point e1 = uniform(random, 0.2, 3) * test::random_direction(random);
-  return {e1, uniform(random, 0.2, 3) * turned((1 / length(e1)) * e1, uniform(random, 0.1, std::numbers::pi - 0.1))};
+  return {e1, uniform(random, 0.2, 3) *
+                  turned((1 / length(e1)) * e1, uniform(random, 0.1, std::numbers::pi - 0.1))};
 }
 
 TEST(CornerForm, HoldsTheProductsOfTheEdges) {
@@ -62,9 +68,12 @@ TEST(ConditionNumber, EquilateralTriangle) {
 }
 
 TEST(ConditionNumber, RightTriangles) {
-  EXPECT_NEAR(condition_number(corner_of({1, 0}, {0, 1}), equilateral_target()), 2 / std::numbers::sqrt3, rounding);
-  EXPECT_NEAR(cost_of({1, 0}, {0, 1}, equilateral_target()), std::pow(1 - std::numbers::sqrt3 / 2, 2), rounding);
-  EXPECT_NEAR(condition_number(corner_of({1, 0}, {0, 0.5}), equilateral_target()), 2.5 / std::numbers::sqrt3, rounding);
+  EXPECT_NEAR(condition_number(corner_of({1, 0}, {0, 1}), equilateral_target()), 2 / std::numbers::sqrt3,
+              rounding);
+  EXPECT_NEAR(cost_of({1, 0}, {0, 1}, equilateral_target()), std::pow(1 - std::numbers::sqrt3 / 2, 2),
+              rounding);
+  EXPECT_NEAR(condition_number(corner_of({1, 0}, {0, 0.5}), equilateral_target()), 2.5 / std::numbers::sqrt3,
+              rounding);
 }
 
 TEST(ConditionNumber, CornerOfARectangle) {
@@ -88,7 +97,8 @@ TEST(CornerCost, OfTheFlattestCorners) {
 }
 
 TEST(CornerTarget, OfTheIdealShapes) {
-  const CornerTarget triangle = corner_target({1, 0}, {0.5, std::numbers::sqrt3 / 2}), square = corner_target({0, 3}, {-3, 0});
+  const CornerTarget triangle = corner_target({1, 0}, {0.5, std::numbers::sqrt3 / 2}),
+                     square = corner_target({0, 3}, {-3, 0});
   EXPECT_NEAR(triangle.g11, equilateral_target().g11, rounding);
   EXPECT_NEAR(triangle.g12, equilateral_target().g12, rounding);
   EXPECT_NEAR(triangle.g22, equilateral_target().g22, rounding);
@@ -102,7 +112,8 @@ TEST(CornerTarget, CostsNothingForItsShapeTurnedAndScaled) {
   for (int i = 0; i < 200; ++i) {
     const auto [w1, w2] = random_edges(random);
     const double turn = uniform(random, 0, 7), scale = uniform(random, 0.01, 100);
-    EXPECT_NEAR(cost_of(scale * turned(w1, turn), scale * turned(w2, turn), corner_target(w1, w2)), 0, rounding);
+    EXPECT_NEAR(cost_of(scale * turned(w1, turn), scale * turned(w2, turn), corner_target(w1, w2)), 0,
+                rounding);
     EXPECT_GT(cost_of(w1, 1.1 * w2, corner_target(w1, w2)), 1e-6) << "another shape";
   }
 }
@@ -124,11 +135,13 @@ TEST(CornerTarget, SeenFromAllThreeNodes) {
     const auto [e1, e2] = random_edges(random);
     const auto [w1, w2] = random_edges(random);
     const Point p{0.3, -0.2}, q = p + e1, r = p + e2;
-    const CornerTarget from_p = corner_target(w1, w2), from_q = seen_from_next(from_p), from_r = seen_from_next(from_q);
+    const CornerTarget from_p = corner_target(w1, w2), from_q = seen_from_next(from_p),
+                       from_r = seen_from_next(from_q);
     const double expected = condition_number(corner_form(p, q, r), from_p);
     EXPECT_NEAR(condition_number(corner_form(q, r, p), from_q), expected, 1e-10 * expected);
     EXPECT_NEAR(condition_number(corner_form(r, p, q), from_r), expected, 1e-10 * expected);
-    EXPECT_NEAR(seen_from_next(from_r).g12, from_p.g12, 1e-10 * (from_p.g11 + from_p.g22)) << "three times round";
+    EXPECT_NEAR(seen_from_next(from_r).g12, from_p.g12, 1e-10 * (from_p.g11 + from_p.g22))
+        << "three times round";
   }
 }
 
@@ -144,8 +157,10 @@ TEST(StretchedTargets, CostNothingForTheStretchedCell) {
 }
 
 TEST(CellCost, IsThatOfTheWorstCorner) {
-  EXPECT_NEAR(cell_cost<3>({Point{0, 0}, {1, 0}, {0.5, std::numbers::sqrt3 / 2}}, ideal_targets<3>()), 0, rounding);
-  EXPECT_NEAR(cell_cost<3>({Point{0, 0}, {1, 0}, {0, 1}}, ideal_targets<3>()), std::pow(1 - std::numbers::sqrt3 / 2, 2), rounding);
+  EXPECT_NEAR(cell_cost<3>({Point{0, 0}, {1, 0}, {0.5, std::numbers::sqrt3 / 2}}, ideal_targets<3>()), 0,
+              rounding);
+  EXPECT_NEAR(cell_cost<3>({Point{0, 0}, {1, 0}, {0, 1}}, ideal_targets<3>()),
+              std::pow(1 - std::numbers::sqrt3 / 2, 2), rounding);
   EXPECT_NEAR(cell_cost<4>({Point{0, 0}, {2, 0}, {2, 1}, {0, 1}}, ideal_targets<4>()), 0.04, rounding);
   // A trapezium with the condition numbers 5/3, 7/3, 3 and 1 at its corners.
   EXPECT_NEAR(cell_cost<4>({Point{0, 0}, {3, 0}, {1, 1}, {0, 1}}, ideal_targets<4>()), 4.0 / 9, rounding);

@@ -1,11 +1,12 @@
-// Lines where squares of two sizes meet move as a whole: better corners at hanging nodes, and parallelograms beside them.
+// Lines where squares of two sizes meet move as a whole: better corners at hanging nodes, and parallelograms
+// beside them.
 #include "smoother/level_lines.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -17,17 +18,18 @@ using test::world;
 constexpr std::int32_t coarse = 6;  ///< squares of edge 1 in a row
 constexpr double no_limit = 1, tight = 1e-9;
 
-/// From below: two rows of squares of edge 1/2, a row of unit squares divided at the hanging nodes of their lower sides, a row of unit squares.
-/// `place` turns it round.
+/// From below: two rows of squares of edge 1/2, a row of unit squares divided at the hanging nodes of their
+/// lower sides, a row of unit squares. `place` turns it round.
 template <class Place>
 Mesh two_levels(const Place& place) {
   Mesh mesh;
   const auto add_row = [&](std::int32_t steps, double y) {
-    for (std::int32_t i = 0; i <= steps; ++i) mesh.points.push_back(place(Point{static_cast<double>(i * coarse) / steps, y}));
+    for (std::int32_t i = 0; i <= steps; ++i)
+      mesh.points.push_back(place(Point{static_cast<double>(i * coarse) / steps, y}));
     return static_cast<std::int32_t>(mesh.points.size()) - steps - 1;
   };
-  const std::array<std::int32_t, 5> rows{add_row(2 * coarse, 0), add_row(2 * coarse, 0.5), add_row(2 * coarse, 1), add_row(coarse, 2),
-                                         add_row(coarse, 3)};
+  const std::array<std::int32_t, 5> rows{add_row(2 * coarse, 0), add_row(2 * coarse, 0.5),
+                                         add_row(2 * coarse, 1), add_row(coarse, 2), add_row(coarse, 3)};
   const auto node = [&](std::size_t row, std::int32_t i) { return NodeId{rows[row] + i}; };
   for (const std::size_t row : {0U, 1U, 3U}) {
     for (std::int32_t i = 0; i < (row == 3 ? 1 : 2) * coarse; ++i) {
@@ -35,8 +37,11 @@ Mesh two_levels(const Place& place) {
     }
   }
   for (std::int32_t i = 0; i < coarse; ++i) {
-    const NodeId left = node(2, 2 * i), hanging = node(2, 2 * i + 1), right = node(2, 2 * i + 2), top_left = node(3, i), top_right = node(3, i + 1);
-    mesh.triangles.insert(mesh.triangles.end(), {{left, hanging, top_left}, {hanging, right, top_right}, {hanging, top_right, top_left}});
+    const NodeId left = node(2, 2 * i), hanging = node(2, 2 * i + 1), right = node(2, 2 * i + 2),
+                 top_left = node(3, i), top_right = node(3, i + 1);
+    mesh.triangles.insert(
+        mesh.triangles.end(),
+        {{left, hanging, top_left}, {hanging, right, top_right}, {hanging, top_right, top_left}});
   }
   mesh.boundaries = {{"rim", "wall", {}}};
   auto& edges = mesh.boundaries[0].edges;
@@ -44,7 +49,8 @@ Mesh two_levels(const Place& place) {
   for (std::int32_t i = 0; i < coarse; ++i) edges.push_back({node(4, i + 1), node(4, i)});
   for (std::size_t row = 0; row < 4; ++row) {
     edges.push_back({node(row + 1, 0), node(row, 0)});
-    edges.push_back({node(row, row < 3 ? 2 * coarse : coarse), node(row + 1, row + 1 < 3 ? 2 * coarse : coarse)});
+    edges.push_back(
+        {node(row, row < 3 ? 2 * coarse : coarse), node(row + 1, row + 1 < 3 ? 2 * coarse : coarse)});
   }
   mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
   return mesh;
@@ -55,7 +61,8 @@ Point on_its_side(Point p) { return {-p.y, p.x}; }
 Point upside_down(Point p) { return {-p.x, -p.y}; }
 
 /// This rank's part with its lines moved.
-Mesh with_lines_moved(const Mesh& whole, const MeshOrder& order, const std::vector<char>& pinned = {}, double limit = no_limit) {
+Mesh with_lines_moved(const Mesh& whole, const MeshOrder& order, const std::vector<char>& pinned = {},
+                      double limit = no_limit) {
   Mesh part = scatter_mesh(world(), whole, order);
   HaloMesh halo(world(), part);
   move_level_lines(world(), halo, scatter_nodes(world(), pinned, order), limit);
@@ -65,7 +72,8 @@ Mesh with_lines_moved(const Mesh& whole, const MeshOrder& order, const std::vect
 
 std::int64_t count_skew(const Mesh& part) {
   return world().sum(std::count_if(part.quads.begin(), part.quads.end(), [&](const auto& q) {
-    return !(skew_of({part.point(q[0]), part.point(q[1]), part.point(q[2]), part.point(q[3])}) <= parallel_skew);
+    return !(skew_of({part.point(q[0]), part.point(q[1]), part.point(q[2]), part.point(q[3])}) <=
+             parallel_skew);
   }));
 }
 
@@ -76,7 +84,7 @@ TEST(LevelLines, LiftTheSmallestAngleAndKeepParallelograms) {
       const Mesh before = scatter_mesh(world(), whole, order), after = with_lines_moved(whole, order);
       EXPECT_NEAR(summarise_quality(world(), before).smallest_degrees, 26.565, 1e-3);
       EXPECT_NEAR(summarise_quality(world(), after).smallest_degrees, 29.745, 1e-3);  // atan(0.5 / 0.875)
-      EXPECT_EQ(count_skew(after), 2);                                                // at the ends: nodes of the rim stay
+      EXPECT_EQ(count_skew(after), 2);  // at the ends: nodes of the rim stay
     }
   }
 }

@@ -1,5 +1,6 @@
-// What a solver proposes is better by the rule, for any star; perfect stars are left alone and displaced nodes come back.
-#include "smoother/node_solver.hpp"
+// What a solver proposes is better by the rule, for any star; perfect stars are left alone and displaced
+// nodes come back.
+#include "smoother/node/node_solver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,8 +22,8 @@ class EachSolver : public testing::TestWithParam<std::tuple<Method, Objective>> 
   static Method method() { return std::get<0>(GetParam()); }
   static Objective objective() { return std::get<1>(GetParam()); }
 
-  /// So near the centre of a regular star, as a share of its edges, a visit leaves its node: the shortest step, or where nlopt finds that the cost,
-  /// the eighth power of the distance, hardly falls any more.
+  /// So near the centre of a regular star, as a share of its edges, a visit leaves its node: the shortest
+  /// step, or where nlopt finds that the cost, the eighth power of the distance, hardly falls any more.
   static double reach() { return method() == Method::nlopt ? 0.1 : 0.02; }
 
   /// Where visit after visit leads to, a few hundred at most.
@@ -40,7 +41,8 @@ class EachSolver : public testing::TestWithParam<std::tuple<Method, Objective>> 
 };
 
 INSTANTIATE_TEST_SUITE_P(Solvers, EachSolver,
-                         testing::Combine(testing::Values(Method::perturb, Method::nlopt), testing::Values(Objective::power, Objective::thesis)));
+                         testing::Combine(testing::Values(Method::perturb, Method::nlopt),
+                                          testing::Values(Objective::power, Objective::thesis)));
 
 TEST_P(EachSolver, OnlyBettersAStar) {
   Random random(21);
@@ -67,7 +69,8 @@ TEST_P(EachSolver, IsAFunctionOfItsArguments) {
   Random random(22);
   const auto other = make_node_solver(method());
   for (int i = 0; i < 50; ++i) {
-    const Star star = test::random_star(random, Cells::mixed), before = test::random_star(random, Cells::triangles);
+    const Star star = test::random_star(random, Cells::mixed),
+               before = test::random_star(random, Cells::triangles);
     const auto first = improve(star, {0, 0});
     other->improve(before, {0.1, 0}, objective());
     EXPECT_EQ(first, other->improve(star, {0, 0}, objective()));
@@ -91,7 +94,8 @@ TEST_P(EachSolver, ComesBackToTheCentre) {
 }
 
 TEST_P(EachSolver, DoesTheSameFarFromTheOriginAndInAnotherUnit) {
-  for (const auto& [centre, radius] : {std::pair{Point{1000, -500}, 1.0}, {Point{0, 0}, 1e-6}, {Point{0, 0}, 1e6}}) {
+  for (const auto& [centre, radius] :
+       {std::pair{Point{1000, -500}, 1.0}, {Point{0, 0}, 1e-6}, {Point{0, 0}, 1e6}}) {
     const Star star = test::fan_of(test::regular_polygon(6, centre, radius));
     EXPECT_LT(length(settle(star, centre + radius * Point{0.3, 0.2}) - centre), reach() * radius);
   }
@@ -119,7 +123,8 @@ TEST(Acceptance, TakesTheCheapestAcceptedPlaceOfThoseThatCount) {
   EXPECT_EQ(rule.best(cost, 1), -1);
 }
 
-/// A place that lowers the node's cost is refused where it makes the smallest angle smaller, or the largest cost larger.
+/// A place that lowers the node's cost is refused where it makes the smallest angle smaller, or the largest
+/// cost larger.
 TEST(Acceptance, RefusesGainsThatCostTheWorst) {
   Random random(23);
   int refused_for_angle = 0, refused_for_cost = 0;
@@ -128,7 +133,8 @@ TEST(Acceptance, RefusesGainsThatCostTheWorst) {
     const Point p{0, 0}, to = uniform(random, 0, 0.2) * test::random_direction(random);
     const auto before = star.cost(p, Objective::power), after = star.cost(to, Objective::power);
     if (!after.valid[0] || after.objective[0] > 0.99 * before.objective[0]) continue;
-    const bool sharper = test::smallest_degrees(star, to) < test::smallest_degrees(star, p) - degrees_rounding;
+    const bool sharper =
+        test::smallest_degrees(star, to) < test::smallest_degrees(star, p) - degrees_rounding;
     const bool dearer = test::largest_cost(star, to) > test::largest_cost(star, p) + rounding;
     EXPECT_EQ(Acceptance(before).accepts(after, 0), !sharper && !dearer);
     refused_for_angle += sharper ? 1 : 0;

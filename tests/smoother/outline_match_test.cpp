@@ -1,5 +1,5 @@
 // Whether an outline belongs to a mesh, and which way its loops run there.
-#include "smoother/outline_match.hpp"
+#include "smoother/outline/outline_match.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,8 @@
 namespace quadloop {
 namespace {
 
-/// The unit square, its sides as the grid's boundaries are: "wall" south and east, "far" north and west. Named otherwise, if asked.
+/// The unit square, its sides as the grid's boundaries are: "wall" south and east, "far" north and west.
+/// Named otherwise, if asked.
 Geometry square(const std::string& wall = "wall", const std::string& far = "far", Point shift = {}) {
   std::vector<Boundary> boundaries(2);
   boundaries[0].name = wall;
@@ -30,7 +31,9 @@ std::string refused(const Geometry& outline) {
   return "nothing";
 }
 
-TEST(OutlineMatch, SaysNothingOfItsOwnOutline) { EXPECT_TRUE(require_match(square(), mesh, "o.geom").empty()); }
+TEST(OutlineMatch, SaysNothingOfItsOwnOutline) {
+  EXPECT_TRUE(require_match(square(), mesh, "o.geom").empty());
+}
 
 TEST(OutlineMatch, WarnsOfAnAbsentBoundary) {
   const auto warnings = require_match(square("wall", "sea"), mesh, "o.geom");
@@ -40,7 +43,8 @@ TEST(OutlineMatch, WarnsOfAnAbsentBoundary) {
 
 TEST(OutlineMatch, RefusesAnOutlineWithoutAnyOfItsNames) {
   const std::string said = refused(square("hull", "sea"));
-  EXPECT_EQ(said.find("o.geom: has none of the mesh's boundaries, 'wall', 'far', but 'hull', 'sea'"), 0U) << said;
+  EXPECT_EQ(said.find("o.geom: has none of the mesh's boundaries, 'wall', 'far', but 'hull', 'sea'"), 0U)
+      << said;
   EXPECT_NE(said.find("--geometry-out"), std::string::npos) << said;
 }
 
@@ -48,14 +52,21 @@ TEST(OutlineMatch, RefusesNodesOffByMoreThanATenthOfAnEdge) {
   const double tenth = 0.1 / 8;
   const std::string said = refused(square("wall", "far", {0, 1.01 * tenth}));
   EXPECT_NE(said.find("boundary 'wall'"), std::string::npos) << said;
-  EXPECT_NE(said.find("node (0, 0) lies farther off than a tenth of its edge, which is 0.125 long"), std::string::npos) << said;
+  EXPECT_NE(said.find("node (0, 0) lies farther off than a tenth of its edge, which is 0.125 long"),
+            std::string::npos)
+      << said;
   EXPECT_EQ(refused(square("wall", "far", {0, 0.99 * tenth})), "nothing");
 }
 
 TEST(OutlineMatch, CountsNodesThatAreNearAlone) {
-  const auto warnings = require_match(square("wall", "far", {0, 0.0078125}), mesh, "o.geom");  // the east and west side but for an end lie on it
+  const auto warnings = require_match(square("wall", "far", {0, 0.0078125}), mesh,
+                                      "o.geom");  // the east and west side but for an end lie on it
   ASSERT_EQ(warnings.size(), 2U);
-  EXPECT_EQ(warnings[0].find("o.geom: 9 of 16 nodes of the mesh's boundary 'wall' lie off the outline, by up to 0.0078125;"), 0U) << warnings[0];
+  EXPECT_EQ(
+      warnings[0].find(
+          "o.geom: 9 of 16 nodes of the mesh's boundary 'wall' lie off the outline, by up to 0.0078125;"),
+      0U)
+      << warnings[0];
 }
 
 TEST(OutlineMatch, TakesTheSideOfTheDomainFromTheMesh) {
@@ -70,7 +81,9 @@ TEST(OutlineMatch, TakesTheSideOfTheDomainFromTheMesh) {
   EXPECT_EQ(back.digest(), right.digest());
 }
 
-TEST(OutlineMatch, LoopsThatTheMeshDoesNotKnowStay) { EXPECT_EQ(loops_against(square("hull", "sea"), mesh), std::vector<char>{0}); }
+TEST(OutlineMatch, LoopsThatTheMeshDoesNotKnowStay) {
+  EXPECT_EQ(loops_against(square("hull", "sea"), mesh), std::vector<char>{0});
+}
 
 }  // namespace
 }  // namespace quadloop

@@ -1,5 +1,5 @@
 // Places on an outline, ways and chords between them, also across the first vertex of a loop.
-#include "smoother/outline_path.hpp"
+#include "smoother/outline/outline_path.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,9 @@ TEST_F(OnABoxWithAHole, LocatesKeptVerticesOnlyWhenAsked) {
 }
 
 TEST_F(OnABoxWithAHole, FindsThePointAtAnArc) {
-  const auto expect_point = [&](double arc, Point expected) { EXPECT_LT(length(path.point_at({0, arc}) - expected), rounding) << arc; };
+  const auto expect_point = [&](double arc, Point expected) {
+    EXPECT_LT(length(path.point_at({0, arc}) - expected), rounding) << arc;
+  };
   expect_point(0, {2, -0.2});
   expect_point(slope_length + 1.5, {4, 1.5});
   expect_point(slope_length + 3, {4, 3});
@@ -103,7 +105,8 @@ TEST_F(OnABoxWithAHole, WalksWithTheDomainToTheLeft) {
   EXPECT_NEAR(path.way(box({4, 1}), box({3, 3})), 3, rounding);
   EXPECT_EQ(path.way(box(after), box(after)), 0);
   // The domain lies to the left of the hole too, which is walked clockwise.
-  EXPECT_NEAR(path.way(path.locate({1, 1.5}, "hole", true), path.locate({1.5, 2}, "hole", true)), 1, rounding);
+  EXPECT_NEAR(path.way(path.locate({1, 1.5}, "hole", true), path.locate({1.5, 2}, "hole", true)), 1,
+              rounding);
 }
 
 TEST_F(OnABoxWithAHole, StraysFromChordsByItsVertices) {
@@ -128,10 +131,11 @@ TEST_F(OnABoxWithAHole, FindsWhatAChordMeetsElsewhere) {
   EXPECT_EQ(path.met_elsewhere(chord(before, after)), Segments{});
   EXPECT_EQ(path.met_elsewhere(chord({4, 0.5}, {4, 2})), Segments{});
   EXPECT_EQ(path.met_elsewhere(chord({4, 0}, {4, 3})), Segments{});
-  EXPECT_EQ(path.met_elsewhere(chord(after, {0, 1})), Segments{});                       // below the hole
-  EXPECT_EQ(sorted(path.met_elsewhere(chord({4, 1.5}, {0, 1.5}))), (Segments{5, 7}));    // through it
-  EXPECT_EQ(sorted(path.met_elsewhere(chord({4, 2}, {0, 2}))), (Segments{5, 6, 7}));     // along its upper side
-  EXPECT_EQ(sorted(path.met_elsewhere(chord({3, 3}, {0, 0}))), (Segments{5, 6, 7, 8}));  // through two of its corners
+  EXPECT_EQ(path.met_elsewhere(chord(after, {0, 1})), Segments{});                     // below the hole
+  EXPECT_EQ(sorted(path.met_elsewhere(chord({4, 1.5}, {0, 1.5}))), (Segments{5, 7}));  // through it
+  EXPECT_EQ(sorted(path.met_elsewhere(chord({4, 2}, {0, 2}))), (Segments{5, 6, 7}));   // along its upper side
+  EXPECT_EQ(sorted(path.met_elsewhere(chord({3, 3}, {0, 0}))),
+            (Segments{5, 6, 7, 8}));  // through two of its corners
 }
 
 TEST_F(OnABoxWithAHole, FindsPartsOfTheSameLoopThatAChordMeets) {
@@ -160,19 +164,24 @@ TEST_F(OnABoxWithAHole, NamesTheSegmentsBetweenTwoPlaces) {
   EXPECT_EQ(between({4, 1}, {4, 2}), (Segments{1}));
 }
 
-TEST_F(OnABoxWithAHole, NamesAllSegmentsOfAWayRoundToTheSameOne) { EXPECT_EQ(between({4, 2}, {4, 1}), (Segments{1, 2, 3, 4, 0, 1})); }
+TEST_F(OnABoxWithAHole, NamesAllSegmentsOfAWayRoundToTheSameOne) {
+  EXPECT_EQ(between({4, 2}, {4, 1}), (Segments{1, 2, 3, 4, 0, 1}));
+}
 
 TEST(OutlinePath, GivesUpOnWaysOfTooManyVertices) {
   std::vector<Point> points;
-  for (int k = 0; k < 4000; ++k) points.push_back({std::cos(2 * std::numbers::pi * k / 4000), std::sin(2 * std::numbers::pi * k / 4000)});
+  for (int k = 0; k < 4000; ++k)
+    points.push_back({std::cos(2 * std::numbers::pi * k / 4000), std::sin(2 * std::numbers::pi * k / 4000)});
   std::vector<Boundary> boundaries(1);
   boundaries[0].name = "circle";
   const Geometry circle(boundaries, points, {0, 4000}, std::vector<BoundaryId>(4000, BoundaryId{0}));
   const OutlinePath path(circle);
   const auto place = [&](int k) { return path.locate(points[static_cast<std::size_t>(k)], "circle", false); };
-  EXPECT_EQ(path.deviation(place(0), points[0], place(2000), points[2000]), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(path.deviation(place(0), points[0], place(2000), points[2000]),
+            std::numeric_limits<double>::infinity());
   EXPECT_TRUE(path.segments_between(place(0), place(2000)).empty());
-  EXPECT_NEAR(path.deviation(place(3900), points[3900], place(100), points[100]), 1 - std::cos(2 * std::numbers::pi * 100 / 4000), 1e-9);
+  EXPECT_NEAR(path.deviation(place(3900), points[3900], place(100), points[100]),
+              1 - std::cos(2 * std::numbers::pi * 100 / 4000), 1e-9);
   EXPECT_EQ(path.segments_between(place(3900), place(100)).size(), 201U);
 }
 

@@ -1,4 +1,5 @@
-// Whole meshes: the same positions on any number of ranks, never worse from sweep to sweep, the boundary kept, tangles undone.
+// Whole meshes: the same positions on any number of ranks, never worse from sweep to sweep, the boundary
+// kept, tangles undone.
 #include "smoother/smooth_mesh.hpp"
 
 #include <gtest/gtest.h>
@@ -9,9 +10,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "mesher/mesh/quality.hpp"
-#include "mesher/mesh/validate.hpp"
-#include "smoother/condition_number.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/validate.hpp"
+#include "smoother/objective/condition_number.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 
 namespace quadloop {
@@ -74,7 +75,8 @@ void expect_never_worse(const Mesh& mesh, SmoothOptions options) {
     SmoothReport report;
     const Mesh after = smoothed_alone(mesh, options, &report);
     const double smallest = summarise_quality(self(), after).smallest_degrees;
-    EXPECT_LE(report.worst_cost_after, std::min(worst, report.worst_cost_before) + rounding) << options.sweeps << " sweeps";
+    EXPECT_LE(report.worst_cost_after, std::min(worst, report.worst_cost_before) + rounding)
+        << options.sweeps << " sweeps";
     EXPECT_GE(smallest, sharpest - degrees_rounding) << options.sweeps << " sweeps";
     worst = report.worst_cost_after;
     sharpest = smallest;
@@ -95,8 +97,8 @@ TEST(SmoothMesh, NeverGetsWorseFromSweepToSweep) {
   expect_never_worse(disc(Grid{10}, polygon), options);
 }
 
-/// In any unit that is a power of two the same bits, but for the exponent: also where squares of lengths, or their products, leave the range of
-/// doubles.
+/// In any unit that is a power of two the same bits, but for the exponent: also where squares of lengths, or
+/// their products, leave the range of doubles.
 TEST(SmoothMesh, LengthsMayBeOfAnySize) {
   const Geometry polygon = circle(240);
   const Mesh tangle = tangled(Grid{10}, 2), disc_mesh = disc(Grid{10}, polygon);
@@ -111,12 +113,15 @@ TEST(SmoothMesh, LengthsMayBeOfAnySize) {
     };
     std::vector<Point> vertices(polygon.points().begin(), polygon.points().end());
     std::transform(vertices.begin(), vertices.end(), vertices.begin(), scaled);
-    const Geometry scaled_polygon({polygon.boundaries()[0]}, vertices, {0, 240}, std::vector<BoundaryId>(240, BoundaryId{0}));
+    const Geometry scaled_polygon({polygon.boundaries()[0]}, vertices, {0, 240},
+                                  std::vector<BoundaryId>(240, BoundaryId{0}));
     along.geometry = &scaled_polygon;
     SmoothReport report;
-    EXPECT_TRUE(smoothed_alone(scaled_mesh(tangle), options, &report).points == scaled_mesh(wanted).points) << exponent;
+    EXPECT_TRUE(smoothed_alone(scaled_mesh(tangle), options, &report).points == scaled_mesh(wanted).points)
+        << exponent;
     EXPECT_EQ(report.inverted_after, 0) << exponent;
-    EXPECT_TRUE(smoothed_alone(scaled_mesh(disc_mesh), along).points == scaled_mesh(wanted_disc).points) << exponent;
+    EXPECT_TRUE(smoothed_alone(scaled_mesh(disc_mesh), along).points == scaled_mesh(wanted_disc).points)
+        << exponent;
   }
 }
 
@@ -125,7 +130,8 @@ TEST(SmoothMesh, BettersTheWorstCellAndTheSmallestAngle) {
   SmoothReport report;
   const Mesh after = smoothed_alone(before, {}, &report);
   EXPECT_LT(report.worst_cost_after, 0.5 * report.worst_cost_before);
-  EXPECT_GT(summarise_quality(self(), after).smallest_degrees, summarise_quality(self(), before).smallest_degrees + 5);
+  EXPECT_GT(summarise_quality(self(), after).smallest_degrees,
+            summarise_quality(self(), before).smallest_degrees + 5);
   EXPECT_TRUE(validate(after).empty());
 }
 
@@ -141,9 +147,11 @@ TEST(SmoothMesh, ReportsTheWorstCells) {
       found.first = std::max(found.first, cost);
       found.second += cost >= 1 ? 1 : 0;
     };
-    for (const auto& t : mesh.triangles) include(cell_cost<3>({mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])}, ideal_targets<3>()));
+    for (const auto& t : mesh.triangles)
+      include(cell_cost<3>({mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])}, ideal_targets<3>()));
     for (const auto& q : mesh.quads) {
-      include(cell_cost<4>({mesh.point(q[0]), mesh.point(q[1]), mesh.point(q[2]), mesh.point(q[3])}, ideal_targets<4>()));
+      include(cell_cost<4>({mesh.point(q[0]), mesh.point(q[1]), mesh.point(q[2]), mesh.point(q[3])},
+                           ideal_targets<4>()));
     }
     return found;
   };
@@ -158,7 +166,8 @@ TEST(SmoothMesh, LeavesAPerfectMeshAlone) {
   mesh.quads.clear();
   const auto at = [](std::int32_t i, std::int32_t j) { return NodeId{9 * j + i}; };
   for (std::int32_t j = 0; j < 8; ++j) {
-    for (std::int32_t i = 0; i < 8; ++i) mesh.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    for (std::int32_t i = 0; i < 8; ++i)
+      mesh.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
   }
   SmoothReport report;
   SmoothOptions options;
@@ -182,7 +191,8 @@ TEST(SmoothMesh, PinnedNodesStay) {
   Mesh part = scatter_mesh(world(), mesh, order);
   const Mesh before = part;
   SmoothOptions options;
-  for (std::int32_t node = 0; node < part.owned_nodes; ++node) options.pinned.push_back((part.first_node + node) % 3 == 0 ? 1 : 0);
+  for (std::int32_t node = 0; node < part.owned_nodes; ++node)
+    options.pinned.push_back((part.first_node + node) % 3 == 0 ? 1 : 0);
   smooth_mesh(world(), part, options);
   std::int64_t moved = 0;
   for (std::int32_t node = 0; node < static_cast<std::int32_t>(part.points.size()); ++node) {
@@ -213,12 +223,14 @@ TEST(SmoothMesh, CornersStayAlsoWhereBoundariesMeetOnAStraightSide) {
   const Grid grid{8};
   Mesh mesh = jittered(grid, 0.24);
   auto& wall = mesh.boundaries[0].edges;  // the edges of node 4, in the middle of the south side
-  const auto leaving = std::find_if(wall.begin(), wall.end(), [](const auto& e) { return e[0] == NodeId{4}; });
+  const auto leaving =
+      std::find_if(wall.begin(), wall.end(), [](const auto& e) { return e[0] == NodeId{4}; });
   BoundaryEdges inflow{"inflow", "inflow", {*leaving}};
   wall.erase(leaving);
   mesh.boundaries.push_back(std::move(inflow));
   const Mesh after = smoothed_alone(mesh, {});
-  for (const std::int32_t node : {0, 8, 72, 80, 4, 5}) EXPECT_EQ(after.point(NodeId{node}), mesh.point(NodeId{node})) << node;
+  for (const std::int32_t node : {0, 8, 72, 80, 4, 5})
+    EXPECT_EQ(after.point(NodeId{node}), mesh.point(NodeId{node})) << node;
 }
 
 double distance_to(const Geometry& polygon, Point p) {
@@ -261,7 +273,8 @@ Mesh on_soft_square(const Grid& grid, std::uint64_t seed) {
   Mesh mesh = jittered(grid, 0.24, seed);
   auto& boundaries = mesh.boundaries;
   boundaries[0].name = "square";
-  boundaries[0].edges.insert(boundaries[0].edges.end(), boundaries[1].edges.begin(), boundaries[1].edges.end());
+  boundaries[0].edges.insert(boundaries[0].edges.end(), boundaries[1].edges.begin(),
+                             boundaries[1].edges.end());
   boundaries.pop_back();
   return mesh;
 }
@@ -284,7 +297,8 @@ TEST(SmoothMesh, ChordsStayNearTheOutline) {
   double farthest = 0;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Mesh after = smoothed_alone(on_soft_square(Grid{6, {1, 1}, false}, seed), options);
-    for (const Point corner : square.points()) farthest = std::max(farthest, share_off_boundary(after, corner));
+    for (const Point corner : square.points())
+      farthest = std::max(farthest, share_off_boundary(after, corner));
   }
   EXPECT_GT(farthest, 0) << "no node has left a corner";
   EXPECT_LE(farthest, 0.15);
@@ -307,11 +321,13 @@ double cost_by(const std::vector<CellTarget>& targets, const Mesh& mesh) {
   std::size_t number = 0;
   for (const auto& t : mesh.triangles) {
     const CellTarget& target = targets[number++];
-    sum += cell_cost<3>({mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])}, stretched_targets<3>(target.w1, target.w2));
+    sum += cell_cost<3>({mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])},
+                        stretched_targets<3>(target.w1, target.w2));
   }
   for (const auto& q : mesh.quads) {
     const CellTarget& target = targets[number++];
-    sum += cell_cost<4>({mesh.point(q[0]), mesh.point(q[1]), mesh.point(q[2]), mesh.point(q[3])}, stretched_targets<4>(target.w1, target.w2));
+    sum += cell_cost<4>({mesh.point(q[0]), mesh.point(q[1]), mesh.point(q[2]), mesh.point(q[3])},
+                        stretched_targets<4>(target.w1, target.w2));
   }
   return sum;
 }
@@ -327,7 +343,8 @@ TEST(SmoothMesh, CellsTakeTheShapesTheyAreAskedFor) {
   SmoothOptions ideal;
   ideal.threshold = options.threshold;
   EXPECT_GT(cost_by(options.targets, smoothed_alone(before, ideal)), 2 * asked);
-  EXPECT_TRUE(smoothed_alone(grid.mesh(), options).points == grid.mesh().points) << "cells that have their shapes already";
+  EXPECT_TRUE(smoothed_alone(grid.mesh(), options).points == grid.mesh().points)
+      << "cells that have their shapes already";
 }
 
 TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWithTargets) {
@@ -340,7 +357,8 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWithTargets) {
     SmoothOptions options;
     const auto take = [&](std::size_t count, const std::vector<std::int32_t>& cells, std::size_t offset) {
       const auto first = static_cast<std::size_t>(comm.exclusive_sum(static_cast<std::int64_t>(count)));
-      for (std::size_t c = first; c < first + count; ++c) options.targets.push_back(all[offset + static_cast<std::size_t>(cells[c])]);
+      for (std::size_t c = first; c < first + count; ++c)
+        options.targets.push_back(all[offset + static_cast<std::size_t>(cells[c])]);
     };
     take(part.triangles.size(), order.triangles, 0);
     take(part.quads.size(), order.quads, mesh.triangles.size());
@@ -350,7 +368,8 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWithTargets) {
   EXPECT_GT(s.report.moves, 0);
   expect_same_report(s.report, s.alone_report);
   for (std::int32_t node = 0; node < static_cast<std::int32_t>(s.part.points.size()); ++node) {
-    EXPECT_EQ(s.part.point(NodeId{node}), s.alone.points[static_cast<std::size_t>(s.part.global(NodeId{node}).value())]);
+    EXPECT_EQ(s.part.point(NodeId{node}),
+              s.alone.points[static_cast<std::size_t>(s.part.global(NodeId{node}).value())]);
   }
 }
 
@@ -365,9 +384,11 @@ void expect_untangled(Method method, Objective objective = Objective::power) {
     SmoothReport report;
     const Mesh after = smoothed_alone(before, options, &report);
     EXPECT_GT(report.inverted_before, 0) << "seed " << seed;
-    EXPECT_EQ(report.inverted_after, 0) << "seed " << seed << ", of " << report.inverted_before << "; largest cost " << report.worst_cost_after;
+    EXPECT_EQ(report.inverted_after, 0) << "seed " << seed << ", of " << report.inverted_before
+                                        << "; largest cost " << report.worst_cost_after;
     for (const MeshFault& fault : validate(after)) {
-      ADD_FAILURE() << "seed " << seed << ": " << name_of(fault.rule) << ": " << fault.what << " at " << fault.place.x << " " << fault.place.y;
+      ADD_FAILURE() << "seed " << seed << ": " << name_of(fault.rule) << ": " << fault.what << " at "
+                    << fault.place.x << " " << fault.place.y;
     }
   }
 }

@@ -1,5 +1,6 @@
-// What a star is worth: batches against single places, objectives against their formulas, gradients against differences.
-#include "smoother/star.hpp"
+// What a star is worth: batches against single places, objectives against their formulas, gradients against
+// differences.
+#include "smoother/objective/star.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +32,9 @@ void for_each_star(const Check& check) {
   }
 }
 
-Point near_centre(Random& random, double reach) { return uniform(random, 0, reach) * test::random_direction(random); }
+Point near_centre(Random& random, double reach) {
+  return uniform(random, 0, reach) * test::random_direction(random);
+}
 
 bool is_valid(const Star& star, Point p) { return star.cost(p, Objective::power).valid[0]; }
 
@@ -67,7 +70,8 @@ TEST(Star, ObjectivesAreTheirFormulas) {
       sum += cost;
       largest = std::max(largest, cost);
     }
-    const double blend = (std::tanh(5 * (largest - 1)) + 1) / 2, mean = sum / static_cast<double>(star.corners().size());
+    const double blend = (std::tanh(5 * (largest - 1)) + 1) / 2,
+                 mean = sum / static_cast<double>(star.corners().size());
     EXPECT_NEAR(star.cost(p, Objective::power).objective[0], squares, rounding);
     EXPECT_NEAR(star.cost(p, Objective::thesis).objective[0], blend * largest + (1 - blend) * mean, rounding);
   });
@@ -83,7 +87,8 @@ TEST(NodalCost, ByHand) {
 TEST(NodalCost, OfAnInvertedCornerIsItsOwnSquared) {
   // c = 1 - J with J < 0, so (1 - J)^2 = c^2, whatever the mean.
   for (const double mean : {0.1, 0.9, 1.5}) EXPECT_EQ(nodal_cost(1.5, mean), 2.25);
-  EXPECT_GT(nodal_cost(std::nextafter(1.0, 2.0), 0), nodal_cost(1, 1)) << "an inverted corner costs more than any flat one";
+  EXPECT_GT(nodal_cost(std::nextafter(1.0, 2.0), 0), nodal_cost(1, 1))
+      << "an inverted corner costs more than any flat one";
 }
 
 TEST(Star, NodalCostOfAnInvertedStarByHand) {
@@ -102,12 +107,14 @@ TEST(Star, NodalCostIsEquation34) {
     const Point p = near_centre(random, 1.5);
     const double reference = star.reference({0, 0});
     double smallest = std::numeric_limits<double>::infinity();
-    for (const StarCorner& c : star.corners()) smallest = std::min(smallest, cross(c.q - p, c.r - p) / reference);
+    for (const StarCorner& c : star.corners())
+      smallest = std::min(smallest, cross(c.q - p, c.r - p) / reference);
     if (is_valid(star, p)) {
       EXPECT_NEAR(star.nodal_cost(p, reference), star.cost(p, Objective::thesis).objective[0], rounding);
     } else if (smallest < 0) {
       ++inverted;
-      EXPECT_NEAR(star.nodal_cost(p, reference), std::pow(1 - smallest, 2), rounding * std::pow(1 - smallest, 2));
+      EXPECT_NEAR(star.nodal_cost(p, reference), std::pow(1 - smallest, 2),
+                  rounding * std::pow(1 - smallest, 2));
     }
   });
   EXPECT_GT(inverted, 50);
@@ -129,7 +136,8 @@ TEST(Star, LargestDefectAndCotangentAreTheWorstCornersAndTheSmallestAngles) {
     const auto cost = star.cost(p, Objective::power);
     EXPECT_NEAR(std::pow(cost.largest_defect[0], 2), test::largest_cost(star, p), rounding);
     EXPECT_NEAR(star.worst_cost(p), test::largest_cost(star, p), rounding);
-    EXPECT_NEAR(std::atan2(1, cost.largest_cotangent[0]) * 180 / std::numbers::pi, test::smallest_degrees(star, p), 1e-9);
+    EXPECT_NEAR(std::atan2(1, cost.largest_cotangent[0]) * 180 / std::numbers::pi,
+                test::smallest_degrees(star, p), 1e-9);
   });
 }
 
@@ -137,7 +145,8 @@ TEST(Star, LargestDefectAndCotangentAreTheWorstCornersAndTheSmallestAngles) {
 Point differences(const Star& star, Point p, Objective objective) {
   constexpr double h = 1e-6;
   const auto value = [&](Point at) { return star.cost(at, objective).objective[0]; };
-  return {(value(p + Point{h, 0}) - value(p - Point{h, 0})) / (2 * h), (value(p + Point{0, h}) - value(p - Point{0, h})) / (2 * h)};
+  return {(value(p + Point{h, 0}) - value(p - Point{h, 0})) / (2 * h),
+          (value(p + Point{0, h}) - value(p - Point{0, h})) / (2 * h)};
 }
 
 /// By how much the worst corner is worse than the next.
@@ -155,7 +164,8 @@ TEST(Star, GradientsAgreeWithDifferences) {
     for (const Objective objective : {Objective::thesis, Objective::power}) {
       if (objective == Objective::thesis && lead_of_worst(star, p) < 1e-4) continue;
       Point gradient;
-      EXPECT_NEAR(star.cost_and_gradient(p, objective, gradient), star.cost(p, objective).objective[0], rounding);
+      EXPECT_NEAR(star.cost_and_gradient(p, objective, gradient), star.cost(p, objective).objective[0],
+                  rounding);
       const Point expected = differences(star, p, objective);
       EXPECT_LT(length(gradient - expected), 1e-6 * (1 + length(expected)));
       ++compared;

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/check/quality.hpp"
 
 namespace quadloop::test {
 
-double uniform(Random& random, double low, double high) { return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53; }
+double uniform(Random& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
 
 Point random_direction(Random& random) {
   const double t = uniform(random, 0, 2 * std::numbers::pi);
@@ -17,12 +19,14 @@ Point random_direction(Random& random) {
 
 namespace {
 
-/// Neighbours round the origin, counter-clockwise, none less than a third of a turn's even share after the other.
+/// Neighbours round the origin, counter-clockwise, none less than a third of a turn's even share after the
+/// other.
 std::vector<Point> random_ring(Random& random) {
   const int count = 4 + static_cast<int>(random() % 5);
   std::vector<Point> ring;
   for (int k = 0; k < count; ++k) {
-    const double t = 2 * std::numbers::pi * (k + uniform(random, 0, 0.6)) / count, radius = uniform(random, 0.5, 1.5);
+    const double t = 2 * std::numbers::pi * (k + uniform(random, 0, 0.6)) / count,
+                 radius = uniform(random, 0.5, 1.5);
     ring.push_back({radius * std::cos(t), radius * std::sin(t)});
   }
   return ring;
@@ -32,7 +36,8 @@ std::vector<Point> random_ring(Random& random) {
 std::array<Point, 2> random_target(Random& random, bool stretched) {
   if (!stretched) return {Point{1, 0}, Point{0, 1}};
   const Point along = random_direction(random), across{-along.y, along.x};
-  return {uniform(random, 0.5, 2) * along, uniform(random, 0.5, 2) * across + uniform(random, -0.5, 0.5) * along};
+  return {uniform(random, 0.5, 2) * along,
+          uniform(random, 0.5, 2) * across + uniform(random, -0.5, 0.5) * along};
 }
 
 }  // namespace
@@ -63,7 +68,8 @@ Star random_star(Random& random, Cells cells, bool stretched) {
 
 Star fan_of(const std::vector<Point>& polygon) {
   Star star;
-  for (std::size_t k = 0; k < polygon.size(); ++k) star.add({polygon[k], polygon[(k + 1) % polygon.size()], equilateral_target(), CellAngle::all});
+  for (std::size_t k = 0; k < polygon.size(); ++k)
+    star.add({polygon[k], polygon[(k + 1) % polygon.size()], equilateral_target(), CellAngle::all});
   return star;
 }
 
@@ -103,7 +109,8 @@ std::vector<double> corner_costs(const Star& star, Point p) {
   for (const StarCorner& c : star.corners()) squares += dot(c.q - p, c.q - p);
   std::vector<double> costs;
   for (const StarCorner& c : star.corners()) {
-    costs.push_back(corner_cost(corner_form(p, c.q, c.r), c.target, squares / static_cast<double>(star.corners().size())));
+    costs.push_back(corner_cost(corner_form(p, c.q, c.r), c.target,
+                                squares / static_cast<double>(star.corners().size())));
   }
   return costs;
 }

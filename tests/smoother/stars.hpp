@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "smoother/star.hpp"
+#include "smoother/objective/star.hpp"
 
 namespace quadloop::test {
 
@@ -17,7 +17,8 @@ Point random_direction(Random& random);
 /// Which cells lie round the node.
 enum class Cells { triangles, quads, mixed };
 
-/// The star of a node at the origin, valid there, of four to eight neighbours. `stretched`: with targets that differ from cell to cell.
+/// The star of a node at the origin, valid there, of four to eight neighbours. `stretched`: with targets that
+/// differ from cell to cell.
 Star random_star(Random& random, Cells cells, bool stretched = false);
 
 /// The triangles between the origin, or any node inside, and the sides of a polygon, counter-clockwise.
@@ -27,7 +28,8 @@ std::vector<Point> regular_polygon(int corners, Point centre = {}, double radius
 /// Four unit quads round the origin.
 Star quad_patch();
 
-/// Adds the three corners of a quad p, a, b, c that hang on p, with the targets of a stretched quad: its edges from p.
+/// Adds the three corners of a quad p, a, b, c that hang on p, with the targets of a stretched quad: its
+/// edges from p.
 void add_quad(Star& star, Point a, Point b, Point c, Point w1, Point w2);
 
 /// The smallest angle of the star's cells in degrees, and the largest of its corners' costs, one by one.

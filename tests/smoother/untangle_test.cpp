@@ -1,5 +1,5 @@
 // Inverted stars: the deepest place inside their polygon, and moves that lower the tangle without a new one.
-#include "smoother/untangle.hpp"
+#include "smoother/node/untangle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,14 +20,16 @@ using test::uniform;
 /// The smallest distance to the left of the lines through a star's opposite edges.
 double depth(const Star& star, Point p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const StarCorner& c : star.corners()) least = std::min(least, cross(c.r - c.q, p - c.q) / length(c.r - c.q));
+  for (const StarCorner& c : star.corners())
+    least = std::min(least, cross(c.r - c.q, p - c.q) / length(c.r - c.q));
   return least;
 }
 
 void expect_deepest(const std::vector<Point>& polygon, Point expected) {
   for (const Point start : {Point{0.1, 0.2}, Point{5, 3}, Point{-2, -0.5}}) {
     const Point found = deepest_point(test::fan_of(polygon), start);
-    EXPECT_LT(length(found - expected), 1e-12) << "from " << start.x << " " << start.y << " to " << found.x << " " << found.y;
+    EXPECT_LT(length(found - expected), 1e-12)
+        << "from " << start.x << " " << start.y << " to " << found.x << " " << found.y;
   }
 }
 
@@ -36,8 +38,10 @@ TEST(DeepestPoint, OfKnownPolygons) {
   expect_deepest({{0, 0}, {4, 0}, {0, 3}}, {1, 1});  // the centre of the inscribed circle
   expect_deepest(test::regular_polygon(7, {0.3, 0.4}), {0.3, 0.4});
   // An arrowhead: the kernel is the triangle between its point and the lines through its notch.
-  const double long_side = std::sqrt(5.0), short_side = std::numbers::sqrt2;  // as deep from both: (2 - x) / sqrt(5) = (x - 1) / sqrt(2)
-  expect_deepest({{0, 0}, {2, 1}, {0, 2}, {1, 1}}, {(2 * short_side + long_side) / (short_side + long_side), 1});
+  const double long_side = std::sqrt(5.0),
+               short_side = std::numbers::sqrt2;  // as deep from both: (2 - x) / sqrt(5) = (x - 1) / sqrt(2)
+  expect_deepest({{0, 0}, {2, 1}, {0, 2}, {1, 1}},
+                 {(2 * short_side + long_side) / (short_side + long_side), 1});
 }
 
 TEST(DeepestPoint, OfARectangleIsAnyOnItsMiddleLine) {
@@ -79,8 +83,10 @@ double depth_by_trial(const Star& star) {
     for (std::size_t j = 0; j < i; ++j) {
       for (std::size_t k = 0; k < j; ++k) {
         const Point u = lines[i].first - lines[j].first, v = lines[i].first - lines[k].first;
-        const double du = lines[j].second - lines[i].second, dv = lines[k].second - lines[i].second, w = cross(u, v);
-        if (std::abs(w) > 1e-12) deepest = std::max(deepest, depth(star, {(du * v.y - dv * u.y) / w, (u.x * dv - v.x * du) / w}));
+        const double du = lines[j].second - lines[i].second, dv = lines[k].second - lines[i].second,
+                     w = cross(u, v);
+        if (std::abs(w) > 1e-12)
+          deepest = std::max(deepest, depth(star, {(du * v.y - dv * u.y) / w, (u.x * dv - v.x * du) / w}));
       }
     }
   }
@@ -94,7 +100,9 @@ TEST(DeepestPoint, IsTheBestOfAllWhereThreeLinesMeet) {
     std::vector<Point> polygon;
     const int corners = 3 + i % 14;
     for (int k = 0; k < corners; ++k) {
-      const double angle = 2 * std::numbers::pi * (k + (i % 2 == 0 ? 0.4 : 1.5) * uniform(random, -1, 1)) / corners, radius = uniform(random, 0.1, 2);
+      const double angle = 2 * std::numbers::pi * (k + (i % 2 == 0 ? 0.4 : 1.5) * uniform(random, -1, 1)) /
+                           corners,
+                   radius = uniform(random, 0.1, 2);
       polygon.push_back({radius * std::cos(angle), radius * std::sin(angle)});
     }
     const Star star = test::fan_of(polygon);
@@ -162,7 +170,8 @@ TEST(Untangle, OnlyLowersTheTangleWhereNothingMakesTheStarValid) {
   for (int i = 0; i < 500; ++i) {
     Star star = test::random_star(random, Cells::triangles);
     const StarCorner first = star.corners()[0];
-    star.add({first.r, first.q, first.target, first.angle});  // a corner that is sound only where the first is not
+    star.add(
+        {first.r, first.q, first.target, first.angle});  // a corner that is sound only where the first is not
     const Point p = uniform(random, 0, 2) * test::random_direction(random);
     const auto to = untangle(star, p, Objective::power);
     if (!to) continue;
@@ -184,7 +193,8 @@ TEST(Untangle, BringsANodeBackInside) {
   }
 }
 
-/// Of a star that no place makes valid: by the thesis's objective the smallest J is raised, else the sum of the negative ones.
+/// Of a star that no place makes valid: by the thesis's objective the smallest J is raised, else the sum of
+/// the negative ones.
 TEST(Untangle, TheObjectiveSaysWhichPlaceIsBest) {
   Random random(37);
   int other = 0;
@@ -197,9 +207,11 @@ TEST(Untangle, TheObjectiveSaysWhichPlaceIsBest) {
     const Point p = uniform(random, 0, 2) * test::random_direction(random);
     const double reference = star.reference(p);
     const auto by_sum = untangle(star, p, Objective::power), by_cost = untangle(star, p, Objective::thesis);
-    EXPECT_EQ(by_sum.has_value(), by_cost.has_value()) << "which places are acceptable does not hang on the objective";
+    EXPECT_EQ(by_sum.has_value(), by_cost.has_value())
+        << "which places are acceptable does not hang on the objective";
     if (!by_sum) continue;
-    const double cost = star.nodal_cost(*by_cost, reference), cost_by_sum = star.nodal_cost(*by_sum, reference);
+    const double cost = star.nodal_cost(*by_cost, reference),
+                 cost_by_sum = star.nodal_cost(*by_sum, reference);
     EXPECT_LE(cost, cost_by_sum);
     EXPECT_LE(tangle_of(star, *by_sum), tangle_of(star, *by_cost));
     other += cost < cost_by_sum ? 1 : 0;
@@ -209,7 +221,9 @@ TEST(Untangle, TheObjectiveSaysWhichPlaceIsBest) {
 
 TEST(Untangle, LeavesValidStarsAlone) {
   Random random(35);
-  for (int i = 0; i < 50; ++i) EXPECT_EQ(untangle(test::random_star(random, static_cast<Cells>(i % 3)), {0, 0}, Objective::power), std::nullopt);
+  for (int i = 0; i < 50; ++i)
+    EXPECT_EQ(untangle(test::random_star(random, static_cast<Cells>(i % 3)), {0, 0}, Objective::power),
+              std::nullopt);
 }
 
 TEST(UntanglingRule, ByHand) {
@@ -223,7 +237,8 @@ TEST(UntanglingRule, ByHand) {
   EXPECT_FALSE(rule.accepts({3, 0}));
   EXPECT_FALSE(rule.accepts({-1.1, 0})) << "the corners on the other side are lost";
   EXPECT_TRUE(rule.accepts({1, 0})) << "two flat corners are less than two inverted ones";
-  EXPECT_FALSE(UntanglingRule(star, {1, 0}, Objective::power).accepts({1, 1e-3})) << "one sound again, one inverted";
+  EXPECT_FALSE(UntanglingRule(star, {1, 0}, Objective::power).accepts({1, 1e-3}))
+      << "one sound again, one inverted";
 }
 
 TEST(RankedPlaces, OfATangledStarTheLowestCostOfEquation34First) {
@@ -241,7 +256,8 @@ TEST(RankedPlaces, OfATangledStarTheLowestCostOfEquation34First) {
     const std::vector<int> order = ranked_places(star, p, Objective::thesis, x, y);
     const double reference = star.reference(p);
     for (std::size_t k = 0; k + 1 < order.size(); ++k, ++pairs) {
-      EXPECT_LE(star.nodal_cost({x[order[k]], y[order[k]]}, reference), star.nodal_cost({x[order[k + 1]], y[order[k + 1]]}, reference));
+      EXPECT_LE(star.nodal_cost({x[order[k]], y[order[k]]}, reference),
+                star.nodal_cost({x[order[k + 1]], y[order[k + 1]]}, reference));
     }
   }
   EXPECT_GT(pairs, 100);
@@ -267,12 +283,14 @@ TEST(RankedPlaces, AreAcceptedAndBestFirst) {
     const UntanglingRule rule(star, p, Objective::power);
     const auto place = [&](int k) { return Point{x[k], y[k]}; };
     for (int k = 0; k < Star::batch; ++k) {
-      const bool accepted = valid ? acceptance.accepts(star.cost(place(k), Objective::power), 0) : rule.accepts(place(k));
+      const bool accepted =
+          valid ? acceptance.accepts(star.cost(place(k), Objective::power), 0) : rule.accepts(place(k));
       EXPECT_EQ(accepted, listed[static_cast<std::size_t>(k)] != 0);
     }
     for (std::size_t k = 0; k + 1 < order.size(); ++k) {
       const Point a = place(order[k]), b = place(order[k + 1]);
-      EXPECT_TRUE(valid ? star.cost(a, Objective::power).objective[0] <= star.cost(b, Objective::power).objective[0]
+      EXPECT_TRUE(valid ? star.cost(a, Objective::power).objective[0] <=
+                              star.cost(b, Objective::power).objective[0]
                         : !(rule.tangle(b) < rule.tangle(a)));
     }
   }

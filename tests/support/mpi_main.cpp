@@ -1,5 +1,5 @@
-// The main of every test program. It runs alone or under mpirun: rank 0 tells the story, the others speak up only where
-// something fails, and a failure on any rank fails the program on all.
+// The main of every test program. It runs alone or under mpirun: rank 0 tells the story, the others speak up
+// only where something fails, and a failure on any rank fails the program on all.
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -20,8 +20,9 @@ class FailurePrinter : public testing::EmptyTestEventListener {
   void OnTestPartResult(const testing::TestPartResult& result) override {
     if (!result.failed()) return;
     const char* file = result.file_name() == nullptr ? "unknown file" : result.file_name();
-    std::fprintf(stderr, "rank %d: %s.%s: %s:%d: %s\n", rank_, test_ == nullptr ? "-" : test_->test_suite_name(),
-                 test_ == nullptr ? "-" : test_->name(), file, result.line_number(), result.message());
+    std::fprintf(stderr, "rank %d: %s.%s: %s:%d: %s\n", rank_,
+                 test_ == nullptr ? "-" : test_->test_suite_name(), test_ == nullptr ? "-" : test_->name(),
+                 file, result.line_number(), result.message());
   }
 
   int rank_;

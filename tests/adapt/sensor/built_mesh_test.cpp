@@ -1,4 +1,5 @@
-// Sensors on meshes as they are built: a leaf gets the values of what lies in it, and the marks are the same on any number of ranks.
+// Sensors on meshes as they are built: a leaf gets the values of what lies in it, and the marks are the same
+// on any number of ranks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,8 +9,8 @@
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/indicator.hpp"
 #include "adapt/sensor/thresholds.hpp"
-#include "mesher/geometry/assemble.hpp"
-#include "mesher/mesh/build_mesh.hpp"
+#include "mesher/build/build_mesh.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "tests/adapt/sensor/shared_leaves.hpp"
 #include "tests/support/world.hpp"
 
@@ -57,7 +58,8 @@ TEST(BuiltMesh, ALeafHasWhatLiesInIt) {
   for (std::size_t i = 0; i < rightmost.size(); ++i) {
     const LeafRecord& leaf = result.tree.leaves[i];
     if (!has_cells(leaf)) continue;
-    const double edge = std::ldexp(tree.tree_edge, -leaf.level), left = tree.root_x + (leaf.tree_x + std::ldexp(leaf.x, -30)) * tree.tree_edge;
+    const double edge = std::ldexp(tree.tree_edge, -leaf.level),
+                 left = tree.root_x + (leaf.tree_x + std::ldexp(leaf.x, -30)) * tree.tree_edge;
     EXPECT_GT(rightmost[i] - shift, left - 0.4 * edge);  // corners are moved by up to 0.4 of an edge
     EXPECT_LT(rightmost[i] - shift, left + edge + 0.4 * edge);
     ++with_cells;
@@ -70,14 +72,16 @@ TEST(BuiltMesh, LeavesAtAShockAreRefined) {
     const MeshResult result = round_a_circle(world(), type);
     const TreeAttributes& tree = result.tree.attributes;
     const std::vector<NodeField> fields{field_of(result.mesh, "density", step)};
-    const auto values = leaf_indicator(world(), result.mesh, result.tree.leaves, fields, Indicator::difference);
+    const auto values =
+        leaf_indicator(world(), result.mesh, result.tree.leaves, fields, Indicator::difference);
     const MarkedLeaves marked = mark_leaves(world(), result.tree.leaves, values, DeviationRule{});
     EXPECT_GT(marked.report.refined, 0);
     EXPECT_GT(marked.report.coarsened, 0);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const LeafRecord& leaf = result.tree.leaves[i];
       const double edge = std::ldexp(tree.tree_edge, -leaf.level);
-      const double centre = tree.root_x + (leaf.tree_x + std::ldexp(leaf.x, -30)) * tree.tree_edge + edge / 2, far = std::abs(centre - 0.3) - edge;
+      const double centre = tree.root_x + (leaf.tree_x + std::ldexp(leaf.x, -30)) * tree.tree_edge + edge / 2,
+                   far = std::abs(centre - 0.3) - edge;
       if (marked.marks[i] == Mark::refine) {
         EXPECT_LT(far, 0.15);
       }
@@ -94,12 +98,14 @@ TEST(BuiltMesh, MarksAreTheSameOnAnyNumberOfRanks) {
     const MeshResult one = round_a_circle(alone, type), all = round_a_circle(world(), type);
     for (const Indicator kind : {Indicator::difference, Indicator::gradient, Indicator::hessian}) {
       const auto values_of = [&](const Communicator& comm, const MeshResult& result) {
-        return leaf_indicator(comm, result.mesh, result.tree.leaves, std::vector<NodeField>{field_of(result.mesh, "density", step)}, kind);
+        return leaf_indicator(comm, result.mesh, result.tree.leaves,
+                              std::vector<NodeField>{field_of(result.mesh, "density", step)}, kind);
       };
       const std::vector<double> of_one = values_of(alone, one), of_all = values_of(world(), all);
       EXPECT_EQ(test::joined(world(), of_all), of_one);
       const MarkedLeaves expected = mark_leaves(alone, one.tree.leaves, of_one, DeviationRule{});
-      EXPECT_EQ(test::joined(world(), mark_leaves(world(), all.tree.leaves, of_all, DeviationRule{}).marks), expected.marks);
+      EXPECT_EQ(test::joined(world(), mark_leaves(world(), all.tree.leaves, of_all, DeviationRule{}).marks),
+                expected.marks);
       EXPECT_GT(expected.report.refined, 0);
     }
   }

@@ -16,13 +16,15 @@ namespace {
 using test::world;
 using Values = std::vector<double>;
 
-/// A value for each cell of a rank that its number among triangles or quads over all ranks decides; some are negative.
+/// A value for each cell of a rank that its number among triangles or quads over all ranks decides; some are
+/// negative.
 Values values_of(const Communicator& comm, const Mesh& mesh) {
   Values values;
   const std::size_t counts[] = {mesh.triangles.size(), mesh.quads.size()};
   for (int kind = 0; kind < 2; ++kind) {
     const auto own = static_cast<std::int64_t>(counts[kind]), first = comm.exclusive_sum(own);
-    for (std::int64_t number = first; number < first + own; ++number) values.push_back(test::scattered(5, number, kind));
+    for (std::int64_t number = first; number < first + own; ++number)
+      values.push_back(test::scattered(5, number, kind));
   }
   return values;
 }

@@ -1,4 +1,5 @@
-// Indicators of leaves: worked out by hand, by brute force from their definition, and the same bits on any number of ranks.
+// Indicators of leaves: worked out by hand, by brute force from their definition, and the same bits on any
+// number of ranks.
 #include "adapt/sensor/indicator.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,8 @@ constexpr Indicator all_kinds[] = {Indicator::difference, Indicator::gradient, I
 double wave(std::int64_t, Point p) { return std::sin(7 * p.x) * std::cos(5 * p.y) + 0.3 * p.x; }
 double noise(std::int64_t node, Point) { return 1e5 * test::scattered(9, node, 0); }
 
-/// A square of one leaf beside a square of two triangles, which are two leaves; a leaf without cells between them.
+/// A square of one leaf beside a square of two triangles, which are two leaves; a leaf without cells between
+/// them.
 ///     3---4---5
 ///     |   | / |
 ///     0---1---2
@@ -39,14 +41,17 @@ Mesh two_squares() {
   return mesh;
 }
 
-Leaves leaves_of_two_squares() { return {test::leaf_with(0, 1), {}, test::leaf_with(1, 0), test::leaf_with(1, 0)}; }
+Leaves leaves_of_two_squares() {
+  return {test::leaf_with(0, 1), {}, test::leaf_with(1, 0), test::leaf_with(1, 0)};
+}
 
 /// What all leaves of two_squares get from fields given node by node.
 Values of_two_squares(const std::vector<Values>& fields_by_node, Indicator kind) {
   const Mesh mesh = two_squares(), part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
   std::vector<NodeField> fields;
   for (const Values& by_node : fields_by_node) {
-    fields.push_back(field_of(part, "q", [&](std::int64_t node, Point) { return by_node[static_cast<std::size_t>(node)]; }));
+    fields.push_back(field_of(
+        part, "q", [&](std::int64_t node, Point) { return by_node[static_cast<std::size_t>(node)]; }));
   }
   const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::uneven);
   return test::joined(world(), leaf_indicator(world(), part, own, fields, kind));
@@ -60,7 +65,8 @@ TEST(Indicator, DifferenceIsTheLargestChangeOfAnEdge) {
 
 TEST(Indicator, GradientIsTheChangeByLength) {
   EXPECT_EQ(of_two_squares({{4, 2, 2, 4, 0, 4}}, Indicator::gradient), (Values{1, 0, 0.5, 1}));
-  EXPECT_EQ(of_two_squares({{0, 0, 1, 0, 1, 2}}, Indicator::gradient), (Values{0.5, 0, 2 * 0.5 / std::sqrt(2.0), 2 * 0.5 / std::sqrt(2.0)}));
+  EXPECT_EQ(of_two_squares({{0, 0, 1, 0, 1, 2}}, Indicator::gradient),
+            (Values{0.5, 0, 2 * 0.5 / std::sqrt(2.0), 2 * 0.5 / std::sqrt(2.0)}));
 }
 
 TEST(Indicator, TakesTheLargestOfSeveralVariables) {
@@ -76,13 +82,17 @@ TEST(Indicator, HessianIsTheChangeOfTheGradientAlongAnEdge) {
   Mesh mesh = strip.mesh();
   mesh.triangles.clear();
   mesh.quads.clear();
-  for (std::int32_t i = 0; i < 3; ++i) mesh.quads.push_back({NodeId{i}, NodeId{i + 1}, NodeId{i + 5}, NodeId{i + 4}});
+  for (std::int32_t i = 0; i < 3; ++i)
+    mesh.quads.push_back({NodeId{i}, NodeId{i + 1}, NodeId{i + 5}, NodeId{i + 4}});
   const Mesh part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
-  // x^2 at 0, 1, 2, 3 has range 9, cell gradients 1, 3, 5, nodal ones 1, 2, 4, 5. Nodes of no cell are not to matter: 0.
-  const NodeField field = field_of(part, "q", [](std::int64_t node, Point p) { return node < 8 ? p.x * p.x : 0; });
+  // x^2 at 0, 1, 2, 3 has range 9, cell gradients 1, 3, 5, nodal ones 1, 2, 4, 5. Nodes of no cell are not to
+  // matter: 0.
+  const NodeField field =
+      field_of(part, "q", [](std::int64_t node, Point p) { return node < 8 ? p.x * p.x : 0; });
   const Leaves leaves{test::leaf_with(0, 1), test::leaf_with(0, 1), test::leaf_with(0, 1)};
-  const Values found = test::joined(
-      world(), leaf_indicator(world(), part, test::share_of(leaves, test::Sharing::even), std::vector<NodeField>{field}, Indicator::hessian));
+  const Values found =
+      test::joined(world(), leaf_indicator(world(), part, test::share_of(leaves, test::Sharing::even),
+                                           std::vector<NodeField>{field}, Indicator::hessian));
   const Values expected{1.0 / 9, 2.0 / 9, 1.0 / 9};
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-15);
 }
@@ -91,9 +101,11 @@ TEST(Indicator, LinearFieldsHaveNoHessianAndOneGradient) {
   test::for_each_distribution([](const test::Pieces& pieces) {
     const Leaves own = test::share_of(test::leaves_of(pieces.whole, 4), test::Sharing::uneven);
     for (const double level : {0.0, 1e5}) {
-      const NodeField linear = field_of(pieces.part, "q", [&](std::int64_t, Point p) { return level + 3 * p.x - 2 * p.y; });
+      const NodeField linear =
+          field_of(pieces.part, "q", [&](std::int64_t, Point p) { return level + 3 * p.x - 2 * p.y; });
       const std::vector<NodeField> fields{linear};
-      for (const double value : leaf_indicator(world(), pieces.part, own, fields, Indicator::hessian)) EXPECT_EQ(value, 0);
+      for (const double value : leaf_indicator(world(), pieces.part, own, fields, Indicator::hessian))
+        EXPECT_EQ(value, 0);
       for (const double value : leaf_indicator(world(), pieces.part, own, fields, Indicator::gradient))
         EXPECT_LE(value, std::sqrt(13.0) / 5 * (1 + 1e-9));
     }
@@ -104,7 +116,8 @@ TEST(Indicator, DoesNotKnowUnits) {
   test::for_each_distribution([](const test::Pieces& pieces) {
     const Leaves own = test::share_of(test::leaves_of(pieces.whole, 4), test::Sharing::even);
     const auto indicator = [&](double factor, Indicator kind) {
-      const NodeField field = field_of(pieces.part, "q", [&](std::int64_t node, Point p) { return factor * wave(node, p); });
+      const NodeField field =
+          field_of(pieces.part, "q", [&](std::int64_t node, Point p) { return factor * wave(node, p); });
       return leaf_indicator(world(), pieces.part, own, std::vector<NodeField>{field}, kind);
     };
     for (const Indicator kind : all_kinds) EXPECT_EQ(indicator(1, kind), indicator(0x1p20, kind));
@@ -114,13 +127,17 @@ TEST(Indicator, DoesNotKnowUnits) {
 TEST(Indicator, IsTheSameOnAnyNumberOfRanks) {
   test::for_each_distribution([](const test::Pieces& pieces) {
     const Leaves leaves = test::leaves_of(pieces.whole, 4);
-    const auto fields_of = [](const Mesh& mesh) { return std::vector<NodeField>{field_of(mesh, "a", wave), field_of(mesh, "b", noise)}; };
+    const auto fields_of = [](const Mesh& mesh) {
+      return std::vector<NodeField>{field_of(mesh, "a", wave), field_of(mesh, "b", noise)};
+    };
     for (const Indicator kind : all_kinds) {
-      const Values whole = leaf_indicator(Communicator(MPI_COMM_SELF), pieces.whole, leaves, fields_of(pieces.whole), kind);
+      const Values whole =
+          leaf_indicator(Communicator(MPI_COMM_SELF), pieces.whole, leaves, fields_of(pieces.whole), kind);
       EXPECT_GT(*std::max_element(whole.begin(), whole.end()), 0);
       for (const test::Sharing sharing : test::all_sharings) {
         const Leaves own = test::share_of(leaves, sharing);
-        EXPECT_EQ(leaf_indicator(world(), pieces.part, own, fields_of(pieces.part), kind), test::share_of(whole, sharing));
+        EXPECT_EQ(leaf_indicator(world(), pieces.part, own, fields_of(pieces.part), kind),
+                  test::share_of(whole, sharing));
       }
     }
   });
@@ -130,13 +147,15 @@ TEST(Indicator, RefusesWhatIsNotFinite) {
   const Mesh mesh = two_squares(), part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
   const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::even);
   const double bad = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<NodeField> fields{field_of(part, "density", wave),
-                                      field_of(part, "pressure", [&](std::int64_t node, Point) { return node == 4 ? bad : 1; })};
+  const std::vector<NodeField> fields{
+      field_of(part, "density", wave),
+      field_of(part, "pressure", [&](std::int64_t node, Point) { return node == 4 ? bad : 1; })};
   try {
     leaf_indicator(world(), part, own, fields, Indicator::difference);
     FAIL() << "nothing was refused";
   } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()).rfind("variable 'pressure': node 5 at (1, 1)", 0), 0U) << error.what();
+    EXPECT_EQ(std::string(error.what()).rfind("variable 'pressure': node 5 at (1, 1)", 0), 0U)
+        << error.what();
   }
 }
 
@@ -144,7 +163,8 @@ TEST(LeafErrors, AreTheLargestAtTheLeafsNodes) {
   const Mesh mesh = two_squares(), part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
   const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::uneven);
   const auto errors = [&](const Values& by_node) {
-    const NodeField field = field_of(part, "e", [&](std::int64_t node, Point) { return by_node[static_cast<std::size_t>(node)]; });
+    const NodeField field = field_of(
+        part, "e", [&](std::int64_t node, Point) { return by_node[static_cast<std::size_t>(node)]; });
     return test::joined(world(), leaf_errors(world(), part, own, field));
   };
   EXPECT_EQ(errors({5, 1, 2, 1, 3, 0}), (Values{5, 0, 2, 3}));

@@ -17,7 +17,8 @@ namespace {
 using test::field_of;
 using test::world;
 
-constexpr double infinite = std::numeric_limits<double>::infinity(), not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity(),
+                 not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A grid of 16 nodes at (i / 3, j / 3), spread over the ranks.
 Mesh grid_part() {
@@ -25,10 +26,12 @@ Mesh grid_part() {
   return test::Pieces(mesh, test::unchanged_order(mesh)).part;
 }
 
-/// The refusal of a field that is 1 but for two nodes (counted from 0), the second of which must not be the one named.
+/// The refusal of a field that is 1 but for two nodes (counted from 0), the second of which must not be the
+/// one named.
 std::string refusal(double value, FieldSign sign) {
   const Mesh mesh = grid_part();
-  const NodeField field = field_of(mesh, "density", [&](std::int64_t node, Point) { return node == 6 || node == 13 ? value : 1; });
+  const NodeField field = field_of(
+      mesh, "density", [&](std::int64_t node, Point) { return node == 6 || node == 13 ? value : 1; });
   try {
     check_field(world(), mesh, field, sign);
   } catch (const InputError& error) {
@@ -42,8 +45,10 @@ bool starts_with(const std::string& text, const std::string& start) { return tex
 TEST(NodeField, NamesTheFirstNodeThatIsNotFinite) {
   const std::string place = "variable 'density': node 7 at (0.666666666667, 0.333333333333) has the value ";
   for (const FieldSign sign : {FieldSign::any, FieldSign::not_negative, FieldSign::positive}) {
-    EXPECT_TRUE(starts_with(refusal(infinite, sign), place + "inf, which is not finite")) << refusal(infinite, sign);
-    EXPECT_TRUE(starts_with(refusal(-infinite, sign), place + "-inf, which is not finite")) << refusal(-infinite, sign);
+    EXPECT_TRUE(starts_with(refusal(infinite, sign), place + "inf, which is not finite"))
+        << refusal(infinite, sign);
+    EXPECT_TRUE(starts_with(refusal(-infinite, sign), place + "-inf, which is not finite"))
+        << refusal(-infinite, sign);
     EXPECT_NE(refusal(not_a_number, sign).find("nan, which is not finite"), std::string::npos);
   }
 }
@@ -59,7 +64,8 @@ TEST(NodeField, ChecksTheSign) {
 
 TEST(NodeField, CopiesHaveTheirOwnersValues) {
   const Mesh mesh = grid_part();
-  const NodeField field = field_of(mesh, "q", [](std::int64_t node, Point) { return 3.0 * static_cast<double>(node); });
+  const NodeField field =
+      field_of(mesh, "q", [](std::int64_t node, Point) { return 3.0 * static_cast<double>(node); });
   NodeField owned_alone = field;
   owned_alone.values.resize(static_cast<std::size_t>(mesh.owned_nodes));
   std::vector<double> expected;
@@ -72,14 +78,20 @@ TEST(NodeField, CopiesHaveTheirOwnersValues) {
 
 TEST(NodeField, IsScaledToItsRange) {
   const Mesh mesh = grid_part();
-  for (const double factor : {1.0, -0.25, 0x1p1019, -0x1p-1000}) {  // the third one's range, 30 units wide, overflows
-    const NodeField field = field_of(mesh, "q", [&](std::int64_t node, Point) { return factor * static_cast<double>(2 * node - 15); });
+  for (const double factor :
+       {1.0, -0.25, 0x1p1019, -0x1p-1000}) {  // the third one's range, 30 units wide, overflows
+    const NodeField field = field_of(
+        mesh, "q", [&](std::int64_t node, Point) { return factor * static_cast<double>(2 * node - 15); });
     const ScaledField scaled = scaled_by_range(world(), mesh, field);
     EXPECT_FALSE(scaled.constant);
     EXPECT_EQ(scaled.rounding, 0x1p-44 * (0.5 * 15 / 15));
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
       const double at = static_cast<double>(mesh.global(NodeId{static_cast<std::int32_t>(i)}).value()) / 15;
-      EXPECT_EQ(scaled.values[i], factor > 0 ? at : static_cast<double>(15 - mesh.global(NodeId{static_cast<std::int32_t>(i)}).value()) / 15);
+      EXPECT_EQ(
+          scaled.values[i],
+          factor > 0
+              ? at
+              : static_cast<double>(15 - mesh.global(NodeId{static_cast<std::int32_t>(i)}).value()) / 15);
     }
   }
 }
@@ -87,7 +99,8 @@ TEST(NodeField, IsScaledToItsRange) {
 TEST(NodeField, IsConstantWithinRounding) {
   const Mesh mesh = grid_part();
   const auto is_constant = [&](double base, double change) {
-    const NodeField field = field_of(mesh, "q", [&](std::int64_t node, Point) { return node == 5 ? base + change : base; });
+    const NodeField field =
+        field_of(mesh, "q", [&](std::int64_t node, Point) { return node == 5 ? base + change : base; });
     return scaled_by_range(world(), mesh, field).constant;
   };
   EXPECT_TRUE(is_constant(0, 0));

@@ -1,4 +1,5 @@
-// Gradients at nodes: exact for linear fields, right on a mesh worked out by hand, the same bits on any number of ranks.
+// Gradients at nodes: exact for linear fields, right on a mesh worked out by hand, the same bits on any
+// number of ranks.
 #include "adapt/sensor/node_gradients.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,9 @@ std::vector<double> values_of(const Mesh& mesh, const std::function<double(Point
 
 TEST(NodeGradients, AreExactForLinearFields) {
   test::for_each_distribution([](const test::Pieces& pieces) {
-    for (const Point p : node_gradients(world(), pieces.part, values_of(pieces.part, [](Point at) { return 2 + 3 * at.x - 5 * at.y; }))) {
+    for (const Point p : node_gradients(world(), pieces.part, values_of(pieces.part, [](Point at) {
+                                          return 2 + 3 * at.x - 5 * at.y;
+                                        }))) {
       EXPECT_NEAR(p.x, 3, 1e-13);
       EXPECT_NEAR(p.y, -5, 1e-13);
     }
@@ -31,7 +34,9 @@ TEST(NodeGradients, AreExactForLinearFields) {
 
 TEST(NodeGradients, OfConstantFieldsAreZero) {
   test::for_each_distribution([](const test::Pieces& pieces) {
-    for (const Point p : node_gradients(world(), pieces.part, values_of(pieces.part, [](Point) { return 0.1; }))) EXPECT_EQ(p, Point{});
+    for (const Point p :
+         node_gradients(world(), pieces.part, values_of(pieces.part, [](Point) { return 0.1; })))
+      EXPECT_EQ(p, Point{});
   });
 }
 
@@ -43,7 +48,8 @@ TEST(NodeGradients, AreMeansOverTheCellsRoundANode) {
   mesh.triangles = {{NodeId{1}, NodeId{4}, NodeId{2}}};
   const Mesh part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
   // x^2: slope 1 in the square, 3 in the triangle.
-  const std::vector<Point> gradients = node_gradients(world(), part, values_of(part, [](Point p) { return p.x * p.x; }));
+  const std::vector<Point> gradients =
+      node_gradients(world(), part, values_of(part, [](Point p) { return p.x * p.x; }));
   const Point expected[] = {{1, 0}, {5.0 / 3, 0}, {5.0 / 3, 0}, {1, 0}, {3, 0}};
   for (std::size_t i = 0; i < part.points.size(); ++i) {
     const Point wanted = expected[part.global(NodeId{static_cast<std::int32_t>(i)}).value()];
@@ -55,11 +61,14 @@ TEST(NodeGradients, AreMeansOverTheCellsRoundANode) {
 TEST(NodeGradients, HaveTheSameBitsOnAnyNumberOfRanks) {
   test::for_each_distribution([](const test::Pieces& pieces) {
     const auto value = [](Point p) { return std::sin(7 * p.x) * std::cos(5 * p.y) + 0.3 * p.x; };
-    const std::vector<Point> whole = node_gradients(Communicator(MPI_COMM_SELF), pieces.whole, values_of(pieces.whole, value));
+    const std::vector<Point> whole =
+        node_gradients(Communicator(MPI_COMM_SELF), pieces.whole, values_of(pieces.whole, value));
     const std::vector<Point> part = node_gradients(world(), pieces.part, values_of(pieces.part, value));
     ASSERT_EQ(part.size(), pieces.part.points.size());
     for (std::size_t i = 0; i < part.size(); ++i) {
-      EXPECT_EQ(part[i], whole[static_cast<std::size_t>(pieces.part.global(NodeId{static_cast<std::int32_t>(i)}).value())]);
+      EXPECT_EQ(
+          part[i],
+          whole[static_cast<std::size_t>(pieces.part.global(NodeId{static_cast<std::int32_t>(i)}).value())]);
     }
   });
 }

@@ -1,4 +1,5 @@
-// The k-th of all ranks' values, and thresholds that leave a share above or below them, against a sorted list.
+// The k-th of all ranks' values, and thresholds that leave a share above or below them, against a sorted
+// list.
 #include "adapt/sensor/ordered_values.hpp"
 
 #include <gtest/gtest.h>
@@ -64,7 +65,8 @@ TEST(OrderedValues, ThresholdsOfSharesAreExactAndSplitNoTies) {
   double last_refine = infinite, last_coarsen = 0;
   for (int percent = 0; percent <= 100; percent += 10) {
     const auto count = std::llround(percent * 0.01 * static_cast<double>(values.size()));
-    const double refine = all.refine_threshold(percent * 0.01), coarsen = all.coarsen_threshold(percent * 0.01);
+    const double refine = all.refine_threshold(percent * 0.01),
+                 coarsen = all.coarsen_threshold(percent * 0.01);
     EXPECT_LE(refine, last_refine);
     EXPECT_GE(coarsen, last_coarsen);
     const std::int64_t above = count_above(values, refine), below = count_below(values, coarsen);

@@ -19,11 +19,12 @@ LeafRecord leaf_with(std::int32_t triangles, std::int32_t quads) {
 
 std::vector<LeafRecord> leaves_of(const Mesh& whole, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  auto triangles = static_cast<std::int32_t>(whole.triangles.size()), quads = static_cast<std::int32_t>(whole.quads.size());
+  auto triangles = static_cast<std::int32_t>(whole.triangles.size()),
+       quads = static_cast<std::int32_t>(whole.quads.size());
   std::vector<LeafRecord> leaves;
   while (triangles + quads > 0) {
-    leaves.push_back(
-        leaf_with(std::min(triangles, static_cast<std::int32_t>(random() % 4)), std::min(quads, static_cast<std::int32_t>(random() % 4))));
+    leaves.push_back(leaf_with(std::min(triangles, static_cast<std::int32_t>(random() % 4)),
+                               std::min(quads, static_cast<std::int32_t>(random() % 4))));
     triangles -= leaves.back().triangles;
     quads -= leaves.back().quads;
   }
@@ -32,7 +33,8 @@ std::vector<LeafRecord> leaves_of(const Mesh& whole, std::uint64_t seed) {
 }
 
 Piece piece_of(std::size_t count, Sharing sharing) {
-  const auto rank = static_cast<std::size_t>(world().rank()), ranks = static_cast<std::size_t>(world().size());
+  const auto rank = static_cast<std::size_t>(world().rank()),
+             ranks = static_cast<std::size_t>(world().size());
   const auto cut = [&](std::size_t r) -> std::size_t {
     if (r == 0 || r == ranks) return r == 0 ? 0 : count;
     const std::size_t even = (r + 1) / 2 * 2;  // every other rank has nothing
@@ -47,7 +49,8 @@ Piece piece_of(std::size_t count, Sharing sharing) {
 }
 
 Pieces::Pieces(const Mesh& mesh, const MeshOrder& order)
-    : whole{scatter_mesh(Communicator(MPI_COMM_SELF), mesh, order)}, part{scatter_mesh(world(), mesh, order)} {}
+    : whole{scatter_mesh(Communicator(MPI_COMM_SELF), mesh, order)},
+      part{scatter_mesh(world(), mesh, order)} {}
 
 MeshOrder unchanged_order(const Mesh& mesh) {
   const auto numbers = [](std::size_t count) {
@@ -63,13 +66,16 @@ void for_each_distribution(const std::function<void(const Pieces&)>& check) {
     const Grid grid{n};
     Mesh mesh = grid.mesh();
     jitter(grid, 0.2, 3, mesh);
-    for (const MeshOrder& order : {space_filling_order(mesh), shuffled_order(mesh, 12)}) check(Pieces(mesh, order));
+    for (const MeshOrder& order : {space_filling_order(mesh), shuffled_order(mesh, 12)})
+      check(Pieces(mesh, order));
   }
 }
 
-NodeField field_of(const Mesh& mesh, const std::string& name, const std::function<double(std::int64_t, Point)>& value) {
+NodeField field_of(const Mesh& mesh, const std::string& name,
+                   const std::function<double(std::int64_t, Point)>& value) {
   NodeField field{name, {}};
-  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) field.values.push_back(value(mesh.first_node + node, mesh.point(NodeId{node})));
+  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node)
+    field.values.push_back(value(mesh.first_node + node, mesh.point(NodeId{node})));
   field.values.resize(mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
   return field;
 }

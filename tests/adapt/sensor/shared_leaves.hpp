@@ -8,9 +8,9 @@
 
 #include "adapt/sensor/node_field.hpp"
 #include "mesher/base/communicator.hpp"
-#include "mesher/forest/tree_record.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop::test {
 
@@ -33,7 +33,8 @@ Piece piece_of(std::size_t count, Sharing sharing);
 template <class T>
 std::vector<T> share_of(const std::vector<T>& all, Sharing sharing) {
   const Piece piece = piece_of(all.size(), sharing);
-  return {all.begin() + static_cast<std::ptrdiff_t>(piece.begin), all.begin() + static_cast<std::ptrdiff_t>(piece.end)};
+  return {all.begin() + static_cast<std::ptrdiff_t>(piece.begin),
+          all.begin() + static_cast<std::ptrdiff_t>(piece.end)};
 }
 
 /// All ranks' values, one after another.
@@ -54,7 +55,9 @@ MeshOrder unchanged_order(const Mesh& mesh);
 /// Calls `check(pieces)` for several meshes and orders.
 void for_each_distribution(const std::function<void(const Pieces&)>& check);
 
-/// A field by a function of the global node number and the position. Copies' values are wrong, which nobody must notice.
-NodeField field_of(const Mesh& mesh, const std::string& name, const std::function<double(std::int64_t, Point)>& value);
+/// A field by a function of the global node number and the position. Copies' values are wrong, which nobody
+/// must notice.
+NodeField field_of(const Mesh& mesh, const std::string& name,
+                   const std::function<double(std::int64_t, Point)>& value);
 
 }  // namespace quadloop::test

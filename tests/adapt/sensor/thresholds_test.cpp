@@ -1,4 +1,5 @@
-// Marks by each rule: worked out by hand, nothing where nothing differs, equal leaves alike, the same on any number of ranks.
+// Marks by each rule: worked out by hand, nothing where nothing differs, equal leaves alike, the same on any
+// number of ranks.
 #include "adapt/sensor/thresholds.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +47,8 @@ TEST(Thresholds, DeviationIsThatOfTheLogarithms) {
   EXPECT_EQ(all.marks, (Marks{up, down, keep, keep, keep}));
   EXPECT_EQ(all.report.refined, 1);
   EXPECT_EQ(all.report.coarsened, 1);
-  EXPECT_EQ(mark_all({1000, 1, 10, -1, 100}, DeviationRule{0.4, 1.4}).marks, (Marks{up, keep, keep, keep, up}));
+  EXPECT_EQ(mark_all({1000, 1, 10, -1, 100}, DeviationRule{0.4, 1.4}).marks,
+            (Marks{up, keep, keep, keep, up}));
 }
 
 TEST(Thresholds, SmallIndicatorsCountAsAMillionthOfTheLargest) {
@@ -71,7 +73,8 @@ TEST(Thresholds, WhatIsEqualIsNotMarked) {
       EXPECT_EQ(all.report.refined + all.report.coarsened, 0);
       EXPECT_TRUE(std::isfinite(all.report.mean) && std::isfinite(all.report.deviation));
     }
-    EXPECT_EQ(mark_all({0.1, 0.1 * (1 + 1e-12), 0.1 * (1 - 1e-12)}, rule).marks, Marks(3, keep)) << "rounding is no difference";
+    EXPECT_EQ(mark_all({0.1, 0.1 * (1 + 1e-12), 0.1 * (1 - 1e-12)}, rule).marks, Marks(3, keep))
+        << "rounding is no difference";
     EXPECT_EQ(mark_all({-1, 0.3, -1}, rule).marks, Marks(3, keep));
     EXPECT_EQ(mark_all({-1, -1}, rule).marks, Marks(2, keep));
     EXPECT_TRUE(mark_all({}, rule).marks.empty());
@@ -80,7 +83,8 @@ TEST(Thresholds, WhatIsEqualIsNotMarked) {
 
 TEST(Thresholds, FractionCountsLeavesWithCells) {
   const Values values{5, -1, 3, 9, 1, 7, -1, 2, 8, 4, 6, 10};
-  EXPECT_EQ(mark_all(values, FractionRule{0.2, 0.3}).marks, (Marks{keep, keep, down, up, down, keep, keep, down, keep, keep, keep, up}));
+  EXPECT_EQ(mark_all(values, FractionRule{0.2, 0.3}).marks,
+            (Marks{keep, keep, down, up, down, keep, keep, down, keep, keep, keep, up}));
   const All none = mark_all(values, FractionRule{0, 0});
   EXPECT_EQ(none.report.refined + none.report.coarsened, 0);
   const All all = mark_all(values, FractionRule{1, 1});  // refining comes first
@@ -89,14 +93,16 @@ TEST(Thresholds, FractionCountsLeavesWithCells) {
 }
 
 TEST(Thresholds, FractionTreatsEqualLeavesAlike) {
-  EXPECT_EQ(mark_all({2, 3, 3, 1, 2, 1, 3, 1, 2, 2}, FractionRule{0.1, 0.1}).marks, (Marks{keep, up, up, down, keep, down, up, down, keep, keep}));
+  EXPECT_EQ(mark_all({2, 3, 3, 1, 2, 1, 3, 1, 2, 2}, FractionRule{0.1, 0.1}).marks,
+            (Marks{keep, up, up, down, keep, down, up, down, keep, keep}));
   EXPECT_EQ(mark_all({0, 0, 0, 1, 0}, FractionRule{0.6, 0.2}).marks, (Marks{down, down, down, up, down}));
 }
 
 TEST(Thresholds, NodesRuleCoarsensAlone) {
   const All all = mark_all({1, 10, 100, 1000}, NodesRule{0.5});
   EXPECT_EQ(all.marks, (Marks{down, keep, keep, keep}));
-  EXPECT_EQ(all.report.thresholds.coarsen, mark_all({1, 10, 100, 1000}, DeviationRule{}).report.thresholds.coarsen);
+  EXPECT_EQ(all.report.thresholds.coarsen,
+            mark_all({1, 10, 100, 1000}, DeviationRule{}).report.thresholds.coarsen);
 }
 
 /// As a caller does who wants a number of nodes: more leaves by a larger share.
@@ -117,14 +123,16 @@ TEST(Thresholds, AShareCanBeBisected) {
 
 TEST(Thresholds, AreTheSameOnAnyNumberOfRanks) {
   Values values;
-  for (int i = 0; i < 997; ++i) values.push_back(i % 7 == 0 ? -1 : std::pow(10, 5 * test::scattered(4, i % 400, 0)));
+  for (int i = 0; i < 997; ++i)
+    values.push_back(i % 7 == 0 ? -1 : std::pow(10, 5 * test::scattered(4, i % 400, 0)));
   std::vector<LeafRecord> leaves;
   Values whole;
   for (const double value : values) {
     leaves.push_back(value < 0 ? LeafRecord{} : test::leaf_with(2, 0));
     whole.push_back(std::max(value, 0.0));
   }
-  for (const ThresholdRule& rule : {ThresholdRule{DeviationRule{}}, ThresholdRule{FractionRule{0.15, 0.25}}, ThresholdRule{NodesRule{}}}) {
+  for (const ThresholdRule& rule : {ThresholdRule{DeviationRule{}}, ThresholdRule{FractionRule{0.15, 0.25}},
+                                    ThresholdRule{NodesRule{}}}) {
     const MarkedLeaves expected = mark_leaves(Communicator(MPI_COMM_SELF), leaves, whole, rule);
     EXPECT_GT(expected.report.coarsened, 0);
     for (const test::Sharing sharing : test::all_sharings) {

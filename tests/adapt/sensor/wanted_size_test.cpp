@@ -44,7 +44,8 @@ TEST(WantedSize, OfALeafIsTheSmallestOfItsNodes) {
     }
     for (const test::Sharing sharing : test::all_sharings) {
       const std::vector<LeafRecord> own = test::share_of(leaves, sharing);
-      EXPECT_EQ(leaf_sizes(world(), pieces.part, own, field_of(pieces.part, "h", size)), test::share_of(expected, sharing));
+      EXPECT_EQ(leaf_sizes(world(), pieces.part, own, field_of(pieces.part, "h", size)),
+                test::share_of(expected, sharing));
     }
   });
 }
@@ -53,7 +54,8 @@ TEST(WantedSize, RefusesSizesThatNoLeafCanHave) {
   const Mesh mesh = test::Grid{2}.mesh(), part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
   const std::vector<LeafRecord> own = test::share_of(test::leaves_of(mesh, 1), test::Sharing::even);
   for (const double bad : {0.0, -1.0}) {
-    const NodeField field = field_of(part, "h", [&](std::int64_t node, Point) { return node == 7 ? bad : 1; });
+    const NodeField field =
+        field_of(part, "h", [&](std::int64_t node, Point) { return node == 7 ? bad : 1; });
     try {
       leaf_sizes(world(), part, own, field);
       FAIL() << "nothing was refused";
@@ -73,7 +75,8 @@ TEST(WantedSize, MarksLeavesThatAreTooLargeOrTwiceTooSmall) {
   }
   TreeRecord own{all.attributes, test::share_of(all.leaves, test::Sharing::uneven)};
   const MarkedLeaves marked = mark_by_size(world(), own, test::share_of(sizes, test::Sharing::uneven));
-  const Marks expected{Mark::refine, Mark::keep, Mark::keep, Mark::coarsen, Mark::coarsen, Mark::keep, Mark::refine};
+  const Marks expected{Mark::refine,  Mark::keep, Mark::keep,  Mark::coarsen,
+                       Mark::coarsen, Mark::keep, Mark::refine};
   EXPECT_EQ(test::joined(world(), marked.marks), expected);
   EXPECT_EQ(marked.report.refined, 2);
   EXPECT_EQ(marked.report.coarsened, 2);

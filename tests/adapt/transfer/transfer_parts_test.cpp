@@ -1,4 +1,5 @@
-// The parts of a transfer alone: the split of quads, pieces of the plane, interpolation, the nearest edge, and messages in rounds.
+// The parts of a transfer alone: the split of quads, pieces of the plane, interpolation, the nearest edge,
+// and messages in rounds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +53,8 @@ TEST(SplitQuad, GoesThroughTheCornerFarthestFromTheCentre) {
 TEST(SplitQuad, MirrorImagesAreSplitAlike) {
   for (int number = 0; number < 50; ++number) {
     const auto r = [&](int k) { return 0.2 * scattered(21, number, k); };
-    const Mesh mesh = with_points({{1 + r(0), 1 + r(1)}, {2 + r(2), 1 + r(3)}, {2 + r(4), 2 + r(5)}, {1 + r(6), 2 + r(7)}});
+    const Mesh mesh =
+        with_points({{1 + r(0), 1 + r(1)}, {2 + r(2), 1 + r(3)}, {2 + r(4), 2 + r(5)}, {1 + r(6), 2 + r(7)}});
     Mesh mirrored = mesh;  // turned round, so that it is counter-clockwise again: node k becomes 3 - k
     for (std::size_t k = 0; k < 4; ++k) mirrored.points[k] = {mesh.points[3 - k].x, -mesh.points[3 - k].y};
     const auto [a, b] = diagonal_of(mesh, {0, 0});
@@ -96,7 +98,9 @@ TEST(CellTriangles, NumbersRunOverAllRanks) {
 
 TEST(CellTriangles, TurnsWhatRunsClockwiseAndLeavesOutWhatIsFlat) {
   Mesh mesh = with_points({{0, 0}, {1, 0}, {0, 1}, {2, 0}});
-  mesh.triangles = {{NodeId{0}, NodeId{2}, NodeId{1}}, {NodeId{0}, NodeId{1}, NodeId{3}}, {NodeId{0}, NodeId{1}, NodeId{2}}};
+  mesh.triangles = {{NodeId{0}, NodeId{2}, NodeId{1}},
+                    {NodeId{0}, NodeId{1}, NodeId{3}},
+                    {NodeId{0}, NodeId{1}, NodeId{2}}};
   const Communicator alone(MPI_COMM_SELF);
   const auto triangles = cell_triangles(alone, mesh, {0, 0});
   ASSERT_EQ(triangles.size(), 2U);
@@ -129,7 +133,8 @@ TEST(EqualPoints, AreFoundByTheirCoordinatesAlone) {
 TEST(PointCells, MeetEveryBoxThatHoldsAPoint) {
   const std::vector<Point> everywhere = graded_points(6000, 40 + static_cast<std::uint64_t>(world().rank()));
   std::vector<Point> own;
-  std::copy_if(everywhere.begin(), everywhere.end(), std::back_inserter(own), [](Point p) { return p.x > 0; });
+  std::copy_if(everywhere.begin(), everywhere.end(), std::back_inserter(own),
+               [](Point p) { return p.x > 0; });
   const CurveGrid grid(world(), everywhere);
   const PointCells cells(world(), grid, own);
   const std::vector<Point> all = world().all_gather_values(std::span<const Point>(own));
@@ -152,7 +157,8 @@ TEST(PointCells, OfNoPointsMeetNothing) {
   const std::vector<Point> points{{0, 0}, {1, 1}};
   const CurveGrid grid(world(), points);
   EXPECT_FALSE(PointCells(world(), grid, {}).meet({{0, 0}, {1, 1}}));
-  EXPECT_TRUE(PointCells(world(), grid, std::span(points).first(world().rank() == 0 ? 1 : 0)).meet({{0, 0}, {1, 1}}));
+  EXPECT_TRUE(
+      PointCells(world(), grid, std::span(points).first(world().rank() == 0 ? 1 : 0)).meet({{0, 0}, {1, 1}}));
 }
 
 TEST(CurveShares, ABoxMeetsThePiecesOfItsPoints) {
@@ -199,9 +205,11 @@ TEST(LocatePoints, OfSeveralTrianglesTheLowestNumberWins) {
   piece.points = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   const std::array<std::int64_t, 4> numbers{5, 1LL << 40, 2, 7};
   for (std::int32_t k = 0; k < 4; ++k)
-    piece.triangles.push_back({{NodeId{0}, NodeId{1 + k}, NodeId{1 + (k + 1) % 4}}, numbers[static_cast<std::size_t>(k)]});
+    piece.triangles.push_back(
+        {{NodeId{0}, NodeId{1 + k}, NodeId{1 + (k + 1) % 4}}, numbers[static_cast<std::size_t>(k)]});
   const double next = std::nextafter(0.5, 1);
-  const std::vector<Point> points{{0, 0}, {0.5, 0}, {0, 0.5}, {-0.5, 0}, {0, -0.5}, {0.25, 0.25}, {0.5, 0.5}, {next, 0.5}, {-2, 0}, {-1, 0}};
+  const std::vector<Point> points{{0, 0},       {0.5, 0},   {0, 0.5},    {-0.5, 0}, {0, -0.5},
+                                  {0.25, 0.25}, {0.5, 0.5}, {next, 0.5}, {-2, 0},   {-1, 0}};
   EXPECT_EQ(locate_points(piece, points), (std::vector<std::int32_t>{2, 0, 0, 2, 2, 0, 0, -1, -1, 2}));
   EXPECT_TRUE(locate_points(piece, {}).empty());
   EXPECT_EQ(locate_points({}, std::vector<Point>{{0, 0}}), std::vector<std::int32_t>{-1});
@@ -211,8 +219,10 @@ TEST(LocatePoints, ManyPointsAtOnePlaceAndInBigFansEnd) {
   TrianglePiece piece;
   constexpr std::int32_t blades = 60;
   piece.points.push_back({0, 0});
-  for (std::int32_t k = 0; k < blades; ++k) piece.points.push_back({std::cos(6.28 * k / blades), std::sin(6.28 * k / blades)});
-  for (std::int32_t k = 0; k + 1 < blades; ++k) piece.triangles.push_back({{NodeId{0}, NodeId{1 + k}, NodeId{2 + k}}, blades - k});
+  for (std::int32_t k = 0; k < blades; ++k)
+    piece.points.push_back({std::cos(6.28 * k / blades), std::sin(6.28 * k / blades)});
+  for (std::int32_t k = 0; k + 1 < blades; ++k)
+    piece.triangles.push_back({{NodeId{0}, NodeId{1 + k}, NodeId{2 + k}}, blades - k});
   const std::vector<Point> points(100, Point{0, 0});
   EXPECT_EQ(locate_points(piece, points), std::vector<std::int32_t>(100, blades - 2));
 }
@@ -256,12 +266,15 @@ TEST(NearestOnSegment, EndsAndMiddle) {
 
 TEST(ExchangePieces, AnySizeArrivesInOrder) {
   const auto ranks = static_cast<std::size_t>(world().size());
-  const auto number = [](std::size_t from, std::size_t to, std::size_t i) { return static_cast<std::int64_t>(10000 * from + 100 * to + i); };
+  const auto number = [](std::size_t from, std::size_t to, std::size_t i) {
+    return static_cast<std::int64_t>(10000 * from + 100 * to + i);
+  };
   const auto self = static_cast<std::size_t>(world().rank());
   std::vector<std::vector<std::int64_t>> out(ranks), wanted(ranks);
   for (std::size_t rank = 0; rank < ranks; ++rank) {
     for (std::size_t i = 0; i < 7 * (self + 2 * rank) % 31; ++i) out[rank].push_back(number(self, rank, i));
-    for (std::size_t i = 0; i < 7 * (rank + 2 * self) % 31; ++i) wanted[rank].push_back(number(rank, self, i));
+    for (std::size_t i = 0; i < 7 * (rank + 2 * self) % 31; ++i)
+      wanted[rank].push_back(number(rank, self, i));
   }
   EXPECT_EQ(exchange_pieces(world(), out, 5 * sizeof(std::int64_t)), wanted);
   EXPECT_EQ(exchange_pieces(world(), out), wanted);

@@ -1,5 +1,6 @@
-// What a transfer owes: linear fields and old nodes exactly, nothing beyond the old values, the nearest boundary outside, and the same bits however
-// the meshes are spread. The references are made by each rank alone.
+// What a transfer owes: linear fields and old nodes exactly, nothing beyond the old values, the nearest
+// boundary outside, and the same bits however the meshes are spread. The references are made by each rank
+// alone.
 #include "adapt/transfer/transfer.hpp"
 
 #include <gtest/gtest.h>
@@ -44,12 +45,15 @@ template <class Function>
 std::vector<double> rows_of(const Mesh& part, int width, const Function& function) {
   std::vector<double> rows;
   for (std::int32_t node = 0; node < part.owned_nodes; ++node) {
-    for (int k = 0; k < width; ++k) rows.push_back(function(part.point(NodeId{node}), part.first_node + node, k));
+    for (int k = 0; k < width; ++k)
+      rows.push_back(function(part.point(NodeId{node}), part.first_node + node, k));
   }
   return rows;
 }
 
-double linear(Point p, std::int64_t, int k) { return k == 0 ? 3.25 : (k == 1 ? 1 + 2 * p.x - 3 * p.y : 1e5 * (p.x + p.y)); }
+double linear(Point p, std::int64_t, int k) {
+  return k == 0 ? 3.25 : (k == 1 ? 1 + 2 * p.x - 3 * p.y : 1e5 * (p.x + p.y));
+}
 double random_value(Point, std::int64_t number, int k) { return scattered(77, number, k); }
 
 std::vector<std::uint64_t> bits(const std::vector<double>& values) {
@@ -61,19 +65,24 @@ std::vector<std::uint64_t> bits(const std::vector<double>& values) {
 /// Points without cells, an even stretch of them for each rank.
 Mesh only_points(const Communicator& comm, const std::vector<Point>& points) {
   Mesh mesh;
-  const std::size_t rank = static_cast<std::size_t>(comm.rank()), ranks = static_cast<std::size_t>(comm.size());
+  const std::size_t rank = static_cast<std::size_t>(comm.rank()),
+                    ranks = static_cast<std::size_t>(comm.size());
   const std::size_t begin = points.size() * rank / ranks, end = points.size() * (rank + 1) / ranks;
-  mesh.points.assign(points.begin() + static_cast<std::ptrdiff_t>(begin), points.begin() + static_cast<std::ptrdiff_t>(end));
+  mesh.points.assign(points.begin() + static_cast<std::ptrdiff_t>(begin),
+                     points.begin() + static_cast<std::ptrdiff_t>(end));
   mesh.first_node = static_cast<std::int64_t>(begin);
   mesh.owned_nodes = static_cast<std::int32_t>(end - begin);
   return mesh;
 }
 
-std::vector<double> gathered(const std::vector<double>& values) { return world().all_gather_values(std::span<const double>(values)); }
+std::vector<double> gathered(const std::vector<double>& values) {
+  return world().all_gather_values(std::span<const double>(values));
+}
 
 TEST(Transfer, LinearFieldsAreExact) {
   for (const bool quads : {true, false}) {
-    const Whole old_whole = jittered({13, {1, 1}, quads}, 0.2, 3), new_whole = jittered({17, {1, 1}, quads}, 0.2, 4);
+    const Whole old_whole = jittered({13, {1, 1}, quads}, 0.2, 3),
+                new_whole = jittered({17, {1, 1}, quads}, 0.2, 4);
     const Mesh old_mesh = old_whole.part(world()), new_mesh = new_whole.part(world());
     const Transferred result = transfer(world(), old_mesh, rows_of(old_mesh, 3, linear), 3, new_mesh);
     EXPECT_EQ(result.report.outside, 0);
@@ -106,7 +115,8 @@ const CellTriangle* lowest_with(const std::vector<CellTriangle>& triangles, cons
   const CellTriangle* lowest = nullptr;
   for (const CellTriangle& triangle : triangles) {
     const auto& [a, b, c] = triangle.nodes;
-    const bool inside = orientation(mesh.point(a), mesh.point(b), p) >= 0 && orientation(mesh.point(b), mesh.point(c), p) >= 0 &&
+    const bool inside = orientation(mesh.point(a), mesh.point(b), p) >= 0 &&
+                        orientation(mesh.point(b), mesh.point(c), p) >= 0 &&
                         orientation(mesh.point(c), mesh.point(a), p) >= 0;
     if (inside && (lowest == nullptr || triangle.number < lowest->number)) lowest = &triangle;
   }
@@ -115,7 +125,8 @@ const CellTriangle* lowest_with(const std::vector<CellTriangle>& triangles, cons
 
 TEST(Transfer, TakesTheLowestTriangleAndStaysWithinItsValues) {
   const Communicator alone(MPI_COMM_SELF);
-  const Whole old_whole = jittered({9, {1, 1}, true}, 0.2, 6), new_whole = jittered({14, {1, 1}, true}, 0.2, 8);
+  const Whole old_whole = jittered({9, {1, 1}, true}, 0.2, 6),
+              new_whole = jittered({14, {1, 1}, true}, 0.2, 8);
   const Mesh old_mesh = old_whole.part(world()), new_mesh = new_whole.part(world());
   const Transferred result = transfer(world(), old_mesh, rows_of(old_mesh, 1, random_value), 1, new_mesh);
   const std::vector<double> old_values = gathered(rows_of(old_mesh, 1, random_value));
@@ -132,7 +143,9 @@ TEST(Transfer, TakesTheLowestTriangleAndStaysWithinItsValues) {
       q[k] = old_values[static_cast<std::size_t>(triangle->nodes[k].value())];
     }
     const double area = cross(at[1] - at[0], at[2] - at[0]);
-    const double wanted = (q[0] * cross(at[1] - p, at[2] - p) + q[1] * cross(at[2] - p, at[0] - p) + q[2] * cross(at[0] - p, at[1] - p)) / area;
+    const double wanted = (q[0] * cross(at[1] - p, at[2] - p) + q[1] * cross(at[2] - p, at[0] - p) +
+                           q[2] * cross(at[0] - p, at[1] - p)) /
+                          area;
     const double value = result.values[static_cast<std::size_t>(node)];
     EXPECT_NEAR(value, wanted, 1e-13);
     EXPECT_GE(value, std::min({q[0], q[1], q[2]}));
@@ -183,10 +196,12 @@ TEST(Transfer, OutsideTakesTheNearestBoundaryValue) {
   const Transferred result = transfer(world(), old_mesh, rows_of(old_mesh, 3, linear), 3, new_mesh);
   std::int64_t outside = 0;
   for (std::int32_t node = 0; node < new_mesh.owned_nodes; ++node) {
-    const Point p = new_mesh.point(NodeId{node}), nearest{std::clamp(p.x, 0.0, 1.0), std::clamp(p.y, 0.0, 1.0)};
+    const Point p = new_mesh.point(NodeId{node}),
+                nearest{std::clamp(p.x, 0.0, 1.0), std::clamp(p.y, 0.0, 1.0)};
     outside += p == nearest ? 0 : 1;
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(result.values[static_cast<std::size_t>(3 * node + k)], linear(nearest, 0, k), 1e-13 * (k == 2 ? 1e5 : 1));
+      EXPECT_NEAR(result.values[static_cast<std::size_t>(3 * node + k)], linear(nearest, 0, k),
+                  1e-13 * (k == 2 ? 1e5 : 1));
     }
   }
   EXPECT_EQ(result.report.outside, world().sum(outside));
@@ -198,7 +213,8 @@ TEST(Transfer, DriftIsAShareOfTheAbsoluteIntegral) {
   const Mesh whole = Grid{2, {2, 2}, true}.mesh();
   const Mesh mesh = Whole{whole, space_filling_order(whole)}.part(world());
   const auto values = [](Point p, std::int64_t, int k) { return k == 0 ? 2.0 : (k == 1 ? -2.0 : p.x - 1); };
-  const Mesh larger = Whole{moved(whole, {2, 0}), space_filling_order(whole)}.part(world());  // takes the values of the side x = 2
+  const Mesh larger = Whole{moved(whole, {2, 0}), space_filling_order(whole)}.part(
+      world());  // takes the values of the side x = 2
   const Transferred result = transfer(world(), mesh, rows_of(mesh, 3, values), 3, larger);
   EXPECT_EQ(result.report.outside, 6);
   EXPECT_EQ(result.report.drift, (std::vector<double>{0, 0, 4}));
@@ -216,7 +232,10 @@ Mesh ring() {
       if (i != 1 || j != 1) mesh.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   }
-  mesh.boundaries.push_back({"hole", "wall", {{at(2, 1), at(1, 1)}, {at(1, 1), at(1, 2)}, {at(1, 2), at(2, 2)}, {at(2, 2), at(2, 1)}}});
+  mesh.boundaries.push_back(
+      {"hole",
+       "wall",
+       {{at(2, 1), at(1, 1)}, {at(1, 1), at(1, 2)}, {at(1, 2), at(2, 2)}, {at(2, 2), at(2, 1)}}});
   return mesh;
 }
 
@@ -226,7 +245,8 @@ TEST(Transfer, InAHoleTheLowestOfTheNearestEdgesWins) {
   const Mesh old_mesh = spread.part(world());
   const auto by_place = [](Point p, std::int64_t, int) { return 10 * p.x + p.y; };
   const std::vector<Point> points{{1.5, 1.5}, {1.25, 1.25}, {1.5, 1.75}, {1, 1.5}};
-  const Transferred result = transfer(world(), old_mesh, rows_of(old_mesh, 1, by_place), 1, only_points(world(), points));
+  const Transferred result =
+      transfer(world(), old_mesh, rows_of(old_mesh, 1, by_place), 1, only_points(world(), points));
   EXPECT_EQ(result.report.outside, 3);  // the last lies on the rim
   EXPECT_EQ(gathered(result.values), (std::vector<double>{16, 13.5, 17, 11.5}));
 }
@@ -234,19 +254,22 @@ TEST(Transfer, InAHoleTheLowestOfTheNearestEdgesWins) {
 /// All of one mesh on the last rank, all of the other on the first.
 TEST(Transfer, RanksMayHaveNothing) {
   const Communicator alone(MPI_COMM_SELF);
-  const Whole old_whole = jittered({6, {1, 1}, true}, 0.2, 13), new_whole = jittered({7, {1.5, 1}, true}, 0.2, 14);
+  const Whole old_whole = jittered({6, {1, 1}, true}, 0.2, 13),
+              new_whole = jittered({7, {1.5, 1}, true}, 0.2, 14);
   const auto only_on = [&](int rank, const Whole& whole) {
     const Mesh all = whole.part(alone);
     if (world().rank() == rank) return all;
     Mesh none;
     none.first_node = world().rank() < rank ? 0 : all.owned_nodes;
-    for (const BoundaryEdges& boundary : all.boundaries) none.boundaries.push_back({boundary.name, boundary.condition, {}});
+    for (const BoundaryEdges& boundary : all.boundaries)
+      none.boundaries.push_back({boundary.name, boundary.condition, {}});
     return none;
   };
   const Mesh old_mesh = only_on(world().size() - 1, old_whole), new_mesh = only_on(0, new_whole);
   const Transferred here = transfer(world(), old_mesh, rows_of(old_mesh, 2, random_value), 2, new_mesh);
   const Mesh old_alone = old_whole.part(alone);
-  const Transferred reference = transfer(alone, old_alone, rows_of(old_alone, 2, random_value), 2, new_whole.part(alone));
+  const Transferred reference =
+      transfer(alone, old_alone, rows_of(old_alone, 2, random_value), 2, new_whole.part(alone));
   EXPECT_EQ(bits(gathered(here.values)), bits(reference.values));
   EXPECT_EQ(bits(here.report.drift), bits(reference.report.drift));
 }

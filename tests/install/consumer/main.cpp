@@ -4,8 +4,8 @@
 
 #include <cstdio>
 
-#include "mesher/geometry/assemble.hpp"
-#include "mesher/mesh/build_mesh.hpp"
+#include "mesher/build/build_mesh.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);

@@ -28,7 +28,8 @@ class AirfoilDat : public ::testing::Test {
     ASSERT_TRUE(warnings_.empty());
     EXPECT_EQ(read(text), wanted) << text;
     ASSERT_EQ(warnings_.size(), pieces.empty() ? 0u : 1u) << text;
-    for (const std::string& piece : pieces) EXPECT_NE(warnings_[0].find(piece), std::string::npos) << piece << " in " << warnings_[0];
+    for (const std::string& piece : pieces)
+      EXPECT_NE(warnings_[0].find(piece), std::string::npos) << piece << " in " << warnings_[0];
   }
 
   std::string refused(const std::string& text) {
@@ -43,7 +44,8 @@ TEST_F(AirfoilDat, PassesOverTextAfterThePoints) {
   for (const std::string& points : {selig, lednicer}) {
     expect_airfoil(name + points + "\nWortmann, 1978\nt/c = 12 percent\n",
                    {"2 rows beside the name that are no points of the airfoil", "'Wortmann, 1978'"});
-    expect_airfoil(name + points + "12 percent thick\n", {"1 row beside the name", "'12 percent thick'", "was passed over"});
+    expect_airfoil(name + points + "12 percent thick\n",
+                   {"1 row beside the name", "'12 percent thick'", "was passed over"});
     expect_airfoil(name + points + "x t\n0.5 0.12\n0.7 0.08\n", {"3 rows", "'x t'"});
     expect_airfoil(name + points + "\x1a\n", {});
     expect_airfoil(name + points + "\n\n \t\r\n", {});
@@ -52,7 +54,8 @@ TEST_F(AirfoilDat, PassesOverTextAfterThePoints) {
 
 TEST_F(AirfoilDat, PassesOverASecondRowInTheHead) {
   for (const std::string& points : {selig, lednicer}) {
-    expect_airfoil(name + "designed for Re = 1e6\n\n" + points, {"a.dat:2: 1 row beside the name that is no point", "'designed for Re = 1e6'"});
+    expect_airfoil(name + "designed for Re = 1e6\n\n" + points,
+                   {"a.dat:2: 1 row beside the name that is no point", "'designed for Re = 1e6'"});
     expect_airfoil(name + "12 percent, symmetric\nX Y\n" + points, {"a.dat:2: 2 rows"});
   }
 }
@@ -63,24 +66,35 @@ TEST_F(AirfoilDat, PassesOverWhatFollowsAWholeAirfoilAfterABlankRow) {
 }
 
 TEST_F(AirfoilDat, PassesOverWordsBetweenTheSurfaces) {
-  expect_airfoil(name + "3. 3.\nupper surface\n" + upper + "lower surface\n" + lower, {"2 rows", "'upper surface'"});
+  expect_airfoil(name + "3. 3.\nupper surface\n" + upper + "lower surface\n" + lower,
+                 {"2 rows", "'upper surface'"});
 }
 
-TEST_F(AirfoilDat, ReadsEveryOtherRowBlank) { expect_airfoil(name + "\n1.0 0.0\n\n0.5 0.06\n\n0.0 0.0\n\n0.5 -0.06\n\n1.0 0.0\n", {}); }
+TEST_F(AirfoilDat, ReadsEveryOtherRowBlank) {
+  expect_airfoil(name + "\n1.0 0.0\n\n0.5 0.06\n\n0.0 0.0\n\n0.5 -0.06\n\n1.0 0.0\n", {});
+}
 
 TEST_F(AirfoilDat, TakesTwoSurfacesWithoutCounts) {
-  expect_airfoil(name + upper + "\n" + lower, {"both surfaces run from the leading edge", "point 4 begins the second"});
+  expect_airfoil(name + upper + "\n" + lower,
+                 {"both surfaces run from the leading edge", "point 4 begins the second"});
 }
 
 TEST_F(AirfoilDat, RefusesABrokenPoint) {
   EXPECT_EQ(refused(name + "1.0 0.0\n0.5 O.06\n0.0 0.0\n").find("a.dat:3: 'O.06' is not a number"), 0u);
-  EXPECT_EQ(refused(name + "1.0 0.0\n0.5 0.06 0.1\n0.0 0.0\n").find("a.dat:3: '0.5 0.06 0.1' should be two coordinates"), 0u);
-  EXPECT_EQ(refused(name + "3. 3.\n" + upper + lower + "0.5 0.1\n").find("a.dat:9: the file has 7 points, but its head says 3 and 3"), 0u);
-  EXPECT_EQ(refused(name + "3. 4.\n" + upper + lower + "the end\n").find("a.dat:9: the file has 6 points"), 0u);
+  EXPECT_EQ(refused(name + "1.0 0.0\n0.5 0.06 0.1\n0.0 0.0\n")
+                .find("a.dat:3: '0.5 0.06 0.1' should be two coordinates"),
+            0u);
+  EXPECT_EQ(refused(name + "3. 3.\n" + upper + lower + "0.5 0.1\n")
+                .find("a.dat:9: the file has 7 points, but its head says 3 and 3"),
+            0u);
+  EXPECT_EQ(refused(name + "3. 4.\n" + upper + lower + "the end\n").find("a.dat:9: the file has 6 points"),
+            0u);
 }
 
 TEST_F(AirfoilDat, RefusesSeveralElementsInOneFile) {
-  EXPECT_EQ(refused(name + selig + "999. 999.\n" + selig).find("a.dat:7: this row divides the elements of a wing"), 0u);
+  EXPECT_EQ(
+      refused(name + selig + "999. 999.\n" + selig).find("a.dat:7: this row divides the elements of a wing"),
+      0u);
 }
 
 }  // namespace

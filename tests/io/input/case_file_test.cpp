@@ -29,7 +29,8 @@ TEST_F(CaseFile, GivesTypedValues) {
 }
 
 TEST_F(CaseFile, OneValueOrAList) {
-  const CaseTable root = read("a = \"x\"\nb = [\"x\", \"y\"]\nc = 1\nd = [1, 2]\ne = [1, 2]\nf = [[1, 2], [3, 4]]\n");
+  const CaseTable root =
+      read("a = \"x\"\nb = [\"x\", \"y\"]\nc = 1\nd = [1, 2]\ne = [1, 2]\nf = [[1, 2], [3, 4]]\n");
   EXPECT_EQ(root.texts("a"), std::vector<std::string>{"x"});
   EXPECT_EQ(root.texts("b"), (std::vector<std::string>{"x", "y"}));
   EXPECT_EQ(root.numbers_or_one("c"), std::vector<double>{1});
@@ -43,25 +44,35 @@ TEST_F(CaseFile, NamesAnUnknownKeyAndItsLine) {
   const CaseTable spacing = *root.table("spacing");
   spacing.number("min");
   spacing.number("max");
-  EXPECT_EQ(refused([&] { spacing.finish(); }), "case.toml:5: unknown key 'spacing.foo'; known here: min, max");
+  EXPECT_EQ(refused([&] { spacing.finish(); }),
+            "case.toml:5: unknown key 'spacing.foo'; known here: min, max");
 }
 
 TEST_F(CaseFile, NamesWrongTypes) {
   const CaseTable root = read("a = \"1\"\nb = 1\nc = [1, \"x\"]\nd = true\ne = 1\n");
   EXPECT_EQ(refused([&] { root.number("a"); }), "case.toml:1: 'a' must be a number, not a text");
-  EXPECT_EQ(refused([&] { root.text("b"); }), "case.toml:2: 'b' must be a text in quotes, not a whole number");
+  EXPECT_EQ(refused([&] { root.text("b"); }),
+            "case.toml:2: 'b' must be a text in quotes, not a whole number");
   EXPECT_EQ(refused([&] { root.numbers("c", 2); }), "case.toml:3: 'c' must be a number, not a text");
-  EXPECT_EQ(refused([&] { root.numbers("c", 3); }), "case.toml:3: 'c' is a list of 2, but must be a list of 3 numbers");
+  EXPECT_EQ(refused([&] { root.numbers("c", 3); }),
+            "case.toml:3: 'c' is a list of 2, but must be a list of 3 numbers");
   EXPECT_EQ(refused([&] { root.number("d"); }), "case.toml:4: 'd' must be a number, not true or false");
   EXPECT_EQ(refused([&] { root.table("e"); }), "case.toml:5: 'e' must be a table [e], not a whole number");
 }
 
 TEST_F(CaseFile, NamesValuesOutOfRange) {
   const CaseTable root = read("a = 0\nb = nan\nc = 3\nd = \"z\"\n");
-  EXPECT_EQ(refused([&] { root.number("a", Range::positive()); }), "case.toml:1: 'a' is 0, but must be above 0");
+  EXPECT_EQ(refused([&] { root.number("a", Range::positive()); }),
+            "case.toml:1: 'a' is 0, but must be above 0");
   EXPECT_EQ(refused([&] { root.number("b"); }), "case.toml:2: 'b' is nan, but must be finite");
-  EXPECT_EQ(refused([&] { root.number("c", {1, 2, true, false}); }), "case.toml:3: 'c' is 3, but must be above 1 and at most 2");
-  EXPECT_EQ(refused([&] { root.choice("d", {"x", "y"}); }), "case.toml:4: 'd' is 'z', but must be one of: x, y");
+  EXPECT_EQ(refused([&] {
+              root.number("c", {1, 2, true, false});
+            }),
+            "case.toml:3: 'c' is 3, but must be above 1 and at most 2");
+  EXPECT_EQ(refused([&] {
+              root.choice("d", {"x", "y"});
+            }),
+            "case.toml:4: 'd' is 'z', but must be one of: x, y");
 }
 
 TEST_F(CaseFile, ListsTablesInTheOrderOfTheFile) {
@@ -73,8 +84,8 @@ TEST_F(CaseFile, ListsTablesInTheOrderOfTheFile) {
 }
 
 TEST_F(CaseFile, SetOverridesAndAdds) {
-  const CaseTable root =
-      read("[spacing]\nmin = 1\n", {"spacing.min=2", "spacing.max=3", "title=a b", "mesh.type=\"hybrid\"", "boundary.isl_*.spacing=4"});
+  const CaseTable root = read("[spacing]\nmin = 1\n", {"spacing.min=2", "spacing.max=3", "title=a b",
+                                                       "mesh.type=\"hybrid\"", "boundary.isl_*.spacing=4"});
   EXPECT_EQ(root.table("spacing")->number("min"), 2.0);
   EXPECT_EQ(root.table("spacing")->number("max"), 3.0);
   EXPECT_EQ(root.text("title"), "a b");
@@ -83,10 +94,13 @@ TEST_F(CaseFile, SetOverridesAndAdds) {
 }
 
 TEST_F(CaseFile, SetErrorsNameTheirText) {
-  const CaseTable root = read("[spacing]\nmin = 1\n[[source]]\nspacing = 1\n", {"spacing.min=-2", "spacing.foo=1", "source.0.spacing=0"});
+  const CaseTable root = read("[spacing]\nmin = 1\n[[source]]\nspacing = 1\n",
+                              {"spacing.min=-2", "spacing.foo=1", "source.0.spacing=0"});
   const CaseTable spacing = *root.table("spacing");
-  EXPECT_EQ(refused([&] { spacing.number("min", Range::positive()); }), "--set spacing.min=-2: 'spacing.min' is -2, but must be above 0");
-  EXPECT_EQ(refused([&] { spacing.finish(); }), "--set spacing.foo=1: unknown key 'spacing.foo'; known here: min");
+  EXPECT_EQ(refused([&] { spacing.number("min", Range::positive()); }),
+            "--set spacing.min=-2: 'spacing.min' is -2, but must be above 0");
+  EXPECT_EQ(refused([&] { spacing.finish(); }),
+            "--set spacing.foo=1: unknown key 'spacing.foo'; known here: min");
   EXPECT_EQ(refused([&] { root.tables("source")[0].number("spacing", Range::positive()); }),
             "--set source.0.spacing=0: 'source.0.spacing' is 0, but must be above 0");
   EXPECT_NE(refused([&] { read("a = 1\n", {"a"}); }).find("--set a: has no '='"), std::string::npos);
@@ -94,13 +108,17 @@ TEST_F(CaseFile, SetErrorsNameTheirText) {
   EXPECT_NE(refused([&] { read("a = 1\n", {"a..b=2"}); }).find("not a key"), std::string::npos);
   EXPECT_NE(refused([&] { read("[[s]]\n", {"s.4.x=2"}); }).find("--set s.4.x=2"), std::string::npos);
   EXPECT_EQ(refused([&] { read("a = 1\n", {"s.0.x=2"}).tables("s"); }),
-            "--set s.0.x=2: 's' has nothing in the case file that --set could change; write a [[s]] there first (the first is number 0)");
+            "--set s.0.x=2: 's' has nothing in the case file that --set could change; write a [[s]] there "
+            "first (the first is number 0)");
 }
 
 TEST_F(CaseFile, NamesTheLineThatIsNotToml) {
   EXPECT_EQ(refused([&] { read("a = 1\nb = = 2\n"); }).find("case.toml:2: "), 0u);
   EXPECT_EQ(refused([&] { read("a = 1\na = 2\n"); }).find("case.toml:2: "), 0u);
-  EXPECT_EQ(refused([&] { read_case((folder_.path() / "none.toml").string()); }).find("none.toml: cannot be opened"), 0u);
+  EXPECT_EQ(refused([&] {
+              read_case((folder_.path() / "none.toml").string());
+            }).find("none.toml: cannot be opened"),
+            0u);
   EXPECT_NE(refused([&] { read_case(folder_.path().string()); }).find("folder"), std::string::npos);
 }
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "io/input/geom_text.hpp"
-#include "mesher/geometry/assemble.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {
@@ -38,9 +38,10 @@ TEST_F(GeometryFile, ReadsClosedAndOpen) {
 }
 
 TEST_F(GeometryFile, TakesWhatOtherProgramsWrite) {
-  const auto chains = read("a.geom",
-                           "\xEF\xBB\xBF"
-                           "1 # boundaries\r\n\r\n  body\t\r\n# points\r\n3\r\n+0.5D+00 -1.0d0\r\n 1E0  0.\r\n.5 1e-400\r\n");
+  const auto chains =
+      read("a.geom",
+           "\xEF\xBB\xBF"
+           "1 # boundaries\r\n\r\n  body\t\r\n# points\r\n3\r\n+0.5D+00 -1.0d0\r\n 1E0  0.\r\n.5 1e-400\r\n");
   EXPECT_EQ(chains[0].points, (std::vector<Point>{{0.5, -1}, {1, 0}, {0.5, 0}}));
 }
 
@@ -56,14 +57,23 @@ TEST_F(GeometryFile, RefusesWithTheLine) {
   EXPECT_EQ(refused("a.geom", "one\n").find("a.geom:1: 'one' is not a number of boundaries"), 0u);
   EXPECT_EQ(refused("a.geom", "0\n").find("a.geom:1: '0' is not a number of boundaries"), 0u);
   EXPECT_EQ(refused("a.geom", "1\nmy body\n").find("a.geom:2: 'my body' is not a boundary's name"), 0u);
-  EXPECT_EQ(refused("a.geom", "1\nbody\n-3\n").find("a.geom:3: '-3' is not a number of points of boundary 'body'"), 0u);
+  EXPECT_EQ(
+      refused("a.geom", "1\nbody\n-3\n").find("a.geom:3: '-3' is not a number of points of boundary 'body'"),
+      0u);
   EXPECT_EQ(refused("a.geom", "1\nbody\n3\n0 0\n1 x\n").find("a.geom:5: 'x' is not a number"), 0u);
   EXPECT_EQ(refused("a.geom", "1\nbody\n3\n0 0\n1 nan\n").find("a.geom:5: 'nan' is not a finite number"), 0u);
-  EXPECT_EQ(refused("a.geom", "1\nbody\n3\n0 0\n1 -inf\n").find("a.geom:5: '-inf' is not a finite number"), 0u);
-  EXPECT_EQ(refused("a.geom", "1\nbody\n3\n0 0\n1 1e999\n").find("a.geom:5: '1e999' is not a finite number"), 0u);
-  EXPECT_EQ(refused("a.geom", "1\nbody\n3\n0 0\n1 0 0\n").find("a.geom:5: point 2 of 3 of boundary 'body'"), 0u);
-  EXPECT_EQ(refused("a.geom", "1\nbody\n3\n0 0\n1 0\n").find("a.geom:5: the file ends here, but point 3 of 3 of boundary 'body'"), 0u);
-  EXPECT_EQ(refused("a.geom", "2\nbody\n3\n0 0\n1 0\n0 1\n").find("a.geom:6: the file ends here, but the name of boundary 2 of 2"), 0u);
+  EXPECT_EQ(refused("a.geom", "1\nbody\n3\n0 0\n1 -inf\n").find("a.geom:5: '-inf' is not a finite number"),
+            0u);
+  EXPECT_EQ(refused("a.geom", "1\nbody\n3\n0 0\n1 1e999\n").find("a.geom:5: '1e999' is not a finite number"),
+            0u);
+  EXPECT_EQ(refused("a.geom", "1\nbody\n3\n0 0\n1 0 0\n").find("a.geom:5: point 2 of 3 of boundary 'body'"),
+            0u);
+  EXPECT_EQ(refused("a.geom", "1\nbody\n3\n0 0\n1 0\n")
+                .find("a.geom:5: the file ends here, but point 3 of 3 of boundary 'body'"),
+            0u);
+  EXPECT_EQ(refused("a.geom", "2\nbody\n3\n0 0\n1 0\n0 1\n")
+                .find("a.geom:6: the file ends here, but the name of boundary 2 of 2"),
+            0u);
   EXPECT_EQ(refused("a.geom", "1\nbody\n3\n0 0\n1 0\n0 1\n0 2\n").find("a.geom:7: more text"), 0u);
   EXPECT_EQ(refused("a.geom", "1 2\nbody\n3\n").find("a.geom:1: "), 0u);
   EXPECT_EQ(refused("a.geom", "").find("a.geom:0: the file ends here"), 0u);
@@ -73,7 +83,8 @@ TEST_F(GeometryFile, RefusesWithTheLine) {
 TEST_F(GeometryFile, RefusesAMissingFile) {
   std::vector<std::string> warnings;
   for (const char* name : {"none.geom", "none.dat", "none.dxf"}) {
-    const std::string message = test::refusal(folder_, [&] { read_geometry((folder_.path() / name).string(), warnings); });
+    const std::string message =
+        test::refusal(folder_, [&] { read_geometry((folder_.path() / name).string(), warnings); });
     EXPECT_EQ(message.find(std::string(name) + ": "), 0u) << message;
   }
 }
@@ -100,7 +111,9 @@ TEST_F(GeometryFile, ReadsLednicer) {
 }
 
 TEST_F(GeometryFile, RefusesBadAirfoils) {
-  EXPECT_EQ(refused("a.dat", "name\n3. 4.\n0 0\n1 0\n").find("a.dat:4: the file has 2 points, but its head says 3 and 4"), 0u);
+  EXPECT_EQ(refused("a.dat", "name\n3. 4.\n0 0\n1 0\n")
+                .find("a.dat:4: the file has 2 points, but its head says 3 and 4"),
+            0u);
   EXPECT_EQ(refused("a.dat", "name\n1.0 0.0\n0.5 x\n").find("a.dat:3: 'x' is not a number"), 0u);
   EXPECT_EQ(refused("a.dat", "name\n").find("a.dat:1: the file ends here"), 0u);
 }
@@ -111,7 +124,9 @@ Geometry assembled(std::vector<Chain> chains) {
 }
 
 TEST_F(GeometryFile, WritesWhatItReads) {
-  const std::string text = "3\nsea open\n3\n-9 -9\n9.1 -9\n9.1 9\ncoast open\n3\n9.1 9\n-9 9\n-9 -9\nisland\n4\n0 0\n0 1\n1 1\n1 0\n";
+  const std::string text =
+      "3\nsea open\n3\n-9 -9\n9.1 -9\n9.1 9\ncoast open\n3\n9.1 9\n-9 9\n-9 -9\nisland\n4\n0 0\n0 1\n1 1\n1 "
+      "0\n";
   const Geometry first = assembled(read("a.geom", text));
   const Geometry second = assembled(read("b.geom", geom_text(first)));
   EXPECT_EQ(first.digest(), second.digest());
@@ -119,7 +134,8 @@ TEST_F(GeometryFile, WritesWhatItReads) {
 }
 
 TEST_F(GeometryFile, WritesEachRunOfABoundaryAsAChain) {
-  const std::string text = "4\na open\n2\n0 0\n1 0\nb open\n2\n1 0\n1 1\na open\n2\n1 1\n0 1\nb open\n2\n0 1\n0 0\n";
+  const std::string text =
+      "4\na open\n2\n0 0\n1 0\nb open\n2\n1 0\n1 1\na open\n2\n1 1\n0 1\nb open\n2\n0 1\n0 0\n";
   const std::string written = geom_text(assembled(read("a.geom", text)));
   EXPECT_NE(written.find("\n4\na open\n"), std::string::npos) << written;
 }

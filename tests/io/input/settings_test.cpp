@@ -1,8 +1,8 @@
-#include "app/settings.hpp"
+#include "quadloop/case/settings.hpp"
 
 #include <gtest/gtest.h>
 
-#include "adapt/digests.hpp"
+#include "mesher/generate/digests.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {
@@ -91,18 +91,21 @@ TEST_F(SettingsTest, SizesFollowTheGeometryWhereTheyAreNotGiven) {
   const Settings coarse = read("far_field = 16\n[spacing]\nmin = 5\n");
   EXPECT_EQ(mesh_options(coarse, load(coarse)).size.max, 5);
   const Settings fine = read("far_field = 16\n[spacing]\nmax = 0.5\n");
-  EXPECT_EQ(mesh_options(fine, load(fine)).size.min, 0.25);  // sizes halve: so there is a leaf no larger than max
+  EXPECT_EQ(mesh_options(fine, load(fine)).size.min,
+            0.25);  // sizes halve: so there is a leaf no larger than max
 }
 
 TEST_F(SettingsTest, EachFileHasItsOwnPlace) {
   folder_.write("two.geom", "1\ntwo\n4\n0 0\n4 0\n4 4\n0 4\n");
-  const std::string path =
-      folder_.write("two.toml", "[geometry]\nfile = [\"box.geom\", \"two.geom\"]\ntranslate = [[0, 0], [10, 0]]\nscale = [1, 0.5]\nrotate = 90\n");
+  const std::string path = folder_.write("two.toml",
+                                         "[geometry]\nfile = [\"box.geom\", \"two.geom\"]\ntranslate = [[0, "
+                                         "0], [10, 0]]\nscale = [1, 0.5]\nrotate = 90\n");
   const Geometry g = load(read_settings(path, {}));
   EXPECT_EQ(g.loop_count(), 2);
   EXPECT_EQ(g.point(g.loop_start(1)), (Point{10, 0}));
   EXPECT_EQ(g.box().high, (Point{10, 4}));
-  EXPECT_NE(test::refusal(folder_, [&] { read_settings(path, {"geometry.scale=[1,2,3]"}); }).find("2 files"), std::string::npos);
+  EXPECT_NE(test::refusal(folder_, [&] { read_settings(path, {"geometry.scale=[1,2,3]"}); }).find("2 files"),
+            std::string::npos);
 }
 
 TEST_F(SettingsTest, RefusesEveryBadKey) {
@@ -110,36 +113,51 @@ TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(refused("[spacings]\n").find("case.toml:3: unknown key 'spacings'"), 0u);
   EXPECT_EQ(refused("[[block]]\nname = \"gas\"\n").find("case.toml:3: unknown key 'block'"), 0u);
   EXPECT_EQ(refused("[solver]\nmachs = 1\n").find("case.toml:4: unknown key 'solver.machs'"), 0u);
-  EXPECT_EQ(refused("[solver]\niterations = 1.5\n").find("case.toml:4: 'solver.iterations' must be a whole number"), 0u);
+  EXPECT_EQ(
+      refused("[solver]\niterations = 1.5\n").find("case.toml:4: 'solver.iterations' must be a whole number"),
+      0u);
   EXPECT_EQ(refused("[solver]\ntime = \"accurate\"\n").find("case.toml:3: 'solver.end_time' is missing"), 0u);
   EXPECT_EQ(refused("[solver]\nkind = \"command\"\n").find("case.toml:3: 'solver.command' is missing"), 0u);
-  EXPECT_EQ(refused("[boundary.box]\nbc = \"wall\"\npressure = 1\n").find("case.toml:5: 'boundary.box.pressure' needs bc"), 0u);
-  EXPECT_EQ(refused("[boundary.box]\nlayers = { first = 1, growth = 1.2, count = 3 }\n").find("case.toml:4: unknown key 'boundary.box.layers'"), 0u);
+  EXPECT_EQ(refused("[boundary.box]\nbc = \"wall\"\npressure = 1\n")
+                .find("case.toml:5: 'boundary.box.pressure' needs bc"),
+            0u);
+  EXPECT_EQ(refused("[boundary.box]\nlayers = { first = 1, growth = 1.2, count = 3 }\n")
+                .find("case.toml:4: unknown key 'boundary.box.layers'"),
+            0u);
   EXPECT_EQ(refused("[output]\npartitions = 0\n").find("case.toml:4: unknown key 'output.partitions'"), 0u);
   EXPECT_EQ(refused("[spacing]\nmin = 0\n").find("case.toml:4: 'spacing.min' is 0"), 0u);
-  EXPECT_EQ(refused("[spacing]\nmin = 2\nmax = 1\n").find("case.toml:4: 'spacing.min' is 2, but must not be above spacing.max"), 0u);
+  EXPECT_EQ(refused("[spacing]\nmin = 2\nmax = 1\n")
+                .find("case.toml:4: 'spacing.min' is 2, but must not be above spacing.max"),
+            0u);
   EXPECT_EQ(refused("[spacing]\ngradation = 1\n").find("case.toml:4: 'spacing.gradation' is 1"), 0u);
   EXPECT_EQ(refused("[spacing]\ncorner = 190\n").find("case.toml:4: 'spacing.corner' is 190"), 0u);
   EXPECT_EQ(refused("[mesh]\nsnap = 0.5\n").find("case.toml:4: 'mesh.snap' is 0.5"), 0u);
   EXPECT_EQ(refused("[mesh]\ntype = \"voronoi\"\n").find("case.toml:4: 'mesh.type' "), 0u);
   EXPECT_EQ(refused("[mesh]\nroot = [0, 0, 1, 1.5, 1]\n").find("case.toml:4: 'mesh.root' must be"), 0u);
-  EXPECT_EQ(refused("[boundary.hull]\nbc = \"wall\"\n").find("case.toml:3: [boundary.hull]: no boundary of the geometry matches 'hull'"), 0u);
+  EXPECT_EQ(refused("[boundary.hull]\nbc = \"wall\"\n")
+                .find("case.toml:3: [boundary.hull]: no boundary of the geometry matches 'hull'"),
+            0u);
   EXPECT_EQ(refused("[boundary.box]\nbc = \"wal\"\n").find("case.toml:4: 'boundary.box.bc' is 'wal'"), 0u);
-  EXPECT_EQ(refused("[output]\nformats = [\"ugrid\"]\n").find("case.toml:4: 'output.formats' holds 'ugrid'"), 0u);
+  EXPECT_EQ(refused("[output]\nformats = [\"ugrid\"]\n").find("case.toml:4: 'output.formats' holds 'ugrid'"),
+            0u);
   EXPECT_EQ(refused("[[source]]\nspacing = 1\n").find("case.toml:3: a [[source]] needs exactly one"), 0u);
   EXPECT_EQ(refused("[[source]]\ndisc = [0, 0, 1]\n").find("case.toml:3: 'source.0.spacing' is missing"), 0u);
-  EXPECT_EQ(refused("far_field = 1\n").find("case.toml:3: 'geometry.far_field': a far field of half width 1"), 0u);
+  EXPECT_EQ(refused("far_field = 1\n").find("case.toml:3: 'geometry.far_field': a far field of half width 1"),
+            0u);
 }
 
 TEST_F(SettingsTest, NamesTheKeyOfAMissingGeometry) {
-  const std::string path = folder_.write("lost.toml", "title = \"x\"\n[geometry]\nfile = [\"box.geom\", \"none.geom\"]\n");
+  const std::string path =
+      folder_.write("lost.toml", "title = \"x\"\n[geometry]\nfile = [\"box.geom\", \"none.geom\"]\n");
   const std::string said = test::refusal(folder_, [&] { load(read_settings(path, {})); });
   EXPECT_EQ(said.find("lost.toml:3: 'geometry.file': there is no file '"), 0u) << said;
   EXPECT_NE(said.find("none.geom"), std::string::npos) << said;
 }
 
 TEST_F(SettingsTest, RefusesAPrefixWithASuffix) {
-  EXPECT_EQ(refused("[output]\nprefix = \"a.mesh\"\n").find("case.toml:4: 'output.prefix' is 'a.mesh'; give it without .mesh"), 0u);
+  EXPECT_EQ(refused("[output]\nprefix = \"a.mesh\"\n")
+                .find("case.toml:4: 'output.prefix' is 'a.mesh'; give it without .mesh"),
+            0u);
   EXPECT_EQ(read("[output]\nprefix = \"out/v1.2\"\n").output_prefix, "out/v1.2");
   EXPECT_EQ(format_suffix_of("a.tree.h5"), ".h5");
   EXPECT_EQ(format_suffix_of("a.mesh/b"), "");
@@ -147,12 +165,15 @@ TEST_F(SettingsTest, RefusesAPrefixWithASuffix) {
 
 TEST_F(SettingsTest, WarnsOfSourcesThatDoNothing) {
   const Settings settings = read(
-      "[spacing]\nmin = 0.5\nmax = 1\n[[source]]\nbox = [3, 9, 3, 9]\nspacing = 1\n[[source]]\ndisc = [9, 2, 4.5]\nspacing = 1\n"
+      "[spacing]\nmin = 0.5\nmax = 1\n[[source]]\nbox = [3, 9, 3, 9]\nspacing = 1\n[[source]]\ndisc = [9, 2, "
+      "4.5]\nspacing = 1\n"
       "[[source]]\nline = [5, 0, 5, 4]\nspacing = 0.25\n");  // the root is the box, 0 to 4
   const Geometry geometry = load(settings);
   const Warnings warnings = spacing_warnings(mesh_options(settings, geometry), geometry);
   ASSERT_EQ(warnings.size(), 3u);
-  EXPECT_NE(warnings[0].find("case.toml:9: this [[source]] lies outside the root, which reaches from (0, 0) to (4, 4)"), std::string::npos);
+  EXPECT_NE(warnings[0].find(
+                "case.toml:9: this [[source]] lies outside the root, which reaches from (0, 0) to (4, 4)"),
+            std::string::npos);
   EXPECT_NE(warnings[1].find("case.toml:12: this [[source]] asks for a spacing of 0.25"), std::string::npos);
   EXPECT_NE(warnings[2].find("case.toml:12: this [[source]] lies outside the root"), std::string::npos);
 }
@@ -198,9 +219,12 @@ timeout = 60
 }
 
 TEST_F(SettingsTest, BoundaryTablesGiveTheMeshItsConditions) {
-  const Settings s = read("far_field = 10\n[boundary.\"b*\"]\nbc = \"outflow\"\npressure = 2\n[boundary.box]\nbc = \"outflow\"\npressure = 0.5\n");
+  const Settings s = read(
+      "far_field = 10\n[boundary.\"b*\"]\nbc = \"outflow\"\npressure = 2\n[boundary.box]\nbc = "
+      "\"outflow\"\npressure = 0.5\n");
   Mesh mesh;
-  mesh.boundaries = {{"box", "none", {}}, {"bottom", "wall", {}}, {"farfield", "none", {}}, {"other", "symmetry", {}}};
+  mesh.boundaries = {
+      {"box", "none", {}}, {"bottom", "wall", {}}, {"farfield", "none", {}}, {"other", "symmetry", {}}};
   const std::vector<BoundaryChoice> choices = euler_options(s.solver, s.outline.rules, mesh).boundaries;
   ASSERT_EQ(choices.size(), 4u);
   EXPECT_EQ(choices[0].condition, "outflow");

@@ -32,7 +32,8 @@ std::string refusal(const TemporaryFolder& folder, const std::function<void()>& 
     std::string message = error.what();
     EXPECT_EQ(message.find('\n'), std::string::npos) << "a refusal is one line";
     const std::string prefix = folder.path().string() + "/";
-    for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix)) message.erase(at, prefix.size());
+    for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix))
+      message.erase(at, prefix.size());
     return message;
   }
   ADD_FAILURE() << "nothing was refused";

@@ -1,0 +1,115 @@
+#include "adapt/loop/cycle_folders.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "io/files/output_path.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A fault of the disk as ours.
+template <class Work>
+void on_disk(const std::string& path, const Work& work) {
+  try {
+    work();
+  } catch (const fs::filesystem_error& fault) {
+    refuse_output(path, fault.code().value());
+  }
+}
+
+/// Empty, or but for what is left of a first cycle that failed.
+bool holds_nothing_whole(const fs::path& folder, const fs::path& first_under_way) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() != first_under_way.filename()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+CycleFolders::CycleFolders(const Communicator& comm, std::string folder)
+    : comm_{comm}, folder_{std::move(folder)} {}
+
+std::string CycleFolders::whole(int cycle) const { return fmt::format("{}/cycle_{:02}", folder_, cycle); }
+
+void CycleFolders::lock() {
+  lock_ = open_descriptor(folder_, O_RDONLY | O_DIRECTORY);
+  // Some file systems of networks have no such locks; a run without one is better than none.
+  if (::flock(lock_.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  throw InputError(
+      folder_ + ": another run is at work in this folder; wait for its end, or name another folder with -o");
+}
+
+int CycleFolders::count_whole() const {
+  int cycles = 0;
+  while (fs::is_directory(whole(cycles))) ++cycles;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+    const std::string name = entry.path().filename();
+    int later = 0;
+    if (std::sscanf(name.c_str(), "cycle_%d", &later) != 1 || later <= cycles ||
+        fs::path(whole(later)).filename() != name)
+      continue;
+    throw InputError(
+        fmt::format("{}: is missing, but {} is there; bring it back, or remove the later cycles, and "
+                    "--resume makes them again",
+                    whole(cycles), name));
+  }
+  return cycles;
+}
+
+int CycleFolders::open(bool resume) {
+  int cycles = 0;
+  comm_.together([&] {
+    if (!comm_.is_root()) return;
+    on_disk(folder_, [&] {
+      if (fs::exists(folder_) && !fs::is_directory(folder_))
+        throw InputError(folder_ + ": is a file, but a folder is wanted; name another one");
+      fs::create_directories(folder_);
+      lock();
+      if (!resume && !holds_nothing_whole(folder_, under_way(0))) {
+        throw InputError(
+            folder_ + ": is not empty; --resume goes on with the run in it, or name another folder with -o");
+      }
+      cycles = count_whole();
+      fs::remove_all(under_way(cycles));
+    });
+  });
+  return static_cast<int>(comm_.maximum(std::int64_t{cycles}));
+}
+
+void CycleFolders::begin(int cycle) {
+  comm_.together([&] {
+    if (!comm_.is_root()) return;
+    on_disk(under_way(cycle), [&] {
+      fs::remove_all(under_way(cycle));
+      if (!fs::create_directory(under_way(cycle))) refuse_output(under_way(cycle), EEXIST);
+    });
+  });
+}
+
+void CycleFolders::finish(int cycle) {
+  comm_.together([&] {
+    if (!comm_.is_root()) return;
+    on_disk(whole(cycle), [&] {
+      for (const fs::directory_entry& entry : fs::directory_iterator(under_way(cycle))) {
+        if (entry.is_regular_file()) bring_to_disk(entry.path(), entry.path());
+      }
+      bring_to_disk(under_way(cycle), whole(cycle));
+      fs::rename(under_way(cycle), whole(cycle));
+      bring_to_disk(folder_, whole(cycle));
+    });
+  });
+}
+
+}  // namespace quadloop

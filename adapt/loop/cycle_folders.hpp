@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "flow/command/descriptor.hpp"
+#include "mesher/base/communicator.hpp"
+
+namespace quadloop {
+
+/// The folder of an adaptive run: DIR/cycle_00, cycle_01, ..., each put in place whole. Work goes on in
+/// DIR/cycle_K.part. Rank 0 alone touches the disk; all but the plain names are *collective*, and what fails
+/// is the same error on every rank.
+class CycleFolders {
+ public:
+  CycleFolders(const Communicator& comm, std::string folder);
+
+  /// Makes the folder where there is none, and says how many whole cycles it holds, from cycle 0 on; what is
+  /// left of one that is not whole goes. From here to the end of this object, or of the process, no other run
+  /// may work there; the lock leaves no file. Throws InputError where the folder holds more than a first
+  /// cycle that is not whole and the run is not to be resumed, where another run is at work in it, or where a
+  /// cycle is missing before a later one; OutputError where it cannot be made.
+  int open(bool resume);
+
+  const std::string& folder() const { return folder_; }
+  std::string whole(int cycle) const;
+  std::string under_way(int cycle) const { return whole(cycle) + ".part"; }
+
+  /// An empty folder to work in, in the place of an earlier one.
+  void begin(int cycle);
+  /// Brings it to the disk and gives it its name.
+  void finish(int cycle);
+
+ private:
+  void lock();
+  int count_whole() const;
+
+  const Communicator& comm_;
+  std::string folder_;
+  Descriptor lock_;  ///< on the root
+};
+
+}  // namespace quadloop

@@ -1,0 +1,99 @@
+#include "adapt/loop/record.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <sstream>
+#include <string_view>
+
+namespace quadloop {
+
+namespace {
+
+constexpr const char* settings_begin = "  \"case\": {";
+constexpr const char* settings_end = "  },";
+
+JsonObject object(const std::vector<std::pair<std::string, double>>& members) {
+  JsonObject json;
+  for (const auto& [name, value] : members) json.add(name, value);
+  return json;
+}
+
+std::optional<std::uint64_t> digest_in(const std::string& json, const std::string& name) {
+  const std::string begin = "\n  \"" + name + "\": \"";
+  const std::size_t at = json.find(begin);
+  if (at == std::string::npos) return {};
+  std::uint64_t digest = 0;
+  const char* first = json.data() + at + begin.size();
+  const auto [end, fault] = std::from_chars(first, json.data() + json.size(), digest, 16);
+  if (fault != std::errc{} || end - first != 16) return {};
+  return digest;
+}
+
+/// The text between the quotes that JSON put there.
+std::string unquoted(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\\' && i + 1 < text.size()) ++i;
+    result += text[i];
+  }
+  return result;
+}
+
+CaseSettings settings_in(const std::string& json) {
+  CaseSettings settings;
+  std::istringstream lines(json);
+  std::string line;
+  while (std::getline(lines, line) && line != settings_begin) {
+  }
+  while (std::getline(lines, line) && line != settings_end) {
+    const std::size_t begin = line.find('"'), end = line.find("\": ");
+    if (begin == std::string::npos || end == std::string::npos || end <= begin) continue;
+    std::string value = line.substr(end + 3);
+    if (value.ends_with(',')) value.pop_back();
+    settings.emplace_back(unquoted(std::string_view(line).substr(begin + 1, end - begin - 1)), value);
+  }
+  return settings;
+}
+
+}  // namespace
+
+JsonObject figures_of(const CycleRecord& record) {
+  JsonObject json;
+  json.add("cycle", record.cycle);
+  json.add("case_digest", fmt::format("{:016x}", record.case_digest));
+  json.add("geometry_digest", fmt::format("{:016x}", record.geometry_digest));
+  json.add("nodes", record.nodes);
+  json.add("triangles", record.triangles);
+  json.add("quads", record.quads);
+  json.add("leaves", record.leaves);
+  json.add("worst_angle", record.worst_angle);
+  json.add("indicator", object({{"mean", record.mean}, {"deviation", record.deviation}}));
+  json.add("refined", record.refined);
+  json.add("coarsened", record.coarsened);
+  json.add("outside", record.outside);
+  json.add("drift", object(record.drift));
+  for (const auto& [name, value] :
+       {std::pair{"cl", record.cl}, {"cd", record.cd}, {"residual", record.residual}}) {
+    if (value) json.add(name, *value);
+  }
+  return json;
+}
+
+JsonObject seconds_of(const CycleRecord& record) { return object(record.seconds); }
+
+std::string json_text(const CycleRecord& record) {
+  JsonObject settings, json = figures_of(record);
+  for (const auto& [key, value] : record.settings) settings.add_raw(key, value);
+  json.add_raw("case", settings.lines("  "));
+  json.add("seconds", seconds_of(record));
+  return json.lines() + "\n";
+}
+
+std::optional<RecordedCase> recorded_case(const std::string& json) {
+  const auto of_case = digest_in(json, "case_digest"), of_geometry = digest_in(json, "geometry_digest");
+  if (!of_case || !of_geometry || !json.ends_with("}\n}\n")) return {};
+  return RecordedCase{*of_case, *of_geometry, settings_in(json)};
+}
+
+}  // namespace quadloop

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "adapt/loop/case_settings.hpp"
+#include "mesher/base/json.hpp"
+
+namespace quadloop {
+
+/// What record.json keeps of a cycle.
+struct CycleRecord {
+  int cycle = 0;
+  std::uint64_t case_digest = 0,
+                geometry_digest = 0;  ///< of all that the run depends on; of the outline alone
+  CaseSettings settings;              ///< those that the cycle was made with
+  std::int64_t nodes = 0, triangles = 0, quads = 0, leaves = 0;
+  double worst_angle = 0;          ///< the smallest corner, degrees
+  double mean = 0, deviation = 0;  ///< of log10 of the indicator
+  std::int64_t refined = 0, coarsened = 0;
+  std::int64_t outside = 0;  ///< nodes that the transfer found outside the old mesh
+  std::vector<std::pair<std::string, double>>
+      drift;  ///< of each variable's integral in the transfer into this cycle
+  std::optional<double> cl, cd, residual;
+  std::vector<std::pair<std::string, double>> seconds;
+};
+
+/// What the cycle came to, without its case and the seconds that it took.
+JsonObject figures_of(const CycleRecord& record);
+JsonObject seconds_of(const CycleRecord& record);
+
+/// One JSON object, a member a line; numbers are the shortest that read back as they are.
+std::string json_text(const CycleRecord& record);
+
+/// What a record's text says of the case. Read line by line, as json_text writes it.
+struct RecordedCase {
+  std::uint64_t case_digest = 0, geometry_digest = 0;
+  CaseSettings settings;
+};
+
+/// Empty where the text is no whole record of ours.
+std::optional<RecordedCase> recorded_case(const std::string& json);
+
+}  // namespace quadloop

@@ -1,0 +1,103 @@
+#include "adapt/loop/resume.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "adapt/remesh/own_mesh.hpp"
+#include "adapt/remesh/remesh.hpp"
+#include "io/cgns/cgns_file.hpp"
+#include "io/files/input_file.hpp"
+#include "io/native/native_file.hpp"
+#include "io/tree/tree_file.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+std::string cure_of(const std::string& folder) {
+  return "; bring the file back, or remove the folder " + folder + ", and --resume makes that cycle again";
+}
+
+std::string text_of_record(const std::string& path, const std::string& folder) {
+  try {
+    return read_input(path);
+  } catch (const InputError&) {
+    throw InputError(path + ": is missing or cannot be read" + cure_of(folder));
+  }
+}
+
+RecordedCase record_in(const std::string& folder) {
+  const std::string path = folder + "/record.json";
+  const auto recorded = recorded_case(text_of_record(path, folder));
+  if (!recorded) throw InputError(path + ": is no whole record of a cycle" + cure_of(folder));
+  return *recorded;
+}
+
+[[noreturn]] void refuse_another_case(const std::string& folder, const std::vector<ChangedSetting>& changes,
+                                      bool same_geometry) {
+  std::string what = "the settings were read by another version of quadloop";
+  if (!changes.empty())
+    what = text_of(changes);
+  else if (!same_geometry)
+    what = "the outline in the files of geometry.file has changed";
+  throw InputError(folder + "/record.json: is of another case: " + what +
+                   "; resume with the same, or take another folder");
+}
+
+/// The file for viewers must hold the same mesh.
+void require_cgns(const std::string& path, const Mesh& whole) {
+  const LoadedMesh loaded = read_cgns(path);
+  if (loaded.mesh.points.size() == whole.points.size() && loaded.solution) return;
+  throw InputError(path + ": does not hold the mesh and the solution of the files beside it");
+}
+
+}  // namespace
+
+std::vector<std::string> require_same_run(const Communicator& comm, const std::string& folder,
+                                          const CycleRecord& now) {
+  std::vector<std::string> warnings;
+  comm.together([&] {
+    const RecordedCase recorded = record_in(folder);
+    std::vector<ChangedSetting> refused;
+    for (const ChangedSetting& change : changed_settings(recorded.settings, now.settings)) {
+      if (may_change_in_a_run(change.key))
+        warnings.push_back(text_of({change}) + "; the cycles up to " +
+                           std::filesystem::path(folder).filename().string() + " stay as they are");
+      else
+        refused.push_back(change);
+    }
+    if (recorded.case_digest != now.case_digest)
+      refuse_another_case(folder, refused, recorded.geometry_digest == now.geometry_digest);
+  });
+  return warnings;
+}
+
+SolvedMesh read_cycle(const Communicator& comm, const std::string& folder) {
+  const std::string path = folder + "/mesh.mesh";
+  LoadedMesh whole;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    whole = read_native(path);
+    if (!whole.solution) throw InputError(path + ": holds no solution; a whole cycle has one");
+  });
+  SolvedMesh solved = spread_solved(comm, whole, read_tree(comm, folder + "/mesh.tree.h5"));
+  solved.file = path;
+  return solved;
+}
+
+SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folder) {
+  try {
+    SolvedMesh solved = read_cycle(comm, folder);
+    require_untouched_mesh(comm, solved, folder + "/mesh.mesh", folder + "/mesh.tree.h5");
+    comm.together([&] {
+      if (comm.is_root()) require_cgns(folder + "/mesh.cgns", read_native(folder + "/mesh.mesh").mesh);
+    });
+    return solved;
+  } catch (const InputError& fault) {  // the same one on every rank
+    throw InputError(fault.what() + cure_of(folder));
+  }
+}
+
+}  // namespace quadloop

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapt/loop/record.hpp"
+#include "adapt/remesh/plan.hpp"
+
+namespace quadloop {
+
+/// Looks whether a run can be gone on with after the whole cycle in `folder`, before any work. Throws
+/// InputError that names the file and the cure where its record is not whole, or is of a case with another
+/// outline or other settings: then with the key that has changed. Returns a warning for each setting that has
+/// changed and may. `now` needs its digests and settings alone. *Collective.*
+std::vector<std::string> require_same_run(const Communicator& comm, const std::string& folder,
+                                          const CycleRecord& now);
+
+/// The mesh, the tree and the solution of a cycle's folder. Throws InputError where a file is not whole.
+/// *Collective.*
+SolvedMesh read_cycle(const Communicator& comm, const std::string& folder);
+
+/// The same of a cycle that an earlier run left: its files are compared with each other, and a refusal says
+/// how to be rid of the damage. *Collective.*
+SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folder);
+
+}  // namespace quadloop

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapt/sensor/indicator.hpp"
+
+namespace quadloop {
+
+/// What a case says of adaptation.
+struct AdaptOptions {
+  enum class Source {
+    variables,
+    size,
+    error
+  };  ///< what marks are made from: differences of variables, or a field that the solver wrote for it
+  enum class Threshold { deviation, fraction, nodes };  ///< how many leaves are marked
+
+  int cycles = 5;  ///< adaptations; there is one more solve
+  Source source = Source::variables;
+  std::vector<std::string> variables{"density"};  ///< or the one size or error field
+  Indicator indicator = Indicator::difference;
+  Threshold threshold = Threshold::deviation;
+  double refine = 1.0, coarsen = 0.5;     ///< deviations above and below the mean, or shares of the leaves
+  std::optional<std::int64_t> max_nodes;  ///< a cap; the target for Threshold::nodes
+  std::optional<double>
+      min;  ///< leaf size that adaptation may reach, in the geometry's unit; none: that of the case
+};
+
+}  // namespace quadloop

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "adapt/remesh/plan.hpp"
+#include "adapt/sensor/ordered_values.hpp"
+#include "adapt/sensor/thresholds.hpp"
+
+namespace quadloop {
+
+/// Markings of one tree, from few leaves to many, in a row: at 1 the rule's own marks; towards 0 ever fewer
+/// leaves are refined, those of the smallest indicators dropping out first (sizes: all wanted sizes grow, up
+/// to sixteenfold); towards -1 ever more leaves are coarsened, in the end all.
+class MarkFamily {
+ public:
+  /// All arguments but the options must outlive the family. *Collective.* Throws InputError as
+  /// plan_adaptation does.
+  MarkFamily(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved);
+
+  /// From -1 to 1. *Collective.*
+  std::vector<Mark> marks(double at) const;
+
+  double mean() const { return statistics_.mean; }
+  double deviation() const { return statistics_.deviation; }
+  /// Whether all leaves have the same indicator, which marks none.
+  bool flat() const { return statistics_.flat; }
+
+ private:
+  std::vector<Mark> size_marks(double at) const;
+
+  const Communicator& comm_;
+  const SolvedMesh& solved_;
+  bool by_size_;
+  std::vector<double> values_;          ///< of each leaf: its indicator, or the size wanted in it
+  std::optional<OrderedValues> order_;  ///< of indicators
+  IndicatorStatistics statistics_;
+  Thresholds rule_;
+  double refined_share_ = 1, coarsened_share_ = 0;  ///< of the leaves with cells, by the rule
+};
+
+}  // namespace quadloop

@@ -1,0 +1,84 @@
+#include "adapt/remesh/own_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "adapt/remesh/restart.hpp"
+#include "adapt/sensor/cells_of_leaves.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/generate/digests.hpp"
+#include "mesher/mesh/check/quality.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// A coordinate of the centres of this rank's cells, triangles, then quads.
+std::vector<double> centres(const Mesh& mesh, double Point::*coordinate) {
+  std::vector<double> values;
+  const auto append = [&](const auto& cells) {
+    for (const auto& nodes : cells) {
+      double sum = 0;
+      for (const NodeId node : nodes) sum += mesh.point(node).*coordinate;
+      values.push_back(sum / static_cast<double>(nodes.size()));
+    }
+  };
+  append(mesh.triangles);
+  append(mesh.quads);
+  return values;
+}
+
+Lattice lattice_of(const TreeAttributes& a) {
+  const Point low{a.root_x, a.root_y};
+  return {{low, low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge}}, a.trees_x, a.trees_y};
+}
+
+}  // namespace
+
+void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, const std::string& shown,
+                    const std::string& tree) {
+  if (of_mesh.nodes == of_tree.nodes && of_mesh.triangles == of_tree.triangles &&
+      of_mesh.quads == of_tree.quads)
+    return;
+  throw InputError(fmt::format(
+      "{}: is of another mesh than {}: {} nodes, {} triangles, {} quads, but the tree's mesh has {}, {}, {}",
+      shown, tree, of_mesh.nodes, of_mesh.triangles, of_mesh.quads, of_tree.nodes, of_tree.triangles,
+      of_tree.quads));
+}
+
+void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,
+                      const std::string& tree) {
+  constexpr double reach = 2;
+  require_counts(count(comm, solved.mesh), solved.tree.attributes, shown, tree);
+  const CellsOfLeaves cells(comm, solved.mesh, solved.tree.leaves);
+  const auto x = centres(solved.mesh, &Point::x), y = centres(solved.mesh, &Point::y);
+  const auto left = cells.smallest(comm, x), right = cells.largest(comm, x), bottom = cells.smallest(comm, y),
+             top = cells.largest(comm, y);
+  const Lattice lattice = lattice_of(solved.tree.attributes);
+  comm.together([&] {
+    for (std::size_t i = 0; i < solved.tree.leaves.size(); ++i) {
+      if (!has_cells(solved.tree.leaves[i])) continue;
+      const Quadrant q = place_of(solved.tree.leaves[i]);
+      const Box box = lattice.box_of(q);
+      const double far = reach * lattice.edge(q.level);
+      const bool near = left[i] > box.low.x - far && right[i] < box.high.x + far &&
+                        bottom[i] > box.low.y - far && top[i] < box.high.y + far;
+      if (near) continue;
+      throw InputError(
+          fmt::format("{}: is of another mesh than {}: a cell at ({}, {}) does not belong to the tree's leaf "
+                      "at ({}, {}); give the mesh that "
+                      "was written with the tree",
+                      shown, tree, left[i], bottom[i], box.centre().x, box.centre().y));
+    }
+  });
+}
+
+void require_untouched_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,
+                            const std::string& tree) {
+  require_own_mesh(comm, solved, shown, tree);
+  if (coordinate_digest(comm, solved.mesh) == solved.tree.attributes.coordinate_digest) return;
+  throw InputError(fmt::format("{}: its nodes do not lie where those of the mesh of {} lie", shown, tree));
+}
+
+}  // namespace quadloop

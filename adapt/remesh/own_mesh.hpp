@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "adapt/remesh/plan.hpp"
+
+namespace quadloop {
+
+/// Throws InputError unless a mesh has as many nodes and cells as the tree's. `shown` names the mesh, `tree`
+/// the tree.
+void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, const std::string& shown,
+                    const std::string& tree);
+
+/// Throws InputError on all ranks unless the mesh can be the one that the tree was saved with: as many nodes
+/// and cells, and each leaf's cells within two leaf sizes of it, which snapping, flips and smoothing keep.
+/// Bytes do not count: other formats round. `shown` names the mesh, `tree` the tree. *Collective.*
+void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,
+                      const std::string& tree);
+
+/// The same, and that every node lies where it lay, to the last bit: for native files of ours. *Collective.*
+void require_untouched_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,
+                            const std::string& tree);
+
+}  // namespace quadloop

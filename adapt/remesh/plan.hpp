@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "adapt/remesh/adapt_options.hpp"
+#include "adapt/sensor/mark.hpp"
+#include "io/loaded/loaded_mesh.hpp"
+#include "mesher/generate/generate.hpp"
+
+namespace quadloop {
+
+/// A mesh with its tree and what a solver left at its nodes. Cells stand in the order of the tree's leaves;
+/// the shares of leaves, cells and nodes that a rank has need not meet.
+struct SolvedMesh {
+  Mesh mesh;
+  TreeRecord tree;
+  Solution solution;
+  std::string file;  ///< where the solution was read, for messages
+};
+
+/// What the next tree is to be split at, and how that came about.
+struct AdaptationPlan {
+  std::vector<SplitDemand> demands;  ///< from this rank's share of leaves
+  double mean = 0, deviation = 0;    ///< of log10 of the indicator; 0 for sizes
+  std::int64_t refined = 0, coarsened = 0;
+  std::vector<std::string> warnings;
+
+  /// Without a mark that takes effect the next mesh would be the last one again.
+  bool changes_mesh() const { return refined + coarsened > 0; }
+};
+
+/// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where
+/// the number of nodes is bounded or wanted; the nodes are counted on the meshes themselves, unsmoothed.
+/// *Collective.* Throws InputError where the solution has no such variable, or one that is not finite.
+AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
+                               const SolvedMesh& solved);
+
+}  // namespace quadloop

@@ -1,0 +1,136 @@
+#include "adapt/remesh/smoothed_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "io/solution_file.hpp"
+#include "mesher/mesh/check/delaunay_check.hpp"
+#include "mesher/mesh/check/validate.hpp"
+#include "smoother/objective/condition_number.hpp"
+#include "smoother/outline/outline_path.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// What the smoother lowers, of one cell: the squared costs of its corners, those of a triangle being all the
+/// same.
+template <std::size_t width>
+double squared_cost(const Mesh& mesh, const std::array<NodeId, width>& cell) {
+  static const std::array<CornerTarget, width> targets = ideal_targets<width>();
+  double sum = 0;
+  for (std::size_t k = 0; k < (width == 3 ? 1 : width); ++k) {
+    const CornerForm corner = corner_form(mesh.point(cell[k]), mesh.point(cell[(k + 1) % width]),
+                                          mesh.point(cell[(k + width - 1) % width]));
+    const double cost = corner_cost(corner, targets[k], 1);
+    sum += cost * cost;
+  }
+  return sum;
+}
+
+/// Nodes of one cell that have moved belong to one patch.
+class Patches {
+ public:
+  Patches(const Mesh& mesh, const std::vector<char>& moved) : moved_{moved}, parent_(mesh.points.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    const auto join = [&](const auto& cell) {
+      const std::int32_t first = patch_of(cell);
+      for (const NodeId node : cell) {
+        if (first >= 0 && has_moved(node)) parent_[index(root_of(node.value()))] = first;
+      }
+    };
+    std::ranges::for_each(mesh.triangles, join);
+    std::ranges::for_each(mesh.quads, join);
+  }
+
+  /// The patch that a cell belongs to; -1 where none of its nodes has moved.
+  std::int32_t patch_of(std::span<const NodeId> cell) {
+    const auto node = std::ranges::find_if(cell, [&](NodeId n) { return has_moved(n); });
+    return node == cell.end() ? -1 : root_of(node->value());
+  }
+
+ private:
+  static std::size_t index(std::int32_t node) { return static_cast<std::size_t>(node); }
+  bool has_moved(NodeId node) const { return moved_[index(node.value())] != 0; }
+  std::int32_t root_of(std::int32_t node) {
+    while (parent_[index(node)] != node) node = parent_[index(node)] = parent_[index(parent_[index(node)])];
+    return node;
+  }
+
+  const std::vector<char>& moved_;
+  std::vector<std::int32_t> parent_;
+};
+
+std::string cost_fault(const Mesh& before, const Mesh& found, const std::vector<char>& moved) {
+  Patches patches(before, moved);
+  std::vector<double> gain(before.points.size(), 0);
+  const auto add = [&](const auto& cell) {
+    const std::int32_t patch = patches.patch_of(cell);
+    if (patch >= 0)
+      gain[static_cast<std::size_t>(patch)] += squared_cost(before, cell) - squared_cost(found, cell);
+  };
+  std::ranges::for_each(before.triangles, add);
+  std::ranges::for_each(before.quads, add);
+  const auto worse = std::ranges::find_if(gain, [](double g) { return g < 0; });
+  if (worse == gain.end()) return {};
+  const Point place = found.points[static_cast<std::size_t>(worse - gain.begin())];
+  return fmt::format("the cells round ({}, {}) are worse than they were", place.x, place.y);
+}
+
+/// Of a mesh whose edges have been flipped there are no cells to compare.
+std::string flip_fault(const Mesh& before, const Mesh& found) {
+  if (!before.quads.empty() || before.triangles.size() != found.triangles.size() || !is_delaunay(found))
+    return "its cells are others";
+  double largest_before = 0, largest_after = 0;
+  for (const auto& cell : before.triangles)
+    largest_before = std::max(largest_before, squared_cost(before, cell));
+  for (const auto& cell : found.triangles) largest_after = std::max(largest_after, squared_cost(found, cell));
+  return largest_after > largest_before ? "its worst cell is worse" : "";
+}
+
+std::string boundary_fault(const Mesh& before, const Mesh& found, const std::vector<char>& moved,
+                           const Geometry* outline) {
+  std::optional<OutlinePath> curves;
+  for (const BoundaryEdges& boundary : before.boundaries) {
+    for (const auto& edge : boundary.edges) {
+      const auto node = static_cast<std::size_t>(edge[0].value());
+      if (moved[node] == 0) continue;
+      if (outline != nullptr && !curves) curves.emplace(*outline);
+      const double reach =
+          curves ? std::max(curves->tolerance(),
+                            solution_tolerance * length(before.point(edge[1]) - before.point(edge[0])))
+                 : 0;
+      if (curves && curves->has(boundary.name) &&
+          std::isfinite(curves->distance(found.points[node], boundary.name, reach)))
+        continue;
+      return fmt::format("node {} of the boundary '{}' lies off its outline", node + 1, boundary.name);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string fault_of_smoothed(const Mesh& before, const Mesh& found, const Geometry* outline) {
+  if (found.points.size() != before.points.size()) return "it has another number of nodes";
+  const bool same_cells = same_cells_in_any_order(found, before);
+  Mesh judged = same_cells ? before : found;
+  judged.points = found.points;
+  judged.boundaries = before.boundaries;
+  const std::vector<MeshFault> faults = validate(judged);
+  if (!faults.empty())
+    return fmt::format("it is invalid: {} at ({}, {})", faults.front().what, faults.front().place.x,
+                       faults.front().place.y);
+  const std::vector<char> moved = nodes_elsewhere(found.points, before);
+  std::string fault = boundary_fault(before, judged, moved, outline);
+  if (fault.empty()) fault = same_cells ? cost_fault(before, judged, moved) : flip_fault(before, judged);
+  return fault;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,162 @@
+#include "adapt/remesh/tree_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "adapt/remesh/restart.hpp"
+#include "adapt/remesh/smoothed_mesh.hpp"
+#include "io/mesh_file.hpp"
+#include "io/solution_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/generate/digests.hpp"
+#include "mesher/mesh/check/validate.hpp"
+
+namespace quadloop {
+
+namespace {
+
+bool is_of(const TreeAttributes& tree, const Mesh& whole) {
+  const auto count = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
+  const bool counts = count(whole.points) == tree.nodes && count(whole.triangles) == tree.triangles &&
+                      count(whole.quads) == tree.quads;
+  return counts && digest_of_owned(whole) == tree.coordinate_digest && validate(whole).empty();
+}
+
+/// The first of the files that holds it. On the root alone.
+std::optional<Mesh> mesh_in_files(const TreeAttributes& tree, std::span<const std::string> files) {
+  for (const std::string& file : files) {
+    if (!std::filesystem::exists(file)) continue;
+    try {
+      LoadedMesh loaded = read_mesh(file);
+      if (is_of(tree, loaded.mesh)) return std::move(loaded.mesh);
+    } catch (const InputError&) {
+      continue;  // it was only a guess
+    }
+  }
+  return {};
+}
+
+/// An edge of boundary number `boundary`, by the global numbers of its nodes.
+struct NamedEdge {
+  std::int64_t boundary = 0;
+  std::array<std::int64_t, 2> nodes{};
+};
+
+template <class T>
+std::vector<T> at_root(const Communicator& comm, std::vector<T> own) {
+  std::vector<std::vector<T>> out(static_cast<std::size_t>(comm.size()));
+  out[0] = std::move(own);
+  std::vector<T> all;
+  for (const std::vector<T>& of_rank : comm.exchange(out))
+    all.insert(all.end(), of_rank.begin(), of_rank.end());
+  return all;
+}
+
+template <std::size_t width>
+std::array<std::int64_t, width> global_numbers(const Mesh& mesh, const std::array<NodeId, width>& nodes) {
+  std::array<std::int64_t, width> numbers{};
+  std::ranges::transform(nodes, numbers.begin(), [&](NodeId node) { return mesh.global(node).value(); });
+  return numbers;
+}
+
+template <std::size_t width>
+std::array<NodeId, width> node_ids(const std::array<std::int64_t, width>& numbers) {
+  std::array<NodeId, width> nodes;
+  std::ranges::transform(numbers, nodes.begin(),
+                         [](std::int64_t number) { return NodeId{static_cast<std::int32_t>(number)}; });
+  return nodes;
+}
+
+template <std::size_t width>
+std::vector<std::array<NodeId, width>> cells_at_root(const Communicator& comm, const Mesh& mesh,
+                                                     const std::vector<std::array<NodeId, width>>& own) {
+  std::vector<std::array<std::int64_t, width>> numbers;
+  for (const auto& cell : own) numbers.push_back(global_numbers(mesh, cell));
+  std::vector<std::array<NodeId, width>> cells;
+  for (const auto& cell : at_root(comm, std::move(numbers))) cells.push_back(node_ids(cell));
+  return cells;
+}
+
+/// All ranks' parts as one mesh on the root, as it would be read from its file; an empty one elsewhere.
+/// *Collective.*
+Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
+  Mesh whole;
+  whole.points =
+      at_root(comm, std::vector<Point>(mesh.points.begin(), mesh.points.begin() + mesh.owned_nodes));
+  whole.owned_nodes = static_cast<std::int32_t>(whole.points.size());
+  whole.triangles = cells_at_root(comm, mesh, mesh.triangles);
+  whole.quads = cells_at_root(comm, mesh, mesh.quads);
+  std::vector<NamedEdge> edges;
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+    for (const auto& edge : mesh.boundaries[b].edges)
+      edges.push_back({static_cast<std::int64_t>(b), global_numbers(mesh, edge)});
+    whole.boundaries.push_back({mesh.boundaries[b].name, mesh.boundaries[b].condition, {}});
+  }
+  for (const NamedEdge& edge : at_root(comm, std::move(edges)))
+    whole.boundaries[static_cast<std::size_t>(edge.boundary)].edges.push_back(node_ids(edge.nodes));
+  std::erase_if(whole.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
+  return whole;
+}
+
+LoadedSolution mesh_as_found(LoadedMesh& loaded, const std::string& path) {
+  const auto nodes = static_cast<std::int64_t>(loaded.mesh.points.size());
+  return {path, {}, nodes, loaded.mesh.points, true, loaded.mesh.triangles, loaded.mesh.quads};
+}
+
+/// Cells alone: whether the file names the boundaries does not matter here.
+void require_valid_cells(const Mesh& mesh, const std::string& path) {
+  for (const MeshFault& fault : validate(mesh)) {
+    if (fault.rule != MeshRule::indices && fault.rule != MeshRule::positive &&
+        fault.rule != MeshRule::coincident)
+      continue;
+    throw InputError(fmt::format(
+        "{}: is no mesh of this tree: {} at ({}, {}); give the mesh that was written with the tree", path,
+        fault.what, fault.place.x, fault.place.y));
+  }
+}
+
+}  // namespace
+
+TreeMesh mesh_of_tree(const Communicator& comm, const TreeRecord& tree, const Mesh& solved,
+                      std::span<const std::string> beside, std::span<const MeshInput> inputs) {
+  TreeMesh result;
+  const auto fits = [&](const MeshInput& input) {
+    return input.geometry.digest() == tree.attributes.geometry_digest &&
+           input.digest == tree.attributes.case_digest;
+  };
+  for (const MeshInput& input : inputs) {
+    if (input.geometry.digest() == tree.attributes.geometry_digest) result.outline = &input.geometry;
+  }
+  std::optional<Mesh> found;
+  if (comm.is_root())
+    found = is_of(tree.attributes, solved) ? solved : mesh_in_files(tree.attributes, beside);
+  const auto input = std::ranges::find_if(inputs, fits);
+  result.known = comm.any(found.has_value());
+  if (!result.known && input != inputs.end()) {
+    const GeneratedMesh made = generate_mesh(comm, *input, DemandedSplits(comm, adapted_splits(tree)));
+    result.known = made.result.tree.attributes.coordinate_digest == tree.attributes.coordinate_digest;
+    if (result.known) found = whole_at_root(comm, made.result.mesh);
+  }
+  if (found && comm.is_root()) result.whole = std::move(*found);
+  return result;
+}
+
+void settle_mesh(const TreeMesh& of_tree, LoadedMesh& loaded, const std::string& path) {
+  if (!of_tree.known) return require_valid_cells(loaded.mesh, path);
+  const std::string other = difference(mesh_as_found(loaded, path), of_tree.whole);
+  if (other.empty()) {
+    loaded.mesh = of_tree.whole;
+    return;
+  }
+  const std::string fault = fault_of_smoothed(of_tree.whole, loaded.mesh, of_tree.outline);
+  if (!fault.empty())
+    throw InputError(path + ": " + other + " (nor is it the tree's mesh smoothed: " + fault + ")");
+  if (!same_cells_in_any_order(loaded.mesh, of_tree.whole)) return;
+  std::vector<Point> points = std::move(loaded.mesh.points);
+  loaded.mesh = of_tree.whole;
+  loaded.mesh.points = std::move(points);
+}
+
+}  // namespace quadloop

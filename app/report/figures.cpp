@@ -1,0 +1,37 @@
+#include "app/report/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace quadloop {
+
+void Figures::add(const std::string& name, std::int64_t count) {
+  add_raw(name, std::to_string(count), json_of(count));
+}
+
+void Figures::add(const std::string& name, double value, const char* pattern, const std::string& key) {
+  add_raw(name, fmt::format(fmt::runtime(pattern), value), json_of(value), key);
+}
+
+void Figures::add_raw(const std::string& name, const std::string& text, const std::string& json,
+                      const std::string& key) {
+  std::string derived = name;
+  std::replace(derived.begin(), derived.end(), ' ', '_');
+  figures_.push_back({name, key.empty() ? derived : key, text, json});
+}
+
+std::string Figures::table(int width, int value_width) const {
+  std::string text;
+  for (const Figure& figure : figures_)
+    text += fmt::format("  {:<{}}{:>{}}\n", figure.name, width, figure.text, value_width);
+  return text;
+}
+
+JsonObject Figures::record() const {
+  JsonObject json;
+  for (const Figure& figure : figures_) json.add_raw(figure.key, figure.json);
+  return json;
+}
+
+}  // namespace quadloop

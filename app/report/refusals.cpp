@@ -1,0 +1,85 @@
+#include "app/report/refusals.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mesher/base/error.hpp"
+#include "smoother/objective/condition_number.hpp"
+
+namespace quadloop {
+
+namespace {
+
+CellBlocks blocks_of(const LoadedMesh& loaded) {
+  return {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block};
+}
+
+std::string more_faults(std::size_t count) {
+  return count == 0 ? "" : fmt::format("; {} fault{} more", count, count == 1 ? "" : "s");
+}
+
+/// The middle of the cell that costs most.
+Point worst_place(const Mesh& mesh) {
+  double worst = -1;
+  Point place;
+  const auto look_at = [&]<std::size_t width>(const std::array<NodeId, width>& nodes) {
+    std::array<Point, width> corners;
+    Point sum;
+    for (std::size_t k = 0; k < width; ++k) {
+      corners[k] = mesh.point(nodes[k]);
+      sum = sum + corners[k];
+    }
+    const double cost = cell_cost(corners, ideal_targets<width>());
+    if (cost <= worst) return;
+    worst = cost;
+    place = 1.0 / static_cast<double>(width) * sum;
+  };
+  for (const auto& nodes : mesh.triangles) look_at(nodes);
+  for (const auto& nodes : mesh.quads) look_at(nodes);
+  return place;
+}
+
+}  // namespace
+
+void refuse_invalid(const std::string& file, const std::vector<MeshFault>& faults) {
+  const MeshFault& first = faults.front();
+  const char* cure =
+      first.rule == MeshRule::geometry
+          ? "; the geometry has to be the one that was meshed, as `mesh --geometry-out` writes it"
+          : "";
+  throw InputError(fmt::format("{}: invalid mesh: {}: {} at ({}, {}){}{}", file, name_of(first.rule),
+                               first.what, first.place.x, first.place.y, more_faults(faults.size() - 1),
+                               cure));
+}
+
+std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::string& file) {
+  const std::vector<MeshFault> faults = validate(loaded.mesh, blocks_of(loaded));
+  if (faults.empty()) return {};
+  const MeshFault& first = faults.front();
+  return {fmt::format("{}: is not valid, and is passed on as it is: {}: {} at ({}, {}){}", file,
+                      name_of(first.rule), first.what, first.place.x, first.place.y,
+                      more_faults(faults.size() - 1))};
+}
+
+void require_sound_topology(const LoadedMesh& loaded, const std::string& file) {
+  const std::vector<MeshFault> faults = validate_topology(loaded.mesh, blocks_of(loaded));
+  if (!faults.empty()) refuse_invalid(file, faults);
+}
+
+void require_valid(const LoadedMesh& smoothed, const std::string& file) {
+  const std::vector<MeshFault> faults = validate(smoothed.mesh, blocks_of(smoothed));
+  if (faults.empty()) return;
+  const auto inverted = std::count_if(
+      faults.begin(), faults.end(), [](const MeshFault& fault) { return fault.rule == MeshRule::positive; });
+  if (inverted == 0) refuse_invalid(file, faults);
+  const Point place = worst_place(smoothed.mesh);
+  throw InputError(
+      fmt::format("{}: {} cell{} could not be untangled, the worst at ({}, {}); nothing was written. Give "
+                  "more --sweeps, or mend the mesh "
+                  "there: nodes between blocks stay, and those of the outline but for straight or "
+                  "--geometry's parts of it",
+                  file, inverted, inverted == 1 ? "" : "s", place.x, place.y));
+}
+
+}  // namespace quadloop

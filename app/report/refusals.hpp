@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/loaded/loaded_mesh.hpp"
+#include "mesher/mesh/check/validate.hpp"
+
+namespace quadloop {
+
+/// Throws InputError with the first fault, its place, and how many more there are.
+[[noreturn]] void refuse_invalid(const std::string& file, const std::vector<MeshFault>& faults);
+
+/// A warning where a mesh that is passed on as it is is not valid: its first fault, and how many more there
+/// are. Otherwise empty.
+std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::string& file);
+
+/// Throws InputError for a mesh that no movement of its nodes can make valid.
+void require_sound_topology(const LoadedMesh& loaded, const std::string& file);
+
+/// Throws InputError for a smoothed mesh that may not be written: where its worst cell is, if cells are still
+/// inverted; else its first fault.
+void require_valid(const LoadedMesh& smoothed, const std::string& file);
+
+}  // namespace quadloop

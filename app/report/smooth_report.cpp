@@ -1,0 +1,69 @@
+#include "app/report/smooth_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace quadloop {
+
+namespace {
+
+std::string row(const std::string& name, const std::string& before, const std::string& after) {
+  return fmt::format("  {:<24}{:>14}{:>14}\n", name, before, after);
+}
+std::string row(const std::string& name, double before, double after) {
+  return row(name, fmt::format("{:.3f}", before), fmt::format("{:.3f}", after));
+}
+
+std::string range_of(const Histogram& h, std::size_t i) {
+  if (i == 0) return fmt::format("    below {:g}", h.limits[0]);
+  if (i == h.limits.size()) return fmt::format("    {:g} and more", h.limits.back());
+  return fmt::format("    {:g} to {:g}", h.limits[i - 1], h.limits[i]);
+}
+
+}  // namespace
+
+ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh& whole) {
+  return {summarise_quality(comm, mesh), shape_histograms(comm, mesh),
+          comm.is_root() ? area_ratios(whole) : AreaRatios{}};
+}
+
+JsonObject record_of(const ShapeReport& report) {
+  JsonObject json;
+  json.add("worst_quality", report.quality.worst);
+  json.add("mean_quality", report.quality.mean);
+  json.add("min_angle", report.quality.smallest_degrees);
+  json.add("max_angle", report.quality.largest_degrees);
+  json.add("area_ratio_max", report.areas.largest);
+  json.add("area_ratio_p99", report.areas.of_99_percent);
+  for (const Histogram& histogram : report.histograms) {
+    JsonObject bins;
+    bins.add("limits", histogram.limits);
+    bins.add("counts", histogram.counts);
+    std::string key = histogram.name;
+    std::replace(key.begin(), key.end(), ' ', '_');
+    json.add(key, bins);
+  }
+  return json;
+}
+
+std::string comparison_table(const ShapeReport& before, const ShapeReport& after) {
+  std::string text = row("", "before", "after");
+  text += row("worst quality", before.quality.worst, after.quality.worst) +
+          row("mean quality", before.quality.mean, after.quality.mean);
+  text += row("smallest angle, degrees", before.quality.smallest_degrees, after.quality.smallest_degrees);
+  text += row("largest angle, degrees", before.quality.largest_degrees, after.quality.largest_degrees);
+  text += row("largest area ratio", before.areas.largest, after.areas.largest);
+  text += row("area ratio, 99 %", before.areas.of_99_percent, after.areas.of_99_percent);
+  for (std::size_t k = 0; k < before.histograms.size(); ++k) {
+    const Histogram &b = before.histograms[k], &a = after.histograms[k];
+    text += fmt::format("  {}\n", b.name);
+    for (std::size_t i = 0; i < b.counts.size(); ++i) {
+      if (b.counts[i] == 0 && a.counts[i] == 0) continue;
+      text += row(range_of(b, i), std::to_string(b.counts[i]), std::to_string(a.counts[i]));
+    }
+  }
+  return text;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesher/base/json.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/shape_statistics.hpp"
+#include "smoother/shape_histogram.hpp"
+
+namespace quadloop {
+
+/// What a mesh was like at one moment, over all ranks.
+struct ShapeReport {
+  QualitySummary quality;
+  std::vector<Histogram> histograms;
+  AreaRatios areas;  ///< on the root rank alone
+};
+
+/// `whole` is the same mesh, whole on the root rank. *Collective.*
+ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh& whole);
+
+/// The report as members of a record; each histogram as {"limits", "counts"}.
+JsonObject record_of(const ShapeReport& report);
+
+/// Worst and mean quality, angles, ratios of areas and histograms in two columns.
+std::string comparison_table(const ShapeReport& before, const ShapeReport& after);
+
+}  // namespace quadloop

@@ -1,0 +1,132 @@
+#include "app/report/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "mesher/build/mesh_estimate.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/shape_figures.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// The most memory this process has ever held, in MiB; 0 where the system does not tell.
+double peak_memory_mib() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word != "VmHWM:") continue;
+    double kib = 0;
+    status >> kib;
+    return kib / 1024;
+  }
+  return 0;
+}
+
+std::string vanished_text(const std::vector<std::string>& boundaries) {
+  constexpr std::size_t most_named = 10;
+  if (boundaries.empty()) return {};
+  const std::size_t named = std::min(most_named, boundaries.size());
+  const std::string more =
+      named < boundaries.size() ? fmt::format(" and {} more", boundaries.size() - named) : "";
+  return fmt::format(
+      "  boundaries that vanished, smaller than spacing.min: {}{}\n",
+      fmt::join(boundaries.begin(), boundaries.begin() + static_cast<std::ptrdiff_t>(named), ", "), more);
+}
+
+}  // namespace
+
+std::vector<StageRow> stage_rows(const Communicator& comm, const StageSeconds& seconds) {
+  StageSeconds of_rank;
+  for (const auto& [stage, added] : seconds) {
+    const auto known =
+        std::find_if(of_rank.begin(), of_rank.end(), [&](const auto& row) { return row.first == stage; });
+    if (known == of_rank.end())
+      of_rank.emplace_back(stage, added);
+    else
+      known->second += added;
+  }
+  std::vector<StageRow> rows;
+  for (const auto& [stage, sum] : of_rank) {
+    const auto microseconds =
+        static_cast<std::int64_t>(std::llround(sum * 1e6));  // there is no floating-point sum, on purpose
+    rows.push_back(
+        {stage, comm.maximum(sum), static_cast<double>(comm.sum(microseconds)) / 1e6 / comm.size()});
+  }
+  return rows;
+}
+
+std::string stage_table(const std::vector<StageRow>& stages) {
+  std::string text = "  seconds              slowest          mean\n";
+  for (const auto& [stage, slowest, mean] : stages)
+    text += fmt::format("    {:<14}{:>14.3f}{:>14.3f}\n", stage, slowest, mean);
+  return text;
+}
+
+MeshSummary summarise(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds,
+                      const std::vector<std::string>& files) {
+  MeshSummary summary{{},
+                      shape_figures(comm, result.mesh),
+                      stage_rows(comm, seconds),
+                      files,
+                      result.report.boundaries_vanished};
+  const QualitySummary quality = summarise_quality(comm, result.mesh);
+  const double memory = comm.maximum(peak_memory_mib());
+  if (!comm.is_root()) return summary;
+
+  const TreeAttributes& counts = result.tree.attributes;
+  const MeshReport& report = result.report;
+  const ShapeFigures& shape = summary.shape;
+  Figures& figures = summary.figures;
+  figures.add("nodes", counts.nodes);
+  figures.add("triangles", counts.triangles);
+  figures.add("quads", counts.quads);
+  figures.add_raw("cells, estimated", text_of_cells(report.estimate.cells),
+                  json_of(std::round(report.estimate.cells)), "cells_estimated");
+  figures.add("leaves", report.leaves);
+  figures.add("cut leaves", report.cut_leaves);
+  figures.add_raw("levels", fmt::format("{} to {}", report.coarsest_level, report.finest_level),
+                  json_list({json_of(report.coarsest_level), json_of(report.finest_level)}));
+  figures.add("worst quality", quality.worst, "{:.3f}");
+  figures.add("mean quality", quality.mean, "{:.3f}");
+  figures.add("smallest angle", quality.smallest_degrees, "{:.2f} degrees", "min_angle");
+  figures.add("parallelograms", shape.parallelogram_share(), "{:.4f}", "parallelogram_share");
+  figures.add("inexact nodes", shape.inexact_share(), "{:.4f}", "inexact_node_share");
+  figures.add("area ratio", shape.area_ratio_max, "{:.3g}", "area_ratio_max");
+  figures.add("passage cells", shape.passage_cells);
+  figures.add("peak memory", memory, "{:.0f} MiB", "peak_memory_mib");
+  const double estimated = report.estimate.bytes / comm.size() + report.estimate.bytes_of_rank;
+  figures.add_raw("estimated", text_of_bytes(estimated), json_of(std::round(estimated / (1 << 20))),
+                  "estimated_memory_mib");
+  figures.add("imbalance", report.imbalance, "{:.3f}");
+  return summary;
+}
+
+std::string table_of(const MeshSummary& summary) {
+  std::string text = summary.figures.table() + stage_table(summary.stages);
+  for (const std::string& file : summary.files) text += fmt::format("  wrote {}\n", file);
+  return text + vanished_text(summary.boundaries_vanished);
+}
+
+JsonObject record_of(const MeshSummary& summary) {
+  JsonObject json = summary.figures.record();
+  json.add("seconds", record_of(summary.stages));
+  json.add("boundaries_vanished", summary.boundaries_vanished);
+  return json;
+}
+
+JsonObject record_of(const std::vector<StageRow>& stages) {
+  JsonObject json;
+  for (const auto& [stage, slowest, mean] : stages) {
+    JsonObject row;
+    row.add("slowest", slowest);
+    row.add("mean", mean);
+    json.add(stage, row);
+  }
+  return json;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,88 @@
+#include "flow/command/environment.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+namespace quadloop {
+
+namespace {
+
+// Open MPI 4 (found by comparing the environments inside and outside of mpirun) and 5, then PMI launchers:
+// MPICH, Intel MPI, MVAPICH, Slurm, Cray.
+constexpr std::array launcher_prefixes{
+    std::string_view("OMPI_COMM_WORLD_"),
+    std::string_view("OMPI_APP_CTX_"),
+    std::string_view("OMPI_MCA_orte_"),
+    std::string_view("OMPI_MCA_ess"),
+    std::string_view("OMPI_MCA_shmem_RUNTIME_"),
+    std::string_view("OMPI_MCA_rmaps_ppr_"),
+    std::string_view("OPAL_"),
+    std::string_view("ORTE_"),
+    std::string_view("PMIX_"),
+    std::string_view("PRTE_"),
+    std::string_view("PMI_"),
+    std::string_view("PMI2_"),
+    std::string_view("HYDI_"),
+    std::string_view("MV2_COMM_WORLD_"),
+    std::string_view("PALS_"),
+};
+
+constexpr std::array launcher_variables{
+    std::string_view("OMPI_ARGV"),
+    std::string_view("OMPI_COMMAND"),
+    std::string_view("OMPI_FILE_LOCATION"),
+    std::string_view("OMPI_FIRST_RANKS"),
+    std::string_view("OMPI_NUM_APP_CTX"),
+    std::string_view("OMPI_UNIVERSE_SIZE"),
+    std::string_view("OMPI_MCA_initial_wdir"),
+    std::string_view("OMPI_MCA_mpi_oversubscribe"),
+    std::string_view("OMPI_MCA_pmix"),
+    std::string_view("OMPI_MCA_rmaps_base_mapping_policy"),
+    std::string_view("OMPI_MCA_rmaps_base_ranking_policy"),
+    std::string_view("PMIX_MCA_mca_base_component_show_load_errors"),
+    std::string_view("MPI_LOCALRANKID"),
+    std::string_view("MPI_LOCALNRANKS"),
+};
+
+// What MPI_Init itself sets. A user's value for the same variable is another one.
+constexpr std::string_view set_by_mpi_init = "PMIX_MCA_psec=native";
+
+// Settings of a user among the prefixes above.
+constexpr std::array user_prefixes{
+    std::string_view("PMIX_MCA_"),
+    std::string_view("PRTE_MCA_"),
+    std::string_view("OPAL_PREFIX"),
+};
+
+template <class Prefixes>
+bool starts_with_any(std::string_view variable, const Prefixes& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](std::string_view prefix) { return variable.starts_with(prefix); });
+}
+
+}  // namespace
+
+bool set_by_launcher(std::string_view variable) {
+  if (std::find(launcher_variables.begin(), launcher_variables.end(), variable) != launcher_variables.end())
+    return true;
+  return starts_with_any(variable, launcher_prefixes) && !starts_with_any(variable, user_prefixes);
+}
+
+bool started_by_mpirun() { return std::getenv("OMPI_COMM_WORLD_RANK") != nullptr; }
+
+std::vector<std::string> environment_for(const std::string& folder) {
+  std::vector<std::string> environment;
+  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+    const std::string_view text(*entry);
+    const std::string_view name = text.substr(0, text.find('='));
+    if (name == "PWD" || name == "OLDPWD" || text == set_by_mpi_init) continue;
+    if (!set_by_launcher(name)) environment.emplace_back(text);
+  }
+  environment.push_back("PWD=" + folder);  // programs that trust it would work in the wrong folder
+  return environment;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quadloop {
+
+/// True for a variable that an MPI launcher gives to each process that it starts, and that would make a
+/// solver, or an mpirun of its own, take itself for a part of quadloop's run. What a user sets
+/// (OMPI_ALLOW_RUN_AS_ROOT, OMPI_MCA_btl...) is not among them. Of Open MPI's parameters that are both, those
+/// that place ranks on machines and all of OMPI_MCA_orte_ count as the launcher's.
+bool set_by_launcher(std::string_view variable);
+
+/// True where Open MPI's mpirun (or its daemon on this machine) started this process.
+bool started_by_mpirun();
+
+/// This process's environment, as NAME=value, without the launcher's variables and with PWD = `folder`.
+std::vector<std::string> environment_for(const std::string& folder);
+
+}  // namespace quadloop

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace quadloop {
+
+/// A program with everything that it is given. Paths are absolute.
+struct Launch {
+  std::string program;
+  std::vector<std::string> arguments;    ///< the first is the program's name as it sees it
+  std::vector<std::string> environment;  ///< NAME=value
+  std::string folder;                    ///< where it works
+  std::string log;                       ///< takes its standard output and error; made anew
+  double timeout = 0;                    ///< seconds, more than 0
+};
+
+/// How a program ended.
+struct Ending {
+  enum class Kind { not_started, status, signal, timed_out, guard_lost };
+  Kind kind = Kind::status;
+  int value = 0;  ///< errno, the exit status, or the signal's number
+};
+
+/// Runs a program, with an empty standard input, to its end or the end of its time, and ends whatever
+/// processes it leaves. They end when this process does, too, even by kill -9 (guard.hpp says how). The
+/// calling thread sleeps meanwhile. An OutputError where the folder or log cannot be opened.
+Ending run_to_its_end(const Launch& launch);
+
+}  // namespace quadloop

@@ -1,0 +1,66 @@
+#include "flow/command/log_tail.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::streamoff most_bytes = 1 << 16;
+
+std::string end_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) return {};
+  const std::streamoff size = file.tellg();
+  file.seekg(std::max<std::streamoff>(0, size - most_bytes));
+  std::string bytes(static_cast<std::size_t>(std::min(size, most_bytes)), '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
+bool says_something(const std::string& line) {
+  return std::any_of(line.begin(), line.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return std::isalnum(byte) != 0 || byte >= 0x80U;  // above ASCII: part of a letter in UTF-8
+  });
+}
+
+bool inside_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }  // UTF-8
+
+std::string shown(std::string line, std::size_t length) {
+  const std::string blanks = " \t";
+  line.erase(line.find_last_not_of(blanks) + 1);
+  line.erase(0, line.find_first_not_of(blanks));
+  if (line.size() > length) {
+    std::size_t end = length;
+    while (end > 0 && inside_character(line[end])) --end;
+    line = line.substr(0, end) + "...";
+  }
+  for (char& c : line) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\t')
+      c = ' ';
+    else if (byte < 0x20U || byte == 0x7FU)
+      c = '?';
+  }
+  return line;
+}
+
+}  // namespace
+
+std::string last_line(const std::string& path, std::size_t length) {
+  const std::string bytes = end_of_file(path);
+  for (std::size_t end = bytes.size(); end > 0;) {
+    const std::size_t before = bytes.find_last_of("\r\n", end - 1);
+    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+    const std::string line = bytes.substr(begin, end - begin);
+    if (says_something(line)) return shown(line, length);
+    end = before == std::string::npos ? 0 : before;
+  }
+  return {};
+}
+
+}  // namespace quadloop

@@ -1,0 +1,70 @@
+#include "flow/euler/flow_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "flow/euler/forces.hpp"
+#include "mesher/base/progress.hpp"
+#include "mesher/base/reproducible_sum.hpp"
+
+namespace quadloop::euler {
+
+double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes) {
+  std::vector<double> squares;
+  const auto owned = static_cast<std::size_t>(run.mesh.owned_nodes());
+  squares.reserve(owned);
+  for (std::size_t node = 0; node < owned; ++node) squares.push_back(fluxes[node][0] * fluxes[node][0]);
+  const auto count = static_cast<double>(run.comm.sum(run.mesh.owned_nodes()));
+  return count > 0 ? std::sqrt(reproducible_sum(run.comm, squares) / count) : 0;
+}
+
+namespace {
+
+/// The caller's stage counts steps, or time where that is what ends the run.
+void tell_progress(const FlowRun& run, const EulerResult& result) {
+  progress::Stage* const stage = progress::current();
+  if (stage == nullptr) return;
+  stage->say(fmt::format("step {}  residual {:.1e}", result.iterations, result.residual));
+  stage->advance(run.options.time == EulerOptions::Time::steady ? result.iterations : result.time);
+}
+
+}  // namespace
+
+void report(const FlowRun& run, const EulerResult& result, double cfl, bool at_end) {
+  tell_progress(run, result);
+  if (!run.options.progress || (!at_end && result.iterations % run.options.progress_every != 0)) return;
+  const ForceCoefficients forces =
+      wall_forces(run.comm, run.mesh, run.model, run.states, run.options.reference_length);
+  if (progress::Stage* stage = progress::current())
+    stage->say_then(fmt::format("cl {:.4f}  cd {:.5f}", forces.cl, forces.cd));
+  run.options.progress({result.iterations, result.residual, forces.cl, forces.cd, result.time, cfl});
+}
+
+std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes) {
+  double worst = -1;
+  std::int64_t at = std::numeric_limits<std::int64_t>::max();
+  for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
+    double size = std::abs(fluxes[static_cast<std::size_t>(node)][0]);
+    if (!std::isfinite(size)) size = std::numeric_limits<double>::infinity();
+    if (size <= worst) continue;
+    worst = size;
+    at = run.mesh.global(node);
+  }
+  if (worst < run.comm.maximum(worst)) at = std::numeric_limits<std::int64_t>::max();
+  at = run.comm.minimum(at);
+  constexpr double nowhere = -std::numeric_limits<double>::infinity();
+  std::array<double, 6> told{nowhere, nowhere, nowhere, nowhere, nowhere, nowhere};
+  for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
+    if (run.mesh.global(node) != at) continue;
+    const State& state = run.states[static_cast<std::size_t>(node)];
+    told = {run.mesh.point(node).x, run.mesh.point(node).y, state[0], state[1], state[2], state[3]};
+  }
+  for (double& value : told) value = run.comm.maximum(value);
+  return fmt::format(
+      "at ({:.6g}, {:.6g}), where density is {:.4g}, velocity ({:.4g}, {:.4g}) and pressure {:.4g}", told[0],
+      told[1], told[2], told[3], told[4], told[5]);
+}
+
+}  // namespace quadloop::euler

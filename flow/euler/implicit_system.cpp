@@ -1,0 +1,183 @@
+#include "flow/euler/implicit_system.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <numeric>
+
+namespace quadloop::euler {
+
+namespace {
+
+/// Row by row to column by column.
+void store(const Matrix4& matrix, double factor, std::array<float, 16>& block) {
+  for (std::size_t row = 0; row < 4; ++row) {
+    for (std::size_t column = 0; column < 4; ++column)
+      block[4 * column + row] = static_cast<float>(factor * matrix[4 * row + column]);
+  }
+}
+
+using MatrixMap = Eigen::Map<const Eigen::Matrix4f>;  // column by column
+using VectorMap = Eigen::Map<const Eigen::Vector4f>;
+
+void add(const Matrix4& matrix, double factor, Matrix4& sum) {
+  for (std::size_t k = 0; k < 16; ++k) sum[k] += factor * matrix[k];
+}
+
+/// How a wall's push answers to the pressure.
+void add_wall_matrix(const Gas& gas, const State& state, Point normal, double factor, Matrix4& sum) {
+  const auto& [rho, u, v, p] = state;
+  const double g = gas.gamma - 1;
+  const std::array<double, 4> pressure{0.5 * g * (u * u + v * v), -g * u, -g * v, g};
+  for (std::size_t k = 0; k < 4; ++k) {
+    sum[4 + k] += factor * normal.x * pressure[k];
+    sum[8 + k] += factor * normal.y * pressure[k];
+  }
+}
+
+}  // namespace
+
+ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model)
+    : mesh_{mesh},
+      model_{model},
+      colours_{colour_edges(comm, mesh)},
+      diagonal_(mesh.nodes()),
+      inverses_(static_cast<std::size_t>(mesh.owned_nodes())),
+      skewness_(mesh.edges().size(), 0.0),
+      wave_sums_(mesh.nodes()) {
+  lay_out();
+  for (const SkewEdge& skew : mesh.skew_edges()) {
+    const DualEdge& edge = mesh.edges()[skew.edge];
+    const double crosswise =
+        std::sqrt(dot(skew.with_x, skew.with_x)) + std::sqrt(dot(skew.with_y, skew.with_y));
+    skewness_[skew.edge] = crosswise / (2 * std::sqrt(dot(edge.half, edge.half)) * edge.size);
+  }
+}
+
+void ImplicitSystem::lay_out() {
+  const auto colour = [&](std::int32_t node) { return colours_.colour_of[static_cast<std::size_t>(node)]; };
+  row_nodes_.resize(static_cast<std::size_t>(mesh_.owned_nodes()));
+  std::iota(row_nodes_.begin(), row_nodes_.end(), 0);
+  std::stable_sort(row_nodes_.begin(), row_nodes_.end(),
+                   [&](std::int32_t a, std::int32_t b) { return colour(a) < colour(b); });
+  for (int c = 0; c <= colours_.count; ++c) {
+    const auto first = std::partition_point(row_nodes_.begin(), row_nodes_.end(),
+                                            [&](std::int32_t node) { return colour(node) < c; });
+    colour_starts_.push_back(static_cast<std::size_t>(first - row_nodes_.begin()));
+  }
+  std::vector<std::size_t> next(
+      row_nodes_.size(),
+      0);  // of each owned node: first its number of neighbours, then the next slot in its row
+  for (const DualEdge& edge : mesh_.edges()) {
+    for (const std::int32_t node : {edge.low, edge.high}) {
+      if (mesh_.is_owned(node)) ++next[static_cast<std::size_t>(node)];
+    }
+  }
+  row_starts_.push_back(0);
+  for (const std::int32_t node : row_nodes_)
+    row_starts_.push_back(row_starts_.back() +
+                          std::exchange(next[static_cast<std::size_t>(node)], row_starts_.back()));
+  columns_.resize(row_starts_.back());
+  blocks_.resize(row_starts_.back());
+  const auto take = [&](std::int32_t node, std::int32_t column) {
+    if (!mesh_.is_owned(node)) return -1;
+    const std::size_t slot = next[static_cast<std::size_t>(node)]++;
+    columns_[slot] = column;
+    return static_cast<std::int32_t>(slot);
+  };
+  for (const DualEdge& edge : mesh_.edges())
+    slots_.push_back({take(edge.low, edge.high), take(edge.high, edge.low)});
+}
+
+void ImplicitSystem::assemble(const std::vector<State>& states, double cfl,
+                              const std::vector<double>& shares) {
+  for (Matrix4& block : diagonal_) block = {};
+  std::fill(wave_sums_.begin(), wave_sums_.end(), 0.0);
+  add_edges(states);
+  add_faces(states);
+  invert_diagonal(cfl, shares);
+}
+
+/// The flux from low to high changes by (A_low + |A|) / 2 with the low state and by (A_high - |A|) / 2 with
+/// the high one.
+void ImplicitSystem::add_edges(const std::vector<State>& states) {
+  const auto edges = mesh_.edges();
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const DualEdge& edge = edges[e];
+    const auto low = static_cast<std::size_t>(edge.low), high = static_cast<std::size_t>(edge.high);
+    Matrix4 upwind{};
+    const double half = 0.5 * edge.size, speed = add_upwind_matrix(model_.gas, states[low], states[high],
+                                                                   edge.normal, half, upwind, skewness_[e]);
+    Matrix4 by_low = upwind, by_high{};
+    add(upwind, -1, by_high);
+    add_flux_matrix(model_.gas, states[low], edge.normal, half, by_low);
+    add_flux_matrix(model_.gas, states[high], edge.normal, half, by_high);
+    add(by_low, 1, diagonal_[low]);
+    add(by_high, -1, diagonal_[high]);
+    if (slots_[e].in_low >= 0) store(by_high, 1, blocks_[static_cast<std::size_t>(slots_[e].in_low)]);
+    if (slots_[e].in_high >= 0) store(by_low, -1, blocks_[static_cast<std::size_t>(slots_[e].in_high)]);
+    wave_sums_[low] += half * speed;
+    wave_sums_[high] += half * speed;
+  }
+}
+
+/// Only the part that a node's own state has in its half of a face.
+void ImplicitSystem::add_faces(const std::vector<State>& states) {
+  for (const BoundaryFace& face : mesh_.faces()) {
+    const Condition condition = model_.boundaries[static_cast<std::size_t>(face.boundary)].condition;
+    for (const std::int32_t node : {face.from, face.to}) {
+      const auto at = static_cast<std::size_t>(node);
+      const State& state = states[at];
+      if (condition == Condition::wall) {
+        add_wall_matrix(model_.gas, state, face.normal, face.half_size, diagonal_[at]);
+      } else {
+        const State& outside = condition == Condition::outflow ? state : model_.free_stream;
+        add_flux_matrix(model_.gas, state, face.normal, 0.5 * face.half_size, diagonal_[at]);
+        add_upwind_matrix(model_.gas, state, outside, face.normal, 0.5 * face.half_size, diagonal_[at]);
+      }
+      const double along = std::abs(state[1] * face.normal.x + state[2] * face.normal.y);
+      wave_sums_[at] += 0.5 * face.half_size * (along + model_.gas.sound_speed(state));
+    }
+  }
+}
+
+void ImplicitSystem::invert_diagonal(double cfl, const std::vector<double>& shares) {
+  for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
+    using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+    Eigen::Map<Matrix> block(diagonal_[node].data());
+    block.diagonal().array() += wave_sums_[node] / (cfl * shares[node]);  // the area over the time step
+    Matrix4 inverse;
+    Eigen::Map<Matrix>(inverse.data()) = block.inverse();
+    store(inverse, 1, inverses_[node]);
+  }
+}
+
+void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change) const {
+  for (Change& c : change) c = {};
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (int step = sweep == 0 ? 0 : 1; step < colours_.count;
+         ++step) {  // the sweep before ended with the colour that this one would begin with
+      const int colour = sweep % 2 == 0 ? step : colours_.count - 1 - step;
+      relax_rows(colour_starts_[static_cast<std::size_t>(colour)],
+                 colour_starts_[static_cast<std::size_t>(colour) + 1], residual, change);
+      mesh_.exchange().update(change, [&](std::int32_t node) {
+        return colours_.colour_of[static_cast<std::size_t>(node)] == colour;
+      });
+    }
+  }
+}
+
+void ImplicitSystem::relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual,
+                                std::vector<Change>& change) const {
+  for (std::size_t row = begin; row < end; ++row) {
+    const auto node = static_cast<std::size_t>(row_nodes_[row]);
+    Eigen::Vector4f right;
+    for (int k = 0; k < 4; ++k) right[k] = static_cast<float>(-residual[node][static_cast<std::size_t>(k)]);
+    for (std::size_t slot = row_starts_[row]; slot < row_starts_[row + 1]; ++slot) {
+      right.noalias() -= MatrixMap(blocks_[slot].data()) *
+                         VectorMap(change[static_cast<std::size_t>(columns_[slot])].data());
+    }
+    Eigen::Map<Eigen::Vector4f>(change[node].data()).noalias() = MatrixMap(inverses_[node].data()) * right;
+  }
+}
+
+}  // namespace quadloop::euler

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "flow/euler/colouring.hpp"
+#include "flow/euler/scheme/dual_mesh.hpp"
+#include "flow/euler/scheme/flow_model.hpp"
+#include "flow/euler/scheme/flux_jacobian.hpp"
+
+namespace quadloop::euler {
+
+using Change = std::array<float, 4>;  ///< of what is conserved
+
+/// The linear system of an implicit step: (area / time step + first-order upwind flux matrix) change =
+/// -residual, one row of 4 x 4 blocks for each owned node. It is relaxed by coloured Gauss-Seidel sweeps,
+/// whose bits do not depend on the number of ranks, in single precision: it only steers the way to the
+/// solution.
+class ImplicitSystem {
+ public:
+  /// Both must outlive it. *Collective.*
+  ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model);
+
+  /// At these states, whose copies are up to date, with each node's own time step: of this CFL number times
+  /// the owned node's share.
+  void assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares);
+
+  /// That many sweeps, every second one through the colours backwards, from zero. `change` has an entry for
+  /// each node. *Collective.*
+  void relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change) const;
+
+ private:
+  using Block = std::array<float, 16>;  ///< column by column
+  struct Slots {
+    std::int32_t in_low = -1,
+                 in_high =
+                     -1;  ///< the edge's blocks in the rows of its nodes; -1 where another rank has the row
+  };
+  void lay_out();
+  void add_edges(const std::vector<State>& states);
+  void add_faces(const std::vector<State>& states);
+  void invert_diagonal(double cfl, const std::vector<double>& shares);
+  void relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual,
+                  std::vector<Change>& change) const;
+
+  const DualMesh& mesh_;
+  const FlowModel& model_;
+  Colouring colours_;
+  std::vector<std::int32_t> row_nodes_;     ///< the owned nodes, colour by colour
+  std::vector<std::size_t> colour_starts_;  ///< into them
+  std::vector<std::size_t> row_starts_;     ///< into the two lists that follow
+  std::vector<std::int32_t> columns_;
+  std::vector<Block> blocks_;
+  std::vector<Slots> slots_;       ///< of each edge
+  std::vector<Matrix4> diagonal_;  ///< of each node
+  std::vector<Block> inverses_;    ///< of each owned node's diagonal block
+  std::vector<double> skewness_;  ///< of each edge: how large what SkewEdge adds to its flux may be, in units
+                                  ///< of the flux along the edge
+  std::vector<double>
+      wave_sums_;  ///< of each node: half the sum of largest wave speed times size over its faces
+};
+
+}  // namespace quadloop::euler

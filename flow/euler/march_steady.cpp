@@ -1,0 +1,180 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/euler/flow_run.hpp"
+#include "flow/euler/implicit_system.hpp"
+#include "flow/euler/residual_watch.hpp"
+#include "flow/euler/step_shares.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
+#include "mesher/base/reproducible_sum.hpp"
+
+namespace quadloop::euler {
+
+namespace {
+
+constexpr int sweeps =
+    40;  ///< of a step's linear system: fewer leave waves in a far field of many cells long under way
+constexpr double largest_cfl = 1000;    ///< first-order matrices do not bear out more
+constexpr double growth = 0.75;         ///< the CFL number grows as the residual falls, to this power
+constexpr double largest_share = 0.25;  ///< of its density or pressure that a node may gain or lose in a step
+constexpr double blown_up = 1000;       ///< a relative residual that no sound start reaches
+constexpr double exploding = 20;        ///< one that hardly any sound start reaches
+constexpr int most_retries = 8;         ///< after a flow blew up
+constexpr int most_returns =
+    8;  ///< after the residual rose: a flow that has no steady state may swing as it likes then
+
+/// The change, made smaller where it would take too much of a node's density or pressure.
+State updated(const Gas& gas, const State& state, const Change& change) {
+  const auto& [rho, u, v, p] = state;
+  const std::array<double, 4> d{change[0], change[1], change[2], change[3]};
+  const double d_pressure = (gas.gamma - 1) * (0.5 * (u * u + v * v) * d[0] - u * d[1] - v * d[2] + d[3]);
+  const double relative = std::max(std::abs(d[0]) / rho, std::abs(d_pressure) / p);
+  double share = relative > largest_share ? largest_share / relative : 1;
+  const Conserved w = gas.conserved(state);
+  for (int attempt = 0; attempt < 10; ++attempt) {
+    const State next = gas.state({w.mass + share * d[0], w.x_momentum + share * d[1],
+                                  w.y_momentum + share * d[2], w.energy + share * d[3]});
+    if (next[0] > 0.5 * rho && next[3] > 0.5 * p) return next;
+    share *= 0.5;
+  }
+  return state;
+}
+
+class SteadyMarch {
+ public:
+  explicit SteadyMarch(const FlowRun& run)
+      : run_{run},
+        system_(run.comm, run.mesh, run.model),
+        change_(run.mesh.nodes()),
+        shares_(static_cast<std::size_t>(run.mesh.owned_nodes())),
+        best_states_{run.states} {
+    std::vector<State> uniform(run.mesh.nodes(), run.model.free_stream);
+    reference_ = mass_residual(run, run.residual.evaluate(uniform));
+    zero_ = rounding(run);
+  }
+
+  EulerResult march() {
+    while (true) {
+      const std::vector<Flux>& fluxes = run_.residual.evaluate(run_.states);
+      measure(fluxes);
+      if (!std::isfinite(result_.residual) || result_.residual > blown_up) {
+        give_up_or_retry(fluxes);
+        continue;
+      }
+      const bool ends = result_.converged || result_.iterations >= run_.options.iterations;
+      if (!ends && watch()) continue;
+      const double cfl =
+          limit_.share() *
+          std::min(largest_cfl, run_.options.cfl * std::max(1.0, std::pow(result_.residual, -growth)));
+      if (ends) return finish(cfl);
+      report(run_, result_, cfl, false);
+      step(fluxes, cfl);
+    }
+  }
+
+ private:
+  /// What the residual of an undisturbed flow may be: fluxes are of the size of the dual cells' sides.
+  static double rounding(const FlowRun& run) {
+    const std::vector<double> areas(run.mesh.areas().begin(), run.mesh.areas().end());
+    const auto count = static_cast<double>(run.comm.sum(run.mesh.owned_nodes()));
+    return 1e-14 * std::sqrt(reproducible_sum(run.comm, areas) / count);
+  }
+
+  void measure(const std::vector<Flux>& fluxes) {
+    const double norm = mass_residual(run_, fluxes);
+    if (result_.iterations == 0 && norm > reference_) reference_ = norm;
+    const bool is_zero = norm <= zero_;
+    result_.residual = is_zero ? 0 : norm / reference_;
+    result_.converged = is_zero || result_.residual <= run_.options.tolerance;
+  }
+
+  void give_up_or_retry(const std::vector<Flux>& fluxes) {
+    if (++retries_ > most_retries || result_.iterations == 0) {
+      throw SolverError(
+          fmt::format("the flow solver failed after {} steps {}; look at the boundary conditions and the "
+                      "cells there, or try a smaller cfl",
+                      result_.iterations, worst_place(run_, fluxes)));
+    }
+    limit_.lower(0.3);
+    go_back();
+  }
+
+  /// To the best flow so far, to leave it in smaller steps.
+  void go_back() {
+    run_.states = best_states_;
+    if (!best_.limiter_frozen) run_.residual.release_limiter();
+    shares_.forget();
+  }
+
+  /// Keeps the best flow. Tells whether the flow was set back to it, as it is on the way to a worse one.
+  bool watch() {
+    limit_.recover();
+    const bool frozen = run_.residual.limiter_is_frozen();
+    if (best_.improves(result_.iterations, result_.residual, frozen)) best_states_ = run_.states;
+    const bool explodes = result_.residual > exploding;
+    if ((explodes || rise_.rises(result_.residual, best_.residual)) && ++returns_ <= most_returns) {
+      tell(fmt::format(
+          "the residual rose from {:.2e} at step {} to {:.2e}: back to that flow, with a smaller cfl",
+          best_.residual, best_.iteration, result_.residual));
+      limit_.lower(explodes ? 0.3 : 0.5);
+      go_back();
+      return true;
+    }
+    if (stall_.stalls(result_.residual) && run_.residual.limiter_is_live()) {
+      run_.residual.freeze_limiter();
+      shares_.restart();
+      tell("the limiter's factors are kept from here on");
+    }
+    return false;
+  }
+
+  void tell(const std::string& what) const {
+    if (run_.comm.is_root()) log::detail(fmt::format("step {}: {}", result_.iterations, what));
+  }
+
+  /// The last flow, or the best where it was clearly better.
+  EulerResult finish(double cfl) {
+    result_.kept_iteration = result_.iterations;
+    result_.last_residual = result_.residual;
+    result_.stalled = stall_.is_slow();
+    if (!result_.converged && best_.keeps(result_.residual)) {
+      run_.states = best_states_;
+      result_.residual = best_.residual;
+      result_.kept_iteration = best_.iteration;
+    }
+    report(run_, result_, cfl, true);
+    return result_;
+  }
+
+  void step(const std::vector<Flux>& fluxes, double cfl) {
+    system_.assemble(run_.states, cfl, shares_.shares());
+    system_.relax(fluxes, sweeps, change_);
+    shares_.follow(change_);
+    const auto owned = static_cast<std::size_t>(run_.mesh.owned_nodes());
+    for (std::size_t node = 0; node < owned; ++node)
+      run_.states[node] = updated(run_.model.gas, run_.states[node], change_[node]);
+    ++result_.iterations;
+  }
+
+  FlowRun run_;
+  ImplicitSystem system_;
+  std::vector<Change> change_;
+  StepShares shares_;
+  EulerResult result_;
+  StallWatch stall_;
+  RiseWatch rise_;
+  CflLimit limit_;
+  BestFlow best_;
+  std::vector<State> best_states_;
+  double reference_ = 0, zero_ = 0;  ///< mass residuals: that which the tolerance is relative to; rounding
+  int retries_ = 0, returns_ = 0;
+};
+
+}  // namespace
+
+EulerResult march_to_steady(const FlowRun& run) { return SteadyMarch(run).march(); }
+
+}  // namespace quadloop::euler

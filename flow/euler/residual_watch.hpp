@@ -1,0 +1,85 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace quadloop::euler {
+
+/// A relative residual below which a flow has its shape: what comes later is no transient of the start.
+constexpr double developed = 0.05;
+
+/// Tells when the residual falls slowly, as it does where the limiter's factors swing to and fro, or would if
+/// steps there were not small.
+class StallWatch {
+ public:
+  bool stalls(double residual) {
+    best_.push_back(best_.empty() ? residual : std::min(best_.back(), residual));
+    return (residual < developed && falls_less(30, 0.5)) || (residual < settled && falls_less(15, 0.3));
+  }
+
+  /// In the second half of all steps the residual did not halve: more of them are no cure.
+  bool is_slow() const { return best_.size() > 60 && best_.back() > 0.5 * best_[best_.size() / 2]; }
+
+ private:
+  /// Below it the flow is near the end, so that factors that are kept are nearly those of the end.
+  static constexpr double settled = 3e-3;
+
+  /// Looked at once in so many steps: the best did not fall to that share of what it was.
+  bool falls_less(std::size_t window, double share) const {
+    if (best_.size() % window != 0 || best_.size() <= window) return false;
+    return best_.back() > share * best_[best_.size() - 1 - window];
+  }
+
+  std::vector<double> best_;  ///< up to each step
+};
+
+/// Tells when the residual of a developed flow has long been well above the best.
+class RiseWatch {
+ public:
+  bool rises(double residual, double best) {
+    steps_ = best < developed && residual > factor * best ? steps_ + 1 : 0;
+    if (steps_ < patience) return false;
+    steps_ = 0;
+    return true;
+  }
+
+ private:
+  static constexpr double factor = 10;
+  static constexpr int patience = 20;
+  int steps_ = 0;
+};
+
+/// The share of the CFL number that a flow has borne out so far: small after it went wrong, then growing to a
+/// limit that is lower than before.
+class CflLimit {
+ public:
+  double share() const { return share_; }
+  void lower(double factor) {
+    limit_ *= factor;
+    share_ = 0.2 * limit_;
+  }
+  void recover() { share_ = std::min(limit_, 1.05 * share_); }
+
+ private:
+  double limit_ = 1, share_ = 1;
+};
+
+/// The step with the lowest residual.
+struct BestFlow {
+  int iteration = 0;
+  double residual = std::numeric_limits<double>::infinity();
+  bool limiter_frozen = false;
+
+  bool improves(int now, double its_residual, bool frozen) {
+    if (its_residual >= residual) return false;
+    *this = {now, its_residual, frozen};
+    return true;
+  }
+
+  /// Whether it is to be kept rather than a flow with this residual. A start that is no developed flow is
+  /// not.
+  bool keeps(double last) const { return last > 2 * residual && (iteration > 0 || residual < developed); }
+};
+
+}  // namespace quadloop::euler

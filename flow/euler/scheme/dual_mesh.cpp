@@ -1,0 +1,155 @@
+#include "flow/euler/scheme/dual_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop::euler {
+
+namespace {
+
+/// One cell's part of an edge's dual face.
+struct Facet {
+  std::int64_t global_low, global_high;
+  std::int32_t low, high;
+  Point normal;          ///< as long as the facet
+  Point with_x, with_y;  ///< as of a SkewEdge
+};
+
+template <class Nodes>
+Point centre_of(const HaloMesh& mesh, const Nodes& nodes) {
+  Point sum = mesh.point(nodes[0]);
+  for (std::size_t k = 1; k < nodes.size(); ++k) sum = sum + mesh.point(nodes[k]);
+  return (1.0 / static_cast<double>(nodes.size())) * sum;
+}
+
+Point middle(Point a, Point b) { return 0.5 * (a + b); }
+
+/// Turned by a right angle, clockwise.
+Point turned(Point v) { return {v.y, -v.x}; }
+
+/// The part of the edge from node a to node b of a counter-clockwise cell.
+Facet facet_of(const HaloMesh& mesh, NodeId a, NodeId b, Point centre, bool is_quad) {
+  const std::int64_t global_a = mesh.global(a.value()), global_b = mesh.global(b.value());
+  const double side = global_a < global_b ? 1 : -1;
+  const Point along = mesh.point(b) - mesh.point(a), across = centre - middle(mesh.point(a), mesh.point(b)),
+              normal = side * turned(across);
+  Facet facet{global_a, global_b, a.value(), b.value(), normal, {}, {}};
+  if (is_quad) {  // half from the facet's own middle; the rest is what each triangle leaves over at an edge
+                  // for the next one
+    facet.with_x = 0.5 * across.x * normal + side * along.x / 24 * turned(along);
+    facet.with_y = 0.5 * across.y * normal + side * along.y / 24 * turned(along);
+  }
+  if (side < 0) {
+    std::swap(facet.global_low, facet.global_high);
+    std::swap(facet.low, facet.high);
+  }
+  return facet;
+}
+
+/// Less than this share of an edge's length squared is rounding.
+constexpr double least_skew = 1e-10;
+
+/// Twice the area of a quadrilateral.
+double twice_area(const std::array<Point, 4>& p) { return cross(p[2] - p[0], p[3] - p[1]); }
+
+[[noreturn]] void refuse_edge(const char* what, Point a, Point b, const char* fault) {
+  const Point at = middle(a, b);
+  throw InputError(fmt::format("the mesh's {} at ({:.6g}, {:.6g}) {}", what, at.x, at.y, fault));
+}
+
+}  // namespace
+
+DualMesh::DualMesh(const Communicator& comm, const Mesh& mesh) : halo_(comm, mesh) {
+  add_areas();
+  collect_edges();
+  comm.together([&] { collect_faces(); });
+  open_ = {};
+}
+
+void DualMesh::add_areas() {
+  areas_.assign(static_cast<std::size_t>(owned_nodes()), 0);
+  halo_.for_each_cell([&](const auto& nodes) {
+    const Point centre = centre_of(halo_, nodes);
+    const std::size_t n = nodes.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const NodeId node = nodes[k];
+      if (!is_owned(node.value())) continue;
+      const Point p = halo_.point(node), before = halo_.point(nodes[(k + n - 1) % n]),
+                  after = halo_.point(nodes[(k + 1) % n]);
+      areas_[static_cast<std::size_t>(node.value())] +=
+          0.5 * twice_area({p, middle(p, after), centre, middle(before, p)});
+    }
+  });
+}
+
+void DualMesh::collect_edges() {
+  std::vector<Facet> facets;
+  halo_.for_each_cell([&](const auto& nodes) {
+    const Point centre = centre_of(halo_, nodes);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const NodeId a = nodes[k], b = nodes[(k + 1) % nodes.size()];
+      if (is_owned(a.value()) || is_owned(b.value()))
+        facets.push_back(facet_of(halo_, a, b, centre, nodes.size() == 4));
+    }
+  });
+  std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) {
+    return a.global_low != b.global_low ? a.global_low < b.global_low : a.global_high < b.global_high;
+  });
+  for (std::size_t i = 0; i < facets.size();) {
+    Facet sum = facets[i];
+    std::size_t end = i + 1;
+    for (; end < facets.size() && facets[end].low == sum.low && facets[end].high == sum.high; ++end) {
+      sum.normal = sum.normal + facets[end].normal;
+      sum.with_x = sum.with_x + facets[end].with_x;
+      sum.with_y = sum.with_y + facets[end].with_y;
+    }
+    const double size = length(sum.normal);
+    const Point half = 0.5 * (point(sum.high) - point(sum.low));
+    const double skew = std::max(length(sum.with_x), length(sum.with_y));
+    if (skew > least_skew * dot(half, half)) skew_edges_.push_back({edges_.size(), sum.with_x, sum.with_y});
+    edges_.push_back({sum.low, sum.high, size > 0 ? (1 / size) * sum.normal : Point{}, size, half});
+    open_.push_back(end == i + 1 ? 1 : 0);
+    i = end;
+  }
+}
+
+void DualMesh::collect_faces() {
+  std::vector<HaloEdge> outline = halo_.boundary_edges();
+  std::erase_if(outline,
+                [&](const HaloEdge& e) { return !is_owned(e.from.value()) && !is_owned(e.to.value()); });
+  const auto key = [&](std::int32_t a, std::int32_t b) { return std::minmax({global(a), global(b)}); };
+  std::sort(outline.begin(), outline.end(), [&](const HaloEdge& a, const HaloEdge& b) {
+    return key(a.from.value(), a.to.value()) < key(b.from.value(), b.to.value());
+  });
+  for (const HaloEdge& e : outline) {
+    const auto wanted = key(e.from.value(), e.to.value());
+    const auto found =
+        std::lower_bound(edges_.begin(), edges_.end(), wanted,
+                         [&](const DualEdge& edge, const auto& at) { return key(edge.low, edge.high) < at; });
+    const Point from = point(e.from.value()), to = point(e.to.value());
+    if (found == edges_.end() || key(found->low, found->high) != wanted)
+      refuse_edge("boundary edge", from, to, "belongs to no cell; mesh it anew");
+    char& open = open_[static_cast<std::size_t>(found - edges_.begin())];
+    if (open == 0) {
+      refuse_edge("boundary edge", from, to,
+                  "has cells on both sides or is there twice, and the flow solver takes one domain alone; "
+                  "mesh without it");
+    }
+    const Point outward = turned(to - from);
+    const double size = length(outward);
+    faces_.push_back({e.from.value(), e.to.value(), e.boundary, (1 / size) * outward, 0.5 * size});
+    open = 0;
+  }
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    if (open_[i] != 0) {
+      refuse_edge("edge", point(edges_[i].low), point(edges_[i].high),
+                  "has a cell on one side alone but is on no boundary; give the mesh a boundary there");
+    }
+  }
+}
+
+}  // namespace quadloop::euler

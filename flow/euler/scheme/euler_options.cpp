@@ -1,0 +1,37 @@
+#include "flow/euler/scheme/euler_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+void require_option(bool good, const char* name, double value, const char* wanted) {
+  if (!good || !std::isfinite(value))
+    throw InputError(fmt::format("the flow solver's {} is {}, but must be {}", name, value, wanted));
+}
+
+}  // namespace
+
+void validate(const EulerOptions& options) {
+  require_option(options.mach >= 0, "mach", options.mach, "0 or more");
+  require_option(true, "alpha", options.alpha, "a number of degrees");
+  require_option(options.gamma > 1, "gamma", options.gamma, "above 1");
+  require_option(options.end_time >= 0, "end_time", options.end_time, "0 or more");
+  require_option(options.cfl > 0, "cfl", options.cfl, "above 0");
+  require_option(options.iterations >= 0, "iterations", options.iterations, "0 or more");
+  require_option(options.tolerance >= 0, "tolerance", options.tolerance, "0 or more");
+  require_option(options.reference_length > 0, "reference_length", options.reference_length, "above 0");
+  require_option(options.progress_every > 0, "progress_every", options.progress_every, "above 0");
+  for (const BoundaryChoice& choice : options.boundaries) {
+    if (choice.pressure)
+      require_option(*choice.pressure > 0, ("pressure at '" + choice.name + "'").c_str(), *choice.pressure,
+                     "above 0");
+  }
+}
+
+}  // namespace quadloop

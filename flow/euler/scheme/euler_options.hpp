@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/geometry/point.hpp"
+
+namespace quadloop {
+
+/// What the user asks of one boundary of the mesh.
+struct BoundaryChoice {
+  std::string name;
+  std::string condition;           ///< wall | farfield | inflow | outflow | symmetry; empty: the mesh's own
+  std::optional<double> pressure;  ///< behind an outflow, in units of the free stream's; none: the flow
+                                   ///< leaves faster than sound
+};
+
+/// How far a run has come.
+struct EulerProgress {
+  int iteration = 0;    ///< steps done
+  double residual = 0;  ///< as in EulerResult
+  double cl = 0, cd = 0;
+  double time = 0;  ///< of an accurate run
+  double cfl = 0;   ///< of the last step
+};
+
+/// The flow, and how it is found. Free stream: density 1, speed of sound 1, so that its pressure is 1 / gamma
+/// and its speed the Mach number; time in units of the geometry's length over the speed of sound.
+struct EulerOptions {
+  enum class Time { steady, accurate };
+  enum class Limiter { venkatakrishnan, none };
+  enum class Initial { freestream, vortex };
+
+  double mach = 0.8;
+  double alpha = 0;  ///< degrees
+  double gamma = 1.4;
+  Time time = Time::steady;
+  double end_time = 1;  ///< of an accurate run
+  double cfl =
+      20;  ///< steady: of the first steps, it grows as the residual falls; accurate: no more than 0.8 is used
+  int iterations = 2000;    ///< at most; an accurate run that needs more ends early
+  double tolerance = 1e-8;  ///< steady: on the density residual, relative to the first
+  Limiter limiter = Limiter::venkatakrishnan;
+  Initial initial = Initial::freestream;
+  std::optional<Point> vortex_centre;  ///< none: the middle of the mesh's box
+  double reference_length =
+      1;  ///< of the forces, in the geometry's units; also of the vortex and of the limiter's sense of small
+  std::vector<BoundaryChoice> boundaries;
+  std::function<void(const EulerProgress&)>
+      progress;  ///< called on every rank after every `progress_every` steps and at the end
+  int progress_every = 50;
+};
+
+/// The variables of a state, as files name them.
+inline constexpr std::array<const char*, 4> euler_names{"density", "x_velocity", "y_velocity", "pressure"};
+
+/// Throws InputError that names the value and what it may be.
+void validate(const EulerOptions& options);
+
+}  // namespace quadloop

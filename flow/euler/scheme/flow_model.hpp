@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "flow/euler/scheme/euler_options.hpp"
+#include "flow/euler/scheme/gas.hpp"
+#include "mesher/base/communicator.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop::euler {
+
+/// What happens at a boundary. A plane of symmetry is a wall here: nothing flows through it. `none` stands
+/// for a boundary without edges.
+enum class Condition { none, wall, farfield, inflow, outflow };
+
+struct BoundaryModel {
+  Condition condition = Condition::none;
+  std::optional<double> pressure;  ///< behind an outflow; else it is supersonic
+  bool feels_force = false;        ///< a wall of a body, no plane of symmetry
+};
+
+/// The gas, the free stream and what happens at each boundary of a mesh, in the mesh's order.
+struct FlowModel {
+  Gas gas;
+  State free_stream{};
+  std::vector<BoundaryModel> boundaries;
+};
+
+/// Throws InputError for a boundary with edges whose condition the solver cannot use. *Collective.*
+FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOptions& options);
+
+/// What leaves the domain through a boundary of length 1 with this outward unit normal, the flow inside being
+/// `state`.
+///
+///   wall      the pressure alone
+///   farfield  the upwind flux against the free stream, which lets waves out; there is no correction for the
+///   circulation, so lift errs by the order of
+///             chord over far-field distance
+///   inflow    the free stream where it comes in faster than sound, else as farfield
+///   outflow   the flow itself where it is faster than sound or no pressure is given, else with the given
+///   pressure and the density and speed that
+///             the outgoing waves then carry
+Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state, Point normal);
+
+}  // namespace quadloop::euler

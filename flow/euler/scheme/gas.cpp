@@ -1,0 +1,12 @@
+#include "flow/euler/scheme/gas.hpp"
+
+#include <numbers>
+
+namespace quadloop::euler {
+
+State Gas::free_stream(double mach, double degrees) const {
+  const double angle = degrees * std::numbers::pi / 180;
+  return {1, mach * std::cos(angle), mach * std::sin(angle), 1 / gamma};
+}
+
+}  // namespace quadloop::euler

@@ -1,0 +1,58 @@
+#include "flow/euler/scheme/reconstruction.hpp"
+
+namespace quadloop::euler {
+
+namespace {
+
+/// One over the square of half an edge's length: the factor 4 cancels.
+double weight(const DualEdge& edge) { return 1 / dot(edge.half, edge.half); }
+
+}  // namespace
+
+LeastSquares::LeastSquares(const DualMesh& mesh) : mesh_{mesh}, inverse_(mesh.nodes()) {
+  for (const DualEdge& edge : mesh.edges()) {
+    const Point d = edge.half;
+    const double w = weight(edge);
+    for (const std::int32_t node : {edge.low, edge.high}) {
+      Symmetric& m = inverse_[static_cast<std::size_t>(node)];
+      m.xx += w * d.x * d.x;
+      m.xy += w * d.x * d.y;
+      m.yy += w * d.y * d.y;
+    }
+  }
+  inverse_.resize(static_cast<std::size_t>(mesh.owned_nodes()));
+  for (Symmetric& m : inverse_) {
+    const double determinant = m.xx * m.yy - m.xy * m.xy;
+    m = {m.yy / determinant, -m.xy / determinant, m.xx / determinant};
+  }
+}
+
+void LeastSquares::compute(const std::vector<State>& states, std::vector<Gradient>& gradients) const {
+  for (Gradient& gradient : gradients) gradient = {};
+  for (const DualEdge& edge : mesh_.edges()) {
+    const double w = 0.5 * weight(edge);
+    const State &low = states[static_cast<std::size_t>(edge.low)],
+                &high = states[static_cast<std::size_t>(edge.high)];
+    Gradient &at_low = gradients[static_cast<std::size_t>(edge.low)],
+             &at_high = gradients[static_cast<std::size_t>(edge.high)];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double change = w * (high[k] - low[k]), along_x = change * edge.half.x,
+                   along_y = change * edge.half.y;
+      at_low.x[k] += along_x;
+      at_low.y[k] += along_y;
+      at_high.x[k] += along_x;
+      at_high.y[k] += along_y;
+    }
+  }
+  for (std::size_t node = 0; node < inverse_.size(); ++node) {
+    const Symmetric& m = inverse_[node];
+    Gradient& gradient = gradients[node];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double x = gradient.x[k], y = gradient.y[k];
+      gradient.x[k] = m.xx * x + m.xy * y;
+      gradient.y[k] = m.xy * x + m.yy * y;
+    }
+  }
+}
+
+}  // namespace quadloop::euler

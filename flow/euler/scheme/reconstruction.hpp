@@ -1,0 +1,66 @@
+#pragma once
+
+#include <vector>
+
+#include "flow/euler/scheme/dual_mesh.hpp"
+#include "flow/euler/scheme/gas.hpp"
+
+namespace quadloop::euler {
+
+/// The change of each variable along x and along y.
+struct Gradient {
+  std::array<double, 4> x{}, y{};
+};
+
+/// Gradients at nodes by least squares over their edges, weighted by the inverse of the edge's length: exact
+/// for linear fields on any mesh.
+class LeastSquares {
+ public:
+  explicit LeastSquares(const DualMesh& mesh);
+
+  /// Of the owned nodes; `gradients` has an entry for each node. The states' copies must be up to date.
+  void compute(const std::vector<State>& states, std::vector<Gradient>& gradients) const;
+
+ private:
+  struct Symmetric {
+    double xx = 0, xy = 0, yy = 0;
+  };
+
+  const DualMesh& mesh_;
+  std::vector<Symmetric> inverse_;  ///< of each owned node's normal matrix
+};
+
+/// Venkatakrishnan's limiter (1995): each variable's gradient at a node is scaled so that the values at the
+/// middles of its edges stay within those of the node and its neighbours, smoothly, and not at all where the
+/// flow varies by less than (K h)^1.5. There h is the side of the square of the dual cell's area in units of
+/// the reference length, and K = 5. So smooth flow is not limited once the mesh resolves it.
+class Limiter {
+ public:
+  Limiter(const DualMesh& mesh, double reference_length);
+
+  /// Scales the owned nodes' gradients. The states' copies must be up to date.
+  void apply(const std::vector<State>& states, std::vector<Gradient>& gradients);
+
+  /// From now on the factors stay as they were in the last call.
+  void freeze() { frozen_ = true; }
+  void release() { frozen_ = false; }
+  bool frozen() const { return frozen_; }
+
+ private:
+  /// Of each variable, over a node and its neighbours.
+  struct Bounds {
+    std::array<double, 4> low, high;
+  };
+  void find_bounds(const std::vector<State>& states);
+  void find_changes(const std::vector<Gradient>& gradients);
+  void find_factors(const std::vector<State>& states);
+
+  const DualMesh& mesh_;
+  std::vector<double> small_squared_;  ///< of each owned node: (K h)^3
+  std::vector<Bounds> values_;         ///< of the states
+  std::vector<Bounds> changes_;        ///< of what the gradients add at the middles of edges
+  std::vector<std::array<double, 4>> factors_;
+  bool frozen_ = false;
+};
+
+}  // namespace quadloop::euler

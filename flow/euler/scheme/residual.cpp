@@ -1,0 +1,103 @@
+#include "flow/euler/scheme/residual.hpp"
+
+#include "flow/euler/scheme/flux.hpp"
+
+namespace quadloop::euler {
+
+namespace {
+
+/// What an edge's reconstructed density and pressure must keep of the node's own.
+constexpr double least_share = 0.1;
+
+State extrapolated(const State& state, const Gradient& gradient, double x, double y) {
+  State result;
+  for (std::size_t k = 0; k < 4; ++k) result[k] = state[k] + (gradient.x[k] * x + gradient.y[k] * y);
+  return result;
+}
+
+bool keeps_enough(const State& extrapolated, const State& state) {
+  return extrapolated[0] > least_share * state[0] && extrapolated[3] > least_share * state[3];
+}
+
+}  // namespace
+
+Residual::Residual(const DualMesh& mesh, const FlowModel& model, const EulerOptions& options)
+    : mesh_{mesh}, model_{model}, least_squares_(mesh), gradients_(mesh.nodes()), sums_(mesh.nodes()) {
+  if (options.limiter == EulerOptions::Limiter::venkatakrishnan)
+    limiter_.emplace(mesh, options.reference_length);
+}
+
+void Residual::freeze_limiter() {
+  if (limiter_) limiter_->freeze();
+}
+
+void Residual::release_limiter() {
+  if (limiter_) limiter_->release();
+}
+
+const std::vector<Flux>& Residual::evaluate(std::vector<State>& states) {
+  mesh_.exchange().update(states);
+  least_squares_.compute(states, gradients_);
+  if (limiter_) limiter_->apply(states, gradients_);
+  mesh_.exchange().update(gradients_);
+  for (Flux& sum : sums_) sum = {};
+  add_edges(states);
+  add_skew(states);
+  add_faces(states);
+  return sums_;
+}
+
+/// Where a reconstructed density or pressure would come near zero, the edge takes the nodes' own states:
+/// first order.
+void Residual::add_edges(const std::vector<State>& states) {
+  for (const DualEdge& edge : mesh_.edges()) {
+    const auto low = static_cast<std::size_t>(edge.low), high = static_cast<std::size_t>(edge.high);
+    State left = extrapolated(states[low], gradients_[low], edge.half.x, edge.half.y);
+    State right = extrapolated(states[high], gradients_[high], -edge.half.x, -edge.half.y);
+    if (!keeps_enough(left, states[low]) || !keeps_enough(right, states[high])) {
+      left = states[low];
+      right = states[high];
+    }
+    const Flux flux = roe_flux(model_.gas, left, right, edge.normal);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double through = edge.size * flux[k];
+      sums_[low][k] += through;
+      sums_[high][k] -= through;
+    }
+  }
+}
+
+void Residual::add_skew(const std::vector<State>& states) {
+  const auto edges = mesh_.edges();
+  for (const SkewEdge& skew : mesh_.skew_edges()) {
+    const auto low = static_cast<std::size_t>(edges[skew.edge].low),
+               high = static_cast<std::size_t>(edges[skew.edge].high);
+    State state, along_x, along_y;
+    for (std::size_t k = 0; k < 4; ++k) {
+      state[k] = 0.5 * (states[low][k] + states[high][k]);
+      along_x[k] = 0.5 * (gradients_[low].x[k] + gradients_[high].x[k]);
+      along_y[k] = 0.5 * (gradients_[low].y[k] + gradients_[high].y[k]);
+    }
+    const Flux from_x = flux_change(model_.gas, state, along_x, skew.with_x),
+               from_y = flux_change(model_.gas, state, along_y, skew.with_y);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double through = from_x[k] + from_y[k];
+      sums_[low][k] += through;
+      sums_[high][k] -= through;
+    }
+  }
+}
+
+void Residual::add_faces(const std::vector<State>& states) {
+  for (const BoundaryFace& face : mesh_.faces()) {
+    const BoundaryModel& boundary = model_.boundaries[static_cast<std::size_t>(face.boundary)];
+    for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
+      const State state =
+          state_at_half(states[static_cast<std::size_t>(own)], states[static_cast<std::size_t>(other)]);
+      const Flux flux = boundary_flux(model_, boundary, state, face.normal);
+      for (std::size_t k = 0; k < 4; ++k) sums_[static_cast<std::size_t>(own)][k] += face.half_size * flux[k];
+    }
+  }
+}
+
+}  // namespace quadloop::euler

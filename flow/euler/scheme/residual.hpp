@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "flow/euler/scheme/dual_mesh.hpp"
+#include "flow/euler/scheme/flow_model.hpp"
+#include "flow/euler/scheme/reconstruction.hpp"
+
+namespace quadloop::euler {
+
+/// The net flux out of each owned node's dual cell: second order, with states at the middles of edges from
+/// limited gradients and Roe's flux between them.
+class Residual {
+ public:
+  /// Both must outlive it.
+  Residual(const DualMesh& mesh, const FlowModel& model, const EulerOptions& options);
+
+  /// `states` has an entry for each node; those of copies are brought up to date first. The result has one
+  /// for each node too, of which those of owned nodes count. *Collective.*
+  const std::vector<Flux>& evaluate(std::vector<State>& states);
+
+  /// From now on the limiter's factors stay as they are.
+  void freeze_limiter();
+  void release_limiter();
+  bool limiter_is_live() const { return limiter_ && !limiter_->frozen(); }
+  bool limiter_is_frozen() const { return limiter_ && limiter_->frozen(); }
+
+ private:
+  void add_edges(const std::vector<State>& states);
+  void add_skew(const std::vector<State>& states);
+  void add_faces(const std::vector<State>& states);
+
+  const DualMesh& mesh_;
+  const FlowModel& model_;
+  LeastSquares least_squares_;
+  std::optional<Limiter> limiter_;
+  std::vector<Gradient> gradients_;
+  std::vector<Flux> sums_;
+};
+
+/// What acts on one node's half of a boundary face: nearer to the node's own state than the half's middle is,
+/// which makes up for what the edge along the boundary leaves over (see SkewEdge). The fluxes of a linear
+/// field then add up exactly there too.
+inline State state_at_half(const State& own, const State& other) {
+  State state;
+  for (std::size_t k = 0; k < 4; ++k) state[k] = own[k] + (other[k] - own[k]) / 6;
+  return state;
+}
+
+}  // namespace quadloop::euler

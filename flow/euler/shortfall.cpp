@@ -1,0 +1,29 @@
+#include "flow/euler/shortfall.hpp"
+
+#include <fmt/format.h>
+
+namespace quadloop {
+
+std::string shortfall(const EulerResult& result, const EulerOptions& options) {
+  if (options.time == EulerOptions::Time::accurate) {
+    return fmt::format("time {:.6g} of {:.6g} was reached in {} steps; raise solver.iterations", result.time,
+                       options.end_time, result.iterations);
+  }
+  if (result.kept_iteration < result.iterations) {
+    return fmt::format(
+        "the residual fell to {:.2e} at step {} and then rose to {:.2e}; the flow at step {} is kept. It may "
+        "have no steady state: close blunt "
+        "trailing "
+        "edges, try a smaller solver.cfl, or set solver.tolerance to what was reached",
+        result.residual, result.kept_iteration, result.last_residual, result.kept_iteration);
+  }
+  const std::string fell =
+      fmt::format("the residual fell to {:.2e} of the first in {} steps, not to the tolerance {:.2e}",
+                  result.residual, result.iterations, options.tolerance);
+  if (!result.stalled) return fell + "; raise solver.iterations";
+  return fell +
+         ", and hardly at all in the second half of them; more steps do not help: raise solver.tolerance or "
+         "try a smaller solver.cfl";
+}
+
+}  // namespace quadloop

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "flow/euler/scheme/euler_options.hpp"
+#include "mesher/base/communicator.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// What solve_euler found.
+struct EulerResult {
+  std::vector<double> states;  ///< density, x velocity, y velocity, pressure of each owned node
+  int iterations = 0;          ///< steps done
+  double residual = 0;    ///< root mean square of the nodes' net mass fluxes, relative to the larger of the
+                          ///< start's and the uniform free stream's
+  double cl = 0, cd = 0;  ///< over all boundaries with the condition "wall", in wind axes
+  int kept_iteration =
+      0;  ///< the step whose flow this is: the last, or that of the best residual where it rose again
+  double last_residual = 0;  ///< after the last step
+  bool stalled = false;      ///< the residual did not halve in the second half of the steps
+  bool converged = false;    ///< steady: the tolerance is met; accurate: the end time is reached
+  double time = 0;           ///< of an accurate run
+};
+
+/// Solves the two-dimensional Euler equations on a mesh of triangles and quadrilaterals. `initial_states` has
+/// a row of four for each owned node, or is empty: then the flow starts as the options say. The result has
+/// the same bits on any number of ranks. Throws InputError for a mesh or options that it cannot use,
+/// SolverError, with the place, where the flow cannot be kept physical. *Collective.*
+EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
+                        std::span<const double> initial_states = {});
+
+}  // namespace quadloop

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace quadloop {
+
+/// Name of the descriptor that keeps a boundary's own name where CGNS could not hold it.
+inline constexpr const char* full_name_descriptor = "FullName";
+
+/// For each name one that CGNS can hold: at most 32 characters, no '/', none twice and none that the zone or
+/// the base already uses. The same names always give the same answer.
+std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names);
+
+/// The SIDS names of variables of ours ("x_velocity": "VelocityX"), or the names themselves, cut to 32
+/// characters and told apart as boundaries are; and back.
+std::vector<std::string> cgns_variable_names(std::vector<std::string> names);
+std::string variable_name_of_cgns(const std::string& name);
+
+/// The number of the BCType_t for Boundary::condition, and back ("none" for what has no word of ours).
+int cgns_condition(const std::string& condition);
+std::string condition_of_cgns(int type);
+
+}  // namespace quadloop

@@ -1,0 +1,146 @@
+#include "io/cgns/cgns_nodes.hpp"
+
+#include <array>
+
+#include "io/files/output_path.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::size_t name_size = 33, type_size = 3;  // with the 0 at the end, as the standard has them
+constexpr hsize_t largest_small_data =
+    1024;  // numbers that HDF5 keeps beside the node instead of in a place of their own
+constexpr const char* data_name = " data";
+
+Hdf5Handle text_type(std::size_t size) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), size);
+  return type;
+}
+
+Hdf5Handle creation_of_datasets(H5D_layout_t layout) {
+  Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  H5Pset_layout(creation.id(), layout);
+  return creation;
+}
+
+}  // namespace
+
+CgnsNodes::CgnsNodes(const StagedFile& staged) : shown_{staged.path} {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
+  file_ = checked(H5Fopen(staged.temporary.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose);
+  name_type_ = text_type(name_size);
+  type_type_ = text_type(type_size);
+  const hsize_t one = 1;
+  scalar_ = checked(H5Screate(H5S_SCALAR), H5Sclose);
+  single_ = checked(H5Screate_simple(1, &one, nullptr), H5Sclose);
+  groups_ = checked(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(groups_.id(), false);
+  H5Pset_link_creation_order(groups_.id(),
+                             H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);  // the order of children
+  small_data_ = creation_of_datasets(H5D_COMPACT);
+  large_data_ = creation_of_datasets(H5D_CONTIGUOUS);
+}
+
+/// What failed stays as it is: HDF5 may crash on a file that it could not write.
+void CgnsNodes::check(bool good) const {
+  if (good) return;
+  file_.abandon();
+  if (quiet_.reason() != 0) refuse_output(shown_, quiet_.reason());
+  throw OutputError(shown_ + ": cannot be written; is the disk full?");
+}
+
+Hdf5Handle CgnsNodes::checked(hid_t id, Hdf5Handle::Release release) const {
+  check(id >= 0);
+  return {id, release};
+}
+
+CgnsNodes::Node CgnsNodes::at(const std::string& path) const {
+  return checked(H5Gopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Gclose);
+}
+
+CgnsNodes::Node CgnsNodes::add(const Node& parent, const std::string& name, const char* label) const {
+  return group(parent, name, label, "MT");
+}
+
+CgnsNodes::Node CgnsNodes::add_text(const Node& parent, const std::string& name, const char* label,
+                                    const std::string& text) const {
+  Node node = group(parent, name, label, "C1");
+  const hsize_t length = text.size();
+  put_data(node, H5T_STD_I8LE, H5T_NATIVE_CHAR, std::span(&length, 1), text.data());
+  return node;
+}
+
+CgnsNodes::Node CgnsNodes::add_integers(const Node& parent, const std::string& name, const char* label,
+                                        std::span<const std::int32_t> values, std::size_t columns) const {
+  Node node = group(parent, name, label, "I4");
+  const std::array<hsize_t, 2> size{columns == 0 ? values.size() : values.size() / columns, columns};
+  put_data(node, file_type<std::int32_t>(), memory_type<std::int32_t>(),
+           std::span(size).first(columns == 0 ? 1 : 2), values.data());
+  return node;
+}
+
+CgnsNodes::Array CgnsNodes::add_array(const Node& parent, const std::string& name, const char* label,
+                                      std::int64_t count) const {
+  const auto size = static_cast<hsize_t>(count);
+  return {*this, dataset(group(parent, name, label, "I4"), file_type<std::int32_t>(), std::span(&size, 1))};
+}
+
+void CgnsNodes::Array::put(std::span<const std::int32_t> values) {
+  const hsize_t count = values.size();
+  const Hdf5Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose),
+      file(H5Dget_space(dataset_.id()), H5Sclose);
+  nodes_->check(H5Sselect_hyperslab(file.id(), H5S_SELECT_SET, &next_, nullptr, &count, nullptr) >= 0);
+  nodes_->check(H5Dwrite(dataset_.id(), memory_type<std::int32_t>(), memory.id(), file.id(), H5P_DEFAULT,
+                         values.data()) >= 0);
+  next_ += count;
+}
+
+void CgnsNodes::close() { check(file_.close() >= 0); }
+
+CgnsNodes::Node CgnsNodes::group(const Node& parent, const std::string& name, const char* label,
+                                 const char* type) const {
+  Node node =
+      checked(H5Gcreate2(parent.id(), name.c_str(), H5P_DEFAULT, groups_.id(), H5P_DEFAULT), H5Gclose);
+  put_text_attribute(node, "name", name_type_, name);
+  put_text_attribute(node, "label", name_type_, label);
+  put_text_attribute(node, "type", type_type_, type);
+  const Hdf5Handle flags = checked(
+      H5Acreate2(node.id(), "flags", file_type<std::int32_t>(), single_.id(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
+  const std::int32_t tracked = 1;
+  check(H5Awrite(flags.id(), memory_type<std::int32_t>(), &tracked) >= 0);
+  return node;
+}
+
+void CgnsNodes::put_text_attribute(const Node& node, const char* name, const Hdf5Handle& type,
+                                   const std::string& text) const {
+  std::array<char, name_size> padded{};
+  QUADLOOP_REQUIRE(text.size() < padded.size(), "a CGNS name of more than 32 characters");
+  text.copy(padded.data(), text.size());
+  const Hdf5Handle attribute =
+      checked(H5Acreate2(node.id(), name, type.id(), scalar_.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  check(H5Awrite(attribute.id(), type.id(), padded.data()) >= 0);
+}
+
+Hdf5Handle CgnsNodes::dataset(const Node& node, hid_t file_type, std::span<const hsize_t> size) const {
+  hsize_t count = 1;
+  for (const hsize_t length : size) count *= length;
+  const Hdf5Handle space =
+      checked(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
+  const hid_t creation = count <= largest_small_data ? small_data_.id() : large_data_.id();
+  return checked(H5Dcreate2(node.id(), data_name, file_type, space.id(), H5P_DEFAULT, creation, H5P_DEFAULT),
+                 H5Dclose);
+}
+
+void CgnsNodes::put_data(const Node& node, hid_t file_type, hid_t memory_type, std::span<const hsize_t> size,
+                         const void* data) const {
+  const Hdf5Handle whole = dataset(node, file_type, size);
+  check(H5Dwrite(whole.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,353 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+
+#include "io/cgns/cgns_bars.hpp"
+#include "io/cgns/cgns_file.hpp"
+#include "io/cgns/cgns_handle.hpp"
+#include "io/cgns/cgns_names.hpp"
+#include "io/files/input_file.hpp"
+#include "io/files/separate_reader.hpp"
+#include "io/loaded/pass_mesh.hpp"
+#include "io/text/name_index.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+using File = CgnsFile<InputError>;
+using Name = std::array<char, 33>;
+
+/// The boundaries of all zones by their names, and what the base's families say of them.
+class CgnsBoundaries {
+ public:
+  BoundaryEdges& named(Mesh& mesh, const std::string& name, const std::string& condition) {
+    const auto [place, is_new] = names_.place_of(name);
+    if (is_new) mesh.boundaries.push_back({name, condition, {}});
+    return mesh.boundaries[static_cast<std::size_t>(place)];
+  }
+
+  std::string condition_of_family(const File& file, int base, const std::string& family) {
+    if (!families_) read_families(file, base);
+    const auto found = families_->find(family);
+    return found == families_->end() ? "none" : found->second;
+  }
+
+ private:
+  void read_families(const File& file, int base) {
+    families_.emplace();
+    int families = 0;
+    file.check(cg_nfamilies(file.id(), base, &families));
+    for (int f = 1; f <= families; ++f) {
+      Name name{}, condition{};
+      int conditions = 0, geometries = 0;
+      BCType_t type = BCTypeNull;
+      file.check(cg_family_read(file.id(), base, f, name.data(), &conditions, &geometries));
+      if (conditions == 0) continue;
+      file.check(cg_fambc_read(file.id(), base, f, 1, condition.data(), &type));
+      families_->emplace(name.data(), condition_of_cgns(type));
+    }
+  }
+
+  NameIndex names_;
+  std::optional<std::unordered_map<std::string, std::string>>
+      families_;  ///< to conditions, once they are asked for
+};
+
+/// Reads one zone into the mesh; nodes are numbered after those that are already there.
+class ZoneReader {
+ public:
+  ZoneReader(const File& file, int base, int zone, LoadedMesh& loaded, CgnsBoundaries& boundaries)
+      : file_{file}, base_{base}, zone_{zone}, loaded_{loaded}, boundaries_{boundaries} {}
+
+  void read() {
+    read_head();
+    read_coordinates();
+    int sections = 0;
+    file_.check(cg_nsections(file_.id(), base_, zone_, &sections));
+    for (int section = 1; section <= sections; ++section) read_section(section);
+    const std::int32_t block = loaded_.blocks++;
+    loaded_.triangle_to_block.resize(loaded_.mesh.triangles.size(), block);
+    loaded_.quad_to_block.resize(loaded_.mesh.quads.size(), block);
+    read_boundaries();
+    read_solution();
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& message) const {
+    throw InputError(file_.shown() + ": zone " + loaded_.block_names.back() + ": " + message);
+  }
+
+  void read_head() {
+    Name name{};
+    std::array<cgsize_t, 9> size{};
+    ZoneType_t type = ZoneTypeNull;
+    file_.check(cg_zone_read(file_.id(), base_, zone_, name.data(), size.data()));
+    file_.check(cg_zone_type(file_.id(), base_, zone_, &type));
+    loaded_.block_names.emplace_back(name.data());
+    if (type != Unstructured) refuse("only unstructured zones can be read");
+    nodes_ = size[0];
+    if (nodes_ < 1) refuse("it is said to have " + std::to_string(nodes_) + " nodes");
+    first_node_ = loaded_.mesh.points.size();
+    if (first_node_ + static_cast<std::size_t>(nodes_) > std::numeric_limits<std::int32_t>::max())
+      refuse("too many nodes for one rank");
+  }
+
+  std::vector<double> coordinate(const char* name) const {
+    std::vector<double> values(static_cast<std::size_t>(nodes_));
+    const cgsize_t first = 1;
+    file_.check(cg_coord_read(file_.id(), base_, zone_, name, RealDouble, &first, &nodes_, values.data()));
+    return values;
+  }
+
+  void read_coordinates() {
+    const std::vector<double> x = coordinate("CoordinateX"), y = coordinate("CoordinateY");
+    int coordinates = 0;
+    file_.check(cg_ncoords(file_.id(), base_, zone_, &coordinates));
+    if (coordinates > 2) {
+      for (const double z : coordinate("CoordinateZ")) {
+        if (z != 0) refuse("its nodes do not lie in the plane z = 0");
+      }
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
+        refuse("node " + std::to_string(i + 1) + " has a coordinate that is not finite");
+      loaded_.mesh.points.push_back({x[i], y[i]});
+    }
+  }
+
+  NodeId node_of(cgsize_t number) const {
+    if (number < 1 || number > nodes_) {
+      refuse("an element names node " + std::to_string(number) + ", which is none of 1 to " +
+             std::to_string(nodes_));
+    }
+    return NodeId{static_cast<std::int32_t>(first_node_ + static_cast<std::size_t>(number) - 1)};
+  }
+
+  template <std::size_t width>
+  std::array<NodeId, width> row_at(const cgsize_t* numbers) const {
+    std::array<NodeId, width> row;
+    for (std::size_t k = 0; k < width; ++k) row[k] = node_of(numbers[k]);
+    return row;
+  }
+
+  void add_element(int type, std::int64_t element, const cgsize_t* numbers) {
+    if (type == TRI_3) {
+      loaded_.mesh.triangles.push_back(row_at<3>(numbers));
+    } else if (type == QUAD_4) {
+      loaded_.mesh.quads.push_back(row_at<4>(numbers));
+    } else {
+      bars_.add(element, row_at<2>(numbers));
+    }
+  }
+
+  static std::size_t width_of(int type) {
+    return type == TRI_3 ? 3 : type == QUAD_4 ? 4 : type == BAR_2 ? 2 : 0;
+  }
+
+  void read_section(int section) {
+    Name name{};
+    ElementType_t type = ElementTypeNull;
+    cgsize_t first = 0, last = 0, size = 0;
+    int boundary = 0, parents = 0;
+    file_.check(cg_section_read(file_.id(), base_, zone_, section, name.data(), &type, &first, &last,
+                                &boundary, &parents));
+    if (type == NODE) return;
+    if (type != MIXED && width_of(type) == 0) {
+      refuse("section " + std::string(name.data()) + " holds " + cg_ElementTypeName(type) +
+             "; only TRI_3, QUAD_4, BAR_2 and MIXED can be read");
+    }
+    file_.check(cg_ElementDataSize(file_.id(), base_, zone_, section, &size));
+    const std::int64_t elements = std::int64_t{last} - first + 1;
+    if (first < 1 || elements < 1 || size < 0)
+      refuse("section " + std::string(name.data()) + " is said to hold the elements " +
+             range_text(first, last));
+    bars_.begin_section(name.data());
+    std::vector<cgsize_t> data(static_cast<std::size_t>(size));
+    const std::int64_t found =
+        type == MIXED ? read_mixed(section, data, first) : read_rows(section, type, data, first);
+    if (found == elements) return;
+    refuse("section " + std::string(name.data()) + " holds " + std::to_string(found) +
+           " elements, where its range " + range_text(first, last) + " is of " + std::to_string(elements));
+  }
+
+  static std::string range_text(cgsize_t first, cgsize_t last) {
+    return std::to_string(first) + " to " + std::to_string(last);
+  }
+
+  /// How many elements the section holds.
+  std::int64_t read_rows(int section, int type, std::vector<cgsize_t>& data, std::int64_t element) {
+    file_.check(cg_elements_read(file_.id(), base_, zone_, section, data.data(), nullptr));
+    const std::size_t width = width_of(type);
+    for (std::size_t i = 0; i + width <= data.size(); i += width)
+      add_element(type, element++, data.data() + i);
+    return static_cast<std::int64_t>(data.size() / width);
+  }
+
+  /// Each element is its type, then its nodes. Where each begins follows from that: the file's own offsets,
+  /// of which the library does not tell how many it is going to write, are left alone.
+  std::int64_t read_mixed(int section, std::vector<cgsize_t>& data, std::int64_t element) {
+    file_.check(cg_poly_elements_read(file_.id(), base_, zone_, section, data.data(), nullptr, nullptr));
+    const std::int64_t first = element;
+    for (std::size_t i = 0; i < data.size();) {
+      const std::size_t width = width_of(data[i]);
+      if (width == 0 || i + width >= data.size())
+        refuse("a MIXED section holds an element that is no triangle, quad or bar");
+      add_element(data[i], element++, data.data() + i + 1);
+      i += width + 1;
+    }
+    return element - first;
+  }
+
+  void read_boundaries() {
+    int count = 0;
+    bars_.sort();
+    file_.check(cg_nbocos(file_.id(), base_, zone_, &count));
+    for (int boundary = 1; boundary <= count; ++boundary) read_boundary(boundary);
+    bars_.for_each_left([&](const std::string& section, const auto& edge) {
+      boundaries_.named(loaded_.mesh, section, "none").edges.push_back(edge);
+    });
+  }
+
+  /// A BC that names nodes instead of edges is passed over: its edges, if the file has them, come as a
+  /// section.
+  void read_boundary(int boundary) {
+    Name name{};
+    BCType_t type = BCTypeNull;
+    PointSetType_t set = PointSetTypeNull;
+    cgsize_t count = 0, normals = 0;
+    std::array<int, 3> normal{};
+    DataType_t normal_type = DataTypeNull;
+    int datasets = 0;
+    file_.check(cg_boco_info(file_.id(), base_, zone_, boundary, name.data(), &type, &set, &count,
+                             normal.data(), &normals, &normal_type, &datasets));
+    GridLocation_t location = Vertex;
+    file_.check(cg_boco_gridlocation_read(file_.id(), base_, zone_, boundary, &location));
+    const bool of_elements = set == ElementRange || set == ElementList || location != Vertex;
+    if (!of_elements) return;
+    const bool is_range = set == PointRange || set == ElementRange;
+    const std::string full = full_name(boundary, name.data());
+    if (count < 0 || (is_range && count != 2)) {
+      refuse("boundary " + full + " has " + std::to_string(count) + " numbers where " +
+             (is_range ? "a range has 2" : "a list is"));
+    }
+    std::vector<cgsize_t> elements(static_cast<std::size_t>(count));
+    file_.check(cg_boco_read(file_.id(), base_, zone_, boundary, elements.data(), nullptr));
+    BoundaryEdges& edges = boundaries_.named(loaded_.mesh, full, condition_of(boundary, type));
+    if (is_range) return take_range(elements[0], elements[1], edges);
+    for (const cgsize_t element : elements) take_bar(element, edges);
+  }
+
+  void take_range(cgsize_t first, cgsize_t last, BoundaryEdges& edges) {
+    if (last < first)
+      refuse("boundary " + edges.name + " is of the elements " + range_text(first, last) +
+             ", which is no range");
+    for (std::int64_t element = first; element <= last; ++element)
+      take_bar(element, edges);  // ends at the first that is no bar
+  }
+
+  void take_bar(std::int64_t element, BoundaryEdges& edges) {
+    const auto edge = bars_.take(element);
+    if (!edge) {
+      refuse("boundary " + edges.name + " names element " + std::to_string(element) +
+             ", which is no BAR_2 or belongs to another boundary");
+    }
+    edges.edges.push_back(*edge);
+  }
+
+  std::string full_name(int boundary, const char* name) const {
+    int descriptors = 0;
+    file_.check(cg_goto(file_.id(), base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", boundary, "end"));
+    file_.check(cg_ndescriptors(&descriptors));
+    std::string result = name;
+    for (int d = 1; d <= descriptors; ++d) {
+      Name label{};
+      char* text = nullptr;
+      file_.check(cg_descriptor_read(d, label.data(), &text));
+      if (std::string(label.data()) == full_name_descriptor) result = text;
+      cg_free(text);
+    }
+    return result;
+  }
+
+  /// A BC of type FamilySpecified has its type with the family.
+  std::string condition_of(int boundary, BCType_t type) {
+    std::array<char, 660> family{};
+    file_.check(cg_goto(file_.id(), base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", boundary, "end"));
+    if (type != FamilySpecified || cg_famname_read(family.data()) != CG_OK) return condition_of_cgns(type);
+    return boundaries_.condition_of_family(file_, base_, family.data());
+  }
+
+  void read_solution() {
+    int solutions = 0;
+    file_.check(cg_nsols(file_.id(), base_, zone_, &solutions));
+    for (int s = 1; s <= solutions; ++s) {
+      Name name{};
+      GridLocation_t location = Vertex;
+      file_.check(cg_sol_info(file_.id(), base_, zone_, s, name.data(), &location));
+      if (location == Vertex) return read_fields(s);
+    }
+  }
+
+  void read_fields(int solution) {
+    int fields = 0;
+    file_.check(cg_nfields(file_.id(), base_, zone_, solution, &fields));
+    if (!loaded_.solution) loaded_.solution.emplace();
+    Solution& result = *loaded_.solution;
+    const auto width = static_cast<std::size_t>(fields);
+    if (first_node_ > 0 && result.names.size() != width)
+      refuse("its solution has other variables than the first zone's");
+    result.values.resize((first_node_ + static_cast<std::size_t>(nodes_)) * width);
+    std::vector<double> column(static_cast<std::size_t>(nodes_));
+    for (int f = 1; f <= fields; ++f) {
+      Name name{};
+      DataType_t type = RealDouble;
+      const cgsize_t first = 1;
+      file_.check(cg_field_info(file_.id(), base_, zone_, solution, f, &type, name.data()));
+      file_.check(cg_field_read(file_.id(), base_, zone_, solution, name.data(), RealDouble, &first, &nodes_,
+                                column.data()));
+      if (first_node_ == 0) result.names.push_back(variable_name_of_cgns(name.data()));
+      for (std::size_t i = 0; i < column.size(); ++i)
+        result.values[(first_node_ + i) * width + static_cast<std::size_t>(f) - 1] = column[i];
+    }
+  }
+
+  const File& file_;
+  int base_, zone_;
+  LoadedMesh& loaded_;
+  CgnsBoundaries& boundaries_;
+  cgsize_t nodes_ = 0;
+  std::size_t first_node_ = 0;
+  CgnsBars bars_;
+};
+
+LoadedMesh read_here(const std::string& path) {
+  const File file(path, path, CG_MODE_READ);
+  int bases = 0, zones = 0, cell_dimension = 0, physical_dimension = 0;
+  Name name{};
+  file.check(cg_nbases(file.id(), &bases));
+  if (bases == 0) throw InputError(path + ": holds no CGNS base");
+  file.check(cg_base_read(file.id(), 1, name.data(), &cell_dimension, &physical_dimension));
+  if (cell_dimension != 2)
+    throw InputError(path + ": its cells are " + std::to_string(cell_dimension) + "D, not 2D");
+  file.check(cg_nzones(file.id(), 1, &zones));
+  LoadedMesh loaded;
+  CgnsBoundaries boundaries;
+  loaded.blocks = 0;
+  for (int zone = 1; zone <= zones; ++zone) ZoneReader(file, 1, zone, loaded, boundaries).read();
+  if (zones == 0) throw InputError(path + ": holds no zone");
+  loaded.mesh.owned_nodes = static_cast<std::int32_t>(loaded.mesh.points.size());
+  return loaded;
+}
+
+}  // namespace
+
+LoadedMesh read_cgns(const std::string& path) {
+  return read_separately<LoadedMesh>(path, [&] { return read_here(path); });
+}
+
+}  // namespace quadloop

@@ -1,0 +1,92 @@
+#include "io/files/boundary_stream.hpp"
+
+#include <algorithm>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::int64_t edges_per_piece = std::int64_t{1}
+                                         << 12;  // 64 KB; rank 0 holds at most one piece of each rank
+
+}  // namespace
+
+BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh) : comm_{comm}, mesh_{mesh} {
+  std::vector<Share> own;
+  own_before_.push_back(0);
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+    const auto count = static_cast<std::int64_t>(mesh.boundaries[b].edges.size());
+    own_before_.push_back(own_before_.back() + count);
+    if (count > 0) own.push_back({static_cast<std::int64_t>(b), comm.rank(), count});
+  }
+  std::vector<Share> all = comm.all_gather_values(std::span<const Share>(own));
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Share& a, const Share& b) { return a.boundary < b.boundary; });
+  std::int64_t boundary = -1;
+  for (const Share& share : all) {
+    if (share.boundary != boundary) {
+      present_.push_back(&mesh.boundaries[static_cast<std::size_t>(share.boundary)]);
+      edges_.push_back(0);
+    }
+    boundary = share.boundary;
+    edges_.back() += share.edges;
+    all_edges_ += share.edges;
+  }
+  if (comm.is_root()) shares_ = std::move(all);
+}
+
+std::vector<BoundaryStream::Incoming> BoundaryStream::all_incoming() const {
+  std::vector<Incoming> incoming(static_cast<std::size_t>(comm_.size()));
+  for (const Share& share : shares_) incoming[static_cast<std::size_t>(share.rank)].all += share.edges;
+  return incoming;
+}
+
+void BoundaryStream::ask_for_next(int rank, Incoming& from) const {
+  const std::int64_t first = from.asked_for;
+  from.asked_for = std::min(from.all, first + edges_per_piece);
+  from.piece = rank == 0 ? own_piece(first) : detail::from_bytes<Edge>(comm_.receive_bytes(rank));
+  from.taken = 0;
+  QUADLOOP_REQUIRE(static_cast<std::int64_t>(from.piece.size()) == from.asked_for - first,
+                   "a piece of boundary edges is not what was announced");
+}
+
+void BoundaryStream::receive_rest(int rank, Incoming& from) const {
+  if (rank == 0) return;
+  for (; from.asked_for < from.all; from.asked_for += edges_per_piece) comm_.receive_bytes(rank);
+}
+
+/// A rank that fails still sends as many pieces as it announced, empty ones.
+void BoundaryStream::send_all() const {
+  std::exception_ptr failure;
+  for (std::int64_t first = 0; first < own_before_.back(); first += edges_per_piece) {
+    std::vector<Edge> piece;
+    try {
+      if (!failure) piece = own_piece(first);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    comm_.send_bytes(std::as_bytes(std::span<const Edge>(piece)), 0);
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+std::vector<BoundaryStream::Edge> BoundaryStream::own_piece(std::int64_t first) const {
+  const std::int64_t end = std::min(own_before_.back(), first + edges_per_piece);
+  std::vector<Edge> piece;
+  piece.reserve(static_cast<std::size_t>(end - first));
+  auto b = static_cast<std::size_t>(std::upper_bound(own_before_.begin(), own_before_.end(), first) -
+                                    own_before_.begin()) -
+           1;
+  for (std::int64_t at = first; at < end; ++b) {
+    const std::int64_t stop = std::min(end, own_before_[b + 1]);
+    for (; at < stop; ++at) {
+      const auto& [from, to] = mesh_.boundaries[b].edges[static_cast<std::size_t>(at - own_before_[b])];
+      piece.push_back({mesh_.global(from).value(), mesh_.global(to).value()});
+    }
+  }
+  return piece;
+}
+
+}  // namespace quadloop

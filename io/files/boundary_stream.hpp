@@ -1,0 +1,104 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <span>
+#include <vector>
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// The edges of all boundaries as they pass through rank 0: boundary after boundary, of each first rank 0's,
+/// then rank 1's, and so on. What ranks say to each other does not grow with the number of boundaries: counts
+/// go round once, edges come in pieces that span boundaries.
+class BoundaryStream {
+ public:
+  using Edge = std::array<std::int64_t, 2>;  ///< global numbers of its nodes, from 0
+
+  /// *Collective.* The mesh must outlive it.
+  BoundaryStream(const Communicator& comm, const Mesh& mesh);
+
+  std::int64_t all_edges() const { return all_edges_; }
+  /// The boundaries that have edges on any rank, in their order; and how many.
+  const std::vector<const BoundaryEdges*>& present() const { return present_; }
+  std::int64_t edges_of(std::size_t place) const { return edges_[place]; }
+
+  /// On rank 0, for each boundary that has edges, `begin(n)` with its place in present(), then
+  /// `put(std::span<const Edge>)` for each piece of it. *Collective*; what either throws ends on every rank,
+  /// and nobody hangs.
+  template <class Begin, class Put>
+  void run(const Begin& begin, const Put& put) const {
+    comm_.together([&] {
+      if (comm_.is_root()) {
+        take_all(begin, put);
+      } else {
+        send_all();
+      }
+    });
+  }
+
+ private:
+  /// Edges of one boundary on one rank.
+  struct Share {
+    std::int64_t boundary, rank, edges;
+  };
+
+  /// One rank's edges on their way: the piece under way, and what of it was handed on.
+  struct Incoming {
+    std::vector<Edge> piece;
+    std::size_t taken = 0;
+    std::int64_t asked_for = 0, all = 0;  ///< edges
+  };
+
+  /// After a failure the other ranks' pieces are still received, else those ranks would wait for ever.
+  template <class Begin, class Put>
+  void take_all(const Begin& begin, const Put& put) const {
+    std::vector<Incoming> incoming = all_incoming();
+    std::exception_ptr failure;
+    try {
+      std::int64_t boundary = -1, place = -1;
+      for (const Share& share : shares_) {
+        if (share.boundary != boundary) begin(static_cast<std::size_t>(++place));
+        boundary = share.boundary;
+        take_share(share, incoming[static_cast<std::size_t>(share.rank)], put);
+      }
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    for (std::size_t rank = 0; rank < incoming.size(); ++rank)
+      receive_rest(static_cast<int>(rank), incoming[rank]);
+    if (failure) std::rethrow_exception(failure);
+  }
+
+  template <class Put>
+  void take_share(const Share& share, Incoming& from, const Put& put) const {
+    for (std::int64_t left = share.edges; left > 0;) {
+      if (from.taken == from.piece.size()) ask_for_next(static_cast<int>(share.rank), from);
+      const std::size_t count = std::min(static_cast<std::size_t>(left), from.piece.size() - from.taken);
+      put(std::span<const Edge>(from.piece).subspan(from.taken, count));
+      from.taken += count;
+      left -= static_cast<std::int64_t>(count);
+    }
+  }
+
+  std::vector<Incoming> all_incoming() const;
+  void ask_for_next(int rank, Incoming& from) const;
+  void receive_rest(int rank, Incoming& from) const;
+  void send_all() const;
+  std::vector<Edge> own_piece(std::int64_t first) const;
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  std::vector<const BoundaryEdges*> present_;
+  std::vector<std::int64_t> edges_;  ///< of each of them, over all ranks
+  std::vector<std::int64_t>
+      own_before_;  ///< this rank's edges of the boundaries before each; the last entry is all of them
+  std::vector<Share> shares_;  ///< on rank 0: by boundary, then rank
+  std::int64_t all_edges_ = 0;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,149 @@
+#pragma once
+
+// Inside io/ only: the one header that names the HDF5 library. Ids never leave the sources of the tree file
+// and of cgns_nodes; libcgns keeps its own.
+#include <hdf5.h>
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/tree_record.hpp"
+
+namespace quadloop {
+
+/// An HDF5 id with the function that releases it.
+class Hdf5Handle {
+ public:
+  using Release = herr_t (*)(hid_t);
+
+  Hdf5Handle() = default;
+  Hdf5Handle(hid_t id, Release release) : id_{id}, release_{release} {}
+  ~Hdf5Handle() {
+    if (id_ >= 0) release_(id_);
+  }
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_{std::exchange(other.id_, -1)}, release_{other.release_} {}
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(release_, other.release_);
+    return *this;
+  }
+
+  hid_t id() const { return id_; }
+  bool valid() const { return id_ >= 0; }
+  /// Releases now; a file may tell only here that the disk is full.
+  herr_t close() { return release_(std::exchange(id_, -1)); }
+  /// Never releases it.
+  void abandon() { id_ = -1; }
+
+ private:
+  hid_t id_ = -1;
+  Release release_ = nullptr;
+};
+
+/// Keeps HDF5 from printing its own account of errors, which becomes one line of ours, and from touching
+/// files again when the process ends: after a write that failed it would crash there. To be made before HDF5
+/// is used in any other way.
+class QuietHdf5 {
+ public:
+  QuietHdf5() {
+    static const herr_t nothing_at_exit = H5dont_atexit();
+    static_cast<void>(nothing_at_exit);
+    H5Eget_auto2(H5E_DEFAULT, &printer_, &data_);
+    listen();
+  }
+  ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, printer_, data_); }
+  QuietHdf5(const QuietHdf5&) = delete;
+  QuietHdf5& operator=(const QuietHdf5&) = delete;
+
+  /// Again, where another library has told HDF5 to be silent.
+  void listen() { H5Eset_auto2(H5E_DEFAULT, &QuietHdf5::note, this); }
+
+  /// The errno of the first call of the system that failed within HDF5; 0 where none is known.
+  int reason() const { return reason_; }
+
+ private:
+  /// Called by HDF5 for each of its calls that fails, with the account of what led to it.
+  static herr_t note(hid_t account, void* self) {
+    return H5Ewalk2(account, H5E_WALK_UPWARD, &QuietHdf5::read_entry, self);
+  }
+  static herr_t read_entry(unsigned, const H5E_error2_t* entry, void* self) {
+    constexpr std::string_view label = "errno = ";
+    const std::string_view text = entry->desc == nullptr ? "" : entry->desc;
+    const std::size_t at = text.find(label);
+    int& reason = static_cast<QuietHdf5*>(self)->reason_;
+    if (reason == 0 && at != std::string_view::npos)
+      std::from_chars(text.data() + at + label.size(), text.data() + text.size(), reason);
+    return 0;
+  }
+
+  H5E_auto2_t printer_ = nullptr;
+  void* data_ = nullptr;
+  int reason_ = 0;
+};
+
+/// How a number lies in memory, and in a file: little-endian whatever the machine.
+template <class T>
+hid_t memory_type() {
+  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, std::int8_t>) return H5T_NATIVE_INT8;
+  if constexpr (std::is_same_v<T, std::int16_t>) return H5T_NATIVE_INT16;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
+  if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_NATIVE_UINT32;
+  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_NATIVE_UINT64;
+}
+template <class T>
+hid_t file_type() {
+  if constexpr (std::is_same_v<T, double>) return H5T_IEEE_F64LE;
+  if constexpr (std::is_same_v<T, std::int8_t>) return H5T_STD_I8LE;
+  if constexpr (std::is_same_v<T, std::int16_t>) return H5T_STD_I16LE;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_STD_I32LE;
+  if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_STD_U32LE;
+  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_STD_I64LE;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_STD_U64LE;
+}
+
+inline constexpr const char* tree_format_name = "quadloop tree";
+inline constexpr std::int32_t tree_format_version = 1;
+/// Edge of a tree in the integer lattice, and the deepest level that it can express.
+inline constexpr std::int32_t tree_lattice_edge = std::int32_t{1} << 30;
+inline constexpr int deepest_tree_level = 30;
+
+/// Calls `visit(name, member reference)` for each number among the attributes, in the order of the file.
+template <class Attributes, class Visit>
+void for_each_attribute(Attributes& attributes, const Visit& visit) {
+  visit("root_x", attributes.root_x);
+  visit("root_y", attributes.root_y);
+  visit("tree_edge", attributes.tree_edge);
+  visit("trees_x", attributes.trees_x);
+  visit("trees_y", attributes.trees_y);
+  visit("gradation", attributes.gradation);
+  visit("geometry_digest", attributes.geometry_digest);
+  visit("case_digest", attributes.case_digest);
+  visit("nodes", attributes.nodes);
+  visit("triangles", attributes.triangles);
+  visit("quads", attributes.quads);
+  visit("coordinate_digest", attributes.coordinate_digest);
+}
+
+/// Calls `visit(name, pointers to the members that make one row)` for each dataset, in the order of the file.
+template <class Visit>
+void for_each_tree_dataset(const Visit& visit) {
+  visit("tree", std::array{&LeafRecord::tree_x, &LeafRecord::tree_y});
+  visit("x", std::array{&LeafRecord::x});
+  visit("y", std::array{&LeafRecord::y});
+  visit("level", std::array{&LeafRecord::level});
+  visit("wanted", std::array{&LeafRecord::wanted});
+  visit("mark", std::array{&LeafRecord::mark});
+  visit("triangles", std::array{&LeafRecord::triangles});
+  visit("quads", std::array{&LeafRecord::quads});
+  visit("adapted", std::array{&LeafRecord::adapted});
+}
+
+}  // namespace quadloop

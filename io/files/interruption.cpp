@@ -1,0 +1,126 @@
+#include "io/files/interruption.hpp"
+
+#include <pthread.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <utility>
+
+namespace quadloop {
+
+struct Temporary::Entry {
+  std::string path;
+  std::atomic<Entry*> next = nullptr;
+};
+
+namespace {
+
+constexpr std::array requests{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU};
+constexpr std::array crashes{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+
+/// What the handler looks at: it runs on the thread that changes these, between two of its steps.
+std::atomic<void*> newest_entry = nullptr;
+std::atomic<int> waits = 0;
+std::atomic<int> waiting_signal = 0;
+pid_t owner_process = 0;
+pthread_t owner_thread = {};
+std::array<struct sigaction, NSIG> former_actions = {};
+
+bool is_crash(int number) {
+  for (const int crash : crashes) {
+    if (crash == number) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+/// Async-signal-safe. Files first, so that their folder is empty.
+void remove_registered_temporaries() {
+  using Entry = Temporary::Entry;
+  for (const auto remove : {&::unlink, &::rmdir}) {
+    for (auto* entry = static_cast<Entry*>(newest_entry.load()); entry != nullptr; entry = entry->next)
+      remove(entry->path.c_str());
+  }
+}
+
+namespace {
+
+void end_cleanly(int number, siginfo_t* information, void*) {
+  const int error_before = errno;
+  const bool crash = is_crash(number), here = ::pthread_equal(::pthread_self(), owner_thread) != 0;
+  if (::getpid() == owner_process) {
+    if (!crash && !here) {
+      ::pthread_kill(owner_thread, number);
+      return;
+    }
+    if (!crash && waits > 0) {
+      waiting_signal = number;
+      return;
+    }
+    if (here) remove_registered_temporaries();
+  }
+  ::sigaction(number, &former_actions[static_cast<std::size_t>(number)], nullptr);
+  const bool repeats_itself = crash && number != SIGABRT && information->si_code > 0;
+  if (!repeats_itself) ::raise(number);  // comes when this handler is left
+  errno = error_before;
+}
+
+void handle(int number) {
+  struct sigaction& former = former_actions[static_cast<std::size_t>(number)];
+  ::sigaction(number, nullptr, &former);
+  if (former.sa_handler == SIG_IGN || (!is_crash(number) && former.sa_handler != SIG_DFL)) return;
+  struct sigaction action = {};
+  action.sa_sigaction = end_cleanly;
+  action.sa_flags = SA_SIGINFO | SA_RESTART;
+  ::sigaction(number, &action, nullptr);
+}
+
+}  // namespace
+
+void remove_temporaries_when_killed() {
+  owner_process = ::getpid();
+  owner_thread = ::pthread_self();
+  ::signal(SIGXFSZ, SIG_IGN);
+  std::atexit([] {  // where a library ends the process
+    if (::getpid() == owner_process) remove_registered_temporaries();
+  });
+  for (const int number : requests) handle(number);
+  for (const int number : crashes) handle(number);
+}
+
+Temporary::Temporary(std::string path) : entry_{new Entry{std::move(path)}} {
+  entry_->next = static_cast<Entry*>(newest_entry.load());
+  newest_entry = entry_;
+}
+
+Temporary::~Temporary() {
+  if (entry_ == nullptr) return;
+  Entry* const next = entry_->next;
+  if (newest_entry.load() == entry_) {
+    newest_entry = next;
+  } else {
+    auto* before = static_cast<Entry*>(newest_entry.load());
+    while (before->next != entry_) before = before->next;
+    before->next = next;
+  }
+  delete entry_;
+}
+
+Temporary::Temporary(Temporary&& other) noexcept : entry_{std::exchange(other.entry_, nullptr)} {}
+
+const std::string& Temporary::path() const { return entry_->path; }
+
+SignalsWait::SignalsWait() { ++waits; }
+
+SignalsWait::~SignalsWait() {
+  if (--waits > 0) return;
+  const int number = waiting_signal.exchange(0);
+  if (number != 0) ::raise(number);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,159 @@
+#include "io/files/output_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "io/files/folder_lock.hpp"
+#include "io/files/interruption.hpp"
+#include "io/files/output_path.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto patience =
+    std::chrono::seconds(60);  // with another run that gives its files their names, which takes milliseconds
+constexpr auto between_attempts = std::chrono::milliseconds(5);
+
+int open_for_appending(const StagedFile& file) {
+  const int descriptor = ::open(file.temporary.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor < 0) refuse_output(file.path, errno);
+  return descriptor;
+}
+
+FolderId id_of(const std::string& folder, const std::string& shown) {
+  struct stat found = {};
+  if (::stat(folder.c_str(), &found) != 0) refuse_output(shown, errno);
+  return {found.st_dev, found.st_ino};
+}
+
+/// Gives files their names, one after another. Ended before all have theirs, it puts back what stood there
+/// before, where the file system can keep that (as hard links).
+class Renaming {
+ public:
+  Renaming() = default;
+  ~Renaming() {
+    for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) undo(*step);
+  }
+  Renaming(const Renaming&) = delete;
+  Renaming& operator=(const Renaming&) = delete;
+
+  void rename(const StagedFile& staged, const std::string& target) {
+    Step step{target, staged.temporary + ".old", Before::lost};
+    if (::link(target.c_str(), step.saved.c_str()) == 0)
+      step.before = Before::saved;
+    else if (errno == ENOENT)
+      step.before = Before::nothing;
+    if (std::rename(staged.temporary.c_str(), target.c_str()) != 0) refuse_output(staged.path, errno);
+    steps_.push_back(std::move(step));
+  }
+  void keep() { steps_.clear(); }
+
+ private:
+  enum class Before { nothing, saved, lost };
+  struct Step {
+    std::string target, saved;
+    Before before;
+  };
+
+  static void undo(const Step& step) {
+    if (step.before == Before::saved) std::rename(step.saved.c_str(), step.target.c_str());
+    if (step.before == Before::nothing) ::unlink(step.target.c_str());
+  }
+
+  std::vector<Step> steps_;
+};
+
+/// Of all folders, in one order for every run; nothing where another run holds one of them.
+std::optional<std::vector<FolderLock>> lock_all(
+    const std::map<FolderId, std::unique_ptr<StagingFolder>>& staging) {
+  std::vector<FolderLock> locks;
+  for (const auto& [id, folder] : staging) {
+    std::optional<FolderLock> lock = FolderLock::attempt(folder->parent());
+    if (!lock) return std::nullopt;
+    locks.push_back(std::move(*lock));
+  }
+  return locks;
+}
+
+}  // namespace
+
+StagingFolder& OutputSet::staging_beside(const std::string& target, const std::string& shown) {
+  const std::string folder = folder_of(target);
+  std::unique_ptr<StagingFolder>& staging = staging_[id_of(folder, shown)];
+  if (!staging) staging = std::make_unique<StagingFolder>(folder, shown);
+  return *staging;
+}
+
+StagedFile OutputSet::stage(const std::string& path) {
+  StagedFile file{path, {}};
+  comm_.together([&] {
+    if (!comm_.is_root()) return;
+    const std::string target = output_target(path);
+    for (const Output& other : outputs_) {
+      if (other.target == target)
+        throw OutputError(path + ": two outputs are to be written to this file; name another one");
+    }
+    file.temporary = staging_beside(target, path).new_file(path);
+    outputs_.push_back({file, target});
+  });
+  return file;
+}
+
+void OutputSet::commit() {
+  comm_.together([&] {
+    for (const Output& output : outputs_) bring_to_disk(output.staged.temporary, output.staged.path);
+    if (!outputs_.empty()) put_in_place();
+  });
+}
+
+void OutputSet::put_in_place() {
+  for (const auto deadline = Clock::now() + patience; Clock::now() < deadline;
+       std::this_thread::sleep_for(between_attempts)) {
+    const SignalsWait until_whole;
+    const auto locks = lock_all(staging_);
+    if (!locks) continue;
+    Renaming renaming;
+    for (const Output& output : outputs_) renaming.rename(output.staged, output.target);
+    renaming.keep();
+    outputs_.clear();
+    staging_.clear();
+    return;
+  }
+  throw OutputError(
+      fmt::format("{}: another run has been writing in its folder for {} s; try again when that has ended",
+                  outputs_.front().staged.path, patience.count()));
+}
+
+OutputFile::OutputFile(StagedFile staged)
+    : staged_{std::move(staged)}, descriptor_{open_for_appending(staged_)} {}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void OutputFile::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor_, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) refuse_output(staged_.path, errno);
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void OutputFile::close() {
+  if (::close(std::exchange(descriptor_, -1)) != 0) refuse_output(staged_.path, errno);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/files/staging_folder.hpp"
+#include "mesher/base/communicator.hpp"
+
+namespace quadloop {
+
+/// An output on its way: written under `temporary` until the set it belongs to is committed. `temporary` is
+/// known on rank 0 only.
+struct StagedFile {
+  std::string path;
+  std::string temporary;
+};
+
+/// The outputs of one command: all of them appear whole, under their own names, or none does; of two runs
+/// with the same names at the same time one has all its files stand. A link is followed: its target is
+/// replaced. Rank 0 alone touches the disk; what fails there is the same OutputError on every rank.
+class OutputSet {
+ public:
+  /// `comm` must outlive the set. Not collective.
+  explicit OutputSet(const Communicator& comm) : comm_{comm} {}
+  /// Removes what was not committed.
+  ~OutputSet() = default;
+  OutputSet(const OutputSet&) = delete;
+  OutputSet& operator=(const OutputSet&) = delete;
+
+  const Communicator& communicator() const { return comm_; }
+
+  /// Opens the temporary, empty, so that an output which cannot be written is refused before work goes into
+  /// it. *Collective.*
+  StagedFile stage(const std::string& path);
+
+  /// Brings all outputs to the disk, then gives them their names. *Collective.*
+  void commit();
+
+ private:
+  struct Output {
+    StagedFile staged;
+    std::string target;  ///< where `staged.path` leads
+  };
+
+  StagingFolder& staging_beside(const std::string& target, const std::string& shown);
+  void put_in_place();
+
+  const Communicator& comm_;
+  std::vector<Output> outputs_;  ///< these two on rank 0 only
+  std::map<FolderId, std::unique_ptr<StagingFolder>> staging_;
+};
+
+/// Appends text to a staged file; on rank 0 only. Every failure, a full disk too, is an OutputError that
+/// names the output.
+class OutputFile {
+ public:
+  explicit OutputFile(StagedFile staged);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  void write(std::string_view text);
+  /// A disk may tell only now that it is full; the destructor closes as well, but can say nothing.
+  void close();
+
+ private:
+  StagedFile staged_;
+  int descriptor_ = -1;
+};
+
+}  // namespace quadloop

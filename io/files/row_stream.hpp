@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/base/progress.hpp"
+
+namespace quadloop {
+
+/// Rows that are spread over the ranks, as they pass through rank 0 in pieces: all of rank 0's, then all of
+/// rank 1's, and so on.
+struct RowStream {
+  const Communicator& comm;
+  std::int64_t rows = 0;            ///< of this rank
+  std::int64_t rows_per_piece = 1;  ///< bounds what rank 0 holds at a time
+
+  static constexpr std::int64_t pieces_ahead = 8;  ///< made by a rank while it waits for its turn
+
+  std::int64_t pieces() const { return (rows + rows_per_piece - 1) / rows_per_piece; }
+  std::int64_t begin_of(std::int64_t piece) const { return std::min(rows, piece * rows_per_piece); }
+
+  /// `make(begin, end)` gives a std::vector<T> for the rank's own rows begin .. end-1 (its length is free);
+  /// `consume` gets a std::span<const T> for each piece, on rank 0 only. *Collective*; what either throws
+  /// ends on every rank, and nobody hangs.
+  template <class T, class Make, class Consume>
+  void run(const Make& make, const Consume& consume) const {
+    const std::vector<std::int64_t> pieces_of_rank = comm.all_gather(pieces());
+    comm.together([&] {
+      if (comm.is_root()) {
+        take_all<T>(pieces_of_rank, make, consume);
+      } else {
+        send_all<T>(make);
+      }
+    });
+  }
+
+ private:
+  /// After a failure the other ranks' pieces are still received, else those ranks would wait for ever.
+  template <class T, class Make, class Consume>
+  void take_all(const std::vector<std::int64_t>& pieces_of_rank, const Make& make,
+                const Consume& consume) const {
+    std::exception_ptr failure;
+    progress::Stage stage(
+        "writing",
+        static_cast<double>(std::accumulate(pieces_of_rank.begin(), pieces_of_rank.end(), std::int64_t{0})),
+        "pieces");
+    double pieces_done = 0;
+    const auto attempt = [&](const auto& action) {
+      try {
+        if (!failure) action();
+      } catch (...) {
+        failure = std::current_exception();
+      }
+    };
+    for (std::int64_t k = 0; k < pieces(); ++k) {
+      attempt([&] { consume(std::span<const T>(make(begin_of(k), begin_of(k + 1)))); });
+      stage.advance(++pieces_done);
+    }
+    for (int from = 1; from < comm.size(); ++from) {
+      for (std::int64_t k = 0; k < pieces_of_rank[static_cast<std::size_t>(from)]; ++k) {
+        const std::vector<std::byte> bytes = comm.receive_bytes(from);
+        attempt([&] { consume(std::span<const T>(detail::from_bytes<T>(bytes))); });
+        stage.advance(++pieces_done);
+      }
+    }
+    if (failure) std::rethrow_exception(failure);
+  }
+
+  /// A rank that fails still sends as many pieces as it announced, empty ones.
+  template <class T, class Make>
+  void send_all(const Make& make) const {
+    std::exception_ptr failure;
+    const auto made = [&](std::int64_t k) {
+      try {
+        if (!failure) return make(begin_of(k), begin_of(k + 1));
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      return std::vector<T>{};
+    };
+    std::vector<std::vector<T>> ahead;
+    for (std::int64_t k = 0; k < std::min(pieces(), pieces_ahead); ++k) ahead.push_back(made(k));
+    for (std::int64_t k = 0; k < pieces(); ++k) {
+      const std::vector<T> piece = k < pieces_ahead ? std::move(ahead[static_cast<std::size_t>(k)]) : made(k);
+      comm.send_bytes(std::as_bytes(std::span<const T>(piece)), 0);
+    }
+    if (failure) std::rethrow_exception(failure);
+  }
+};
+
+}  // namespace quadloop

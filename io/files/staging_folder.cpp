@@ -1,0 +1,112 @@
+#include "io/files/staging_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <filesystem>
+#include <system_error>
+
+#include "io/files/output_path.hpp"
+
+namespace quadloop {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr mode_t mine_alone = 0700;
+constexpr mode_t readable_by_all = 0666;  // less the user's umask
+constexpr const char* ending = ".part";
+
+/// How the names of this machine's folders begin: whether a lock on a folder is still held, its own kernel
+/// alone is sure to know.
+std::string beginning() {
+  std::array<char, 65> host = {};
+  if (::gethostname(host.data(), host.size() - 1) != 0) host = {};
+  return fmt::format(".quadloop-{}-", host.data());
+}
+
+std::string random_letters() {
+  std::uint64_t number = 0;
+  if (::getrandom(&number, sizeof number, 0) != static_cast<ssize_t>(sizeof number))
+    number = static_cast<std::uint64_t>(::getpid());
+  return fmt::format("{:016x}", number);
+}
+
+int open_folder(const std::string& path) {
+  return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+/// Removes the folder of a run that was killed; that of a living run is locked.
+void remove_if_forsaken(const fs::path& folder) {
+  const int descriptor = open_folder(folder);
+  if (descriptor < 0) return;
+  std::error_code ignored;
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) fs::remove_all(folder, ignored);
+  ::close(descriptor);
+}
+
+void remove_forsaken(const std::string& parent) {
+  std::error_code ignored;
+  const std::string begin = beginning();
+  for (fs::directory_iterator entry(parent, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    const std::string name = entry->path().filename();
+    if (name.starts_with(begin) && name.ends_with(ending)) remove_if_forsaken(entry->path());
+  }
+}
+
+}  // namespace
+
+StagingFolder::StagingFolder(const std::string& parent, const std::string& shown) : parent_{parent} {
+  remove_forsaken(parent);
+  // Another run may take the folder for forsaken between making and locking it.
+  do {
+    make(shown);
+  } while (!lock());
+}
+
+StagingFolder::~StagingFolder() {
+  std::error_code ignored;
+  fs::remove_all(folder_->path(), ignored);
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void StagingFolder::make(const std::string& shown) {
+  folder_.reset();
+  folder_.emplace(parent_ + "/" + beginning() + random_letters() + ending);
+  if (::mkdir(folder_->path().c_str(), mine_alone) == 0) return;
+  const int reason = errno;
+  folder_.reset();
+  refuse_output(shown, reason);
+}
+
+/// False where another run has taken the folder. Without locks (some file systems of networks) it is nobody's
+/// but ours all the same.
+bool StagingFolder::lock() {
+  if (lock_ >= 0) ::close(lock_);
+  lock_ = open_folder(folder_->path());
+  if (lock_ < 0) return errno != ENOENT;
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
+  struct stat there = {};
+  return ::stat(folder_->path().c_str(), &there) == 0;
+}
+
+std::string StagingFolder::new_file(const std::string& shown) {
+  files_.emplace_back(fmt::format("{}/{}", folder_->path(), files_.size()));
+  const std::string path = files_.back().path();
+  const int descriptor =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, readable_by_all);
+  if (descriptor < 0) refuse_output(shown, errno);
+  if (::close(descriptor) != 0) refuse_output(shown, errno);
+  return path;
+}
+
+}  // namespace quadloop

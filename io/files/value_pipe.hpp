@@ -1,0 +1,112 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace quadloop {
+
+/// Sends values through a pipe, whose end it owns. Where nobody reads any more, what is put is lost.
+class PipeWriter {
+ public:
+  static constexpr bool reads = false;
+
+  explicit PipeWriter(int descriptor) : descriptor_{descriptor} {}
+  ~PipeWriter();
+  PipeWriter(const PipeWriter&) = delete;
+  PipeWriter& operator=(const PipeWriter&) = delete;
+
+  void bytes(const void* from, std::size_t size);
+  void flush();
+
+ private:
+  void write_out(const char* from, std::size_t size);
+
+  int descriptor_;
+  std::vector<char> waiting_;
+};
+
+/// Thrown where the pipe ends before the values do.
+struct PipeEnded {};
+
+/// Receives them.
+class PipeReader {
+ public:
+  static constexpr bool reads = true;
+  static constexpr std::size_t largest_step = std::size_t{1} << 22;  // values; what a wrong size can cost
+
+  explicit PipeReader(int descriptor);
+  ~PipeReader();
+  PipeReader(const PipeReader&) = delete;
+  PipeReader& operator=(const PipeReader&) = delete;
+
+  void bytes(void* to, std::size_t size);
+
+ private:
+  int descriptor_;
+  std::vector<char> room_;
+  std::size_t begin_ = 0, end_ = 0;  ///< of what waits in it
+};
+
+namespace detail {
+
+template <class T>
+struct IsVector : std::false_type {};
+template <class T>
+struct IsVector<std::vector<T>> : std::true_type {};
+template <class T>
+struct IsOptional : std::false_type {};
+template <class T>
+struct IsOptional<std::optional<T>> : std::true_type {};
+
+}  // namespace detail
+
+template <class Pipe, class T>
+void pass(Pipe& pipe, T& value);
+
+/// The elements of a text or of a list. Memory is taken as they come, not by what the size promises.
+template <class Pipe, class List>
+void pass_list(Pipe& pipe, List& list) {
+  using Element = typename List::value_type;
+  std::uint64_t size = list.size();
+  pass(pipe, size);
+  if constexpr (std::is_trivially_copyable_v<Element>) {
+    for (std::size_t done = 0; done < size;) {
+      const std::size_t step = std::min<std::size_t>(size - done, PipeReader::largest_step);
+      if constexpr (Pipe::reads) list.resize(done + step);
+      pipe.bytes(list.data() + done, step * sizeof(Element));
+      done += step;
+    }
+  } else {
+    for (std::size_t i = 0; i < size; ++i) {
+      if constexpr (Pipe::reads) list.emplace_back();
+      pass(pipe, list[i]);
+    }
+  }
+}
+
+/// Puts a value into a PipeWriter, or takes it, empty until then, from a PipeReader. A type of several fields
+/// has an overload of `pass_fields` beside it.
+template <class Pipe, class T>
+void pass(Pipe& pipe, T& value) {
+  if constexpr (detail::IsOptional<T>::value) {
+    bool there = value.has_value();
+    pass(pipe, there);
+    if constexpr (Pipe::reads) {
+      if (there) value.emplace();
+    }
+    if (there) pass(pipe, *value);
+  } else if constexpr (std::is_same_v<T, std::string> || detail::IsVector<T>::value) {
+    pass_list(pipe, value);
+  } else if constexpr (std::is_trivially_copyable_v<T>) {
+    pipe.bytes(&value, sizeof(T));
+  } else {
+    pass_fields(pipe, value);
+  }
+}
+
+}  // namespace quadloop

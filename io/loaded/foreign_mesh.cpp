@@ -1,0 +1,200 @@
+#include "io/loaded/foreign_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "io/loaded/orient_cells.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+template <class Cells>
+void sort_by_block(Cells& cells, std::vector<std::int32_t>& cell_to_block) {
+  if (std::is_sorted(cell_to_block.begin(), cell_to_block.end())) return;
+  std::vector<std::size_t> order(cells.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cell_to_block[a] < cell_to_block[b]; });
+  Cells sorted;
+  sorted.reserve(cells.size());
+  for (const std::size_t cell : order) sorted.push_back(cells[cell]);
+  cells = std::move(sorted);
+  std::sort(cell_to_block.begin(), cell_to_block.end());
+}
+
+/// Which of the rows have the nodes, in any order, of an earlier one.
+template <class Row, class NodesOf>
+std::vector<char> repeated(const std::vector<Row>& rows, const NodesOf& nodes_of) {
+  std::vector<std::pair<std::decay_t<decltype(nodes_of(rows[0]))>, std::size_t>> keys;
+  keys.reserve(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    keys.emplace_back(nodes_of(rows[i]), i);
+    std::sort(keys.back().first.begin(), keys.back().first.end());
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<char> marks(rows.size(), 0);
+  for (std::size_t k = 1; k < keys.size(); ++k)
+    marks[keys[k].second] = keys[k].first == keys[k - 1].first ? 1 : 0;
+  return marks;
+}
+
+/// Takes the marked rows out; the number of them.
+template <class Rows>
+std::int64_t drop(Rows& rows, const std::vector<char>& marks) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (marks[i] == 0) rows[kept++] = rows[i];
+  }
+  rows.resize(kept);
+  return static_cast<std::int64_t>(marks.size() - kept);
+}
+
+template <class Cells>
+std::int64_t drop_repeated_cells(Cells& cells, std::vector<std::int32_t>& cell_to_block) {
+  const std::vector<char> marks = repeated(cells, [](const auto& nodes) { return nodes; });
+  drop(cell_to_block, marks);
+  return drop(cells, marks);
+}
+
+std::int32_t block_of(const LoadedMesh& loaded, std::int32_t cell) {
+  const auto at = static_cast<std::size_t>(cell);
+  const std::size_t triangles = loaded.triangle_to_block.size();
+  return at < triangles ? loaded.triangle_to_block[at] : loaded.quad_to_block[at - triangles];
+}
+
+/// A block whose every element stood in another one too has no cells.
+void drop_empty_blocks(LoadedMesh& loaded) {
+  std::vector<std::int32_t> new_number(loaded.block_names.size(), -1);
+  for (const auto* cell_to_block : {&loaded.triangle_to_block, &loaded.quad_to_block}) {
+    for (const std::int32_t block : *cell_to_block) new_number[static_cast<std::size_t>(block)] = 0;
+  }
+  std::size_t kept = 0;
+  for (std::size_t block = 0; block < new_number.size(); ++block) {
+    if (new_number[block] < 0) continue;
+    new_number[block] = static_cast<std::int32_t>(kept);
+    std::swap(loaded.block_names[kept++], loaded.block_names[block]);
+  }
+  loaded.block_names.resize(kept);
+  loaded.blocks = static_cast<std::int32_t>(kept);
+  for (auto* cell_to_block : {&loaded.triangle_to_block, &loaded.quad_to_block}) {
+    for (std::int32_t& block : *cell_to_block) block = new_number[static_cast<std::size_t>(block)];
+  }
+}
+
+[[noreturn]] void refuse_edge(const ForeignMesh& foreign, const ForeignEdge& edge, const TextScanner& scan) {
+  const Mesh& mesh = foreign.loaded.mesh;
+  const Point a = mesh.point(edge.nodes[0]), b = mesh.point(edge.nodes[1]);
+  const std::string& name = mesh.boundaries[static_cast<std::size_t>(edge.boundary)].name;
+  scan.refuse_at(edge.place, fmt::format("an edge of boundary {}, from ({}, {}) to ({}, {}), belongs to no "
+                                         "cell; take it out of the boundary, "
+                                         "or mesh the surface beside it",
+                                         name, a.x, a.y, b.x, b.y));
+}
+
+/// Gives the edges to their boundaries; the number of those that lie inside a block.
+std::int64_t place_edges(ForeignMesh& foreign, const TextScanner& scan) {
+  LoadedMesh& loaded = foreign.loaded;
+  const EdgeTable table(loaded.mesh);
+  std::int64_t inside = 0;
+  for (const ForeignEdge& edge : foreign.edges) {
+    auto [from, to] = edge.nodes;
+    const std::int32_t left = table.cell_left_of(from, to), right = table.cell_left_of(to, from);
+    if (left < 0 && right < 0) refuse_edge(foreign, edge, scan);
+    const bool between = left >= 0 && right >= 0;
+    if (between && block_of(loaded, left) == block_of(loaded, right)) {
+      ++inside;
+      continue;
+    }
+    if (left < 0 || (between && block_of(loaded, right) < block_of(loaded, left))) std::swap(from, to);
+    loaded.mesh.boundaries[static_cast<std::size_t>(edge.boundary)].edges.push_back({from, to});
+  }
+  return inside;
+}
+
+void add_outer_boundary(Mesh& mesh) {
+  const EdgeTable table(mesh);
+  BoundaryEdges outer{"boundary", "none", {}};
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
+    if (table.cell_left_of(to, from) < 0) outer.edges.push_back({from, to});
+  });
+  if (!outer.edges.empty()) mesh.boundaries.push_back(std::move(outer));
+}
+
+}  // namespace
+
+std::int32_t ForeignMesh::boundary_named(const std::string& name) {
+  const auto [number, is_new] = boundary_names.place_of(name);
+  if (is_new) loaded.mesh.boundaries.push_back({name, "none", {}});
+  return number;
+}
+
+std::int32_t ForeignMesh::block_named(const std::string& name) {
+  const auto [number, is_new] = block_names.place_of(name);
+  if (is_new) loaded.block_names.push_back(name);
+  return number;
+}
+
+void drop_repeated(ForeignMesh& foreign, const std::string& path) {
+  LoadedMesh& loaded = foreign.loaded;
+  const std::int64_t dropped =
+      drop_repeated_cells(loaded.mesh.triangles, loaded.triangle_to_block) +
+      drop_repeated_cells(loaded.mesh.quads, loaded.quad_to_block) +
+      drop(foreign.edges, repeated(foreign.edges, [](const ForeignEdge& edge) { return edge.nodes; }));
+  if (dropped > 0)
+    loaded.warnings.push_back(fmt::format(
+        "{}: {} elements stand there more than once; the first of each was taken", path, dropped));
+}
+
+void drop_unused_nodes(ForeignMesh& foreign, const std::string& path) {
+  Mesh& mesh = foreign.loaded.mesh;
+  std::vector<std::int32_t> new_number(mesh.points.size(), -1);
+  const auto mark = [&](NodeId& node) { new_number[static_cast<std::size_t>(node.value())] = 0; };
+  const auto renumber = [&](NodeId& node) {
+    node = NodeId{new_number[static_cast<std::size_t>(node.value())]};
+  };
+  const auto for_each_node = [&](const auto& visit) {
+    for (auto& nodes : mesh.triangles) std::for_each(nodes.begin(), nodes.end(), visit);
+    for (auto& nodes : mesh.quads) std::for_each(nodes.begin(), nodes.end(), visit);
+    for (ForeignEdge& edge : foreign.edges) std::for_each(edge.nodes.begin(), edge.nodes.end(), visit);
+  };
+  for_each_node(mark);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < new_number.size(); ++i) {
+    if (new_number[i] < 0) continue;
+    new_number[i] = static_cast<std::int32_t>(kept);
+    mesh.points[kept++] = mesh.points[i];
+  }
+  const std::size_t dropped = mesh.points.size() - kept;
+  if (dropped == 0) return;
+  mesh.points.resize(kept);
+  for_each_node(renumber);
+  foreign.loaded.warnings.push_back(
+      fmt::format("{}: {} nodes that belong to no cell were left out", path, dropped));
+}
+
+LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
+  LoadedMesh& loaded = foreign.loaded;
+  Mesh& mesh = loaded.mesh;
+  if (mesh.triangles.empty() && mesh.quads.empty())
+    scan.refuse("the file has no triangle and no quadrilateral; a mesh needs cells");
+  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  drop_empty_blocks(loaded);
+  const std::int64_t turned = orient_cells(mesh);
+  sort_by_block(mesh.triangles, loaded.triangle_to_block);
+  sort_by_block(mesh.quads, loaded.quad_to_block);
+  const std::int64_t inside = place_edges(foreign, scan);
+  std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
+  if (mesh.boundaries.empty()) add_outer_boundary(mesh);
+  if (turned > 0)
+    loaded.warnings.push_back(fmt::format("{}: {} cells ran clockwise and were turned", scan.path(), turned));
+  if (inside > 0)
+    loaded.warnings.push_back(
+        fmt::format("{}: {} edges between two cells are no boundary and were left out", scan.path(), inside));
+  return std::move(loaded);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,144 @@
+#include "io/loaded/orient_cells.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Cells that hang together, each with its direction relative to the piece's root: disjoint sets with a
+/// parity on every link.
+class Pieces {
+ public:
+  explicit Pieces(std::size_t cells)
+      : parents_(cells), sizes_(cells, 1), opposed_(cells, 0), torn_(cells, 0) {
+    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+  }
+
+  struct Place {
+    std::size_t root;
+    bool opposed;  ///< whether the cell has to be turned where the root is not
+  };
+
+  Place place_of(std::size_t cell) {
+    bool opposed = false;
+    while (parents_[cell] != cell) {
+      const std::size_t parent = parents_[cell];
+      opposed_[cell] ^= opposed_[parent];  // a root is never opposed to itself
+      parents_[cell] = parents_[parent];
+      opposed ^= opposed_[cell] != 0;
+      cell = parents_[cell];
+    }
+    return {cell, opposed};
+  }
+
+  /// Says that exactly one of two cells has to be turned (`opposed`), or both or none. Where that contradicts
+  /// what was said before, the piece is torn.
+  void join(std::size_t first, std::size_t second, bool opposed) {
+    Place a = place_of(first), b = place_of(second);
+    const bool roots_opposed = (a.opposed != b.opposed) != opposed;
+    if (a.root == b.root) {
+      if (roots_opposed) torn_[a.root] = 1;
+      return;
+    }
+    if (sizes_[a.root] < sizes_[b.root]) std::swap(a, b);
+    parents_[b.root] = a.root;
+    sizes_[a.root] += sizes_[b.root];
+    opposed_[b.root] = roots_opposed ? 1 : 0;
+    torn_[a.root] |= torn_[b.root];
+  }
+
+  bool is_torn(std::size_t root) const { return torn_[root] != 0; }
+
+ private:
+  std::vector<std::size_t> parents_, sizes_;
+  std::vector<char> opposed_;  ///< to the parent
+  std::vector<char> torn_;     ///< of a root
+};
+
+/// An edge as one cell has it.
+struct Side {
+  NodeId low, high;
+  std::int32_t cell;
+  bool rising;  ///< whether the cell runs from low to high
+
+  bool same_edge(const Side& other) const { return low == other.low && high == other.high; }
+};
+
+/// Sides of the same edge stand one after another.
+std::vector<Side> sorted_sides(const Mesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size() + 4 * mesh.quads.size());
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
+    if (from != to) sides.push_back({std::min(from, to), std::max(from, to), cell, from < to});
+  });
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.cell, a.rising) < std::tie(b.low, b.high, b.cell, b.rising);
+  });
+  return sides;
+}
+
+Pieces pieces_of(const Mesh& mesh) {
+  Pieces pieces(mesh.triangles.size() + mesh.quads.size());
+  const std::vector<Side> sides = sorted_sides(mesh);
+  for (auto first = sides.begin(); first != sides.end();) {
+    const auto end =
+        std::find_if(first, sides.end(), [&](const Side& side) { return !side.same_edge(*first); });
+    if (end - first == 2)
+      pieces.join(static_cast<std::size_t>(first[0].cell), static_cast<std::size_t>(first[1].cell),
+                  first[0].rising == first[1].rising);
+    first = end;
+  }
+  return pieces;
+}
+
+double twice_area(const Mesh& mesh, const std::array<NodeId, 3>& nodes) {
+  const Point a = mesh.point(nodes[0]);
+  return cross(mesh.point(nodes[1]) - a, mesh.point(nodes[2]) - a);
+}
+
+double twice_area(const Mesh& mesh, const std::array<NodeId, 4>& nodes) {
+  return cross(mesh.point(nodes[2]) - mesh.point(nodes[0]), mesh.point(nodes[3]) - mesh.point(nodes[1]));
+}
+
+/// Calls `visit(nodes, cell)` for every cell, numbered triangles first, then quads.
+template <class AnyMesh, class Visit>
+void for_each_cell(AnyMesh& mesh, const Visit& visit) {
+  std::size_t cell = 0;
+  for (auto& nodes : mesh.triangles) visit(nodes, cell++);
+  for (auto& nodes : mesh.quads) visit(nodes, cell++);
+}
+
+/// For each root twice the signed area of its piece, run as the root runs now.
+std::vector<double> areas_of(const Mesh& mesh, Pieces& pieces) {
+  std::vector<double> areas(mesh.triangles.size() + mesh.quads.size(), 0);
+  for_each_cell(mesh, [&](const auto& nodes, std::size_t cell) {
+    const auto [root, opposed] = pieces.place_of(cell);
+    const double area = twice_area(mesh, nodes);
+    areas[root] += opposed ? -area : area;
+  });
+  return areas;
+}
+
+}  // namespace
+
+std::int64_t orient_cells(Mesh& mesh) {
+  Pieces pieces = pieces_of(mesh);
+  const std::vector<double> areas = areas_of(mesh, pieces);
+  std::int64_t turned = 0;
+  for_each_cell(mesh, [&](auto& nodes, std::size_t cell) {
+    const auto [root, opposed] = pieces.place_of(cell);
+    const double area = opposed ? -areas[root] : areas[root];
+    if (!(area < 0) || pieces.is_torn(root)) return;  // an area that is no number turns nothing
+    std::reverse(nodes.begin() + 1, nodes.end());
+    ++turned;
+  });
+  return turned;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,113 @@
+#include "io/loaded/tidy_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/loaded/orient_cells.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+std::size_t index_of(NodeId node) { return static_cast<std::size_t>(node.value()); }
+
+/// Calls `visit(node)` for the nodes of all cells, and of all boundary edges.
+template <class Visit>
+void for_each_named_node(Mesh& mesh, const Visit& visit) {
+  for (auto& nodes : mesh.triangles) std::for_each(nodes.begin(), nodes.end(), visit);
+  for (auto& nodes : mesh.quads) std::for_each(nodes.begin(), nodes.end(), visit);
+  for (BoundaryEdges& boundary : mesh.boundaries) {
+    for (auto& edge : boundary.edges) std::for_each(edge.begin(), edge.end(), visit);
+  }
+}
+
+void move_row(Solution& solution, std::size_t from, std::size_t to) {
+  const std::size_t width = solution.names.size();
+  if (from != to)
+    std::copy_n(solution.values.begin() + static_cast<std::ptrdiff_t>(from * width), width,
+                solution.values.begin() + static_cast<std::ptrdiff_t>(to * width));
+}
+
+/// A node that a boundary edge alone names is kept: that edge is a fault, not the node.
+std::size_t drop_unused_nodes(LoadedMesh& loaded) {
+  Mesh& mesh = loaded.mesh;
+  std::vector<std::int32_t> new_number(mesh.points.size(), -1);
+  for_each_named_node(mesh, [&](NodeId& node) { new_number[index_of(node)] = 0; });
+  std::int32_t kept = 0;
+  for (std::size_t i = 0; i < new_number.size(); ++i) {
+    if (new_number[i] < 0) continue;
+    mesh.points[static_cast<std::size_t>(kept)] = mesh.points[i];
+    if (loaded.solution) move_row(*loaded.solution, i, static_cast<std::size_t>(kept));
+    new_number[i] = kept++;
+  }
+  const std::size_t dropped = mesh.points.size() - static_cast<std::size_t>(kept);
+  if (dropped == 0) return 0;
+  for_each_named_node(mesh, [&](NodeId& node) { node = NodeId{new_number[index_of(node)]}; });
+  mesh.points.resize(static_cast<std::size_t>(kept));
+  mesh.owned_nodes = kept;
+  if (loaded.solution)
+    loaded.solution->values.resize(static_cast<std::size_t>(kept) * loaded.solution->names.size());
+  return dropped;
+}
+
+/// Of an edge between two blocks either direction will do.
+std::int64_t turn_edges(Mesh& mesh, const EdgeTable& table) {
+  std::int64_t turned = 0;
+  for (BoundaryEdges& boundary : mesh.boundaries) {
+    for (auto& [from, to] : boundary.edges) {
+      if (table.cell_left_of(from, to) >= 0 || table.cell_left_of(to, from) < 0) continue;
+      std::swap(from, to);
+      ++turned;
+    }
+  }
+  return turned;
+}
+
+std::string free_name(const Mesh& mesh) {
+  const auto taken = [&](const std::string& name) {
+    return std::any_of(mesh.boundaries.begin(), mesh.boundaries.end(),
+                       [&](const BoundaryEdges& b) { return b.name == name; });
+  };
+  std::string name = "boundary";
+  for (int number = 2; taken(name); ++number) name = fmt::format("boundary_{}", number);
+  return name;
+}
+
+std::size_t add_missing_boundary(Mesh& mesh, const EdgeTable& table) {
+  std::vector<std::array<NodeId, 2>> named;
+  for (const BoundaryEdges& boundary : mesh.boundaries)
+    named.insert(named.end(), boundary.edges.begin(), boundary.edges.end());
+  std::sort(named.begin(), named.end());
+  BoundaryEdges missing{free_name(mesh), "none", {}};
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
+    const bool outer = table.cell_left_of(to, from) < 0;
+    if (outer && !std::binary_search(named.begin(), named.end(), std::array{from, to}))
+      missing.edges.push_back({from, to});
+  });
+  const std::size_t added = missing.edges.size();
+  if (added > 0) mesh.boundaries.push_back(std::move(missing));
+  return added;
+}
+
+}  // namespace
+
+void tidy_mesh(LoadedMesh& loaded, const std::string& path) {
+  Mesh& mesh = loaded.mesh;
+  const auto warn = [&](auto count, const std::string& what) {
+    if (count > 0) loaded.warnings.push_back(fmt::format("{}: {} {}", path, count, what));
+  };
+  warn(drop_unused_nodes(loaded), "nodes that belong to no cell were left out");
+  warn(orient_cells(mesh), "cells ran clockwise and were turned");
+  const EdgeTable table(mesh);
+  warn(turn_edges(mesh, table), "boundary edges had their cell to the right and were turned");
+  warn(std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); }),
+       "boundaries without edges were left out");
+  const std::size_t added = add_missing_boundary(mesh, table);
+  if (added > 0)
+    warn(added, fmt::format("edges of the outline belong to no boundary; they are the boundary \"{}\" now",
+                            mesh.boundaries.back().name));
+}
+
+}  // namespace quadloop

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "io/loaded/foreign_mesh.hpp"
+
+namespace quadloop {
+
+/// What gives the elements of an MSH file their boundary or block: physical groups, their names, the curves
+/// and surfaces in them.
+class MshGroups {
+ public:
+  /// Of dimension 1 (curves) or 2 (surfaces); the tag's sign says nothing but a direction.
+  void name_physical(int dimension, std::int64_t physical, std::string name);
+  void put_in_physical(int dimension, std::int64_t entity, std::int64_t physical);
+
+  /// The physical group of a curve or surface; 0 where it is in none.
+  std::int64_t physical_of(int dimension, std::int64_t entity) const;
+
+  /// The boundary (of lines) or block (of cells) in the mesh, made at its first element. `physical` is 0 for
+  /// none.
+  std::int32_t boundary_of(ForeignMesh& foreign, std::int64_t physical, std::int64_t entity);
+  std::int32_t block_of(ForeignMesh& foreign, std::int64_t physical);
+
+  /// How many boundaries are curves of no physical group.
+  std::int64_t curves_without_group() const;
+
+ private:
+  using Key = std::pair<std::int64_t, std::int64_t>;
+
+  /// The name of a physical group; "physical_<tag>" where the file gives none.
+  std::string name_of(int dimension, std::int64_t physical) const;
+
+  std::map<Key, std::string> names_;           ///< by dimension and tag
+  std::map<Key, std::int64_t> entity_groups_;  ///< by dimension and tag
+  std::map<Key, std::int32_t> boundaries_;     ///< by physical group and, where that is 0, curve
+  std::map<std::int64_t, std::int32_t> blocks_;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,123 @@
+#include <span>
+
+#include "io/native/native_file.hpp"
+#include "io/text/text_output.hpp"
+#include "mesher/mesh/variable_names.hpp"
+
+namespace quadloop {
+
+namespace {
+
+class NativeWriter {
+ public:
+  NativeWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
+      : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path} {}
+
+  void write_mesh() {
+    write_nodes();
+    file_.write("#Number of blocks\n1\n");
+    write_block(std::span(mesh_.triangles), std::span(mesh_.quads));
+    write_boundaries();
+  }
+
+  /// Where one rank has all: the cells of each block in turn.
+  void write_blocks(const LoadedMesh& whole) {
+    write_nodes();
+    file_.write("#Number of blocks\n" + std::to_string(whole.blocks) + "\n");
+    for (std::int32_t block = 0; block < whole.blocks; ++block) {
+      write_block(cells_of_block(mesh_.triangles, whole.triangle_to_block, block),
+                  cells_of_block(mesh_.quads, whole.quad_to_block, block));
+    }
+    write_boundaries();
+  }
+
+  void write_solution(const Solution& solution) {
+    std::string head = "#Number of constants\n" + std::to_string(solution.constants.size()) + "\n";
+    TextRows constants(static_cast<std::int64_t>(solution.constants.size()), 1);
+    for (const double value : solution.constants) constants.put(value, '\n');
+    const std::vector<char> text = constants.take();
+    head.append(text.begin(), text.end());
+    head += "#Number of variables\n" + std::to_string(solution.names.size()) + "\n#names:";
+    for (const std::string& name : solution.names) head += " " + word_of(name);
+    file_.write(head + "\n");
+    write_real_rows(solution.values.data(), solution.names.size());
+  }
+
+  void close() { file_.close(); }
+
+ private:
+  void write_block(std::span<const std::array<NodeId, 3>> triangles,
+                   std::span<const std::array<NodeId, 4>> quads) {
+    write_connectivity("#Number of triangular elements\n", triangles);
+    write_connectivity("#Number of quadrilateral elements\n", quads);
+  }
+
+  void write_nodes() {
+    file_.write("#Number of grid points\n" + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\n");
+    file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 2, [&](TextRows& text, std::size_t i) {
+      text.put(mesh_.points[i].x, ' ');
+      text.put(mesh_.points[i].y, '\n');
+    });
+  }
+
+  /// One row of `width` numbers for each owned node.
+  void write_real_rows(const double* values, std::size_t width) {
+    if (width == 0) return;
+    file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), width, [&](TextRows& text, std::size_t i) {
+      for (std::size_t k = 0; k < width; ++k) text.put(values[i * width + k], k + 1 < width ? ' ' : '\n');
+    });
+  }
+
+  template <std::size_t width>
+  void write_connectivity(const std::string& comment, std::span<const std::array<NodeId, width>> rows) {
+    file_.write(comment + std::to_string(comm_.sum(static_cast<std::int64_t>(rows.size()))) + "\n");
+    file_.write_rows(rows.size(), width, [&](TextRows& text, std::size_t i) {
+      for (std::size_t k = 0; k < width; ++k)
+        text.put(mesh_.global(rows[i][k]).value() + 1, k + 1 < width ? ' ' : '\n');
+    });
+  }
+
+  void write_boundaries() {
+    const BoundaryStream boundaries(comm_, mesh_);
+    file_.write("#Number of boundaries\n" + std::to_string(boundaries.present().size()) + "\n");
+    file_.write_boundaries(
+        boundaries, 2,
+        [&](std::size_t n) {
+          return "#Number of edges for boundary " + std::to_string(n + 1) + " (" +
+                 boundaries.present()[n]->name + ")\n" + std::to_string(boundaries.edges_of(n)) + "\n";
+        },
+        [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
+          text.put(edge[0] + 1, ' ');
+          text.put(edge[1] + 1, '\n');
+        });
+  }
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  TextOutput file_;
+};
+
+}  // namespace
+
+void write_native(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
+  NativeWriter writer(outputs, mesh, path);
+  writer.write_mesh();
+  if (solution != nullptr) writer.write_solution(*solution);
+  writer.close();
+}
+
+void write_native(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
+  NativeWriter writer(outputs, whole.mesh, path);
+  writer.write_blocks(whole);
+  if (whole.solution) writer.write_solution(*whole.solution);
+  writer.close();
+}
+
+void write_native(const Communicator& comm, const Mesh& mesh, const std::string& path,
+                  const Solution* solution) {
+  OutputSet outputs(comm);
+  write_native(outputs, mesh, path, solution);
+  outputs.commit();
+}
+
+}  // namespace quadloop

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/loaded/loaded_mesh.hpp"
+#include "io/plot/mesh_plot.hpp"
+#include "io/plot/plot_view.hpp"
+
+namespace quadloop {
+
+/// All cells of a mesh in one row: triangles, then quads.
+std::size_t cell_count(const Mesh& mesh);
+std::span<const NodeId> cell_nodes(const Mesh& mesh, std::size_t cell);
+
+/// A colour for each of some cells, with what the legend says of it.
+struct CellPaint {
+  std::vector<Colour> palette;
+  std::vector<std::uint16_t> colours;  ///< of palette, one for each cell of the list
+  std::vector<LegendEntry> legend;
+  std::optional<ColourBar> bar;
+};
+
+/// Colours `cells` (numbers as for cell_nodes). Throws InputError where the field is not there.
+CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
+                      const PlotOptions& options);
+
+}  // namespace quadloop

@@ -1,0 +1,161 @@
+#include "io/plot/plot_canvas.hpp"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cairo.h>
+
+#include <cmath>
+#include <new>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double font_size = 16;
+
+struct DestroySurface {
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+};
+struct DestroyContext {
+  void operator()(cairo_t* context) const { cairo_destroy(context); }
+};
+using Surface = std::unique_ptr<cairo_surface_t, DestroySurface>;
+using Context = std::unique_ptr<cairo_t, DestroyContext>;
+
+/// Cairo is C: no exception may pass through it.
+cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) noexcept {
+  try {
+    static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+  } catch (...) {
+    return CAIRO_STATUS_NO_MEMORY;
+  }
+}
+
+void require_success(cairo_status_t status) {
+  if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+  if (status != CAIRO_STATUS_SUCCESS)
+    throw Fault(std::string("the picture could not be drawn: ") + cairo_status_to_string(status));
+}
+
+Surface make_surface(PlotFormat format, double width, double height, std::string& bytes) {
+  if (format == PlotFormat::svg)
+    return Surface(cairo_svg_surface_create_for_stream(append, &bytes, width, height));
+  if (format == PlotFormat::png)
+    return Surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(width)),
+                                              static_cast<int>(std::lround(height))));
+  Surface surface(cairo_pdf_surface_create_for_stream(append, &bytes, width, height));
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
+                                 "2000-01-01T00:00:00Z");  // the same bytes at any time
+  return surface;
+}
+
+void choose_font(cairo_t* context) {
+  cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context, font_size);
+}
+
+/// Text that Cairo takes; what it refuses would spoil the whole picture, so that is tried on a scratch
+/// context.
+std::string printable(std::string text) {
+  const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
+  const Context context(cairo_create(surface.get()));
+  cairo_text_extents_t extents;
+  cairo_text_extents(context.get(), text.c_str(), &extents);
+  if (cairo_status(context.get()) == CAIRO_STATUS_SUCCESS) return text;
+  for (char& c : text) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return text;
+}
+
+}  // namespace
+
+struct Canvas::Cairo {
+  std::string bytes;  ///< before the surface, which writes here to its end
+  PlotFormat format = PlotFormat::png;
+  Surface surface;
+  Context context;
+};
+
+Canvas::Canvas(PlotFormat format, double width, double height) : cairo_{std::make_unique<Cairo>()} {
+  cairo_->format = format;
+  cairo_->surface = make_surface(format, width, height, cairo_->bytes);
+  require_success(cairo_surface_status(cairo_->surface.get()));
+  cairo_->context.reset(cairo_create(cairo_->surface.get()));
+  cairo_t* context = cairo_->context.get();
+  cairo_set_source_rgb(context, 1, 1, 1);
+  cairo_paint(context);
+  cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  choose_font(context);
+}
+
+Canvas::~Canvas() = default;
+
+void Canvas::clip(const Box& box) {
+  cairo_t* context = cairo_->context.get();
+  cairo_save(context);
+  cairo_rectangle(context, box.low.x, box.low.y, box.width(), box.height());
+  cairo_clip(context);
+}
+
+void Canvas::unclip() { cairo_restore(cairo_->context.get()); }
+
+void Canvas::add_polygon(std::span<const Point> corners) {
+  cairo_t* context = cairo_->context.get();
+  if (corners.empty()) return;
+  cairo_move_to(context, corners[0].x, corners[0].y);
+  for (const Point& p : corners.subspan(1)) cairo_line_to(context, p.x, p.y);
+  cairo_close_path(context);
+}
+
+void Canvas::add_line(Point a, Point b) {
+  cairo_move_to(cairo_->context.get(), a.x, a.y);
+  cairo_line_to(cairo_->context.get(), b.x, b.y);
+}
+
+void Canvas::fill_crisp(Colour colour) {
+  cairo_t* context = cairo_->context.get();
+  cairo_set_source_rgb(context, colour.red, colour.green, colour.blue);
+  cairo_set_antialias(context, CAIRO_ANTIALIAS_NONE);
+  cairo_fill(context);
+  cairo_set_antialias(context, CAIRO_ANTIALIAS_DEFAULT);
+}
+
+void Canvas::stroke(Colour colour, double opacity, double width) {
+  cairo_t* context = cairo_->context.get();
+  cairo_set_source_rgba(context, colour.red, colour.green, colour.blue, opacity);
+  cairo_set_line_width(context, width);
+  cairo_stroke(context);
+}
+
+void Canvas::text(Point at, const std::string& text, TextAlign align) {
+  cairo_t* context = cairo_->context.get();
+  const std::string shown = printable(text);
+  const double share = align == TextAlign::left ? 0 : align == TextAlign::centre ? 0.5 : 1;
+  cairo_set_source_rgb(context, 0.13, 0.13, 0.13);
+  cairo_move_to(context, at.x - share * text_width(shown), at.y + 0.35 * font_size);
+  cairo_show_text(context, shown.c_str());
+  cairo_new_path(context);
+}
+
+double Canvas::text_width(const std::string& text) const {
+  cairo_text_extents_t extents;
+  cairo_text_extents(cairo_->context.get(), printable(text).c_str(), &extents);
+  return extents.x_advance;
+}
+
+std::string Canvas::finish() {
+  require_success(cairo_status(cairo_->context.get()));
+  cairo_->context.reset();
+  if (cairo_->format == PlotFormat::png)
+    require_success(cairo_surface_write_to_png_stream(cairo_->surface.get(), append, &cairo_->bytes));
+  cairo_surface_finish(cairo_->surface.get());
+  require_success(cairo_surface_status(cairo_->surface.get()));
+  return std::move(cairo_->bytes);
+}
+
+}  // namespace quadloop

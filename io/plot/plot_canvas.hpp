@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "mesher/geometry/point.hpp"
+
+namespace quadloop {
+
+enum class PlotFormat { png, svg, pdf };
+
+/// Red, green and blue, each from 0 to 1.
+struct Colour {
+  double red = 0, green = 0, blue = 0;
+};
+
+/// `share` of b in a.
+constexpr Colour mixed(Colour a, Colour b, double share) {
+  return {a.red + share * (b.red - a.red), a.green + share * (b.green - a.green),
+          a.blue + share * (b.blue - a.blue)};
+}
+
+enum class TextAlign { left, centre, right };
+
+/// A white sheet in pixels, the origin at its top left, y downwards. What is added becomes one path, until it
+/// is filled or stroked. Coordinates must stay within some 10^6 pixels. The same calls give the same bytes.
+class Canvas {
+ public:
+  Canvas(PlotFormat format, double width, double height);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  /// Keeps what follows within the box, until unclip().
+  void clip(const Box& box);
+  void unclip();
+
+  void add_polygon(std::span<const Point> corners);
+  void add_line(Point a, Point b);
+  /// A crisp fill puts each pixel into one polygon alone, so that neighbours show no seam.
+  void fill_crisp(Colour colour);
+  void stroke(Colour colour, double opacity, double width);
+
+  /// `at`: the middle of the text's height, its left, centre or right. Text that is no UTF-8 is shown as far
+  /// as it is ASCII.
+  void text(Point at, const std::string& text, TextAlign align = TextAlign::left);
+  double text_width(const std::string& text) const;
+
+  /// The picture's bytes; the canvas is not to be used any more. Throws a Fault where Cairo failed.
+  std::string finish();
+
+ private:
+  struct Cairo;
+  std::unique_ptr<Cairo> cairo_;
+};
+
+}  // namespace quadloop

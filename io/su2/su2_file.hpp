@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/files/output_file.hpp"
+#include "io/loaded/loaded_mesh.hpp"
+#include "mesher/base/communicator.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// Writes the mesh as SU2 text into the set; the bytes are the same on any number of ranks. Each boundary
+/// with edges becomes a marker. SU2 takes no blanks and few signs in a marker's name: what is not a letter, a
+/// digit or one of "_-.+" becomes "_", and names that are then the same get a number. *Collective.* Throws
+/// OutputError on all ranks.
+void write_su2(OutputSet& outputs, const Mesh& mesh, const std::string& path);
+
+/// The same as an output of its own, in place when the function returns. *Collective.*
+void write_su2(const Communicator& comm, const Mesh& mesh, const std::string& path);
+
+/// The markers' names for boundaries of these names, all different; the same names always give the same
+/// answer.
+std::vector<std::string> su2_marker_names(const std::vector<std::string>& boundaries);
+
+/// Reads a 2D SU2 mesh on the calling rank alone: the keys in any order, those that are no part of the mesh
+/// passed over with their rows. Each marker becomes a boundary, those of the same name one; a file without
+/// markers gets the boundary "boundary". Cells are turned counter-clockwise piece by piece (orient_cells),
+/// edges with their cell to the left. Throws InputError "file:line: ..." on anything that is not such a mesh;
+/// geometric faults, inverted cells too, are left to validate().
+LoadedMesh read_su2(const std::string& path);
+
+}  // namespace quadloop

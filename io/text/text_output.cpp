@@ -1,0 +1,24 @@
+#include "io/text/text_output.hpp"
+
+namespace quadloop {
+
+TextOutput::TextOutput(OutputSet& outputs, const std::string& path) : comm_{outputs.communicator()} {
+  const StagedFile staged = outputs.stage(path);
+  comm_.together([&] {
+    if (comm_.is_root()) file_ = std::make_unique<OutputFile>(staged);
+  });
+}
+
+void TextOutput::write(const std::string& text) {
+  comm_.together([&] {
+    if (file_) file_->write(text);
+  });
+}
+
+void TextOutput::close() {
+  comm_.together([&] {
+    if (file_) file_->close();
+  });
+}
+
+}  // namespace quadloop

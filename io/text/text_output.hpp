@@ -1,0 +1,110 @@
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/files/boundary_stream.hpp"
+#include "io/files/output_file.hpp"
+#include "io/files/row_stream.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// Grows a text number by number into room that was made once. Numbers are the shortest that read back as
+/// they are.
+class TextRows {
+ public:
+  static constexpr std::size_t longest_number =
+      25;  // with the blank or line end after it: -1.7976931348623157e+308
+
+  TextRows(std::int64_t rows, std::size_t width)
+      : text_(static_cast<std::size_t>(rows) * width * longest_number) {}
+
+  template <class Number>
+  void put(Number value, char after) {
+    char* const begin = text_.data() + used_;
+    char* const end = std::to_chars(begin, begin + longest_number, value).ptr;
+    *end = after;
+    used_ += static_cast<std::size_t>(end - begin) + 1;
+  }
+  std::vector<char> take() {
+    text_.resize(used_);
+    return std::move(text_);
+  }
+
+ private:
+  std::vector<char> text_;
+  std::size_t used_ = 0;
+};
+
+/// A text file that all ranks write together, through rank 0; the file under way exists there alone.
+/// *Collective*, all of it.
+class TextOutput {
+ public:
+  TextOutput(OutputSet& outputs, const std::string& path);
+
+  const Communicator& communicator() const { return comm_; }
+
+  /// Rank 0's text.
+  void write(const std::string& text);
+
+  /// The ranks' rows in the order of ranks, in bounded pieces: `put(text, i)` puts at most `width` numbers
+  /// for this rank's row i.
+  template <class Put>
+  void write_rows(std::size_t rows, std::size_t width, const Put& put) {
+    const RowStream stream{comm_, static_cast<std::int64_t>(rows), rows_per_piece};
+    stream.run<char>(
+        [&](std::int64_t begin, std::int64_t end) {
+          TextRows text(end - begin, width);
+          for (std::int64_t i = begin; i < end; ++i) put(text, static_cast<std::size_t>(i));
+          return text.take();
+        },
+        [&](std::span<const char> text) {
+          file_->write({text.data(), text.size()});
+        });
+  }
+
+  /// Rows that rank 0 alone makes.
+  template <class Put>
+  void write_root_rows(std::int64_t rows, std::size_t width, const Put& put) {
+    write_rows(static_cast<std::size_t>(comm_.is_root() ? rows : 0), width, put);
+  }
+
+  /// The edges of all boundaries: `head(n)` is the text before those of present()[n], `put(text, n, edge)`
+  /// puts at most `width` numbers for one.
+  template <class Head, class Put>
+  void write_boundaries(const BoundaryStream& boundaries, std::size_t width, const Head& head,
+                        const Put& put) {
+    std::size_t under_way = 0;
+    std::string waiting;  // boundaries of a few edges each would be as many small writes
+    boundaries.run(
+        [&](std::size_t n) {
+          under_way = n;
+          waiting += head(n);
+        },
+        [&](std::span<const BoundaryStream::Edge> edges) {
+          TextRows rows(static_cast<std::int64_t>(edges.size()), width);
+          for (const BoundaryStream::Edge& edge : edges) put(rows, under_way, edge);
+          const std::vector<char> text = rows.take();
+          waiting.append(text.begin(), text.end());
+          if (waiting.size() < largest_wait) return;
+          file_->write(waiting);
+          waiting.clear();
+        });
+    write(waiting);
+  }
+
+  void close();
+
+ private:
+  static constexpr std::int64_t rows_per_piece = std::int64_t{1} << 16;
+  static constexpr std::size_t largest_wait = std::size_t{1} << 20;  // bytes
+
+  const Communicator& comm_;
+  std::unique_ptr<OutputFile> file_;
+};
+
+}  // namespace quadloop

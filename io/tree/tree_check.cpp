@@ -1,0 +1,113 @@
+#include "io/tree/tree_check.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/files/hdf5_handle.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr const char* cure = "; the file is damaged: take it from a copy, or make it anew with quadloop mesh";
+
+std::string text_of(const LeafRecord& leaf) {
+  return fmt::format("the leaf of tree ({}, {}) at ({}, {}), level {}", leaf.tree_x, leaf.tree_y, leaf.x,
+                     leaf.y, leaf.level);
+}
+
+std::int64_t edge_of(const LeafRecord& leaf) { return std::int64_t{tree_lattice_edge} >> leaf.level; }
+
+/// What is wrong with a leaf by itself; empty where nothing is.
+std::string fault_of(const LeafRecord& leaf, const TreeAttributes& attributes) {
+  const auto within = [](auto value, auto low, auto high) { return value >= low && value <= high; };
+  if (!within(leaf.tree_x, 0, attributes.trees_x - 1) || !within(leaf.tree_y, 0, attributes.trees_y - 1))
+    return "is in none of the trees";
+  if (!within(leaf.level, 0, deepest_tree_level)) return "has an impossible level";
+  const auto on_lattice = [&](std::int32_t at) {
+    return within(at, 0, tree_lattice_edge - 1) && at % edge_of(leaf) == 0;
+  };
+  if (!on_lattice(leaf.x) || !on_lattice(leaf.y)) return "lies beside the lattice of its level";
+  if (!within(leaf.wanted, 0, leaf.level))
+    return fmt::format("is coarser than its wanted level {}", leaf.wanted);
+  if ((std::uint64_t{leaf.adapted} >> leaf.level) != 0)
+    return fmt::format("has splits below itself ('adapted' is {:#x})", leaf.adapted);
+  if (leaf.mark < 0 || leaf.triangles < 0 || leaf.quads < 0) return "has a mark or a number of cells below 0";
+  if (leaf.mark == 0 && leaf.triangles + std::int64_t{leaf.quads} > 0)
+    return "is outside the domain, but has cells";
+  return {};
+}
+
+/// Along the curve within a tree: bits of y and x in turn.
+std::int64_t place_on_curve(const LeafRecord& leaf) {
+  std::int64_t place = 0;
+  for (int bit = deepest_tree_level - 1; bit >= 0; --bit)
+    place = place << 2 | (leaf.y >> bit & 1) << 1 | (leaf.x >> bit & 1);
+  return place;
+}
+
+std::int64_t end_on_curve(const LeafRecord& leaf) {
+  return place_on_curve(leaf) + edge_of(leaf) * edge_of(leaf);
+}
+
+constexpr std::int64_t end_of_tree = std::int64_t{tree_lattice_edge} * tree_lattice_edge;
+
+bool follows(const std::optional<LeafRecord>& before, const LeafRecord& leaf) {
+  if (!before) return place_on_curve(leaf) == 0;
+  const bool same_tree = before->tree_x == leaf.tree_x && before->tree_y == leaf.tree_y;
+  if (same_tree) return place_on_curve(leaf) == end_on_curve(*before);
+  return end_on_curve(*before) == end_of_tree && place_on_curve(leaf) == 0;
+}
+
+void require_sum(const Communicator& comm, std::int64_t own, std::int64_t wanted, const std::string& what,
+                 const std::string& path) {
+  const std::int64_t all = comm.sum(own);
+  if (all != wanted)
+    throw InputError(
+        fmt::format("{}: its leaves have {} {}, where {} are said to be{}", path, all, what, wanted, cure));
+}
+
+}  // namespace
+
+void require_possible_attributes(const TreeAttributes& attributes, std::int64_t leaves,
+                                 const std::string& path) {
+  const auto refuse = [&](const std::string& what) { throw InputError(path + ": " + what + cure); };
+  const auto& [root_x, root_y, tree_edge, trees_x, trees_y, gradation, geometry, of_case, nodes, triangles,
+               quads, coordinates] = attributes;
+  if (!std::isfinite(root_x) || !std::isfinite(root_y))
+    refuse(fmt::format("its root lies at ({}, {})", root_x, root_y));
+  if (!(tree_edge > 0) || !std::isfinite(tree_edge)) refuse(fmt::format("its tree edge is {}", tree_edge));
+  const bool enough =
+      trees_x >= 1 && trees_y >= 1 && std::int64_t{trees_x} * trees_y <= leaves;  // each tree has a leaf
+  if (!enough) refuse(fmt::format("it has {} by {} trees, but {} leaves", trees_x, trees_y, leaves));
+  if (!(gradation > 1 && gradation <= 2))
+    refuse(fmt::format("its gradation is {}, which must be above 1 and at most 2", gradation));
+  if (nodes < 0 || triangles < 0 || quads < 0) refuse("it has a number of nodes or cells below 0");
+}
+
+void require_whole_tree(const Communicator& comm, const TreeRecord& tree,
+                        const std::optional<LeafRecord>& before, const std::string& path) {
+  std::int64_t begun = 0, ended = 0, triangles = 0, quads = 0;
+  comm.together([&] {
+    std::optional<LeafRecord> last = before;
+    for (const LeafRecord& leaf : tree.leaves) {
+      const std::string fault = fault_of(leaf, tree.attributes);
+      if (!fault.empty()) throw InputError(path + ": " + text_of(leaf) + " " + fault + cure);
+      if (!follows(last, leaf))
+        throw InputError(path + ": " + text_of(leaf) + " does not follow the one before it" + cure);
+      begun += place_on_curve(leaf) == 0 ? 1 : 0;
+      ended += end_on_curve(leaf) == end_of_tree ? 1 : 0;
+      triangles += leaf.triangles;
+      quads += leaf.quads;
+      last = leaf;
+    }
+  });
+  const std::int64_t trees = std::int64_t{tree.attributes.trees_x} * tree.attributes.trees_y;
+  require_sum(comm, begun, trees, "trees", path);
+  require_sum(comm, ended, trees, "whole trees", path);
+  require_sum(comm, triangles, tree.attributes.triangles, "triangles", path);
+  require_sum(comm, quads, tree.attributes.quads, "quadrilaterals", path);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,219 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/loaded/foreign_mesh.hpp"
+#include "io/vtu/vtu_arrays.hpp"
+#include "io/vtu/vtu_file.hpp"
+
+namespace quadloop {
+
+namespace {
+
+enum VtkCell : std::int64_t {
+  vertex = 1,
+  poly_vertex = 2,
+  line = 3,
+  triangle = 5,
+  polygon = 7,
+  pixel = 8,
+  quad = 9
+};
+
+class VtuReader {
+ public:
+  explicit VtuReader(const std::string& path)
+      : scan_{path, TextScanner::no_comments}, document_{parse_vtu(scan_)}, numbers_{scan_, document_} {}
+
+  LoadedMesh read() {
+    if (document_.points > std::numeric_limits<std::int32_t>::max() ||
+        document_.cells > std::numeric_limits<std::int32_t>::max()) {
+      scan_.refuse_at(document_.piece_place, "more than 2^31 - 1 points or cells cannot be read on one rank");
+    }
+    read_points();
+    read_cells();
+    LoadedMesh loaded = finish(std::move(foreign_), scan_);
+    read_solution(loaded);
+    return loaded;
+  }
+
+ private:
+  void read_points() {
+    const VtuArray& array = needed("Points", "");
+    if (array.components != 3)
+      scan_.refuse_at(array.place, "points have three coordinates, not " + std::to_string(array.components));
+    const std::vector<double> values = finite_reals(array, 3 * document_.points, 3);
+    auto& points = foreign_.loaded.mesh.points;
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+      points.push_back({values[i], values[i + 1]});
+      if (values[i + 2] == values[2]) continue;
+      scan_.refuse_at(
+          array.place,
+          fmt::format("node {} lies at z = {}, the first at z = {}; a mesh lies in a plane z = constant",
+                      i / 3 + 1, values[i + 2], values[2]));
+    }
+  }
+
+  /// An array that must be there; of any name if none is given.
+  const VtuArray& needed(const std::string& section, const std::string& name) const {
+    for (const VtuArray& array : document_.arrays) {
+      if (array.section == section && (name.empty() || array.name == name)) return array;
+    }
+    scan_.refuse_at(document_.piece_place,
+                    "this piece has no array '" + (name.empty() ? section : name) + "' in " + section);
+  }
+
+  std::vector<double> finite_reals(const VtuArray& array, std::int64_t count, std::size_t width) const {
+    std::vector<double> values = numbers_.reals(array, count);
+    const auto bad =
+        std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
+    if (bad != values.end()) {
+      scan_.refuse_at(array.place, fmt::format("'{}' is not finite at node {}", array.name,
+                                               static_cast<std::size_t>(bad - values.begin()) / width + 1));
+    }
+    return values;
+  }
+
+  void read_cells() {
+    const VtuArray& connectivity = needed("Cells", "connectivity");
+    const VtuArray& offsets_array = needed("Cells", "offsets");
+    const std::vector<std::int64_t> types = numbers_.integers(needed("Cells", "types"), document_.cells);
+    const std::vector<std::int64_t> offsets = numbers_.integers(offsets_array, document_.cells);
+    const std::vector<std::int64_t> nodes =
+        numbers_.integers(connectivity, offsets.empty() ? 0 : offsets.back());
+    const std::vector<std::int64_t> boundaries = cell_numbers("boundary"), blocks = cell_numbers("block");
+    read_names();
+    std::int64_t begin = 0;
+    for (std::size_t cell = 0; cell < types.size(); ++cell) {
+      const std::int64_t end = offsets[cell];
+      if (end < begin || end > static_cast<std::int64_t>(nodes.size())) {
+        scan_.refuse_at(offsets_array.place,
+                        fmt::format("the offset of cell {} is {}, after {}", cell + 1, end, begin));
+      }
+      const auto of_cell =
+          std::span(nodes).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+      place_ = connectivity.place;
+      cell_ = cell + 1;
+      add_cell(types[cell], of_cell, boundaries.empty() ? 0 : boundaries[cell],
+               blocks.empty() ? 0 : blocks[cell]);
+      begin = end;
+    }
+  }
+
+  /// Whole numbers of our own cell data; empty where there are none.
+  std::vector<std::int64_t> cell_numbers(const std::string& name) const {
+    const VtuArray* array = document_.find("CellData", name);
+    if (array == nullptr || array->components != 1 || array->type.starts_with("Float")) return {};
+    return numbers_.integers(*array, document_.cells);
+  }
+
+  void read_names() {
+    if (const VtuArray* array = document_.find("FieldData", "boundary_names"))
+      boundary_names_ = numbers_.texts(*array);
+    if (const VtuArray* array = document_.find("FieldData", "block_names"))
+      block_names_ = numbers_.texts(*array);
+    for (const std::string& name : boundary_names_) foreign_.boundary_named(name);  // in their order
+    for (const std::string& name : block_names_) foreign_.block_named(name);
+  }
+
+  static std::string name_of(const std::vector<std::string>& names, std::int64_t number, const char* kind,
+                             const char* without) {
+    if (number <= 0) return without;
+    if (number <= static_cast<std::int64_t>(names.size())) return names[static_cast<std::size_t>(number - 1)];
+    return fmt::format("{}_{}", kind, number);
+  }
+
+  template <std::size_t width>
+  std::array<NodeId, width> nodes_of(std::span<const std::int64_t> nodes) const {
+    if (nodes.size() != width)
+      scan_.refuse_at(place_, fmt::format("cell {} has {} nodes, not {}", cell_, nodes.size(), width));
+    std::array<NodeId, width> result;
+    for (std::size_t k = 0; k < width; ++k) {
+      if (nodes[k] < 0 || nodes[k] >= document_.points) {
+        scan_.refuse_at(place_, fmt::format("cell {} names point {}, which is none of the points 0 to {}",
+                                            cell_, nodes[k], document_.points - 1));
+      }
+      result[k] = NodeId{static_cast<std::int32_t>(nodes[k])};
+    }
+    return result;
+  }
+
+  void add_cell(std::int64_t type, std::span<const std::int64_t> nodes, std::int64_t boundary,
+                std::int64_t block) {
+    if (type == vertex || type == poly_vertex) return;
+    if (type == line) {
+      foreign_.edges.push_back(
+          {nodes_of<2>(nodes),
+           foreign_.boundary_named(name_of(boundary_names_, boundary, "boundary", "boundary")), place_});
+      return;
+    }
+    const std::int32_t to_block = foreign_.block_named(name_of(block_names_, block, "block", "domain"));
+    if (type == triangle || (type == polygon && nodes.size() == 3)) {
+      foreign_.add_triangle(nodes_of<3>(nodes), to_block);
+    } else if (type == quad || type == pixel || (type == polygon && nodes.size() == 4)) {
+      auto corners = nodes_of<4>(nodes);
+      if (type == pixel) std::swap(corners[2], corners[3]);
+      foreign_.add_quad(corners, to_block);
+    } else {
+      scan_.refuse_at(place_, fmt::format("cell {} is of VTK type {} with {} nodes; only triangles (5), "
+                                          "quads (9) and lines (3) can be read",
+                                          cell_, type, nodes.size()));
+    }
+  }
+
+  void read_solution(LoadedMesh& loaded) const {
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> columns;
+    for (const VtuArray& array : document_.arrays) {
+      if (array.section == "PointData" && array.type != "String") add_columns(array, names, columns);
+    }
+    if (names.empty()) return;
+    Solution solution{{}, names, {}};
+    solution.values.resize(names.size() * loaded.mesh.points.size());
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      for (std::size_t i = 0; i < columns[k].size(); ++i)
+        solution.values[i * names.size() + k] = columns[k][i];
+    }
+    loaded.solution = std::move(solution);
+  }
+
+  void add_columns(const VtuArray& array, std::vector<std::string>& names,
+                   std::vector<std::vector<double>>& columns) const {
+    const auto width = static_cast<std::size_t>(array.components),
+               count = static_cast<std::size_t>(document_.points);
+    if (array.components > 9)
+      scan_.refuse_at(array.place,
+                      fmt::format("'{}' has {} components; at most 9 can be read", array.name, width));
+    const std::vector<double> values = finite_reals(array, document_.points * array.components, width);
+    for (std::size_t k = 0; k < width; ++k) {
+      std::vector<double> column(count);
+      for (std::size_t i = 0; i < count; ++i) column[i] = values[i * width + k];
+      if (k == 2 && width == 3 &&
+          std::all_of(column.begin(), column.end(), [](double value) { return value == 0; }))
+        continue;
+      if (width == 1) {
+        names.push_back(array.name);
+      } else if (width <= 3) {
+        names.push_back(array.name + "_" + "xyz"[k]);
+      } else {
+        names.push_back(array.name + "_" + std::to_string(k + 1));
+      }
+      columns.push_back(std::move(column));
+    }
+  }
+
+  TextScanner scan_;
+  VtuDocument document_;
+  VtuNumbers numbers_;
+  ForeignMesh foreign_;
+  std::vector<std::string> boundary_names_, block_names_;
+  std::size_t place_ = 0, cell_ = 0;  ///< of the cell under way, for a refusal
+};
+
+}  // namespace
+
+LoadedMesh read_vtu(const std::string& path) { return VtuReader(path).read(); }
+
+}  // namespace quadloop

@@ -1,0 +1,200 @@
+#include <span>
+
+#include "io/text/text_output.hpp"
+#include "io/vtu/vtu_file.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr int vtk_line = 3, vtk_triangle = 5, vtk_quad = 9;
+
+std::string escaped(const std::string& name) {
+  std::string result;
+  for (const char c : name) {
+    switch (c) {
+      case '&': result += "&amp;"; break;
+      case '<': result += "&lt;"; break;
+      case '>': result += "&gt;"; break;
+      case '"': result += "&quot;"; break;
+      default: result += c;
+    }
+  }
+  return result;
+}
+
+std::string array_tag(const std::string& type, const std::string& name, int components = 1) {
+  std::string tag = "<DataArray type=\"" + type + "\" Name=\"" + escaped(name) + "\"";
+  if (components > 1) tag += " NumberOfComponents=\"" + std::to_string(components) + "\"";
+  return tag + " format=\"ascii\">\n";
+}
+
+/// The codes of their bytes, after each text a 0: what an array of strings holds, but under a type of
+/// numbers, since not every reader knows strings.
+std::string text_array(const std::string& name, const std::vector<std::string>& texts) {
+  std::string codes;
+  std::size_t count = 0;
+  for (const std::string& text : texts) {
+    for (const char c : text) codes += std::to_string(static_cast<unsigned char>(c)) + " ";
+    codes += "0\n";
+    count += text.size() + 1;
+  }
+  return "<DataArray type=\"UInt8\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(count) +
+         "\" format=\"ascii\">\n" + codes + "</DataArray>\n";
+}
+
+class VtuWriter {
+ public:
+  VtuWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
+      : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path}, boundaries_{comm_, mesh} {}
+
+  void write(const LoadedMesh* blocks, const Solution* solution) {
+    write_head(blocks);
+    write_points();
+    write_cells();
+    write_solution(solution);
+    file_.write("<CellData>\n");
+    write_boundary_numbers();
+    if (blocks != nullptr) write_block_numbers(*blocks);
+    file_.write("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+    file_.close();
+  }
+
+ private:
+  std::int64_t total(const auto& rows) const { return comm_.sum(static_cast<std::int64_t>(rows.size())); }
+
+  void write_head(const LoadedMesh* blocks) {
+    const std::int64_t cells = total(mesh_.triangles) + total(mesh_.quads) + boundaries_.all_edges();
+    std::vector<std::string> names;
+    for (const BoundaryEdges* boundary : boundaries_.present()) names.push_back(boundary->name);
+    std::string head =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+    head += "<UnstructuredGrid>\n<FieldData>\n" + text_array("boundary_names", names);
+    if (blocks != nullptr) head += text_array("block_names", blocks->block_names);
+    head += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(comm_.sum(mesh_.owned_nodes)) +
+            "\" NumberOfCells=\"" + std::to_string(cells) + "\">\n";
+    file_.write(head);
+  }
+
+  void write_points() {
+    file_.write("<Points>\n" + array_tag("Float64", "Points", 3));
+    file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 3, [&](TextRows& text, std::size_t i) {
+      text.put(mesh_.points[i].x, ' ');
+      text.put(mesh_.points[i].y, ' ');
+      text.put(0, '\n');
+    });
+    file_.write("</DataArray>\n</Points>\n");
+  }
+
+  /// `visit(rows, type)` for each kind of cell; the boundaries' edges follow them.
+  template <class Visit>
+  void for_each_kind(const Visit& visit) const {
+    visit(mesh_.triangles, vtk_triangle);
+    visit(mesh_.quads, vtk_quad);
+  }
+
+  void write_cells() {
+    file_.write("<Cells>\n" + array_tag("Int64", "connectivity"));
+    for_each_kind([&](const auto& rows, int) {
+      file_.write_rows(rows.size(), 4, [&](TextRows& text, std::size_t i) {
+        for (std::size_t k = 0; k < rows[i].size(); ++k)
+          text.put(mesh_.global(rows[i][k]).value(), k + 1 < rows[i].size() ? ' ' : '\n');
+      });
+    });
+    file_.write_boundaries(
+        boundaries_, 2, [](std::size_t) { return std::string(); },
+        [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
+          text.put(edge[0], ' ');
+          text.put(edge[1], '\n');
+        });
+    file_.write("</DataArray>\n" + array_tag("Int64", "offsets"));
+    write_offsets();
+    file_.write("</DataArray>\n" + array_tag("UInt8", "types"));
+    for_each_kind([&](const auto& rows, int type) { write_repeated(rows.size(), type); });
+    file_.write_root_rows(boundaries_.all_edges(), 1,
+                          [](TextRows& text, std::size_t) { text.put(vtk_line, '\n'); });
+    file_.write("</DataArray>\n</Cells>\n");
+  }
+
+  void write_offsets() {
+    std::int64_t before = 0;
+    for_each_kind([&]<class Row>(const std::vector<Row>& rows, int) {
+      constexpr auto width = static_cast<std::int64_t>(std::tuple_size_v<Row>);
+      const std::int64_t first = before + width * comm_.exclusive_sum(static_cast<std::int64_t>(rows.size()));
+      file_.write_rows(rows.size(), 1, [&](TextRows& text, std::size_t i) {
+        text.put(first + width * (static_cast<std::int64_t>(i) + 1), '\n');
+      });
+      before += width * total(rows);
+    });
+    file_.write_root_rows(boundaries_.all_edges(), 1, [&](TextRows& text, std::size_t i) {
+      text.put(before + 2 * (static_cast<std::int64_t>(i) + 1), '\n');
+    });
+  }
+
+  void write_repeated(std::size_t rows, std::int32_t number) {
+    file_.write_rows(rows, 1, [&](TextRows& text, std::size_t) { text.put(number, '\n'); });
+  }
+
+  void write_solution(const Solution* solution) {
+    if (solution == nullptr || solution->names.empty()) return;
+    const std::size_t width = solution->names.size();
+    file_.write("<PointData>\n");
+    for (std::size_t k = 0; k < width; ++k) {
+      file_.write(array_tag("Float64", solution->names[k]));
+      file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 1, [&](TextRows& text, std::size_t i) {
+        text.put(solution->values[i * width + k], '\n');
+      });
+      file_.write("</DataArray>\n");
+    }
+    file_.write("</PointData>\n");
+  }
+
+  void write_boundary_numbers() {
+    file_.write(array_tag("Int32", "boundary"));
+    write_repeated(mesh_.triangles.size(), 0);
+    write_repeated(mesh_.quads.size(), 0);
+    std::size_t number = 0;  // rows come in their order
+    std::int64_t end = 0;
+    file_.write_root_rows(boundaries_.all_edges(), 1, [&](TextRows& text, std::size_t i) {
+      while (static_cast<std::int64_t>(i) >= end) end += boundaries_.edges_of(number++);
+      text.put(number, '\n');
+    });
+    file_.write("</DataArray>\n");
+  }
+
+  void write_block_numbers(const LoadedMesh& whole) {
+    file_.write(array_tag("Int32", "block"));
+    for (const auto* cell_to_block : {&whole.triangle_to_block, &whole.quad_to_block}) {
+      file_.write_rows(cell_to_block->size(), 1,
+                       [&](TextRows& text, std::size_t i) { text.put((*cell_to_block)[i] + 1, '\n'); });
+    }
+    file_.write_root_rows(boundaries_.all_edges(), 1, [](TextRows& text, std::size_t) { text.put(0, '\n'); });
+    file_.write("</DataArray>\n");
+  }
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  TextOutput file_;
+  BoundaryStream boundaries_;
+};
+
+}  // namespace
+
+void write_vtu(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
+  VtuWriter(outputs, mesh, path).write(nullptr, solution);
+}
+
+void write_vtu(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
+  VtuWriter(outputs, whole.mesh, path)
+      .write(whole.blocks > 1 ? &whole : nullptr, whole.solution ? &*whole.solution : nullptr);
+}
+
+void write_vtu(const Communicator& comm, const Mesh& mesh, const std::string& path,
+               const Solution* solution) {
+  OutputSet outputs(comm);
+  write_vtu(outputs, mesh, path, solution);
+  outputs.commit();
+}
+
+}  // namespace quadloop

@@ -1,0 +1,100 @@
+#include "mesher/build/assemble_mesh.hpp"
+
+#include "mesher/base/progress.hpp"
+#include "mesher/build/number_nodes.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Appends cells and boundary edges leaf by leaf.
+class Assembler {
+ public:
+  Assembler(const Geometry& geometry, const LeafGraph& graph, const CutForest& cut,
+            const NodeNumbering& numbers, Mesh& mesh)
+      : geometry_{geometry}, graph_{graph}, cut_{cut}, numbers_{numbers}, mesh_{mesh} {
+    for (const Boundary& b : geometry.boundaries()) mesh_.boundaries.push_back({b.name, b.condition, {}});
+  }
+
+  void add(std::int32_t leaf) {
+    const auto local = static_cast<std::size_t>(leaf - graph_.local_begin());
+    if (cut_.states[local] == CutForest::State::inside) add_inside(leaf);
+    if (cut_.states[local] == CutForest::State::cut)
+      add_cut(leaf, static_cast<std::size_t>(cut_.entry_of[local]));
+  }
+
+ private:
+  void add_inside(std::int32_t leaf) {
+    const unsigned finer = graph_.around(leaf).finer;
+    const auto node = [&](std::int32_t place) { return numbers_.of_leaf(leaf, place); };
+    if (finer == 0) {
+      mesh_.quads.push_back({node(0), node(1), node(2), node(3)});
+      return;
+    }
+    for (const auto& t : hanging_template(finer))
+      mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
+  }
+
+  void add_cut(std::int32_t leaf, std::size_t entry) {
+    const CutForest::Mark &begin = cut_.entries[entry].begin, &end = cut_.entries[entry].end;
+    const auto node = [&](std::int32_t n) { return numbers_.of_cut(leaf, begin.nodes + n); };
+    for (const auto& t : CutForest::part(cut_.triangles, begin.triangles, end.triangles)) {
+      mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
+    }
+    for (const auto& q : CutForest::part(cut_.quads, begin.quads, end.quads)) {
+      mesh_.quads.push_back({node(q[0]), node(q[1]), node(q[2]), node(q[3])});
+    }
+    for (const auto& e : CutForest::part(cut_.outline, begin.outline, end.outline)) {
+      const BoundaryId boundary = geometry_.boundary_of(e.segment);
+      mesh_.boundaries[static_cast<std::size_t>(boundary.value())].edges.push_back(
+          {node(e.from), node(e.to)});
+    }
+  }
+
+  const Geometry& geometry_;
+  const LeafGraph& graph_;
+  const CutForest& cut_;
+  const NodeNumbering& numbers_;
+  Mesh& mesh_;
+};
+
+LeafRecord record_of(const Quadrant& q, int wanted) {
+  constexpr std::int64_t within = (std::int64_t{1} << Quadrant::unit_level) - 1;
+  LeafRecord record;
+  record.tree_x = static_cast<std::int32_t>(q.x >> Quadrant::unit_level);
+  record.tree_y = static_cast<std::int32_t>(q.y >> Quadrant::unit_level);
+  record.x = static_cast<std::int32_t>(q.x & within);
+  record.y = static_cast<std::int32_t>(q.y & within);
+  record.level = static_cast<std::int8_t>(q.level);
+  record.wanted = static_cast<std::int8_t>(wanted);
+  return record;
+}
+
+}  // namespace
+
+void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree& sizes,
+                   const LeafGraph& graph, const CutForest& cut, MeshResult& result) {
+  NodeNumbering numbers(comm, sizes.lattice(), graph, cut);
+  Mesh& mesh = result.mesh;
+  mesh.quads.reserve(cut.states.size());
+  mesh.triangles.reserve(cut.states.size() / 2 + cut.triangles.size());
+  Assembler assembler(geometry, graph, cut, numbers, mesh);
+  DemandPath demands(sizes.demanded());
+  auto& leaves = result.tree.leaves;
+  leaves.reserve(cut.states.size());
+  progress::Stage stage("cells", graph.local_end() - graph.local_begin(), "leaves");
+  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+    stage.advance(leaf - graph.local_begin());
+    const auto triangles = mesh.triangles.size(), quads = mesh.quads.size();
+    assembler.add(leaf);
+    LeafRecord record = record_of(graph.leaf(leaf), sizes.wanted_level(graph.leaf(leaf)));
+    record.triangles = static_cast<std::int32_t>(mesh.triangles.size() - triangles);
+    record.quads = static_cast<std::int32_t>(mesh.quads.size() - quads);
+    record.adapted = demands.levels_above(graph.leaf(leaf));
+    record.mark = record.triangles + record.quads > 0 ? 1 : 0;
+    leaves.push_back(record);
+  }
+  std::move(numbers).fill(mesh);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,114 @@
+#include "mesher/build/build_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
+#include "mesher/base/progress.hpp"
+#include "mesher/build/assemble_mesh.hpp"
+#include "mesher/build/islands.hpp"
+#include "mesher/build/lattice_rank.hpp"
+#include "mesher/build/make_delaunay.hpp"
+#include "mesher/build/mesh_estimate.hpp"
+#include "mesher/build/outline_losses.hpp"
+#include "mesher/build/split_quads.hpp"
+#include "mesher/forest/refine_forest.hpp"
+
+namespace quadloop {
+
+namespace {
+
+void report_tree(const Communicator& comm, const LeafGraph& graph, const CutForest& cut, MeshReport& report) {
+  std::int64_t coarsest = Quadrant::unit_level, finest = 0;
+  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+    coarsest = std::min<std::int64_t>(coarsest, graph.leaf(leaf).level);
+    finest = std::max<std::int64_t>(finest, graph.leaf(leaf).level);
+  }
+  const auto leaves = static_cast<std::int64_t>(cut.states.size());
+  const auto cut_leaves =
+      static_cast<std::int64_t>(std::count(cut.states.begin(), cut.states.end(), CutForest::State::cut));
+  report.leaves = comm.sum(leaves);
+  report.cut_leaves = comm.sum(cut_leaves);
+  report.coarsest_level = static_cast<int>(comm.minimum(coarsest));
+  report.finest_level = static_cast<int>(comm.maximum(finest));
+  const std::int64_t work = weight_uncut * leaves + (weight_cut - weight_uncut) * cut_leaves;
+  report.imbalance =
+      static_cast<double>(comm.maximum(work)) * comm.size() / static_cast<double>(comm.sum(work));
+}
+
+void describe_tree(const Communicator& comm, const Geometry& geometry, const Lattice& lattice,
+                   const MeshOptions& options, MeshResult& result) {
+  TreeAttributes& a = result.tree.attributes;
+  a.root_x = lattice.box().low.x;
+  a.root_y = lattice.box().low.y;
+  a.tree_edge = lattice.tree_edge();
+  a.trees_x = lattice.trees_x();
+  a.trees_y = lattice.trees_y();
+  a.gradation = options.size.gradation;
+  a.geometry_digest = geometry.digest();
+  a.nodes = comm.sum(result.mesh.owned_nodes);
+  a.triangles = comm.sum(static_cast<std::int64_t>(result.mesh.triangles.size()));
+  a.quads = comm.sum(static_cast<std::int64_t>(result.mesh.quads.size()));
+}
+
+/// Of a large mesh that is the first of its run it is worth a line.
+void tell(const MeshEstimate& estimate, int ranks, bool first) {
+  constexpr double large = 1e6;
+  const std::string text = "about " + text_of_cells(estimate.cells) + " cells, " +
+                           text_of_bytes(total_bytes(estimate, ranks)) + " of memory";
+  if (first && estimate.cells >= large)
+    log::information(text);
+  else
+    log::detail(text);
+}
+
+}  // namespace
+
+MeshResult build_mesh(const Communicator& comm, const Geometry& given, const MeshOptions& options,
+                      const DemandedSplits& demanded) {
+  MeshResult result;
+  StageTimes& times = result.report.times;
+  times.begin("geometry");
+  const Geometry geometry = without_small_islands(given, options.size.min, result.report);
+  if (!options.may_vanish && !result.report.boundaries_vanished.empty()) {
+    refuse_vanished(given, result.report.boundaries_vanished,
+                    fmt::format("is smaller than spacing.min = {}", options.size.min));
+  }
+  SizedDomain domain(geometry, options.size, demanded);
+  SizeTree& sizes = domain.sizes;
+  result.report.finest_allowed = sizes.finest_level();
+
+  times.begin("estimate");
+  result.report.estimate = estimate_mesh(geometry, options.type, domain);
+  require_within(result.report.estimate, geometry, options, demanded);
+  tell(result.report.estimate, comm.size(), demanded.empty());
+
+  times.begin("refinement");
+  const LeafGraph graph = refine_forest(comm, sizes, result.report.estimate.leaves);
+
+  times.begin("cutting");
+  const CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap);
+
+  times.begin("mesh");
+  assemble_mesh(comm, geometry, sizes, graph, cut, result);
+  report_losses(comm, geometry, result.mesh, options.may_vanish, result.report);
+
+  if (options.type == MeshType::delaunay) {
+    times.begin("delaunay");
+    const progress::Stage stage("delaunay");
+    make_delaunay(comm, domain.lattice, sizes.finest_level(), graph, cut, result.mesh, result.tree.leaves);
+  }
+  if (options.type == MeshType::hybrid && options.quads == QuadChoice::parallel) {
+    split_skew_quads(result.mesh, result.tree.leaves,
+                     [&](Point p) { return tie_rank(domain.lattice, sizes.finest_level(), p); });
+  }
+  times.end();
+
+  report_tree(comm, graph, cut, result.report);
+  describe_tree(comm, geometry, domain.lattice, options, result);
+  return result;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,81 @@
+#include "mesher/build/islands.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "mesher/base/error.hpp"
+#include "mesher/build/outline_losses.hpp"
+
+namespace quadloop {
+
+namespace {
+
+Box box_of_loop(const Geometry& g, std::int32_t loop) {
+  Box box;
+  for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) box.include(g.point(v));
+  return box;
+}
+
+Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
+  std::vector<Point> points;
+  std::vector<std::int32_t> starts{0};
+  std::vector<BoundaryId> segment_boundary;
+  for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
+    if (keep[static_cast<std::size_t>(loop)] == 0) continue;
+    for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
+      points.push_back(g.point(v));
+      segment_boundary.push_back(g.boundary_of(v));
+    }
+    starts.push_back(static_cast<std::int32_t>(points.size()));
+  }
+  return {{g.boundaries().begin(), g.boundaries().end()},
+          std::move(points),
+          std::move(starts),
+          std::move(segment_boundary)};
+}
+
+/// In the order of the geometry.
+std::vector<std::string> names_without_segments(const Geometry& g) {
+  std::vector<char> found(g.boundaries().size(), 0);
+  for (std::int32_t s = 0; s < g.size(); ++s) found[static_cast<std::size_t>(g.boundary_of(s).value())] = 1;
+  std::vector<std::string> names;
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (found[b] == 0) names.push_back(g.boundaries()[b].name);
+  }
+  return names;
+}
+
+}  // namespace
+
+Geometry without_small_islands(const Geometry& g, double min, MeshReport& report) {
+  std::vector<char> keep(static_cast<std::size_t>(g.loop_count()), 1);
+  for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
+    const Box box = box_of_loop(g, loop);
+    if (box.width() >= min || box.height() >= min) continue;
+    keep[static_cast<std::size_t>(loop)] =
+        0;  // loops nested in it are smaller still, so they go by the same rule
+    ++report.islands_dropped;
+    report.area_dropped += area_of_loop(g, loop);
+    std::ostringstream line;
+    line.precision(12);
+    line << "boundary " << g.boundary(g.boundary_of(g.loop_start(loop))).name << ": a loop near ("
+         << box.centre().x << ", " << box.centre().y << ") is smaller than spacing.min = " << min
+         << " both ways and was dropped";
+    report.warnings.push_back(line.str());
+  }
+  if (report.islands_dropped == 0) return g;
+  if (std::find(keep.begin(), keep.end(), 1) == keep.end()) {
+    const Box box = box_of_loop(g, 0);
+    std::ostringstream message;
+    message << "boundary " << g.boundary(g.boundary_of(0)).name << " near (" << box.centre().x << ", "
+            << box.centre().y
+            << "): this and every other loop of the geometry is smaller than spacing.min = " << min
+            << " both ways; make spacing.min smaller";
+    throw InputError(message.str());
+  }
+  Geometry kept = with_loops(g, keep);
+  report.boundaries_vanished = names_without_segments(kept);
+  return kept;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "mesher/build/build_mesh.hpp"
+
+namespace quadloop {
+
+/// The geometry without the loops whose boxes are smaller than `min` both ways, and without what lies inside
+/// those; each is counted and named in the report. Throws InputError where no loop remains.
+Geometry without_small_islands(const Geometry& geometry, double min, MeshReport& report);
+
+}  // namespace quadloop

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "mesher/build/build_mesh.hpp"
+#include "mesher/cut/cut_forest.hpp"
+
+namespace quadloop {
+
+/// Replaces the cells of a hybrid mesh by the constrained Delaunay triangulation of the same nodes, over the
+/// whole domain (thesis 3.6.1); `leaves` say how many cells of the mesh each local leaf has, before and
+/// after. A triangle belongs to the leaf that holds its centroid, so the order of cells does not depend on
+/// the number of ranks. *Collective.*
+///
+/// In a leaf that is not cut, nor any around it, the hybrid cells are constrained Delaunay already but for
+/// the diagonals of squares: no circumcircle reaches beyond the leaves that touch. The others are
+/// triangulated on every rank that has some of them, with as many rings of those around them as it takes
+/// until nothing farther off can matter; the triangulation being unique, all ranks find the same.
+void make_delaunay(const Communicator& comm, const Lattice& lattice, int finest_level, const LeafGraph& graph,
+                   const CutForest& cut, Mesh& mesh, std::vector<LeafRecord>& leaves);
+
+}  // namespace quadloop

@@ -1,0 +1,72 @@
+#include "mesher/build/mesh_estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/build/islands.hpp"
+#include "mesher/forest/leaf_estimate.hpp"
+
+namespace quadloop {
+
+namespace {
+
+// Means over the cases and over outlines made to be hard, each within 20 %.
+constexpr double hybrid_cells_of_leaf = 1.12, triangles_of_leaf = 2.05;
+
+// Peak memory of meshing, smoothing and writing, in bytes; a cut leaf's is of those that the estimate counts.
+constexpr double of_leaf = 90, of_cut_leaf = 1400, of_hybrid_cell = 80, of_delaunay_triangle = 200;
+// On every rank, the program itself too.
+constexpr double of_segment = 210, of_program = 45 * 0x1p20;
+
+/// Points that the mesh must keep: each beyond the first of a leaf makes a triangle more.
+double kept_points(const Geometry& geometry) {
+  double kept = 0;
+  for (std::int32_t v = 0; v < geometry.size(); ++v) kept += geometry.kept(v) ? 1 : 0;
+  return kept;
+}
+
+}  // namespace
+
+MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain& domain) {
+  const LeafEstimate leaves = estimate_leaves(domain.sizes, domain.inside);
+  const bool delaunay = type == MeshType::delaunay;
+  MeshEstimate estimate;
+  estimate.leaves = leaves.all();
+  estimate.cells = (leaves.inside + leaves.cut) * (delaunay ? triangles_of_leaf : hybrid_cells_of_leaf);
+  estimate.cells += std::max(0.0, kept_points(geometry) - leaves.cut);
+  estimate.bytes = of_leaf * leaves.all() + of_cut_leaf * leaves.cut +
+                   (delaunay ? of_delaunay_triangle : of_hybrid_cell) * estimate.cells;
+  estimate.bytes_of_rank = of_program + of_segment * geometry.size();
+  return estimate;
+}
+
+MeshEstimate estimate_mesh(const Geometry& given, const MeshOptions& options,
+                           const DemandedSplits& demanded) {
+  MeshReport dropped;
+  const Geometry geometry = without_small_islands(given, options.size.min, dropped);
+  SizedDomain domain(geometry, options.size, demanded);
+  return estimate_mesh(geometry, options.type, domain);
+}
+
+double share_of(const MeshLimit& limit, const MeshEstimate& estimate) {
+  return std::max(estimate.cells / limit.cells, total_bytes(estimate, limit.ranks) / limit.bytes);
+}
+
+double total_bytes(const MeshEstimate& estimate, int ranks) {
+  return estimate.bytes + ranks * estimate.bytes_of_rank;
+}
+
+std::string text_of_bytes(double bytes) {
+  constexpr double mib = 0x1p20, step = 1024;
+  if (bytes < step * mib) return fmt::format("{:.0f} MiB", bytes / mib);
+  return bytes < step * step * mib ? fmt::format("{:.1f} GiB", bytes / (step * mib))
+                                   : fmt::format("{:.0f} TiB", bytes / (step * step * mib));
+}
+
+std::string text_of_cells(double cells) {
+  return cells < 1e6 ? fmt::format("{:.0f}", std::round(cells / 10) * 10) : fmt::format("{:.2g}", cells);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,175 @@
+#include "mesher/build/outline_losses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mesher/base/error.hpp"
+#include "mesher/base/reproducible_sum.hpp"
+#include "mesher/mesh/check/validate.hpp"
+
+namespace quadloop {
+
+namespace {
+
+std::string text(Point p) { return fmt::format("({}, {})", p.x, p.y); }
+
+/// Which of `count` things were seen on any rank. *Collective.*
+std::vector<char> seen_anywhere(const Communicator& comm, const std::vector<char>& here) {
+  std::vector<std::int32_t> ids;
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    if (here[i] != 0) ids.push_back(static_cast<std::int32_t>(i));
+  }
+  std::vector<char> seen(here.size(), 0);
+  for (const std::int32_t i : comm.all_gather_values<std::int32_t>(ids))
+    seen[static_cast<std::size_t>(i)] = 1;
+  return seen;
+}
+
+/// Vertices that should be nodes, by their place; a place is one vertex's alone.
+std::map<Point, std::int32_t> kept_vertices(const Geometry& geometry) {
+  std::map<Point, std::int32_t> vertices;
+  for (std::int32_t v = 0; v < geometry.size(); ++v) {
+    if (geometry.kept(v)) vertices.emplace(geometry.point(v), v);
+  }
+  return vertices;
+}
+
+void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, const Mesh& mesh,
+                          MeshReport& report) {
+  const std::map<Point, std::int32_t> kept = kept_vertices(geometry);
+  std::vector<char> is_node(static_cast<std::size_t>(geometry.size()), 0);
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    for (const auto& edge : boundary.edges) {
+      for (const NodeId node : edge) {
+        const auto at = kept.find(mesh.point(node));
+        if (at != kept.end()) is_node[static_cast<std::size_t>(at->second)] = 1;
+      }
+    }
+  }
+  is_node = seen_anywhere(comm, is_node);
+  std::int32_t first = -1;
+  for (std::int32_t v = geometry.size() - 1; v >= 0; --v) {
+    if (!geometry.kept(v) || is_node[static_cast<std::size_t>(v)] != 0) continue;
+    ++report.corners_lost;
+    first = v;
+  }
+  if (report.corners_lost == 0) return;
+  const std::string& name = geometry.boundary(geometry.boundary_of(first)).name;
+  report.warnings.insert(report.warnings.begin(),  // before a list of islands
+                         fmt::format("boundary '{}': {} of {} kept corner{} of the outline {} no node of the "
+                                     "mesh, the first at {}: several share a smallest leaf; make "
+                                     "spacing.min smaller, or 'corner' larger where they need not be kept",
+                                     name, report.corners_lost, kept.size(), kept.size() == 1 ? "" : "s",
+                                     report.corners_lost == 1 ? "is" : "are", text(geometry.point(first))));
+}
+
+Box box_of_boundary(const Geometry& geometry, const std::string& name) {
+  Box box;
+  for (std::int32_t s = 0; s < geometry.size(); ++s) {
+    if (geometry.boundary(geometry.boundary_of(s)).name != name) continue;
+    box.include(geometry.point(s));
+    box.include(geometry.point(geometry.next(s)));
+  }
+  return box;
+}
+
+/// Twice what each edge adds to the area enclosed, seen from `centre`, one list for each boundary.
+std::vector<std::vector<double>> shares_of_area(const Mesh& mesh, Point centre) {
+  std::vector<std::vector<double>> shares;
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    auto& list = shares.emplace_back();
+    for (const auto& edge : boundary.edges)
+      list.push_back(cross(mesh.point(edge[0]) - centre, mesh.point(edge[1]) - centre));
+  }
+  return shares;
+}
+
+std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
+  std::vector<double> shares(geometry.boundaries().size(), 0);
+  for (std::int32_t s = 0; s < geometry.size(); ++s) {
+    shares[static_cast<std::size_t>(geometry.boundary_of(s).value())] +=
+        cross(geometry.point(s) - centre, geometry.point(geometry.next(s)) - centre);
+  }
+  return shares;
+}
+
+[[noreturn]] void refuse_area(const Communicator& comm, const Geometry& geometry, const Mesh& mesh,
+                              double error, bool smoothed) {
+  const Point centre = geometry.box().centre();
+  const std::vector<std::vector<double>> meshed = shares_of_area(mesh, centre);
+  const std::vector<double> wanted = outline_shares(geometry, centre);
+  std::size_t worst = 0;
+  double most = -1;
+  for (std::size_t b = 0; b < meshed.size(); ++b) {
+    const double missed = std::abs(reproducible_sum(comm, meshed[b]) - wanted[b]);
+    if (missed > most) worst = b;
+    most = std::max(most, missed);
+  }
+  const std::string& name = geometry.boundaries()[worst].name;
+  const std::string cause =
+      smoothed ? "nodes have slid along it while smoothing, where it is narrow; set smooth.sweeps = 0, or"
+               : "its leaves are too coarse there;";
+  throw InputError(fmt::format(
+      "boundary '{}' near {}: the area of the mesh is {:.1f} percent off that inside the outline, more than "
+      "the {:.0f} allowed: {} "
+      "give [boundary.{}] a smaller spacing, set spacing.curvature, or make spacing.min or max smaller",
+      name, text(box_of_boundary(geometry, name).centre()), 100 * error, 100 * largest_area_error, cause,
+      name));
+}
+
+}  // namespace
+
+void refuse_vanished(const Geometry& geometry, const std::vector<std::string>& vanished,
+                     const std::string& why) {
+  const Box box = box_of_boundary(geometry, vanished.front());
+  const std::string more =
+      vanished.size() == 1 ? "" : fmt::format(", and with it {} other boundaries", vanished.size() - 1);
+  throw InputError(
+      fmt::format("boundary '{}' near {}, {:.6g} wide and {:.6g} high, {} and would vanish from the mesh{}; "
+                  "make spacing.min smaller, or "
+                  "allow it by vanish = \"allow\" in [geometry]",
+                  vanished.front(), text(box.centre()), box.width(), box.height(), why, more));
+}
+
+void report_losses(const Communicator& comm, const Geometry& geometry, const Mesh& mesh, bool may_vanish,
+                   MeshReport& report) {
+  std::vector<char> has_edges(mesh.boundaries.size(), 0);
+  for (std::size_t b = 0; b < has_edges.size(); ++b) has_edges[b] = mesh.boundaries[b].edges.empty() ? 0 : 1;
+  has_edges = seen_anywhere(comm, has_edges);
+  std::vector<std::string> vanished;
+  for (std::size_t b = 0; b < has_edges.size(); ++b) {
+    if (has_edges[b] == 0) vanished.push_back(mesh.boundaries[b].name);
+  }
+  if (!may_vanish && !vanished.empty())
+    refuse_vanished(geometry, vanished, "lies within leaves that cannot show it");
+  report.boundaries_vanished = std::move(vanished);
+  warn_of_lost_corners(comm, geometry, mesh, report);
+}
+
+double area_of_loop(const Geometry& geometry, std::int32_t loop) {
+  const Point origin = geometry.point(geometry.loop_start(loop));
+  double twice = 0;
+  for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {
+    twice += cross(geometry.point(v) - origin, geometry.point(geometry.next(v)) - origin);
+  }
+  return twice / 2;
+}
+
+void require_area(const Communicator& comm, const Geometry& geometry, double dropped, const Mesh& mesh,
+                  bool smoothed) {
+  std::vector<double> shares;
+  for (const std::vector<double>& list : shares_of_area(mesh, geometry.box().centre()))
+    shares.insert(shares.end(), list.begin(), list.end());
+  const double meshed = reproducible_sum(comm, shares) / 2;
+  double given = 0;
+  for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) given += area_of_loop(geometry, loop);
+  for (const double wanted : {given, given - dropped}) {
+    const double error = std::abs(meshed - wanted) / std::abs(wanted);
+    if (!(error <= largest_area_error)) refuse_area(comm, geometry, mesh, error, smoothed);
+  }
+}
+
+}  // namespace quadloop

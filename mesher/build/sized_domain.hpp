@@ -1,0 +1,32 @@
+#pragma once
+
+#include "mesher/cut/cut_forest.hpp"
+#include "mesher/forest/size_tree.hpp"
+#include "mesher/geometry/inside_test.hpp"
+
+namespace quadloop {
+
+/// A geometry on its lattice, with what decides how finely each place is split. Geometry, options and demands
+/// must outlive it; it does not move.
+struct SizedDomain {
+  SizedDomain(const Geometry& geometry, const SizeOptions& options, const DemandedSplits& demanded)
+      : lattice{choose_root(geometry, options.root)},
+        outline{geometry},
+        inside{outline},
+        resolution{lattice, outline, inside},
+        sizes{outline, lattice, options,
+              [this](const Quadrant& q, std::span<const std::int32_t> segments) {
+                return resolution.unresolved(q, segments);
+              },
+              demanded} {}
+  SizedDomain(const SizedDomain&) = delete;
+  SizedDomain& operator=(const SizedDomain&) = delete;
+
+  Lattice lattice;
+  ShiftedOutline outline;
+  InsideTest inside;
+  ResolutionTest resolution;
+  SizeTree sizes;
+};
+
+}  // namespace quadloop

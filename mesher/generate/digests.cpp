@@ -1,0 +1,105 @@
+#include "mesher/generate/digests.hpp"
+
+#include <bit>
+#include <optional>
+#include <variant>
+
+namespace quadloop {
+
+namespace {
+
+/// Mixes the bits of a word so that each of them moves about half of the result's (the finisher of
+/// SplitMix64).
+std::uint64_t mixed(std::uint64_t word) {
+  word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  word = (word ^ (word >> 27)) * 0x94d049bb133111ebULL;
+  return word ^ (word >> 31);
+}
+
+std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }  // -0 becomes 0
+
+/// A digest of words in their order.
+class WordDigest {
+ public:
+  void add(std::uint64_t word) { state_ = mixed(state_ ^ word) + 0x9e3779b97f4a7c15ULL; }
+  void add(double value) { add(bits(value)); }
+  void add(Point p) {
+    add(p.x);
+    add(p.y);
+  }
+  void add(const std::optional<double>& value) {
+    add(std::uint64_t{value.has_value()});
+    add(value.value_or(0));
+  }
+  void add(const Source& source) {
+    add(static_cast<std::uint64_t>(source.shape.index()));
+    add(source.spacing);
+    if (const auto* box = std::get_if<Box>(&source.shape)) {
+      add(box->low);
+      add(box->high);
+    } else if (const auto* disc = std::get_if<Source::Disc>(&source.shape)) {
+      add(disc->centre);
+      add(disc->radius);
+    } else {
+      add(std::get<Source::Line>(source.shape).from);
+      add(std::get<Source::Line>(source.shape).to);
+    }
+  }
+  std::uint64_t value() const { return mixed(state_); }
+
+ private:
+  std::uint64_t state_ = 0x6a09e667f3bcc908ULL;
+};
+
+}  // namespace
+
+std::uint64_t case_digest(const MeshOptions& options) {
+  WordDigest digest;
+  const SizeOptions& size = options.size;
+  digest.add(static_cast<std::uint64_t>(options.type));
+  digest.add(static_cast<std::uint64_t>(options.quads));
+  digest.add(size.min);
+  digest.add(size.max);
+  digest.add(size.gradation);
+  digest.add(size.curvature);
+  digest.add(size.gap);
+  digest.add(static_cast<std::uint64_t>(size.sources.size()));
+  for (const Source& source : size.sources) digest.add(source);
+  digest.add(std::uint64_t{size.root.has_value()});
+  if (size.root) {
+    digest.add(size.root->corner);
+    digest.add(size.root->tree_edge);
+    digest.add(static_cast<std::uint64_t>(size.root->trees_x));
+    digest.add(static_cast<std::uint64_t>(size.root->trees_y));
+  }
+  digest.add(options.snap);
+  return digest.value();
+}
+
+std::uint64_t text_digest(const std::string& text) {
+  WordDigest digest;
+  digest.add(static_cast<std::uint64_t>(text.size()));
+  for (const char c : text) digest.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  return digest.value();
+}
+
+std::uint64_t digest_of_owned(const Mesh& mesh) {
+  std::uint64_t sum = 0;
+  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
+    WordDigest of_node;
+    of_node.add(static_cast<std::uint64_t>(mesh.first_node + node));
+    of_node.add(mesh.point(NodeId{node}));
+    sum += of_node.value();
+  }
+  return sum;
+}
+
+std::uint64_t coordinate_digest(const Communicator& comm, const Mesh& mesh) {
+  const std::uint64_t sum = digest_of_owned(mesh);
+  // Modulo 2^64 over all ranks, in two halves: a signed 64-bit sum may not overflow.
+  const auto low = static_cast<std::uint64_t>(comm.sum(static_cast<std::int64_t>(sum & 0xffffffffULL)));
+  const auto high = static_cast<std::uint64_t>(comm.sum(static_cast<std::int64_t>(sum >> 32)));
+  return low + (high << 32);
+}
+
+}  // namespace quadloop

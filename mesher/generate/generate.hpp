@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/build/build_mesh.hpp"
+#include "mesher/forest/demanded_splits.hpp"
+#include "mesher/geometry/geometry.hpp"
+#include "smoother/smooth_mesh.hpp"
+
+namespace quadloop {
+
+/// All that a mesh is made from, beside what adaptation demands; the same on every rank.
+struct MeshInput {
+  Geometry geometry;
+  MeshOptions mesh;
+  SmoothOptions smooth;      ///< without the geometry
+  std::uint64_t digest = 0;  ///< of the case: case_digest() of its own mesh options
+};
+
+/// A smoothed mesh and its tree record, complete but for what a file adds.
+struct GeneratedMesh {
+  MeshResult result;
+  StageTimes times;  ///< those of the report, and "smooth"
+};
+
+/// Meshes and smooths; smoothing always begins with the mesh as it is cut, and a mesh of the Delaunay type
+/// ends with flips, under the order of nodes that it was made with. *Collective.* Throws InputError as
+/// build_mesh does.
+GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
+                            const DemandedSplits& demanded = {});
+
+}  // namespace quadloop

@@ -1,0 +1,113 @@
+#include "mesher/geometry/assemble/assemble.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "mesher/base/error.hpp"
+#include "mesher/geometry/assemble/join_chains.hpp"
+#include "mesher/geometry/assemble/rounded_ends.hpp"
+#include "mesher/geometry/validate.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Walks the loop the other way round, from the same first point.
+void turn_round(OutlineLoop& loop) {
+  std::reverse(loop.points.begin() + 1, loop.points.end());
+  std::reverse(loop.boundary.begin(), loop.boundary.end());
+}
+
+std::string turned_text(const Outline& outline, const OutlineLoop& loop, const LoopPlace& place) {
+  const std::string& name = outline.names[static_cast<std::size_t>(loop.boundary.front().value())];
+  const Point p = loop.points.front();
+  std::string text = fmt::format(
+      "boundary '{}': the loop from ({}, {}) wound the wrong way round and was turned", name, p.x, p.y);
+  if (place.depth == 0)
+    text +=
+        "; nothing encloses it, so the domain is its inside (to mesh the outside, set geometry.far_field = "
+        "..., or add a boundary around it)";
+  return text;
+}
+
+void orient(Outline& outline, const std::vector<LoopPlace>& places, Warnings& warnings) {
+  constexpr std::int64_t most_named = 5;
+  std::int64_t turned = 0;
+  for (std::size_t l = 0; l < outline.loops.size(); ++l) {
+    const bool outer = places[l].depth % 2 == 0;
+    if (outer == places[l].counter_clockwise) continue;
+    if (++turned <= most_named) warnings.push_back(turned_text(outline, outline.loops[l], places[l]));
+    turn_round(outline.loops[l]);
+  }
+  if (turned > most_named)
+    warnings.push_back(
+        fmt::format("{} more loops wound the wrong way round and were turned", turned - most_named));
+}
+
+/// Several outermost loops are several domains: meant so, or a loop with wrong coordinates.
+void warn_of_domains(const Outline& outline, const std::vector<LoopPlace>& places, Warnings& warnings) {
+  std::vector<std::size_t> outermost;
+  for (std::size_t l = 0; l < places.size(); ++l) {
+    if (places[l].depth == 0) outermost.push_back(l);
+  }
+  if (outermost.size() < 2) return;
+  const OutlineLoop& second = outline.loops[outermost[1]];
+  const std::string& name = outline.names[static_cast<std::size_t>(second.boundary.front().value())];
+  warnings.push_back(fmt::format(
+      "the geometry has {} domains beside each other; that of boundary '{}' at ({}, {}) lies in no other",
+      outermost.size(), name, second.points.front().x, second.points.front().y));
+}
+
+Geometry to_geometry(const Outline& outline, const AssembleOptions& options) {
+  std::vector<Point> points;
+  std::vector<BoundaryId> segment_boundary;
+  std::vector<std::int32_t> loop_starts{0};
+  for (const OutlineLoop& loop : outline.loops) {
+    points.insert(points.end(), loop.points.begin(), loop.points.end());
+    segment_boundary.insert(segment_boundary.end(), loop.boundary.begin(), loop.boundary.end());
+    loop_starts.push_back(static_cast<std::int32_t>(points.size()));
+  }
+  std::vector<Boundary> boundaries =
+      boundaries_by_rules(outline.names, options.rules, options.default_corner_degrees);
+  return Geometry(std::move(boundaries), std::move(points), std::move(loop_starts),
+                  std::move(segment_boundary));
+}
+
+/// Areas of a geometry much smaller than this leave the range of double precision.
+void require_extent(const Geometry& g) {
+  constexpr double smallest_extent = 1e-100;
+  if (std::max(g.box().width(), g.box().height()) >= smallest_extent) return;
+  throw InputError(
+      fmt::format("boundary '{}' near ({}, {}): the geometry is smaller than 1e-100, out of the range of "
+                  "double precision; scale it up",
+                  g.boundary(g.boundary_of(0)).name, g.point(0).x, g.point(0).y));
+}
+
+}  // namespace
+
+Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
+  clean_chains(chains, warnings);
+  join_rounded_ends(chains, warnings);
+  if (chains.empty())
+    throw InputError(
+        "the geometry has no boundary, so there is no domain to mesh; name a file with at least one closed "
+        "outline");
+  std::size_t size = 0;
+  for (const Chain& chain : chains) size += chain.points.size();
+  if (size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max() / 2)) {
+    throw InputError(fmt::format("the geometry has {} points, more than can be numbered; thin it out", size));
+  }
+  Outline outline = join_chains(chains);
+  const std::vector<LoopPlace> places = validate(outline);
+  Warnings of_domain;
+  orient(outline, places, of_domain);
+  warn_of_domains(outline, places, of_domain);
+  if (!options.domain_is_known) warnings.insert(warnings.end(), of_domain.begin(), of_domain.end());
+  Geometry geometry = to_geometry(outline, options);
+  require_extent(geometry);
+  return geometry;
+}
+
+}  // namespace quadloop

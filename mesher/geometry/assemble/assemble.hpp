@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesher/geometry/assemble/boundary_rules.hpp"
+#include "mesher/geometry/geometry.hpp"
+
+namespace quadloop {
+
+/// What the user is told though the work goes on, one line each.
+using Warnings = std::vector<std::string>;
+
+struct AssembleOptions {
+  std::vector<BoundaryRule> rules;
+  double default_corner_degrees = 30;  ///< of boundaries without a rule of their own
+  bool domain_is_known =
+      false;  ///< from a mesh, say: then nobody is told of loops that were turned, nor of several domains
+};
+
+/// Makes the outline of the domain from polylines: open chains are joined end to end (end points
+/// bit-identical, after join_rounded_ends, in either direction) into loops; chains of one name are one
+/// boundary; consecutive points that coincide are dropped; loops are turned so that the domain, which lies
+/// inside loops of even nesting depth and outside those of odd depth, is to their left. Boundaries and loops
+/// keep the order in which they are first seen. Throws InputError, naming boundary and coordinates, where the
+/// chains are not the outline of a domain.
+Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings);
+
+}  // namespace quadloop

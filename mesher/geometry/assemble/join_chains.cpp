@@ -1,0 +1,211 @@
+#include "mesher/geometry/assemble/join_chains.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <unordered_map>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+std::string text(Point p) { return fmt::format("({}, {})", p.x, p.y); }
+
+constexpr double largest_coordinate = 1e100;
+
+void require_finite(const Chain& chain) {
+  for (std::size_t i = 0; i < chain.points.size(); ++i) {
+    const double size = std::max(std::abs(chain.points[i].x), std::abs(chain.points[i].y));
+    if (size > largest_coordinate && std::isfinite(size)) {
+      throw InputError(
+          fmt::format("{}: boundary '{}': point {} is {}, beyond 1e100, where areas leave the range of "
+                      "double precision; scale it down",
+                      chain.source, chain.name, i + 1, text(chain.points[i])));
+    }
+    if (std::isfinite(chain.points[i].x) && std::isfinite(chain.points[i].y)) continue;
+    throw InputError(
+        fmt::format("{}: boundary '{}': point {} is {}, which is not finite; correct the coordinates or the "
+                    "transformation",
+                    chain.source, chain.name, i + 1, text(chain.points[i])));
+  }
+}
+
+/// What was dropped of one boundary.
+struct Dropped {
+  std::string name;
+  std::int64_t count = 0;
+  Point first;
+};
+
+/// Returns where the first dropped point was.
+std::optional<Point> drop_repeated(Chain& chain, std::int64_t& count) {
+  const auto before = chain.points.size();
+  const auto repeated = std::adjacent_find(chain.points.begin(), chain.points.end());
+  std::optional<Point> first;
+  if (repeated != chain.points.end()) first = *repeated;
+  chain.points.erase(std::unique(chain.points.begin(), chain.points.end()), chain.points.end());
+  while (!chain.open && chain.points.size() > 1 && chain.points.front() == chain.points.back()) {
+    if (!first) first = chain.points.back();
+    chain.points.pop_back();
+  }
+  count += static_cast<std::int64_t>(before - chain.points.size());
+  return first;
+}
+
+/// One end of an open chain: the first point of chain number end / 2 where end is even, else the last.
+class ChainEnds {
+ public:
+  explicit ChainEnds(const std::vector<Chain>& chains) : chains_{chains} {
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      if (!chains[c].open) continue;
+      at_[chains[c].points.front()].push_back(2 * c);
+      at_[chains[c].points.back()].push_back(2 * c + 1);
+    }
+  }
+
+  Point point(std::size_t end) const {
+    const auto& points = chains_[end / 2].points;
+    return end % 2 == 0 ? points.front() : points.back();
+  }
+
+  /// Every point where chains end must hold two ends. The first that does not, in the order of input, is
+  /// refused.
+  void require_closed() const {
+    for (std::size_t end = 0; end < 2 * chains_.size(); ++end) {
+      if (!chains_[end / 2].open) continue;
+      const auto& ends = at_.at(point(end));
+      if (ends.size() == 1) refuse_loose(end);
+      if (ends.size() > 2) refuse_fork(end, ends);
+    }
+  }
+
+  /// The other end at the same point.
+  std::size_t partner(std::size_t end) const {
+    const auto& ends = at_.at(point(end));
+    return ends[0] == end ? ends[1] : ends[0];
+  }
+
+ private:
+  [[noreturn]] void refuse_loose(std::size_t end) const {
+    const Chain& chain = chains_[end / 2];
+    std::string nearest;
+    double distance = 0;
+    for (const auto& [p, ends] : at_) {
+      const double d = length(p - point(end));
+      if (ends.size() != 1 || p == point(end) || (!nearest.empty() && d >= distance)) continue;
+      distance = d;
+      nearest = fmt::format("; the nearest other loose end is {} of boundary '{}', {} away", text(p),
+                            chains_[ends[0] / 2].name, d);
+    }
+    throw InputError(
+        fmt::format("{}: boundary '{}' is not watertight: its {} point {} joins no other chain{}; make the "
+                    "end points of the chains "
+                    "identical, or give the chain as a closed loop",
+                    chain.source, chain.name, end % 2 == 0 ? "first" : "last", text(point(end)), nearest));
+  }
+
+  [[noreturn]] void refuse_fork(std::size_t end, const std::vector<std::size_t>& ends) const {
+    const Chain& chain = chains_[end / 2];
+    std::string names;
+    for (const std::size_t other : ends)
+      names += fmt::format("{}'{}'", names.empty() ? "" : ", ", chains_[other / 2].name);
+    throw InputError(fmt::format(
+        "{}: boundary '{}': {} chains end at {} ({}), where two should; give each piece of the outline once",
+        chain.source, chain.name, ends.size(), text(point(end)), names));
+  }
+
+  const std::vector<Chain>& chains_;
+  std::map<Point, std::vector<std::size_t>> at_;
+};
+
+class Joiner {
+ public:
+  explicit Joiner(const std::vector<Chain>& chains) : chains_{chains}, ends_{chains}, used_(chains.size()) {}
+
+  Outline run() {
+    ends_.require_closed();
+    for (const Chain& chain : chains_) number(chain.name);
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      if (used_[c]) continue;
+      OutlineLoop loop;
+      loop.source = chains_[c].source;
+      if (chains_[c].open) {
+        join_from(c, loop);
+      } else {
+        loop.points = chains_[c].points;
+        loop.boundary.assign(loop.points.size(), numbers_.at(chains_[c].name));
+      }
+      require_area(chains_[c], loop);
+      outline_.loops.push_back(std::move(loop));
+    }
+    return std::move(outline_);
+  }
+
+ private:
+  void number(const std::string& name) {
+    if (!numbers_.try_emplace(name, BoundaryId{static_cast<std::int32_t>(outline_.names.size())}).second)
+      return;
+    outline_.names.push_back(name);
+  }
+
+  /// Walks from chain to chain until back at the first; a chain met at its last point is walked backwards.
+  void join_from(std::size_t first, OutlineLoop& loop) {
+    std::size_t entered = 2 * first;
+    do {
+      const std::size_t c = entered / 2;
+      std::vector<Point> points = chains_[c].points;
+      if (entered % 2 == 1) std::reverse(points.begin(), points.end());
+      used_[c] = 1;
+      loop.points.insert(loop.points.end(), points.begin(), points.end() - 1);
+      loop.boundary.resize(loop.points.size(), numbers_.at(chains_[c].name));
+      entered = ends_.partner(entered ^ 1);
+    } while (entered != 2 * first);
+  }
+
+  static void require_area(const Chain& chain, const OutlineLoop& loop) {
+    std::vector<Point> distinct = loop.points;
+    std::sort(distinct.begin(), distinct.end());
+    const auto count = std::unique(distinct.begin(), distinct.end()) - distinct.begin();
+    if (count >= 3) return;
+    const std::string place = loop.points.empty() ? "" : " near " + text(loop.points.front());
+    throw InputError(
+        fmt::format("{}: boundary '{}'{} is a loop of {} distinct point{}; a loop needs at least three",
+                    chain.source, chain.name, place, count, count == 1 ? "" : "s"));
+  }
+
+  const std::vector<Chain>& chains_;
+  ChainEnds ends_;
+  std::vector<char> used_;
+  std::unordered_map<std::string, BoundaryId> numbers_;
+  Outline outline_;
+};
+
+}  // namespace
+
+void clean_chains(std::vector<Chain>& chains, std::vector<std::string>& warnings) {
+  std::vector<Dropped> dropped;
+  for (Chain& chain : chains) {
+    require_finite(chain);
+    std::int64_t count = 0;
+    const std::optional<Point> first = drop_repeated(chain, count);
+    if (!first) continue;
+    auto of_name =
+        std::find_if(dropped.begin(), dropped.end(), [&](const Dropped& d) { return d.name == chain.name; });
+    if (of_name == dropped.end()) of_name = dropped.insert(of_name, {chain.name, 0, *first});
+    of_name->count += count;
+  }
+  std::erase_if(chains, [](const Chain& chain) { return chain.open && chain.points.size() < 2; });
+  for (const Dropped& d : dropped) {
+    warnings.push_back(
+        fmt::format("boundary '{}': dropped {} point{} that repeat{} the one before, the first at {}", d.name,
+                    d.count, d.count == 1 ? "" : "s", d.count == 1 ? "s" : "", text(d.first)));
+  }
+}
+
+Outline join_chains(const std::vector<Chain>& chains) { return Joiner(chains).run(); }
+
+}  // namespace quadloop

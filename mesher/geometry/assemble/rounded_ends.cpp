@@ -1,0 +1,126 @@
+#include "mesher/geometry/assemble/rounded_ends.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace quadloop {
+
+namespace {
+
+constexpr double units_in_last_place = 16;
+
+/// The distance along each axis that counts as rounding.
+double rounding_of(const std::vector<Chain>& chains) {
+  double largest = 0;
+  for (const Chain& chain : chains) {
+    for (const Point p : chain.points) {
+      if (std::isfinite(p.x) && std::isfinite(p.y))
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    }
+  }
+  return units_in_last_place * std::numeric_limits<double>::epsilon() * largest;
+}
+
+/// Drops points that are no further than rounding from the one before; the ends of an open chain stay.
+/// Returns how many.
+std::int64_t drop_near_repeats(Chain& chain, double rounding) {
+  const auto near = [&](Point a, Point b) {
+    return std::abs(a.x - b.x) <= rounding && std::abs(a.y - b.y) <= rounding;
+  };
+  auto& points = chain.points;
+  if (points.size() < 2) return 0;
+  const std::size_t before = points.size();
+  const Point last = points.back();
+  points.erase(std::unique(points.begin(), points.end(), near), points.end());
+  if (chain.open && points.size() == 1) points.push_back(last);
+  if (chain.open) points.back() = last;
+  while (!chain.open && points.size() > 1 && near(points.back(), points.front())) points.pop_back();
+  return static_cast<std::int64_t>(before - points.size());
+}
+
+/// The ends of open chains at which no other ends exactly, by their places; number 2 * chain, one more for
+/// its last point.
+class LooseEnds {
+ public:
+  LooseEnds(std::vector<Chain>& chains, double rounding) : chains_{chains}, rounding_{rounding} {
+    std::map<Point, std::vector<std::size_t>> at;
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      if (!chains[c].open || chains[c].points.size() < 2) continue;
+      at[chains[c].points.front()].push_back(2 * c);
+      at[chains[c].points.back()].push_back(2 * c + 1);
+    }
+    for (const auto& [place, ends] : at) {
+      if (ends.size() == 1) loose_.emplace(place, ends.front());
+    }
+  }
+
+  /// Joins all pairs; returns how many, and where the first in the order of input is.
+  std::pair<std::int64_t, Point> join() {
+    std::map<std::size_t, std::size_t> later_to_earlier;
+    for (const auto& [place, end] : loose_) {
+      const std::vector<std::size_t> near = others_near(place);
+      if (near.size() != 1 || near.front() > end || others_near(point(near.front())).size() != 1 ||
+          too_short(end, near.front()))
+        continue;
+      later_to_earlier.emplace(end, near.front());
+    }
+    std::pair<std::int64_t, Point> joined{0, {}};
+    std::size_t first = std::numeric_limits<std::size_t>::max();
+    for (const auto& [later, earlier] : later_to_earlier) {
+      ++joined.first;
+      if (earlier < first) joined.second = point(earlier);
+      first = std::min(first, earlier);
+      point(later) = point(earlier);
+    }
+    return joined;
+  }
+
+ private:
+  Point& point(std::size_t end) const {
+    auto& points = chains_[end / 2].points;
+    return end % 2 == 0 ? points.front() : points.back();
+  }
+
+  std::vector<std::size_t> others_near(Point place) const {
+    std::vector<std::size_t> found;
+    for (auto at = loose_.lower_bound({place.x - rounding_, -std::numeric_limits<double>::infinity()});
+         at != loose_.end(); ++at) {
+      if (at->first.x > place.x + rounding_) break;
+      if (at->first != place && std::abs(at->first.y - place.y) <= rounding_) found.push_back(at->second);
+    }
+    return found;
+  }
+
+  /// A chain that closes on itself has three points beside the one that comes twice.
+  bool too_short(std::size_t one, std::size_t other) const {
+    return one / 2 == other / 2 && chains_[one / 2].points.size() < 4;
+  }
+
+  std::vector<Chain>& chains_;
+  double rounding_;
+  std::map<Point, std::size_t> loose_;
+};
+
+}  // namespace
+
+void join_rounded_ends(std::vector<Chain>& chains, std::vector<std::string>& warnings) {
+  const double rounding = rounding_of(chains);
+  std::int64_t dropped = 0;
+  for (Chain& chain : chains) dropped += drop_near_repeats(chain, rounding);
+  if (dropped > 0) {
+    warnings.push_back(
+        fmt::format("dropped {} point{} that {} no farther than rounding ({:.2g}) from the one before",
+                    dropped, dropped == 1 ? "" : "s", dropped == 1 ? "is" : "are", rounding));
+  }
+  const auto [count, first] = LooseEnds(chains, rounding).join();
+  if (count == 0) return;
+  warnings.push_back(fmt::format(
+      "{} pair{} of chain ends differed by rounding (less than {:.2g}) and {} joined, the first at ({}, {})",
+      count, count == 1 ? "" : "s", rounding, count == 1 ? "was" : "were", first.x, first.y));
+}
+
+}  // namespace quadloop

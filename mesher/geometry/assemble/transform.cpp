@@ -1,0 +1,81 @@
+#include "mesher/geometry/assemble/transform.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Cosine and sine of an angle in degrees; multiples of 90 give -1, 0 and 1 themselves.
+Point direction(double degrees) {
+  const double turn = std::remainder(degrees, 360.0);  // exact, in -180 .. 180
+  if (turn == 0) return {1, 0};
+  if (turn == 90) return {0, 1};
+  if (turn == -90) return {0, -1};
+  if (std::abs(turn) == 180) return {-1, 0};
+  const double radians = turn * (std::numbers::pi / 180);
+  return {std::cos(radians), std::sin(radians)};
+}
+
+Point placed(Point p, const Transform& transform, Point turn) {
+  const Point s = transform.scale * p;
+  return Point{turn.x * s.x - turn.y * s.y, turn.y * s.x + turn.x * s.y} + transform.translate;
+}
+
+}  // namespace
+
+Point transformed(Point p, const Transform& transform) {
+  return placed(p, transform, direction(transform.rotate_degrees));
+}
+
+void apply(const Transform& transform, std::vector<Chain>& chains) {
+  const Point turn = direction(transform.rotate_degrees);
+  for (Chain& chain : chains) {
+    for (Point& p : chain.points) p = placed(p, transform, turn);
+  }
+}
+
+namespace {
+
+/// The box of the chains. Throws InputError where one of them is a far field already.
+Box box_without_far_field(const std::vector<Chain>& chains, const std::string& where) {
+  Box box;
+  for (const Chain& chain : chains) {
+    if (chain.name == "farfield") {
+      throw InputError(
+          fmt::format("{}: the geometry already has a boundary 'farfield' ({}); take the setting out, or "
+                      "rename the boundary",
+                      where, chain.source));
+    }
+    for (const Point p : chain.points) box.include(p);
+  }
+  return box;
+}
+
+}  // namespace
+
+Box far_field_box(const std::vector<Chain>& chains, double half_width, const std::string& where) {
+  const Point centre = box_without_far_field(chains, where).centre();
+  return {centre - Point{half_width, half_width}, centre + Point{half_width, half_width}};
+}
+
+void add_far_field(std::vector<Chain>& chains, const Box& square, const std::string& where) {
+  const Box box = box_without_far_field(chains, where);
+  const auto& [low, high] = square;
+  if (!(low.x < box.low.x && low.y < box.low.y && box.high.x < high.x && box.high.y < high.y)) {
+    throw InputError(
+        fmt::format("{}: a far field of half width {:g} around ({}, {}) does not enclose the geometry, which "
+                    "reaches from ({}, {}) to "
+                    "({}, {}); make it larger than {}",
+                    where, 0.5 * square.width(), square.centre().x, square.centre().y, box.low.x, box.low.y,
+                    box.high.x, box.high.y, 0.5 * std::max(box.width(), box.height())));
+  }
+  chains.push_back({"farfield", false, {low, {high.x, low.y}, high, {low.x, high.y}}, where});
+}
+
+}  // namespace quadloop

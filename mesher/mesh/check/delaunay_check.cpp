@@ -1,0 +1,30 @@
+#include "mesher/mesh/check/delaunay_check.hpp"
+
+#include "mesher/geometry/predicates.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+bool is_delaunay(const Mesh& whole, std::span<const std::int32_t> triangle_to_block) {
+  if (!whole.quads.empty() || whole.triangles.empty()) return false;
+  const EdgeTable table(whole);
+  const auto same_block = [&](std::size_t a, std::size_t b) {
+    return triangle_to_block.empty() || triangle_to_block[a] == triangle_to_block[b];
+  };
+  for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+    const auto& nodes = whole.triangles[t];
+    const Point a = whole.point(nodes[0]), b = whole.point(nodes[1]), c = whole.point(nodes[2]);
+    if (orientation(a, b, c) <= 0) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t across = table.cell_left_of(nodes[(k + 1) % 3], nodes[k]);
+      if (across < 0 || !same_block(t, static_cast<std::size_t>(across))) continue;
+      for (const NodeId node : whole.triangles[static_cast<std::size_t>(across)]) {
+        if (node != nodes[k] && node != nodes[(k + 1) % 3] && in_circle(a, b, c, whole.point(node)) > 0)
+          return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace quadloop

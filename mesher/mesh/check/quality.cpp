@@ -1,0 +1,105 @@
+#include "mesher/mesh/check/quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace quadloop {
+
+namespace {
+
+constexpr double fixed_point = 1 << 30;  // 2^33 cells of quality 1 fit into 64 bits
+
+double quality_of_triangle(Point a, Point b, Point c) {
+  const double edges = dot(b - a, b - a) + dot(c - b, c - b) + dot(a - c, a - c);
+  return edges > 0 ? 2 * std::numbers::sqrt3 * cross(b - a, c - a) / edges : 0;
+}
+
+double quality_of_corner(Point previous, Point p, Point next) {
+  const double edges = dot(next - p, next - p) + dot(previous - p, previous - p);
+  return edges > 0 ? 2 * cross(next - p, previous - p) / edges : 0;
+}
+
+/// What one rank adds up.
+struct Tally {
+  double smallest = std::numeric_limits<double>::infinity(),
+         largest = -std::numeric_limits<double>::infinity();
+  double worst = std::numeric_limits<double>::infinity();
+  std::int64_t sum = 0;
+
+  template <class Cells>
+  void add(const Mesh& mesh, const Cells& cells) {
+    constexpr std::size_t width = std::tuple_size_v<typename Cells::value_type>;
+    for (const auto& nodes : cells) {
+      std::array<Point, width> cell;
+      for (std::size_t k = 0; k < width; ++k) cell[k] = mesh.point(nodes[k]);
+      for (std::size_t k = 0; k < width; ++k) {
+        const double angle = corner_degrees(cell[(k + width - 1) % width], cell[k], cell[(k + 1) % width]);
+        smallest = std::min(smallest, angle);
+        largest = std::max(largest, angle);
+      }
+      const double quality = quality_of(cell);
+      worst = std::min(worst, quality);
+      sum += std::llround(quality * fixed_point);
+    }
+  }
+};
+
+}  // namespace
+
+double corner_degrees(Point previous, Point p, Point next) {
+  const Point u = next - p, v = previous - p;
+  return std::atan2(cross(u, v), dot(u, v)) * (180 / std::numbers::pi);
+}
+
+double quality_of(std::span<const Point> cell) {
+  if (cell.size() == 3) return quality_of_triangle(cell[0], cell[1], cell[2]);
+  double worst = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < cell.size(); ++k) {
+    worst = std::min(worst, quality_of_corner(cell[(k + cell.size() - 1) % cell.size()], cell[k],
+                                              cell[(k + 1) % cell.size()]));
+  }
+  return worst;
+}
+
+double skew_of(const std::array<Point, 4>& p) {
+  return length(p[0] - p[1] + p[2] - p[3]) / std::sqrt(0.5 * cross(p[2] - p[0], p[3] - p[1]));
+}
+
+MeshCounts count(const Communicator& comm, const Mesh& mesh) {
+  std::int64_t edges = 0;
+  for (const BoundaryEdges& boundary : mesh.boundaries)
+    edges += static_cast<std::int64_t>(boundary.edges.size());
+  return {comm.sum(mesh.owned_nodes), comm.sum(static_cast<std::int64_t>(mesh.triangles.size())),
+          comm.sum(static_cast<std::int64_t>(mesh.quads.size())), comm.sum(edges)};
+}
+
+QualitySummary summarise_quality(const Communicator& comm, const Mesh& mesh) {
+  Tally tally;
+  tally.add(mesh, mesh.triangles);
+  tally.add(mesh, mesh.quads);
+  QualitySummary result;
+  result.counts = count(comm, mesh);
+  const std::int64_t cells = result.counts.triangles + result.counts.quads;
+  const double smallest = comm.minimum(tally.smallest), largest = comm.maximum(tally.largest),
+               worst = comm.minimum(tally.worst);
+  const std::int64_t sum = comm.sum(tally.sum);
+  if (cells == 0) return result;
+  result.smallest_degrees = smallest;
+  result.largest_degrees = largest;
+  result.worst = worst;
+  result.mean = static_cast<double>(sum) / fixed_point / static_cast<double>(cells);
+  return result;
+}
+
+double area_of(const Mesh& mesh) {
+  long double area = 0;
+  for (const auto& t : mesh.triangles)
+    area += cross(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0])) / 2;
+  for (const auto& q : mesh.quads)
+    area += cross(mesh.point(q[2]) - mesh.point(q[0]), mesh.point(q[3]) - mesh.point(q[1])) / 2;
+  return static_cast<double>(area);
+}
+
+}  // namespace quadloop

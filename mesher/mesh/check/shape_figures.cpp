@@ -1,0 +1,217 @@
+#include "mesher/mesh/check/shape_figures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double inexact = 0.002;
+
+template <class Nodes>
+double area_of(const HaloMesh& mesh, const Nodes& nodes) {
+  const Point a = mesh.point(nodes[0]), b = mesh.point(nodes[1]), c = mesh.point(nodes[2]);
+  if constexpr (std::tuple_size_v<Nodes> == 3) return 0.5 * cross(b - a, c - a);
+  return 0.5 * cross(c - a, mesh.point(nodes.back()) - b);
+}
+
+/// Turned by a right angle, clockwise.
+Point turned(Point v) { return {v.y, -v.x}; }
+
+/// What a node's dual cell adds up to over its edges; places count from the node.
+struct DualSum {
+  double area = 0;
+  Point with_x, with_y;  ///< columns of the sum of (middle) x (face)
+
+  void add_face(Point middle, Point face) {
+    with_x = with_x + middle.x * face;
+    with_y = with_y + middle.y * face;
+  }
+  bool is_exact() const {
+    const double most = inexact * area;
+    return std::abs(with_x.x - area) <= most && std::abs(with_x.y) <= most && std::abs(with_y.x) <= most &&
+           std::abs(with_y.y - area) <= most;
+  }
+};
+
+/// The part of a cell round its k-th node is bounded by the middles of its two edges there and the mean of
+/// the cell's nodes.
+template <class Nodes>
+void add_corner(const HaloMesh& mesh, const Nodes& nodes, std::size_t k, DualSum& sum) {
+  const std::size_t n = nodes.size();
+  const Point p = mesh.point(nodes[k]);
+  Point centre;
+  for (const NodeId node : nodes) centre = centre + (1.0 / static_cast<double>(n)) * (mesh.point(node) - p);
+  const Point after = 0.5 * (mesh.point(nodes[(k + 1) % n]) - p),
+              before = 0.5 * (mesh.point(nodes[(k + n - 1) % n]) - p);
+  sum.add_face(after, turned(centre - after));
+  sum.add_face(before, turned(before - centre));
+  sum.area += 0.5 * cross(centre, before - after);
+}
+
+/// A flag for each node of the halo mesh that lies on the boundary; right for all. *Collective.*
+std::vector<char> boundary_nodes(const HaloMesh& mesh) {
+  std::vector<char> flags(mesh.points().size(), 0);
+  for (const HaloEdge& edge : mesh.boundary_edges()) {
+    for (const NodeId node : {edge.from, edge.to}) flags[static_cast<std::size_t>(node.value())] = 1;
+  }
+  mesh.exchange().update(flags);
+  return flags;
+}
+
+void count_inexact_nodes(const HaloMesh& mesh, const std::vector<char>& on_boundary, ShapeFigures& figures) {
+  std::vector<DualSum> sums(static_cast<std::size_t>(mesh.owned_nodes()));
+  mesh.for_each_cell([&](const auto& nodes) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (nodes[k].value() < mesh.owned_nodes())
+        add_corner(mesh, nodes, k, sums[static_cast<std::size_t>(nodes[k].value())]);
+    }
+  });
+  for (std::size_t node = 0; node < sums.size(); ++node) {
+    if (on_boundary[node] != 0) continue;
+    ++figures.inner_nodes;
+    figures.inexact_nodes += sums[node].is_exact() ? 0 : 1;
+  }
+}
+
+void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
+  for (const auto& q : mesh.quads) {
+    const bool parallel =
+        skew_of({mesh.point(q[0]), mesh.point(q[1]), mesh.point(q[2]), mesh.point(q[3])}) <= parallel_skew;
+    figures.parallelograms += parallel ? 1 : 0;
+  }
+  figures.quads = static_cast<std::int64_t>(mesh.quads.size());
+}
+
+double ratio_of(double a, double b) {
+  const double ratio = std::max(a, b) / std::min(a, b);
+  return ratio >= 1 ? ratio : std::numeric_limits<double>::infinity();
+}
+
+/// The largest and the smallest area of the cells round a node.
+struct AreaRange {
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  double ratio() const { return ratio_of(largest, smallest); }
+};
+
+/// The largest ratio at edges of those owned nodes round which the areas differ by `least` or more.
+double largest_ratio(const HaloMesh& mesh, const std::vector<AreaRange>& ranges, double least) {
+  struct Side {
+    std::int32_t node, other;
+    double area;
+  };
+  std::vector<Side> sides;
+  mesh.for_each_cell([&](const auto& nodes) {
+    const std::size_t n = nodes.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::int32_t node = nodes[k].value();
+      if (node >= mesh.owned_nodes() || ranges[static_cast<std::size_t>(node)].ratio() < least) continue;
+      const double area = area_of(mesh, nodes);
+      sides.push_back({node, nodes[(k + 1) % n].value(), area});
+      sides.push_back({node, nodes[(k + n - 1) % n].value(), area});
+    }
+  });
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.node != b.node ? a.node < b.node : a.other < b.other;
+  });
+  double largest = 0;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    const bool shared = sides[i].node == sides[i - 1].node && sides[i].other == sides[i - 1].other;
+    if (shared) largest = std::max(largest, ratio_of(sides[i].area, sides[i - 1].area));
+  }
+  return largest;
+}
+
+/// An edge's ratio is at most that of all cells round either of its nodes: so only nodes of large ratios are
+/// looked at, and fewer than all as soon as an edge among them reaches the bound. *Collective.*
+double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh) {
+  std::vector<AreaRange> ranges(static_cast<std::size_t>(mesh.owned_nodes()));
+  mesh.for_each_cell([&](const auto& nodes) {
+    const double area = area_of(mesh, nodes);
+    for (const NodeId node : nodes) {
+      if (node.value() >= mesh.owned_nodes()) continue;
+      AreaRange& range = ranges[static_cast<std::size_t>(node.value())];
+      range = {std::min(range.smallest, area), std::max(range.largest, area)};
+    }
+  });
+  double bound = 1;
+  for (const AreaRange& range : ranges) bound = std::max(bound, range.largest > 0 ? range.ratio() : 1);
+  bound = comm.maximum(bound);
+  if (!std::isfinite(bound)) return comm.maximum(largest_ratio(mesh, ranges, 1));
+  for (;;) {
+    bound = std::max(1.0, bound / 2);
+    const double found = comm.maximum(largest_ratio(mesh, ranges, bound));
+    if (found >= bound || bound == 1) return found;
+  }
+}
+
+/// The nodes that a node shares boundary edges with, by their numbers over all ranks; more than four are not
+/// needed to tell passages.
+struct BoundaryNeighbours {
+  std::array<std::int64_t, 4> nodes{-1, -1, -1, -1};
+  void add(std::int64_t node) {
+    const auto place = std::find(nodes.begin(), nodes.end(), -1);
+    if (place != nodes.end()) *place = node;
+  }
+  bool holds(std::int64_t node) const { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); }
+};
+
+/// *Collective.*
+std::vector<BoundaryNeighbours> boundary_neighbours(const HaloMesh& mesh) {
+  std::vector<BoundaryNeighbours> neighbours(mesh.points().size());
+  for (const HaloEdge& edge : mesh.boundary_edges()) {
+    const std::int32_t from = edge.from.value(), to = edge.to.value();
+    if (from < mesh.owned_nodes()) neighbours[static_cast<std::size_t>(from)].add(mesh.global(to));
+    if (to < mesh.owned_nodes()) neighbours[static_cast<std::size_t>(to)].add(mesh.global(from));
+  }
+  mesh.exchange().update(neighbours);
+  return neighbours;
+}
+
+/// Each cell counts where its first node is owned. *Collective.*
+std::int64_t count_passage_cells(const HaloMesh& mesh, const std::vector<char>& on_boundary) {
+  const std::vector<BoundaryNeighbours> neighbours = boundary_neighbours(mesh);
+  const auto is_boundary = [&](NodeId a, NodeId b) {
+    return neighbours[static_cast<std::size_t>(a.value())].holds(mesh.global(b.value()));
+  };
+  std::int64_t count = 0;
+  mesh.for_each_cell([&](const auto& nodes) {
+    const std::size_t n = nodes.size();
+    if (nodes[0].value() >= mesh.owned_nodes()) return;
+    for (const NodeId node : nodes) {
+      if (on_boundary[static_cast<std::size_t>(node.value())] == 0) return;
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      if (is_boundary(nodes[k], nodes[(k + 1) % n]) && is_boundary(nodes[(k + 1) % n], nodes[(k + 2) % n]))
+        return;
+    }
+    ++count;
+  });
+  return count;
+}
+
+}  // namespace
+
+ShapeFigures shape_figures(const Communicator& comm, const Mesh& mesh) {
+  ShapeFigures figures;
+  const HaloMesh halo(comm, mesh);
+  const std::vector<char> on_boundary = boundary_nodes(halo);
+  count_parallelograms(mesh, figures);
+  count_inexact_nodes(halo, on_boundary, figures);
+  figures.quads = comm.sum(figures.quads);
+  figures.parallelograms = comm.sum(figures.parallelograms);
+  figures.inner_nodes = comm.sum(figures.inner_nodes);
+  figures.inexact_nodes = comm.sum(figures.inexact_nodes);
+  figures.area_ratio_max = largest_area_ratio(comm, halo);
+  figures.passage_cells = comm.sum(count_passage_cells(halo, on_boundary));
+  return figures;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,231 @@
+#include "mesher/mesh/check/shape_statistics.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double sharp_vertex_degrees = 60, sharp_corner_degrees = 30;
+
+struct PointHash {
+  std::size_t operator()(Point p) const {
+    constexpr std::size_t odd = 0x9E3779B97F4A7C15;  // 2^64 by the golden ratio
+    const std::hash<double> hash;
+    return (hash(p.x) * odd) ^ hash(p.y);
+  }
+};
+
+/// Calls `visit(from, to)` for the segments of all chains, but for those without length.
+template <class Visit>
+void for_each_segment(std::span<const Chain> geometry, const Visit& visit) {
+  for (const Chain& chain : geometry) {
+    const std::size_t count = chain.points.size();
+    for (std::size_t i = 0; i + (chain.open ? 1 : 0) < count; ++i) {
+      const Point from = chain.points[i], to = chain.points[(i + 1) % count];
+      if (from != to) visit(from, to);
+    }
+  }
+}
+
+/// 0 to 360, of the domain to the left of the way from `previous` over p to `next`.
+double interior_degrees(Point previous, Point p, Point next) {
+  const double degrees = corner_degrees(previous, p, next);
+  return degrees < 0 ? degrees + 360 : degrees;
+}
+
+/// The vertices where the outline is sharp, and the smallest excepted corner of a cell at each.
+class SharpVertices {
+ public:
+  /// The outline passes each vertex once; where it runs on from chain to chain, their end points are
+  /// identical.
+  explicit SharpVertices(std::span<const Chain> geometry) {
+    std::unordered_map<Point, Point, PointHash> following;
+    for_each_segment(geometry, [&](Point from, Point to) { following[from] = to; });
+    for_each_segment(geometry, [&](Point from, Point to) {
+      const auto next = following.find(to);
+      if (next != following.end() && interior_degrees(from, to, next->second) < sharp_vertex_degrees)
+        smallest_.emplace(to, infinity);
+    });
+  }
+
+  /// Whether the corner of a cell at p is excepted. `own` tells that it lies between two boundary edges: it
+  /// is the boundary's own angle.
+  bool excepts(Point p, double degrees, bool own) {
+    if (!(degrees > 0 && degrees < sharp_corner_degrees)) return false;
+    auto vertex = smallest_.find(p);
+    if (vertex == smallest_.end() && own) vertex = smallest_.emplace(p, infinity).first;
+    if (vertex == smallest_.end()) return false;
+    vertex->second = std::min(vertex->second, degrees);
+    return true;
+  }
+
+  std::vector<SharpPlace> places() const {
+    std::vector<SharpPlace> places;
+    for (const auto& [place, degrees] : smallest_) {
+      if (degrees < infinity) places.push_back({place, degrees});
+    }
+    std::sort(places.begin(), places.end(),
+              [](const SharpPlace& a, const SharpPlace& b) { return a.place < b.place; });
+    return places;
+  }
+
+ private:
+  std::unordered_map<Point, double, PointHash> smallest_;
+};
+
+void add_corner(double degrees, ShapeStatistics& shape) {
+  shape.corners_below_15 += degrees < 15 ? 1 : 0;
+  shape.corners_below_25 += degrees < 25 ? 1 : 0;
+  shape.corners_below_26 += degrees < 26 ? 1 : 0;
+  shape.corners_above_150 += degrees > 150 ? 1 : 0;
+  shape.smallest_degrees = std::min(shape.smallest_degrees, degrees);
+  shape.largest_degrees = std::max(shape.largest_degrees, degrees);
+}
+
+/// Tells the cells that fill a passage from side to side.
+class PassageTest {
+ public:
+  PassageTest(const Mesh& mesh, const EdgeTable& table) : table_{table}, on_boundary_(mesh.points.size(), 0) {
+    for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
+      if (is_inner(from, to)) return;
+      for (const NodeId node : {from, to}) on_boundary_[static_cast<std::size_t>(node.value())] = 1;
+    });
+  }
+
+  bool is_boundary(NodeId from, NodeId to) const { return !is_inner(from, to); }
+
+  /// Whether all nodes of a cell lie on the boundary, and no two of its edges that meet do.
+  template <std::size_t width>
+  bool fills(const std::array<NodeId, width>& cell) const {
+    for (const NodeId node : cell) {
+      if (on_boundary_[static_cast<std::size_t>(node.value())] == 0) return false;
+    }
+    for (std::size_t k = 0; k < width; ++k) {
+      const NodeId a = cell[k], b = cell[(k + 1) % width], c = cell[(k + 2) % width];
+      if (!is_inner(a, b) && !is_inner(b, c)) return false;
+    }
+    return true;
+  }
+
+ private:
+  bool is_inner(NodeId from, NodeId to) const { return table_.cell_left_of(to, from) >= 0; }
+
+  const EdgeTable& table_;
+  std::vector<char> on_boundary_;
+};
+
+template <class Cells>
+void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, const PassageTest* passages,
+                 ShapeStatistics& shape) {
+  for (const auto& nodes : cells) {
+    const std::size_t width = nodes.size();
+    for (std::size_t k = 0; k < width; ++k) {
+      const Point p = mesh.point(nodes[k]);
+      const double degrees =
+          corner_degrees(mesh.point(nodes[(k + width - 1) % width]), p, mesh.point(nodes[(k + 1) % width]));
+      ++shape.corners;
+      const bool own = passages != nullptr &&
+                       passages->is_boundary(nodes[(k + width - 1) % width], nodes[k]) &&
+                       passages->is_boundary(nodes[k], nodes[(k + 1) % width]);
+      if (sharp.excepts(p, degrees, own)) {
+        ++shape.corners_of_outline;
+      } else if (passages != nullptr && degrees > 0 && degrees < sharp_corner_degrees &&
+                 passages->fills(nodes)) {
+        ++shape.corners_in_passages;
+        shape.passages.push_back({p, degrees});
+      } else {
+        add_corner(degrees, shape);
+      }
+    }
+  }
+}
+
+void add_all_corners(const Mesh& mesh, const EdgeTable& table, std::span<const Chain> geometry,
+                     ShapeStatistics& shape) {
+  SharpVertices sharp(geometry);
+  std::optional<PassageTest> test;
+  if (!geometry.empty()) test.emplace(mesh, table);
+  const PassageTest* passages = test ? &*test : nullptr;
+  shape.smallest_degrees = infinity;
+  shape.largest_degrees = -infinity;
+  add_corners(mesh, mesh.triangles, sharp, passages, shape);
+  add_corners(mesh, mesh.quads, sharp, passages, shape);
+  if (shape.corners == shape.corners_of_outline + shape.corners_in_passages)
+    shape.smallest_degrees = shape.largest_degrees = 0;
+  shape.sharp_places = sharp.places();
+  std::sort(shape.passages.begin(), shape.passages.end(), [](const SharpPlace& a, const SharpPlace& b) {
+    return a.place != b.place ? a.place < b.place : a.degrees < b.degrees;
+  });
+}
+
+/// Triangles first, then quads.
+std::vector<double> cell_areas(const Mesh& mesh) {
+  std::vector<double> areas;
+  areas.reserve(mesh.triangles.size() + mesh.quads.size());
+  const auto add = [&](Point u, Point v) { areas.push_back(cross(u, v) / 2); };
+  for (const auto& t : mesh.triangles)
+    add(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0]));
+  for (const auto& q : mesh.quads)
+    add(mesh.point(q[2]) - mesh.point(q[0]), mesh.point(q[3]) - mesh.point(q[1]));
+  return areas;
+}
+
+double ratio_of(double a, double b) {
+  const double ratio = std::max(a, b) / std::min(a, b);
+  return ratio >= 1 ? ratio : infinity;
+}
+
+/// One ratio for each edge between two cells.
+std::vector<double> ratios_at_edges(const Mesh& mesh, const EdgeTable& table) {
+  const std::vector<double> areas = cell_areas(mesh);
+  const auto area = [&](std::int32_t cell) { return areas[static_cast<std::size_t>(cell)]; };
+  std::vector<double> ratios;
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
+    if (to < from) return;  // the cell on the other side says it
+    const std::int32_t other = table.cell_left_of(to, from);
+    if (other >= 0) ratios.push_back(ratio_of(area(cell), area(other)));
+  });
+  return ratios;
+}
+
+/// The smallest value that 99 percent do not exceed. Reorders the values, of which there are some.
+double percentile_99(std::vector<double>& values) {
+  const std::size_t rank = (values.size() * 99 + 99) / 100;  // rounded up
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+AreaRatios area_ratios(const Mesh& mesh, const EdgeTable& table) {
+  std::vector<double> ratios = ratios_at_edges(mesh, table);
+  if (ratios.empty()) return {};
+  return {*std::max_element(ratios.begin(), ratios.end()), percentile_99(ratios)};
+}
+
+}  // namespace
+
+AreaRatios area_ratios(const Mesh& whole_mesh) { return area_ratios(whole_mesh, EdgeTable(whole_mesh)); }
+
+ShapeStatistics shape_statistics(const Mesh& whole_mesh, std::span<const Chain> geometry) {
+  ShapeStatistics shape;
+  const std::size_t cells = whole_mesh.triangles.size() + whole_mesh.quads.size();
+  if (cells == 0) return shape;
+  shape.quad_share = static_cast<double>(whole_mesh.quads.size()) / static_cast<double>(cells);
+  const EdgeTable table(whole_mesh);
+  add_all_corners(whole_mesh, table, geometry, shape);
+  const AreaRatios ratios = area_ratios(whole_mesh, table);
+  shape.area_ratio_max = ratios.largest;
+  shape.area_ratio_p99 = ratios.of_99_percent;
+  return shape;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,220 @@
+#include "mesher/mesh/check/validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mesher/geometry/predicates.hpp"
+#include "mesher/mesh/check/validate_rules.hpp"
+
+namespace quadloop {
+
+namespace {
+
+template <class Visit>
+void for_each_cell(const Mesh& mesh, const Visit& visit) {
+  for (const auto& nodes : mesh.triangles) visit(std::span<const NodeId>(nodes));
+  for (const auto& nodes : mesh.quads) visit(std::span<const NodeId>(nodes));
+}
+
+template <class Visit>
+void for_each_boundary_edge(const Mesh& mesh, const Visit& visit) {
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    for (const auto& edge : boundary.edges) visit(boundary, edge);
+  }
+}
+
+/// Exactly, and as any solver will compute it.
+bool turns_left(Point a, Point b, Point c) { return cross(b - a, c - a) > 0 && orientation(a, b, c) > 0; }
+
+/// The first node that a cell has twice, if any.
+NodeId repeated_node(std::span<const NodeId> cell) {
+  for (std::size_t k = 1; k < cell.size(); ++k) {
+    const auto before = cell.first(k);
+    if (std::find(before.begin(), before.end(), cell[k]) != before.end()) return cell[k];
+  }
+  return {};
+}
+
+bool is_unused_node(const MeshFault& fault) {
+  return fault.what.find("belongs to no cell") != std::string::npos;
+}
+
+/// Whether later rules have no meaning for what check_indices found.
+bool senseless(const Faults& faults) { return !std::all_of(faults.begin(), faults.end(), is_unused_node); }
+
+std::int32_t block_of(const Mesh& mesh, const CellBlocks& blocks, std::int32_t cell) {
+  const auto at = static_cast<std::size_t>(cell);
+  return at < mesh.triangles.size() ? blocks.of_triangle[at] : blocks.of_quad[at - mesh.triangles.size()];
+}
+
+}  // namespace
+
+const char* name_of(MeshRule rule) {
+  switch (rule) {
+    case MeshRule::indices: return "indices";
+    case MeshRule::coincident: return "coincident";
+    case MeshRule::positive: return "positive";
+    case MeshRule::conforming: return "conforming";
+    case MeshRule::closed: return "closed";
+    case MeshRule::area: return "area";
+    case MeshRule::overlap: return "overlap";
+    case MeshRule::geometry: return "geometry";
+  }
+  return "unknown";
+}
+
+void check_indices(const Mesh& mesh, Faults& faults) {
+  const auto nodes = static_cast<std::int32_t>(mesh.points.size());
+  for (const Point p : mesh.points) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y))
+      faults.push_back({MeshRule::indices, "a coordinate is not finite", p});
+  }
+  std::vector<char> used(mesh.points.size(), 0);
+  const auto exists = [&](NodeId node) {
+    if (node.valid() && node.value() < nodes) return true;
+    faults.push_back(
+        {MeshRule::indices, "node " + std::to_string(node.value() + 1) + " is named but does not exist", {}});
+    return false;
+  };
+  for_each_cell(mesh, [&](std::span<const NodeId> cell) {
+    for (const NodeId node : cell) {
+      if (exists(node)) used[static_cast<std::size_t>(node.value())] = 1;
+    }
+  });
+  for_each_boundary_edge(mesh, [&](const BoundaryEdges&, const std::array<NodeId, 2>& edge) {
+    exists(edge[0]);
+    exists(edge[1]);
+  });
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    if (boundary.edges.empty())
+      faults.push_back({MeshRule::indices, "boundary " + boundary.name + " has no edges", {}});
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] == 0)
+      faults.push_back(
+          {MeshRule::indices, "node " + std::to_string(i + 1) + " belongs to no cell", mesh.points[i]});
+  }
+  if (mesh.triangles.empty() && mesh.quads.empty())
+    faults.push_back({MeshRule::indices, "there are no cells", {}});
+}
+
+void check_coincident(const Mesh& mesh, Faults& faults) {
+  std::vector<std::int32_t> order(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto at = [&](std::int32_t i) { return mesh.points[static_cast<std::size_t>(i)]; };
+  std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) { return at(i) < at(j); });
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    if (at(order[k]) != at(order[k - 1])) continue;
+    faults.push_back(
+        {MeshRule::coincident,
+         "nodes " + std::to_string(order[k - 1] + 1) + " and " + std::to_string(order[k] + 1) + " coincide",
+         at(order[k])});
+  }
+}
+
+void check_positive(const Mesh& mesh, Faults& faults) {
+  for_each_cell(mesh, [&](std::span<const NodeId> cell) {
+    const std::size_t width = cell.size();
+    for (std::size_t k = 0; k < width; ++k) {
+      const Point p = mesh.point(cell[k]);
+      if (turns_left(p, mesh.point(cell[(k + 1) % width]), mesh.point(cell[(k + width - 1) % width])))
+        continue;
+      faults.push_back({MeshRule::positive,
+                        std::string("a ") + (width == 3 ? "triangle" : "quad") + " is inverted or flat", p});
+      return;
+    }
+  });
+}
+
+void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const EdgeTable& table, Faults& faults) {
+  const auto fault = [&](const std::string& what, NodeId node) {
+    faults.push_back({MeshRule::conforming, what, mesh.point(node)});
+  };
+  for_each_cell(mesh, [&](std::span<const NodeId> cell) {
+    const NodeId node = repeated_node(cell);
+    if (node.valid()) fault("a cell has node " + std::to_string(node.value() + 1) + " twice", node);
+  });
+  std::vector<std::array<NodeId, 2>> bounded;
+  for_each_boundary_edge(mesh, [&](const BoundaryEdges& boundary, const std::array<NodeId, 2>& edge) {
+    bounded.push_back(edge);
+    const std::int32_t left = table.cell_left_of(edge[0], edge[1]),
+                       right = table.cell_left_of(edge[1], edge[0]);
+    if (left < 0) fault("an edge of boundary " + boundary.name + " has no cell to its left", edge[0]);
+    if (left < 0 || right < 0) return;
+    const bool inside = blocks.count == 1 || block_of(mesh, blocks, left) == block_of(mesh, blocks, right);
+    if (inside)
+      fault("an edge of boundary " + boundary.name + " has cells of one block on both sides", edge[0]);
+  });
+  std::sort(bounded.begin(), bounded.end());
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
+    const std::int32_t first = table.cell_left_of(from, to);
+    if (first != cell) fault("an edge belongs to two cells in the same direction", from);
+    if (first != cell || table.cell_left_of(to, from) >= 0) return;
+    const bool has_boundary = std::binary_search(bounded.begin(), bounded.end(), std::array{from, to});
+    if (!has_boundary)
+      fault("an edge has one cell and no boundary edge (a crack, a hanging node or a missing boundary)",
+            from);
+  });
+}
+
+void check_closed(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
+  std::vector<std::array<NodeId, 2>> all;
+  for_each_boundary_edge(
+      mesh, [&](const BoundaryEdges&, const std::array<NodeId, 2>& edge) { all.push_back(edge); });
+  std::sort(all.begin(), all.end());
+  for (std::size_t k = 1; k < all.size(); ++k) {
+    if (all[k] == all[k - 1])
+      faults.push_back({MeshRule::closed, "a boundary edge is listed twice", mesh.point(all[k][0])});
+  }
+  std::vector<std::int32_t> out_minus_in(mesh.points.size(), 0);
+  for (const OuterEdge& edge : outer_edges(mesh, table)) {
+    ++out_minus_in[static_cast<std::size_t>(edge.from.value())];
+    --out_minus_in[static_cast<std::size_t>(edge.to.value())];
+  }
+  for (std::size_t i = 0; i < out_minus_in.size(); ++i) {
+    if (out_minus_in[i] != 0)
+      faults.push_back({MeshRule::closed, "the boundary does not close", mesh.points[i]});
+  }
+}
+
+std::vector<OuterEdge> outer_edges(const Mesh& mesh, const EdgeTable& table) {
+  std::vector<OuterEdge> edges;
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
+    if (table.cell_left_of(to, from) < 0 && table.cell_left_of(from, to) == cell) edges.push_back({from, to});
+  });
+  return edges;
+}
+
+std::vector<MeshFault> validate(const Mesh& mesh, const CellBlocks& blocks) {
+  Faults faults;
+  check_indices(mesh, faults);
+  if (senseless(faults)) return faults;
+  const EdgeTable table(mesh);
+  check_coincident(mesh, faults);
+  check_positive(mesh, faults);
+  check_conforming(mesh, blocks, table, faults);
+  check_closed(mesh, table, faults);
+  check_area(mesh, table, faults);
+  check_overlap(mesh, table, faults);
+  return faults;
+}
+
+std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blocks) {
+  Faults faults;
+  check_indices(mesh, faults);
+  if (senseless(faults)) return faults;
+  const EdgeTable table(mesh);
+  check_conforming(mesh, blocks, table, faults);
+  check_closed(mesh, table, faults);
+  return faults;
+}
+
+std::int64_t pinched_nodes(const Mesh& mesh) {
+  std::vector<std::int32_t> passages(mesh.points.size(), 0);
+  for (const OuterEdge& edge : outer_edges(mesh, EdgeTable(mesh)))
+    ++passages[static_cast<std::size_t>(edge.from.value())];
+  return std::count_if(passages.begin(), passages.end(), [](std::int32_t n) { return n > 1; });
+}
+
+}  // namespace quadloop

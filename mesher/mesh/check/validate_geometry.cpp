@@ -1,0 +1,261 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/geometries/segment.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "mesher/mesh/cell_reach.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/validate_rules.hpp"
+
+namespace quadloop {
+
+namespace {
+
+namespace bg = boost::geometry;
+using IndexPoint = bg::model::point<double, 2, bg::cs::cartesian>;
+using IndexSegment = bg::model::segment<IndexPoint>;
+
+constexpr double sharp_degrees = 30;
+constexpr double fragments = 2, loop_reach = 4;  ///< a leaf may be that much larger than its pieces, which
+                                                 ///< lie within so many sizes of a loop
+
+/// Segments that answer which of them is nearest.
+class SegmentSet {
+ public:
+  void add(Point a, Point b) { segments_.emplace_back(a, b); }
+  void build() {
+    std::vector<Entry> entries;
+    for (std::uint32_t i = 0; i < segments_.size(); ++i) {
+      const auto& [a, b] = segments_[i];
+      entries.emplace_back(IndexSegment{{a.x, a.y}, {b.x, b.y}}, i);
+    }
+    index_ = Index(entries);
+  }
+  /// Number of the nearest segment, and how far it is: infinitely, where there is none.
+  std::pair<std::uint32_t, double> nearest(Point p) const {
+    if (segments_.empty()) return {0, std::numeric_limits<double>::infinity()};
+    const auto found = index_.qbegin(bg::index::nearest(IndexPoint(p.x, p.y), 1));
+    const auto& [a, b] = segments_[found->second];
+    return {found->second, distance_to_segment(p, a, b)};
+  }
+
+ private:
+  using Entry = std::pair<IndexSegment, std::uint32_t>;
+  using Index = bg::index::rtree<Entry, bg::index::quadratic<16>>;
+  std::vector<std::pair<Point, Point>> segments_;
+  Index index_;
+};
+
+/// All chains of one name.
+struct NamedOutline {
+  std::vector<std::size_t> chains;         ///< which they are
+  std::vector<std::size_t> segment_chain;  ///< of each segment
+  SegmentSet segments;
+};
+
+template <class Visit>
+void for_each_segment(const Chain& chain, const Visit& visit) {
+  const std::size_t count = chain.points.size();
+  for (std::size_t i = 0; i + (chain.open ? 1 : 0) < count; ++i)
+    visit(chain.points[i], chain.points[(i + 1) % count]);
+}
+
+std::map<std::string, NamedOutline> outlines_of(std::span<const Chain> geometry) {
+  std::map<std::string, NamedOutline> outlines;
+  for (std::size_t c = 0; c < geometry.size(); ++c) {
+    NamedOutline& outline = outlines[geometry[c].name];
+    outline.chains.push_back(c);
+    for_each_segment(geometry[c], [&](Point a, Point b) {
+      outline.segments.add(a, b);
+      outline.segment_chain.push_back(c);
+    });
+  }
+  for (auto& [name, outline] : outlines) outline.segments.build();
+  return outlines;
+}
+
+std::vector<Point> sharp_points(std::span<const Chain> geometry) {
+  std::vector<Point> sharp;
+  for (const Chain& chain : geometry) {
+    const auto& p = chain.points;
+    if (p.empty()) continue;
+    if (chain.open) sharp.insert(sharp.end(), {p.front(), p.back()});
+    for (std::size_t i = 0; i < p.size() && !chain.open; ++i) {
+      const Point in = p[i] - p[(i + p.size() - 1) % p.size()], out = p[(i + 1) % p.size()] - p[i];
+      const double turn = 180 - std::abs(corner_degrees(p[i] - in, p[i], p[i] + out));
+      if (turn > sharp_degrees) sharp.push_back(p[i]);
+    }
+  }
+  return sharp;
+}
+
+std::vector<double> longest_edge_of_cells(const Mesh& mesh) {
+  std::vector<double> longest(mesh.triangles.size() + mesh.quads.size(), 0);
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
+    auto& value = longest[static_cast<std::size_t>(cell)];
+    value = std::max(value, length(mesh.point(to) - mesh.point(from)));
+  });
+  return longest;
+}
+
+/// Compares the two, boundary by boundary.
+class Comparison {
+ public:
+  Comparison(const Mesh& mesh, std::span<const Chain> geometry, double tolerance)
+      : mesh_{mesh},
+        geometry_{geometry},
+        outlines_{outlines_of(geometry)},
+        met_(geometry.size(), 0),
+        table_{mesh},
+        longest_{longest_edge_of_cells(mesh)},
+        reach_{mesh, longest_} {
+    Box box;
+    for (const Point p : mesh.points) box.include(p);
+    centre_ = box.centre();
+    tolerance_ = tolerance * std::max(box.width(), box.height());
+  }
+
+  GeometryFit run() {
+    std::set<std::string> present;
+    for (const BoundaryEdges& boundary : mesh_.boundaries) {
+      if (boundary.edges.empty()) continue;
+      present.insert(boundary.name);
+      const auto outline = outlines_.find(boundary.name);
+      if (outline == outlines_.end()) {
+        fault("the geometry has no boundary " + boundary.name, mesh_.point(boundary.edges.front()[0]));
+        continue;
+      }
+      compare_nodes(boundary, outline->second);
+      compare_points(boundary, outline->second);
+    }
+    for (const auto& [name, outline] : outlines_) fit_.boundaries_dropped += present.contains(name) ? 0 : 1;
+    compare_loops();
+    compare_corners();
+    compare_area();
+    return std::move(fit_);
+  }
+
+ private:
+  void fault(const std::string& what, Point place) {
+    fit_.faults.push_back({MeshRule::geometry, what, place});
+  }
+
+  void compare_nodes(const BoundaryEdges& boundary, const NamedOutline& outline) {
+    for (const auto& edge : boundary.edges) {
+      for (const NodeId node : edge) {
+        const auto [segment, away] = outline.segments.nearest(mesh_.point(node));
+        fit_.boundary_node_distance = std::max(fit_.boundary_node_distance, away);
+        if (away > tolerance_ && node == edge[0] && !ends_beyond_joint(mesh_.point(node), away))
+          fault("a node of boundary " + boundary.name + " lies off it", mesh_.point(node));
+        if (segment < outline.segment_chain.size()) met_[outline.segment_chain[segment]] = 1;
+      }
+    }
+  }
+
+  /// Where the joint of two boundaries is lost within a leaf, the edges of one end on the other.
+  bool ends_beyond_joint(Point p, double away) {
+    if (!all_segments_) {
+      all_segments_.emplace();
+      for (const Chain& chain : geometry_)
+        for_each_segment(chain, [&](Point a, Point b) { all_segments_->add(a, b); });
+      all_segments_->build();
+    }
+    return all_segments_->nearest(p).second <= tolerance_ && away <= reach_.size_at(p, away);
+  }
+
+  /// No point of a loop that the mesh has is farther from its boundary there than the cells round it are
+  /// long.
+  void compare_points(const BoundaryEdges& boundary, const NamedOutline& outline) {
+    SegmentSet edges;
+    for (const auto& edge : boundary.edges) edges.add(mesh_.point(edge[0]), mesh_.point(edge[1]));
+    edges.build();
+    for (const std::size_t c : outline.chains) {
+      if (met_[c] == 0) continue;
+      for (const Point p : geometry_[c].points) compare_point(boundary, edges, p);
+    }
+  }
+
+  void compare_point(const BoundaryEdges& boundary, const SegmentSet& edges, Point p) {
+    const auto [edge, away] = edges.nearest(p);
+    fit_.geometry_distance = std::max(fit_.geometry_distance, away);
+    const auto& nodes = boundary.edges[edge];
+    const std::int32_t cell = table_.cell_left_of(nodes[0], nodes[1]);
+    if (away <= tolerance_ || (cell >= 0 && away <= longest_[static_cast<std::size_t>(cell)])) return;
+    if (away <= reach_.size_at(p, away)) return;
+    fault("a point of boundary " + boundary.name + " is farther from the mesh than the cells there are long",
+          p);
+  }
+
+  /// The mesher drops loops smaller than its smallest leaf, both ways; a larger one has to be in the mesh.
+  void compare_loops() {
+    for (std::size_t c = 0; c < geometry_.size(); ++c) {
+      const Chain& chain = geometry_[c];
+      if (met_[c] != 0 || chain.points.empty()) continue;
+      ++fit_.loops_dropped;
+      Box box;
+      for (const Point p : chain.points) box.include(p);
+      const double size = std::max(box.width(), box.height());
+      const double cells = reach_.longest_within(box.centre(), loop_reach * size);
+      if (size <= fragments * cells) continue;
+      fault(fmt::format("a loop of boundary {}, {:.6g} wide and {:.6g} high, is not in the mesh, where cells "
+                        "are {:.6g} long",
+                        chain.name, box.width(), box.height(), cells),
+            box.centre());
+    }
+  }
+
+  void compare_corners() {
+    const std::vector<Point> sharp = sharp_points(geometry_);
+    SegmentSet nodes;
+    bool any = false;
+    for (const BoundaryEdges& boundary : mesh_.boundaries) {
+      for (const auto& edge : boundary.edges) {
+        for (const NodeId node : edge) nodes.add(mesh_.point(node), mesh_.point(node));
+        any = true;
+      }
+    }
+    nodes.build();
+    fit_.sharp_corners = static_cast<std::int64_t>(sharp.size());
+    fit_.sharp_corners_lost = std::count_if(
+        sharp.begin(), sharp.end(), [&](Point p) { return !any || nodes.nearest(p).second > tolerance_; });
+  }
+
+  void compare_area() {
+    long double wanted = 0, meshed = 0;
+    for (const Chain& chain : geometry_)
+      for_each_segment(chain, [&](Point a, Point b) { wanted += cross(a - centre_, b - centre_) / 2; });
+    for (const OuterEdge& edge : outer_edges(mesh_, table_))
+      meshed += cross(mesh_.point(edge.from) - centre_, mesh_.point(edge.to) - centre_) / 2;
+    fit_.area_error = static_cast<double>(std::abs(meshed - wanted) / std::abs(wanted));
+    if (!(fit_.area_error <= largest_area_error))
+      fault("the area differs from the geometry's by more than 5 percent", centre_);
+  }
+
+  const Mesh& mesh_;
+  std::span<const Chain> geometry_;
+  std::map<std::string, NamedOutline> outlines_;
+  std::vector<char> met_;  ///< of each chain: a boundary node of its name lies on it
+  EdgeTable table_;
+  std::vector<double> longest_;
+  CellReach reach_;
+  std::optional<SegmentSet> all_segments_;  ///< of every boundary, once they are asked for
+  Point centre_;
+  double tolerance_ = 0;
+  GeometryFit fit_;
+};
+
+}  // namespace
+
+GeometryFit validate_geometry(const Mesh& mesh, std::span<const Chain> geometry, double tolerance) {
+  return Comparison(mesh, geometry, tolerance).run();
+}
+
+}  // namespace quadloop

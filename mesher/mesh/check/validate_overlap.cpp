@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "mesher/geometry/predicates.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/validate_rules.hpp"
+
+namespace quadloop {
+
+namespace {
+
+namespace bg = boost::geometry;
+using IndexPoint = bg::model::point<double, 2, bg::cs::cartesian>;
+using IndexBox = bg::model::box<IndexPoint>;
+using Index = bg::index::rtree<std::pair<IndexBox, std::uint32_t>, bg::index::quadratic<16>>;
+
+constexpr double area_tolerance = 1e-10;  // relative: rounding of a sum over many cells
+constexpr double turn_tolerance = 1e-4;   // degrees
+constexpr double full_turn = 360;
+constexpr std::size_t most_components = 2000;  // whose winding is counted; beyond, the other rules must do
+
+struct Segment {
+  Point from, to;
+  IndexBox box() const {
+    return {{std::min(from.x, to.x), std::min(from.y, to.y)},
+            {std::max(from.x, to.x), std::max(from.y, to.y)}};
+  }
+};
+
+/// Whether two boundary edges meet but at a common end.
+bool meet_wrongly(const Segment& s, const Segment& t) {
+  const bool common_from = s.from == t.from || s.from == t.to, common_to = s.to == t.from || s.to == t.to;
+  if (!common_from && !common_to) return segments_meet(s.from, s.to, t.from, t.to);
+  if (common_from && common_to) return true;  // one on the other: a slit without width
+  const Point common = common_from ? s.from : s.to, s_end = common_from ? s.to : s.from;
+  const Point t_end = common == t.from ? t.to : t.from;
+  return on_segment(s_end, common, t_end) || on_segment(t_end, common, s_end);
+}
+
+void check_boundary_crossings(const std::vector<Segment>& segments, Faults& faults) {
+  std::vector<std::pair<IndexBox, std::uint32_t>> entries;
+  for (std::uint32_t i = 0; i < segments.size(); ++i) entries.emplace_back(segments[i].box(), i);
+  const Index index(entries);
+  for (std::uint32_t i = 0; i < segments.size(); ++i) {
+    for (auto found = index.qbegin(bg::index::intersects(entries[i].first)); found != index.qend(); ++found) {
+      if (found->second <= i || !meet_wrongly(segments[i], segments[found->second])) continue;
+      faults.push_back({MeshRule::overlap, "two boundary edges meet", segments[i].from});
+    }
+  }
+}
+
+/// How often the segments go round p, exactly: signed crossings of the ray to its right.
+std::int32_t winding(const std::vector<Segment>& segments, Point p) {
+  std::int32_t turns = 0;
+  for (const Segment& s : segments) {
+    const bool upward = s.from.y <= p.y && p.y < s.to.y, downward = s.to.y <= p.y && p.y < s.from.y;
+    if (upward && orientation(s.from, s.to, p) > 0) ++turns;
+    if (downward && orientation(s.from, s.to, p) < 0) --turns;
+  }
+  return turns;
+}
+
+/// One cell of each connected piece of the mesh, as a point inside it.
+std::vector<Point> piece_seeds(const Mesh& mesh) {
+  std::vector<std::int32_t> parent(mesh.points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](std::int32_t i) {
+    while (parent[static_cast<std::size_t>(i)] != i) {
+      auto& above = parent[static_cast<std::size_t>(i)];
+      above = parent[static_cast<std::size_t>(above)];
+      i = above;
+    }
+    return i;
+  };
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
+    parent[static_cast<std::size_t>(root(from.value()))] = root(to.value());
+  });
+  std::vector<char> seen(mesh.points.size(), 0);
+  std::vector<Point> seeds;
+  const auto visit = [&](const auto& cells) {
+    for (const auto& cell : cells) {
+      char& known = seen[static_cast<std::size_t>(root(cell[0].value()))];
+      if (known == 0)
+        seeds.push_back(1.0 / 3.0 * (mesh.point(cell[0]) + mesh.point(cell[1]) + mesh.point(cell[2])));
+      known = 1;
+    }
+  };
+  visit(mesh.triangles);
+  visit(mesh.quads);
+  return seeds;
+}
+
+/// Sum of the corner angles around each node, in degrees.
+std::vector<double> turns_around_nodes(const Mesh& mesh) {
+  std::vector<double> turns(mesh.points.size(), 0);
+  const auto add = [&](const auto& cells) {
+    for (const auto& cell : cells) {
+      const std::size_t width = cell.size();
+      for (std::size_t k = 0; k < width; ++k) {
+        turns[static_cast<std::size_t>(cell[k].value())] +=
+            corner_degrees(mesh.point(cell[(k + width - 1) % width]), mesh.point(cell[k]),
+                           mesh.point(cell[(k + 1) % width]));
+      }
+    }
+  };
+  add(mesh.triangles);
+  add(mesh.quads);
+  return turns;
+}
+
+}  // namespace
+
+void check_area(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
+  Box box;
+  for (const Point p : mesh.points) box.include(p);
+  const Point origin = box.centre();
+  long double cells = 0, enclosed = 0;
+  const auto at = [&](NodeId node) { return mesh.point(node); };
+  for (const auto& t : mesh.triangles) cells += cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0])) / 2;
+  for (const auto& q : mesh.quads) cells += cross(at(q[2]) - at(q[0]), at(q[3]) - at(q[1])) / 2;
+  for (const OuterEdge& edge : outer_edges(mesh, table))
+    enclosed += cross(at(edge.from) - origin, at(edge.to) - origin) / 2;
+  if (std::abs(cells - enclosed) <= area_tolerance * std::abs(enclosed)) return;
+  faults.push_back({MeshRule::area,
+                    "the cells cover " + std::to_string(static_cast<double>(cells)) +
+                        ", the boundary encloses " + std::to_string(static_cast<double>(enclosed)),
+                    origin});
+}
+
+void check_overlap(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
+  std::vector<std::int32_t> passages(mesh.points.size(), 0);
+  std::vector<Segment> segments;
+  for (const OuterEdge& edge : outer_edges(mesh, table)) {
+    ++passages[static_cast<std::size_t>(edge.from.value())];
+    segments.push_back({mesh.point(edge.from), mesh.point(edge.to)});
+  }
+  const std::vector<double> turns = turns_around_nodes(mesh);
+  const bool inverted = std::any_of(faults.begin(), faults.end(),
+                                    [](const MeshFault& f) { return f.rule == MeshRule::positive; });
+  for (std::size_t i = 0; i < turns.size() && !inverted;
+       ++i) {  // around an inverted cell the sum says nothing
+    const bool inner = passages[i] == 0;
+    const bool wrong =
+        inner ? std::abs(turns[i] - full_turn) > turn_tolerance : turns[i] > full_turn + turn_tolerance;
+    if (wrong && turns[i] > 0)
+      faults.push_back(
+          {MeshRule::overlap, "the cells around a node do not go round it once", mesh.points[i]});
+  }
+  check_boundary_crossings(segments, faults);
+  const std::vector<Point> seeds = piece_seeds(mesh);
+  for (const Point seed : seeds.size() < most_components ? seeds : std::vector<Point>{}) {
+    const std::int32_t times = winding(segments, seed);
+    if (times != 1)
+      faults.push_back(
+          {MeshRule::overlap, "the boundary goes " + std::to_string(times) + " times round a cell", seed});
+  }
+}
+
+}  // namespace quadloop

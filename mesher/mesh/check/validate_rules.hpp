@@ -1,0 +1,28 @@
+#pragma once
+
+// Inside validate() only: the rules one by one. All but the first want a mesh that keeps the first.
+
+#include <vector>
+
+#include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+using Faults = std::vector<MeshFault>;
+
+void check_indices(const Mesh& mesh, Faults& faults);
+void check_coincident(const Mesh& mesh, Faults& faults);
+void check_positive(const Mesh& mesh, Faults& faults);
+void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const EdgeTable& table, Faults& faults);
+void check_closed(const Mesh& mesh, const EdgeTable& table, Faults& faults);
+void check_area(const Mesh& mesh, const EdgeTable& table, Faults& faults);
+void check_overlap(const Mesh& mesh, const EdgeTable& table, Faults& faults);
+
+/// An edge with a cell to its left and none to its right.
+struct OuterEdge {
+  NodeId from, to;
+};
+std::vector<OuterEdge> outer_edges(const Mesh& mesh, const EdgeTable& table);
+
+}  // namespace quadloop

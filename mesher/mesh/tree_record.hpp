@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace quadloop {
+
+/// One leaf as the tree file keeps it.
+struct LeafRecord {
+  std::int32_t tree_x = 0, tree_y = 0;  ///< its tree's place in the brick
+  std::int32_t x = 0, y = 0;            ///< its lower left corner in its tree, a tree's edge being 2^30
+  std::int8_t level = 0,
+              wanted =
+                  0;  ///< edge = tree edge / 2^level; the level that case, geometry and adaptation ask for
+  std::int16_t mark = 0;  ///< block of its cells from 1 on; 0: outside the domain
+  std::int32_t triangles = 0, quads = 0;
+  std::uint32_t adapted = 0;  ///< bit l: adaptation asked to split the quadrant of level l that holds it
+};
+
+/// What the tree file says of the whole tree and of the mesh made from it.
+struct TreeAttributes {
+  double root_x = 0, root_y = 0, tree_edge = 0;
+  std::int32_t trees_x = 1, trees_y = 1;
+  double gradation = 1.5;
+  std::uint64_t geometry_digest = 0, case_digest = 0;
+  std::int64_t nodes = 0, triangles = 0, quads = 0;
+  std::uint64_t coordinate_digest = 0;
+};
+
+/// One rank's leaves, in the order of the space-filling curve; ranks follow each other along it.
+struct TreeRecord {
+  TreeAttributes attributes;
+  std::vector<LeafRecord> leaves;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,74 @@
+#include "quadloop/case/adapt_settings.hpp"
+
+#include <cmath>
+
+namespace quadloop {
+
+namespace {
+
+/// A name, a list of names, { size = "h" } or { error = "e" }.
+void read_variable(const CaseTable& table, AdaptOptions& options) {
+  if (!table.has("variable")) return;
+  if (!table.is_table("variable")) {
+    options.variables = table.texts("variable");
+    if (options.variables.empty())
+      table.refuse("variable", "is empty; name what the marks are made from, as in variable = \"density\"");
+    return;
+  }
+  const CaseTable field = *table.table("variable");
+  const auto size = field.text("size"), error = field.text("error");
+  field.finish();
+  if (size.has_value() == error.has_value())
+    table.refuse("variable", "must be a name, a list of names, { size = \"name\" } or { error = \"name\" }");
+  options.source = size ? AdaptOptions::Source::size : AdaptOptions::Source::error;
+  options.variables = {size ? *size : *error};
+}
+
+void read_thresholds(const CaseTable& table, AdaptOptions& options) {
+  const auto threshold = table.choice("threshold", {"deviation", "fraction", "nodes"});
+  if (threshold == "fraction") options.threshold = AdaptOptions::Threshold::fraction;
+  if (threshold == "nodes") options.threshold = AdaptOptions::Threshold::nodes;
+  const bool shares = options.threshold == AdaptOptions::Threshold::fraction;
+  if (shares) {
+    options.refine = 0.2;
+    options.coarsen = 0.1;
+  }
+  const Range range = shares ? Range{0, 1} : Range{-100, 100};
+  options.refine = table.number("refine", range).value_or(options.refine);
+  options.coarsen = table.number("coarsen", range).value_or(options.coarsen);
+  if (shares && options.refine + options.coarsen > 1) {
+    table.refuse("coarsen", "with refine must be 1 at most: they are shares of the same leaves");
+  }
+  if (!shares && -options.coarsen > options.refine)
+    table.refuse("coarsen", "lets leaves be refined and coarsened at once; make it larger than -refine");
+}
+
+}  // namespace
+
+std::optional<AdaptOptions> read_adapt_table(const CaseTable& root) {
+  const auto table = root.table("adapt");
+  if (!table) return {};
+  AdaptOptions options;
+  if (const auto cycles = table->number("cycles", {0, 10000})) {
+    if (*cycles != std::floor(*cycles))
+      table->refuse("cycles", "must be a whole number: how many times the mesh is adapted");
+    options.cycles = static_cast<int>(*cycles);
+  }
+  read_variable(*table, options);
+  const auto indicator = table->choice("indicator", {"difference", "gradient", "hessian"});
+  if (indicator == "gradient") options.indicator = Indicator::gradient;
+  if (indicator == "hessian") options.indicator = Indicator::hessian;
+  read_thresholds(*table, options);
+  if (const auto nodes = table->number("max_nodes", {1, 1e12})) {
+    if (*nodes != std::floor(*nodes)) table->refuse("max_nodes", "must be a whole number of nodes");
+    options.max_nodes = static_cast<std::int64_t>(*nodes);
+  }
+  if (options.threshold == AdaptOptions::Threshold::nodes && !options.max_nodes) {
+    table->refuse("threshold", "is \"nodes\", but max_nodes is missing: it is the number to be met");
+  }
+  options.min = table->number("min", Range::positive());
+  table->finish();
+  return options;
+}
+
+}  // namespace quadloop

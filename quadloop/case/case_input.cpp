@@ -1,0 +1,75 @@
+#include "quadloop/case/case_input.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "adapt/remesh/restart.hpp"
+#include "io/input/geometry_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/free_memory.hpp"
+#include "mesher/generate/digests.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// An outline in the place of a case file is a likely slip.
+void require_case_file(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  for (const char* outline : {".geom", ".dat", ".dxf", ".geojson", ".shp", ".gpkg"}) {
+    if (suffix != outline) continue;
+    throw InputError(path + ": is an outline, not a case file; write a case file with file = \"" + path +
+                     "\" in its table [geometry]");
+  }
+}
+
+/// Another outline in the place of the case's, placed as the first of those; it may bring its own far field.
+void replace_geometry(const std::string& path, Settings& settings, Warnings& warnings) {
+  settings.files = {{path, path, settings.files.front().transform}};
+  if (!settings.far_field) return;
+  for (const Chain& chain : read_geometry(path, warnings)) {
+    if (chain.name == "farfield") settings.far_field.reset();
+    if (!settings.far_field) return;
+  }
+}
+
+}  // namespace
+
+CaseInput load_case(const CaseArguments& arguments) {
+  require_case_file(arguments.case_path);
+  CaseInput input;
+  Settings& settings = input.settings;
+  settings = read_settings(arguments.case_path, arguments.assignments);
+  if (!arguments.geometry.empty()) {
+    Warnings told_again_below;
+    replace_geometry(arguments.geometry, settings, told_again_below);
+  }
+  Geometry geometry = load_geometry(settings, input.warnings, arguments.saved);
+  const MeshOptions options = mesh_options(settings, geometry);
+  for (std::string& warning : spacing_warnings(options, geometry))
+    input.warnings.push_back(std::move(warning));
+  input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth, case_digest(options)});
+  if (arguments.saved) keep_root(*arguments.saved, *input.mesh);
+  return input;
+}
+
+void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells) {
+  command
+      .add_option("--max-cells", max_cells,
+                  "the most cells that a mesh may have by estimate; without it as many as free memory holds")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+}
+
+MeshLimit mesh_limit(const Communicator& comm, const std::optional<double>& max_cells) {
+  MeshLimit limit;
+  limit.ranks = comm.size();
+  if (max_cells)
+    limit.cells = *max_cells;
+  else
+    limit.bytes = free_memory_of_all(comm);
+  return limit;
+}
+
+}  // namespace quadloop

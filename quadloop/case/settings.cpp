@@ -1,0 +1,347 @@
+#include "quadloop/case/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "io/input/case_file.hpp"
+#include "io/input/geometry_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/nearest_word.hpp"
+#include "mesher/forest/lattice.hpp"
+#include "quadloop/case/adapt_settings.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// One value for all files, or one for each.
+template <class Value>
+Value of_file(const CaseTable& table, const std::string& key, const std::vector<Value>& values,
+              std::size_t file, std::size_t files, Value absent) {
+  if (values.empty()) return absent;
+  if (values.size() == 1) return values.front();
+  if (values.size() != files) {
+    table.refuse(key,
+                 fmt::format("is a list of {}, but there are {} files; give one value, or one for each file",
+                             values.size(), files));
+  }
+  return values[file];
+}
+
+void read_geometry_table(const CaseTable& root, const std::string& case_path, Settings& settings) {
+  const auto table = root.table("geometry");
+  if (!table)
+    root.refuse("geometry", "is missing; name the outline, as in [geometry] file = \"outline.geom\"");
+  const std::vector<std::string> files = table->texts("file");
+  if (files.empty()) table->refuse("file", "is missing; name the outline, as in file = \"outline.geom\"");
+  const auto scales = table->numbers_or_one("scale", Range::positive());
+  const auto turns = table->numbers_or_one("rotate");
+  const auto moves = table->pairs("translate");
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto move = of_file(*table, "translate", moves, i, files.size(), {0, 0});
+    const double turn = of_file(*table, "rotate", turns, i, files.size(), 0.0);
+    const double scale = of_file(*table, "scale", scales, i, files.size(), 1.0);
+    settings.files.push_back({(std::filesystem::path(case_path).parent_path() / files[i]).string(),
+                              fmt::format("{}: 'geometry.file'", table->place("file")),
+                              {scale, turn, {move[0], move[1]}}});
+  }
+  if (const auto width = table->number("far_field", Range::positive())) {
+    settings.far_field = FarField{*width, fmt::format("{}: 'geometry.far_field'", table->place("far_field"))};
+  }
+  settings.mesh.may_vanish = table->choice("vanish", {"error", "allow"}) == "allow";
+  table->finish();
+}
+
+void read_spacing_table(const CaseTable& root, Settings& settings) {
+  const auto table = root.table("spacing");
+  if (!table) return;
+  SizeOptions& size = settings.mesh.size;
+  settings.min = table->number("min", Range::positive());
+  settings.max = table->number("max", Range::positive());
+  size.gradation = table->number("gradation", {1, 2, true, false}).value_or(size.gradation);
+  size.curvature = table->number("curvature", {0, 180, true, false});
+  size.gap = table->number("gap", {0, 1000, true, false});
+  settings.outline.default_corner_degrees =
+      table->number("corner", {0, 180}).value_or(settings.outline.default_corner_degrees);
+  table->finish();
+  if (settings.min && settings.max && *settings.min > *settings.max) {
+    table->refuse("min", fmt::format("is {}, but must not be above spacing.max, which is {}", *settings.min,
+                                     *settings.max));
+  }
+}
+
+void read_boundary_tables(const CaseTable& root, Settings& settings) {
+  if (settings.far_field) {
+    settings.outline.rules.push_back(
+        {"farfield", {}, {}, "farfield", settings.far_field->where, false, true});  // unless the case says
+                                                                                    // other
+  }
+  const auto tables = root.table("boundary");
+  if (!tables) return;
+  for (const std::string& name : tables->table_names()) {
+    const auto table = *tables->table(name);
+    BoundaryRule rule;
+    rule.pattern = name;
+    rule.where = fmt::format("{}: [{}]", table.place(), tables->full_name(name));
+    rule.spacing = table.number("spacing", Range::positive());
+    rule.corner_degrees = table.number("corner", {0, 180});
+    rule.corner_spacing = table.number("corner_spacing", Range::positive());
+    rule.condition =
+        table.choice("bc", {"wall", "farfield", "inflow", "outflow", "symmetry", "interface", "none"});
+    if (const auto pressure = table.number("pressure", Range::positive())) {
+      if (rule.condition != "outflow")
+        table.refuse("pressure", "needs bc = \"outflow\" in the same table; elsewhere there is none to set");
+      settings.solver.pressures.push_back({name, *pressure});
+    }
+    table.finish();
+    settings.outline.rules.push_back(std::move(rule));
+  }
+}
+
+constexpr double largest_coordinate = 1e100;
+
+Source read_source(const CaseTable& table) {
+  Source source;
+  source.where = table.place();
+  const auto box = table.numbers("box", 4);
+  const auto disc = table.numbers("disc", 3);
+  const auto line = table.numbers("line", 4);
+  if (int{box.has_value()} + int{disc.has_value()} + int{line.has_value()} != 1) {
+    throw InputError(table.place() +
+                     ": a [[source]] needs exactly one of box = [x0, x1, y0, y1], disc = [x, y, radius], "
+                     "line = [x0, y0, x1, y1]");
+  }
+  if (box) {
+    const auto& b = *box;
+    if (!(b[0] < b[1] && b[2] < b[3]))
+      table.refuse("box", "must be [x0, x1, y0, y1] with x0 < x1 and y0 < y1");
+    source.shape = Box{{b[0], b[2]}, {b[1], b[3]}};
+  } else if (disc) {
+    if (!((*disc)[2] > 0)) table.refuse("disc", "must be [x, y, radius] with a radius above 0");
+    source.shape = Source::Disc{{(*disc)[0], (*disc)[1]}, (*disc)[2]};
+  } else {
+    source.shape = Source::Line{{(*line)[0], (*line)[1]}, {(*line)[2], (*line)[3]}};
+  }
+  for (const auto& [key, numbers] : {std::pair{"box", box}, {"line", line}, {"disc", disc}}) {
+    const bool huge = numbers && std::any_of(numbers->begin(), numbers->end(),
+                                             [](double v) { return std::abs(v) > largest_coordinate; });
+    if (huge) table.refuse(key, "has a number beyond 1e100; no geometry reaches that far");
+  }
+  const auto spacing = table.number("spacing", Range::positive());
+  if (!spacing) table.refuse("spacing", "is missing; a [[source]] needs the spacing that it asks for");
+  source.spacing = *spacing;
+  table.finish();
+  return source;
+}
+
+void read_mesh_table(const CaseTable& root, Settings& settings) {
+  const auto table = root.table("mesh");
+  if (!table) return;
+  const auto type = table->choice("type", {"hybrid", "delaunay"});
+  if (type == "delaunay") settings.mesh.type = MeshType::delaunay;
+  if (table->choice("quads", {"all", "parallel"}) == "parallel") settings.mesh.quads = QuadChoice::parallel;
+  settings.mesh.snap = table->number("snap", {0, 0.5, false, true}).value_or(settings.mesh.snap);
+  if (const auto root_values = table->numbers("root", 5)) {
+    const auto& r = *root_values;
+    const bool whole = r[3] == std::floor(r[3]) && r[4] == std::floor(r[4]) && r[3] >= 1 && r[4] >= 1 &&
+                       r[3] <= 1024 && r[4] <= 1024;
+    if (!(r[2] > 0) || !whole) {
+      table->refuse("root",
+                    "must be [x0, y0, tree edge, trees along x, trees along y] with an edge above 0 and "
+                    "whole numbers of trees from 1 to 1024");
+    }
+    settings.mesh.size.root = RootOptions{{r[0], r[1]}, r[2], static_cast<int>(r[3]), static_cast<int>(r[4])};
+  }
+  table->finish();
+}
+
+void read_smooth_table(const CaseTable& root, Settings& settings) {
+  const auto table = root.table("smooth");
+  if (!table) return;
+  if (const auto sweeps = table->number("sweeps", {0, 100000})) {
+    if (*sweeps != std::floor(*sweeps))
+      table->refuse("sweeps", "must be a whole number, 0 or more; 0 leaves the mesh as it is cut");
+    settings.smooth.sweeps = static_cast<int>(*sweeps);
+  }
+  const auto objective = table->choice("objective", {"power", "thesis"});
+  if (objective) settings.smooth.objective = *objective == "thesis" ? Objective::thesis : Objective::power;
+  const auto method = table->choice("method", {"perturb", "nlopt"});
+  if (method) settings.smooth.method = *method == "nlopt" ? Method::nlopt : Method::perturb;
+  table->finish();
+}
+
+void read_output_table(const CaseTable& root, const std::string& case_path, Settings& settings) {
+  settings.output_prefix = std::filesystem::path(case_path).stem().string();
+  const auto table = root.table("output");
+  if (!table) return;
+  settings.output_prefix = table->text("prefix").value_or(settings.output_prefix);
+  if (settings.output_prefix.empty())
+    table->refuse("prefix", "is empty; name what the output files begin with");
+  if (const std::string suffix = format_suffix_of(settings.output_prefix); !suffix.empty()) {
+    table->refuse("prefix",
+                  fmt::format("is '{}'; give it without {}, which is added", settings.output_prefix, suffix));
+  }
+  if (table->has("formats")) {
+    settings.formats.clear();
+    for (const std::string& format : table->texts("formats")) {
+      constexpr std::array known{"mesh", "cgns", "vtu", "su2", "msh", "csv"};
+      if (std::find(known.begin(), known.end(), format) == known.end()) {
+        table->refuse("formats",
+                      fmt::format("holds '{}', but this version writes: mesh, cgns, vtu, su2, msh, csv{}",
+                                  format, guess_for(format, {known.begin(), known.end()})));
+      }
+      if (std::find(settings.formats.begin(), settings.formats.end(), format) == settings.formats.end())
+        settings.formats.push_back(format);
+    }
+  }
+  table->finish();
+}
+
+/// The far field where a saved tree has it, if its root is one of that size.
+Box saved_far_field(const Box& square, const TreeAttributes& saved) {
+  constexpr double rounding = 1e-9;
+  const Point low{saved.root_x, saved.root_y};
+  const bool is_root = saved.trees_x == 1 && saved.trees_y == 1 &&
+                       std::abs(square.width() - saved.tree_edge) <= rounding * saved.tree_edge;
+  if (!is_root || (square.low == low && square.width() == saved.tree_edge)) return square;
+  return {low, low + Point{saved.tree_edge, saved.tree_edge}};
+}
+
+}  // namespace
+
+Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments) {
+  const CaseTable root = read_case(case_path, assignments);
+  Settings settings;
+  settings.title = root.text("title").value_or("");
+  read_geometry_table(root, case_path, settings);
+  read_spacing_table(root, settings);
+  read_boundary_tables(root, settings);
+  for (const CaseTable& source : root.tables("source"))
+    settings.mesh.size.sources.push_back(read_source(source));
+  read_mesh_table(root, settings);
+  read_smooth_table(root, settings);
+  settings.adapt = read_adapt_table(root);
+  read_solver_table(root, settings.solver);
+  read_output_table(root, case_path, settings);
+  root.finish();
+  settings.values = root.values({"title", "output.prefix", "adapt.cycles", "solver.timeout", "solver.ranks"});
+  return settings;
+}
+
+std::string format_suffix_of(const std::string& prefix) {
+  const std::string suffix = std::filesystem::path(prefix).extension();
+  for (const char* known : {".mesh", ".cgns", ".vtu", ".su2", ".msh", ".csv", ".h5"}) {
+    if (suffix == known) return suffix;
+  }
+  return {};
+}
+
+Geometry load_geometry(const Settings& settings, Warnings& warnings,
+                       const std::optional<TreeAttributes>& saved) {
+  std::vector<Chain> chains;
+  for (const GeometryInput& input : settings.files) {
+    std::error_code no_such_file;
+    if (!std::filesystem::exists(input.path, no_such_file)) {
+      throw InputError(fmt::format(
+          "{}: there is no file '{}'; check the name, which is relative to the case file's folder",
+          input.where, input.path));
+    }
+    std::vector<Chain> of_file = read_geometry(input.path, warnings);
+    apply(input.transform, of_file);
+    std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
+  }
+  if (settings.far_field) {
+    const auto& [half_width, where] = *settings.far_field;
+    const Box square = far_field_box(chains, half_width, where);
+    add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
+  }
+  return assemble(std::move(chains), settings.outline, warnings);
+}
+
+MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
+  MeshOptions options = settings.mesh;
+  const double side = std::max(geometry.box().width(), geometry.box().height());
+  double smallest = side;
+  for (std::int32_t s = 0; s < geometry.size(); ++s) {
+    smallest = std::min(smallest, geometry.spacing_of(s));
+    if (const double at_corner = geometry.corner_spacing_of(s); at_corner > 0)
+      smallest = std::min(smallest, at_corner);
+  }
+  for (const Source& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
+  const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
+  options.size.max = max;
+  // Leaf sizes halve: so there is one at most as large as asked for.
+  options.size.min = settings.min.value_or(std::min(std::max(smallest / 2, std::ldexp(side, -20)), max / 2));
+  return options;
+}
+
+namespace {
+
+/// A corner spacing that is out of reach, or of a boundary without a sharp corner.
+Warnings corner_warnings(const Geometry& geometry, double min) {
+  std::vector<char> has_corner(geometry.boundaries().size(), 0);
+  for (std::int32_t v = 0; v < geometry.size(); ++v) {
+    if (geometry.corner_spacing_of(v) == 0) continue;
+    for (const std::int32_t segment : {geometry.previous(v), v})
+      has_corner[static_cast<std::size_t>(geometry.boundary_of(segment).value())] = 1;
+  }
+  Warnings warnings;
+  for (std::size_t b = 0; b < has_corner.size(); ++b) {
+    const Boundary& boundary = geometry.boundaries()[b];
+    if (boundary.corner_spacing > 0 && has_corner[b] == 0) {
+      warnings.push_back(
+          fmt::format("boundary '{}' has no corner for its corner_spacing = {}: it turns by more than its "
+                      "corner = {} degrees nowhere",
+                      boundary.name, boundary.corner_spacing, boundary.corner_degrees));
+    } else if (boundary.corner_spacing > 0 && boundary.corner_spacing < min) {
+      warnings.push_back(fmt::format(
+          "boundary '{}' asks for a corner_spacing of {}, but spacing.min = {} ends the refinement before",
+          boundary.name, boundary.corner_spacing, min));
+    }
+  }
+  return warnings;
+}
+
+}  // namespace
+
+Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
+  Warnings warnings;
+  const double min = options.size.min;
+  const Lattice lattice = choose_root(geometry, options.size.root);
+  const Box root = lattice.box();
+  if (const double finest = lattice.edge(lattice.finest_level(min)); finest > options.size.max) {
+    warnings.push_back(
+        fmt::format("leaves stay at {}, above spacing.max = {}: sizes halve from the root's, and spacing.min "
+                    "= {} forbids the next one; "
+                    "make spacing.min {} or less",
+                    finest, options.size.max, min, finest / 2));
+  }
+  for (const Boundary& b : geometry.boundaries()) {
+    if (b.spacing > 0 && b.spacing < min) {
+      warnings.push_back(fmt::format(
+          "boundary '{}' asks for a spacing of {}, but spacing.min = {} ends the refinement before", b.name,
+          b.spacing, min));
+    }
+  }
+  for (std::string& warning : corner_warnings(geometry, min)) warnings.push_back(std::move(warning));
+  for (const Source& source : options.size.sources) {
+    if (source.spacing < min) {
+      warnings.push_back(fmt::format(
+          "{}: this [[source]] asks for a spacing of {}, but spacing.min = {} ends the refinement before",
+          source.where, source.spacing, min));
+    }
+    if (!meets(source, root)) {
+      warnings.push_back(
+          fmt::format("{}: this [[source]] lies outside the root, which reaches from ({}, {}) to ({}, {}), "
+                      "and does nothing; move it",
+                      source.where, root.low.x, root.low.y, root.high.x, root.high.y));
+    }
+  }
+  return warnings;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "adapt/remesh/adapt_options.hpp"
+#include "mesher/build/build_mesh.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/geometry/assemble/transform.hpp"
+#include "mesher/geometry/geometry.hpp"
+#include "mesher/mesh/tree_record.hpp"
+#include "quadloop/case/solver_settings.hpp"
+#include "smoother/smooth_mesh.hpp"
+
+namespace quadloop {
+
+/// One geometry file and how its coordinates are placed.
+struct GeometryInput {
+  std::string path;
+  std::string where;  ///< the setting that names it, for messages
+  Transform transform;
+};
+
+/// The far field that the case asks for.
+struct FarField {
+  double half_width = 0;
+  std::string where;
+};
+
+/// A case file as each module wants it: the only place that knows the names of keys.
+struct Settings {
+  std::string title;
+  std::vector<std::pair<std::string, std::string>>
+      values;  ///< of all keys but those that no file of a cycle depends on: dotted name, JSON
+  std::vector<GeometryInput> files;
+  std::optional<FarField> far_field;
+  AssembleOptions outline;
+  std::optional<double> min, max;  ///< spacing.min and spacing.max, where given
+  MeshOptions mesh;                ///< without the sizes min and max: those may follow from the geometry
+  SmoothOptions smooth;            ///< without the geometry
+  SolverSettings solver;
+  std::optional<AdaptOptions> adapt;  ///< where the case has a table for it
+  std::string output_prefix;
+  std::vector<std::string> formats{"mesh", "cgns"};
+};
+
+/// Reads the case file with the command line's assignments over it. On the calling rank alone. Throws
+/// InputError that names key and line.
+Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments);
+
+/// The suffix of a mesh or tree file that a prefix of output files ends in, if any: a slip, as suffixes are
+/// added to it.
+std::string format_suffix_of(const std::string& prefix);
+
+/// Reads, places and assembles the geometry. Where a saved tree's root is a far field of the wanted size
+/// round the geometry, the far field stands there again, though the geometry's centre may have moved. On the
+/// calling rank alone.
+Geometry load_geometry(const Settings& settings, Warnings& warnings,
+                       const std::optional<TreeAttributes>& saved = {});
+
+/// The options with the sizes that the case leaves open taken from the geometry: max is 1/16 of the longer
+/// side of its box (or min if that is larger), min the smallest spacing that it asks for, but no less than
+/// 2^-20 of that side.
+MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
+
+/// One line for each boundary, sharp corner's boundary and source whose spacing is smaller than leaves may
+/// be, for each boundary with a corner spacing and without a sharp corner, and for each source outside the
+/// root of the trees.
+Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry);
+
+}  // namespace quadloop

@@ -1,0 +1,120 @@
+#include "quadloop/case/solver_settings.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "mesher/base/error.hpp"
+#include "mesher/base/nearest_word.hpp"
+
+namespace quadloop {
+
+namespace {
+
+int whole_number(const CaseTable& table, const std::string& key, int absent) {
+  const auto value = table.number(key, {0, std::numeric_limits<int>::max()});
+  if (!value) return absent;
+  if (*value != std::floor(*value)) table.refuse(key, "must be a whole number, 0 or more");
+  return static_cast<int>(*value);
+}
+
+void read_euler_keys(const CaseTable& table, EulerOptions& options) {
+  options.mach = table.number("mach", {0, 100}).value_or(options.mach);
+  options.alpha = table.number("alpha", {-360, 360}).value_or(options.alpha);
+  options.gamma = table.number("gamma", {1, 10, true, false}).value_or(options.gamma);
+  if (table.choice("time", {"steady", "accurate"}) == "accurate") options.time = EulerOptions::Time::accurate;
+  options.end_time = table.number("end_time", {0}).value_or(options.end_time);
+  if (options.time == EulerOptions::Time::accurate && !table.has("end_time")) {
+    table.refuse("end_time", "is missing; time = \"accurate\" needs the time at which it ends");
+  }
+  options.cfl = table.number("cfl", Range::positive()).value_or(options.cfl);
+  options.iterations = whole_number(table, "iterations", options.iterations);
+  options.tolerance = table.number("tolerance", {0, 1}).value_or(options.tolerance);
+  if (table.choice("limiter", {"venkatakrishnan", "none"}) == "none")
+    options.limiter = EulerOptions::Limiter::none;
+  if (table.choice("initial", {"freestream", "vortex"}) == "vortex")
+    options.initial = EulerOptions::Initial::vortex;
+  options.reference_length =
+      table.number("reference_length", Range::positive()).value_or(options.reference_length);
+}
+
+void read_command_keys(const CaseTable& table, SolverSettings& settings) {
+  CommandSolver& command = settings.command;
+  command.ranks = whole_number(table, "ranks", command.ranks);
+  if (table.has("command")) command.command.arguments = table.texts("command");
+  command.mesh = table.text("mesh").value_or(command.mesh);
+  command.solution = table.text("solution").value_or(command.solution);
+  command.command.timeout = table.number("timeout", Range::positive()).value_or(command.command.timeout);
+  for (const auto& [key, name] : {std::pair{"mesh", command.mesh}, {"solution", command.solution}}) {
+    if (name.empty() || name.find('/') != std::string::npos)
+      table.refuse(key, "must be the name of a file in the cycle's folder");
+  }
+  if (settings.kind == SolverSettings::Kind::command && command.command.arguments.empty()) {
+    table.refuse("command",
+                 "is missing; kind = \"command\" needs the program to run and its arguments, as in command = "
+                 "[\"my_solver\", \"{mesh}\"]");
+  }
+}
+
+}  // namespace
+
+void read_solver_table(const CaseTable& root, SolverSettings& settings) {
+  const auto table = root.table("solver");
+  if (!table) return;
+  settings.given = true;
+  if (table->choice("kind", {"euler", "command"}) == "command") settings.kind = SolverSettings::Kind::command;
+  read_euler_keys(*table, settings.euler);
+  read_command_keys(*table, settings);
+  table->finish();
+}
+
+EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                           const Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const BoundaryEdges& boundary : mesh.boundaries) names.push_back(boundary.name);
+  std::vector<BoundaryRule> lenient = rules;
+  for (BoundaryRule& rule : lenient) rule.must_match = false;  // the mesh may have dropped a small island
+  EulerOptions options = settings.euler;
+  for (const Boundary& boundary : boundaries_by_rules(names, lenient, 0)) {
+    BoundaryChoice choice{boundary.name, boundary.condition == "none" ? "" : boundary.condition, {}};
+    for (const bool exact : {false, true}) {
+      for (const OutflowPressure& outflow : settings.pressures) {
+        if ((outflow.pattern == boundary.name) == exact && matches(outflow.pattern, boundary.name))
+          choice.pressure = outflow.pressure;
+      }
+    }
+    options.boundaries.push_back(std::move(choice));
+  }
+  return options;
+}
+
+void require_known_variables(const SolverSettings& settings, const std::vector<std::string>& variables,
+                             const std::string& case_path) {
+  if (settings.kind != SolverSettings::Kind::euler) return;
+  for (const std::string& name : variables) {
+    if (std::find(euler_names.begin(), euler_names.end(), name) != euler_names.end()) continue;
+    throw InputError(fmt::format(
+        "{}: 'adapt.variable' names '{}', which the built-in solver does not write; it may be {}{}",
+        case_path, name, fmt::join(euler_names, ", "),
+        guess_for(name, {euler_names.begin(), euler_names.end()})));
+  }
+}
+
+FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                       const Geometry& geometry, const std::string& case_path) {
+  if (settings.kind == SolverSettings::Kind::euler) {
+    Mesh named;
+    for (const Boundary& boundary : geometry.boundaries())
+      named.boundaries.push_back({boundary.name, boundary.condition, {}});
+    return euler_options(settings, rules, named);
+  }
+  CommandSolver solver = settings.command;
+  solver.gamma = settings.euler.gamma;
+  solver.case_folder = std::filesystem::absolute(case_path).parent_path().string();
+  return solver;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapt/loop/flow_solver.hpp"
+#include "io/input/case_file.hpp"
+#include "mesher/geometry/assemble/boundary_rules.hpp"
+#include "mesher/geometry/geometry.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// The pressure that the case asks for behind outflow boundaries whose name matches, in units of the free
+/// stream's.
+struct OutflowPressure {
+  std::string pattern;
+  double pressure = 1;
+};
+
+/// The case's table [solver], and what its boundary tables say to the solver alone.
+struct SolverSettings {
+  enum class Kind { euler, command };
+
+  Kind kind = Kind::euler;
+  bool given = false;     ///< the case has the table
+  EulerOptions euler;     ///< without the boundaries
+  CommandSolver command;  ///< without the case's folder
+  std::vector<OutflowPressure> pressures;
+};
+
+/// Reads [solver], where there is one. Throws InputError that names key and line.
+void read_solver_table(const CaseTable& root, SolverSettings& settings);
+
+/// The options with what the case's rules say of the mesh's boundaries; where they are silent the mesh's own
+/// conditions stand.
+EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                           const Mesh& mesh);
+
+/// Refuses a variable to adapt to that the built-in solver does not write. Throws InputError that names the
+/// case.
+void require_known_variables(const SolverSettings& settings, const std::vector<std::string>& variables,
+                             const std::string& case_path);
+
+/// The solver of an adaptive run on meshes of this geometry. `case_path` names the case file.
+FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                       const Geometry& geometry, const std::string& case_path);
+
+}  // namespace quadloop

@@ -1,0 +1,85 @@
+#include "smoother/node/perturbation.hpp"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::array<double, 4> steps{0.16, 0.08, 0.04, 0.01};  ///< of the node's mean edge
+constexpr int most_moves = 3;                                   ///< in one visit
+
+Point unit(Point v) {
+  const double norm = length(v);
+  return norm > 0 ? (1 / norm) * v : v;
+}
+
+/// Whether a corner is that of a cell at p, of which each cell has one.
+bool is_own(const StarCorner& c) { return c.angle == CellAngle::all || c.angle == CellAngle::at_p; }
+
+enum class Direction { normals, edges, axes };
+
+void find_directions(const Star& star, Point p, Direction kind, std::vector<Point>& directions) {
+  directions.clear();
+  if (kind == Direction::axes) {
+    directions = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    return;
+  }
+  for (const StarCorner& c : star.corners()) {
+    if (!is_own(c)) continue;
+    const Point along = c.r - c.q;
+    directions.push_back(unit(kind == Direction::edges ? c.q - p : Point{-along.y, along.x}));
+  }
+}
+
+/// The best accepted step of a length, if any.
+std::optional<Point> best_step(const Star& star, Point p, Objective objective, const Acceptance& acceptance,
+                               const std::vector<Point>& directions, double step) {
+  std::optional<Point> best;
+  double lowest = 0;
+  for (std::size_t begin = 0; begin < directions.size(); begin += Star::batch) {
+    const int count = static_cast<int>(std::min<std::size_t>(Star::batch, directions.size() - begin));
+    Star::Batch x = Star::Batch::Constant(p.x), y = Star::Batch::Constant(p.y);
+    for (int k = 0; k < count; ++k) {
+      x[k] += step * directions[begin + static_cast<std::size_t>(k)].x;
+      y[k] += step * directions[begin + static_cast<std::size_t>(k)].y;
+    }
+    const auto cost = star.cost(x, y, objective);
+    const int k = acceptance.best(cost, count);
+    if (k < 0 || (best && cost.objective[k] >= lowest)) continue;
+    best = Point{x[k], y[k]};
+    lowest = cost.objective[k];
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<Point> Perturbation::improve(const Star& star, Point p, Objective objective) {
+  thread_local std::vector<Point> directions;
+  std::optional<Point> found;
+  const double edge = std::sqrt(star.reference(p));
+  int moves = 0;
+  std::size_t step = 0;
+  while (step < steps.size() && moves < most_moves) {
+    const Acceptance acceptance(star.cost(p, objective));
+    std::optional<Point> better;
+    for (const Direction kind : {Direction::normals, Direction::edges, Direction::axes}) {
+      find_directions(star, p, kind, directions);
+      better = best_step(star, p, objective, acceptance, directions, steps[step] * edge);
+      if (better) break;
+    }
+    if (!better) {
+      ++step;
+      continue;
+    }
+    found = better;
+    p = *better;
+    ++moves;
+  }
+  return found;
+}
+
+}  // namespace quadloop

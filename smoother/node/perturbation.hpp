@@ -1,0 +1,14 @@
+#pragma once
+
+#include "smoother/node/node_solver.hpp"
+
+namespace quadloop {
+
+/// The perturbations of Section 3.7 of the thesis: steps along the normals of the opposite edges, then along
+/// the node's own edges, then along the axes; where none is better the steps get shorter.
+class Perturbation : public NodeSolver {
+ public:
+  std::optional<Point> improve(const Star& star, Point p, Objective objective) override;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "mesher/geometry/point.hpp"
+
+namespace quadloop {
+
+/// The shape that the two edges e1, e2 leaving a corner should have, as the three numbers that the weighted
+/// condition number needs of the matrix W whose columns they would be: with V = W^-1 and G = V V^T det(W) /
+/// 2, Eq. 3.3 of the thesis becomes
+///
+///     CN = ||A W^-1|| ||W A^-1|| / 2 = (G11 e1.e1 + 2 G12 e1.e2 + G22 e2.e2) / J,   A = (e1 e2),   J = e1 x
+///     e2.
+///
+/// Neither size nor orientation counts: W and any rotated multiple of it are the same target.
+struct CornerTarget {
+  double g11 = 0, g12 = 0, g22 = 0;
+};
+
+/// The edges of an ideal cell at its first corner: to the next node, to the previous one. `w1` x `w2` must be
+/// positive.
+CornerTarget corner_target(Point w1, Point w2);
+
+/// Of an equilateral triangle, the same from each of its corners; of a right angle with equal arms.
+CornerTarget equilateral_target();
+CornerTarget right_angle_target();
+
+/// The same triangle (p, q, r) with its target seen from the next node: from q, whose edges go to r and to p.
+CornerTarget seen_from_next(const CornerTarget& target);
+
+/// Two edges' measures at a corner of a triangle p, q, r, counter-clockwise: u = q - p, v = r - p.
+struct CornerForm {
+  double uu = 0, uv = 0, vv = 0, jacobian = 0;
+};
+inline CornerForm corner_form(Point p, Point q, Point r) {
+  const Point u = q - p, v = r - p;
+  return {dot(u, u), dot(u, v), dot(v, v), cross(u, v)};
+}
+
+/// Eq. 3.3: 1 for the target's shape, larger for any other. The corner must not be inverted.
+double condition_number(const CornerForm& corner, const CornerTarget& target);
+/// Its inverse, which is all that the cost needs.
+inline double inverse_condition(const CornerForm& c, const CornerTarget& t) {
+  return c.jacobian / (t.g11 * c.uu + 2 * t.g12 * c.uv + t.g22 * c.vv);
+}
+
+/// Whether a corner counts as inverted: J <= 1e-12 |e1| |e2|.
+inline constexpr double flattest_sine = 1e-12;
+inline bool is_inverted(const CornerForm& c) {
+  return !(c.jacobian > 0 && c.jacobian * c.jacobian > flattest_sine * flattest_sine * c.uu * c.vv);
+}
+
+/// Eq. 3.2: (1 - 1/CN)^2, between 0 and 1, or for an inverted corner 1 - J / reference, at least 1.
+/// `reference` is an area, the same for all corners that are compared; 0 where all nodes are at one point,
+/// which costs what any flat corner costs.
+inline double corner_cost(const CornerForm& c, const CornerTarget& t, double reference) {
+  if (is_inverted(c)) return c.jacobian < 0 ? 1 - c.jacobian / reference : 1;
+  const double defect = 1 - inverse_condition(c, t);
+  return defect * defect;
+}
+
+/// The target of each corner of a cell of three or four nodes, seen from that corner; of an equilateral
+/// triangle or a square.
+template <std::size_t width>
+std::array<CornerTarget, width> ideal_targets();
+
+/// The same for a cell that is stretched as the parallelogram of w1 (to the second node) and w2 (to the last)
+/// is.
+template <std::size_t width>
+std::array<CornerTarget, width> stretched_targets(Point w1, Point w2);
+
+/// The largest cost of a cell's corners: for a triangle all three cost the same.
+template <std::size_t width>
+double cell_cost(const std::array<Point, width>& cell, const std::array<CornerTarget, width>& targets);
+
+}  // namespace quadloop

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/geometry/point.hpp"
+#include "smoother/objective/condition_number.hpp"
+
+namespace quadloop {
+
+/// Which angles of a triangle p, q, r are angles of the cell: all of a triangle's, one for each corner of a
+/// quad.
+enum class CellAngle : std::uint8_t { all, at_p, at_q, at_r };
+
+/// A corner of a cell whose shape hangs on node p: the triangle p, q, r, counter-clockwise, with the target
+/// seen from p.
+struct StarCorner {
+  Point q, r;
+  CornerTarget target;
+  CellAngle angle = CellAngle::all;
+};
+
+/// How the corners' costs become the cost of their node. thesis: Eq. 3.4, see nodal_cost. power: the sum of
+/// the squared costs, where no corner is inverted; the sum of -J counts where some are.
+enum class Objective { thesis, power };
+
+/// What a node's star would be worth with the node at each of several places, evaluated together.
+template <int places>
+struct StarCost {
+  using Values = Eigen::Array<double, places, 1>;
+  Values objective;                     ///< cost of the node; of no use where the star is not valid
+  Values largest_defect;                ///< square root of the largest corner cost
+  Values largest_cotangent;             ///< of the cells' angles: that of the smallest
+  Eigen::Array<bool, places, 1> valid;  ///< no corner is inverted
+};
+
+/// All corners that hang on one node.
+class Star {
+ public:
+  static constexpr int batch = 8;
+  using Batch = Eigen::Array<double, batch, 1>;
+
+  void clear() { corners_.clear(); }
+  void add(const StarCorner& corner) { corners_.push_back(corner); }
+  const std::vector<StarCorner>& corners() const { return corners_; }
+  bool empty() const { return corners_.empty(); }
+
+  StarCost<batch> cost(const Batch& x, const Batch& y, Objective objective) const;
+  StarCost<1> cost(Point p, Objective objective) const;
+
+  /// The cost of the node by the objective and its gradient; the star must be valid at p.
+  double cost_and_gradient(Point p, Objective objective, Point& gradient) const;
+
+  /// The largest corner cost with the node at p, Eq. 3.2; 1 or more where a corner is inverted.
+  double worst_cost(Point p) const;
+
+  /// Eq. 3.4 with the node at p, whether the star is valid there or not; J over `reference`, an area.
+  double nodal_cost(Point p, double reference) const;
+
+  /// The sum of -J over inverted corners, over `reference`; zero if the star is valid.
+  double inversion(Point p, double reference) const;
+  /// A flag for each corner that is not inverted.
+  std::vector<char> sound_corners(Point p) const;
+
+  /// The mean of the squared lengths of the edges from p: what J is divided by.
+  double reference(Point p) const;
+
+ private:
+  template <int places>
+  StarCost<places> evaluate(const Eigen::Array<double, places, 1>& x,
+                            const Eigen::Array<double, places, 1>& y, Objective objective) const;
+
+  std::vector<StarCorner> corners_;
+};
+
+/// Eq. 3.4 from the largest and the mean of the corners' costs. Up to 1 a blend of the two; above, where a
+/// corner is inverted, (1 - J)^2 with the smallest J of all, whose corner costs 1 - J (Eq. 3.2): the largest
+/// cost, squared.
+double nodal_cost(double largest, double mean);
+
+}  // namespace quadloop

@@ -1,0 +1,200 @@
+#include "smoother/outline/boundary_slide.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <tuple>
+
+#include "smoother/node/untangle.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Shares of the way to the neighbour on that side.
+constexpr std::array<double, 4> shares{0.3, 0.12, 0.04, 0.01};
+constexpr double straight_sine = 1e-10;
+constexpr double stray_share =
+    0.15;  ///< of the shorter chord: so far the outline may stray from the chords, as it may in cutting
+constexpr double longest_way =
+    20;  ///< a chord that stands for a part of the outline longer than so many times itself is left alone
+
+}  // namespace
+
+BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
+                             const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline,
+                             const std::vector<char>& pinned)
+    : mesh_{mesh},
+      boundaries_{boundaries},
+      outline_{outline},
+      freedom_(static_cast<std::size_t>(mesh.owned_nodes()), NodeFreedom::interior) {
+  for (const BoundaryEdges& boundary : boundaries)
+    outlined_.push_back(outline != nullptr && outline->has(boundary.name) ? 1 : 0);
+  if (outline != nullptr) find_tight_segments(comm);
+  find_rails(pinned);
+}
+
+std::optional<OutlinePath::Chord> BoundarySlide::chord_of(const HaloEdge& edge) const {
+  if (!is_outlined(edge.boundary)) return std::nullopt;
+  const std::string& name = boundaries_[static_cast<std::size_t>(edge.boundary)].name;
+  const Point a = mesh_.point(edge.from), b = mesh_.point(edge.to);
+  const OutlinePath::Chord chord{outline_->locate(a, name, true), outline_->locate(b, name, true), a, b};
+  if (!chord.from.valid() || chord.from.loop != chord.to.loop) return std::nullopt;
+  return chord;
+}
+
+void BoundarySlide::find_tight_segments(const Communicator& comm) {
+  std::vector<std::int32_t> own;
+  for (const HaloEdge& edge : mesh_.boundary_edges()) {
+    const auto chord = chord_of(edge);
+    if (!chord) continue;
+    const auto met = outline_->met_elsewhere(*chord);
+    if (met.empty()) continue;
+    const auto stands_for = outline_->segments_between(chord->from, chord->to);
+    own.insert(own.end(), met.begin(), met.end());
+    own.insert(own.end(), stands_for.begin(), stands_for.end());
+  }
+  tight_segments_ = comm.all_gather_values(std::span<const std::int32_t>(own));
+  std::sort(tight_segments_.begin(), tight_segments_.end());
+  tight_segments_.erase(std::unique(tight_segments_.begin(), tight_segments_.end()), tight_segments_.end());
+}
+
+bool BoundarySlide::is_tight(const Places& places) const {
+  const auto segments = outline_->segments_between(places.before, places.after);
+  return segments.empty() || std::any_of(segments.begin(), segments.end(), [&](std::int32_t s) {
+           return std::binary_search(tight_segments_.begin(), tight_segments_.end(), s);
+         });
+}
+
+namespace {
+
+/// A boundary edge as its node at one end sees it.
+struct EdgeEnd {
+  std::int32_t node, other, boundary;
+  bool leaves;  ///< the node
+  auto key() const { return std::tie(node, leaves, boundary, other); }
+};
+
+/// Those at owned nodes, sorted.
+std::vector<EdgeEnd> edge_ends(const HaloMesh& mesh) {
+  std::vector<EdgeEnd> ends;
+  for (const HaloEdge& e : mesh.boundary_edges()) {
+    if (e.from.value() < mesh.owned_nodes()) ends.push_back({e.from.value(), e.to.value(), e.boundary, true});
+    if (e.to.value() < mesh.owned_nodes()) ends.push_back({e.to.value(), e.from.value(), e.boundary, false});
+  }
+  std::sort(ends.begin(), ends.end(), [](const EdgeEnd& a, const EdgeEnd& b) { return a.key() < b.key(); });
+  return ends;
+}
+
+/// Calls `visit(ends)` for the ends at each owned boundary node.
+template <class Visit>
+void for_each_boundary_node(const std::vector<EdgeEnd>& ends, const Visit& visit) {
+  for (std::size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
+    while (end < ends.size() && ends[end].node == ends[begin].node) ++end;
+    visit(std::span(ends).subspan(begin, end - begin));
+  }
+}
+
+}  // namespace
+
+void BoundarySlide::find_rails(const std::vector<char>& pinned) {
+  for (std::size_t node = 0; node < pinned.size() && node < freedom_.size(); ++node) {
+    if (pinned[node] != 0) freedom_[node] = NodeFreedom::fixed;
+  }
+  const std::vector<EdgeEnd> ends = edge_ends(mesh_);
+  std::vector<char> pinched(mesh_.points().size(),
+                            0);  // the boundary comes back there: its place on the outline is only one of two
+  for_each_boundary_node(ends, [&](std::span<const EdgeEnd> at) {
+    pinched[static_cast<std::size_t>(at[0].node)] = at.size() > 2 ? 1 : 0;
+  });
+  mesh_.exchange().update(pinched);
+  for_each_boundary_node(ends, [&](std::span<const EdgeEnd> at) {
+    const EdgeEnd &in = at.front(), &out = at.back();
+    NodeFreedom& freedom = freedom_[static_cast<std::size_t>(in.node)];
+    const bool through = at.size() == 2 && !in.leaves && out.leaves && in.boundary == out.boundary &&
+                         pinched[static_cast<std::size_t>(in.other)] == 0 &&
+                         pinched[static_cast<std::size_t>(out.other)] == 0;
+    const Rail rail{in.node, in.other, out.other, in.boundary};
+    const bool slides = freedom == NodeFreedom::interior && through && may_slide(rail);
+    freedom = slides ? NodeFreedom::sliding : NodeFreedom::fixed;
+    if (slides) rails_.push_back(rail);
+  });
+}
+
+bool BoundarySlide::is_straight(const Rail& rail) const {
+  const Point in = point(rail.node) - point(rail.before), out = point(rail.after) - point(rail.node);
+  return dot(in, out) > 0 && std::abs(cross(in, out)) <= straight_sine * length(in) * length(out);
+}
+
+/// The chords' ends may be kept vertices, whose places are those of any other point.
+BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
+  const std::string& name = boundaries_[static_cast<std::size_t>(rail.boundary)].name;
+  return {outline_->locate(point(rail.before), name, true), outline_->locate(point(rail.node), name, false),
+          outline_->locate(point(rail.after), name, true)};
+}
+
+bool BoundarySlide::may_slide(const Rail& rail) const {
+  if (!is_outlined(rail.boundary)) return is_straight(rail);
+  const Places places = locate(rail);
+  if (!places.at.valid() || places.before.loop != places.at.loop || places.after.loop != places.at.loop)
+    return false;
+  const double chord =
+      length(point(rail.node) - point(rail.before)) + length(point(rail.after) - point(rail.node));
+  return outline_->way(places.before, places.at) + outline_->way(places.at, places.after) <=
+             longest_way * chord &&
+         !is_tight(places);
+}
+
+const BoundarySlide::Rail& BoundarySlide::rail_of(std::int32_t node) const {
+  return *std::lower_bound(rails_.begin(), rails_.end(), node,
+                           [](const Rail& rail, std::int32_t n) { return rail.node < n; });
+}
+
+bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const {
+  const Point a = point(rail.before), b = point(rail.after), now = point(rail.node);
+  const auto deviation = [&](OutlinePlace at, Point middle) {
+    return std::max(outline_->deviation(places.before, a, at, middle),
+                    outline_->deviation(at, middle, places.after, b));
+  };
+  const double allowed =
+      std::max(deviation(places.at, now), stray_share * std::min(length(p - a), length(b - p)));
+  const OutlinePath::Chord before{places.before, moved, a, p}, after{moved, places.after, p, b},
+      both{places.before, places.after, a, b};
+  return deviation(moved, p) <= allowed && outline_->met_elsewhere(before).empty() &&
+         outline_->met_elsewhere(after).empty() && !outline_->sweeps_over(both, now) &&
+         !outline_->sweeps_over(both, p);
+}
+
+std::optional<Point> BoundarySlide::improve(std::int32_t node, const Star& star, Objective objective) const {
+  const Rail& rail = rail_of(node);
+  const Point p = point(node);
+  Places places;
+  double back = length(p - point(rail.before)), ahead = length(point(rail.after) - p);
+  const Point direction =
+      (1 / length(point(rail.after) - point(rail.before))) * (point(rail.after) - point(rail.before));
+  const bool outlined = is_outlined(rail.boundary);
+  if (outlined) {
+    places = locate(rail);
+    if (!places.before.valid() || !places.at.valid() || !places.after.valid()) return std::nullopt;
+    back = outline_->way(places.before, places.at);
+    ahead = outline_->way(places.at, places.after);
+  }
+  std::array<OutlinePlace, Star::batch> moved;
+  Star::Batch x, y;
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    const double step = k < shares.size() ? shares[k] * ahead : -shares[k - shares.size()] * back;
+    moved[k] = {places.at.loop, places.at.arc + step};
+    const Point to = outlined ? outline_->point_at(moved[k]) : point(rail.before) + (back + step) * direction;
+    x[static_cast<Eigen::Index>(k)] = to.x;
+    y[static_cast<Eigen::Index>(k)] = to.y;
+  }
+  std::vector<int> order = ranked_places(star, p, objective, x, y);
+  for (const int k : order) {
+    const Point to{x[k], y[k]};
+    if (!outlined || keeps_outline(rail, places, moved[static_cast<std::size_t>(k)], to)) return to;
+  }
+  return std::nullopt;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mesher/mesh/halo_mesh.hpp"
+#include "smoother/node/node_solver.hpp"
+#include "smoother/outline/outline_path.hpp"
+
+namespace quadloop {
+
+/// Whether a node may move, and how.
+enum class NodeFreedom : std::uint8_t { interior, sliding, fixed };
+
+/// Moves boundary nodes along the true outline, or, where that has no boundary of the name, along a straight
+/// boundary of the mesh. A node never passes its neighbours, never makes the outline stray farther from the
+/// chords at it (unless by less than cutting allows itself too), and never brings a chord across another part
+/// of the outline.
+class BoundarySlide {
+ public:
+  /// `outline` may be null. `pinned` flags owned nodes that stay. All arguments must outlive it.
+  /// *Collective.*
+  BoundarySlide(const Communicator& comm, const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries,
+                const OutlinePath* outline, const std::vector<char>& pinned);
+
+  /// Of an owned node.
+  NodeFreedom freedom(std::int32_t node) const { return freedom_[static_cast<std::size_t>(node)]; }
+
+  /// A better place for a sliding node, or none: by Acceptance where the star is valid, else one that
+  /// untangles.
+  std::optional<Point> improve(std::int32_t node, const Star& star, Objective objective) const;
+
+ private:
+  /// The boundary through a sliding node.
+  struct Rail {
+    std::int32_t node = -1, before = -1, after = -1;
+    std::int32_t boundary = -1;
+  };
+  /// The places of a rail's nodes on the outline, now.
+  struct Places {
+    OutlinePlace before, at, after;
+  };
+
+  void find_rails(const std::vector<char>& pinned);
+  void find_tight_segments(const Communicator& comm);
+  bool is_tight(const Places& places) const;
+  std::optional<OutlinePath::Chord> chord_of(const HaloEdge& edge) const;
+  bool may_slide(const Rail& rail) const;
+  bool is_straight(const Rail& rail) const;
+  bool is_outlined(std::int32_t boundary) const { return outlined_[static_cast<std::size_t>(boundary)] != 0; }
+  Places locate(const Rail& rail) const;
+  const Point& point(std::int32_t node) const { return mesh_.points()[static_cast<std::size_t>(node)]; }
+  const Rail& rail_of(std::int32_t node) const;
+  bool keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const;
+
+  const HaloMesh& mesh_;
+  const std::vector<BoundaryEdges>& boundaries_;
+  const OutlinePath* outline_;
+  std::vector<char> outlined_;  ///< a flag for each boundary: the outline has it
+  std::vector<NodeFreedom> freedom_;
+  std::vector<Rail> rails_;  ///< by node
+  /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for:
+  /// nodes there stay, as chords that keep clear of the other parts of the outline could still meet one
+  /// another. Ascending.
+  std::vector<std::int32_t> tight_segments_;
+};
+
+}  // namespace quadloop

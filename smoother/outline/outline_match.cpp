@@ -1,0 +1,138 @@
+#include "smoother/outline/outline_match.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+
+#include "mesher/base/error.hpp"
+#include "smoother/outline/outline_path.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double largest_share = 0.1;  ///< of an edge: what lies farther off is another outline, not rounding
+                                       ///< or another polyline of the same curve
+constexpr std::size_t most_named = 5;
+constexpr const char* cure =
+    "; give the outline as it was meshed: write it with `quadloop mesh --geometry-out`";
+
+using Names = std::vector<std::string>;
+
+/// The first few.
+std::string listed(const Names& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most_named, names.size()); ++i)
+    text += (i == 0 ? "'" : ", '") + names[i] + "'";
+  return names.size() > most_named ? text + " and " + std::to_string(names.size() - most_named) + " more"
+                                   : text;
+}
+
+template <class Boundaries>
+Names names_of(const Boundaries& boundaries) {
+  Names names;
+  for (const auto& boundary : boundaries) names.push_back(boundary.name);
+  return names;
+}
+
+[[noreturn]] void refuse_node(const std::string& path, const std::string& boundary, Point p, double edge) {
+  std::ostringstream message;
+  message.precision(12);
+  message << path << ": the mesh's boundary '" << boundary << "' is not on this outline's: its node (" << p.x
+          << ", " << p.y << ") lies farther off than a tenth of its edge, which is " << edge << " long"
+          << cure;
+  throw InputError(message.str());
+}
+
+/// How the nodes of one boundary lie.
+struct NodesOff {
+  std::int64_t count = 0;
+  double farthest = 0;
+};
+
+/// A tenth of the shorter edge at a node is what counts, as it is looked at from both.
+NodesOff nodes_off(const OutlinePath& outline, const Mesh& mesh, const BoundaryEdges& boundary,
+                   const std::string& path) {
+  NodesOff off;
+  for (const auto& edge : boundary.edges) {
+    const double edge_length = length(mesh.point(edge[1]) - mesh.point(edge[0]));
+    for (const NodeId node : edge) {
+      const double away = outline.distance(mesh.point(node), boundary.name,
+                                           std::max(outline.tolerance(), largest_share * edge_length));
+      if (!std::isfinite(away)) refuse_node(path, boundary.name, mesh.point(node), edge_length);
+      if (away <= outline.tolerance() || node != edge[0]) continue;
+      ++off.count;
+      off.farthest = std::max(off.farthest, away);
+    }
+  }
+  return off;
+}
+
+std::string off_text(const std::string& path, const BoundaryEdges& boundary, const NodesOff& off) {
+  std::ostringstream text;
+  text << path << ": " << off.count << " of " << boundary.edges.size() << " nodes of the mesh's boundary '"
+       << boundary.name << "' lie off the outline, by up to " << off.farthest
+       << "; they and their neighbours on it do not slide";
+  return text.str();
+}
+
+}  // namespace
+
+std::vector<std::string> require_match(const Geometry& outline, const Mesh& whole, const std::string& path) {
+  const OutlinePath curves(outline);
+  std::vector<std::string> warnings;
+  Names absent;
+  for (const BoundaryEdges& boundary : whole.boundaries) {
+    if (!curves.has(boundary.name)) {
+      absent.push_back(boundary.name);
+      continue;
+    }
+    const NodesOff off = nodes_off(curves, whole, boundary, path);
+    if (off.count > 0) warnings.push_back(off_text(path, boundary, off));
+  }
+  if (!absent.empty() && absent.size() == whole.boundaries.size()) {
+    throw InputError(path + ": has none of the mesh's boundaries, " + listed(absent) + ", but " +
+                     listed(names_of(outline.boundaries())) + cure);
+  }
+  if (!absent.empty())
+    warnings.push_back(path + ": lacks these boundaries of the mesh: " + listed(absent) +
+                       "; nodes there slide only where it is straight");
+  return warnings;
+}
+
+std::vector<char> loops_against(const Geometry& outline, const Mesh& whole) {
+  const OutlinePath curves(outline);
+  std::vector<std::int64_t> votes(static_cast<std::size_t>(outline.loop_count()), 0);
+  for (const BoundaryEdges& boundary : whole.boundaries) {
+    for (const auto& [from, to] : boundary.edges) {
+      const OutlinePlace a = curves.locate(whole.point(from), boundary.name, true),
+                         b = curves.locate(whole.point(to), boundary.name, true);
+      if (!a.valid() || a.loop != b.loop) continue;
+      votes[static_cast<std::size_t>(a.loop)] += curves.way(b, a) < curves.way(a, b) ? 1 : -1;
+    }
+  }
+  std::vector<char> against;
+  for (const std::int64_t vote : votes) against.push_back(vote > 0 ? 1 : 0);
+  return against;
+}
+
+Geometry with_loops_turned(const Geometry& outline, const std::vector<char>& turned) {
+  std::vector<Point> points(outline.points().begin(), outline.points().end());
+  std::vector<BoundaryId> segment_boundary;
+  std::vector<std::int32_t> starts{0};
+  for (std::int32_t v = 0; v < outline.size(); ++v) segment_boundary.push_back(outline.boundary_of(v));
+  for (std::int32_t loop = 0; loop < outline.loop_count(); ++loop) {
+    const std::int32_t begin = outline.loop_start(loop), end = outline.loop_start(loop + 1);
+    starts.push_back(end);
+    if (turned[static_cast<std::size_t>(loop)] == 0) continue;
+    std::reverse(points.begin() + begin + 1, points.begin() + end);
+    std::reverse(segment_boundary.begin() + begin, segment_boundary.begin() + end);
+  }
+  return {{outline.boundaries().begin(), outline.boundaries().end()},
+          std::move(points),
+          std::move(starts),
+          std::move(segment_boundary)};
+}
+
+}  // namespace quadloop

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/geometry/geometry.hpp"
+
+namespace quadloop {
+
+/// A place on the outline: a loop and the length walked along it from its first vertex.
+struct OutlinePlace {
+  std::int32_t loop = -1;
+  double arc = 0;
+  bool valid() const { return loop >= 0; }
+};
+
+/// The outline as curves to slide along.
+class OutlinePath {
+ public:
+  /// `geometry` must outlive it.
+  explicit OutlinePath(const Geometry& geometry);
+  ~OutlinePath();
+  OutlinePath(const OutlinePath&) = delete;
+  OutlinePath& operator=(const OutlinePath&) = delete;
+
+  /// The place of a point that lies on the boundary of this name, to `on_outline` of the outline's extent; an
+  /// invalid one where it does not, or, unless `also_kept`, where it is a vertex that a mesh must keep.
+  OutlinePlace locate(Point p, const std::string& boundary, bool also_kept) const;
+  static constexpr double on_outline = 1e-9;
+
+  /// Whether the outline has a boundary of this name.
+  bool has(const std::string& boundary) const;
+  /// How far a point lies from the boundary of this name; infinitely where that is more than `within`.
+  double distance(Point p, const std::string& boundary, double within) const;
+  /// The length that `on_outline` stands for.
+  double tolerance() const { return tolerance_; }
+
+  /// The point at an arc, which may lie beyond the loop's ends by less than its length.
+  Point point_at(OutlinePlace place) const;
+
+  /// The way from one place to another of the same loop, walked with the domain to the left.
+  double way(OutlinePlace from, OutlinePlace to) const;
+
+  /// How far the outline strays from the chord a-b between two places, at most; infinitely where more than a
+  /// few vertices lie between.
+  double deviation(OutlinePlace from, Point a, OutlinePlace to, Point b) const;
+
+  /// A chord of the outline that a mesh's boundary edge is, with the way it stands for.
+  struct Chord {
+    OutlinePlace from, to;
+    Point a, b;
+  };
+  /// The segments outside the chord's own part of the outline that it has a point in common with.
+  std::vector<std::int32_t> met_elsewhere(const Chord& chord) const;
+  /// Whether a vertex outside that part lies in the triangle that the chord makes with a point, or on its
+  /// edges.
+  bool sweeps_over(const Chord& chord, Point apex) const;
+
+  /// The segments from one place to another of the same loop, in order; none where there are more than a few.
+  std::vector<std::int32_t> segments_between(OutlinePlace from, OutlinePlace to) const;
+
+ private:
+  struct Index;
+  struct Nearest {
+    std::int32_t segment = -1;
+    double distance = 0;
+  };
+  Nearest nearest(Point p, const std::string& boundary, double within) const;
+  double loop_length(std::int32_t loop) const { return length_[static_cast<std::size_t>(loop)]; }
+  std::int32_t segment_at(std::int32_t loop, double arc) const;
+  double within(std::int32_t loop, double arc) const;
+  bool belongs(std::int32_t segment, OutlinePlace from, Point a, OutlinePlace to, Point b) const;
+
+  const Geometry& geometry_;
+  std::vector<double> arc_;     ///< of each vertex, from its loop's first
+  std::vector<double> length_;  ///< of each loop
+  double tolerance_ = 0;
+  std::unique_ptr<Index> index_;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,50 @@
+// Flows have the same bits on any number of ranks, whatever the order in which the mesh is shared out.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "flow/euler/solve_euler.hpp"
+#include "tests/flow/euler/flow_meshes.hpp"
+#include "tests/mesh/grid_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+/// Two runs, on all ranks and alone, must agree to the last bit.
+void expect_same_on_all_ranks(const Mesh& whole, const MeshOrder& order, const EulerOptions& options) {
+  const Communicator self(MPI_COMM_SELF);
+  const Mesh part = scatter_mesh(world(), whole, order);
+  const Mesh all = scatter_mesh(self, whole, order);
+  const EulerResult together = solve_euler(world(), part, options), alone = solve_euler(self, all, options);
+  const auto first = alone.states.begin() + static_cast<std::ptrdiff_t>(4 * part.first_node);
+  EXPECT_TRUE(std::equal(together.states.begin(), together.states.end(), first));
+  EXPECT_EQ(together.iterations, alone.iterations);
+  EXPECT_EQ(together.residual, alone.residual);
+  EXPECT_EQ(together.cl, alone.cl);
+  EXPECT_EQ(together.cd, alone.cd);
+  EXPECT_EQ(together.time, alone.time);
+}
+
+TEST(Ranks, GiveTheSameBits) {
+  EulerOptions options;
+  options.mach = 0.7;
+  options.alpha = 5;
+  options.iterations = 12;
+  options.boundaries = {{"wall", "wall", {}}, {"far", "farfield", {}}};
+  const Mesh grid = test::irregular_grid(9, {1, 1}, 0.2);
+  const Mesh ring = test::ring_mesh(24, 8, 0.3, 5);
+  const Mesh tiny = test::irregular_grid(2, {1, 1}, 0.2);  // ranks without nodes
+  for (const auto time : {EulerOptions::Time::steady, EulerOptions::Time::accurate}) {
+    options.time = time;
+    for (const Mesh* mesh : {&grid, &ring, &tiny}) {
+      expect_same_on_all_ranks(*mesh, space_filling_order(*mesh), options);
+      expect_same_on_all_ranks(*mesh, test::shuffled_order(*mesh, 5), options);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quadloop
