@@ -10,7 +10,7 @@
 #include <set>
 #include <variant>
 
-#include "adapt/loop/loop.hpp"
+#include "adapt/loop/run_in_folder.hpp"
 #include "app/command.hpp"
 #include "io/input/case_file.hpp"
 #include "mesher/base/error.hpp"
@@ -71,8 +71,8 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   if (!settings.solver.given)
     note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach,
                        flow.alpha);
-  FlowSolver solver =
-      flow_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
+  ChosenSolver solver =
+      chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const auto* command = std::get_if<CommandSolver>(&solver)) require_solver_files(arguments, *command);
   AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.formats,
                         settings.values};
@@ -106,8 +106,8 @@ void keep(const CycleRecord& record, const std::string& folder, std::vector<Json
   of_run.files.insert(of_run.files.end(), files.begin(), files.end());
 }
 
-std::string closing_line(const std::string& folder, const RunEnd& end) {
-  const auto& [first, last, nothing_to_change] = end;
+std::string closing_line(const std::string& folder, const LoopEnd& end) {
+  const int first = end.first, last = end.last;
   if (first > last)
     return fmt::format("  all cycles are there already: {}/cycle_00 to cycle_{:02}\n", folder, last);
   if (first == last) return fmt::format("  wrote {}/cycle_{:02}\n", folder, last);
@@ -140,7 +140,7 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   };
   context.record.figures.add("folder", folder);
   context.record.figures.add("cycles", cycles);
-  const RunEnd end = run_adaptation(comm, *adaptive, folder, arguments.resume, report);
+  const LoopEnd end = run_in_folder(comm, *adaptive, folder, arguments.resume, report);
   if (comm.is_root()) context.record.figures.add("nothing_to_change", end.nothing_to_change);
   if (!context.shows_table()) return;
   if (end.nothing_to_change)
