@@ -9,14 +9,15 @@
 
 #include "app/command.hpp"
 #include "app/report/summary.hpp"
+#include "flow/euler/euler_solver.hpp"
 #include "flow/euler/shortfall.hpp"
-#include "flow/euler/solve_euler.hpp"
 #include "io/files/output_path.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/variable_names.hpp"
 #include "quadloop/case/settings.hpp"
 
 namespace quadloop {
@@ -49,7 +50,7 @@ Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warni
   const std::vector<std::string>& names = whole.solution->names;
   const std::vector<std::string> wanted(euler_names.begin(), euler_names.end());
   for (const std::string& name : wanted) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    if (variables_like(names, name).size() == 1) continue;
     warnings.push_back(fmt::format(
         "{}: its solution has no {}, so the flow starts afresh and its solution is replaced", path, name));
     return {};
@@ -90,19 +91,11 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
 
 /// Puts the flow into the whole mesh on the root and writes it. *Collective.*
 void write(const Communicator& comm, Problem& problem, const EulerResult& result, const std::string& path) {
-  Field solution = gather_field(comm, result.flow, problem.order);
+  Field solution =
+      gather_field(comm, flow_with_constants(result, problem.settings.solver.euler), problem.order);
   comm.together([&] {
     if (!comm.is_root()) return;
-    const EulerOptions& options = problem.settings.solver.euler;
-    if (std::filesystem::path(path).extension() == ".mesh") {
-      solution.constants = {static_cast<double>(result.iterations),
-                            result.time,
-                            options.mach,
-                            options.alpha,
-                            result.cl,
-                            result.cd,
-                            result.residual};
-    }
+    if (std::filesystem::path(path).extension() != ".mesh") solution.constants.clear();  // no place for them
     problem.whole.solution = std::move(solution);
     for (std::string& loss : losses_in(problem.whole, path)) problem.warnings.push_back(std::move(loss));
     const Communicator alone(MPI_COMM_SELF);

@@ -13,8 +13,8 @@ namespace quadloop {
 
 /// A flow on a mesh, and what the solver says of it.
 struct SolvedFlow {
-  Field solution;                          ///< a row for each owned node
-  std::optional<double> cl, cd, residual;  ///< where the solver knows them
+  Field solution;                            ///< a row for each owned node
+  std::optional<double> cl, cd, residual;    ///< where the solver knows them
   std::vector<std::string> notes, warnings;  ///< for the cycle's log; for the user too
 };
 

@@ -48,9 +48,9 @@ struct LoopEnd {
 /// Meshes, solves and adapts in turn, in memory: the cycles from `first` to adapt.cycles, each on the mesh
 /// that the one before asks for and with its flow carried over. `before` is what the cycle first - 1 came to;
 /// without it the first mesh is that of the case alone. The loop ends with a cycle that marks no leaf: the
-/// next one would solve on the same mesh again. Meshes and flows have the same bits on any number of ranks, and
-/// whether `before` comes from memory or from files of ours. Throws what meshing, solver and observer throw.
-/// *Collective.*
+/// next one would solve on the same mesh again. Meshes and flows have the same bits on any number of ranks,
+/// and whether `before` comes from memory or from files of ours. Throws what meshing, solver and observer
+/// throw. *Collective.*
 LoopEnd run_loop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
                  const FlowSolver& solver, CycleObserver& observer, int first = 0,
                  std::optional<CycleEnd> before = {});

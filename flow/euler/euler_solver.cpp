@@ -10,7 +10,13 @@ namespace quadloop {
 
 Field flow_with_constants(const EulerResult& result, const EulerOptions& options) {
   Field flow = result.flow;
-  flow.constants = {static_cast<double>(result.iterations), result.time, options.mach};
+  flow.constants = {static_cast<double>(result.iterations),
+                    result.time,
+                    options.mach,
+                    options.alpha,
+                    result.cl,
+                    result.cd,
+                    result.residual};
   return flow;
 }
 
