@@ -7,6 +7,7 @@
 #include "flow/euler/shortfall.hpp"
 #include "flow/euler/solve_euler.hpp"
 #include "io/files/output_file.hpp"
+#include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/native/native_file.hpp"
 #include "io/solution_file.hpp"
@@ -84,7 +85,9 @@ SolvedFlow solve(const Communicator& comm, const CommandSolver& solver, const Me
 }  // namespace
 
 std::string CommandSolver::state() const {
-  return holds_solution(mesh) ? mesh : std::filesystem::path(mesh).replace_extension(".csv").string();
+  const FileFormat* format = format_of(mesh);
+  const bool holds_state = format != nullptr && format->holds(Content::solution);
+  return holds_state ? mesh : std::filesystem::path(mesh).replace_extension(".csv").string();
 }
 
 double gamma_of(const FlowSolver& solver) {

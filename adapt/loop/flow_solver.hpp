@@ -7,7 +7,7 @@
 
 #include "flow/command/solver_command.hpp"
 #include "flow/euler/scheme/euler_options.hpp"
-#include "io/loaded/loaded_mesh.hpp"
+#include "mesher/mesh/field.hpp"
 
 namespace quadloop {
 
