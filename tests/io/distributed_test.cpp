@@ -10,6 +10,7 @@
 #include "io/cgns/cgns_file.hpp"
 #include "io/msh/msh_file.hpp"
 #include "io/native/native_file.hpp"
+#include "io/solution_file.hpp"
 #include "io/su2/su2_csv_file.hpp"
 #include "io/su2/su2_file.hpp"
 #include "io/tree/tree_file.hpp"

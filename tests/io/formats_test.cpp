@@ -67,7 +67,8 @@ TEST(Formats, EachReadsWhatItWrites) {
     outputs.commit();
     EXPECT_EQ(format.write_whole != nullptr, format.holds(Content::mesh));
     expect_same_solution(format, path, whole.mesh, *whole.solution);
-    if (format.write_whole != nullptr) EXPECT_EQ(test::bytes_of(of_whole), test::bytes_of(path));
+    if (format.write_whole == nullptr) continue;
+    EXPECT_EQ(test::bytes_of(of_whole), test::bytes_of(path));
   }
 }
 
