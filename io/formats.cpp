@@ -15,81 +15,59 @@ namespace quadloop {
 
 namespace {
 
-using enum Content;
-using Path = std::string;
-using Names = std::vector<std::string>;
-
-const char* const append_rows = "let the solver append its variables, a row of values for each node";
-
-FileFormat native_format() {
-  return {"mesh", "", {mesh, solution, constants, blocks}, append_rows, read_native, nullptr,
-          [](OutputSet& outputs, const Mesh& mesh, const Path& path, const Field* solution, double) {
-            write_native(outputs, mesh, path, solution);
-          },
-          write_native, nullptr};
+/// The writer of a format that has no place for a solution.
+template <void (*write)(OutputSet&, const Mesh&, const std::string&)>
+void write_alone(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field*) {
+  write(outputs, mesh, path);
 }
 
-FileFormat cgns_format() {
-  return {"cgns", "", {mesh, solution, conditions}, append_rows, read_cgns, nullptr,
-          [](OutputSet& outputs, const Mesh& mesh, const Path& path, const Field* solution, double) {
-            write_cgns(outputs, mesh, path, solution);
-          },
-          [](OutputSet& outputs, const LoadedMesh& whole, const Path& path) {
-            write_cgns(outputs, whole.mesh, path, whole.solution ? &*whole.solution : nullptr);
-          },
-          cgns_boundary_names};
-}
-
-FileFormat vtu_format() {
-  return {"vtu", "", {mesh, solution, blocks},
-          "let the solver save values at points (in ParaView: Cell Data to Point Data)", read_vtu, nullptr,
-          [](OutputSet& outputs, const Mesh& mesh, const Path& path, const Field* solution, double) {
-            write_vtu(outputs, mesh, path, solution);
-          },
-          write_vtu, nullptr};
-}
-
-FileFormat su2_format() {
-  return {"su2", "", {mesh}, append_rows, read_su2, nullptr,
-          [](OutputSet& outputs, const Mesh& mesh, const Path& path, const Field*, double) {
-            write_su2(outputs, mesh, path);
-          },
-          [](OutputSet& outputs, const LoadedMesh& whole, const Path& path) {
-            write_su2(outputs, whole.mesh, path);
-          },
-          su2_marker_names};
-}
-
-FileFormat msh_format() {
-  return {"msh", "", {mesh, blocks}, append_rows, read_msh, nullptr,
-          [](OutputSet& outputs, const Mesh& mesh, const Path& path, const Field*, double) {
-            write_msh(outputs, mesh, path);
-          },
-          write_msh,
-          [](const Names& names) {
-            Names written = names;
-            std::ranges::transform(names, written.begin(), msh_group_name);
-            return written;
-          }};
-}
-
-FileFormat su2_csv_format() {
-  return {"csv", "SU2", {solution}, append_rows, nullptr, read_su2_csv,
-          [](OutputSet& outputs, const Mesh& mesh, const Path& path, const Field* solution, double gamma) {
-            if (solution != nullptr) write_su2_csv(outputs, mesh, path, *solution, gamma);
-          },
-          nullptr, nullptr};
+std::vector<std::string> msh_group_names(const std::vector<std::string>& boundaries) {
+  std::vector<std::string> names = boundaries;
+  std::ranges::transform(boundaries, names.begin(), msh_group_name);
+  return names;
 }
 
 }  // namespace
 
-bool FileFormat::holds(Content content) const { return std::ranges::count(places, content) > 0; }
-
 const std::vector<FileFormat>& file_formats() {
-  static const std::vector<FileFormat> formats{native_format(), cgns_format(), vtu_format(),
-                                               su2_format(),    msh_format(),  su2_csv_format()};
+  using enum Content;
+  const char* const save = "let the solver save values at points (in ParaView: Cell Data to Point Data)";
+  static const std::vector<FileFormat> formats{{.name = "mesh",
+                                                .places = {mesh, solution, constants, blocks},
+                                                .read_mesh = read_native,
+                                                .write_mesh = write_native,
+                                                .write_blocks = write_native},
+                                               {.name = "cgns",
+                                                .places = {mesh, solution, conditions},
+                                                .read_mesh = read_cgns,
+                                                .write_mesh = write_cgns,
+                                                .boundary_names = cgns_boundary_names},
+                                               {.name = "vtu",
+                                                .places = {mesh, solution, blocks},
+                                                .without_values = save,
+                                                .read_mesh = read_vtu,
+                                                .write_mesh = write_vtu,
+                                                .write_blocks = write_vtu},
+                                               {.name = "su2",
+                                                .places = {mesh},
+                                                .read_mesh = read_su2,
+                                                .write_mesh = write_alone<write_su2>,
+                                                .boundary_names = su2_marker_names},
+                                               {.name = "msh",
+                                                .places = {mesh, blocks},
+                                                .read_mesh = read_msh,
+                                                .write_mesh = write_alone<write_msh>,
+                                                .write_blocks = write_msh,
+                                                .boundary_names = msh_group_names},
+                                               {.name = "csv",
+                                                .program = "SU2",
+                                                .places = {solution},
+                                                .read_solution = read_su2_csv,
+                                                .write_solution = write_su2_csv}};
   return formats;
 }
+
+bool FileFormat::holds(Content content) const { return std::ranges::count(places, content) > 0; }
 
 const FileFormat* format_named(const std::string& name) {
   const auto found = std::ranges::find(file_formats(), name, &FileFormat::name);

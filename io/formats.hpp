@@ -19,28 +19,30 @@ enum class Content {
   conditions  ///< of boundaries
 };
 
-/// A row of the table of formats. Whoever adds a format adds a folder and a row: commands, case keys and
-/// messages list it by what it holds.
+/// A row of the table of formats: a file holds a mesh, often with a solution, or a solution alone. Whoever
+/// adds a format adds a folder and a row: commands, case keys and messages list it by what it has a place
+/// for.
 struct FileFormat {
   std::string name;             ///< the suffix without its dot
-  std::string program;          ///< whose format it is, where the suffix does not tell; may be empty
+  std::string program = {};     ///< whose format it is, where the suffix does not tell
   std::vector<Content> places;  ///< what it has a place for
-  std::string without_values;   ///< what a user is to do where a file holds no solution
+  /// What a user is to do where a mesh comes without a solution.
+  std::string without_values = "let the solver append its variables, a row of values for each node";
 
-  /// The whole of a file with a mesh, or with a solution alone: one of the two is null. On the calling rank
-  /// alone. Throws InputError.
-  LoadedMesh (*read_mesh)(const std::string& path);
-  LoadedSolution (*read_solution)(const std::string& path);
-
-  /// A distributed mesh, and the solution (null: none) as far as there is a place for it; `gamma` is the
-  /// ratio of specific heats of its gas. *Collective.* Throws OutputError.
-  void (*write)(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution,
-                double gamma);
-  /// A mesh that the set's only rank holds whole; null where there is no place for one. Throws OutputError.
-  void (*write_whole)(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
-
+  /// On the calling rank alone. Throws InputError.
+  LoadedMesh (*read_mesh)(const std::string& path) = nullptr;
+  /// A distributed mesh, with its solution unless that is null. *Collective.* Throws OutputError.
+  void (*write_mesh)(OutputSet& outputs, const Mesh& mesh, const std::string& path,
+                     const Field* solution) = nullptr;
+  /// Where there is a place for blocks: a mesh that the set's only rank holds whole, block by block.
+  void (*write_blocks)(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) = nullptr;
   /// The boundaries' names as a file has them; null: as they are.
-  std::vector<std::string> (*boundary_names)(const std::vector<std::string>& names);
+  std::vector<std::string> (*boundary_names)(const std::vector<std::string>& names) = nullptr;
+
+  /// A solution alone, as above; `gamma` is the ratio of specific heats of its gas.
+  LoadedSolution (*read_solution)(const std::string& path) = nullptr;
+  void (*write_solution)(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
+                         double gamma) = nullptr;
 
   bool holds(Content content) const;
 };

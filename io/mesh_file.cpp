@@ -48,7 +48,10 @@ void require_writable_suffix(const std::string& path) {
 
 void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path,
                 const std::string& format) {
-  if (const FileFormat* row = mesh_format(path, format)) row->write_whole(outputs, whole, path);
+  const FileFormat* row = mesh_format(path, format);
+  if (row == nullptr) return;
+  if (row->write_blocks != nullptr) return row->write_blocks(outputs, whole, path);
+  row->write_mesh(outputs, whole.mesh, path, whole.solution ? &*whole.solution : nullptr);
 }
 
 void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path,
@@ -64,7 +67,11 @@ void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const
 
 void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution,
                 double gamma) {
-  if (const FileFormat* format = format_of(path)) format->write(outputs, mesh, path, solution, gamma);
+  const FileFormat* format = format_of(path);
+  if (format == nullptr) return;
+  if (format->write_mesh != nullptr) format->write_mesh(outputs, mesh, path, solution);
+  if (format->write_solution != nullptr && solution != nullptr)
+    format->write_solution(outputs, mesh, path, *solution, gamma);
 }
 
 std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path, const std::string& format) {
