@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 
 #include "adapt/loop/run_in_folder.hpp"
 #include "app/command.hpp"
+#include "io/formats.hpp"
 #include "io/input/case_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -33,21 +33,16 @@ struct AdaptArguments {
 /// What would stop the loop after the first mesh, found out before it.
 void require_solver_files(const AdaptArguments& arguments, const CommandSolver& solver) {
   const CaseTable table = *read_case(arguments.case_path, arguments.assignments).table("solver");
-  const std::string ending = std::filesystem::path(solver.mesh).extension(),
-                    of_solution = std::filesystem::path(solver.solution).extension();
-  const auto is_one_of = [](const std::string& text, std::initializer_list<const char*> all) {
-    return std::find(all.begin(), all.end(), text) != all.end();
+  const auto is_for = [](const std::string& path, Content content) {
+    const FileFormat* format = format_of(path);
+    return format != nullptr && format->holds(content);
   };
-  if (!is_one_of(ending, {".mesh", ".cgns", ".vtu", ".su2", ".msh"}))
-    table.refuse(
-        "mesh",
-        "is '" + solver.mesh +
-            "', but meshes are written as .mesh, .cgns, .vtu, .su2 or .msh; end the name in one of these");
-  if (!is_one_of(of_solution, {".mesh", ".cgns", ".vtu", ".csv"}))
-    table.refuse(
-        "solution",
-        "is '" + solver.solution +
-            "', but solutions are read from .mesh, .cgns, .vtu and .csv; end the name in one of these");
+  if (!is_for(solver.mesh, Content::mesh))
+    table.refuse("mesh", "is '" + solver.mesh + "', but meshes are written as " +
+                             suffixes_for({Content::mesh}) + "; end the name in one of these");
+  if (!is_for(solver.solution, Content::solution))
+    table.refuse("solution", "is '" + solver.solution + "', but solutions are read from " +
+                                 suffixes_for({Content::solution}, "and") + "; end the name in one of these");
   if (solver.solution == solver.mesh || std::filesystem::path(solver.solution).stem() == "mesh")
     table.refuse(
         "solution",

@@ -12,6 +12,7 @@
 #include "app/report/smooth_report.hpp"
 #include "app/report/summary.hpp"
 #include "io/files/output_path.hpp"
+#include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/loaded/tidy_mesh.hpp"
 #include "io/mesh_file.hpp"
@@ -201,7 +202,7 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
 void add_smooth_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<SmoothArguments>();
   CLI::App* command = app.add_subcommand("smooth", "move a mesh's nodes to better the shapes of its cells");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")
+  command->add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
       ->required()
       ->type_name("IN");
   command

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -12,6 +11,7 @@
 #include "flow/euler/euler_solver.hpp"
 #include "flow/euler/shortfall.hpp"
 #include "io/files/output_path.hpp"
+#include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -40,8 +40,9 @@ struct Problem {
 
 void require_outputs(const std::string& output) {
   require_writable_suffix(output);
-  if (!holds_solution(output))
-    throw InputError(output + ": this format has no place for the flow; name a .mesh, .cgns or .vtu file");
+  if (!format_of(output)->holds(Content::solution))
+    throw InputError(output + ": this format has no place for the flow; name a " +
+                     suffixes_for({Content::mesh, Content::solution}) + " file");
 }
 
 /// Where a mesh brings density, velocity and pressure along.
@@ -95,7 +96,7 @@ void write(const Communicator& comm, Problem& problem, const EulerResult& result
       gather_field(comm, flow_with_constants(result, problem.settings.solver.euler), problem.order);
   comm.together([&] {
     if (!comm.is_root()) return;
-    if (std::filesystem::path(path).extension() != ".mesh") solution.constants.clear();  // no place for them
+    if (!format_of(path)->holds(Content::constants)) solution.constants.clear();
     problem.whole.solution = std::move(solution);
     for (std::string& loss : losses_in(problem.whole, path)) problem.warnings.push_back(std::move(loss));
     const Communicator alone(MPI_COMM_SELF);
@@ -164,10 +165,12 @@ void add_solve_command(CLI::App& app, CommandContext& context) {
       ->type_name("CASE.toml");
   command
       ->add_option("input", arguments->input,
-                   "the mesh (.mesh, .cgns, .vtu, .su2 or .msh); a flow in it is started from")
+                   "the mesh (" + suffixes_for({Content::mesh}) + "); a flow in it is started from")
       ->required()
       ->type_name("IN");
-  command->add_option("-o,--output", arguments->output, "the mesh with the flow (.mesh, .cgns or .vtu)")
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "the mesh with the flow (" + suffixes_for({Content::mesh, Content::solution}) + ")")
       ->required()
       ->type_name("OUT");
   command

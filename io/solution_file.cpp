@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "io/formats.hpp"
 #include "io/mesh_file.hpp"
-#include "io/su2/su2_csv_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/topology.hpp"
 #include "mesher/mesh/variable_names.hpp"
@@ -19,10 +19,7 @@ namespace {
 
 void require_values(const LoadedMesh& loaded, const std::string& path) {
   if (loaded.solution && !loaded.solution->names.empty()) return;
-  const bool vtu = std::filesystem::path(path).extension() == ".vtu";
-  throw InputError(path + ": holds a mesh without a solution; " +
-                   (vtu ? "let the solver save values at points (in ParaView: Cell Data to Point Data)"
-                        : "let the solver append its variables, a row of values for each node"));
+  throw InputError(path + ": holds a mesh without a solution; " + format_of(path)->without_values);
 }
 
 /// Finite, and so small that differences, squares and integrals over the mesh are finite too.
@@ -104,19 +101,20 @@ LoadedSolution read_with_mesh(const std::string& path) {
 }  // namespace
 
 LoadedSolution read_solution(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension();
   require_solution_suffix(path);
-  LoadedSolution result = suffix == ".csv" ? read_su2_csv(path) : read_with_mesh(path);
+  const auto read_alone = format_of(path)->read_solution;
+  LoadedSolution result = read_alone != nullptr ? read_alone(path) : read_with_mesh(path);
   result.solution.names = distinct_words(result.solution.names, path);
   require_usable(result.solution, path);
   return result;
 }
 
 void require_solution_suffix(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension();
-  if (suffix == ".mesh" || suffix == ".cgns" || suffix == ".vtu" || suffix == ".csv") return;
-  throw InputError(path + ": no solution is read from the format '" + suffix +
-                   "'; give a .mesh, .cgns, .vtu or .csv file");
+  const FileFormat* format = format_of(path);
+  if (format != nullptr && format->holds(Content::solution)) return;
+  throw InputError(path + ": no solution is read from the format '" +
+                   std::filesystem::path(path).extension().string() + "'; give a " +
+                   suffixes_for({Content::solution}) + " file");
 }
 
 std::vector<char> nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "io/files/output_file.hpp"
+#include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/native/native_file.hpp"
 #include "io/solution_file.hpp"
@@ -67,7 +68,9 @@ Field read_left(const Communicator& comm, const Mesh& mesh, const SolverCommand&
 }  // namespace
 
 std::string CommandSolver::state() const {
-  return holds_solution(mesh) ? mesh : std::filesystem::path(mesh).replace_extension(".csv").string();
+  const FileFormat* format = format_of(mesh);
+  const bool holds_state = format != nullptr && format->holds(Content::solution);
+  return holds_state ? mesh : std::filesystem::path(mesh).replace_extension(".csv").string();
 }
 
 FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of) {

@@ -6,8 +6,8 @@
 
 #include "adapt/remesh/adapt_options.hpp"
 #include "adapt/sensor/mark.hpp"
-#include "io/loaded/loaded_mesh.hpp"
 #include "mesher/generate/generate.hpp"
+#include "mesher/mesh/field.hpp"
 
 namespace quadloop {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "adapt/remesh/plan.hpp"
+#include "io/loaded/loaded_mesh.hpp"
 
 namespace quadloop {
 
