@@ -106,15 +106,11 @@ std::vector<double> start_states(const Communicator& comm, const Problem& proble
 /// All ranks' states in the order of the whole mesh, on the root. *Collective.*
 std::vector<double> gather_states(const Communicator& comm, const std::vector<double>& states,
                                   const MeshOrder& order) {
-  std::vector<std::vector<double>> out(static_cast<std::size_t>(comm.size()));
-  out[0] = states;
-  std::vector<double> whole(4 * order.nodes.size());
-  std::size_t next = 0;
-  for (const auto& from_rank : comm.exchange(out)) {
-    for (std::size_t i = 0; i < from_rank.size(); i += 4, ++next) {
-      std::copy_n(from_rank.begin() + static_cast<std::ptrdiff_t>(i), 4,
-                  whole.begin() + 4 * std::ptrdiff_t{order.nodes[next]});
-    }
+  const std::vector<double> rows = gather_at_root(comm, states);
+  std::vector<double> whole(rows.size());
+  for (std::size_t i = 0; i < rows.size(); i += 4) {
+    std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(i), 4,
+                whole.begin() + 4 * std::ptrdiff_t{order.nodes[i / 4]});
   }
   return whole;
 }

@@ -73,16 +73,9 @@ void write_for(const Communicator& comm, const Mesh& mesh, const std::optional<S
 /// The rows of this rank's owned nodes from those of all nodes, which the root holds. *Collective.*
 std::vector<double> rows_of_owned(const Communicator& comm, const Mesh& mesh, const std::vector<double>& rows,
                                   std::size_t width) {
-  const auto owned = comm.all_gather(static_cast<std::int64_t>(mesh.owned_nodes));
-  std::vector<std::vector<double>> out(static_cast<std::size_t>(comm.size()));
-  std::size_t begin = 0;
-  for (std::size_t rank = 0; comm.is_root() && rank < out.size(); ++rank) {
-    const std::size_t end = begin + static_cast<std::size_t>(owned[rank]) * width;
-    out[rank].assign(rows.begin() + static_cast<std::ptrdiff_t>(begin),
-                     rows.begin() + static_cast<std::ptrdiff_t>(end));
-    begin = end;
-  }
-  return std::move(comm.exchange(out)[0]);
+  const auto counts =
+      comm.all_gather(static_cast<std::int64_t>(mesh.owned_nodes) * static_cast<std::int64_t>(width));
+  return scatter_from_root(comm, rows, counts);
 }
 
 SolvedFlow solve(const Communicator& comm, const CommandSolver& solver, const Mesh& mesh,

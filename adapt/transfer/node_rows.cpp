@@ -12,14 +12,8 @@ NodeRows rows_with_copies(const Communicator& comm, const Mesh& mesh, std::span<
                    "values must hold a row for each owned node");
   NodeRows rows{width, {owned.begin(), owned.end()}};
   rows.values.resize(mesh.points.size() * columns);
-  if (comm.size() == 1) return rows;
-  const NodeExchange exchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.copies);
-  std::vector<double> column(mesh.points.size());
-  for (std::size_t k = 0; k < columns; ++k) {
-    for (std::size_t i = 0; i < column.size(); ++i) column[i] = rows.values[i * columns + k];
-    exchange.update(column);
-    for (std::size_t i = 0; i < column.size(); ++i) rows.values[i * columns + k] = column[i];
-  }
+  NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.copies)
+      .update_rows(rows.values, columns);
   return rows;
 }
 
