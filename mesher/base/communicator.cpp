@@ -122,7 +122,7 @@ std::vector<std::int64_t> Communicator::exchange_counts(const std::vector<std::i
   return from_rank;
 }
 
-void Communicator::exchange_messages(std::span<const Outgoing> out, std::span<Incoming> in,
+void Communicator::exchange_messages(std::span<const Outgoing> out, std::span<const Incoming> in,
                                      std::size_t largest_piece) const {
   std::vector<MPI_Request> requests;
   for (const Incoming& message : in) {
@@ -132,24 +132,12 @@ void Communicator::exchange_messages(std::span<const Outgoing> out, std::span<In
     });
   }
   for (const Outgoing& message : out) {
-    for_pieces(message.room, largest_piece, [&](std::size_t begin, int length) {  // the last may be empty
-      const auto rest = message.bytes.subspan(std::min(begin, message.bytes.size()));
-      MPI_Isend(rest.data(), std::min(length, static_cast<int>(std::min(rest.size(), largest_piece))),
-                MPI_BYTE, message.to, 1, comm_, &requests.emplace_back());
+    for_pieces(message.bytes.size(), largest_piece, [&](std::size_t begin, int length) {
+      MPI_Isend(message.bytes.data() + begin, length, MPI_BYTE, message.to, 1, comm_,
+                &requests.emplace_back());
     });
   }
-  std::vector<MPI_Status> statuses(requests.size());
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), statuses.data());
-  auto status = statuses.begin();
-  for (Incoming& message : in) {
-    std::size_t filled = 0;
-    for_pieces(message.bytes.size(), largest_piece, [&](std::size_t, int) {
-      int length = 0;
-      MPI_Get_count(&*status++, MPI_BYTE, &length);
-      filled += static_cast<std::size_t>(length);
-    });
-    message.bytes = message.bytes.first(filled);
-  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }
 
 void Communicator::send_bytes(std::span<const std::byte> bytes, int to) const {

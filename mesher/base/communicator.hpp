@@ -65,15 +65,14 @@ class Communicator {
   struct Outgoing {
     int to;
     std::span<const std::byte> bytes;
-    std::size_t room;  ///< what the other side keeps free for it
   };
   struct Incoming {
     int from;
-    std::span<std::byte> bytes;  ///< the room for it, then the part that was filled
+    std::span<std::byte> bytes;  ///< room for them
   };
-  /// Point to point, entered by the ranks named alone, self included: those that a rank sends to expect one
-  /// message from it and have told it their room. Any length: it goes in pieces of at most `largest_piece`.
-  void exchange_messages(std::span<const Outgoing> out, std::span<Incoming> in,
+  /// Point to point, entered by the ranks named alone, self included: each expects one message of just that
+  /// length from those that send to it. Any length: it goes in pieces of at most `largest_piece` bytes.
+  void exchange_messages(std::span<const Outgoing> out, std::span<const Incoming> in,
                          std::size_t largest_piece = largest_message) const;
 
   /// Point to point, not collective: sends to, receives from one rank. Any length.

@@ -45,8 +45,7 @@ std::vector<std::vector<T>> Communicator::exchange(const std::vector<std::vector
   std::vector<Incoming> in;
   for (int rank = 0; rank < size_; ++rank) {
     const auto r = static_cast<std::size_t>(rank);
-    const auto bytes = std::as_bytes(std::span(to_rank[r]));
-    out.push_back({rank, bytes, bytes.size()});
+    out.push_back({rank, std::as_bytes(std::span(to_rank[r]))});
     in.push_back({rank, std::as_writable_bytes(std::span(received[r]))});
   }
   exchange_messages(out, in);

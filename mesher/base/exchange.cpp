@@ -48,8 +48,7 @@ std::size_t Exchange::arrivals_before(int rank) const {
 void Exchange::move(std::span<const Source> to, Bytes rows, std::span<const Source> from, Room room,
                     std::size_t row) const {
   std::vector<Communicator::Outgoing> out;
-  for (const Source& t : to)
-    out.push_back({t.rank, rows.subspan(t.begin * row, t.size() * row), t.size() * row});
+  for (const Source& t : to) out.push_back({t.rank, rows.subspan(t.begin * row, t.size() * row)});
   std::vector<Communicator::Incoming> in;
   for (const Source& s : from) in.push_back({s.rank, room.subspan(s.begin * row, s.size() * row)});
   comm_->exchange_messages(out, in);
@@ -73,28 +72,6 @@ void Exchange::answer_bytes(Bytes rows, Room room, std::size_t row) const {
     std::memcpy(room.data() + order_[i] * row, sorted.data() + i * row, row);
 }
 
-/// The number of rows that came.
-std::size_t Exchange::answer_some_bytes(Bytes rows, std::span<const std::size_t> counts, Room room,
-                                        std::size_t row) const {
-  QUADLOOP_REQUIRE(counts.size() == sources_.size(), "a number for each source");
-  std::vector<Communicator::Outgoing> out;
-  for (std::size_t s = 0; s < sources_.size(); ++s) {
-    QUADLOOP_REQUIRE(counts[s] <= sources_[s].size(), "no more answers than arrivals");
-    out.push_back({sources_[s].rank, rows.first(counts[s] * row), sources_[s].size() * row});
-    rows = rows.subspan(counts[s] * row);
-  }
-  std::vector<Communicator::Incoming> in;
-  for (const Source& t : targets_) in.push_back({t.rank, room.subspan(t.begin * row, t.size() * row)});
-  comm_->exchange_messages(out, in);
-  std::size_t filled = 0;
-  for (const auto& message : in) {
-    if (!message.bytes.empty())
-      std::memmove(room.data() + filled, message.bytes.data(), message.bytes.size());
-    filled += message.bytes.size();
-  }
-  return filled / row;
-}
-
 std::vector<int> CopyExchange::owners_of(std::vector<Copy>& copies) {
   std::stable_sort(copies.begin(), copies.end(),
                    [](const Copy& a, const Copy& b) { return a.owner < b.owner; });
@@ -105,13 +82,12 @@ std::vector<int> CopyExchange::owners_of(std::vector<Copy>& copies) {
 
 CopyExchange::CopyExchange(const Communicator& comm, std::vector<Copy> copies, std::int32_t first_owned)
     : exchange_(comm, owners_of(copies)) {
-  std::vector<Asked> wanted;
   for (const Copy& copy : copies) {
     copies_.push_back(copy.entry);
-    wanted.push_back({copy.owners_entry, copy.entry});
+    owned_.push_back(copy.owners_entry);
   }
-  asked_ = exchange_.deliver(wanted);
-  for (Asked& asked : asked_) asked.entry += first_owned;
+  owned_ = exchange_.deliver(owned_);
+  for (std::int32_t& entry : owned_) entry += first_owned;
 }
 
 }  // namespace quadloop

@@ -48,11 +48,6 @@ class Exchange {
   template <std::ranges::contiguous_range Rows>
   std::vector<std::ranges::range_value_t<Rows>> answer(const Rows& rows, std::size_t width = 1) const;
 
-  /// The way back for fewer values: `counts` has a number for each source, at most its size, and `rows` so
-  /// many values for each, one after another. They come by the rank that answers. *Collective.*
-  template <class T>
-  std::vector<T> answer_some(const std::vector<T>& rows, std::span<const std::size_t> counts) const;
-
  private:
   using Bytes = std::span<const std::byte>;
   using Room = std::span<std::byte>;
@@ -60,8 +55,6 @@ class Exchange {
             std::size_t row) const;
   void deliver_bytes(Bytes rows, Room room, std::size_t row) const;
   void answer_bytes(Bytes rows, Room room, std::size_t row) const;
-  std::size_t answer_some_bytes(Bytes rows, std::span<const std::size_t> counts, Room room,
-                                std::size_t row) const;
 
   const Communicator* comm_;
   std::vector<Source> targets_, sources_;
@@ -124,15 +117,10 @@ class CopyExchange {
   void update(std::vector<T>& values, const Changed& changed) const;
 
  private:
-  /// An entry here that is asked for, and the one that it goes to there.
-  struct Asked {
-    std::int32_t entry, copy;
-  };
   static std::vector<int> owners_of(std::vector<Copy>& copies);  ///< of copies that it sorts by them
 
-  Exchange exchange_;  ///< from copies to owners
-  std::vector<std::int32_t> copies_;
-  std::vector<Asked> asked_;
+  Exchange exchange_;                         ///< from copies to owners
+  std::vector<std::int32_t> copies_, owned_;  ///< the entries of items and of arrivals
 };
 
 template <std::ranges::contiguous_range Rows>
@@ -155,26 +143,17 @@ std::vector<std::ranges::range_value_t<Rows>> Exchange::answer(const Rows& rows,
 }
 
 template <class T>
-std::vector<T> Exchange::answer_some(const std::vector<T>& rows, std::span<const std::size_t> counts) const {
-  static_assert(std::is_trivially_copyable_v<T>);
-  std::vector<T> answers(items());
-  answers.resize(answer_some_bytes(std::as_bytes(std::span(rows)), counts,
-                                   std::as_writable_bytes(std::span(answers)), sizeof(T)));
-  return answers;
-}
-
-template <class T>
 void CopyExchange::update_rows(std::vector<T>& rows, std::size_t width) const {
   const auto row_of = [&](std::int32_t entry) {
     return rows.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(entry) * width);
   };
   std::vector<T> out;
-  out.reserve(asked_.size() * width);
-  for (const Asked& asked : asked_) std::copy_n(row_of(asked.entry), width, std::back_inserter(out));
+  out.reserve(owned_.size() * width);
+  for (const std::int32_t entry : owned_) std::copy_n(row_of(entry), width, std::back_inserter(out));
   out = exchange_.answer(out, width);
   auto row = out.cbegin();
-  for (const std::int32_t copy : copies_) {
-    std::copy_n(row, width, row_of(copy));
+  for (const std::int32_t entry : copies_) {
+    std::copy_n(row, width, row_of(entry));
     row += static_cast<std::ptrdiff_t>(width);
   }
 }
@@ -182,21 +161,17 @@ void CopyExchange::update_rows(std::vector<T>& rows, std::size_t width) const {
 template <class T, class Changed>
 void CopyExchange::update(std::vector<T>& values, const Changed& changed) const {
   struct Item {
-    std::int32_t copy;
     T value;
+    bool is_new;
   };
-  std::vector<Item> out;
-  std::vector<std::size_t> counts;
-  for (const Exchange::Source& source : exchange_.sources()) {
-    const std::size_t before = out.size();
-    for (std::size_t i = source.begin; i < source.end; ++i) {
-      const auto& [entry, copy] = asked_[i];
-      if (changed(entry)) out.push_back({copy, values[static_cast<std::size_t>(entry)]});
-    }
-    counts.push_back(out.size() - before);
+  std::vector<Item> items;  // all of them: their number is known, and few are at the border
+  items.reserve(owned_.size());
+  for (const std::int32_t entry : owned_)
+    items.push_back({values[static_cast<std::size_t>(entry)], static_cast<bool>(changed(entry))});
+  items = exchange_.answer(items);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].is_new) values[static_cast<std::size_t>(copies_[i])] = items[i].value;
   }
-  for (const Item& item : exchange_.answer_some(out, counts))
-    values[static_cast<std::size_t>(item.copy)] = item.value;
 }
 
 }  // namespace quadloop
