@@ -19,6 +19,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -105,14 +106,6 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   return loaded;
 }
 
-Point centre_of(const Communicator& comm, const Mesh& part) {
-  Box box;
-  for (const Point p : part.points) box.include(p);
-  return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)},
-             {comm.maximum(box.high.x), comm.maximum(box.high.y)}}
-      .centre();
-}
-
 SmoothOptions options_of(const Communicator& comm, const SmoothArguments& arguments, const Loaded& loaded,
                          const Mesh& part) {
   SmoothOptions options;
@@ -123,7 +116,9 @@ SmoothOptions options_of(const Communicator& comm, const SmoothArguments& argume
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
   if (!loaded.delaunay) return options;
   options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);
-  options.delaunay = [centre = centre_of(comm, part)](Point p) { return tie_rank(centre, p); };
+  options.delaunay = [centre = box_over_ranks(comm, part.points).centre()](Point p) {
+    return tie_rank(centre, p);
+  };
   return options;
 }
 

@@ -261,18 +261,15 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
 std::vector<char> nodes_near_worse(const Communicator& comm, const Mesh& flipped, const Mesh& before,
                                    double limit, int rings) {
   const NodeOwners owners(comm, before.first_node);
-  std::vector<std::vector<std::int64_t>> to_owner(static_cast<std::size_t>(comm.size()));
+  Outbox<GlobalNodeId> to_owners;
   for (const auto& nodes : flipped.triangles) {
     if (ideal_cost(flipped, nodes) <= limit) continue;
-    for (const NodeId node : nodes)
-      to_owner[static_cast<std::size_t>(owners.rank_of(flipped.global(node)))].push_back(
-          flipped.global(node).value());
+    for (const NodeId node : nodes) to_owners.add(owners.rank_of(flipped.global(node)), flipped.global(node));
   }
   const HaloMesh halo(comm, before);
   std::vector<char> near(halo.points().size(), 0);
-  for (const auto& from_rank : comm.exchange(to_owner)) {
-    for (const std::int64_t node : from_rank) near[static_cast<std::size_t>(node - before.first_node)] = 1;
-  }
+  for (const GlobalNodeId node : to_owners.deliver(comm))
+    near[static_cast<std::size_t>(node.value() - before.first_node)] = 1;
   grow(halo, near, rings);
   near.resize(static_cast<std::size_t>(halo.owned_nodes()));
   return near;

@@ -44,16 +44,6 @@ struct NamedEdge {
   std::array<std::int64_t, 2> nodes{};
 };
 
-template <class T>
-std::vector<T> at_root(const Communicator& comm, std::vector<T> own) {
-  std::vector<std::vector<T>> out(static_cast<std::size_t>(comm.size()));
-  out[0] = std::move(own);
-  std::vector<T> all;
-  for (const std::vector<T>& of_rank : comm.exchange(out))
-    all.insert(all.end(), of_rank.begin(), of_rank.end());
-  return all;
-}
-
 template <std::size_t width>
 std::array<std::int64_t, width> global_numbers(const Mesh& mesh, const std::array<NodeId, width>& nodes) {
   std::array<std::int64_t, width> numbers{};
@@ -75,7 +65,7 @@ std::vector<std::array<NodeId, width>> cells_at_root(const Communicator& comm, c
   std::vector<std::array<std::int64_t, width>> numbers;
   for (const auto& cell : own) numbers.push_back(global_numbers(mesh, cell));
   std::vector<std::array<NodeId, width>> cells;
-  for (const auto& cell : at_root(comm, std::move(numbers))) cells.push_back(node_ids(cell));
+  for (const auto& cell : gather_at_root(comm, numbers)) cells.push_back(node_ids(cell));
   return cells;
 }
 
@@ -84,7 +74,7 @@ std::vector<std::array<NodeId, width>> cells_at_root(const Communicator& comm, c
 Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
   Mesh whole;
   whole.points =
-      at_root(comm, std::vector<Point>(mesh.points.begin(), mesh.points.begin() + mesh.owned_nodes));
+      gather_at_root(comm, std::span(mesh.points).first(static_cast<std::size_t>(mesh.owned_nodes)));
   whole.owned_nodes = static_cast<std::int32_t>(whole.points.size());
   whole.triangles = cells_at_root(comm, mesh, mesh.triangles);
   whole.quads = cells_at_root(comm, mesh, mesh.quads);
@@ -94,7 +84,7 @@ Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
       edges.push_back({static_cast<std::int64_t>(b), global_numbers(mesh, edge)});
     whole.boundaries.push_back({mesh.boundaries[b].name, mesh.boundaries[b].condition, {}});
   }
-  for (const NamedEdge& edge : at_root(comm, std::move(edges)))
+  for (const NamedEdge& edge : gather_at_root(comm, edges))
     whole.boundaries[static_cast<std::size_t>(edge.boundary)].edges.push_back(node_ids(edge.nodes));
   std::erase_if(whole.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   return whole;

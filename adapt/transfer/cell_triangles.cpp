@@ -4,6 +4,7 @@
 
 #include "mesher/delaunay/tie_order.hpp"
 #include "mesher/geometry/predicates.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
 
 namespace quadloop {
 
@@ -30,11 +31,7 @@ void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int64_t number,
 }  // namespace
 
 Point centre_of_nodes(const Communicator& comm, const Mesh& mesh) {
-  Box box;
-  for (const Point p : mesh.points) box.include(p);
-  return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)},
-             {comm.maximum(box.high.x), comm.maximum(box.high.y)}}
-      .centre();
+  return box_over_ranks(comm, mesh.points).centre();
 }
 
 std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,

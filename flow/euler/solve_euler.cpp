@@ -7,6 +7,7 @@
 #include "flow/euler/vortex.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
 
 namespace quadloop {
 
@@ -15,14 +16,6 @@ namespace {
 using namespace euler;
 
 std::vector<std::string> flow_names() { return {euler_names.begin(), euler_names.end()}; }
-
-Point middle_of(const Communicator& comm, const Mesh& mesh) {
-  Box box;
-  for (const Point p : mesh.points) box.include(p);
-  return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)},
-             {comm.maximum(box.high.x), comm.maximum(box.high.y)}}
-      .centre();
-}
 
 /// A state for each node; those of copies come later.
 std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, const DualMesh& dual,
@@ -35,7 +28,8 @@ std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, cons
     for (std::size_t node = 0; node < owned; ++node)
       std::copy_n(given.values.begin() + static_cast<std::ptrdiff_t>(4 * node), 4, states[node].begin());
   } else if (options.initial == EulerOptions::Initial::vortex) {
-    const Point centre = options.vortex_centre ? *options.vortex_centre : middle_of(comm, mesh);
+    const Point centre =
+        options.vortex_centre ? *options.vortex_centre : box_over_ranks(comm, mesh.points).centre();
     const Vortex vortex{model.gas, model.free_stream, centre, options.reference_length};
     for (std::size_t node = 0; node < owned; ++node)
       states[node] = vortex.state(dual.point(static_cast<std::int32_t>(node)), 0);

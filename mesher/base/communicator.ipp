@@ -27,20 +27,28 @@ std::vector<T> Communicator::all_gather_values(std::span<const T> values) const 
 }
 
 template <class T>
-void Communicator::broadcast(std::vector<T>& values) const {
+void Communicator::broadcast(std::vector<T>& values, int from) const {
   const auto view = std::as_bytes(std::span<const T>(values));
   std::vector<std::byte> bytes(view.begin(), view.end());
-  broadcast_bytes(bytes);
+  broadcast_bytes(bytes, from);
   values = detail::from_bytes<T>(bytes);
 }
 
 template <class T>
 std::vector<std::vector<T>> Communicator::exchange(const std::vector<std::vector<T>>& to_rank) const {
-  std::vector<std::span<const std::byte>> views;
-  views.reserve(to_rank.size());
-  for (const auto& values : to_rank) views.push_back(std::as_bytes(std::span<const T>(values)));
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<std::int64_t> counts;
+  for (const auto& values : to_rank) counts.push_back(static_cast<std::int64_t>(values.size()));
   std::vector<std::vector<T>> received;
-  for (const auto& bytes : exchange_bytes(views)) received.push_back(detail::from_bytes<T>(bytes));
+  for (const std::int64_t count : exchange_counts(counts)) received.emplace_back(count);
+  std::vector<Outgoing> out;
+  std::vector<Incoming> in;
+  for (int rank = 0; rank < size_; ++rank) {
+    const auto r = static_cast<std::size_t>(rank);
+    out.push_back({rank, std::as_bytes(std::span(to_rank[r]))});
+    in.push_back({rank, std::as_writable_bytes(std::span(received[r]))});
+  }
+  exchange_messages(out, in);
   return received;
 }
 

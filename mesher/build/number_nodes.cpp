@@ -10,12 +10,6 @@ namespace {
 
 constexpr std::int32_t unused = -1, used = -2;
 
-template <class T>
-void sort_unique(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 }  // namespace
 
 NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, const LeafGraph& graph,
@@ -24,18 +18,19 @@ NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, c
       graph_{&graph},
       cut_{&cut},
       inner_slots_(cut.states.size(), {unused, unused, unused}),
-      listed_slots_(cut.nodes.size(), unused),
-      wanted_(static_cast<std::size_t>(comm.size())) {
+      listed_slots_(cut.nodes.size(), unused) {
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
     if (graph.leaf(leaf).x == 0 || graph.leaf(leaf).y == 0)
       border_slots_.push_back({leaf, {unused, unused, unused}});
   }
   mark_used();
-  exchange_marks(comm);
+  const Exchange exchange(comm, ranks_wanted());
+  const auto asked = exchange.deliver(wanted_);
+  for (const Request& request : asked) slot_of(request) = used;
   number_owned();
   place_moved();
   first_node_ = comm.exclusive_sum(owned_);
-  exchange_numbers(comm);
+  fetch_copies(exchange, asked);
 }
 
 NodeNumbering::Home NodeNumbering::corner_home(std::int32_t owner, std::int64_t x, std::int64_t y) const {
@@ -113,7 +108,7 @@ void NodeNumbering::mark(const Home& home) {
   if (graph_->is_local(home.leaf)) {
     *local_slot(home) = used;
   } else {
-    wanted_[static_cast<std::size_t>(rank_of(home))].push_back(request_of(home));
+    wanted_.push_back(request_of(home));
   }
 }
 
@@ -162,13 +157,12 @@ void NodeNumbering::mark_used() {
   }
 }
 
-void NodeNumbering::exchange_marks(const Communicator& comm) {
-  for (auto& requests : wanted_) sort_unique(requests);
-  asked_ = comm.exchange(wanted_);
-  for (const auto& requests : asked_) {
-    for (const Request& r : requests)
-      *local_slot({graph_->from_local(r.leaf), static_cast<Slot>(r.slot), r.position}) = used;
-  }
+std::vector<int> NodeNumbering::ranks_wanted() {
+  std::sort(wanted_.begin(), wanted_.end());
+  wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
+  std::vector<int> ranks;
+  for (const Request& request : wanted_) ranks.push_back(request.rank);
+  return ranks;
 }
 
 void NodeNumbering::number_slot(std::int32_t& slot, Point position) {
@@ -224,35 +218,26 @@ void NodeNumbering::place_moved() {
   }
 }
 
-void NodeNumbering::exchange_numbers(const Communicator& comm) {
+void NodeNumbering::fetch_copies(const Exchange& exchange, const std::vector<Request>& asked) {
   struct Answer {
     std::int64_t number;
     Point position;
   };
-  std::vector<std::vector<Answer>> answers(asked_.size());
-  for (std::size_t rank = 0; rank < asked_.size(); ++rank) {
-    for (const Request& r : asked_[rank]) {
-      const std::int32_t node =
-          *local_slot({graph_->from_local(r.leaf), static_cast<Slot>(r.slot), r.position});
-      answers[rank].push_back({first_node_ + node, points_[static_cast<std::size_t>(node)]});
-    }
+  std::vector<Answer> answers;
+  for (const Request& request : asked) {
+    const std::int32_t node = slot_of(request);
+    answers.push_back({first_node_ + node, points_[static_cast<std::size_t>(node)]});
   }
-  wanted_nodes_.resize(wanted_.size());
-  const auto received = comm.exchange(answers);
-  for (std::size_t rank = 0; rank < received.size(); ++rank) {
-    for (const Answer& answer : received[rank]) {
-      wanted_nodes_[rank].push_back(owned_ + static_cast<std::int32_t>(copies_.size()));
-      copies_.push_back(GlobalNodeId{answer.number});
-      points_.push_back(answer.position);
-    }
+  for (const Answer& answer : exchange.answer(answers)) {
+    copies_.push_back(GlobalNodeId{answer.number});
+    points_.push_back(answer.position);
   }
 }
 
 NodeId NodeNumbering::find(const Home& home) const {
   if (graph_->is_local(home.leaf)) return NodeId{*local_slot(home)};
-  const auto rank = static_cast<std::size_t>(rank_of(home));
-  const auto at = std::lower_bound(wanted_[rank].begin(), wanted_[rank].end(), request_of(home));
-  return NodeId{wanted_nodes_[rank][static_cast<std::size_t>(at - wanted_[rank].begin())]};
+  const auto at = std::lower_bound(wanted_.begin(), wanted_.end(), request_of(home));
+  return NodeId{owned_ + static_cast<std::int32_t>(at - wanted_.begin())};
 }
 
 NodeId NodeNumbering::of_leaf(std::int32_t leaf, int place) const { return find(home_of_place(leaf, place)); }

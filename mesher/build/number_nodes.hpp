@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesher/base/exchange.hpp"
 #include "mesher/cut/cut_forest.hpp"
 #include "mesher/mesh/mesh.hpp"
 
@@ -42,6 +43,7 @@ class NodeNumbering {
     Point position;  ///< names a listed node
   };
   struct Request {
+    int rank = 0;
     std::int32_t leaf = 0;  ///< counted from the owner's first leaf
     std::int32_t slot = 0;
     Point position;
@@ -62,14 +64,17 @@ class NodeNumbering {
   void mark_used();
   void mark_inside(std::int32_t leaf);
   bool marks_its_own(std::int32_t leaf) const;
-  void exchange_marks(const Communicator& comm);
+  std::vector<int> ranks_wanted();
+  std::int32_t& slot_of(const Request& asked) {
+    return *local_slot({graph_->from_local(asked.leaf), static_cast<Slot>(asked.slot), asked.position});
+  }
   void number_owned();
   void place_moved();
   void number_slot(std::int32_t& slot, Point position);
-  void exchange_numbers(const Communicator& comm);
-  int rank_of(const Home& home) const { return graph_->place_of(home.leaf).rank; }
+  void fetch_copies(const Exchange& exchange, const std::vector<Request>& asked);
   Request request_of(const Home& home) const {
-    return {graph_->place_of(home.leaf).index, home.slot, home.slot == listed ? home.position : Point{}};
+    const LeafGraph::Place place = graph_->place_of(home.leaf);
+    return {place.rank, place.index, home.slot, home.slot == listed ? home.position : Point{}};
   }
 
   const Lattice* lattice_;
@@ -78,11 +83,9 @@ class NodeNumbering {
   std::vector<std::array<std::int32_t, 3>>
       inner_slots_;  ///< of each local leaf: north east, right middle, top middle
   std::vector<std::pair<std::int32_t, std::array<std::int32_t, 3>>>
-      border_slots_;                          ///< of leaves on the root's lower or left side, by leaf
-  std::vector<std::int32_t> listed_slots_;    ///< of each of CutForest::nodes
-  std::vector<std::vector<Request>> wanted_;  ///< from each rank, sorted
-  std::vector<std::vector<Request>> asked_;   ///< by each rank
-  std::vector<std::vector<std::int32_t>> wanted_nodes_;  ///< numbers here of what was wanted
+      border_slots_;                        ///< of leaves on the root's lower or left side, by leaf
+  std::vector<std::int32_t> listed_slots_;  ///< of each of CutForest::nodes
+  std::vector<Request> wanted_;             ///< from other ranks, sorted: the copies
   std::vector<Point> points_;
   std::int64_t first_node_ = 0;
   std::int32_t owned_ = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesher/base/exchange.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -31,7 +33,7 @@ std::array<std::int32_t, 2> across(const LeafGraph& graph, std::int32_t leaf, in
 
 OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
   std::vector<SideChord> chords;
-  std::vector<std::vector<SideChord>> to_rank(static_cast<std::size_t>(comm.size()));
+  Outbox<SideChord> out;
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
     const std::int32_t e = cut.entry_of[static_cast<std::size_t>(leaf - graph.local_begin())];
     if (e < 0) continue;
@@ -49,14 +51,13 @@ OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, c
       for (int side = 0; side < 4; ++side) {
         if (((common >> side) & 1) == 0) continue;
         for (const std::int32_t other : across(graph, leaf, side)) {
-          if (other != LeafGraph::none && !graph.is_local(other))
-            to_rank[static_cast<std::size_t>(graph.place_of(other).rank)].push_back(chord);
+          if (other != LeafGraph::none && !graph.is_local(other)) out.add(graph.place_of(other).rank, chord);
         }
       }
     }
   }
-  for (const auto& received : comm.exchange(to_rank))
-    chords.insert(chords.end(), received.begin(), received.end());
+  const auto received = out.deliver(comm);
+  chords.insert(chords.end(), received.begin(), received.end());
   std::sort(chords.begin(), chords.end());
   for (std::size_t i = 0; i + 1 < chords.size(); ++i) {
     const SideChord &a = chords[i], &b = chords[i + 1];

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesher/base/exchange.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -48,7 +50,7 @@ class GhostFinder {
     }
   }
 
-  std::vector<std::vector<Ghost>> take_shared() { return std::move(shared_); }
+  const Outbox<Ghost>& shared() const { return shared_; }
 
  private:
   static int child_of(const Quadrant& place, const Quadrant& q) {
@@ -103,7 +105,7 @@ class GhostFinder {
     std::sort(touched_.begin(), touched_.end());
     touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
     for (const int rank : touched_) {
-      if (rank != rank_) shared_[static_cast<std::size_t>(rank)].push_back({leaf, rank_, index});
+      if (rank != rank_) shared_.add(rank, {leaf, rank_, index});
     }
   }
 
@@ -124,15 +126,14 @@ class GhostFinder {
   const Forest& forest_;
   std::vector<CurvePlace> begins_;  ///< of each rank's part, and the end of the curve
   std::vector<int> touched_;
-  std::vector<std::vector<Ghost>> shared_ = std::vector<std::vector<Ghost>>(begins_.size() - 1);
+  Outbox<Ghost> shared_;
 };
 
 }  // namespace
 
 std::vector<Ghost> ghost_layer(const Communicator& comm, const Lattice& lattice, const Forest& forest,
                                std::span<const Quadrant> leaves) {
-  std::vector<Ghost> ghosts;
-  if (comm.size() == 1) return ghosts;
+  if (comm.size() == 1) return {};
   GhostFinder finder(comm.rank(), lattice, forest);
   const auto tree_of = [](const Quadrant& q) {
     return Quadrant{q.x >> Quadrant::unit_level, q.y >> Quadrant::unit_level, 0};
@@ -147,9 +148,7 @@ std::vector<Ghost> ghost_layer(const Communicator& comm, const Lattice& lattice,
     const Quadrant root{tree.x << Quadrant::unit_level, tree.y << Quadrant::unit_level, 0};
     finder.search(root, leaves.subspan(begin, end - begin), static_cast<std::int32_t>(begin));
   }
-  for (const auto& from_rank : comm.exchange(finder.take_shared()))
-    ghosts.insert(ghosts.end(), from_rank.begin(), from_rank.end());
-  return ghosts;
+  return finder.shared().deliver(comm);
 }
 
 }  // namespace quadloop

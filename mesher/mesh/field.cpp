@@ -32,17 +32,12 @@ Field selected(const Field& field, std::span<const std::string> wanted, const st
 }
 
 Field with_copies(const Communicator& comm, const Mesh& mesh, Field field) {
-  const std::size_t width = field.width(), rows = mesh.points.size();
+  const std::size_t width = field.width();
   QUADLOOP_REQUIRE(field.values.size() >= static_cast<std::size_t>(mesh.owned_nodes) * width,
                    "a field must have a row for each owned node");
-  field.values.resize(rows * width);
-  if (comm.size() == 1) return field;
-  const NodeExchange exchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.copies);
-  for (std::size_t k = 0; k < width; ++k) {
-    std::vector<double> column = field.column(k);
-    exchange.update(column);
-    for (std::size_t i = 0; i < rows; ++i) field.values[i * width + k] = column[i];
-  }
+  field.values.resize(mesh.points.size() * width);
+  NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.copies)
+      .update_rows(field.values, width);
   return field;
 }
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 
 #include "mesher/base/morton.hpp"
 #include "mesher/mesh/node_exchange.hpp"
+#include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
 
@@ -98,20 +98,6 @@ std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whol
   return scatter_evenly(comm, std::span<const GlobalEdge>(edges));
 }
 
-/// The root's words on every rank. *Collective.*
-std::vector<std::string> broadcast_words(const Communicator& comm, const std::vector<std::string>& words) {
-  std::vector<char> text;
-  for (const std::string& word : words) text.insert(text.end(), word.c_str(), word.c_str() + word.size() + 1);
-  comm.broadcast(text);
-  std::vector<std::string> shared;
-  for (auto at = text.begin(); at != text.end();) {
-    const auto end = std::find(at, text.end(), '\0');
-    shared.emplace_back(at, end);
-    at = end + 1;
-  }
-  return shared;
-}
-
 /// The root's boundaries on every rank, without their edges.
 std::vector<BoundaryEdges> broadcast_boundaries(const Communicator& comm, const Mesh& whole) {
   std::vector<std::string> words;
@@ -128,11 +114,8 @@ std::vector<BoundaryEdges> broadcast_boundaries(const Communicator& comm, const 
 /// Makes a rank's part from what it was sent: its nodes, and cells that name nodes over all ranks.
 class PartBuilder {
  public:
-  PartBuilder(const Communicator& comm, std::vector<Point> points) {
-    part_.points = std::move(points);
-    part_.owned_nodes = static_cast<std::int32_t>(part_.points.size());
-    part_.first_node = comm.exclusive_sum(part_.owned_nodes);
-  }
+  PartBuilder(const Communicator& comm, std::vector<Point> points)
+      : part_{part_of(comm, std::move(points))}, nodes_{part_} {}
 
   template <std::size_t width>
   void add_cells(const GlobalCells<width>& cells, Cells<width>& to) {
@@ -150,35 +133,24 @@ class PartBuilder {
 
   /// Fetches the copies' positions. *Collective.*
   Mesh finish(const Communicator& comm) {
-    part_.points.resize(part_.points.size() + part_.copies.size());
     const NodeOwners owners(comm, part_.first_node);
     NodeExchange(comm, owners, part_.owned_nodes, part_.copies).update(part_.points);
     return std::move(part_);
   }
 
  private:
-  NodeId local(std::int64_t number) {
-    const std::int64_t offset = number - part_.first_node;
-    if (0 <= offset && offset < part_.owned_nodes) return NodeId{static_cast<std::int32_t>(offset)};
-    const auto [found, added] =
-        copies_.emplace(number, part_.owned_nodes + static_cast<std::int32_t>(part_.copies.size()));
-    if (added) part_.copies.push_back(GlobalNodeId{number});
-    return NodeId{found->second};
+  static Mesh part_of(const Communicator& comm, std::vector<Point> points) {
+    Mesh part;
+    part.points = std::move(points);
+    part.owned_nodes = static_cast<std::int32_t>(part.points.size());
+    part.first_node = comm.exclusive_sum(part.owned_nodes);
+    return part;
   }
+  NodeId local(std::int64_t number) { return nodes_.local(number, {}); }
 
   Mesh part_;
-  std::unordered_map<std::int64_t, std::int32_t> copies_;
+  NodeTable nodes_;
 };
-
-/// All ranks' values on the root, one rank's after the other's; elsewhere none. *Collective.*
-template <class T>
-std::vector<T> gather_values(const Communicator& comm, std::vector<T> values) {
-  std::vector<std::vector<T>> out(static_cast<std::size_t>(comm.size()));
-  out[0] = std::move(values);
-  std::vector<T> all;
-  for (const auto& from_rank : comm.exchange(out)) all.insert(all.end(), from_rank.begin(), from_rank.end());
-  return all;
-}
 
 template <std::size_t width>
 void gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>& cells,
@@ -189,7 +161,7 @@ void gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>
     for (std::size_t k = 0; k < width; ++k) numbers[k] = part.global(nodes[k]).value();
     named.push_back(numbers);
   }
-  named = gather_values(comm, std::move(named));
+  named = gather_at_root(comm, named);
   for (std::size_t i = 0; i < named.size(); ++i) {
     for (std::size_t k = 0; k < width; ++k) {
       whole[static_cast<std::size_t>(cell_order[i])][k] =
@@ -228,23 +200,20 @@ Field scatter_field(const Communicator& comm, const Field& of_whole, const Mesh&
                     const MeshOrder& order) {
   Field field{broadcast_words(comm, of_whole.names), {}, of_whole.constants};
   comm.broadcast(field.constants);
-  const std::vector<std::int32_t> owned = comm.all_gather(part.owned_nodes);
-  std::vector<std::vector<double>> out(owned.size());
-  auto node = order.nodes.begin();
-  for (std::size_t rank = 0; comm.is_root() && rank < out.size(); ++rank) {
-    out[rank].reserve(static_cast<std::size_t>(owned[rank]) * field.width());
-    for (std::int32_t i = 0; i < owned[rank]; ++i) {
-      const auto row = of_whole.row(NodeId{*node++});
-      out[rank].insert(out[rank].end(), row.begin(), row.end());
-    }
+  const auto width = static_cast<std::int64_t>(field.width());
+  const std::vector<std::int64_t> counts = comm.all_gather(std::int64_t{part.owned_nodes} * width);
+  std::vector<double> rows;
+  for (std::size_t i = 0; width > 0 && i < order.nodes.size(); ++i) {
+    const auto row = of_whole.row(NodeId{order.nodes[i]});
+    rows.insert(rows.end(), row.begin(), row.end());
   }
-  field.values = std::move(comm.exchange(out)[0]);
+  field.values = scatter_from_root(comm, rows, counts);
   return field;
 }
 
 Field gather_field(const Communicator& comm, const Field& field, const MeshOrder& order) {
-  Field whole{field.names, gather_values(comm, field.values), field.constants};
-  const std::vector<double> by_rank = whole.values;
+  const std::vector<double> by_rank = gather_at_root(comm, field.values);
+  Field whole{field.names, by_rank, field.constants};
   auto from = by_rank.begin();
   for (std::size_t i = 0; i < order.nodes.size() && comm.is_root(); ++i) {
     const auto row = whole.row(NodeId{order.nodes[i]});
@@ -255,8 +224,8 @@ Field gather_field(const Communicator& comm, const Field& field, const MeshOrder
 }
 
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole) {
-  const auto owned = part.points.begin() + part.owned_nodes;
-  const std::vector<Point> points = gather_values(comm, std::vector<Point>(part.points.begin(), owned));
+  const auto points =
+      gather_at_root(comm, std::span(part.points).first(static_cast<std::size_t>(part.owned_nodes)));
   for (std::size_t i = 0; i < points.size(); ++i)
     whole.points[static_cast<std::size_t>(order.nodes[i])] = points[i];
   gather_cells(comm, part, part.triangles, order, order.triangles, whole.triangles);

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/exchange.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
@@ -53,14 +53,12 @@ void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& or
 /// Even shares of the root's values, in the order of ranks. *Collective.*
 template <class T>
 std::vector<T> scatter_evenly(const Communicator& comm, std::span<const T> values) {
-  std::vector<std::vector<T>> out(static_cast<std::size_t>(comm.size()));
-  for (std::size_t rank = 0; comm.is_root() && rank < out.size(); ++rank) {
-    const std::size_t begin = values.size() * rank / out.size(),
-                      end = values.size() * (rank + 1) / out.size();
-    out[rank].assign(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                     values.begin() + static_cast<std::ptrdiff_t>(end));
-  }
-  return std::move(comm.exchange(out)[0]);
+  const std::size_t ranks = static_cast<std::size_t>(comm.size());
+  std::vector<std::int64_t> counts;
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+    counts.push_back(
+        static_cast<std::int64_t>(values.size() * (rank + 1) / ranks - values.size() * rank / ranks));
+  return scatter_from_root(comm, values, counts);
 }
 
 template <class T>

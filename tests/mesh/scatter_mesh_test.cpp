@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "mesher/mesh/box_over_ranks.hpp"
+#include "mesher/mesh/node_table.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -154,6 +156,34 @@ TEST(ScatterNodes, FollowsTheNodes) {
   ASSERT_EQ(own.size(), static_cast<std::size_t>(part.owned_nodes));
   for (std::size_t i = 0; i < own.size(); ++i) EXPECT_EQ(own[i], part.points[i].x);
   EXPECT_TRUE(scatter_nodes(world(), std::vector<char>{}, on_root(order)).empty());
+}
+
+TEST(BoxOverRanks, HoldsAllRanksPoints) {
+  const double rank = world().rank();
+  std::vector<Point> points;
+  if (world().rank() % 2 == 0) points = {{rank, -rank}, {-1, 2}};  // the others have none
+  const Box box = box_over_ranks(world(), points);
+  const double last = world().size() - 1 - (world().size() - 1) % 2;
+  EXPECT_EQ(box.low, (Point{-1, -last}));
+  EXPECT_EQ(box.high, (Point{last, 2}));
+}
+
+TEST(NodeTable, KnowsOwnedNodesAndLearnsCopies) {
+  Mesh part;
+  part.first_node = 10;
+  part.owned_nodes = 2;
+  part.points = {{0, 0}, {1, 0}, {2, 0}};
+  part.copies = {GlobalNodeId{3}};
+  NodeTable nodes(part);
+  EXPECT_EQ(nodes.find(11), NodeId{1});
+  EXPECT_EQ(nodes.find(3), NodeId{2});
+  EXPECT_FALSE(nodes.find(12).valid());
+  EXPECT_FALSE(nodes.find(9).valid());
+  EXPECT_EQ(nodes.local(12, {5, 5}), NodeId{3});
+  EXPECT_EQ(nodes.find(12), NodeId{3});
+  EXPECT_EQ(nodes.local(12, {6, 6}), NodeId{3});
+  EXPECT_EQ(part.copies.back(), GlobalNodeId{12});
+  EXPECT_EQ(part.points.back(), (Point{5, 5}));
 }
 
 }  // namespace

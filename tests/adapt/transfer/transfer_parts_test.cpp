@@ -9,7 +9,6 @@
 #include "adapt/transfer/cell_triangles.hpp"
 #include "adapt/transfer/curve_shares.hpp"
 #include "adapt/transfer/equal_points.hpp"
-#include "adapt/transfer/exchange_pieces.hpp"
 #include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate_points.hpp"
 #include "adapt/transfer/point_cells.hpp"
@@ -262,22 +261,6 @@ TEST(NearestOnSegment, EndsAndMiddle) {
   EXPECT_EQ(nearest_along_segment(a, b, {5, 4}).squared_distance, 25);
   EXPECT_EQ(nearest_along_segment(a, b, {0.5, 4}).parameter, 0.25);
   EXPECT_EQ(nearest_along_segment(a, a, {3, 4}).squared_distance, 25);
-}
-
-TEST(ExchangePieces, AnySizeArrivesInOrder) {
-  const auto ranks = static_cast<std::size_t>(world().size());
-  const auto number = [](std::size_t from, std::size_t to, std::size_t i) {
-    return static_cast<std::int64_t>(10000 * from + 100 * to + i);
-  };
-  const auto self = static_cast<std::size_t>(world().rank());
-  std::vector<std::vector<std::int64_t>> out(ranks), wanted(ranks);
-  for (std::size_t rank = 0; rank < ranks; ++rank) {
-    for (std::size_t i = 0; i < 7 * (self + 2 * rank) % 31; ++i) out[rank].push_back(number(self, rank, i));
-    for (std::size_t i = 0; i < 7 * (rank + 2 * self) % 31; ++i)
-      wanted[rank].push_back(number(rank, self, i));
-  }
-  EXPECT_EQ(exchange_pieces(world(), out, 5 * sizeof(std::int64_t)), wanted);
-  EXPECT_EQ(exchange_pieces(world(), out), wanted);
 }
 
 }  // namespace
