@@ -11,6 +11,7 @@
 
 #include "adapt/loop/run_in_folder.hpp"
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "io/formats.hpp"
 #include "io/input/case_file.hpp"
 #include "mesher/base/error.hpp"

@@ -10,6 +10,7 @@
 #include "adapt/remesh/remesh.hpp"
 #include "adapt/remesh/tree_mesh.hpp"
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/report/summary.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/output_path.hpp"
@@ -111,9 +112,9 @@ void write(const Communicator& comm, const CarriedMesh& carried, const std::vect
 
 Figures transfer_figures(const CarriedMesh& carried) {
   Figures figures;
-  figures.add_raw("nodes outside the old mesh", std::to_string(carried.outside), json_of(carried.outside),
-                  "outside");
-  for (const auto& [name, drift] : carried.drift) figures.add("drift of " + name, drift, "{:.3e}");
+  figures.add_raw("nodes outside the old mesh", std::to_string(carried.report.outside),
+                  json_of(carried.report.outside), "outside");
+  for (const auto& [name, drift] : carried.drifts()) figures.add("drift of " + name, drift, "{:.3e}");
   return figures;
 }
 

@@ -8,11 +8,7 @@
 #include "adapt/remesh/remesh.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "io/mesh_file.hpp"
-#include "mesher/base/reproducible_sum.hpp"
-#include "mesher/build/lattice_rank.hpp"
-#include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/validate.hpp"
-#include "mesher/mesh/gather_mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "quadloop/case/case_input.hpp"
 
@@ -30,8 +26,7 @@ const MeshInput& mesh_input(const Case& of) { return *of.parts().input.mesh; }
 const AdaptOptions& adapt_options(const Case& of) {
   const auto& adapt = of.parts().input.settings.adapt;
   if (!adapt)
-    throw InputError(of.parts().path +
-                     ": has no table [adapt]; it says from what the mesh is to be adapted");
+    throw InputError(of.parts().path + ": has no table [adapt]; it says from what the mesh is to be adapted");
   return *adapt;
 }
 
@@ -99,7 +94,7 @@ std::vector<std::string> check(const Communicator& comm, const Mesh& mesh) {
   if (comm.is_root()) {
     for (const MeshFault& fault : validate(whole)) faults.push_back(text_of(fault));
   }
-  return broadcast_texts(comm, faults);
+  return broadcast_words(comm, faults);
 }
 
 MeshFile read(const Communicator& comm, const std::string& path) {
@@ -113,7 +108,7 @@ MeshFile read(const Communicator& comm, const std::string& path) {
   MeshFile file;
   file.mesh = scatter_mesh(comm, loaded.mesh, order);
   file.field = scatter_field(comm, loaded.solution.value_or(Field{}), file.mesh, order);
-  file.warnings = broadcast_texts(comm, loaded.warnings);
+  file.warnings = broadcast_words(comm, loaded.warnings);
   return file;
 }
 

@@ -15,10 +15,10 @@
 
 /// quadloop as a library: this header and those that it names are its whole interface.
 ///
-/// Life cycle: MPI is begun before the first Communicator and ended after the last one is gone. Every function
-/// here is *collective* over the communicator that it is given: all its ranks call it, in the same order, with
-/// the same case. Meshes and fields are spread over the ranks, and their bits do not depend on how many there
-/// are. Nothing is written to disk but by write().
+/// Life cycle: MPI is begun before the first Communicator and ended after the last one is gone. Every
+/// function here is *collective* over the communicator that it is given: all its ranks call it, in the same
+/// order, with the same case. Meshes and fields are spread over the ranks, and their bits do not depend on
+/// how many there are. Nothing is written to disk but by write().
 ///
 /// Errors are exceptions derived from Error, the same on all ranks: InputError for a case, mesh or field that
 /// cannot be used, SolverError, OutputError; their text names the place and the cure.
@@ -57,8 +57,8 @@ struct NewMesh {
   std::vector<std::string> warnings;
 };
 
-/// The case's first mesh, smoothed as the case says. Throws InputError, naming the boundary, where the geometry
-/// cannot be meshed.
+/// The case's first mesh, smoothed as the case says. Throws InputError, naming the boundary, where the
+/// geometry cannot be meshed.
 NewMesh make_mesh(const Communicator& comm, const Case& of);
 
 /// Moves the nodes of a mesh for better cells, as the case says; boundary nodes slide along its geometry. Any

@@ -68,7 +68,7 @@ class Loop {
  private:
   CarriedMesh next_mesh(const CycleEnd* before) const {
     if (before != nullptr) return carry_over(comm_, mesh_, before->plan, before->solved);
-    return {generate_mesh(comm_, mesh_), {}, {}, 0, {}};
+    return {generate_mesh(comm_, mesh_), {}, {}, {}};
   }
 
   CycleRecord record_of(int cycle, const CarriedMesh& carried, const SolvedFlow& flow, const CycleEnd& end,
@@ -85,8 +85,8 @@ class Loop {
     record.deviation = end.plan.deviation;
     record.refined = end.plan.refined;
     record.coarsened = end.plan.coarsened;
-    record.outside = carried.outside;
-    record.drift = carried.drift;
+    record.outside = carried.report.outside;
+    record.drift = carried.drifts();
     record.cl = flow.cl;
     record.cd = flow.cd;
     record.residual = flow.residual;

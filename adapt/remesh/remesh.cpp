@@ -13,6 +13,12 @@ SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, Tree
   return solved;
 }
 
+std::vector<std::pair<std::string, double>> CarriedMesh::drifts() const {
+  std::vector<std::pair<std::string, double>> named;
+  for (std::size_t i = 0; i < start.width(); ++i) named.emplace_back(start.names[i], report.drift[i]);
+  return named;
+}
+
 CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan,
                        const SolvedMesh& old) {
   CarriedMesh carried;
@@ -21,9 +27,7 @@ CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const A
   carried.times.begin("transfer");
   Transferred transferred = transfer(comm, old.mesh, old.solution, carried.generated.result.mesh);
   carried.start = std::move(transferred.field);
-  carried.outside = transferred.report.outside;
-  for (std::size_t i = 0; i < carried.start.width(); ++i)
-    carried.drift.emplace_back(carried.start.names[i], transferred.report.drift[i]);
+  carried.report = std::move(transferred.report);
   carried.times.end();
   return carried;
 }

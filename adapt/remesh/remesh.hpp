@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "adapt/remesh/plan.hpp"
+#include "adapt/transfer/transfer.hpp"
 #include "io/loaded/loaded_mesh.hpp"
 
 namespace quadloop {
@@ -17,9 +18,11 @@ SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, Tree
 struct CarriedMesh {
   GeneratedMesh generated;
   Field start;
-  StageTimes times;                                   ///< those of meshing, and "transfer"
-  std::int64_t outside = 0;                           ///< new nodes outside the old mesh
-  std::vector<std::pair<std::string, double>> drift;  ///< of each variable's integral
+  StageTimes times;       ///< those of meshing, and "transfer"
+  TransferReport report;  ///< none in a first mesh
+
+  /// The drift of each variable's integral, by its name.
+  std::vector<std::pair<std::string, double>> drifts() const;
 };
 
 /// Meshes by the plan and carries the solution over. *Collective.*

@@ -152,22 +152,40 @@ class PartBuilder {
   NodeTable nodes_;
 };
 
+/// All ranks' cells on the root, with nodes by their numbers over all ranks. *Collective.*
 template <std::size_t width>
-void gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>& cells,
-                  const MeshOrder& order, const std::vector<std::int32_t>& cell_order, Cells<width>& whole) {
+GlobalCells<width> gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>& cells) {
   GlobalCells<width> named;
   for (const auto& nodes : cells) {
     std::array<std::int64_t, width> numbers;
     for (std::size_t k = 0; k < width; ++k) numbers[k] = part.global(nodes[k]).value();
     named.push_back(numbers);
   }
-  named = gather_at_root(comm, named);
-  for (std::size_t i = 0; i < named.size(); ++i) {
+  return gather_at_root(comm, named);
+}
+
+template <std::size_t width>
+void put_cells(const GlobalCells<width>& cells, const MeshOrder& order,
+               const std::vector<std::int32_t>& cell_order, Cells<width>& whole) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
     for (std::size_t k = 0; k < width; ++k) {
       whole[static_cast<std::size_t>(cell_order[i])][k] =
-          NodeId{order.nodes[static_cast<std::size_t>(named[i][k])]};
+          NodeId{order.nodes[static_cast<std::size_t>(cells[i][k])]};
     }
   }
+}
+
+template <std::size_t width>
+Cells<width> whole_cells(const GlobalCells<width>& cells) {
+  Cells<width> whole(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (std::size_t k = 0; k < width; ++k) whole[i][k] = NodeId{static_cast<std::int32_t>(cells[i][k])};
+  }
+  return whole;
+}
+
+std::vector<Point> gather_points(const Communicator& comm, const Mesh& part) {
+  return gather_at_root(comm, std::span(part.points).first(static_cast<std::size_t>(part.owned_nodes)));
 }
 
 }  // namespace
@@ -224,12 +242,24 @@ Field gather_field(const Communicator& comm, const Field& field, const MeshOrder
 }
 
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole) {
-  const auto points =
-      gather_at_root(comm, std::span(part.points).first(static_cast<std::size_t>(part.owned_nodes)));
+  const std::vector<Point> points = gather_points(comm, part);
   for (std::size_t i = 0; i < points.size(); ++i)
     whole.points[static_cast<std::size_t>(order.nodes[i])] = points[i];
-  gather_cells(comm, part, part.triangles, order, order.triangles, whole.triangles);
-  gather_cells(comm, part, part.quads, order, order.quads, whole.quads);
+  put_cells(gather_cells(comm, part, part.triangles), order, order.triangles, whole.triangles);
+  put_cells(gather_cells(comm, part, part.quads), order, order.quads, whole.quads);
+}
+
+Mesh gather_whole(const Communicator& comm, const Mesh& part) {
+  Mesh whole;
+  whole.points = gather_points(comm, part);
+  whole.owned_nodes = static_cast<std::int32_t>(whole.points.size());
+  whole.triangles = whole_cells(gather_cells(comm, part, part.triangles));
+  whole.quads = whole_cells(gather_cells(comm, part, part.quads));
+  for (const BoundaryEdges& boundary : part.boundaries) {
+    const auto edges = gather_cells(comm, part, boundary.edges);
+    whole.boundaries.push_back({boundary.name, boundary.condition, whole_cells(edges)});
+  }
+  return whole;
 }
 
 }  // namespace quadloop

@@ -16,10 +16,8 @@ using test::world;
 
 const MeshInput square_input = [] {
   const std::vector<Point> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  MeshInput input{{{{"side", 0, 30, "wall"}}, corners, {0, 4}, std::vector<BoundaryId>(4, BoundaryId{0})},
-                  {},
-                  {},
-                  0};
+  MeshInput input{
+      {{{"side", 0, 30, "wall"}}, corners, {0, 4}, std::vector<BoundaryId>(4, BoundaryId{0})}, {}, {}, 0};
   input.mesh.size.min = input.mesh.size.max = 0.125;
   return input;
 }();

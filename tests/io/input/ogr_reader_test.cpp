@@ -1,4 +1,4 @@
-#include "io/input/ogr_reader.hpp"
+#include "io/gis/ogr_reader.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,6 +16,7 @@ namespace {
 
 class OgrReader : public ::testing::Test {
  protected:
+  static void SetUpTestSuite() { add_gis_formats(); }
   std::vector<Chain> read(const std::string& name, const std::string& text) {
     return read_ogr(folder_.write(name, text), warnings_);
   }

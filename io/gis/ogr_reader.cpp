@@ -1,4 +1,4 @@
-#include "io/input/ogr_reader.hpp"
+#include "io/gis/ogr_reader.hpp"
 
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
@@ -12,6 +12,7 @@
 #include <span>
 
 #include "io/files/input_file.hpp"
+#include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -170,6 +171,10 @@ std::vector<Chain> read_ogr(const std::string& path, std::vector<std::string>& w
                                    collector.left_out()));
   }
   return chains;
+}
+
+void add_gis_formats() {
+  for (const std::string& suffix : gis_suffixes) add_geometry_reader(suffix, read_ogr);
 }
 
 }  // namespace quadloop
