@@ -5,7 +5,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/build/cell_halo.hpp"
-#include "mesher/build/lattice_rank.hpp"
+#include "mesher/cut/lattice_rank.hpp"
 #include "mesher/delaunay/delaunay_patch.hpp"
 #include "mesher/forest/ghost_exchange.hpp"
 #include "mesher/mesh/node_table.hpp"
@@ -104,8 +104,7 @@ class LocalTriangulation {
         open.push_back(halo.at_rim(t.leaf) ? 1 : 0);
       }
     }
-    patch_.emplace(std::move(points_), std::move(ranks), std::move(triangles), open);
-    patch_->flip_to_delaunay();
+    patch_.emplace(std::move(points_), ranks, std::move(triangles), open);
     place();
   }
 

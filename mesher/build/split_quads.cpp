@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesher/geometry/predicates.hpp"
+#include "mesher/delaunay/flipper.hpp"
 #include "mesher/mesh/check/quality.hpp"
 
 namespace quadloop {
@@ -13,18 +13,13 @@ using Corners = std::array<Point, 4>;
 
 bool is_parallelogram(const Corners& p) { return skew_of(p) <= parallel_skew; }
 
-/// By the plain products in doubles that every reader of the mesh will use, at each corner.
-bool is_positive(Point a, Point b, Point c) {
-  return cross(b - a, c - a) > 0 && cross(c - b, a - b) > 0 && cross(a - c, b - c) > 0;
-}
-
 /// Whether the diagonal from the first corner to the third divides the quadrilateral, and not the other one.
 bool takes_first_diagonal(const Corners& p, const std::function<TieRank(Point)>& rank) {
-  if (!is_positive(p[0], p[1], p[2]) || !is_positive(p[0], p[2], p[3])) return false;
-  if (!is_positive(p[0], p[1], p[3]) || !is_positive(p[1], p[2], p[3])) return true;
-  const int inside = in_circle(p[0], p[1], p[2], p[3]);
-  if (inside != 0) return inside < 0;
-  return std::max(rank(p[0]), rank(p[2])) > std::max(rank(p[1]), rank(p[3]));
+  return is_positive(p[0], p[1], p[2]) && is_positive(p[0], p[2], p[3]) &&
+         !should_flip(p[0], p[2], p[3], p[1], [&](std::size_t k) {
+           const std::array<std::size_t, 4> corners{0, 2, 3, 1};
+           return rank(p[corners[k]]);
+         });
 }
 
 }  // namespace

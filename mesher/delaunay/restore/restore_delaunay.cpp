@@ -1,11 +1,11 @@
-#include "mesher/delaunay/restore_delaunay.hpp"
+#include "mesher/delaunay/restore/restore_delaunay.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "mesher/base/error.hpp"
-#include "mesher/delaunay/region_triangulation.hpp"
+#include "mesher/delaunay/restore/region_triangulation.hpp"
 #include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
