@@ -24,27 +24,24 @@ bool takes_first_diagonal(const Corners& p, const std::function<TieRank(Point)>&
 
 }  // namespace
 
-void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
-                      const std::function<TieRank(Point)>& rank) {
+void split_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
+                 const std::function<Diagonal(std::size_t, const std::array<NodeId, 4>&)>& choose) {
   std::vector<std::array<NodeId, 3>> triangles;
   std::vector<std::array<NodeId, 4>> quads;
   triangles.reserve(mesh.triangles.size() + mesh.triangles.size() / 4);
-  quads.reserve(mesh.quads.size());
   auto triangle = mesh.triangles.cbegin();
   auto quad = mesh.quads.cbegin();
-  for (LeafRecord& leaf : leaves) {
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    LeafRecord& leaf = leaves[i];
     const std::size_t triangles_before = triangles.size(), quads_before = quads.size();
     triangles.insert(triangles.end(), triangle, triangle + leaf.triangles);
     triangle += leaf.triangles;
     for (const auto end = quad + leaf.quads; quad != end; ++quad) {
       const auto& [a, b, c, d] = *quad;
-      const Corners corners{mesh.point(a), mesh.point(b), mesh.point(c), mesh.point(d)};
-      if (is_parallelogram(corners)) {
-        quads.push_back(*quad);
-      } else if (takes_first_diagonal(corners, rank)) {
-        triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
-      } else {
-        triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}});
+      switch (choose(i, *quad)) {
+        case Diagonal::none: quads.push_back(*quad); break;
+        case Diagonal::first: triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}}); break;
+        case Diagonal::second: triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}}); break;
       }
     }
     leaf.triangles = static_cast<std::int32_t>(triangles.size() - triangles_before);
@@ -52,6 +49,15 @@ void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
   }
   mesh.triangles = std::move(triangles);
   mesh.quads = std::move(quads);
+}
+
+void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
+                      const std::function<TieRank(Point)>& rank) {
+  split_quads(mesh, leaves, [&](std::size_t, const std::array<NodeId, 4>& quad) {
+    const Corners corners{mesh.point(quad[0]), mesh.point(quad[1]), mesh.point(quad[2]), mesh.point(quad[3])};
+    if (is_parallelogram(corners)) return Diagonal::none;
+    return takes_first_diagonal(corners, rank) ? Diagonal::first : Diagonal::second;
+  });
 }
 
 }  // namespace quadloop

@@ -20,8 +20,8 @@ inline bool is_positive(Point a, Point b, Point c) {
 }
 
 /// Whether the edge a-b between the triangles a b c and b a d should give way to c-d. Of four points on one
-/// circle that with the highest rank gets the edge; `rank_of(k)` is the rank of the k-th of a, b, c, d. Exact;
-/// never where a new triangle would not be positive.
+/// circle that with the highest rank gets the edge; `rank_of(k)` is the rank of the k-th of a, b, c, d.
+/// Exact; never where a new triangle would not be positive.
 template <class RankOf>
 bool should_flip(Point a, Point b, Point c, Point d, const RankOf& rank_of) {
   const int inside = in_circle(a, b, c, d);
@@ -40,9 +40,10 @@ class Flipper {
 
   /// Flips edges of counter-clockwise `triangles` over the `points`, which the edges shared by two of them
   /// join. Edges with one triangle stay, and those between triangles of two `blocks` (one for each triangle,
-  /// or none where all are of one block). If the order of the `ranks` is strict, the result depends on points,
-  /// ranks and such edges alone, not on the triangles at the beginning; triangles keep their blocks. Where
-  /// `open` (a flag for each triangle, or none) is set, an edge with one triangle becomes an open border.
+  /// or none where all are of one block). If the order of the `ranks` is strict, the result depends on
+  /// points, ranks and such edges alone, not on the triangles at the beginning; triangles keep their blocks.
+  /// Where `open` (a flag for each triangle, or none) is set, an edge with one triangle becomes an open
+  /// border.
   void flip_to_delaunay(std::span<const Point> points, std::span<const TieRank> ranks,
                         std::span<Triangle> triangles, std::span<const char> open = {},
                         std::span<const std::int32_t> blocks = {});

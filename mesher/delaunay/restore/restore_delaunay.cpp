@@ -20,13 +20,16 @@ bool has_flag(const std::vector<char>& flags, NodeId node) {
 
 /// The nodes of triangles that have a flagged node, by their numbers over all ranks.
 std::vector<std::int64_t> nodes_around(const Mesh& mesh, const std::vector<char>& flags) {
+  QUADLOOP_REQUIRE(flags.size() == mesh.points.size(), "a flag for each point");
   std::vector<std::int64_t> nodes;
+  std::vector<char> named(flags.size(), 0);
   for (const auto& t : mesh.triangles) {
     if (std::none_of(t.begin(), t.end(), [&](NodeId node) { return has_flag(flags, node); })) continue;
-    for (const NodeId node : t) nodes.push_back(mesh.global(node).value());
+    for (const NodeId node : t) {
+      if (std::exchange(named[static_cast<std::size_t>(node.value())], 1) == 0)
+        nodes.push_back(mesh.global(node).value());
+    }
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 
@@ -183,45 +186,49 @@ std::int32_t number_of_blocks(const Communicator& comm, const std::vector<std::i
          1;
 }
 
-/// What changes round nodes that have moved; nothing where none has. *Collective.*
+/// What changes; nothing where no node is named. *Collective.*
 std::optional<RegionTriangulation> changed_region(const Communicator& comm, const Mesh& mesh,
-                                                  const std::vector<char>& moved,
+                                                  std::vector<std::int64_t> nodes,
                                                   const std::function<TieRank(Point)>& rank_of,
                                                   const std::vector<std::int32_t>& triangle_to_block) {
-  QUADLOOP_REQUIRE(mesh.quads.empty() && moved.size() == mesh.points.size(),
-                   "triangles alone, and a flag for each point");
+  QUADLOOP_REQUIRE(mesh.quads.empty(), "triangles alone");
   QUADLOOP_REQUIRE(triangle_to_block.empty() || triangle_to_block.size() == mesh.triangles.size(),
                    "a block for each triangle, or none");
-  if (!comm.any(std::find_if(moved.begin(), moved.end(), [](char flag) { return flag != 0; }) != moved.end()))
-    return std::nullopt;
-  Region region(comm, mesh, triangle_to_block);
-  std::vector<std::int64_t> joining = nodes_around(mesh, moved);
   std::optional<RegionTriangulation> triangulation;
-  while (comm.any(!joining.empty())) {
-    region.add(joining);
+  if (!comm.any(!nodes.empty())) return triangulation;
+  Region region(comm, mesh, triangle_to_block);
+  do {
+    region.add(nodes);
     triangulation.emplace(region.triangulate(rank_of));
-    joining = triangulation->outgrown();
-  }
+    nodes = triangulation->outgrown();
+  } while (comm.any(!nodes.empty()));
   return triangulation;
 }
 
 }  // namespace
 
-void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved,
-                      const std::function<TieRank(Point)>& rank_of,
-                      const std::vector<std::int32_t>& triangle_to_block) {
+void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<std::int64_t> nodes,
+                         const std::function<TieRank(Point)>& rank_of,
+                         const std::vector<std::int32_t>& triangle_to_block) {
   const std::optional<RegionTriangulation> changed =
-      changed_region(comm, mesh, moved, rank_of, triangle_to_block);
+      changed_region(comm, mesh, std::move(nodes), rank_of, triangle_to_block);
   const std::int32_t blocks = changed ? number_of_blocks(comm, triangle_to_block) : 0;
   for (std::int32_t block = 0; block < blocks; ++block) {
     replace_triangles(comm, of_block(changed->freed(), block), of_block(changed->made(), block), mesh);
   }
 }
 
+void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved,
+                      const std::function<TieRank(Point)>& rank_of,
+                      const std::vector<std::int32_t>& triangle_to_block) {
+  restore_delaunay_at(comm, mesh, nodes_around(mesh, moved), rank_of, triangle_to_block);
+}
+
 std::vector<std::int32_t> restore_delaunay_nearby(const Communicator& comm, Mesh& mesh,
                                                   const std::vector<char>& moved,
                                                   const std::function<TieRank(Point)>& rank_of) {
-  const std::optional<RegionTriangulation> changed = changed_region(comm, mesh, moved, rank_of, {});
+  const std::optional<RegionTriangulation> changed =
+      changed_region(comm, mesh, nodes_around(mesh, moved), rank_of, {});
   if (!changed) return std::vector<std::int32_t>(mesh.triangles.size(), 1);
   return insert_triangles(comm, changed->freed(), changed->made(), mesh);
 }
