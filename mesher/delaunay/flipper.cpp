@@ -51,7 +51,7 @@ void Flipper::join(std::span<Spoke> spokes, std::span<const char> open,
       const Edge f = spokes[++i].edge;
       if (blocks.empty() || blocks[triangle_of(e)] == blocks[triangle_of(f)]) set_across(e, f);
     } else if (!open.empty() && open[triangle_of(e)] != 0) {
-      across(e) = open_border;
+      set_across(e, open_border);
     }
   }
 }
@@ -65,8 +65,8 @@ bool Flipper::is_wrong(Edge e) const {
 }
 
 void Flipper::set_across(Edge e, Edge other) {
-  across(e) = other;
-  if (other >= 0) across(other) = e;
+  across_[static_cast<std::size_t>(e)] = other;
+  if (other >= 0) across_[static_cast<std::size_t>(other)] = e;
 }
 
 /// The triangles c a b and d b a become c a d and d b c.

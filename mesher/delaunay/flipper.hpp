@@ -62,7 +62,6 @@ class Flipper {
   };
 
   Edge edges() const { return static_cast<Edge>(across_.size()); }
-  Edge& across(Edge e) { return across_[static_cast<std::size_t>(e)]; }
   std::int32_t node(Edge e, int step) const { return triangles_[triangle_of(e)][corner_of(e, step)]; }
   void list_spokes();
   void join(std::span<Spoke> spokes, std::span<const char> open, std::span<const std::int32_t> blocks);

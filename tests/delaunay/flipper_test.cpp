@@ -66,7 +66,9 @@ void expect_delaunay(const Grid& grid, const Triangles& triangles) {
       if (std::find(t.begin(), t.end(), node) != t.end()) continue;
       const int inside = in_circle(grid.at(t[0]), grid.at(t[1]), grid.at(t[2]), grid.at(node));
       EXPECT_LE(inside, 0);
-      if (inside == 0) EXPECT_LT(grid.rank(node), highest);
+      if (inside == 0) {
+        EXPECT_LT(grid.rank(node), highest);
+      }
     }
   }
 }
@@ -111,16 +113,16 @@ TEST(Flipper, KeepsEdgesBetweenBlocks) {
   EXPECT_EQ(sorted(triangles), (Triangles{{0, 1, 3}, {1, 2, 3}}));
 }
 
-/// Of four nodes not in convex position, and of a flat one.
+/// So small that products of lengths vanish in double precision, though exactly it ought to be flipped.
 TEST(Flipper, MakesNoTriangleThatIsNotPositive) {
-  for (const double x : {0.3, 0.0, -0.1}) {
-    const std::vector<Point> points{{0, -3}, {x, 0}, {0, 3}, {-1, 0}};
-    Triangles triangles{{0, 1, 2}, {0, 2, 3}};
-    if (x <= 0) triangles = {{0, 1, 3}, {1, 2, 3}};
-    Flipper flipper;
-    flipper.flip_to_delaunay(points, std::vector<TieRank>(4), triangles);
-    EXPECT_EQ(sorted(triangles), (Triangles{{0, 1, 3}, {1, 2, 3}}));
-  }
+  std::vector<Point> tiny;
+  for (const Point& p : kite) tiny.push_back(0x1p-600 * p);
+  ASSERT_GT(in_circle(tiny[0], tiny[2], tiny[3], tiny[1]), 0);
+  ASSERT_FALSE(is_positive(tiny[0], tiny[1], tiny[3]));
+  Triangles triangles = kite_triangles;
+  Flipper flipper;
+  flipper.flip_to_delaunay(tiny, kite_ranks, triangles);
+  EXPECT_EQ(triangles, kite_triangles);
 }
 
 /// The same edge is seen from both sides, and has the same nodes there; the others are at the border.
@@ -167,14 +169,16 @@ TEST(DelaunayPatch, DoubtsWhatAnOpenBorderMightUndo) {
   const Triangles triangles = grid.split(4);
   std::vector<char> open(triangles.size(), 0);
   EXPECT_EQ(DelaunayPatch(grid.points, grid.ranks, triangles, open).doubtful(), open);
-  std::fill(open.begin(), open.begin() + 2 * grid.n, 1);  // the lowest row of squares, and so three sides of it
+  std::fill(open.begin(), open.begin() + 2 * grid.n,
+            1);  // the lowest row of squares, and so three sides of it
   const DelaunayPatch patch(grid.points, grid.ranks, triangles, open);
   const std::vector<char> doubts = patch.doubtful();
   for (std::size_t t = 0; t < doubts.size(); ++t) {
     double lowest = grid.n;
     for (const std::int32_t node : patch.triangles()[t]) lowest = std::min(lowest, patch.point(node).y);
-    if (lowest == 0) EXPECT_EQ(doubts[t], 1);
-    if (lowest > 1) EXPECT_EQ(doubts[t], 0);
+    if (lowest != 1) {
+      EXPECT_EQ(doubts[t] != 0, lowest == 0);
+    }
   }
 }
 
