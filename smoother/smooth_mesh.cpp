@@ -5,7 +5,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
-#include "mesher/delaunay/restore_delaunay.hpp"
+#include "mesher/delaunay/restore/restore_delaunay.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/node_exchange.hpp"

@@ -56,10 +56,6 @@ class Communicator {
   template <class T>
   void broadcast(std::vector<T>& values, int from = 0) const;
 
-  /// `to_rank[r]` goes to rank r; the result's entry r came from rank r. See exchange.hpp for what is mostly
-  /// wanted: values delivered in one row, or many times along the same ways.
-  template <class T>
-  std::vector<std::vector<T>> exchange(const std::vector<std::vector<T>>& to_rank) const;
   /// One number for each rank; the result's entry r came from rank r.
   std::vector<std::int64_t> exchange_counts(const std::vector<std::int64_t>& to_rank) const;
 

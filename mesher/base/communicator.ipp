@@ -34,22 +34,4 @@ void Communicator::broadcast(std::vector<T>& values, int from) const {
   values = detail::from_bytes<T>(bytes);
 }
 
-template <class T>
-std::vector<std::vector<T>> Communicator::exchange(const std::vector<std::vector<T>>& to_rank) const {
-  static_assert(std::is_trivially_copyable_v<T>);
-  std::vector<std::int64_t> counts;
-  for (const auto& values : to_rank) counts.push_back(static_cast<std::int64_t>(values.size()));
-  std::vector<std::vector<T>> received;
-  for (const std::int64_t count : exchange_counts(counts)) received.emplace_back(count);
-  std::vector<Outgoing> out;
-  std::vector<Incoming> in;
-  for (int rank = 0; rank < size_; ++rank) {
-    const auto r = static_cast<std::size_t>(rank);
-    out.push_back({rank, std::as_bytes(std::span(to_rank[r]))});
-    in.push_back({rank, std::as_writable_bytes(std::span(received[r]))});
-  }
-  exchange_messages(out, in);
-  return received;
-}
-
 }  // namespace quadloop

@@ -9,11 +9,11 @@
 #include "mesher/base/progress.hpp"
 #include "mesher/build/assemble_mesh.hpp"
 #include "mesher/build/islands.hpp"
-#include "mesher/build/lattice_rank.hpp"
 #include "mesher/build/make_delaunay.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
+#include "mesher/cut/lattice_rank.hpp"
 #include "mesher/forest/refine_forest.hpp"
 
 namespace quadloop {

@@ -1,10 +1,10 @@
 #include "mesher/cut/leaf_cells.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "mesher/base/error.hpp"
+#include "mesher/cut/lattice_rank.hpp"
 #include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
@@ -14,20 +14,6 @@ namespace {
 // Of the corners of quadrilaterals: at most 50 degrees from the right angle in a whole leaf, whose corners
 // may have been snapped, 40 in a cut one.
 constexpr double whole_cosine = 0.766, cut_cosine = 0.643;
-
-/// Trailing zeros of a lattice coordinate, at most those of a tree's edge: the sides of the root rank alike.
-std::int8_t rank_of(std::int64_t coordinate) {
-  return static_cast<std::int8_t>(
-      coordinate == 0
-          ? Quadrant::unit_level
-          : std::min(Quadrant::unit_level, std::countr_zero(static_cast<std::uint64_t>(coordinate))));
-}
-
-TieKey key_of_lattice_node(std::int64_t x, std::int64_t y) {
-  const auto [low, high] =
-      std::minmax({rank_of(x), rank_of(y)});  // a list: values, not references to temporaries
-  return {low, high, 0, 0};
-}
 
 bool is_whole(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
   return std::all_of(loop.begin(), loop.end(),
@@ -62,25 +48,24 @@ constexpr Template two_hanging{{{0, 4, 3}, {4, 5, 3}, {4, 1, 5}, {5, 2, 3}, {}}}
 
 }  // namespace
 
-void LeafCellMaker::set_keys(const Quadrant& q, const Box& box, const CutLeaf& leaf) {
+void LeafCellMaker::set_ranks(const Quadrant& q, const Box& box, const CutLeaf& leaf) {
   const std::int64_t s = q.size(), half = s / 2;
   const std::array<std::array<std::int64_t, 2>, 8> offset{
       {{0, 0}, {s, 0}, {s, s}, {0, s}, {half, 0}, {s, half}, {half, s}, {0, half}}};
   const std::array<Point, 4> corner{box.low, Point{box.high.x, box.low.y}, box.high,
                                     Point{box.low.x, box.high.y}};
-  std::array<TieKey, 8> lattice;
-  for (std::size_t i = 0; i < 8; ++i)
-    lattice[i] = key_of_lattice_node(q.x + offset[i][0], q.y + offset[i][1]);
+  std::array<TieRank, 8> lattice;
+  for (std::size_t i = 0; i < 8; ++i) lattice[i] = line_rank(q.x + offset[i][0], q.y + offset[i][1]);
   const auto origin = corner[static_cast<std::size_t>(std::max_element(lattice.begin(), lattice.begin() + 4) -
                                                       lattice.begin())];
-  keys_.clear();
+  ranks_.clear();
   for (const CutLeaf::Node& node : leaf.nodes) {
-    TieKey key = node.place < 8 ? lattice[static_cast<std::size_t>(node.place)] : TieKey{};
+    TieRank rank = node.place < 8 ? lattice[static_cast<std::size_t>(node.place)] : TieRank{};
     const auto [near, far] = std::minmax(
         {std::abs(node.position.x - origin.x), std::abs(node.position.y - origin.y)});  // a list: values
-    key.farther = far;
-    key.nearer = near;
-    keys_.push_back(key);
+    rank.farther = far;
+    rank.nearer = near;
+    ranks_.push_back(rank);
   }
 }
 
@@ -90,7 +75,7 @@ bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf,
   smallest_sine_ = 1;
   points_.clear();
   for (const CutLeaf::Node& node : leaf.nodes) points_.push_back(node.position);
-  set_keys(q, box, leaf);
+  set_ranks(q, box, leaf);
   std::vector<std::span<const std::int32_t>> loops;
   bool holes = false;
   for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
@@ -109,7 +94,7 @@ bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf,
 }
 
 bool LeafCellMaker::triangulate(std::span<const std::span<const std::int32_t>> loops, LeafCells& cells) {
-  if (!triangulator_.triangulate(points_, keys_, loops, cells.triangles)) return false;
+  if (!triangulator_.triangulate(points_, ranks_, loops, cells.triangles)) return false;
   smallest_sine_ = std::min(smallest_sine_, triangulator_.smallest_sine());
   return true;
 }

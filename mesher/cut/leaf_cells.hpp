@@ -24,14 +24,14 @@ class LeafCellMaker {
   double smallest_sine() const { return smallest_sine_; }
 
  private:
-  void set_keys(const Quadrant& q, const Box& box, const CutLeaf& leaf);
+  void set_ranks(const Quadrant& q, const Box& box, const CutLeaf& leaf);
 
   bool triangulate(std::span<const std::span<const std::int32_t>> loops, LeafCells& cells);
 
   Triangulator triangulator_;
   double smallest_sine_ = 1;
   std::vector<Point> points_;
-  std::vector<TieKey> keys_;
+  std::vector<TieRank> ranks_;
 };
 
 /// The closed templates for an uncut leaf (thesis 3.6.2). Nodes are named as CutLeaf::Node::place: 0 to 3

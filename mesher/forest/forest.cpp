@@ -147,18 +147,13 @@ std::vector<Quadrant> Forest::leaves() const {
   return leaves;
 }
 
-std::vector<CurvePlace> Forest::begins() const {
+CurveOwners Forest::owners() const {
   std::vector<CurvePlace> begins;
   for (int rank = 0; rank <= impl_->forest->mpisize; ++rank) {
     const p4est_quadrant_t& first = impl_->forest->global_first_position[rank];
     begins.push_back({first.p.which_tree, p4est_quadrant_linear_id(&first, P4EST_MAXLEVEL)});
   }
-  return begins;
-}
-
-std::int32_t Forest::tree_at(const Quadrant& q) const {
-  return impl_->tree_numbers[static_cast<std::size_t>((q.y >> Quadrant::unit_level) * impl_->trees_x +
-                                                      (q.x >> Quadrant::unit_level))];
+  return {std::move(begins), impl_->tree_numbers, impl_->trees_x};
 }
 
 }  // namespace quadloop

@@ -7,9 +7,9 @@
 namespace quadloop {
 
 LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest)
-    : rank_{comm.rank()}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()} {
+    : owners_{forest.owners()}, rank_{comm.rank()}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()} {
   const std::vector<Quadrant> local = forest.leaves();
-  const std::vector<Ghost> ghosts = ghost_layer(comm, lattice, forest, local);
+  const std::vector<Ghost> ghosts = ghost_layer(comm, lattice, owners_, local);
   for (const auto& ghost : ghosts) local_begin_ += ghost.owner < rank_ ? 1 : 0;
   local_count_ = static_cast<std::int32_t>(local.size());
   leaves_.reserve(local.size() + ghosts.size());

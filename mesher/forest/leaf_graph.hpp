@@ -39,6 +39,8 @@ class LeafGraph {
   /// The leaf that holds the unit square right above the lattice corner (x, y); none where there is none in
   /// sight.
   std::int32_t leaf_at(std::int64_t x, std::int64_t y) const;
+  /// The rank with the leaf that holds it, in sight or not; it must lie in the root.
+  int rank_at(std::int64_t x, std::int64_t y) const { return owners_.rank_of(owners_.place_of(x, y)); }
 
   /// The leaves around the lower left part of a leaf, each named by the point of it that they touch; such a
   /// leaf is the first along the curve of all that touch the point.
@@ -71,6 +73,7 @@ class LeafGraph {
   void visit(Ref ref, const Neighbours& n);
   void visit_leaf(std::int32_t leaf, const Neighbours& n);
 
+  CurveOwners owners_;
   std::vector<Quadrant> leaves_;
   std::int32_t local_begin_ = 0, local_count_ = 0;
   int rank_ = 0;

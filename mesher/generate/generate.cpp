@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "mesher/base/log.hpp"
-#include "mesher/build/lattice_rank.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
+#include "mesher/cut/lattice_rank.hpp"
 #include "mesher/generate/digests.hpp"
 
 namespace quadloop {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -63,6 +65,23 @@ TEST(LeafGraph, EarlierNeighboursComeEarlierAlongTheCurve) {
     for (const std::int32_t before :
          {graph.around(leaf).south_west, graph.around(leaf).south, graph.around(leaf).west})
       EXPECT_LT(before, leaf);
+  }
+}
+
+TEST(LeafGraph, KnowsTheRankOfLeavesOutOfSight) {
+  const Forest forest = refined_brick(brick_lattice);
+  const LeafGraph graph(test::world(), brick_lattice, forest);
+  std::vector<std::pair<Quadrant, int>> all;
+  for (const Quadrant& q : test::world().all_gather_values(std::span<const Quadrant>(forest.leaves())))
+    all.emplace_back(q, graph.rank_at(q.x, q.y));
+  EXPECT_TRUE(std::is_sorted(all.begin(), all.end(),
+                             [](const auto& a, const auto& b) { return a.second < b.second; }));
+  const auto own = std::count_if(all.begin(), all.end(),
+                                 [](const auto& leaf) { return leaf.second == test::world().rank(); });
+  EXPECT_EQ(own, forest.local_leaves());
+  for (const Quadrant& q : forest.leaves()) {
+    EXPECT_EQ(graph.rank_at(q.x, q.y), test::world().rank());
+    EXPECT_EQ(graph.rank_at(q.x + q.size() - 1, q.y + q.size() - 1), test::world().rank());
   }
 }
 

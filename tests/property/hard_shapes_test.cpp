@@ -10,8 +10,8 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/build/build_mesh.hpp"
-#include "mesher/build/lattice_rank.hpp"
 #include "mesher/build/outline_losses.hpp"
+#include "mesher/cut/lattice_rank.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/quality.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "mesher/delaunay/restore_delaunay.hpp"
+#include "mesher/delaunay/restore/restore_delaunay.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/topology.hpp"

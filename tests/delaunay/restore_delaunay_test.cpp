@@ -1,6 +1,6 @@
 // After nodes have moved the mesh is made Delaunay again, with the same triangles in the same order on any
 // number of ranks.
-#include "mesher/delaunay/restore_delaunay.hpp"
+#include "mesher/delaunay/restore/restore_delaunay.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "mesher/delaunay/restore_delaunay.hpp"
+#include "mesher/delaunay/restore/restore_delaunay.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "mesher/base/error.hpp"
-#include "mesher/delaunay/region_triangulation.hpp"
+#include "mesher/delaunay/restore/region_triangulation.hpp"
 #include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
@@ -20,13 +20,16 @@ bool has_flag(const std::vector<char>& flags, NodeId node) {
 
 /// The nodes of triangles that have a flagged node, by their numbers over all ranks.
 std::vector<std::int64_t> nodes_around(const Mesh& mesh, const std::vector<char>& flags) {
+  QUADLOOP_REQUIRE(flags.size() == mesh.points.size(), "a flag for each point");
   std::vector<std::int64_t> nodes;
+  std::vector<char> named(flags.size(), 0);
   for (const auto& t : mesh.triangles) {
     if (std::none_of(t.begin(), t.end(), [&](NodeId node) { return has_flag(flags, node); })) continue;
-    for (const NodeId node : t) nodes.push_back(mesh.global(node).value());
+    for (const NodeId node : t) {
+      if (std::exchange(named[static_cast<std::size_t>(node.value())], 1) == 0)
+        nodes.push_back(mesh.global(node).value());
+    }
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 
@@ -45,12 +48,10 @@ class Region {
 
   /// Makes nodes core, by their numbers over all ranks; every rank may name any. *Collective.*
   void add(const std::vector<std::int64_t>& nodes) {
-    std::vector<std::vector<std::int64_t>> to_owner(static_cast<std::size_t>(comm_.size()));
-    for (const std::int64_t node : nodes)
-      to_owner[static_cast<std::size_t>(owners_.rank_of(GlobalNodeId{node}))].push_back(node);
-    for (const auto& from_rank : comm_.exchange(to_owner)) {
-      for (const std::int64_t node : from_rank) core_[static_cast<std::size_t>(node - mesh_.first_node)] = 1;
-    }
+    Outbox<std::int64_t> to_owners;
+    for (const std::int64_t node : nodes) to_owners.add(owners_.rank_of(GlobalNodeId{node}), node);
+    for (const std::int64_t node : to_owners.deliver(comm_))
+      core_[static_cast<std::size_t>(node - mesh_.first_node)] = 1;
     exchange_.update(core_, [&](std::int32_t node) { return has_flag(core_, NodeId{node}); });
   }
 
@@ -114,12 +115,9 @@ class Ranges {
 /// *Collective.*
 template <class Row, class RankOf>
 std::vector<Row> deliver(const Communicator& comm, const std::vector<Row>& rows, const RankOf& rank_of) {
-  std::vector<std::vector<Row>> to_rank(static_cast<std::size_t>(comm.size()));
-  for (const Row& row : rows) to_rank[static_cast<std::size_t>(rank_of(row))].push_back(row);
-  std::vector<Row> received;
-  for (const auto& from_rank : comm.exchange(to_rank))
-    received.insert(received.end(), from_rank.begin(), from_rank.end());
-  return received;
+  std::vector<int> ranks;
+  for (const Row& row : rows) ranks.push_back(rank_of(row));
+  return Exchange(comm, ranks).deliver(rows);
 }
 
 template <class Row>
@@ -183,45 +181,49 @@ std::int32_t number_of_blocks(const Communicator& comm, const std::vector<std::i
          1;
 }
 
-/// What changes round nodes that have moved; nothing where none has. *Collective.*
+/// What changes; nothing where no node is named. *Collective.*
 std::optional<RegionTriangulation> changed_region(const Communicator& comm, const Mesh& mesh,
-                                                  const std::vector<char>& moved,
+                                                  std::vector<std::int64_t> nodes,
                                                   const std::function<TieRank(Point)>& rank_of,
                                                   const std::vector<std::int32_t>& triangle_to_block) {
-  QUADLOOP_REQUIRE(mesh.quads.empty() && moved.size() == mesh.points.size(),
-                   "triangles alone, and a flag for each point");
+  QUADLOOP_REQUIRE(mesh.quads.empty(), "triangles alone");
   QUADLOOP_REQUIRE(triangle_to_block.empty() || triangle_to_block.size() == mesh.triangles.size(),
                    "a block for each triangle, or none");
-  if (!comm.any(std::find_if(moved.begin(), moved.end(), [](char flag) { return flag != 0; }) != moved.end()))
-    return std::nullopt;
-  Region region(comm, mesh, triangle_to_block);
-  std::vector<std::int64_t> joining = nodes_around(mesh, moved);
   std::optional<RegionTriangulation> triangulation;
-  while (comm.any(!joining.empty())) {
-    region.add(joining);
+  if (!comm.any(!nodes.empty())) return triangulation;
+  Region region(comm, mesh, triangle_to_block);
+  do {
+    region.add(nodes);
     triangulation.emplace(region.triangulate(rank_of));
-    joining = triangulation->outgrown();
-  }
+    nodes = triangulation->outgrown();
+  } while (comm.any(!nodes.empty()));
   return triangulation;
 }
 
 }  // namespace
 
-void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved,
-                      const std::function<TieRank(Point)>& rank_of,
-                      const std::vector<std::int32_t>& triangle_to_block) {
+void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<std::int64_t> nodes,
+                         const std::function<TieRank(Point)>& rank_of,
+                         const std::vector<std::int32_t>& triangle_to_block) {
   const std::optional<RegionTriangulation> changed =
-      changed_region(comm, mesh, moved, rank_of, triangle_to_block);
+      changed_region(comm, mesh, std::move(nodes), rank_of, triangle_to_block);
   const std::int32_t blocks = changed ? number_of_blocks(comm, triangle_to_block) : 0;
   for (std::int32_t block = 0; block < blocks; ++block) {
     replace_triangles(comm, of_block(changed->freed(), block), of_block(changed->made(), block), mesh);
   }
 }
 
+void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved,
+                      const std::function<TieRank(Point)>& rank_of,
+                      const std::vector<std::int32_t>& triangle_to_block) {
+  restore_delaunay_at(comm, mesh, nodes_around(mesh, moved), rank_of, triangle_to_block);
+}
+
 std::vector<std::int32_t> restore_delaunay_nearby(const Communicator& comm, Mesh& mesh,
                                                   const std::vector<char>& moved,
                                                   const std::function<TieRank(Point)>& rank_of) {
-  const std::optional<RegionTriangulation> changed = changed_region(comm, mesh, moved, rank_of, {});
+  const std::optional<RegionTriangulation> changed =
+      changed_region(comm, mesh, nodes_around(mesh, moved), rank_of, {});
   if (!changed) return std::vector<std::int32_t>(mesh.triangles.size(), 1);
   return insert_triangles(comm, changed->freed(), changed->made(), mesh);
 }

@@ -1,4 +1,4 @@
-#include "mesher/delaunay/region_triangulation.hpp"
+#include "mesher/delaunay/restore/region_triangulation.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -48,8 +48,7 @@ class GoneTriangles {
 
 RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) {
   gather_nodes(halo.triangles());
-  DelaunayPatch patch = make_patch(halo, rank_of);
-  patch.flip_to_delaunay();
+  const DelaunayPatch patch = make_patch(halo, rank_of);
   const std::vector<char> doubts = patch.doubtful();
   for (std::size_t t = 0; t < doubts.size() && !uncertain_; ++t) {
     const Triangle& nodes = patch.triangles()[t];
@@ -87,7 +86,7 @@ DelaunayPatch RegionTriangulation::make_patch(const StarHalo& halo,
   for (const Point& p : points_) ranks.push_back(rank_of(p));
   std::vector<char> open;
   for (const NumberedTriangle& t : halo.triangles()) open.push_back(halo.at_rim(t) ? 1 : 0);
-  return {points_, std::move(ranks), triangles_, open, blocks_};
+  return {points_, ranks, triangles_, open, blocks_};
 }
 
 RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& halo,

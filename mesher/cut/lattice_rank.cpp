@@ -1,8 +1,7 @@
-#include "mesher/build/lattice_rank.hpp"
+#include "mesher/cut/lattice_rank.hpp"
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace quadloop {
 
@@ -17,14 +16,19 @@ std::int8_t zeros_of(std::int64_t line) {
 
 }  // namespace
 
+TieRank line_rank(std::int64_t column, std::int64_t row) {
+  const auto [low, high] = std::minmax({zeros_of(column), zeros_of(row)});  // a list: values, not references
+  return {low, high, 0, 0, 0, 0};
+}
+
 TieRank tie_rank(const Lattice& lattice, int finest_level, Point position) {
   TieRank rank = tie_rank(lattice.box().centre(), position);
   const std::int64_t column = lattice.column_at(position.x), row = lattice.row_at(position.y);
   if (lattice.x(column) != position.x || lattice.y(row) != position.y) return rank;
-  const auto [low, high] = std::minmax({zeros_of(column), zeros_of(row)});
-  if (low < Quadrant::unit_level - finest_level) return rank;  // on no line of the tree
-  rank.coarser = low;
-  rank.finer = high;
+  const TieRank lines = line_rank(column, row);
+  if (lines.coarser < Quadrant::unit_level - finest_level) return rank;  // on no line of the tree
+  rank.coarser = lines.coarser;
+  rank.finer = lines.finer;
   return rank;
 }
 
