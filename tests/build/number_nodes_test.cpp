@@ -108,8 +108,8 @@ TEST(NodeNumbering, NumbersAndPositionsGoTogether) {
 TEST(NodeNumbering, LeavesHaveTheirNodesAtTheirCornersAndMiddles) {
   Numbered numbered(square_with_disc(), sizes_from(0.125, 1));
   const LeafGraph& graph = numbered.graph;
-  std::map<std::pair<std::int64_t, std::int64_t>, Point> moved;
-  for (const CutForest::Moved& m : numbered.cut.moved) moved[{m.x, m.y}] = m.position;
+  std::map<LatticePoint, Point> moved;
+  for (const CutForest::Moved& m : numbered.cut.moved) moved[m.corner] = m.position;
   EXPECT_GT(moved.size(), 0U);
   struct Expected {
     NodeId node;
@@ -121,17 +121,12 @@ TEST(NodeNumbering, LeavesHaveTheirNodesAtTheirCornersAndMiddles) {
     if (numbered.cut.states[static_cast<std::size_t>(leaf - graph.local_begin())] != CutForest::State::inside)
       continue;
     const Quadrant& q = graph.leaf(leaf);
-    const std::int64_t s = q.size(), h = s / 2;
-    const std::array<std::array<std::int64_t, 2>, 8> sites{
-        {{0, 0}, {s, 0}, {s, s}, {0, s}, {h, 0}, {s, h}, {h, s}, {0, h}}};
-    for (int site = 0; site < 8; ++site) {
-      if (site >= 4 && !graph.has_hanging(leaf, static_cast<LeafGraph::Side>(site - 4))) continue;
-      hanging += site >= 4 ? 1 : 0;
-      const auto& [dx, dy] = sites[static_cast<std::size_t>(site)];
-      const auto at = moved.find({q.x + dx, q.y + dy});
-      expected.push_back(
-          {numbered.numbers.of_leaf(leaf, site),
-           at != moved.end() ? at->second : numbered.domain.lattice.corner(q.x + dx, q.y + dy)});
+    for (const Site site : lattice_sites) {
+      if (is_middle(site) && !graph.has_hanging(leaf, side_of(site))) continue;
+      hanging += is_middle(site) ? 1 : 0;
+      const auto at = moved.find(q.at(site));
+      expected.push_back({numbered.numbers.of_leaf(leaf, site),
+                          at != moved.end() ? at->second : numbered.domain.lattice.corner(q.at(site))});
     }
   }
   EXPECT_GT(test::world().sum(hanging), 0);

@@ -36,9 +36,9 @@ std::ostream& operator<<(std::ostream& out, const Moved& m) {
 std::vector<Moved> agreed(const TracedLeaves& leaves, const std::vector<Snap>& snaps) {
   std::vector<Moved> own;
   for (const Snap& s : snaps) {
-    if (leaves.at_local_leaf(s.x, s.y))
+    if (leaves.at_local_leaf(s.corner))
       own.push_back(
-          {leaves.lattice.corner(s.x, s.y), s.position, static_cast<int>(s.absorbed.size()), s.on_edge});
+          {leaves.lattice.corner(s.corner), s.position, static_cast<int>(s.absorbed.size()), s.on_edge});
   }
   std::vector<Moved> all = test::world().all_gather_values(std::span<const Moved>(own));
   std::sort(all.begin(), all.end());
@@ -132,7 +132,7 @@ TEST(CapturePoints, TheNearerOfTwoPointsHasTheCorner) {
         capture_points(leaves.graph, leaves.lattice, leaves.geometry, leaves.traced, share);
     Points own;
     for (const CornerCapture& c : found.corners) {
-      if (leaves.lattice.corner(c.x, c.y) != Point{2, 2} || !leaves.at_local_leaf(c.x, c.y)) continue;
+      if (leaves.lattice.corner(c.corner) != Point{2, 2} || !leaves.at_local_leaf(c.corner)) continue;
       EXPECT_EQ(c.distance, length(leaves.geometry.point(c.vertex) - Point{2, 2}));
       own.push_back(leaves.geometry.point(c.vertex));
     }
@@ -169,16 +169,16 @@ TEST(SnapCorners, LeavesKnowTheirSnapsByTheirSites) {
   const TracedLeaves leaves(test::loops_of({{{-1, -1}, {5, -1}, {5, 5}, {-1, 5}}}), {{0, 0}, {2, 2}});
   constexpr std::int64_t unit = TracedLeaves::unit;
   std::vector<Snap> snaps(3);
-  snaps[0].x = 2 * unit;  // hangs on the left side of the lower right leaf
-  snaps[0].y = unit;
-  snaps[1].x = snaps[1].y = 2 * unit;  // a corner of four leaves
-  snaps[2].x = 2 * unit;               // the edge between two leaves of edge 2
-  snaps[2].y = 3 * unit;
+  snaps[0].corner = {2 * unit, unit};      // hangs on the left side of the lower right leaf
+  snaps[1].corner = {2 * unit, 2 * unit};  // a corner of four leaves
+  snaps[2].corner = {2 * unit, 3 * unit};  // the edge between two leaves of edge 2
   snaps[2].on_edge = snaps[2].vertical = true;
-  using Seen = std::tuple<Point, int, std::ptrdiff_t>;  // the leaf's lower left corner, site and snap
+  using Seen = std::tuple<Point, Site, std::ptrdiff_t>;  // the leaf's lower left corner, site and snap
   std::vector<Seen> expected, seen;
-  const std::vector<Seen> all{{{0, 2}, 1, 1}, {{0, 2}, 9, 2}, {{1, 0}, 2, 0}, {{1, 1}, 1, 0}, {{1, 1}, 2, 1},
-                              {{2, 0}, 3, 1}, {{2, 0}, 7, 0}, {{2, 2}, 0, 1}, {{2, 2}, 11, 2}};
+  using enum Site;
+  const std::vector<Seen> all{{{0, 2}, south_east, 1},  {{0, 2}, on_right, 2},   {{1, 0}, north_east, 0},
+                              {{1, 1}, south_east, 0},  {{1, 1}, north_east, 1}, {{2, 0}, north_west, 1},
+                              {{2, 0}, left_middle, 0}, {{2, 2}, south_west, 1}, {{2, 2}, on_left, 2}};
   for (const Seen& s : all) {
     const Point corner = std::get<0>(s);
     const std::int32_t leaf = leaves.graph.leaf_at(static_cast<std::int64_t>(corner.x) * unit,
@@ -187,7 +187,7 @@ TEST(SnapCorners, LeavesKnowTheirSnapsByTheirSites) {
   }
   for (const LeafSnap& s : snaps_of_leaves(leaves.graph, snaps)) {
     const Quadrant& q = leaves.graph.leaf(s.leaf);
-    seen.emplace_back(leaves.lattice.corner(q.x, q.y), s.place, s.snap - snaps.data());
+    seen.emplace_back(leaves.lattice.corner(q.x, q.y), s.site, s.snap - snaps.data());
   }
   std::sort(seen.begin(), seen.end());
   EXPECT_EQ(seen, expected);

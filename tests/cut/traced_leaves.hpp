@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "mesher/cut/snap_corners.hpp"
 #include "tests/support/world.hpp"
 
@@ -39,13 +41,9 @@ class TracedLeaves {
   }
 
   /// Whether a leaf of this rank touches the lattice corner, or holds it on a side.
-  bool at_local_leaf(std::int64_t x, std::int64_t y) const {
-    for (const std::int64_t dx : {-1, 0}) {
-      for (const std::int64_t dy : {-1, 0}) {
-        if (graph.is_local(graph.leaf_at(x + dx, y + dy))) return true;
-      }
-    }
-    return false;
+  bool at_local_leaf(LatticePoint corner) const {
+    const auto round = graph.leaves_round(corner);
+    return std::any_of(round.begin(), round.end(), [&](std::int32_t leaf) { return graph.is_local(leaf); });
   }
 
   const Lattice lattice{{{0, 0}, {4, 4}}, 1, 1};
