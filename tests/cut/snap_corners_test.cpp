@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "mesher/cut/capture_points.hpp"
@@ -91,6 +93,19 @@ TEST(SnapCorners, OfTwoRunsTheNearerOneIsTaken) {
   EXPECT_EQ(at(snapped(channel(0.875, 1.25)), {2, 1}), (Moved{{2, 1}, {2, 0.875}, 1}));
   EXPECT_TRUE(snapped(channel(0.875, 1.125)).empty()) << "equally near";
   EXPECT_EQ(at(snapped(channel(1.125, 1.25)), {2, 1}), (Moved{{2, 1}, {2, 1.125}, 1})) << "on one edge";
+}
+
+TEST(SnapCorners, NoCrossingIsPassedOver) {
+  // The slope comes nearest to the corner (2, 1), but the pond crosses the edge east of it before the slope
+  // does.
+  const Points slope{{-1, 1.33}, {1.4, 1.33}, {2.9, 0.83}, {5, 0.83}, {5, 9}, {-1, 9}};
+  Points pond;
+  for (int i = 0; i < 16; ++i) {
+    const double angle = std::numbers::pi * i / 8;
+    pond.push_back({2.2 + 0.03 * std::cos(angle), 1 + 0.03 * std::sin(angle)});
+  }
+  EXPECT_TRUE(at(snapped(test::loops_of({slope}, none_kept)), {2, 1}).has_value());
+  EXPECT_EQ(at(snapped(test::loops_of({slope, pond}, none_kept)), {2, 1}), std::nullopt);
 }
 
 TEST(SnapCorners, NoVertexVanishesThatStraysFromTheOutline) {
