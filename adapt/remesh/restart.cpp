@@ -20,10 +20,7 @@ struct MarkedLeaf {
 
 constexpr std::int64_t siblings = 4;
 
-int child_number(const Quadrant& q) {
-  const int shift = Quadrant::unit_level - q.level;
-  return static_cast<int>((q.x >> shift & 1) + 2 * (q.y >> shift & 1));
-}
+int child_number(const Quadrant& q) { return curve_index(quarter_at(q.x, q.y, q.level - 1)); }
 
 /// This rank's leaves with those before and after them, as many as a family may reach beyond them.
 class LeafRun {

@@ -25,13 +25,14 @@ class Assembler {
 
  private:
   void add_inside(std::int32_t leaf) {
-    const unsigned finer = graph_.around(leaf).finer;
-    const auto node = [&](std::int32_t place) { return numbers_.of_leaf(leaf, place); };
-    if (finer == 0) {
-      mesh_.quads.push_back({node(0), node(1), node(2), node(3)});
+    const SideSet hanging = graph_.around(leaf).finer;
+    const auto node = [&](Site site) { return numbers_.of_leaf(leaf, site); };
+    if (hanging.empty()) {
+      mesh_.quads.push_back(
+          {node(Site::south_west), node(Site::south_east), node(Site::north_east), node(Site::north_west)});
       return;
     }
-    for (const auto& t : hanging_template(finer))
+    for (const SiteTriangle& t : hanging_template(hanging))
       mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
   }
 

@@ -132,7 +132,7 @@ class LeafTriangles {
     if (graph_.is_local(leaf)) {
       placed_.push_back({leaf - graph_.local_begin(), t.nodes, nodes});
     } else {
-      to_rank_[static_cast<std::size_t>(graph_.rank_at(column, row))].push_back(t);
+      on_their_way_.add(graph_.rank_at(column, row), t);
     }
   }
 

@@ -1,10 +1,11 @@
 #include "mesher/cut/capture_points.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
+
+#include "mesher/cut/leaf_edge.hpp"
 
 namespace quadloop {
 
@@ -15,13 +16,6 @@ constexpr double usual_snap = 0.4, corner_reach = 0.45, edge_reach = 0.34;
 constexpr double pointed_degrees =
     45;  ///< a point that turns by more takes corners and edges along even where it is not kept
 constexpr double crossing_reach = 0.4;  ///< a crossing nearer to the point than this is taken by its edge
-
-/// A leaf edge without nodes inside: a side of a leaf, or half of one that has a hanging node.
-struct LeafEdge {
-  std::int64_t fixed = 0, from = 0, to = 0;  ///< lattice lines: the one it lies on, and those at its ends
-  int side = 0;                              ///< of the leaf
-  bool vertical() const { return side % 2 == 1; }
-};
 
 /// Looks for what one kept point takes along.
 class PointCapture {
@@ -37,21 +31,17 @@ class PointCapture {
 
   /// The corner of the leaf, or hanging node on its sides, that is near enough.
   std::optional<CornerCapture> corner_near(std::int32_t leaf, Point p) const {
-    const Quadrant& q = graph_.leaf(leaf);
-    const std::int64_t s = q.size(), h = s / 2;
-    const std::array<std::array<std::int64_t, 2>, 8> places{
-        {{0, 0}, {s, 0}, {s, s}, {0, s}, {h, 0}, {s, h}, {h, s}, {0, h}}};
     std::optional<CornerCapture> nearest;
     bool contested = false;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      if (k >= 4 && !graph_.has_hanging(leaf, static_cast<LeafGraph::Side>(k - 4))) continue;
-      const std::int64_t x = q.x + places[k][0], y = q.y + places[k][1];
-      const double distance = length(lattice_.corner(x, y) - p);
-      if (distance >= share_ * corner_reach * shortest_edge_at(graph_, lattice_, x, y) ||
+    for (const Site site : lattice_sites) {
+      if (is_middle(site) && !graph_.has_hanging(leaf, side_of(site))) continue;
+      const LatticePoint corner = graph_.leaf(leaf).at(site);
+      const double distance = length(lattice_.corner(corner) - p);
+      if (distance >= share_ * corner_reach * shortest_edge_at(graph_, lattice_, corner) ||
           (nearest && distance > nearest->distance))
         continue;
       contested = nearest && distance == nearest->distance;
-      nearest = CornerCapture{x, y, distance, -1, -1, -1};
+      nearest = CornerCapture{corner, distance, -1, -1, -1};
     }
     return contested ? std::nullopt : nearest;
   }
@@ -63,10 +53,9 @@ class PointCapture {
     LeafEdge nearest;
     bool contested = false;
     double least = share_ * edge_reach;
-    for (int side = 0; side < 4; ++side) {
-      const LeafEdge edge = edge_at(leaf, side, p);
-      const double distance =
-          std::abs((edge.vertical() ? p.x : p.y) - line(edge.vertical(), edge.fixed)) / length_of(edge);
+    for (const Side side : all_sides) {
+      const LeafEdge edge = leaf_edge_near(graph_, lattice_, leaf, side, p);
+      const double distance = std::abs(edge.across(p) - line_of(edge)) / edge.length(lattice_);
       if (distance > least) continue;
       contested = distance == least;
       nearest = edge;
@@ -74,11 +63,9 @@ class PointCapture {
     }
     if (contested || least == share_ * edge_reach || across(nearest) == LeafGraph::none) return std::nullopt;
     Snap snap;
-    const std::int64_t middle = (nearest.from + nearest.to) / 2;
-    snap.x = nearest.vertical() ? nearest.fixed : middle;
-    snap.y = nearest.vertical() ? middle : nearest.fixed;
-    snap.position = snap.corner = p;
-    snap.radius = share_ * edge_reach * length_of(nearest);
+    snap.corner = nearest.point((nearest.from + nearest.to) / 2);
+    snap.position = snap.centre = p;
+    snap.radius = share_ * edge_reach * nearest.length(lattice_);
     snap.on_edge = true;
     snap.vertical = nearest.vertical();
     if (!take_crossings(nearest, vertex, view, piece, snap)) return std::nullopt;
@@ -86,36 +73,19 @@ class PointCapture {
   }
 
  private:
-  double line(bool of_x, std::int64_t i) const { return of_x ? lattice_.x(i) : lattice_.y(i); }
-  double length_of(const LeafEdge& edge) const {
-    return line(!edge.vertical(), edge.to) - line(!edge.vertical(), edge.from);
-  }
-
-  LeafEdge edge_at(std::int32_t leaf, int side, Point p) const {
-    const Quadrant& q = graph_.leaf(leaf);
-    const std::int64_t s = q.size();
-    LeafEdge edge;
-    edge.side = side;
-    edge.fixed = side == 0 ? q.y : side == 1 ? q.x + s : side == 2 ? q.y + s : q.x;
-    edge.from = edge.vertical() ? q.y : q.x;
-    edge.to = edge.from + s;
-    if (graph_.has_hanging(leaf, static_cast<LeafGraph::Side>(side))) {
-      const std::int64_t middle = edge.from + s / 2;
-      const bool beyond = (edge.vertical() ? p.y : p.x) >= line(!edge.vertical(), middle);
-      (beyond ? edge.from : edge.to) = middle;
-    }
-    return edge;
+  double line_of(const LeafEdge& edge) const {
+    return edge.vertical() ? lattice_.x(edge.line) : lattice_.y(edge.line);
   }
 
   std::int32_t across(const LeafEdge& edge) const {
-    const std::int64_t beyond = edge.side == 1 || edge.side == 2 ? edge.fixed : edge.fixed - 1;
+    const bool ahead = edge.side == Side::right || edge.side == Side::top;
+    const std::int64_t beyond = ahead ? edge.line : edge.line - 1;
     return edge.vertical() ? graph_.leaf_at(beyond, edge.from) : graph_.leaf_at(edge.from, beyond);
   }
 
   bool on_edge(const LeafEdge& edge, const Crossing& c) const {
-    const double at = edge.vertical() ? c.position.y : c.position.x;
-    return c.side == edge.side && line(!edge.vertical(), edge.from) <= at &&
-           at <= line(!edge.vertical(), edge.to);
+    const double at = edge.along(c.position);
+    return c.side == edge.side && edge.at(lattice_, edge.from) <= at && at <= edge.at(lattice_, edge.to);
   }
 
   /// The crossings of the point's own piece that lie on the edge and near it. False where another one lies
@@ -124,9 +94,8 @@ class PointCapture {
   bool take_crossings(const LeafEdge& edge, std::int32_t vertex, const LeafTrace& view, const Piece& piece,
                       Snap& snap) const {
     const Point p = geometry_.point(vertex);
-    const double size = length_of(edge);
-    const auto along = [&](Point point) { return edge.vertical() ? point.y : point.x; };
-    double low = along(p), high = low;
+    const double size = edge.length(lattice_);
+    double low = edge.along(p), high = low;
     std::vector<std::int32_t> taken;
     for (const std::int32_t c : {piece.entry, piece.exit}) {
       const Crossing& crossing = view.crossing(c);
@@ -135,13 +104,13 @@ class PointCapture {
         return false;
       snap.absorbed.push_back({crossing.segment, edge.vertical()});
       taken.push_back(c);
-      low = std::min(low, along(crossing.position));
-      high = std::max(high, along(crossing.position));
+      low = std::min(low, edge.along(crossing.position));
+      high = std::max(high, edge.along(crossing.position));
     }
     for (std::int32_t c = 0; c < static_cast<std::int32_t>(view.crossings.size()); ++c) {
       const Crossing& crossing = view.crossing(c);
       if (std::find(taken.begin(), taken.end(), c) != taken.end() || !on_edge(edge, crossing)) continue;
-      if (low <= along(crossing.position) && along(crossing.position) <= high) return false;
+      if (low <= edge.along(crossing.position) && edge.along(crossing.position) <= high) return false;
     }
     const auto vertices = view.vertices_of(piece);
     return std::none_of(vertices.begin(), vertices.end(), [&](std::int32_t v) {
@@ -172,11 +141,11 @@ class PointCapture {
 /// Of those that claim one corner the nearest has it; none where two are equally near.
 std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
   std::sort(claims.begin(), claims.end(), [](const CornerCapture& a, const CornerCapture& b) {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.distance < b.distance;
+    return a.corner != b.corner ? a.corner < b.corner : a.distance < b.distance;
   });
   std::vector<CornerCapture> settled;
   for (std::size_t begin = 0, end = 0; begin < claims.size(); begin = end) {
-    while (end < claims.size() && claims[end].x == claims[begin].x && claims[end].y == claims[begin].y) ++end;
+    while (end < claims.size() && claims[end].corner == claims[begin].corner) ++end;
     if (end - begin == 1 || claims[begin].distance < claims[begin + 1].distance)
       settled.push_back(claims[begin]);
   }
@@ -186,12 +155,11 @@ std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
 /// Moves one hanging node onto the nearest point of the outline in its leaf, if that is within reach and the
 /// node is the only one to be there.
 std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometry, const LeafTrace& view,
-                                 std::int64_t x, std::int64_t y, double reach) {
-  const Point node = lattice.corner(x, y);
+                                 LatticePoint corner, double reach) {
+  const Point node = lattice.corner(corner);
   Snap snap;
-  snap.x = x;
-  snap.y = y;
-  snap.corner = node;
+  snap.corner = corner;
+  snap.centre = node;
   double nearest = reach;
   bool contested = false;  // two places are equally near
   for (const Piece& piece : view.pieces) {
@@ -213,9 +181,8 @@ std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometr
 
 /// An edge that two points claim goes to neither.
 std::vector<Snap> settle_edges(std::vector<Snap> claims) {
-  const auto same = [](const Snap& a, const Snap& b) { return a.x == b.x && a.y == b.y; };
-  std::sort(claims.begin(), claims.end(),
-            [](const Snap& a, const Snap& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  const auto same = [](const Snap& a, const Snap& b) { return a.corner == b.corner; };
+  std::sort(claims.begin(), claims.end(), [](const Snap& a, const Snap& b) { return a.corner < b.corner; });
   std::vector<Snap> settled;
   for (std::size_t i = 0; i < claims.size(); ++i) {
     const bool contested = (i > 0 && same(claims[i - 1], claims[i])) ||
@@ -236,17 +203,6 @@ Point nearest_on_segment(Point p, Point a, Point b) {
   if (along >= square) return b;
   const Wide t = along / square;
   return {static_cast<double>(a.x + t * dx), static_cast<double>(a.y + t * dy)};
-}
-
-double shortest_edge_at(const LeafGraph& graph, const Lattice& lattice, std::int64_t x, std::int64_t y) {
-  int finest = 0;
-  for (const std::int64_t dx : {-1, 0}) {
-    for (const std::int64_t dy : {-1, 0}) {
-      const std::int32_t leaf = graph.leaf_at(x + dx, y + dy);
-      if (leaf != LeafGraph::none) finest = std::max(finest, graph.leaf(leaf).level);
-    }
-  }
-  return lattice.edge(finest);
 }
 
 Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
@@ -285,12 +241,9 @@ std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, 
     const std::int32_t trace = traced.trace_of[static_cast<std::size_t>(leaf)];
     if (trace < 0) continue;
     const Quadrant& q = graph.leaf(leaf);
-    const std::int64_t s = q.size(), h = s / 2;
-    const std::array<std::array<std::int64_t, 2>, 4> middles{{{h, 0}, {s, h}, {h, s}, {0, h}}};
-    for (int side = 0; side < 4; ++side) {
-      if (!graph.has_hanging(leaf, static_cast<LeafGraph::Side>(side))) continue;
-      const auto& [dx, dy] = middles[static_cast<std::size_t>(side)];
-      auto snap = hanging_snap(lattice, geometry, traced.traces[trace], q.x + dx, q.y + dy,
+    for (const Side side : all_sides) {
+      if (!graph.has_hanging(leaf, side)) continue;
+      auto snap = hanging_snap(lattice, geometry, traced.traces[trace], q.at(middle_of(side)),
                                share * lattice.edge(q.level + 1));
       if (snap) snaps.push_back(std::move(*snap));
     }

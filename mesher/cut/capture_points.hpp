@@ -3,13 +3,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/cut/snap_corners.hpp"
+#include "mesher/cut/leaf_trace.hpp"
+#include "mesher/cut/snap.hpp"
 
 namespace quadloop {
 
 /// A kept point of the geometry takes a lattice corner along that lies near it.
 struct CornerCapture {
-  std::int64_t x = 0, y = 0;  ///< the corner
+  LatticePoint corner;
   double distance = 0;
   std::int32_t vertex = -1;
   std::int32_t trace = -1, piece = -1;  ///< that the vertex lies on
@@ -35,8 +36,5 @@ std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, 
 
 /// The nearest point to p on the segment a-b, the same for the segment b-a; rounded once.
 Point nearest_on_segment(Point p, Point a, Point b);
-
-/// The edge of the smallest leaf at a lattice corner.
-double shortest_edge_at(const LeafGraph& graph, const Lattice& lattice, std::int64_t x, std::int64_t y);
 
 }  // namespace quadloop

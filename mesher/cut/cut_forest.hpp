@@ -17,7 +17,7 @@ struct CutForest {
   };
   struct Entry {
     Mark begin, end;
-    std::uint8_t half_inside = 0;  ///< as CutLeaf::half_inside
+    CutLeaf::InsideHalves inside_halves;
   };
 
   std::vector<State> states;           ///< of each local leaf
@@ -29,7 +29,7 @@ struct CutForest {
   std::vector<CutLeaf::Edge> outline;
   /// Lattice corners that are not where the lattice has them; all of those at local leaves, and some others.
   struct Moved {
-    std::int64_t x = 0, y = 0;
+    LatticePoint corner;
     Point position;
   };
   std::vector<Moved> moved;

@@ -34,9 +34,11 @@ class LeafCellMaker {
   std::vector<TieRank> ranks_;
 };
 
-/// The closed templates for an uncut leaf (thesis 3.6.2). Nodes are named as CutLeaf::Node::place: 0 to 3
-/// corners, 4 to 7 hanging nodes. `finer` has bit s set where side s has a hanging node: none, one, or two on
-/// adjacent sides.
-std::span<const LocalTriangle> hanging_template(unsigned finer);
+/// A triangle of a template: its nodes by where they sit.
+using SiteTriangle = std::array<Site, 3>;
+
+/// The closed templates for an uncut leaf with hanging nodes (thesis 3.6.2): on one side, or on two adjacent
+/// ones.
+std::span<const SiteTriangle> hanging_template(SideSet hanging);
 
 }  // namespace quadloop

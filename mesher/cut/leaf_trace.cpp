@@ -29,7 +29,7 @@ Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& b
   const Geometry& g = outline.geometry();
   const std::int32_t end = g.next(s);
   Passage passage;
-  const auto add = [&](int side, bool enters, Point position) {
+  const auto add = [&](Side side, bool enters, Point position) {
     (enters ? passage.entry : passage.exit) = static_cast<std::int32_t>(crossings.size() - first);
     crossings.push_back({s, side, enters, position});
   };
@@ -40,16 +40,16 @@ Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& b
   const bool above_low = outline.beyond_y(end, box.low.y), above_high = outline.beyond_y(end, box.high.y);
   const bool past_low = outline.beyond_x(end, box.low.x), past_high = outline.beyond_x(end, box.high.x);
   if (crosses(outline.beyond_y(s, box.low.y), above_low, sw, se)) {
-    add(0, above_low, crossing_of_horizontal(g, s, box.low.y, box.low.x, box.high.x));
+    add(Side::bottom, above_low, crossing_of_horizontal(g, s, box.low.y, box.low.x, box.high.x));
   }
   if (crosses(outline.beyond_x(s, box.high.x), past_high, se, ne)) {
-    add(1, !past_high, crossing_of_vertical(g, s, box.high.x, box.low.y, box.high.y));
+    add(Side::right, !past_high, crossing_of_vertical(g, s, box.high.x, box.low.y, box.high.y));
   }
   if (crosses(outline.beyond_y(s, box.high.y), above_high, ne, nw)) {
-    add(2, !above_high, crossing_of_horizontal(g, s, box.high.y, box.low.x, box.high.x));
+    add(Side::top, !above_high, crossing_of_horizontal(g, s, box.high.y, box.low.x, box.high.x));
   }
   if (crosses(outline.beyond_x(s, box.low.x), past_low, nw, sw)) {
-    add(3, past_low, crossing_of_vertical(g, s, box.low.x, box.low.y, box.high.y));
+    add(Side::left, past_low, crossing_of_vertical(g, s, box.low.x, box.low.y, box.high.y));
   }
   return passage;
 }

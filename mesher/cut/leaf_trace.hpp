@@ -10,10 +10,10 @@
 
 namespace quadloop {
 
-/// Where the outline crosses a side of a leaf. Sides: 0 bottom, 1 right, 2 top, 3 left.
+/// Where the outline crosses a side of a leaf.
 struct Crossing {
   std::int32_t segment = -1;
-  int side = 0;
+  Side side = Side::bottom;
   bool enters = false;  ///< into the leaf
   Point position;       ///< rounded once; the same for both leaves at the side
 };
@@ -60,6 +60,12 @@ class LeafTraces {
   std::vector<Crossing> crossings_;
   std::vector<Piece> pieces_;
   std::vector<std::int32_t> vertices_;
+};
+
+/// The outline in this rank's leaves and in the ghost leaves.
+struct TracedForest {
+  LeafTraces traces;
+  std::vector<std::int32_t> trace_of;  ///< of each leaf of the graph; -1 where it holds no geometry
 };
 
 }  // namespace quadloop

@@ -103,7 +103,8 @@ std::int32_t DemandedSplits::root(std::int64_t tree_x, std::int64_t tree_y) cons
   return found == roots_.end() || *found != key ? none : static_cast<std::int32_t>(found - roots_.begin());
 }
 
-std::int32_t DemandedSplits::child(std::int32_t number, int k) const {
+std::int32_t DemandedSplits::child(std::int32_t number, Corner quarter) const {
+  const int k = curve_index(quarter);
   const auto at = static_cast<std::size_t>(number);
   if ((masks_[at] >> k & 1) == 0) return none;
   std::array<std::uint64_t, block / sizeof(std::uint64_t)>
@@ -135,10 +136,11 @@ std::uint32_t DemandPath::levels_above(const Quadrant& leaf) {
     steps_.push_back({demanded_->root(leaf.x >> Quadrant::unit_level, leaf.y >> Quadrant::unit_level), 0});
   while (true) {
     const auto [number, levels] = steps_.back();
-    const int level = static_cast<int>(steps_.size()) - 1, shift = Quadrant::unit_level - 1 - level;
+    const int level = static_cast<int>(steps_.size()) - 1;
     if (number == DemandedSplits::none || level == leaf.level) return levels;
-    const int k = static_cast<int>((leaf.x >> shift & 1) | (leaf.y >> shift & 1) << 1);
-    steps_.push_back({demanded_->child(number, k), levels | (demanded_->asked(number) ? 1U << level : 0U)});
+    const Corner quarter = quarter_at(leaf.x, leaf.y, level);
+    steps_.push_back(
+        {demanded_->child(number, quarter), levels | (demanded_->asked(number) ? 1U << level : 0U)});
   }
 }
 

@@ -34,8 +34,8 @@ class DemandedSplits {
 
   /// The number of a tree's root if it is split, else none.
   std::int32_t root(std::int64_t tree_x, std::int64_t tree_y) const;
-  /// The number of child k of a split quadrant if it is split too, else none.
-  std::int32_t child(std::int32_t number, int k) const;
+  /// The number of a quarter of a split quadrant if it is split too, else none.
+  std::int32_t child(std::int32_t number, Corner quarter) const;
 
   /// Whether this quadrant was asked for itself.
   bool asked(std::int32_t number) const;

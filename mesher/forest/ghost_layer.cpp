@@ -26,10 +26,11 @@ class GhostFinder {
       share(place, first);
       return;
     }
-    for (int k = 0; k < 4; ++k) {
-      const Quadrant child = place.child(k);
-      const auto end = std::partition_point(leaves.begin(), leaves.end(),
-                                            [&](const Quadrant& q) { return child_of(place, q) <= k; });
+    for (const Corner quarter : corners_along_curve) {
+      const Quadrant child = place.child(quarter);
+      const auto end = std::partition_point(leaves.begin(), leaves.end(), [&](const Quadrant& q) {
+        return curve_index(quarter_at(q.x, q.y, place.level)) <= curve_index(quarter);
+      });
       const auto count = static_cast<std::size_t>(end - leaves.begin());
       search(child, leaves.first(count), first);
       leaves = leaves.subspan(count);
@@ -40,11 +41,6 @@ class GhostFinder {
   const Outbox<Ghost>& shared() const { return shared_; }
 
  private:
-  static int child_of(const Quadrant& place, const Quadrant& q) {
-    const std::int64_t half = place.size() / 2;
-    return (q.x >= place.x + half ? 1 : 0) + (q.y >= place.y + half ? 2 : 0);
-  }
-
   bool in_root(const Quadrant& q) const {
     return q.x >= 0 && q.y >= 0 && (q.x >> Quadrant::unit_level) < trees_x_ &&
            (q.y >> Quadrant::unit_level) < trees_y_;
@@ -97,8 +93,8 @@ class GhostFinder {
       touched_.push_back(owner);
       return;
     }
-    for (int k = 0; k < 4; ++k) {
-      if (chebyshev_gap(leaf, q.child(k)) == 0) collect_owners(leaf, q.child(k));
+    for (const Corner quarter : corners_along_curve) {
+      if (chebyshev_gap(leaf, q.child(quarter)) == 0) collect_owners(leaf, q.child(quarter));
     }
   }
 

@@ -4,9 +4,17 @@
 #include <optional>
 
 #include "mesher/forest/size_options.hpp"
+#include "mesher/forest/square.hpp"
 #include "mesher/geometry/geometry.hpp"
 
 namespace quadloop {
+
+/// A corner of the lattice: where lattice lines meet, counted in lattice units from the root's lower left
+/// corner.
+struct LatticePoint {
+  std::int64_t x = 0, y = 0;
+  friend constexpr auto operator<=>(const LatticePoint&, const LatticePoint&) = default;
+};
 
 /// A square of the forest by its place alone. x and y count lattice units from the root's lower left corner;
 /// a tree's edge is 2^30 units.
@@ -17,15 +25,36 @@ struct Quadrant {
   int level = 0;
 
   constexpr std::int64_t size() const { return std::int64_t{1} << (unit_level - level); }
-  constexpr Quadrant child(int k) const {  ///< 0 to 3: south west, south east, north west, north east
+  constexpr Quadrant child(Corner quarter) const {
+    const Halves from = halves_of(site_of(quarter));
+    return {x + from.x * size() / 4, y + from.y * size() / 4, level + 1};
+  }
+  /// Of a corner, or the middle of a side.
+  constexpr LatticePoint at(Site site) const {
     const std::int64_t half = size() / 2;
-    return {x + (k & 1) * half, y + (k >> 1) * half, level + 1};
+    return {x + halves_of(site).x * half, y + halves_of(site).y * half};
+  }
+  /// The site at a lattice point that is a corner of the square, or the middle of a side.
+  constexpr Site site(LatticePoint p) const {
+    const std::int64_t half = size() / 2;
+    return site_at({static_cast<int>((p.x - x) / half), static_cast<int>((p.y - y) / half)});
+  }
+  /// The lattice line that a side lies on: a column for a vertical side, else a row.
+  constexpr std::int64_t line(Side side) const {
+    const std::int64_t low = is_vertical(side) ? x : y;
+    return side == Side::right || side == Side::top ? low + size() : low;
   }
   constexpr bool contains(const Quadrant& q) const {
     return level <= q.level && x <= q.x && q.x < x + size() && y <= q.y && q.y < y + size();
   }
   friend constexpr bool operator==(const Quadrant&, const Quadrant&) = default;
 };
+
+/// The quarter in which the unit square right above (x, y) lies, of the quadrant of this level that holds it.
+constexpr Corner quarter_at(std::int64_t x, std::int64_t y, int level) {
+  const int shift = Quadrant::unit_level - 1 - level;
+  return corner_at((x >> shift & 1) != 0, (y >> shift & 1) != 0);
+}
 
 /// The largest of the two distances along the axes between the closed squares; 0 where they touch.
 constexpr std::int64_t chebyshev_gap(const Quadrant& a, const Quadrant& b) {
@@ -52,6 +81,7 @@ class Lattice {
   double x(std::int64_t i) const { return x_.at(i); }
   double y(std::int64_t j) const { return y_.at(j); }
   Point corner(std::int64_t i, std::int64_t j) const { return {x(i), y(j)}; }
+  Point corner(LatticePoint p) const { return corner(p.x, p.y); }
   /// The last line at or before a coordinate inside the root (the last but the root's side at most); the unit
   /// square right of it, above it holds the coordinate.
   std::int64_t column_at(double x) const { return x_.line_before(x); }

@@ -77,7 +77,8 @@ class LeafCount {
   static std::vector<Sampled> children_of(const std::vector<Sampled>& parents) {
     std::vector<Sampled> children;
     for (const Sampled& parent : parents) {
-      for (int k = 0; k < 4; ++k) children.push_back({parent.place.child(k), parent.weight, parent.side});
+      for (const Corner quarter : corners_along_curve)
+        children.push_back({parent.place.child(quarter), parent.weight, parent.side});
     }
     return children;
   }

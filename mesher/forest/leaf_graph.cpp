@@ -43,9 +43,7 @@ std::int32_t LeafGraph::leaf_at(std::int64_t x, std::int64_t y) const {
   const std::int64_t tx = x >> Quadrant::unit_level, ty = y >> Quadrant::unit_level;
   if (x < 0 || y < 0 || tx >= trees_x_ || ty >= trees_y_) return none;
   Ref ref = roots_[static_cast<std::size_t>(ty * trees_x_ + tx)];
-  for (int shift = Quadrant::unit_level - 1; is_inner(ref); --shift) {
-    ref = down(ref, static_cast<int>((x >> shift) & 1) + 2 * static_cast<int>((y >> shift) & 1));
-  }
+  for (int level = 0; is_inner(ref); ++level) ref = down(ref, quarter_at(x, y, level));
   return ref;
 }
 
@@ -73,10 +71,8 @@ void LeafGraph::build_trees(const Lattice& lattice) {
       path[0] = roots_[static_cast<std::size_t>(tree)] = new_inner();
     }
     for (int level = common; level < q.level; ++level) {
-      const int shift = Quadrant::unit_level - 1 - level;
-      const int k = static_cast<int>((q.x >> shift) & 1) + 2 * static_cast<int>((q.y >> shift) & 1);
       const Ref below = level + 1 == q.level ? i : new_inner();
-      child(path[static_cast<std::size_t>(level)], k) = below;
+      child(path[static_cast<std::size_t>(level)], quarter_at(q.x, q.y, level)) = below;
       path[static_cast<std::size_t>(level) + 1] = below;
     }
     last = q;
@@ -92,26 +88,31 @@ void LeafGraph::visit(Ref ref, const Neighbours& n) {
     visit_leaf(ref, n);
     return;
   }
-  const Ref sw = down(ref, 0), se = down(ref, 1), nw = down(ref, 2), ne = down(ref, 3);
-  visit(sw, {down(n.west, 1), down(n.south, 2), se, nw, down(n.south_west, 3)});
-  visit(se, {sw, down(n.south, 3), down(n.east, 0), ne, down(n.south, 2)});
-  visit(nw, {down(n.west, 3), sw, ne, down(n.north, 0), down(n.west, 1)});
-  visit(ne, {nw, se, down(n.east, 2), down(n.north, 1), sw});
+  using enum Corner;
+  const Ref sw = down(ref, south_west), se = down(ref, south_east), nw = down(ref, north_west),
+            ne = down(ref, north_east);
+  visit(sw, {down(n.west, south_east), down(n.south, north_west), se, nw, down(n.south_west, north_east)});
+  visit(se, {sw, down(n.south, north_east), down(n.east, south_west), ne, down(n.south, north_west)});
+  visit(nw, {down(n.west, north_east), sw, ne, down(n.north, south_west), down(n.west, south_east)});
+  visit(ne, {nw, se, down(n.east, north_west), down(n.north, south_east), sw});
 }
 
 void LeafGraph::visit_leaf(std::int32_t leaf, const Neighbours& n) {
-  const auto deepest = [&](Ref ref, int k) {
-    while (is_inner(ref)) ref = down(ref, k);
+  using enum Corner;
+  const auto deepest = [&](Ref ref, Corner quarter) {
+    while (is_inner(ref)) ref = down(ref, quarter);
     return ref;
   };
   Around& around = around_[static_cast<std::size_t>(leaf)];
-  around.south_west = deepest(n.south_west, 3);
-  around.south = deepest(n.south, 3);
-  around.west = deepest(n.west, 3);
-  if (is_inner(n.south)) around.south_half = deepest(down(n.south, 2), 3);
-  if (is_inner(n.west)) around.west_half = deepest(down(n.west, 1), 3);
-  around.finer = static_cast<std::uint8_t>((is_inner(n.south) << bottom) | (is_inner(n.east) << right) |
-                                           (is_inner(n.north) << top) | (is_inner(n.west) << left));
+  around.south_west = deepest(n.south_west, north_east);
+  around.south = deepest(n.south, north_east);
+  around.west = deepest(n.west, north_east);
+  if (is_inner(n.south)) around.south_half = deepest(down(n.south, north_west), north_east);
+  if (is_inner(n.west)) around.west_half = deepest(down(n.west, south_east), north_east);
+  if (is_inner(n.south)) around.finer.add(Side::bottom);
+  if (is_inner(n.east)) around.finer.add(Side::right);
+  if (is_inner(n.north)) around.finer.add(Side::top);
+  if (is_inner(n.west)) around.finer.add(Side::left);
 }
 
 }  // namespace quadloop

@@ -39,8 +39,7 @@ class SqueezedLeaves {
   std::size_t local(std::int32_t leaf) const { return static_cast<std::size_t>(leaf - graph_.local_begin()); }
 
   void mark(std::int32_t leaf) {
-    const unsigned finer = finer_[local(leaf)];
-    if ((finer & (finer >> 2)) == 0 || marked_[local(leaf)] != 0) return;
+    if (!finer_[local(leaf)].has_opposites() || marked_[local(leaf)] != 0) return;
     marked_[local(leaf)] = 1;
     any_ = true;
     waiting_.push_back(leaf);
@@ -50,21 +49,20 @@ class SqueezedLeaves {
   void tell_neighbours(std::int32_t leaf) {
     const Quadrant& q = graph_.leaf(leaf);
     const std::int64_t s = q.size();
-    constexpr int sides = 4;
-    const std::array<std::int32_t, sides> across{graph_.leaf_at(q.x, q.y - 1), graph_.leaf_at(q.x + s, q.y),
-                                                 graph_.leaf_at(q.x, q.y + s), graph_.leaf_at(q.x - 1, q.y)};
-    for (int side = 0; side < sides; ++side) {
-      const std::int32_t neighbour = across[static_cast<std::size_t>(side)];
+    const std::array<std::int32_t, 4> across{graph_.leaf_at(q.x, q.y - 1), graph_.leaf_at(q.x + s, q.y),
+                                             graph_.leaf_at(q.x, q.y + s), graph_.leaf_at(q.x - 1, q.y)};
+    for (const Side side : all_sides) {
+      const std::int32_t neighbour = across[index_of(side)];
       if (neighbour == LeafGraph::none || !graph_.is_local(neighbour) ||
           graph_.leaf(neighbour).level != q.level)
         continue;
-      finer_[local(neighbour)] |= static_cast<std::uint8_t>(1U << ((side + 2) % sides));
+      finer_[local(neighbour)].add(opposite(side));
       mark(neighbour);
     }
   }
 
   const LeafGraph& graph_;
-  std::vector<std::uint8_t> finer_;
+  std::vector<SideSet> finer_;
   std::vector<char> marked_;
   std::vector<std::int32_t> waiting_;
   bool any_ = false;

@@ -76,11 +76,11 @@ void SizeTree::grow(std::int32_t node) {
     return;
   }
   nodes_[static_cast<std::size_t>(node)].children = static_cast<std::int32_t>(nodes_.size());
-  for (int k = 0; k < 4; ++k) {
+  for (const Corner quarter : corners_along_curve) {
     Node child;
-    child.place = parent.place.child(k);
+    child.place = parent.place.child(quarter);
     child.parent = node;
-    if (parent.demanded != DemandedSplits::none) child.demanded = demanded_->child(parent.demanded, k);
+    if (parent.demanded != DemandedSplits::none) child.demanded = demanded_->child(parent.demanded, quarter);
     child.segments_begin = static_cast<std::int32_t>(segments_.size());
     const Box box = lattice_->box_of(child.place);
     for (std::int32_t i = parent.segments_begin; i < parent.segments_end; ++i) {
@@ -213,9 +213,7 @@ std::int32_t SizeTree::deepest_node_at(const Quadrant& q) {
   while (nodes_[static_cast<std::size_t>(node)].place.level < q.level &&
          !nodes_[static_cast<std::size_t>(node)].plain && is_split(node)) {
     const Node& at = nodes_[static_cast<std::size_t>(node)];
-    const std::int64_t half = at.place.size() / 2;
-    const int k = (q.x >= at.place.x + half ? 1 : 0) + (q.y >= at.place.y + half ? 2 : 0);
-    node = at.children + k;
+    node = at.children + curve_index(quarter_at(q.x, q.y, at.place.level));
   }
   return cursor_ = node;
 }

@@ -29,7 +29,7 @@ struct Cut {
   std::size_t cells = 0;
 };
 
-Cut cut_box(const Geometry& geometry, const Box& box, unsigned hanging = 0) {
+Cut cut_box(const Geometry& geometry, const Box& box, SideSet hanging = {}) {
   const ShiftedOutline outline(geometry);
   const InsideTest inside(outline);
   std::vector<std::int32_t> segments;
@@ -52,7 +52,7 @@ Cut cut_box(const Geometry& geometry, const Box& box, unsigned hanging = 0) {
   return result;
 }
 
-Cut cut_unit_square(const Geometry& geometry, unsigned hanging = 0) {
+Cut cut_unit_square(const Geometry& geometry, SideSet hanging = {}) {
   return cut_box(geometry, unit, hanging);
 }
 
@@ -107,8 +107,7 @@ TEST(LeafCutter, ASegmentAlongASideBelongsToTheDomainsSide) {
 TEST(LeafCutter, ASegmentAlongPartOfASideWithItsHangingNode) {
   // The finer leaves across lie outside but for the lower one's lower half, so the hanging node is no cell's:
   // one chord passes it.
-  const Cut cut =
-      cut_unit_square(loops_of({{{0, 0.25}, {-1, -3}, {3, -3}, {3, 3}, {0, 3}}}), 1U << LeafGraph::left);
+  const Cut cut = cut_unit_square(loops_of({{{0, 0.25}, {-1, -3}, {3, -3}, {3, 3}, {0, 3}}}), {Side::left});
   EXPECT_TRUE(cut.sound);
   EXPECT_NEAR(cut.area, 1.0, 1e-15);
   EXPECT_EQ(chords_of(cut), (std::vector<std::pair<Point, Point>>{{{0, 1}, {0, 0.25}}}));
@@ -124,7 +123,7 @@ TEST(LeafCutter, ASegmentAlongTwoFinerLeavesIsAnEdgeOfEach) {
   EXPECT_TRUE(lower.sound && upper.sound);
   EXPECT_EQ(chords_of(lower), (std::vector<std::pair<Point, Point>>{{{0, 0.25}, {0, 0.5}}}));
   EXPECT_EQ(chords_of(upper), (std::vector<std::pair<Point, Point>>{{{0, 0.5}, {0, 1}}}));
-  const Cut coarse = cut_unit_square(geometry, 1U << LeafGraph::left);
+  const Cut coarse = cut_unit_square(geometry, {Side::left});
   EXPECT_TRUE(coarse.sound);
   EXPECT_NEAR(coarse.area, 0.5 * 0.25 * 0.25 * 3 / 3.25, 1e-15)
       << "what lies below the line from (0, 0.25) to (3, -3)";
@@ -208,7 +207,7 @@ TEST(LeafCutter, TwoDomainsThatMeetInACornerAreTwoLoops) {
 std::optional<std::vector<Points>> traced(const Points& places,
                                           const std::vector<std::pair<int, int>>& edges) {
   CutLeaf leaf;
-  for (const Point p : places) leaf.nodes.push_back({p, 12});
+  for (const Point p : places) leaf.nodes.push_back({p, Site::inside});
   std::vector<CutLeaf::Edge> directed;
   for (const auto& [from, to] : edges) directed.push_back({from, to, -1});
   leaf.loop_starts.assign(1, 0);

@@ -51,10 +51,10 @@ TEST(LeafGraph, NeighboursAreTheLeavesThatTouch) {
     const auto finer = [&](std::int32_t other) {
       return other != LeafGraph::none && graph.leaf(other).level > q.level;
     };
-    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::right), finer(graph.leaf_at(q.x + q.size(), q.y)));
-    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::top), finer(graph.leaf_at(q.x, q.y + q.size())));
-    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::left), finer(around.west));
-    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::bottom), finer(around.south));
+    EXPECT_EQ(graph.has_hanging(leaf, Side::right), finer(graph.leaf_at(q.x + q.size(), q.y)));
+    EXPECT_EQ(graph.has_hanging(leaf, Side::top), finer(graph.leaf_at(q.x, q.y + q.size())));
+    EXPECT_EQ(graph.has_hanging(leaf, Side::left), finer(around.west));
+    EXPECT_EQ(graph.has_hanging(leaf, Side::bottom), finer(around.south));
   }
 }
 

@@ -137,7 +137,7 @@ void split_by_size(const Quadrant& q, SizeTree& sizes, std::vector<Quadrant>& le
     leaves.push_back(q);
     return;
   }
-  for (int k = 0; k < 4; ++k) split_by_size(q.child(k), sizes, leaves);
+  for (const Corner quarter : corners_along_curve) split_by_size(q.child(quarter), sizes, leaves);
 }
 
 using Places = std::vector<std::array<std::int64_t, 3>>;
@@ -163,8 +163,8 @@ std::vector<Quadrant> smallest_tree(Tree& tree) {
       ++i;
       continue;
     }
-    leaves[i] = q.child(0);
-    for (int k = 1; k < 4; ++k) leaves.push_back(q.child(k));
+    leaves[i] = q.child(corners_along_curve[0]);
+    for (std::size_t k = 1; k < 4; ++k) leaves.push_back(q.child(corners_along_curve[k]));
     i = 0;
   }
   return leaves;
@@ -217,8 +217,7 @@ TEST(TreeRules, NoLeafLiesBetweenFinerOnes) {
   const Geometry geometry = circle_in_square(0.05, 0.06);
   const Tree tree(geometry, options_with(0.02, 0.5, 2.0));
   for (std::int32_t leaf = tree.graph.local_begin(); leaf < tree.graph.local_end(); ++leaf) {
-    const unsigned finer = tree.graph.around(leaf).finer;
-    EXPECT_EQ(finer & (finer >> 2), 0U);
+    EXPECT_FALSE(tree.graph.around(leaf).finer.has_opposites());
   }
 }
 
@@ -250,7 +249,9 @@ TEST(TreeRules, DemandsRefineBelowTheCasesSmallestLeaf) {
   const auto coarsest =
       std::min_element(before.leaves.begin(), before.leaves.end(),
                        [](const Quadrant& a, const Quadrant& b) { return a.level < b.level; });
-  const Quadrant deep = coarsest->child(3).child(0).child(3).child(3).child(0);
+  using enum Corner;
+  const Quadrant deep =
+      coarsest->child(north_east).child(south_west).child(north_east).child(north_east).child(south_west);
   const std::vector<SplitDemand> demands{{deep, 1U << deep.level}};
   const Tree after(geometry, options, test::world().is_root() ? demands : std::vector<SplitDemand>{});
   EXPECT_LT(after.lattice.edge(deep.level + 1), 0.05);
