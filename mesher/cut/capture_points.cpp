@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "mesher/geometry/nearest_on_segment.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -226,17 +228,6 @@ std::vector<Snap> settle_edges(std::vector<Snap> claims) {
 }
 
 }  // namespace
-
-Point nearest_on_segment(Point p, Point a, Point b) {
-  using Wide = long double;
-  if (length(p - b) < length(p - a)) std::swap(a, b);
-  const Wide dx = Wide(b.x) - a.x, dy = Wide(b.y) - a.y;
-  const Wide along = (Wide(p.x) - a.x) * dx + (Wide(p.y) - a.y) * dy, square = dx * dx + dy * dy;
-  if (along <= 0) return a;
-  if (along >= square) return b;
-  const Wide t = along / square;
-  return {static_cast<double>(a.x + t * dx), static_cast<double>(a.y + t * dy)};
-}
 
 double shortest_edge_at(const LeafGraph& graph, const Lattice& lattice, std::int64_t x, std::int64_t y) {
   int finest = 0;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "mesher/cut/capture_points.hpp"
+#include "mesher/geometry/nearest_on_segment.hpp"
 
 namespace quadloop {
 

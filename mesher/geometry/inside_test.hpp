@@ -1,7 +1,6 @@
 #pragma once
 
-#include <memory>
-
+#include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/shifted_outline.hpp"
 
 namespace quadloop {
@@ -11,17 +10,13 @@ namespace quadloop {
 /// the index is built at the first question.
 class InsideTest {
  public:
-  explicit InsideTest(const ShiftedOutline& outline);
-  ~InsideTest();
-  InsideTest(const InsideTest&) = delete;
-  InsideTest& operator=(const InsideTest&) = delete;
+  explicit InsideTest(const ShiftedOutline& outline) : outline_{&outline} {}
 
   bool contains(Point p) const;
 
  private:
-  struct Index;
   const ShiftedOutline* outline_;
-  mutable std::unique_ptr<Index> index_;
+  mutable BoxTree segments_;
 };
 
 }  // namespace quadloop
