@@ -56,7 +56,9 @@ double BoxTree::squared_distance_to(const Box& box, Point p) {
 
 std::int32_t BoxTree::nearest_box(Point p) const {
   Candidate best;
-  if (!empty()) search(0, p, [&](const Item& item) { return squared_distance_to(item.box, p); }, best);
+  if (!empty())
+    search(
+        0, p, [&](const Item& item) { return squared_distance_to(item.box, p); }, best);
   return best.number;
 }
 

@@ -126,7 +126,9 @@ void BoxTree::search(std::int32_t n, Point p, const DistanceOfItem& distance_of,
 template <class SquaredDistance>
 std::int32_t BoxTree::nearest(Point p, const SquaredDistance& squared_distance) const {
   Candidate best;
-  if (!empty()) search(0, p, [&](const Item& item) { return squared_distance(item.number); }, best);
+  if (!empty())
+    search(
+        0, p, [&](const Item& item) { return squared_distance(item.number); }, best);
   return best.number;
 }
 

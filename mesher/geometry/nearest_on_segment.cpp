@@ -1,15 +1,22 @@
 #include "mesher/geometry/nearest_on_segment.hpp"
 
+#include <utility>
+
 namespace quadloop {
 
 namespace {
 
 using Wide = long double;
 
+/// So that both directions of the segment round in the same way.
+void put_nearer_end_first(Point p, Point& a, Point& b) {
+  if (dot(p - b, p - b) < dot(p - a, p - a)) std::swap(a, b);
+}
+
 }  // namespace
 
 Point nearest_on_segment(Point p, Point a, Point b) {
-  if (length(p - b) < length(p - a)) std::swap(a, b);
+  put_nearer_end_first(p, a, b);
   const Wide dx = Wide(b.x) - a.x, dy = Wide(b.y) - a.y;
   const Wide along = (Wide(p.x) - a.x) * dx + (Wide(p.y) - a.y) * dy, square = dx * dx + dy * dy;
   if (along <= 0) return a;
@@ -19,6 +26,7 @@ Point nearest_on_segment(Point p, Point a, Point b) {
 }
 
 double distance_to_segment(Point p, Point a, Point b) {
+  put_nearer_end_first(p, a, b);
   const Wide abx = Wide(b.x) - a.x, aby = Wide(b.y) - a.y, apx = Wide(p.x) - a.x, apy = Wide(p.y) - a.y;
   const Wide square = abx * abx + aby * aby, along = apx * abx + apy * aby;
   if (square == 0 || along <= 0) return length(p - a);

@@ -67,7 +67,8 @@ class IntegerPoints {
  private:
   template <class Integer>
   Integer coordinate(std::size_t i) const {
-    return Integer(coordinates_[i].mantissa) * (Integer(1) << static_cast<unsigned>(coordinates_[i].exponent));
+    return Integer(coordinates_[i].mantissa) *
+           (Integer(1) << static_cast<unsigned>(coordinates_[i].exponent));
   }
   std::array<Binary, 8> coordinates_;
   int bits_ = 0;
@@ -96,7 +97,16 @@ int in_circle_in(const IntegerPoints& p) {
   return determinant.sign();
 }
 
+/// Leaves make many such circles, through corners of rectangles that are parallel to the axes.
+bool is_rectangle(Point a, Point b, Point c, Point d) {
+  const auto is = [d](Point above, Point beside, Point opposite) {
+    return above.x == d.x && beside.y == d.y && opposite.x == beside.x && opposite.y == above.y;
+  };
+  return is(a, b, c) || is(a, c, b) || is(b, a, c) || is(b, c, a) || is(c, a, b) || is(c, b, a);
+}
+
 int exact_in_circle(Point a, Point b, Point c, Point d) {
+  if (is_rectangle(a, b, c, d)) return 0;
   const IntegerPoints points({a, b, c, d});  // with n bits the determinant takes 4 (n + 1) + 4
   if (points.bits() <= 29) return in_circle_in<Fixed<127>>(points);
   if (points.bits() <= 126) return in_circle_in<Fixed<512>>(points);
@@ -116,8 +126,8 @@ int rounded_in_circle(Point a, Point b, Point c, Point d) {
   const Real determinant = lift_a * (bxcy - bycx) + lift_b * (cxay - cyax) + lift_c * (axby - aybx);
   const Real sum = lift_a * (std::abs(bxcy) + std::abs(bycx)) + lift_b * (std::abs(cxay) + std::abs(cyax)) +
                    lift_c * (std::abs(axby) + std::abs(aybx));
-  const bool sure = lift_a + lift_b + lift_c < no_overflow && sum > no_underflow &&
-                    std::abs(determinant) > bound * sum;
+  const bool sure =
+      lift_a + lift_b + lift_c < no_overflow && sum > no_underflow && std::abs(determinant) > bound * sum;
   return !sure ? 0 : determinant > 0 ? 1 : -1;
 }
 
