@@ -6,6 +6,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
 #include "mesher/cut/opposed_chords.hpp"
+#include "mesher/forest/size_cursor.hpp"
 
 namespace quadloop {
 
@@ -24,11 +25,12 @@ struct Veto {
   friend auto operator<=>(const Veto&, const Veto&) = default;
 };
 
-TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline) {
+TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const ShiftedOutline& outline) {
   TracedForest traced;
+  SizeCursor cursor(sizes);
   traced.trace_of.assign(static_cast<std::size_t>(graph.size()), -1);
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const auto segments = sizes.segments_in(graph.leaf(leaf));
+    const auto segments = cursor.segments_in(graph.leaf(leaf));
     if (!segments.empty())
       traced.trace_of[static_cast<std::size_t>(leaf)] =
           traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
@@ -39,7 +41,7 @@ TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const Shifted
 class ForestCutter {
  public:
   ForestCutter(const LeafGraph& graph, const Lattice& lattice, const ShiftedOutline& outline,
-               const InsideTest& inside, const TracedForest& traced)
+               const Interior& inside, const TracedForest& traced)
       : graph_{graph},
         lattice_{lattice},
         outline_{outline},
@@ -197,7 +199,7 @@ class ForestCutter {
   const LeafGraph& graph_;
   const Lattice& lattice_;
   const ShiftedOutline& outline_;
-  const InsideTest& inside_;
+  const Interior& inside_;
   const TracedForest& traced_;
   LeafCutter cutter_;
   LeafCellMaker maker_;
@@ -208,8 +210,8 @@ class ForestCutter {
 
 }  // namespace
 
-CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
-                     const ShiftedOutline& outline, const InsideTest& inside, double snap) {
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
+                     const ShiftedOutline& outline, const Interior& inside, double snap) {
   const TracedForest traced = trace_forest(graph, sizes, outline);
   std::vector<Snap> snaps = choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap);
   std::vector<LeafSnap> leaf_snaps = snaps_of_leaves(graph, snaps);

@@ -1,4 +1,4 @@
-#include "mesher/geometry/gap_test.hpp"
+#include "mesher/geometry/proximity.hpp"
 
 #include <algorithm>
 
@@ -31,7 +31,7 @@ std::pair<Point, Point> clip(Point a, Point b, const Box& box) {
 
 }  // namespace
 
-GapTest::GapTest(const Geometry& g) : geometry_{&g}, segments_{segment_tree(g)} {
+Proximity::Proximity(const Geometry& g) : geometry_{&g}, segments_{segment_tree(g)} {
   double arc = 0, turning = 0;
   std::int32_t kept = 0;
   for (std::int32_t v = 0; v < g.size(); ++v) {
@@ -45,7 +45,7 @@ GapTest::GapTest(const Geometry& g) : geometry_{&g}, segments_{segment_tree(g)} 
 }
 
 /// Walking from p on segment a onwards to q on segment b of the same loop.
-bool GapTest::is_one_bend_onwards(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const {
+bool Proximity::is_one_bend_onwards(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const {
   const Geometry& g = *geometry_;
   const auto at = [](const auto& sums, std::int32_t v) { return sums[static_cast<std::size_t>(v)]; };
   const std::int32_t loop = g.loop_of(a), first = g.loop_start(loop), last = g.loop_start(loop + 1) - 1;
@@ -60,12 +60,12 @@ bool GapTest::is_one_bend_onwards(std::int32_t a, Point p, std::int32_t b, Point
   return arc < bend_length * gap || (kept == 1 && turning < straight_sides_degrees);
 }
 
-bool GapTest::is_one_bend(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const {
+bool Proximity::is_one_bend(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const {
   if (geometry_->loop_of(a) != geometry_->loop_of(b)) return false;
   return is_one_bend_onwards(a, p, b, q, gap) || is_one_bend_onwards(b, q, a, p, gap);
 }
 
-bool GapTest::faces(std::int32_t a, Point a_from, Point a_to, std::int32_t b, double width) const {
+bool Proximity::faces(std::int32_t a, Point a_from, Point a_to, std::int32_t b, double width) const {
   const Geometry& g = *geometry_;
   const Point b_from = g.point(b), b_to = g.point(g.next(b));
   std::pair<Point, Point> across;
@@ -85,7 +85,7 @@ bool GapTest::faces(std::int32_t a, Point a_from, Point a_to, std::int32_t b, do
   return left_of_a && left_of_b && !is_one_bend(a, p, b, q, gap);
 }
 
-bool GapTest::narrower(std::span<const std::int32_t> segments, const Box& box, double width) const {
+bool Proximity::narrower(std::span<const std::int32_t> segments, const Box& box, double width) const {
   const Geometry& g = *geometry_;
   for (const std::int32_t a : segments) {
     const auto [from, to] = clip(g.point(a), g.point(g.next(a)), box);

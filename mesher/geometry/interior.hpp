@@ -8,9 +8,9 @@ namespace quadloop {
 /// Whether a point lies in the domain of a shifted outline, by an exact count of the crossings of a ray to
 /// its left; a point on the outline itself is outside. O(log n + k) for a ray that meets k boxes of segments;
 /// the index is built at the first question.
-class InsideTest {
+class Interior {
  public:
-  explicit InsideTest(const ShiftedOutline& outline) : outline_{&outline} {}
+  explicit Interior(const ShiftedOutline& outline) : outline_{&outline} {}
 
   bool contains(Point p) const;
 

@@ -1,8 +1,8 @@
-#include "mesher/geometry/inside_test.hpp"
+#include "mesher/geometry/interior.hpp"
 
 namespace quadloop {
 
-bool InsideTest::contains(Point p) const {
+bool Interior::contains(Point p) const {
   const Geometry& g = outline_->geometry();
   if (segments_.empty()) segments_ = segment_tree(g);
   int winding = 0;

@@ -10,9 +10,9 @@ namespace quadloop {
 
 /// Finds where two pieces of the outline face each other across a narrow part of the domain. O(log n + k) a
 /// segment, k the segments near it.
-class GapTest {
+class Proximity {
  public:
-  explicit GapTest(const Geometry& geometry);
+  explicit Proximity(const Geometry& geometry);
 
   /// Whether the domain between a piece of these segments inside the box and another piece of the outline is
   /// narrower than `width`. The gap is measured through the domain, between pieces that face each other
