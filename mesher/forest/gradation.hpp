@@ -9,8 +9,8 @@ namespace quadloop {
 
 /// Which quadrants must be split: those of the wanted tree, and those that are too large beside one of its
 /// leaves. A leaf of size h at Chebyshev gap d from a leaf of the wanted tree of size h' has
-/// h <= h' + (g-1)/2 d. The result is the smallest such tree. It follows that two leaves of the final tree which
-/// touch differ by at most one level.
+/// h <= h' + (g-1)/2 d. The result is the smallest such tree. It follows that two leaves of the final tree
+/// which touch differ by at most one level.
 class Gradation {
  public:
   /// `tree` must outlive it.

@@ -13,7 +13,7 @@ constexpr double turning_unit = 0x1p-20;  // degrees; integers, so that a sum do
 }  // namespace
 
 SizeRules::SizeRules(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
-                   Unresolved unresolved, const DemandedSplits& demanded)
+                     Unresolved unresolved, const DemandedSplits& demanded)
     : outline_{&outline},
       lattice_{&lattice},
       options_{options},
@@ -132,8 +132,7 @@ bool SizeRules::turns_too_far(std::span<const std::int32_t> segments, const Box&
     }
   }
   const auto allowed = std::llround(*options_.curvature / turning_unit);
-  return std::any_of(turned.begin(), turned.end(),
-                     [&](const auto& entry) { return entry.second > allowed; });
+  return std::any_of(turned.begin(), turned.end(), [&](const auto& entry) { return entry.second > allowed; });
 }
 
 }  // namespace quadloop

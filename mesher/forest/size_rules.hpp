@@ -25,8 +25,8 @@ struct SizedQuadrant {
   bool made_by_demand = false;             ///< its parent was
 };
 
-/// What the case and the geometry in a quadrant ask of the leaves there, one quadrant alone. The answers depend
-/// on geometry and options alone, so that every rank can give them for every quadrant.
+/// What the case and the geometry in a quadrant ask of the leaves there, one quadrant alone. The answers
+/// depend on geometry and options alone, so that every rank can give them for every quadrant.
 class SizeRules {
  public:
   /// Tells whether a leaf of this place, holding these segments, cannot be cut as it is.
@@ -59,8 +59,8 @@ class SizeRules {
 
   /// The coarsest level that a source of this spacing is content with.
   int level_for(double spacing) const;
-  /// The level that these segments ask for in a quadrant: by their spacing, and by curvature as if the outline
-  /// turned evenly along it.
+  /// The level that these segments ask for in a quadrant: by their spacing, and by curvature as if the
+  /// outline turned evenly along it.
   int level_of_outline(const Quadrant& q, std::span<const std::int32_t> segments) const;
 
   /// Whether any of the domain can lie in the quadrant. Where none does, leaves may be larger than `max`: a
