@@ -2,6 +2,7 @@
 
 #include "mesher/base/progress.hpp"
 #include "mesher/build/number_nodes.hpp"
+#include "mesher/forest/size_cursor.hpp"
 
 namespace quadloop {
 
@@ -73,7 +74,7 @@ LeafRecord record_of(const Quadrant& q, int wanted) {
 
 }  // namespace
 
-void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree& sizes,
+void assemble_mesh(const Communicator& comm, const Geometry& geometry, const SizeTree& sizes,
                    const LeafGraph& graph, const CutForest& cut, MeshResult& result) {
   NodeNumbering numbers(comm, sizes.lattice(), graph, cut);
   Mesh& mesh = result.mesh;
@@ -81,6 +82,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree&
   mesh.triangles.reserve(cut.states.size() / 2 + cut.triangles.size());
   Assembler assembler(geometry, graph, cut, numbers, mesh);
   DemandPath demands(sizes.demanded());
+  SizeCursor cursor(sizes);
   auto& leaves = result.tree.leaves;
   leaves.reserve(cut.states.size());
   progress::Stage stage("cells", graph.local_end() - graph.local_begin(), "leaves");
@@ -88,7 +90,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree&
     stage.advance(leaf - graph.local_begin());
     const auto triangles = mesh.triangles.size(), quads = mesh.quads.size();
     assembler.add(leaf);
-    LeafRecord record = record_of(graph.leaf(leaf), sizes.wanted_level(graph.leaf(leaf)));
+    LeafRecord record = record_of(graph.leaf(leaf), cursor.wanted_level(graph.leaf(leaf)));
     record.triangles = static_cast<std::int32_t>(mesh.triangles.size() - triangles);
     record.quads = static_cast<std::int32_t>(mesh.quads.size() - quads);
     record.adapted = demands.levels_above(graph.leaf(leaf));

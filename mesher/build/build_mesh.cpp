@@ -77,7 +77,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
                     fmt::format("is smaller than spacing.min = {}", options.size.min));
   }
   SizedDomain domain(geometry, options.size, demanded);
-  SizeTree& sizes = domain.sizes;
+  const SizeTree& sizes = domain.sizes;
   result.report.finest_allowed = sizes.finest_level();
 
   times.begin("estimate");

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "mesher/cut/leaf_edge.hpp"
+#include "mesher/geometry/nearest_on_segment.hpp"
 
 namespace quadloop {
 
@@ -193,17 +194,6 @@ std::vector<Snap> settle_edges(std::vector<Snap> claims) {
 }
 
 }  // namespace
-
-Point nearest_on_segment(Point p, Point a, Point b) {
-  using Wide = long double;
-  if (length(p - b) < length(p - a)) std::swap(a, b);
-  const Wide dx = Wide(b.x) - a.x, dy = Wide(b.y) - a.y;
-  const Wide along = (Wide(p.x) - a.x) * dx + (Wide(p.y) - a.y) * dy, square = dx * dx + dy * dy;
-  if (along <= 0) return a;
-  if (along >= square) return b;
-  const Wide t = along / square;
-  return {static_cast<double>(a.x + t * dx), static_cast<double>(a.y + t * dy)};
-}
 
 Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
                         const TracedForest& traced, double snap) {

@@ -34,7 +34,5 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
 std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
                                 const TracedForest& traced, double share);
 
-/// The nearest point to p on the segment a-b, the same for the segment b-a; rounded once.
-Point nearest_on_segment(Point p, Point a, Point b);
 
 }  // namespace quadloop

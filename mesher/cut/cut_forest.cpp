@@ -7,6 +7,7 @@
 #include "mesher/base/progress.hpp"
 #include "mesher/cut/opposed_chords.hpp"
 #include "mesher/cut/snap_corners.hpp"
+#include "mesher/forest/size_cursor.hpp"
 
 namespace quadloop {
 
@@ -19,11 +20,12 @@ Point centre_of(const Lattice& lattice, const Quadrant& q) {
 /// Cells with a smaller angle are shaped by rounding: another way to cut the leaf is looked for first.
 constexpr double thinnest_sine = 1e-11;
 
-TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline) {
+TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const ShiftedOutline& outline) {
   TracedForest traced;
+  SizeCursor cursor(sizes);
   traced.trace_of.assign(static_cast<std::size_t>(graph.size()), -1);
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const auto segments = sizes.segments_in(graph.leaf(leaf));
+    const auto segments = cursor.segments_in(graph.leaf(leaf));
     if (!segments.empty())
       traced.trace_of[static_cast<std::size_t>(leaf)] =
           traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
@@ -34,7 +36,7 @@ TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const Shifted
 class ForestCutter {
  public:
   ForestCutter(const LeafGraph& graph, const Lattice& lattice, const ShiftedOutline& outline,
-               const InsideTest& inside, const TracedForest& traced)
+               const Interior& inside, const TracedForest& traced)
       : graph_{graph},
         lattice_{lattice},
         outline_{outline},
@@ -192,7 +194,7 @@ class ForestCutter {
   const LeafGraph& graph_;
   const Lattice& lattice_;
   const ShiftedOutline& outline_;
-  const InsideTest& inside_;
+  const Interior& inside_;
   const TracedForest& traced_;
   LeafCutter cutter_;
   LeafCellMaker maker_;
@@ -203,8 +205,8 @@ class ForestCutter {
 
 }  // namespace
 
-CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
-                     const ShiftedOutline& outline, const InsideTest& inside, double snap) {
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
+                     const ShiftedOutline& outline, const Interior& inside, double snap) {
   const TracedForest traced = trace_forest(graph, sizes, outline);
   std::vector<Snap> snaps = choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap);
   std::vector<LeafSnap> leaf_snaps = snaps_of_leaves(graph, snaps);

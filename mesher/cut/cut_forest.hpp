@@ -46,14 +46,14 @@ struct CutForest {
 /// taken back. *Collective.* Throws InputError on all ranks where boundaries come nearer to each other than
 /// double precision can resolve. `snap`: how near a crossing takes a lattice corner along, as a share of the
 /// local edge.
-CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
-                     const ShiftedOutline& outline, const InsideTest& inside, double snap);
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
+                     const ShiftedOutline& outline, const Interior& inside, double snap);
 
 /// Whether a leaf of this place needs to be refined to be cut: a whole loop inside it, chords that would
 /// cross, or that would stray too far from the outline.
 class ResolutionTest {
  public:
-  ResolutionTest(const Lattice& lattice, const ShiftedOutline& outline, const InsideTest& inside)
+  ResolutionTest(const Lattice& lattice, const ShiftedOutline& outline, const Interior& inside)
       : lattice_{&lattice}, outline_{&outline}, cutter_{outline, inside} {}
   bool unresolved(const Quadrant& q, std::span<const std::int32_t> segments);
 

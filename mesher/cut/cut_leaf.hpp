@@ -8,7 +8,7 @@
 
 #include "mesher/cut/leaf_trace.hpp"
 #include "mesher/cut/snap.hpp"
-#include "mesher/geometry/inside_test.hpp"
+#include "mesher/geometry/interior.hpp"
 
 namespace quadloop {
 
@@ -62,8 +62,7 @@ enum class Detail {
 /// Cuts leaves; keeps its working memory from one to the next.
 class LeafCutter {
  public:
-  LeafCutter(const ShiftedOutline& outline, const InsideTest& inside)
-      : outline_{&outline}, inside_{&inside} {}
+  LeafCutter(const ShiftedOutline& outline, const Interior& inside) : outline_{&outline}, inside_{&inside} {}
 
   /// One leaf as the cutter needs it.
   struct Input {
@@ -110,7 +109,7 @@ class LeafCutter {
   bool cancel_opposites();
 
   const ShiftedOutline* outline_;
-  const InsideTest* inside_;
+  const Interior* inside_;
   Input input_;
   CutLeaf leaf_;
   std::vector<Stop> stops_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "mesher/cut/cut_leaf.hpp"
+#include "mesher/geometry/nearest_on_segment.hpp"
 
 namespace quadloop {
 
@@ -19,18 +20,6 @@ double along(Side side, Point p) {
 /// By Corner.
 std::array<Point, 4> corners_of(const Box& box) {
   return {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
-}
-
-/// The same for the segment b-a and for mirror images, so that mirrored outlines keep mirrored points:
-/// rounded only at the end.
-double distance_to_segment(Point p, Point a, Point b) {
-  using Wide = long double;
-  const Wide abx = Wide(b.x) - a.x, aby = Wide(b.y) - a.y, apx = Wide(p.x) - a.x, apy = Wide(p.y) - a.y;
-  const Wide square = abx * abx + aby * aby, along = apx * abx + apy * aby;
-  if (square == 0 || along <= 0) return length(p - a);
-  if (along >= square) return length(p - b);
-  const Wide twice_area = abx * apy - aby * apx;
-  return std::sqrt(static_cast<double>(twice_area * twice_area / square));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mesher/geometry/nearest_on_segment.hpp"
+
 namespace quadloop {
 
 namespace {

@@ -1,18 +1,14 @@
-// The part of SizeTree that keeps the gradation: which quadrants are too large for a leaf of the wanted tree
-// near them.
-#include <algorithm>
+#include "mesher/forest/gradation.hpp"
 
-#include "mesher/forest/size_tree.hpp"
+#include <algorithm>
 
 namespace quadloop {
 
 namespace {
 
-constexpr int slope_bits = 20;
-
 /// Whether a leaf of size `small` at this gap forbids a leaf of size `large`.
 bool forbids(std::int64_t small, std::int64_t gap, std::int64_t large, std::int64_t slope) {
-  return ((large - small) << slope_bits) > gap * slope;
+  return ((large - small) << SizeRules::slope_bits) > gap * slope;
 }
 
 /// The edge of the leaves of a level.
@@ -20,19 +16,22 @@ std::int64_t leaf_size(int level) { return std::int64_t{1} << (Quadrant::unit_le
 
 }  // namespace
 
-bool SizeTree::must_split(const Quadrant& q) {
-  if (q.level >= finest_) return false;
-  if (q.level < coarsest_) {
-    const bool near_domain = forbids(leaf_size(coarsest_), gap_to_domain(q), q.size(),
-                                     slope_);  // whose leaves are as small as that at least
-    if (near_domain || in_domains_box(q)) return true;
+bool Gradation::must_split(const Quadrant& q) {
+  const SizeRules& rules = tree_.rules();
+  if (q.level >= rules.finest_level()) return false;
+  if (q.level < rules.coarsest_level()) {  // the domain's leaves are as small as that at least
+    const bool near_domain =
+        forbids(leaf_size(rules.coarsest_level()), rules.gap_to_domain(q), q.size(), rules.slope());
+    if (near_domain || rules.in_domains_box(q)) return true;
   }
-  return forced(q, step_above(q).near);
+  return forced(q, split_near(q));
 }
+
+const std::vector<std::int32_t>& Gradation::split_near(const Quadrant& q) { return step_above(q).near; }
 
 /// The path's last step becomes the parent of q, with its list of near nodes. A step depends on its place
 /// alone, so those that still hold q stay.
-SizeTree::Step& SizeTree::step_above(const Quadrant& q) {
+Gradation::Step& Gradation::step_above(const Quadrant& q) {
   const auto depth = static_cast<std::size_t>(q.level);  // steps at levels 0 .. depth-1
   if (path_.size() < depth) path_.resize(depth);
   std::size_t kept = depth;
@@ -41,53 +40,55 @@ SizeTree::Step& SizeTree::step_above(const Quadrant& q) {
     Step& step = path_[level];
     const std::int64_t mask = ~((std::int64_t{1} << (Quadrant::unit_level - static_cast<int>(level))) - 1);
     step.place = {q.x & mask, q.y & mask, static_cast<int>(level)};
-    fill_near(step, level == 0 ? roots_ : path_[level - 1].near);
+    fill_near(step, level == 0 ? tree_.roots() : path_[level - 1].near);
   }
   return path_[depth - 1];
 }
 
 /// `parents` are the nodes of this step's size whose children may matter to it.
-void SizeTree::fill_near(Step& step, const std::vector<std::int32_t>& parents) {
+void Gradation::fill_near(Step& step, const std::vector<std::int32_t>& parents) const {
   step.near.clear();
   step.has_near = true;
   const std::int64_t half = step.place.size() / 2;
   for (const std::int32_t parent : parents) {
-    const Node& whole = nodes_[static_cast<std::size_t>(parent)];
-    if (!forbids(leaf_size(whole.finest), chebyshev_gap(step.place, whole.place), half, slope_) ||
-        !is_split(parent))
+    const SizeTree::Node& whole = tree_.node(parent);
+    if (!forbids(leaf_size(whole.finest), chebyshev_gap(step.place, whole.place), half,
+                 tree_.rules().slope()) ||
+        !tree_.is_split(parent))
       continue;
-    const std::int32_t first = nodes_[static_cast<std::size_t>(parent)].children;
+    const std::int32_t first = tree_.node(parent).children;
     for (std::int32_t child = first; child < first + 4; ++child) {
-      const Node& node = nodes_[static_cast<std::size_t>(child)];
+      const SizeTree::Node& node = tree_.node(child);
       if (node.plain) continue;  // its leaves are as large as any in the domain may be
-      if (forbids(leaf_size(node.finest), chebyshev_gap(step.place, node.place), half, slope_) &&
-          is_split(child))
+      if (forbids(leaf_size(node.finest), chebyshev_gap(step.place, node.place), half,
+                  tree_.rules().slope()) &&
+          tree_.is_split(child))
         step.near.push_back(child);
     }
   }
 }
 
-bool SizeTree::forced(const Quadrant& q, const std::vector<std::int32_t>& near) {
+bool Gradation::forced(const Quadrant& q, const std::vector<std::int32_t>& near) const {
   // First what needs no search: a node split at level l holds a leaf of size size(l)/2 or smaller somewhere
   // within it.
   for (const std::int32_t n : near) {
-    const Node& node = nodes_[static_cast<std::size_t>(n)];
+    const SizeTree::Node& node = tree_.node(n);
     const std::int64_t small = std::int64_t{1} << (Quadrant::unit_level - node.deepest_split - 1);
     const std::int64_t farthest = chebyshev_gap(q, node.place) + node.place.size() - small;
-    if (node.place == q || forbids(small, farthest, q.size(), slope_)) return true;
+    if (node.place == q || forbids(small, farthest, q.size(), tree_.rules().slope())) return true;
   }
   return std::any_of(near.begin(), near.end(), [&](std::int32_t n) { return forced_by(q, n); });
 }
 
 /// Whether some leaf of the wanted tree in this node forbids a leaf q.
-bool SizeTree::forced_by(const Quadrant& q, std::int32_t node) {
-  const Node& within = nodes_[static_cast<std::size_t>(node)];
+bool Gradation::forced_by(const Quadrant& q, std::int32_t node) const {
+  const SizeTree::Node& within = tree_.node(node);
   if (within.plain) return false;
   const Quadrant place = within.place;
   const std::int64_t gap = chebyshev_gap(q, place);
-  if (!forbids(leaf_size(within.finest), gap, q.size(), slope_)) return false;
-  if (!is_split(node)) return forbids(place.size(), gap, q.size(), slope_);
-  const std::int32_t first = nodes_[static_cast<std::size_t>(node)].children;
+  if (!forbids(leaf_size(within.finest), gap, q.size(), tree_.rules().slope())) return false;
+  if (!tree_.is_split(node)) return forbids(place.size(), gap, q.size(), tree_.rules().slope());
+  const std::int32_t first = tree_.node(node).children;
   for (std::int32_t child = first; child < first + 4; ++child) {
     if (forced_by(q, child)) return true;
   }

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "mesher/forest/leaves_ahead.hpp"
+#include "mesher/forest/size_cursor.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -23,12 +26,12 @@ struct Sampled {
 
 /// The chances of being followed: half by the leaves expected, a quarter by the outline inside, a quarter for
 /// each alike, so that a wrong guess of any one kind cannot hide much.
-std::vector<double> chances_of(const std::vector<Sampled>& splits, SizeTree& sizes) {
+std::vector<double> chances_of(const std::vector<Sampled>& splits, LeavesAhead& leaves, SizeCursor& cursor) {
   std::vector<double> ahead, outline;
   double all_ahead = 0, all_outline = 0, all = 0;
   for (const Sampled& s : splits) {
-    ahead.push_back(s.weight * sizes.leaves_ahead(s.place));
-    outline.push_back(s.weight * static_cast<double>(sizes.segments_in(s.place).size()));
+    ahead.push_back(s.weight * leaves.below(s.place));
+    outline.push_back(s.weight * static_cast<double>(cursor.segments_in(s.place).size()));
     all_ahead += ahead.back();
     all_outline += outline.back();
     all += s.weight;
@@ -43,9 +46,9 @@ std::vector<double> chances_of(const std::vector<Sampled>& splits, SizeTree& siz
 }
 
 /// Evenly along the curve. All where there are few.
-std::vector<Sampled> chosen(std::vector<Sampled> splits, SizeTree& sizes) {
+std::vector<Sampled> chosen(std::vector<Sampled> splits, LeavesAhead& leaves, SizeCursor& cursor) {
   if (static_cast<double>(splits.size()) <= followed) return splits;
-  const std::vector<double> chances = chances_of(splits, sizes);
+  const std::vector<double> chances = chances_of(splits, leaves, cursor);
   std::vector<Sampled> kept;
   double sum = 0.5;
   for (std::size_t i = 0; i < splits.size(); ++i) {
@@ -60,7 +63,8 @@ std::vector<Sampled> chosen(std::vector<Sampled> splits, SizeTree& sizes) {
 
 class LeafCount {
  public:
-  LeafCount(SizeTree& sizes, const InsideTest& inside) : sizes_{sizes}, inside_{inside} {}
+  LeafCount(const SizeTree& sizes, const Interior& inside)
+      : sizes_{sizes}, inside_{inside}, cursor_{sizes}, gradation_{sizes}, ahead_{sizes, gradation_} {}
 
   LeafEstimate count() {
     std::vector<Sampled> level;
@@ -69,7 +73,7 @@ class LeafCount {
         level.push_back({{tx << Quadrant::unit_level, ty << Quadrant::unit_level, 0}});
       }
     }
-    while (!level.empty()) level = chosen(splits_among(children_of(level)), sizes_);
+    while (!level.empty()) level = chosen(splits_among(children_of(level)), ahead_, cursor_);
     return counted_;
   }
 
@@ -86,9 +90,9 @@ class LeafCount {
   std::vector<Sampled> splits_among(const std::vector<Sampled>& quadrants) {
     std::vector<Sampled> splits;
     for (Sampled q : quadrants) {
-      const bool cut = q.side == Sampled::Side::unknown && !sizes_.segments_in(q.place).empty();
+      const bool cut = q.side == Sampled::Side::unknown && !cursor_.segments_in(q.place).empty();
       if (!cut && q.side == Sampled::Side::unknown) q.side = side_of(q.place);
-      if (sizes_.must_split(q.place)) {
+      if (gradation_.must_split(q.place)) {
         splits.push_back(q);
       } else {
         (cut                               ? counted_.cut
@@ -105,14 +109,17 @@ class LeafCount {
     return inside_.contains(centre) ? Sampled::Side::inside : Sampled::Side::outside;
   }
 
-  SizeTree& sizes_;
-  const InsideTest& inside_;
+  const SizeTree& sizes_;
+  const Interior& inside_;
+  SizeCursor cursor_;
+  Gradation gradation_;
+  LeavesAhead ahead_;
   LeafEstimate counted_;
 };
 
 }  // namespace
 
-LeafEstimate estimate_leaves(SizeTree& sizes, const InsideTest& inside) {
+LeafEstimate estimate_leaves(const SizeTree& sizes, const Interior& inside) {
   return LeafCount(sizes, inside).count();
 }
 

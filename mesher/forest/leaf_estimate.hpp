@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mesher/forest/size_tree.hpp"
-#include "mesher/geometry/inside_test.hpp"
+#include "mesher/geometry/interior.hpp"
 
 namespace quadloop {
 
@@ -17,6 +17,6 @@ struct LeafEstimate {
 /// are to be split on each level only some hundreds are followed, more of them where more leaves are to be
 /// expected, each for as many others as its chance says. A forest with fewer is counted. Time grows with the
 /// levels, not with the leaves. The same on any number of ranks; not collective.
-LeafEstimate estimate_leaves(SizeTree& sizes, const InsideTest& inside);
+LeafEstimate estimate_leaves(const SizeTree& sizes, const Interior& inside);
 
 }  // namespace quadloop

@@ -1,14 +1,12 @@
-// The part of SizeTree that guesses what splitting a quadrant leads to, from what the nodes near it ask for.
+#include "mesher/forest/leaves_ahead.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "mesher/forest/size_tree.hpp"
+#include <variant>
 
 namespace quadloop {
 
 namespace {
-
-constexpr double slope_unit = 0x1p-20, turning_unit = 0x1p-20;
 
 /// Leaves in a square of this size at a gap from leaves of size h, where sizes grow with the slope away from
 /// them.
@@ -35,59 +33,49 @@ double covered_share(const Source& source, const Box& square) {
 
 }  // namespace
 
-double SizeTree::leaves_ahead(const Quadrant& q) {
-  const double slope = static_cast<double>(slope_) * slope_unit, size = static_cast<double>(q.size());
+double LeavesAhead::below(const Quadrant& q) {
+  const SizeRules& rules = tree_.rules();
+  const double slope = std::ldexp(static_cast<double>(rules.slope()), -SizeRules::slope_bits),
+               size = static_cast<double>(q.size());
   double lines = 0;
-  for (const std::int32_t n : step_above(q).near) {
+  for (const std::int32_t n : gradation_.split_near(q)) {
     const double h = std::ldexp(1.0, Quadrant::unit_level - level_ahead(n));
-    const auto gap = static_cast<double>(chebyshev_gap(q, nodes_[static_cast<std::size_t>(n)].place));
+    const auto gap = static_cast<double>(chebyshev_gap(q, tree_.node(n).place));
     lines = std::max(lines, graded_leaves(size, gap, h, slope));
   }
+  const int coarsest = rules.coarsest_level();
   const double whole =
-      q.level < coarsest_ && in_domains_box(q) ? std::ldexp(1.0, 2 * (coarsest_ - q.level)) : 0;
+      q.level < coarsest && rules.in_domains_box(q) ? std::ldexp(1.0, 2 * (coarsest - q.level)) : 0;
   return 1 + lines + whole + source_leaves(q);
 }
 
-double SizeTree::source_leaves(const Quadrant& q) const {
-  const Box box = lattice_->box_of(q);
+double LeavesAhead::source_leaves(const Quadrant& q) const {
+  const SizeRules& rules = tree_.rules();
+  const Box box = rules.lattice().box_of(q);
   double leaves = 0;
-  for (const Source& source : options_.sources) {
-    const int deeper = level_for(source.spacing) - q.level;
+  for (const Source& source : rules.sources()) {
+    const int deeper = rules.level_for(source.spacing) - q.level;
     if (deeper > 0 && meets(source, box)) leaves += covered_share(source, box) * std::ldexp(1.0, 2 * deeper);
   }
   return leaves;
 }
 
 /// The level that the finest leaves in a split node may be expected to have.
-int SizeTree::level_ahead(std::int32_t node) {
+int LeavesAhead::level_ahead(std::int32_t node) {
   const auto index = static_cast<std::size_t>(node);
-  if (levels_ahead_.size() <= index) levels_ahead_.resize(nodes_.size(), 0);
-  if (levels_ahead_[index] != 0) return levels_ahead_[index];
-  const Node& n = nodes_[index];
-  int level = std::max(n.place.level + 1, level_of_outline(n));
-  if (n.demanded != DemandedSplits::none) level = std::max(level, demanded_->finest_level());
-  const Box box = lattice_->box_of(n.place);
-  for (const Source& source : options_.sources) {
-    if (level < level_for(source.spacing) && meets(source, box)) level = level_for(source.spacing);
+  if (levels_.size() <= index) levels_.resize(static_cast<std::size_t>(tree_.size()), 0);
+  if (levels_[index] != 0) return levels_[index];
+  const SizeRules& rules = tree_.rules();
+  const SizeTree::Node& n = tree_.node(node);
+  int level = std::max(n.place.level + 1, rules.level_of_outline(n.place, tree_.segments_of(n)));
+  if (n.demanded != DemandedSplits::none) level = std::max(level, rules.demanded().finest_level());
+  const Box box = rules.lattice().box_of(n.place);
+  for (const Source& source : rules.sources()) {
+    if (level < rules.level_for(source.spacing) && meets(source, box))
+      level = rules.level_for(source.spacing);
   }
-  levels_ahead_[index] = static_cast<std::int8_t>(level);
+  levels_[index] = static_cast<std::int8_t>(level);
   return level;
-}
-
-/// By the segments' spacing, and by curvature as if the outline turned evenly along the node.
-int SizeTree::level_of_outline(const Node& node) const {
-  double spacing = lattice_->tree_edge();
-  std::int64_t turning = 0;
-  for (std::int32_t i = node.segments_begin; i < node.segments_end; ++i) {
-    const auto s = static_cast<std::size_t>(segments_[static_cast<std::size_t>(i)]);
-    spacing = std::min(spacing, spacing_[s]);
-    turning += turning_[s];
-  }
-  if (options_.curvature && turning > 0) {
-    const double turns = static_cast<double>(turning) * turning_unit / *options_.curvature;
-    spacing = std::min(spacing, lattice_->edge(node.place.level) / turns);
-  }
-  return level_for(spacing);
 }
 
 }  // namespace quadloop

@@ -4,6 +4,8 @@
 #include <array>
 
 #include "mesher/base/progress.hpp"
+#include "mesher/forest/gradation.hpp"
+#include "mesher/forest/size_cursor.hpp"
 
 namespace quadloop {
 
@@ -91,24 +93,26 @@ std::vector<int> stops_of(const Communicator& comm, const SizeTree& sizes) {
 
 /// An estimate of the leaves that a quadrant will hold, in the end, for each that it holds where there is no
 /// outline: those as large as any may be, and about `leaves_across` of each finer size beside the outline.
-int leaves_to_come(const Quadrant& q, SizeTree& sizes) {
+int leaves_to_come(const Quadrant& q, const SizeTree& sizes, SizeCursor& cursor) {
   constexpr int leaves_across = 4, deepest = 12;
-  if (sizes.segments_in(q).empty()) return 1;
+  if (cursor.segments_in(q).empty()) return 1;
   return 1 + (leaves_across << std::min(sizes.finest_level() - q.level, deepest)) /
                  (1 << 2 * std::clamp(sizes.coarsest_level() - q.level, 0, deepest));
 }
 
 /// The weight of a leaf when the leaves are shared out at a stop: at the last one by the work of cutting,
 /// before by the leaves still to come.
-int weight_at(const Quadrant& q, SizeTree& sizes, int stop) {
-  if (stop == sizes.finest_level()) return sizes.segments_in(q).empty() ? weight_uncut : weight_cut;
-  if (stop < sizes.coarsest_level()) return leaves_to_come(q, sizes);
-  return q.level == stop && sizes.must_split(q) ? weight_unfinished : 1;
+int weight_at(const Quadrant& q, const SizeTree& sizes, SizeCursor& cursor, Gradation& gradation, int stop) {
+  if (stop == sizes.finest_level()) return cursor.segments_in(q).empty() ? weight_uncut : weight_cut;
+  if (stop < sizes.coarsest_level()) return leaves_to_come(q, sizes, cursor);
+  return q.level == stop && gradation.must_split(q) ? weight_unfinished : 1;
 }
 
 }  // namespace
 
-LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes, double expected_leaves) {
+LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, double expected_leaves) {
+  SizeCursor cursor(sizes);
+  Gradation gradation(sizes);
   Forest forest(comm, sizes.lattice());
   progress::Stage stage("refinement", expected_leaves * quadrants_of_leaf / comm.size(), "quadrants");
   double looked_at = 0;
@@ -117,10 +121,11 @@ LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes, double expect
     const auto must_split = [&](const Quadrant& q) {
       if (q.level < refined) return false;
       stage.advance(++looked_at);
-      return sizes.must_split(q);
+      return gradation.must_split(q);
     };
     forest.refine(must_split, stop);
-    if (comm.size() > 1) forest.partition([&](const Quadrant& q) { return weight_at(q, sizes, stop); });
+    const auto weight = [&](const Quadrant& q) { return weight_at(q, sizes, cursor, gradation, stop); };
+    if (comm.size() > 1) forest.partition(weight);
     refined = stop;
   }
   while (true) {

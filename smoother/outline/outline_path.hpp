@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/geometry.hpp"
 
 namespace quadloop {
@@ -22,9 +22,6 @@ class OutlinePath {
  public:
   /// `geometry` must outlive it.
   explicit OutlinePath(const Geometry& geometry);
-  ~OutlinePath();
-  OutlinePath(const OutlinePath&) = delete;
-  OutlinePath& operator=(const OutlinePath&) = delete;
 
   /// The place of a point that lies on the boundary of this name, to `on_outline` of the outline's extent; an
   /// invalid one where it does not, or, unless `also_kept`, where it is a vertex that a mesh must keep.
@@ -63,7 +60,6 @@ class OutlinePath {
   std::vector<std::int32_t> segments_between(OutlinePlace from, OutlinePlace to) const;
 
  private:
-  struct Index;
   struct Nearest {
     std::int32_t segment = -1;
     double distance = 0;
@@ -78,7 +74,7 @@ class OutlinePath {
   std::vector<double> arc_;     ///< of each vertex, from its loop's first
   std::vector<double> length_;  ///< of each loop
   double tolerance_ = 0;
-  std::unique_ptr<Index> index_;
+  BoxTree segments_;
 };
 
 }  // namespace quadloop

@@ -31,7 +31,7 @@ struct Cut {
 
 Cut cut_box(const Geometry& geometry, const Box& box, SideSet hanging = {}) {
   const ShiftedOutline outline(geometry);
-  const InsideTest inside(outline);
+  const Interior inside(outline);
   std::vector<std::int32_t> segments;
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
     if (outline.meets(s, box)) segments.push_back(s);

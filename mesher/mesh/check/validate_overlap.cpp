@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 
+#include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate_rules.hpp"
@@ -14,11 +12,6 @@ namespace quadloop {
 
 namespace {
 
-namespace bg = boost::geometry;
-using IndexPoint = bg::model::point<double, 2, bg::cs::cartesian>;
-using IndexBox = bg::model::box<IndexPoint>;
-using Index = bg::index::rtree<std::pair<IndexBox, std::uint32_t>, bg::index::quadratic<16>>;
-
 constexpr double area_tolerance = 1e-10;  // relative: rounding of a sum over many cells
 constexpr double turn_tolerance = 1e-4;   // degrees
 constexpr double full_turn = 360;
@@ -26,10 +19,6 @@ constexpr std::size_t most_components = 2000;  // whose winding is counted; beyo
 
 struct Segment {
   Point from, to;
-  IndexBox box() const {
-    return {{std::min(from.x, to.x), std::min(from.y, to.y)},
-            {std::max(from.x, to.x), std::max(from.y, to.y)}};
-  }
 };
 
 /// Whether two boundary edges meet but at a common end.
@@ -43,14 +32,15 @@ bool meet_wrongly(const Segment& s, const Segment& t) {
 }
 
 void check_boundary_crossings(const std::vector<Segment>& segments, Faults& faults) {
-  std::vector<std::pair<IndexBox, std::uint32_t>> entries;
-  for (std::uint32_t i = 0; i < segments.size(); ++i) entries.emplace_back(segments[i].box(), i);
-  const Index index(entries);
-  for (std::uint32_t i = 0; i < segments.size(); ++i) {
-    for (auto found = index.qbegin(bg::index::intersects(entries[i].first)); found != index.qend(); ++found) {
-      if (found->second <= i || !meet_wrongly(segments[i], segments[found->second])) continue;
+  std::vector<Box> boxes;
+  for (const Segment& s : segments) boxes.push_back(box_of(s.from, s.to));
+  const BoxTree tree(boxes);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    tree.for_each_meeting(boxes[i], [&](std::int32_t number) {
+      const auto j = static_cast<std::size_t>(number);
+      if (j <= i || !meet_wrongly(segments[i], segments[j])) return;
       faults.push_back({MeshRule::overlap, "two boundary edges meet", segments[i].from});
-    }
+    });
   }
 }
 

@@ -253,15 +253,5 @@ TEST(LinearValues, AFlatTriangleIsItsSides) {
   EXPECT_EQ(value[0], 3.5);
 }
 
-TEST(NearestOnSegment, EndsAndMiddle) {
-  const Point a{0, 0}, b{2, 0};
-  EXPECT_EQ(nearest_along_segment(a, b, {-3, 4}).squared_distance, 25);
-  EXPECT_EQ(nearest_along_segment(a, b, {-3, 4}).parameter, 0);
-  EXPECT_EQ(nearest_along_segment(a, b, {5, 4}).parameter, 1);
-  EXPECT_EQ(nearest_along_segment(a, b, {5, 4}).squared_distance, 25);
-  EXPECT_EQ(nearest_along_segment(a, b, {0.5, 4}).parameter, 0.25);
-  EXPECT_EQ(nearest_along_segment(a, a, {3, 4}).squared_distance, 25);
-}
-
 }  // namespace
 }  // namespace quadloop

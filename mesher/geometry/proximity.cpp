@@ -1,32 +1,18 @@
-#include "mesher/geometry/gap_test.hpp"
+#include "mesher/geometry/proximity.hpp"
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
+
+#include "mesher/geometry/nearest_on_segment.hpp"
 
 namespace quadloop {
 
 namespace {
-
-namespace bg = boost::geometry;
-using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
-using Extent = bg::model::box<Corner>;
-using Entry = std::pair<Extent, std::int32_t>;
 
 constexpr double facing_cosine =
     0.5;  ///< two pieces face each other where the way across leaves both within 60 degrees of the normal
 constexpr double bend_length =
     3;  ///< of the gap: a shorter piece of outline between its two sides is a bend, not a gap
 constexpr double straight_sides_degrees = 30;  ///< what the two sides of a corner may turn by besides
-
-Point nearest(Point p, Point a, Point b) {
-  const Point ab = b - a;
-  const double square = dot(ab, ab);
-  const double t = square > 0 ? std::clamp(dot(p - a, ab) / square, 0.0, 1.0) : 0.0;
-  return a + t * ab;
-}
 
 /// The part of a segment inside a box that it meets.
 std::pair<Point, Point> clip(Point a, Point b, const Box& box) {
@@ -45,19 +31,10 @@ std::pair<Point, Point> clip(Point a, Point b, const Box& box) {
 
 }  // namespace
 
-struct GapTest::Index {
-  bg::index::rtree<Entry, bg::index::quadratic<16>> tree;
-};
-
-GapTest::GapTest(const Geometry& g) : geometry_{&g}, index_{std::make_unique<Index>()} {
-  std::vector<Entry> entries;
+Proximity::Proximity(const Geometry& g) : geometry_{&g}, segments_{segment_tree(g)} {
   double arc = 0, turning = 0;
   std::int32_t kept = 0;
   for (std::int32_t v = 0; v < g.size(); ++v) {
-    Box box;
-    box.include(g.point(v));
-    box.include(g.point(g.next(v)));
-    entries.push_back({Extent{{box.low.x, box.low.y}, {box.high.x, box.high.y}}, v});
     turning += g.kept(v) ? 0 : g.turn_degrees(v);
     kept += g.kept(v) ? 1 : 0;
     arc_.push_back(arc);
@@ -65,13 +42,10 @@ GapTest::GapTest(const Geometry& g) : geometry_{&g}, index_{std::make_unique<Ind
     kept_.push_back(kept);
     arc += length(g.point(g.next(v)) - g.point(v));
   }
-  index_->tree = decltype(index_->tree)(entries);
 }
 
-GapTest::~GapTest() = default;
-
 /// Walking from p on segment a onwards to q on segment b of the same loop.
-bool GapTest::is_one_bend_onwards(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const {
+bool Proximity::is_one_bend_onwards(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const {
   const Geometry& g = *geometry_;
   const auto at = [](const auto& sums, std::int32_t v) { return sums[static_cast<std::size_t>(v)]; };
   const std::int32_t loop = g.loop_of(a), first = g.loop_start(loop), last = g.loop_start(loop + 1) - 1;
@@ -86,12 +60,12 @@ bool GapTest::is_one_bend_onwards(std::int32_t a, Point p, std::int32_t b, Point
   return arc < bend_length * gap || (kept == 1 && turning < straight_sides_degrees);
 }
 
-bool GapTest::is_one_bend(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const {
+bool Proximity::is_one_bend(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const {
   if (geometry_->loop_of(a) != geometry_->loop_of(b)) return false;
   return is_one_bend_onwards(a, p, b, q, gap) || is_one_bend_onwards(b, q, a, p, gap);
 }
 
-bool GapTest::faces(std::int32_t a, Point a_from, Point a_to, std::int32_t b, double width) const {
+bool Proximity::faces(std::int32_t a, Point a_from, Point a_to, std::int32_t b, double width) const {
   const Geometry& g = *geometry_;
   const Point b_from = g.point(b), b_to = g.point(g.next(b));
   std::pair<Point, Point> across;
@@ -101,8 +75,8 @@ bool GapTest::faces(std::int32_t a, Point a_from, Point a_to, std::int32_t b, do
     gap = length(q - p);
     across = {p, q};
   };
-  for (const Point p : {a_from, a_to}) consider(p, nearest(p, b_from, b_to));
-  for (const Point q : {b_from, b_to}) consider(nearest(q, a_from, a_to), q);
+  for (const Point p : {a_from, a_to}) consider(p, nearest_on_segment(p, b_from, b_to));
+  for (const Point q : {b_from, b_to}) consider(nearest_on_segment(q, a_from, a_to), q);
   if (gap >= width || gap == 0) return false;
   const auto [p, q] = across;
   const Point along_a = g.point(g.next(a)) - g.point(a), along_b = b_to - b_from;
@@ -111,16 +85,17 @@ bool GapTest::faces(std::int32_t a, Point a_from, Point a_to, std::int32_t b, do
   return left_of_a && left_of_b && !is_one_bend(a, p, b, q, gap);
 }
 
-bool GapTest::narrower(std::span<const std::int32_t> segments, const Box& box, double width) const {
+bool Proximity::narrower(std::span<const std::int32_t> segments, const Box& box, double width) const {
   const Geometry& g = *geometry_;
   for (const std::int32_t a : segments) {
     const auto [from, to] = clip(g.point(a), g.point(g.next(a)), box);
-    const Corner low{std::min(from.x, to.x) - width, std::min(from.y, to.y) - width},
-        high{std::max(from.x, to.x) + width, std::max(from.y, to.y) + width};
-    const auto near = index_->tree.qbegin(bg::index::intersects(Extent{low, high}));
-    for (auto b = near; b != index_->tree.qend(); ++b) {
-      if (b->second != a && faces(a, from, to, b->second, width)) return true;
-    }
+    Box near = box_of(from, to);
+    near.low = near.low - Point{width, width};
+    near.high = near.high + Point{width, width};
+    const auto faces_one = [&, a_from = from, a_to = to](std::int32_t b) {
+      return b != a && faces(a, a_from, a_to, b, width);
+    };
+    if (segments_.any_meeting(near, faces_one)) return true;
   }
   return false;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <memory>
-
+#include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/shifted_outline.hpp"
 
 namespace quadloop {
@@ -9,19 +8,15 @@ namespace quadloop {
 /// Whether a point lies in the domain of a shifted outline, by an exact count of the crossings of a ray to
 /// its left; a point on the outline itself is outside. O(log n + k) for a ray that meets k boxes of segments;
 /// the index is built at the first question.
-class InsideTest {
+class Interior {
  public:
-  explicit InsideTest(const ShiftedOutline& outline);
-  ~InsideTest();
-  InsideTest(const InsideTest&) = delete;
-  InsideTest& operator=(const InsideTest&) = delete;
+  explicit Interior(const ShiftedOutline& outline) : outline_{&outline} {}
 
   bool contains(Point p) const;
 
  private:
-  struct Index;
   const ShiftedOutline* outline_;
-  mutable std::unique_ptr<Index> index_;
+  mutable BoxTree segments_;
 };
 
 }  // namespace quadloop
