@@ -6,7 +6,7 @@
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/thresholds.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/forest/lattice.hpp"
+#include "mesher/lattice/lattice.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {

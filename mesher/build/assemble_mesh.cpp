@@ -2,7 +2,7 @@
 
 #include "mesher/base/progress.hpp"
 #include "mesher/build/number_nodes.hpp"
-#include "mesher/forest/size_cursor.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 
 namespace quadloop {
 

@@ -7,7 +7,7 @@
 #include "mesher/base/progress.hpp"
 #include "mesher/cut/opposed_chords.hpp"
 #include "mesher/cut/snap_corners.hpp"
-#include "mesher/forest/size_cursor.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 
 namespace quadloop {
 

@@ -3,7 +3,7 @@
 #include "mesher/base/communicator.hpp"
 #include "mesher/cut/leaf_cells.hpp"
 #include "mesher/forest/leaf_graph.hpp"
-#include "mesher/forest/size_tree.hpp"
+#include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mesher/delaunay/tie_order.hpp"
-#include "mesher/forest/lattice.hpp"
+#include "mesher/lattice/lattice.hpp"
 
 namespace quadloop {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "mesher/forest/lattice.hpp"
 #include "mesher/geometry/shifted_outline.hpp"
+#include "mesher/lattice/lattice.hpp"
 
 namespace quadloop {
 

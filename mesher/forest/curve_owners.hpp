@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/base/morton.hpp"
-#include "mesher/forest/lattice.hpp"
+#include "mesher/lattice/lattice.hpp"
 
 namespace quadloop {
 

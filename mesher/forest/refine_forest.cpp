@@ -4,8 +4,8 @@
 #include <array>
 
 #include "mesher/base/progress.hpp"
-#include "mesher/forest/gradation.hpp"
-#include "mesher/forest/size_cursor.hpp"
+#include "mesher/sizes/gradation.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 
 namespace quadloop {
 

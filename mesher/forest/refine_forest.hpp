@@ -2,7 +2,7 @@
 
 #include "mesher/forest/forest.hpp"
 #include "mesher/forest/leaf_graph.hpp"
-#include "mesher/forest/size_tree.hpp"
+#include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
 

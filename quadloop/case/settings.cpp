@@ -11,7 +11,7 @@
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
-#include "mesher/forest/lattice.hpp"
+#include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
 
 namespace quadloop {

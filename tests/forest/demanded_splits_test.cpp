@@ -1,6 +1,6 @@
 // What adaptation asks to split: every rank knows all of it, the tree follows, and what was asked for can be
 // read off the leaves again.
-#include "mesher/forest/demanded_splits.hpp"
+#include "mesher/sizes/demanded_splits.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <tuple>
 
-#include "mesher/forest/leaves_ahead.hpp"
-#include "mesher/forest/size_cursor.hpp"
+#include "mesher/sizes/leaves_ahead.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 
 namespace quadloop {
 namespace {

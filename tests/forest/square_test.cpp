@@ -1,9 +1,9 @@
 // Sides, corners and sites go round one way; the curve goes row by row.
-#include "mesher/forest/square.hpp"
+#include "mesher/lattice/square.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mesher/forest/lattice.hpp"
+#include "mesher/lattice/lattice.hpp"
 
 namespace quadloop {
 namespace {

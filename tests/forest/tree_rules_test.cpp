@@ -5,9 +5,9 @@
 #include <array>
 #include <numbers>
 
-#include "mesher/forest/gradation.hpp"
 #include "mesher/forest/refine_forest.hpp"
-#include "mesher/forest/size_cursor.hpp"
+#include "mesher/sizes/gradation.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {

@@ -1,11 +1,11 @@
-#include "mesher/forest/leaf_estimate.hpp"
+#include "mesher/sizes/leaf_estimate.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "mesher/forest/leaves_ahead.hpp"
-#include "mesher/forest/size_cursor.hpp"
+#include "mesher/sizes/leaves_ahead.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 
 namespace quadloop {
 

@@ -1,4 +1,4 @@
-#include "mesher/forest/demanded_splits.hpp"
+#include "mesher/sizes/demanded_splits.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "mesher/forest/gradation.hpp"
+#include "mesher/sizes/gradation.hpp"
 
 #include <algorithm>
 

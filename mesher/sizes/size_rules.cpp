@@ -1,4 +1,4 @@
-#include "mesher/forest/size_rules.hpp"
+#include "mesher/sizes/size_rules.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/forest/size_tree.hpp"
+#include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
-#include "mesher/forest/lattice.hpp"
+#include "mesher/lattice/lattice.hpp"
 
 namespace quadloop {
 

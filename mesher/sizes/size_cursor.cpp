@@ -1,4 +1,4 @@
-#include "mesher/forest/size_cursor.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 
 #include <algorithm>
 

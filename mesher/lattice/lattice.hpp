@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "mesher/forest/size_options.hpp"
-#include "mesher/forest/square.hpp"
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/lattice/size_options.hpp"
+#include "mesher/lattice/square.hpp"
 
 namespace quadloop {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/forest/size_tree.hpp"
+#include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
 

@@ -1,4 +1,4 @@
-#include "mesher/forest/leaves_ahead.hpp"
+#include "mesher/sizes/leaves_ahead.hpp"
 
 #include <algorithm>
 #include <cmath>

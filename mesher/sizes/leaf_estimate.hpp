@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mesher/forest/size_tree.hpp"
 #include "mesher/geometry/interior.hpp"
+#include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
 

@@ -1,4 +1,4 @@
-#include "mesher/forest/size_options.hpp"
+#include "mesher/lattice/size_options.hpp"
 
 #include <algorithm>
 

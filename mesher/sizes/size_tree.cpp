@@ -1,4 +1,4 @@
-#include "mesher/forest/size_tree.hpp"
+#include "mesher/sizes/size_tree.hpp"
 
 #include <numeric>
 #include <tuple>

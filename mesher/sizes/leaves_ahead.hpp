@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/forest/gradation.hpp"
+#include "mesher/sizes/gradation.hpp"
 
 namespace quadloop {
 

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "mesher/forest/demanded_splits.hpp"
-#include "mesher/forest/lattice.hpp"
-#include "mesher/forest/size_options.hpp"
 #include "mesher/geometry/proximity.hpp"
 #include "mesher/geometry/shifted_outline.hpp"
+#include "mesher/lattice/lattice.hpp"
+#include "mesher/lattice/size_options.hpp"
+#include "mesher/sizes/demanded_splits.hpp"
 
 namespace quadloop {
 

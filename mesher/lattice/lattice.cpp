@@ -1,4 +1,4 @@
-#include "mesher/forest/lattice.hpp"
+#include "mesher/lattice/lattice.hpp"
 
 #include <algorithm>
 #include <cmath>

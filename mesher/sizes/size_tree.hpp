@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/forest/size_rules.hpp"
+#include "mesher/sizes/size_rules.hpp"
 
 namespace quadloop {
 
