@@ -16,7 +16,7 @@
 #include "app/command_line.hpp"
 #include "io/files/input_file.hpp"
 #include "io/files/interruption.hpp"
-#include "io/gis/ogr_reader.hpp"
+#include "io/gis/gis_formats.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/free_memory.hpp"

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "io/files/input_file.hpp"
+#include "io/gis/gis_formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
 

@@ -13,7 +13,4 @@ namespace quadloop {
 /// Features of other kinds are left out, with a warning.
 std::vector<Chain> read_ogr(const std::string& path, std::vector<std::string>& warnings);
 
-/// From here on read_geometry() reads .dxf, .geojson, .shp and .gpkg files with it.
-void add_gis_formats();
-
 }  // namespace quadloop

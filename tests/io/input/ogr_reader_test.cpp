@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/gis/gis_formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "tests/io/input/temporary_file.hpp"
