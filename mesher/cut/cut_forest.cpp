@@ -6,7 +6,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
 #include "mesher/cut/opposed_chords.hpp"
-#include "mesher/cut/snap_corners.hpp"
+#include "mesher/snap/snap_corners.hpp"
 #include "mesher/sizes/size_cursor.hpp"
 
 namespace quadloop {

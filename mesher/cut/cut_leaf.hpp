@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "mesher/cut/leaf_trace.hpp"
-#include "mesher/cut/snap.hpp"
+#include "mesher/snap/leaf_trace.hpp"
+#include "mesher/snap/snap.hpp"
 #include "mesher/geometry/interior.hpp"
 
 namespace quadloop {

@@ -1,6 +1,6 @@
 // Which lattice corners move onto the outline and where to, by hand: on the square from 0 to 4 in leaves of
 // edge 1.
-#include "mesher/cut/snap_corners.hpp"
+#include "mesher/snap/snap_corners.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "mesher/cut/capture_points.hpp"
+#include "mesher/snap/capture_points.hpp"
 #include "tests/cut/traced_leaves.hpp"
 
 namespace quadloop {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesher/cut/snap_corners.hpp"
+#include "mesher/snap/snap_corners.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop::test {

@@ -1,11 +1,11 @@
-#include "mesher/cut/snap_corners.hpp"
+#include "mesher/snap/snap_corners.hpp"
 
 #include <algorithm>
 #include <set>
 #include <tuple>
 
-#include "mesher/cut/leaf_edge.hpp"
-#include "mesher/cut/snap_corner.hpp"
+#include "mesher/snap/leaf_edge.hpp"
+#include "mesher/snap/snap_corner.hpp"
 
 namespace quadloop {
 

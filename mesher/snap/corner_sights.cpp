@@ -1,9 +1,9 @@
-#include "mesher/cut/corner_sights.hpp"
+#include "mesher/snap/corner_sights.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mesher/cut/leaf_edge.hpp"
+#include "mesher/snap/leaf_edge.hpp"
 
 namespace quadloop {
 

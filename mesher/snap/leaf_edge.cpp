@@ -1,4 +1,4 @@
-#include "mesher/cut/leaf_edge.hpp"
+#include "mesher/snap/leaf_edge.hpp"
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/cut/leaf_trace.hpp"
-#include "mesher/cut/snap.hpp"
+#include "mesher/snap/leaf_trace.hpp"
+#include "mesher/snap/snap.hpp"
 
 namespace quadloop {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/cut/leaf_trace.hpp"
+#include "mesher/snap/leaf_trace.hpp"
 #include "mesher/forest/leaf_graph.hpp"
 
 namespace quadloop {

@@ -1,4 +1,4 @@
-#include "mesher/cut/snap_corner.hpp"
+#include "mesher/snap/snap_corner.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "mesher/cut/snap.hpp"
+#include "mesher/snap/snap.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "mesher/cut/capture_points.hpp"
+#include "mesher/snap/capture_points.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
 
-#include "mesher/cut/leaf_edge.hpp"
+#include "mesher/snap/leaf_edge.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 
 namespace quadloop {

@@ -1,4 +1,4 @@
-#include "mesher/cut/leaf_trace.hpp"
+#include "mesher/snap/leaf_trace.hpp"
 
 #include <algorithm>
 

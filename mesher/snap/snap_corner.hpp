@@ -3,8 +3,8 @@
 #include <optional>
 #include <span>
 
-#include "mesher/cut/capture_points.hpp"
-#include "mesher/cut/corner_sights.hpp"
+#include "mesher/snap/capture_points.hpp"
+#include "mesher/snap/corner_sights.hpp"
 
 namespace quadloop {
 

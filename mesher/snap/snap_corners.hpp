@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mesher/cut/leaf_trace.hpp"
-#include "mesher/cut/snap.hpp"
+#include "mesher/snap/leaf_trace.hpp"
+#include "mesher/snap/snap.hpp"
 
 namespace quadloop {
 
