@@ -55,8 +55,7 @@ void send_notes(MPI_Comm comm, int rank, int ranks, std::vector<MPI_Request>& no
 void receive_notes(MPI_Comm comm, int rank, const std::vector<int>& statuses) {
   char note = 0;
   for (int r = 0; r < static_cast<int>(statuses.size()); ++r) {
-    if (r != rank && statuses[static_cast<std::size_t>(r)] != 0)
-      MPI_Recv(&note, 1, MPI_CHAR, r, failure_note, comm, MPI_STATUS_IGNORE);
+    if (r != rank && statuses[r] != 0) MPI_Recv(&note, 1, MPI_CHAR, r, failure_note, comm, MPI_STATUS_IGNORE);
   }
 }
 

@@ -51,8 +51,8 @@ std::vector<char> interface_nodes(const LoadedMesh& loaded) {
   const auto visit = [&](const auto& cells, const std::vector<std::int32_t>& blocks) {
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
       for (const NodeId node : cells[cell]) {
-        std::int32_t& block = block_of[static_cast<std::size_t>(node.value())];
-        if (block >= 0 && block != blocks[cell]) shared[static_cast<std::size_t>(node.value())] = 1;
+        std::int32_t& block = block_of[node.value()];
+        if (block >= 0 && block != blocks[cell]) shared[node.value()] = 1;
         block = blocks[cell];
       }
     }

@@ -66,7 +66,7 @@ std::vector<double> shortest_edges(const Mesh& mesh) {
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
     const Point along = mesh.point(to) - mesh.point(from);
     for (const NodeId node : {from, to}) {
-      double& least = shortest[static_cast<std::size_t>(node.value())];
+      double& least = shortest[node.value()];
       least = std::min(least, dot(along, along));
     }
   });

@@ -71,14 +71,14 @@ class LevelLines {
 
   /// Where an owned node goes; nowhere if it is of no level line.
   Point move_of(std::int32_t node) const {
-    const Surroundings& s = round_[static_cast<std::size_t>(node)];
+    const Surroundings& s = round_[node];
     if (s.line_ends != 0b11) return {};
     return -step * s.edge * into_squares(s.quadrants);
   }
 
  private:
   bool is_owned(NodeId node) const { return node.value() < mesh_.owned_nodes(); }
-  Surroundings& round(NodeId node) { return round_[static_cast<std::size_t>(node.value())]; }
+  Surroundings& round(NodeId node) { return round_[node.value()]; }
   void exclude(NodeId node) {
     if (is_owned(node)) round(node).quadrants |= unfit;
   }
@@ -124,7 +124,7 @@ class LevelLines {
 double ideal_cost(const auto& nodes, const std::vector<Point>& points) {
   constexpr std::size_t width = std::tuple_size_v<std::remove_cvref_t<decltype(nodes)>>;
   std::array<Point, width> corners;
-  for (std::size_t k = 0; k < width; ++k) corners[k] = points[static_cast<std::size_t>(nodes[k].value())];
+  for (std::size_t k = 0; k < width; ++k) corners[k] = points[nodes[k].value()];
   return cell_cost(corners, ideal_targets<width>());
 }
 
@@ -133,9 +133,7 @@ double ideal_cost(const auto& nodes, const std::vector<Point>& points) {
 bool take_back(const Communicator& comm, HaloMesh& mesh, const std::vector<Point>& before, double limit) {
   std::vector<Point>& points = mesh.points();
   std::vector<std::int32_t> back;
-  const auto has_moved = [&](NodeId n) {
-    return mesh.point(n) != before[static_cast<std::size_t>(n.value())];
-  };
+  const auto has_moved = [&](NodeId n) { return mesh.point(n) != before[n.value()]; };
   mesh.for_each_cell([&](const auto& nodes) {
     if (std::none_of(nodes.begin(), nodes.end(), has_moved)) return;
     const double cost = ideal_cost(nodes, points);
@@ -144,8 +142,7 @@ bool take_back(const Communicator& comm, HaloMesh& mesh, const std::vector<Point
       if (node.value() < mesh.owned_nodes()) back.push_back(node.value());
     }
   });
-  for (const std::int32_t node : back)
-    points[static_cast<std::size_t>(node)] = before[static_cast<std::size_t>(node)];
+  for (const std::int32_t node : back) points[node] = before[node];
   mesh.exchange().update(points);
   return comm.any(!back.empty());
 }

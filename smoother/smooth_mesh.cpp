@@ -69,13 +69,12 @@ struct Survey {
 
 template <class Nodes>
 bool any_flagged(const std::vector<char>& flags, const Nodes& nodes) {
-  return std::any_of(nodes.begin(), nodes.end(),
-                     [&](NodeId n) { return flags[static_cast<std::size_t>(n.value())] != 0; });
+  return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[n.value()] != 0; });
 }
 
 template <class Nodes>
 void flag_all(const Nodes& nodes, std::vector<char>& flags) {
-  for (const NodeId node : nodes) flags[static_cast<std::size_t>(node.value())] = 1;
+  for (const NodeId node : nodes) flags[node.value()] = 1;
 }
 
 WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) {
@@ -268,10 +267,9 @@ std::vector<char> nodes_near_worse(const Communicator& comm, const Mesh& flipped
   }
   const HaloMesh halo(comm, before);
   std::vector<char> near(halo.points().size(), 0);
-  for (const GlobalNodeId node : to_owners.deliver(comm))
-    near[static_cast<std::size_t>(node.value() - before.first_node)] = 1;
+  for (const GlobalNodeId node : to_owners.deliver(comm)) near[node.value() - before.first_node] = 1;
   grow(halo, near, rings);
-  near.resize(static_cast<std::size_t>(halo.owned_nodes()));
+  near.resize(halo.owned_nodes());
   return near;
 }
 
@@ -284,7 +282,7 @@ SmoothReport smooth_delaunay(const Communicator& comm, Mesh& mesh, const SmoothO
                    "blocks are known by places");
   const Mesh before = mesh;
   SmoothOptions careful = options;
-  careful.pinned.resize(static_cast<std::size_t>(mesh.owned_nodes), 0);
+  careful.pinned.resize(mesh.owned_nodes, 0);
   for (int attempt = 1;; ++attempt) {
     const SmoothReport report = smooth_once(comm, mesh, careful);
     const double limit = (1 + cost_rounding) * report.worst_cost_before;

@@ -30,8 +30,7 @@ class LeafRun {
     const auto count = static_cast<std::int64_t>(own.size());
     std::vector<Numbered> ends;
     for (std::int64_t i = 0; i < count; ++i) {
-      if (i < siblings - 1 || i >= count - (siblings - 1))
-        ends.push_back({first_ + i, own[static_cast<std::size_t>(i)]});
+      if (i < siblings - 1 || i >= count - (siblings - 1)) ends.push_back({first_ + i, own[i]});
     }
     std::vector<MarkedLeaf> before, after;
     for (const Numbered& end : comm.all_gather_values(std::span<const Numbered>(ends))) {
@@ -65,9 +64,7 @@ class LeafRun {
     std::int64_t number;
     MarkedLeaf leaf;
   };
-  const MarkedLeaf& at(std::int64_t number) const {
-    return leaves_[static_cast<std::size_t>(number - begin_)];
-  }
+  const MarkedLeaf& at(std::int64_t number) const { return leaves_[number - begin_]; }
 
   std::int64_t first_,
       begin_ = 0;  ///< numbers over all ranks of this rank's first leaf, and of the first here

@@ -73,8 +73,7 @@ std::vector<std::array<NodeId, width>> cells_at_root(const Communicator& comm, c
 /// *Collective.*
 Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
   Mesh whole;
-  whole.points =
-      gather_at_root(comm, std::span(mesh.points).first(static_cast<std::size_t>(mesh.owned_nodes)));
+  whole.points = gather_at_root(comm, std::span(mesh.points).first(mesh.owned_nodes));
   whole.owned_nodes = static_cast<std::int32_t>(whole.points.size());
   whole.triangles = cells_at_root(comm, mesh, mesh.triangles);
   whole.quads = cells_at_root(comm, mesh, mesh.quads);
@@ -85,7 +84,7 @@ Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
     whole.boundaries.push_back({mesh.boundaries[b].name, mesh.boundaries[b].condition, {}});
   }
   for (const NamedEdge& edge : gather_at_root(comm, edges))
-    whole.boundaries[static_cast<std::size_t>(edge.boundary)].edges.push_back(node_ids(edge.nodes));
+    whole.boundaries[edge.boundary].edges.push_back(node_ids(edge.nodes));
   std::erase_if(whole.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   return whole;
 }

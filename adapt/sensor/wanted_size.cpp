@@ -19,8 +19,8 @@ std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::
   std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(),
                                std::numeric_limits<double>::infinity());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t cell) {
-    double& value = of_cells[static_cast<std::size_t>(cell)];
-    value = std::min(value, values[static_cast<std::size_t>(from.value())]);
+    double& value = of_cells[cell];
+    value = std::min(value, values[from.value()]);
   });
   return cells_of_leaves.smallest(comm, of_cells);
 }

@@ -60,12 +60,12 @@ NearestBoundary::~NearestBoundary() = default;
 
 BoundaryPlace NearestBoundary::nearest(Point p) const {
   const auto place_on = [&](std::int32_t number) {
-    const Edge& edge = tree_->edges[static_cast<std::size_t>(number)];
+    const Edge& edge = tree_->edges[number];
     return place_on_segment(p, edge.from, edge.to);
   };
   const std::int32_t nearest =
       tree_->boxes.nearest(p, [&](std::int32_t number) { return place_on(number).squared_distance; });
-  const Edge& edge = tree_->edges[static_cast<std::size_t>(nearest)];
+  const Edge& edge = tree_->edges[nearest];
   return {edge.rank, edge.index, place_on(nearest).parameter};
 }
 

@@ -32,7 +32,7 @@ struct NodeShare {
 };
 
 std::span<const Point> owned_points(const Mesh& mesh) {
-  return std::span(mesh.points).first(static_cast<std::size_t>(mesh.owned_nodes));
+  return std::span(mesh.points).first(mesh.owned_nodes);
 }
 
 /// From this rank's points to the shares of the plane that hold them.
@@ -89,7 +89,7 @@ class Found {
     }
     const std::int32_t found = in_triangle_[next_moved_++];
     if (found < 0) return false;
-    const CellTriangle& triangle = piece_.triangles[static_cast<std::size_t>(found)];
+    const CellTriangle& triangle = piece_.triangles[found];
     const auto& [a, b, c] = triangle.nodes;
     interpolate_in_triangle(piece_.corners(triangle),
                             {piece_.field.row(a), piece_.field.row(b), piece_.field.row(c)}, points_[point],
@@ -125,7 +125,7 @@ NewRows ask(const Communicator& comm, const OldMesh& old, const Mesh& mesh) {
   NewRows answers{questions.answer(rows, width), {}};
   is_inside = questions.answer(is_inside);
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
-    if (is_inside[static_cast<std::size_t>(node)] == 0) answers.outside.push_back(node);
+    if (is_inside[node] == 0) answers.outside.push_back(node);
   }
   return answers;
 }
@@ -145,7 +145,7 @@ void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Fi
   const auto width = old_field.width();
   std::vector<double> row(width), answers;
   for (const BoundaryPlace& place : questions.deliver(places)) {
-    const auto& [from, to] = edges[static_cast<std::size_t>(place.edge)];
+    const auto& [from, to] = edges[place.edge];
     interpolate_on_segment(old_field.row(from), old_field.row(to), place.parameter, row);
     answers.insert(answers.end(), row.begin(), row.end());
   }

@@ -15,7 +15,7 @@ std::vector<std::vector<CellTriangle>> triangles_by_rank(const Communicator& com
     Box box;
     for (const NodeId node : triangle.nodes) box.include(mesh.point(node));
     shares.ranks_meeting(box, ranks);
-    for (const int rank : ranks) by_rank[static_cast<std::size_t>(rank)].push_back(triangle);
+    for (const int rank : ranks) by_rank[rank].push_back(triangle);
   }
   return by_rank;
 }
@@ -25,7 +25,7 @@ std::vector<NodeId> renumber(std::vector<CellTriangle>& triangles, std::vector<s
   std::vector<NodeId> nodes;
   for (CellTriangle& triangle : triangles) {
     for (NodeId& node : triangle.nodes) {
-      std::int32_t& place = place_of[static_cast<std::size_t>(node.value())];
+      std::int32_t& place = place_of[node.value()];
       if (place < 0) {
         place = static_cast<std::int32_t>(nodes.size());
         nodes.push_back(node);
@@ -33,7 +33,7 @@ std::vector<NodeId> renumber(std::vector<CellTriangle>& triangles, std::vector<s
       node = NodeId{place};
     }
   }
-  for (const NodeId node : nodes) place_of[static_cast<std::size_t>(node.value())] = -1;
+  for (const NodeId node : nodes) place_of[node.value()] = -1;
   return nodes;
 }
 

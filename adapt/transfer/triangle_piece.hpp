@@ -16,9 +16,7 @@ struct TrianglePiece {
   std::vector<CellTriangle> triangles;
 
   std::array<Point, 3> corners(const CellTriangle& triangle) const {
-    const auto at = [&](std::size_t k) {
-      return points[static_cast<std::size_t>(triangle.nodes[k].value())];
-    };
+    const auto at = [&](std::size_t k) { return points[triangle.nodes[k].value()]; };
     return {at(0), at(1), at(2)};
   }
 };

@@ -28,7 +28,7 @@ class CgnsBoundaries {
   BoundaryEdges& named(Mesh& mesh, const std::string& name, const std::string& condition) {
     const auto [place, is_new] = names_.place_of(name);
     if (is_new) mesh.boundaries.push_back({name, condition, {}});
-    return mesh.boundaries[static_cast<std::size_t>(place)];
+    return mesh.boundaries[place];
   }
 
   std::string condition_of_family(const File& file, int base, const std::string& family) {

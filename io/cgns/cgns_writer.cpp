@@ -242,8 +242,7 @@ class CgnsWriter {
     boundaries_.run(
         [&](std::size_t n) {
           const BoundaryEdges* const boundary = boundaries_.present()[n];
-          sink->begin(names[static_cast<std::size_t>(boundary - mesh_.boundaries.data())], *boundary,
-                      boundaries_.edges_of(n));
+          sink->begin(names[boundary - mesh_.boundaries.data()], *boundary, boundaries_.edges_of(n));
         },
         [&](std::span<const BoundaryStream::Edge> edges) { sink->put(edges); });
     on_root([&] { sink->close(); });
@@ -283,8 +282,7 @@ class CgnsWriter {
         [&](std::int64_t begin, std::int64_t end) {
           std::vector<cgsize_t> nodes(static_cast<std::size_t>(end - begin) * width);
           auto out = nodes.begin();
-          for (const auto& row :
-               rows.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin))) {
+          for (const auto& row : rows.subspan(begin, end - begin)) {
             for (const NodeId node : row) *out++ = static_cast<cgsize_t>(mesh_.global(node).value() + 1);
           }
           return nodes;

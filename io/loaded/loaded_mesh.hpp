@@ -27,8 +27,7 @@ template <class Cell>
 std::span<const Cell> cells_of_block(const std::vector<Cell>& cells,
                                      const std::vector<std::int32_t>& cell_to_block, std::int32_t block) {
   const auto [first, last] = std::equal_range(cell_to_block.begin(), cell_to_block.end(), block);
-  return std::span(cells).subspan(static_cast<std::size_t>(first - cell_to_block.begin()),
-                                  static_cast<std::size_t>(last - first));
+  return std::span(cells).subspan(first - cell_to_block.begin(), last - first);
 }
 
 }  // namespace quadloop

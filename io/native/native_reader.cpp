@@ -87,7 +87,7 @@ class NativeReader {
     if (is_new) {
       boundaries.push_back({name, "none", std::move(edges)});
     } else {
-      auto& same = boundaries[static_cast<std::size_t>(place)].edges;
+      auto& same = boundaries[place].edges;
       same.insert(same.end(), edges.begin(), edges.end());
     }
   }

@@ -92,8 +92,7 @@ class VtuReader {
         scan_.refuse_at(offsets_array.place,
                         fmt::format("the offset of cell {} is {}, after {}", cell + 1, end, begin));
       }
-      const auto of_cell =
-          std::span(nodes).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+      const auto of_cell = std::span(nodes).subspan(begin, end - begin);
       place_ = connectivity.place;
       cell_ = cell + 1;
       add_cell(types[cell], of_cell, boundaries.empty() ? 0 : boundaries[cell],
@@ -121,7 +120,7 @@ class VtuReader {
   static std::string name_of(const std::vector<std::string>& names, std::int64_t number, const char* kind,
                              const char* without) {
     if (number <= 0) return without;
-    if (number <= static_cast<std::int64_t>(names.size())) return names[static_cast<std::size_t>(number - 1)];
+    if (number <= static_cast<std::int64_t>(names.size())) return names[number - 1];
     return fmt::format("{}_{}", kind, number);
   }
 

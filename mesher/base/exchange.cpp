@@ -27,7 +27,7 @@ Exchange::Exchange(const Communicator& comm, std::span<const int> ranks) : comm_
   std::vector<std::int64_t> counts(static_cast<std::size_t>(comm.size()), 0);
   for (const int rank : ranks) {
     QUADLOOP_REQUIRE(0 <= rank && rank < comm.size(), "items are for one of the ranks");
-    ++counts[static_cast<std::size_t>(rank)];
+    ++counts[rank];
   }
   targets_ = stretches(counts);
   sources_ = stretches(comm.exchange_counts(counts));

@@ -89,7 +89,7 @@ template <std::ranges::contiguous_range Values>
 auto scatter_from_root(const Communicator& comm, const Values& values, std::span<const std::int64_t> counts) {
   std::vector<int> ranks;
   for (int rank = 0; comm.is_root() && rank < comm.size(); ++rank)
-    ranks.insert(ranks.end(), static_cast<std::size_t>(counts[static_cast<std::size_t>(rank)]), rank);
+    ranks.insert(ranks.end(), static_cast<std::size_t>(counts[rank]), rank);
   return Exchange(comm, ranks).deliver(std::span(values).first(ranks.size()));
 }
 
@@ -166,11 +166,10 @@ void CopyExchange::update(std::vector<T>& values, const Changed& changed) const 
   };
   std::vector<Item> items;  // all of them: their number is known, and few are at the border
   items.reserve(owned_.size());
-  for (const std::int32_t entry : owned_)
-    items.push_back({values[static_cast<std::size_t>(entry)], static_cast<bool>(changed(entry))});
+  for (const std::int32_t entry : owned_) items.push_back({values[entry], static_cast<bool>(changed(entry))});
   items = exchange_.answer(items);
   for (std::size_t i = 0; i < items.size(); ++i) {
-    if (items[i].is_new) values[static_cast<std::size_t>(copies_[i])] = items[i].value;
+    if (items[i].is_new) values[copies_[i]] = items[i].value;
   }
 }
 

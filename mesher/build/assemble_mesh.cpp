@@ -48,8 +48,7 @@ class Assembler {
     }
     for (const auto& e : CutForest::part(cut_.outline, begin.outline, end.outline)) {
       const BoundaryId boundary = geometry_.boundary_of(e.segment);
-      mesh_.boundaries[static_cast<std::size_t>(boundary.value())].edges.push_back(
-          {node(e.from), node(e.to)});
+      mesh_.boundaries[boundary.value()].edges.push_back({node(e.from), node(e.to)});
     }
   }
 

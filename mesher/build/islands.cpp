@@ -21,7 +21,7 @@ Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
   std::vector<std::int32_t> starts{0};
   std::vector<BoundaryId> segment_boundary;
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
-    if (keep[static_cast<std::size_t>(loop)] == 0) continue;
+    if (keep[loop] == 0) continue;
     for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
       points.push_back(g.point(v));
       segment_boundary.push_back(g.boundary_of(v));
@@ -37,7 +37,7 @@ Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
 /// In the order of the geometry.
 std::vector<std::string> names_without_segments(const Geometry& g) {
   std::vector<char> found(g.boundaries().size(), 0);
-  for (std::int32_t s = 0; s < g.size(); ++s) found[static_cast<std::size_t>(g.boundary_of(s).value())] = 1;
+  for (std::int32_t s = 0; s < g.size(); ++s) found[g.boundary_of(s).value()] = 1;
   std::vector<std::string> names;
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (found[b] == 0) names.push_back(g.boundaries()[b].name);
@@ -52,8 +52,7 @@ Geometry without_small_islands(const Geometry& g, double min, MeshReport& report
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     const Box box = box_of_loop(g, loop);
     if (box.width() >= min || box.height() >= min) continue;
-    keep[static_cast<std::size_t>(loop)] =
-        0;  // loops nested in it are smaller still, so they go by the same rule
+    keep[loop] = 0;  // loops nested in it are smaller still, so they go by the same rule
     ++report.islands_dropped;
     report.area_dropped += area_of_loop(g, loop);
     std::ostringstream line;

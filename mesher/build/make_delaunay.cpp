@@ -33,8 +33,7 @@ std::vector<std::int64_t> nodes_of_cut_leaves(const CutForest& cut, const Mesh& 
     if (cut.entry_of[i] < 0) triangle = end;
     for (; triangle != end; ++triangle) {
       for (const NodeId node : *triangle) {
-        if (std::exchange(named[static_cast<std::size_t>(node.value())], 1) == 0)
-          nodes.push_back(mesh.global(node).value());
+        if (std::exchange(named[node.value()], 1) == 0) nodes.push_back(mesh.global(node).value());
       }
     }
   }
@@ -45,15 +44,13 @@ std::vector<std::int64_t> nodes_of_cut_leaves(const CutForest& cut, const Mesh& 
 std::vector<char> irregular_leaves(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
   std::vector<char> is_cut(static_cast<std::size_t>(graph.size()), 0);
   for (std::size_t i = 0; i < cut.entry_of.size(); ++i) {
-    is_cut[static_cast<std::size_t>(graph.from_local(static_cast<std::int32_t>(i)))] =
-        cut.entry_of[i] >= 0 ? 1 : 0;
+    is_cut[graph.from_local(static_cast<std::int32_t>(i))] = cut.entry_of[i] >= 0 ? 1 : 0;
   }
   GhostExchange(comm, graph).update(is_cut);
   std::vector<char> irregular = is_cut;
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    if (is_cut[static_cast<std::size_t>(leaf)] == 0) continue;
-    for_touching_leaves(graph, leaf,
-                        [&](std::int32_t other) { irregular[static_cast<std::size_t>(other)] = 1; });
+    if (is_cut[leaf] == 0) continue;
+    for_touching_leaves(graph, leaf, [&](std::int32_t other) { irregular[other] = 1; });
   }
   return {irregular.begin() + graph.local_begin(), irregular.begin() + graph.local_end()};
 }

@@ -86,11 +86,11 @@ NodeNumbering::Home NodeNumbering::home_of_cut_node(std::int32_t leaf, const Cut
 }
 
 std::int32_t NodeNumbering::listed_node(std::int32_t leaf, Point position) const {
-  const std::int32_t entry = cut_->entry_of[static_cast<std::size_t>(leaf - graph_->local_begin())];
+  const std::int32_t entry = cut_->entry_of[leaf - graph_->local_begin()];
   QUADLOOP_REQUIRE(entry >= 0, "a leaf that is not cut owns a node of the outline");
-  const CutForest::Entry& e = cut_->entries[static_cast<std::size_t>(entry)];
+  const CutForest::Entry& e = cut_->entries[entry];
   for (std::int32_t n = e.begin.nodes; n < e.end.nodes; ++n) {
-    if (cut_->nodes[static_cast<std::size_t>(n)].position == position) return n;
+    if (cut_->nodes[n].position == position) return n;
   }
   throw Fault("two leaves disagree on a node of their common side");
 }
@@ -121,8 +121,7 @@ void NodeNumbering::mark(const Home& home) {
 
 /// Whether the leaf is a local inside one: that uses all nodes that it owns, and sees to them itself.
 bool NodeNumbering::marks_its_own(std::int32_t leaf) const {
-  return graph_->is_local(leaf) &&
-         cut_->states[static_cast<std::size_t>(leaf - graph_->local_begin())] == CutForest::State::inside;
+  return graph_->is_local(leaf) && cut_->states[leaf - graph_->local_begin()] == CutForest::State::inside;
 }
 
 void NodeNumbering::mark_inside(std::int32_t leaf) {
@@ -150,7 +149,7 @@ void NodeNumbering::mark_used() {
     const auto entry = static_cast<std::size_t>(cut_->entry_of[local]);
     const CutForest::Mark &begin = cut_->entries[entry].begin, &end = cut_->entries[entry].end;
     const auto mark_node = [&](std::int32_t n) {
-      mark(home_of_cut_node(leaf, cut_->nodes[static_cast<std::size_t>(begin.nodes + n)]));
+      mark(home_of_cut_node(leaf, cut_->nodes[begin.nodes + n]));
     };
     for (const auto& triangle : CutForest::part(cut_->triangles, begin.triangles, end.triangles))
       std::for_each(triangle.begin(), triangle.end(), mark_node);
@@ -190,11 +189,11 @@ void NodeNumbering::number_owned() {
     if (border < border_leaves_.size() && border_leaves_[border] == leaf)
       number(border_slot(border++), border_sites);
     number(own, owned_sites);
-    const std::int32_t entry = cut_->entry_of[static_cast<std::size_t>(leaf - graph_->local_begin())];
+    const std::int32_t entry = cut_->entry_of[leaf - graph_->local_begin()];
     if (entry < 0) continue;
-    const CutForest::Entry& e = cut_->entries[static_cast<std::size_t>(entry)];
+    const CutForest::Entry& e = cut_->entries[entry];
     for (std::int32_t n = e.begin.nodes; n < e.end.nodes; ++n)
-      number_slot(listed_slot(n), cut_->nodes[static_cast<std::size_t>(n)].position);
+      number_slot(listed_slot(n), cut_->nodes[n].position);
   }
 }
 
@@ -213,7 +212,7 @@ void NodeNumbering::place_moved() {
     }
     if (!graph_->is_local(home.leaf)) continue;
     const std::int32_t node = slot_at(home);
-    if (node >= 0) points_[static_cast<std::size_t>(node)] = m.position;
+    if (node >= 0) points_[node] = m.position;
   }
 }
 
@@ -225,7 +224,7 @@ void NodeNumbering::fetch_copies(const Exchange& exchange, const std::vector<Req
   std::vector<Answer> answers;
   for (const Request& request : asked) {
     const std::int32_t node = slot_at(home_of(request));
-    answers.push_back({first_node_ + node, points_[static_cast<std::size_t>(node)]});
+    answers.push_back({first_node_ + node, points_[node]});
   }
   for (const Answer& answer : exchange.answer(answers)) {
     copies_.push_back(GlobalNodeId{answer.number});
@@ -242,7 +241,7 @@ NodeId NodeNumbering::find(const Home& home) const {
 NodeId NodeNumbering::of_leaf(std::int32_t leaf, Site site) const { return find(home_of_site(leaf, site)); }
 
 NodeId NodeNumbering::of_cut(std::int32_t leaf, std::int32_t node) const {
-  return find(home_of_cut_node(leaf, cut_->nodes[static_cast<std::size_t>(node)]));
+  return find(home_of_cut_node(leaf, cut_->nodes[node]));
 }
 
 void NodeNumbering::fill(Mesh& mesh) && {

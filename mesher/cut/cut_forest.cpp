@@ -6,8 +6,8 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
 #include "mesher/cut/opposed_chords.hpp"
-#include "mesher/snap/snap_corners.hpp"
 #include "mesher/sizes/size_cursor.hpp"
+#include "mesher/snap/snap_corners.hpp"
 
 namespace quadloop {
 
@@ -27,8 +27,7 @@ TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const S
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
     const auto segments = cursor.segments_in(graph.leaf(leaf));
     if (!segments.empty())
-      traced.trace_of[static_cast<std::size_t>(leaf)] =
-          traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
+      traced.trace_of[leaf] = traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
   }
   return traced;
 }
@@ -79,7 +78,7 @@ class ForestCutter {
           std::equal_range(snaps.begin(), snaps.end(), LeafSnap{leaf, {}, nullptr},
                            [](const LeafSnap& a, const LeafSnap& b) { return a.leaf < b.leaf; });
       if (trace_of(leaf) < 0 && entry_of(leaf) >= 0) {
-        const bool inside = result_.entries[static_cast<std::size_t>(entry_of(leaf))].inside_halves.any();
+        const bool inside = result_.entries[entry_of(leaf)].inside_halves.any();
         state(leaf) = inside ? CutForest::State::inside : CutForest::State::outside;
         entry_of(leaf) = -1;
       }
@@ -105,7 +104,7 @@ class ForestCutter {
   std::size_t local(std::int32_t leaf) const { return static_cast<std::size_t>(leaf - graph_.local_begin()); }
   CutForest::State& state(std::int32_t leaf) { return result_.states[local(leaf)]; }
   std::int32_t& entry_of(std::int32_t leaf) { return result_.entry_of[local(leaf)]; }
-  std::int32_t trace_of(std::int32_t leaf) const { return traced_.trace_of[static_cast<std::size_t>(leaf)]; }
+  std::int32_t trace_of(std::int32_t leaf) const { return traced_.trace_of[leaf]; }
 
   void cut(std::int32_t leaf, std::span<const LeafSnap> snaps) {
     const Quadrant& q = graph_.leaf(leaf);
@@ -174,7 +173,7 @@ class ForestCutter {
   /// Whether a half of a side, counter-clockwise, of a leaf that was dealt with lies inside.
   bool side_inside(std::int32_t leaf, Side side, bool second_half) {
     if (state(leaf) != CutForest::State::cut) return state(leaf) == CutForest::State::inside;
-    const auto& halves = result_.entries[static_cast<std::size_t>(entry_of(leaf))].inside_halves;
+    const auto& halves = result_.entries[entry_of(leaf)].inside_halves;
     return (second_half ? halves.second : halves.first).contains(side);
   }
 

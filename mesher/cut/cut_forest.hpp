@@ -37,7 +37,7 @@ struct CutForest {
 
   template <class T>
   static std::span<const T> part(const std::vector<T>& all, std::int32_t begin, std::int32_t end) {
-    return std::span(all).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+    return std::span(all).subspan(begin, end - begin);
   }
 };
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "mesher/geometry/interior.hpp"
 #include "mesher/snap/leaf_trace.hpp"
 #include "mesher/snap/snap.hpp"
-#include "mesher/geometry/interior.hpp"
 
 namespace quadloop {
 
@@ -46,9 +46,7 @@ struct CutLeaf {
 
   std::size_t loop_count() const { return loop_starts.size() - 1; }
   std::span<const std::int32_t> loop(std::size_t i) const {
-    return std::span(loop_nodes)
-        .subspan(static_cast<std::size_t>(loop_starts[i]),
-                 static_cast<std::size_t>(loop_starts[i + 1] - loop_starts[i]));
+    return std::span(loop_nodes).subspan(loop_starts[i], loop_starts[i + 1] - loop_starts[i]);
   }
 };
 

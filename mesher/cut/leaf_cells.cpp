@@ -16,14 +16,13 @@ namespace {
 constexpr double whole_cosine = 0.766, cut_cosine = 0.643;
 
 bool is_whole(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
-  return std::all_of(loop.begin(), loop.end(),
-                     [&](std::int32_t n) { return is_corner(leaf.nodes[static_cast<std::size_t>(n)].site); });
+  return std::all_of(loop.begin(), loop.end(), [&](std::int32_t n) { return is_corner(leaf.nodes[n].site); });
 }
 
 /// Strictly convex, in plain doubles as every reader of the mesh will compute it, and no corner far from a
 /// right angle: such a quadrilateral stays one.
 bool is_well_shaped(const CutLeaf& leaf, std::span<const std::int32_t> loop, double largest_cosine) {
-  const auto at = [&](std::size_t i) { return leaf.nodes[static_cast<std::size_t>(loop[i % 4])].position; };
+  const auto at = [&](std::size_t i) { return leaf.nodes[loop[i % 4]].position; };
   for (std::size_t i = 0; i < 4; ++i) {
     const Point u = at(i + 1) - at(i), v = at(i + 3) - at(i);
     if (cross(u, v) <= 0 || orientation(at(i + 3), at(i), at(i + 1)) <= 0) return false;
@@ -64,8 +63,7 @@ void LeafCellMaker::set_ranks(const Quadrant& q, const Box& box, const CutLeaf& 
                                     Point{box.low.x, box.high.y}};
   std::array<TieRank, 8> lattice;
   for (const Site site : lattice_sites) lattice[index_of(site)] = line_rank(q.at(site).x, q.at(site).y);
-  const auto origin = corner[static_cast<std::size_t>(std::max_element(lattice.begin(), lattice.begin() + 4) -
-                                                      lattice.begin())];
+  const auto origin = corner[std::max_element(lattice.begin(), lattice.begin() + 4) - lattice.begin()];
   ranks_.clear();
   for (const CutLeaf::Node& node : leaf.nodes) {
     TieRank rank = is_on_lattice(node.site) ? lattice[index_of(node.site)] : TieRank{};

@@ -111,7 +111,7 @@ void LeafCutter::name_stops() {
     if (!at_last) leaf_.nodes.push_back({stop.position, stop.site});
     stop_node_[i] = static_cast<std::int32_t>(leaf_.nodes.size()) - 1;
     if (is_on_lattice(stop.site)) site_node[index_of(stop.site)] = stop_node_[i];
-    if (stop.snap >= 0) snap_node_[static_cast<std::size_t>(stop.snap)] = stop_node_[i];
+    if (stop.snap >= 0) snap_node_[stop.snap] = stop_node_[i];
   }
   for (std::size_t s = 0; s < input_.snaps.size(); ++s) {
     if (is_on_lattice(input_.snaps[s].site)) snap_node_[s] = site_node[index_of(input_.snaps[s].site)];
@@ -121,12 +121,12 @@ void LeafCutter::name_stops() {
     if (c < 0) continue;
     if (stop_node_[i] < 0) {
       const auto snap = absorbing_snap(input_.trace.crossing(c)) - input_.snaps.data();
-      stop_node_[i] = snap_node_[static_cast<std::size_t>(snap)];
+      stop_node_[i] = snap_node_[snap];
     }
-    crossing_node_[static_cast<std::size_t>(c)] = stop_node_[i];
+    crossing_node_[c] = stop_node_[i];
   }
   for (std::size_t s = 0; s < input_.snaps.size(); ++s)
-    leaf_.nodes[static_cast<std::size_t>(snap_node_[s])].position = input_.snaps[s].snap->position;
+    leaf_.nodes[snap_node_[s]].position = input_.snaps[s].snap->position;
   leaf_.side_nodes = static_cast<std::int32_t>(leaf_.nodes.size());
 }
 
@@ -202,13 +202,11 @@ void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
   list_points(piece, trimmed_vertices(piece));
   choose_points(closed, detail);
   std::size_t from = 0;
-  std::int32_t from_node =
-      closed ? node_at(run_[0].position) : crossing_node_[static_cast<std::size_t>(piece.entry)];
+  std::int32_t from_node = closed ? node_at(run_[0].position) : crossing_node_[piece.entry];
   for (std::size_t i = 1; i < run_.size(); ++i) {
     if (!run_[i].chosen) continue;
     const bool at_exit = !closed && i + 1 == run_.size();
-    const std::int32_t to_node =
-        at_exit ? crossing_node_[static_cast<std::size_t>(piece.exit)] : node_at(run_[i].position);
+    const std::int32_t to_node = at_exit ? crossing_node_[piece.exit] : node_at(run_[i].position);
     if (from_node != to_node) leaf_.outline.push_back({from_node, to_node, run_[from].segment});
     from = i;
     from_node = to_node;
@@ -236,9 +234,7 @@ std::span<const std::int32_t> LeafCutter::trimmed_vertices(const Piece& piece) c
 void LeafCutter::list_points(const Piece& piece, std::span<const std::int32_t> vertices) {
   const Geometry& g = outline_->geometry();
   const bool closed = piece.entry < 0;
-  const auto node_position = [&](std::int32_t c) {
-    return leaf_.nodes[static_cast<std::size_t>(crossing_node_[static_cast<std::size_t>(c)])].position;
-  };
+  const auto node_position = [&](std::int32_t c) { return leaf_.nodes[crossing_node_[c]].position; };
   run_.clear();
   if (!closed) {
     const auto all = input_.trace.vertices_of(piece);
@@ -317,20 +313,20 @@ void LeafCutter::sort_inner_nodes() {
   if (leaf_.nodes.size() <= first + 1) return;
   std::vector<std::int32_t> order;
   for (std::size_t i = first; i < leaf_.nodes.size(); ++i) order.push_back(static_cast<std::int32_t>(i));
-  const auto position = [&](std::int32_t i) { return leaf_.nodes[static_cast<std::size_t>(i)].position; };
+  const auto position = [&](std::int32_t i) { return leaf_.nodes[i].position; };
   std::sort(order.begin(), order.end(),
             [&](std::int32_t a, std::int32_t b) { return position(a) < position(b); });
   std::vector<std::int32_t> renamed(leaf_.nodes.size());
   for (std::size_t i = 0; i < first; ++i) renamed[i] = static_cast<std::int32_t>(i);
   std::vector<CutLeaf::Node> sorted;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    renamed[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(first + i);
-    sorted.push_back(leaf_.nodes[static_cast<std::size_t>(order[i])]);
+    renamed[order[i]] = static_cast<std::int32_t>(first + i);
+    sorted.push_back(leaf_.nodes[order[i]]);
   }
   std::copy(sorted.begin(), sorted.end(), leaf_.nodes.begin() + static_cast<std::ptrdiff_t>(first));
   for (auto& edge : leaf_.outline) {
-    edge.from = renamed[static_cast<std::size_t>(edge.from)];
-    edge.to = renamed[static_cast<std::size_t>(edge.to)];
+    edge.from = renamed[edge.from];
+    edge.to = renamed[edge.to];
   }
 }
 

@@ -10,9 +10,7 @@ namespace {
 
 using Edges = std::span<const CutLeaf::Edge>;
 
-Point at(const CutLeaf& leaf, std::int32_t node) {
-  return leaf.nodes[static_cast<std::size_t>(node)].position;
-}
+Point at(const CutLeaf& leaf, std::int32_t node) { return leaf.nodes[node].position; }
 
 /// How far a ray from `hub` must turn clockwise from the ray to `start` until it meets p: 0 for less than
 /// half a turn, 1 for half, 2 for more.

@@ -29,12 +29,12 @@ OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, c
   std::vector<SideChord> chords;
   Outbox<SideChord> out;
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-    const std::int32_t e = cut.entry_of[static_cast<std::size_t>(leaf - graph.local_begin())];
+    const std::int32_t e = cut.entry_of[leaf - graph.local_begin()];
     if (e < 0) continue;
-    const CutForest::Entry& entry = cut.entries[static_cast<std::size_t>(e)];
+    const CutForest::Entry& entry = cut.entries[e];
     for (const CutLeaf::Edge& edge : CutForest::part(cut.outline, entry.begin.outline, entry.end.outline)) {
-      const auto& from = cut.nodes[static_cast<std::size_t>(entry.begin.nodes + edge.from)];
-      const auto& to = cut.nodes[static_cast<std::size_t>(entry.begin.nodes + edge.to)];
+      const auto& from = cut.nodes[entry.begin.nodes + edge.from];
+      const auto& to = cut.nodes[entry.begin.nodes + edge.to];
       const SideSet common = sides_of(from.site) & sides_of(to.site);
       if (common.empty()) continue;
       const bool rising = from.position < to.position;

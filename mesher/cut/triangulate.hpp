@@ -28,7 +28,7 @@ class Triangulator {
   void measure();
   bool clip_ears(std::span<const std::int32_t> loop);
   bool is_ear(std::size_t i) const;
-  Point at(std::int32_t node) const { return points_[static_cast<std::size_t>(node)]; }
+  Point at(std::int32_t node) const { return points_[node]; }
 
   std::span<const Point> points_;
   std::vector<LocalTriangle> triangles_;

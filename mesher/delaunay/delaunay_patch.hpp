@@ -18,7 +18,7 @@ class DelaunayPatch {
   }
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  const Point& point(std::int32_t node) const { return points_[static_cast<std::size_t>(node)]; }
+  const Point& point(std::int32_t node) const { return points_[node]; }
 
   /// A flag for each triangle that nodes across the open edges might undo: one whose circumcircle reaches
   /// such an edge, with all between them.

@@ -65,8 +65,8 @@ bool Flipper::is_wrong(Edge e) const {
 }
 
 void Flipper::set_across(Edge e, Edge other) {
-  across_[static_cast<std::size_t>(e)] = other;
-  if (other >= 0) across_[static_cast<std::size_t>(other)] = e;
+  across_[e] = other;
+  if (other >= 0) across_[other] = e;
 }
 
 /// The triangles c a b and d b a become c a d and d b c.

@@ -49,7 +49,7 @@ class Flipper {
                         std::span<const std::int32_t> blocks = {});
 
   /// The same edge of the triangle beyond it, `border` or `open_border`, after the flips.
-  Edge across(Edge e) const { return across_[static_cast<std::size_t>(e)]; }
+  Edge across(Edge e) const { return across_[e]; }
   static std::size_t triangle_of(Edge e) { return static_cast<std::size_t>(e / 3); }
   static std::size_t corner_of(Edge e, int step) { return static_cast<std::size_t>((e % 3 + step) % 3); }
 

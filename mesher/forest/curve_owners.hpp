@@ -31,7 +31,7 @@ class CurveOwners {
   CurvePlace place_of(std::int64_t x, std::int64_t y) const {
     constexpr std::int64_t within = (std::int64_t{1} << Quadrant::unit_level) - 1;
     const std::int64_t tree = (y >> Quadrant::unit_level) * trees_x_ + (x >> Quadrant::unit_level);
-    return {tree_numbers_[static_cast<std::size_t>(tree)],
+    return {tree_numbers_[tree],
             morton_key(static_cast<std::uint32_t>(x & within), static_cast<std::uint32_t>(y & within))};
   }
   int rank_of(const CurvePlace& place) const {

@@ -25,7 +25,7 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
   around_.resize(leaves_.size());
   const int nx = lattice.trees_x(), ny = lattice.trees_y();
   const auto root = [&](int x, int y) {
-    return x < 0 || y < 0 || x >= nx || y >= ny ? none : roots_[static_cast<std::size_t>(y * nx + x)];
+    return x < 0 || y < 0 || x >= nx || y >= ny ? none : roots_[y * nx + x];
   };
   for (int y = 0; y < ny; ++y) {
     for (int x = 0; x < nx; ++x) {
@@ -36,13 +36,13 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
 
 LeafGraph::Place LeafGraph::place_of(std::int32_t leaf) const {
   if (is_local(leaf)) return {rank_, leaf - local_begin_};
-  return ghost_places_[static_cast<std::size_t>(leaf < local_begin_ ? leaf : leaf - local_count_)];
+  return ghost_places_[leaf < local_begin_ ? leaf : leaf - local_count_];
 }
 
 std::int32_t LeafGraph::leaf_at(std::int64_t x, std::int64_t y) const {
   const std::int64_t tx = x >> Quadrant::unit_level, ty = y >> Quadrant::unit_level;
   if (x < 0 || y < 0 || tx >= trees_x_ || ty >= trees_y_) return none;
-  Ref ref = roots_[static_cast<std::size_t>(ty * trees_x_ + tx)];
+  Ref ref = roots_[ty * trees_x_ + tx];
   for (int level = 0; is_inner(ref); ++level) ref = down(ref, quarter_at(x, y, level));
   return ref;
 }
@@ -68,11 +68,11 @@ void LeafGraph::build_trees(const Lattice& lattice) {
       const auto differing = static_cast<std::uint64_t>((q.x ^ last.x) | (q.y ^ last.y));
       common = Quadrant::unit_level - static_cast<int>(std::bit_width(differing));
     } else {
-      path[0] = roots_[static_cast<std::size_t>(tree)] = new_inner();
+      path[0] = roots_[tree] = new_inner();
     }
     for (int level = common; level < q.level; ++level) {
       const Ref below = level + 1 == q.level ? i : new_inner();
-      child(path[static_cast<std::size_t>(level)], quarter_at(q.x, q.y, level)) = below;
+      child(path[level], quarter_at(q.x, q.y, level)) = below;
       path[static_cast<std::size_t>(level) + 1] = below;
     }
     last = q;
@@ -103,7 +103,7 @@ void LeafGraph::visit_leaf(std::int32_t leaf, const Neighbours& n) {
     while (is_inner(ref)) ref = down(ref, quarter);
     return ref;
   };
-  Around& around = around_[static_cast<std::size_t>(leaf)];
+  Around& around = around_[leaf];
   around.south_west = deepest(n.south_west, north_east);
   around.south = deepest(n.south, north_east);
   around.west = deepest(n.west, north_east);

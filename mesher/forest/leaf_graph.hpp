@@ -23,7 +23,7 @@ class LeafGraph {
   std::int32_t local_begin() const { return local_begin_; }
   std::int32_t local_end() const { return local_begin_ + local_count_; }
   bool is_local(std::int32_t leaf) const { return local_begin() <= leaf && leaf < local_end(); }
-  const Quadrant& leaf(std::int32_t leaf) const { return leaves_[static_cast<std::size_t>(leaf)]; }
+  const Quadrant& leaf(std::int32_t leaf) const { return leaves_[leaf]; }
   const std::vector<Quadrant>& leaves() const { return leaves_; }
 
   /// The rank that a leaf belongs to, and its number there (counted from that rank's first leaf).
@@ -56,7 +56,7 @@ class LeafGraph {
     std::int32_t west_half = none;   ///< left of the left side's lower half, where the leaves there are finer
     SideSet finer;  ///< the sides across which the neighbours are finer: each has a hanging node
   };
-  const Around& around(std::int32_t leaf) const { return around_[static_cast<std::size_t>(leaf)]; }
+  const Around& around(std::int32_t leaf) const { return around_[leaf]; }
   bool has_hanging(std::int32_t leaf, Side side) const { return around(leaf).finer.contains(side); }
 
  private:
@@ -65,11 +65,9 @@ class LeafGraph {
     Ref west = none, south = none, east = none, north = none, south_west = none;
   };
   static constexpr bool is_inner(Ref ref) { return ref < none; }
-  Ref& child(Ref inner, Corner quarter) {
-    return inner_[static_cast<std::size_t>(-2 - inner)][index_of(quarter)];
-  }
+  Ref& child(Ref inner, Corner quarter) { return inner_[-2 - inner][index_of(quarter)]; }
   Ref down(Ref ref, Corner quarter) const {
-    return is_inner(ref) ? inner_[static_cast<std::size_t>(-2 - ref)][index_of(quarter)] : ref;
+    return is_inner(ref) ? inner_[-2 - ref][index_of(quarter)] : ref;
   }
   Ref new_inner();
   void build_trees(const Lattice& lattice);

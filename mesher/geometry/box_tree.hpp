@@ -62,10 +62,9 @@ class BoxTree {
 
   static double squared_distance_to(const Box& box, Point p);
   void build(std::int32_t begin, std::int32_t end);
-  const Node& node(std::int32_t n) const { return nodes_[static_cast<std::size_t>(n)]; }
+  const Node& node(std::int32_t n) const { return nodes_[n]; }
   std::span<const Item> items_of(const Node& leaf) const {
-    return std::span(items_).subspan(static_cast<std::size_t>(leaf.begin),
-                                     static_cast<std::size_t>(leaf.end - leaf.begin));
+    return std::span(items_).subspan(leaf.begin, leaf.end - leaf.begin);
   }
   template <class DistanceOfItem>
   void search(std::int32_t n, Point p, const DistanceOfItem& distance_of, Candidate& best) const;

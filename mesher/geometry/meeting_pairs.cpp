@@ -51,7 +51,7 @@ MeetingPairs meeting_pairs(const FlatOutline& flat) {
   std::vector<std::int32_t> met;
   for (std::int32_t s = 0; s < size && pairs.complete; ++s) {
     met.clear();
-    tree.for_each_meeting(boxes[static_cast<std::size_t>(s)], [&](std::int32_t t) {
+    tree.for_each_meeting(boxes[s], [&](std::int32_t t) {
       if (t > s && flat.faulty(s, t)) met.push_back(t);
     });
     if (met.empty()) continue;

@@ -47,7 +47,7 @@ Proximity::Proximity(const Geometry& g) : geometry_{&g}, segments_{segment_tree(
 /// Walking from p on segment a onwards to q on segment b of the same loop.
 bool Proximity::is_one_bend_onwards(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const {
   const Geometry& g = *geometry_;
-  const auto at = [](const auto& sums, std::int32_t v) { return sums[static_cast<std::size_t>(v)]; };
+  const auto at = [](const auto& sums, std::int32_t v) { return sums[v]; };
   const std::int32_t loop = g.loop_of(a), first = g.loop_start(loop), last = g.loop_start(loop + 1) - 1;
   double arc = at(arc_, b) + length(q - g.point(b)) - at(arc_, a) - length(p - g.point(a));
   double turning = at(turning_, b) - at(turning_, a);

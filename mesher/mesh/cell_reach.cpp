@@ -53,7 +53,7 @@ double CellReach::largest_within(Point p, double distance, double slope) const {
   const Box around{{p.x - distance, p.y - distance}, {p.x + distance, p.y + distance}};
   double size = 0;
   cells_.for_each_meeting(around, [&](std::int32_t cell) {
-    const double here = longest_[static_cast<std::size_t>(cell)];
+    const double here = longest_[cell];
     if (here <= size) return;
     const double away = distance_to(cell, p);
     if (away <= distance) size = std::max(size, here - slope * away);
@@ -63,7 +63,7 @@ double CellReach::largest_within(Point p, double distance, double slope) const {
 
 double CellReach::longest_of_nearest(Point p) const {
   const std::int32_t nearest = cells_.nearest_box(p);
-  return nearest == BoxTree::none ? 0 : longest_[static_cast<std::size_t>(nearest)];
+  return nearest == BoxTree::none ? 0 : longest_[nearest];
 }
 
 double CellReach::size_at(Point p, double enough) {

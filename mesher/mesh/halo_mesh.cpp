@@ -38,7 +38,7 @@ HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh)
 
 std::int64_t HaloMesh::global(std::int32_t node) const {
   if (node < owned_nodes()) return mesh_->first_node + node;
-  return copies_[static_cast<std::size_t>(node - owned_nodes())].value();
+  return copies_[node - owned_nodes()].value();
 }
 
 NodeExchange HaloMesh::gather(const Communicator& comm) {

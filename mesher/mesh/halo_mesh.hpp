@@ -29,7 +29,7 @@ class HaloMesh {
   /// Owned nodes first, as in the mesh; then its copies; then the other nodes of other ranks' cells.
   std::vector<Point>& points() { return points_; }
   const std::vector<Point>& points() const { return points_; }
-  const Point& point(NodeId node) const { return points_[static_cast<std::size_t>(node.value())]; }
+  const Point& point(NodeId node) const { return points_[node.value()]; }
   std::int32_t owned_nodes() const { return mesh_->owned_nodes; }
   std::int64_t global(std::int32_t node) const;
   const NodeExchange& exchange() const { return exchange_; }
@@ -85,7 +85,7 @@ template <class T>
 void HaloMesh::append_spread(const Communicator& comm, const Sent& sent, std::size_t before,
                              std::span<const T> own, std::vector<T>& all) {
   std::vector<T> out;
-  for (const std::int32_t cell : sent.cells) out.push_back(own[static_cast<std::size_t>(cell)]);
+  for (const std::int32_t cell : sent.cells) out.push_back(own[cell]);
   out = Exchange(comm, sent.ranks).deliver(out);
   const auto middle = out.begin() + static_cast<std::ptrdiff_t>(before);
   all.insert(all.end(), out.begin(), middle);

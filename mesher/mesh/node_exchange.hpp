@@ -17,7 +17,7 @@ class NodeOwners {
 
   int rank_of(GlobalNodeId node) const;
   std::int32_t index_of(GlobalNodeId node) const {
-    return static_cast<std::int32_t>(node.value() - first_[static_cast<std::size_t>(rank_of(node))]);
+    return static_cast<std::int32_t>(node.value() - first_[rank_of(node)]);
   }
 
  private:

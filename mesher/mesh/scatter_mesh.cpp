@@ -47,17 +47,15 @@ std::vector<std::int32_t> numbers_to(std::size_t count) {
 template <class Key>
 std::vector<std::int32_t> ordered_by(const std::vector<Key>& keys) {
   std::vector<std::int32_t> order = numbers_to(keys.size());
-  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::int32_t a, std::int32_t b) { return keys[a] < keys[b]; });
   return order;
 }
 
 /// For each node of the whole mesh its number in the order.
 std::vector<std::int32_t> inverse_of(const std::vector<std::int32_t>& order) {
   std::vector<std::int32_t> inverse(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    inverse[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < order.size(); ++i) inverse[order[i]] = static_cast<std::int32_t>(i);
   return inverse;
 }
 
@@ -65,8 +63,8 @@ template <std::size_t width>
 std::vector<std::int32_t> ordered_cells(const Cells<width>& cells, const std::vector<std::int32_t>& numbers) {
   std::vector<std::int32_t> first;
   for (const auto& nodes : cells) {
-    std::int32_t least = numbers[static_cast<std::size_t>(nodes[0].value())];
-    for (const NodeId node : nodes) least = std::min(least, numbers[static_cast<std::size_t>(node.value())]);
+    std::int32_t least = numbers[nodes[0].value()];
+    for (const NodeId node : nodes) least = std::min(least, numbers[node.value()]);
     first.push_back(least);
   }
   return ordered_by(first);
@@ -79,8 +77,7 @@ GlobalCells<width> scatter_cells(const Communicator& comm, const Cells<width>& c
   GlobalCells<width> ordered;
   for (const std::int32_t cell : order) {
     std::array<std::int64_t, width> nodes;
-    for (std::size_t k = 0; k < width; ++k)
-      nodes[k] = numbers[static_cast<std::size_t>(cells[static_cast<std::size_t>(cell)][k].value())];
+    for (std::size_t k = 0; k < width; ++k) nodes[k] = numbers[cells[cell][k].value()];
     ordered.push_back(nodes);
   }
   return scatter_evenly(comm, std::span<const std::array<std::int64_t, width>>(ordered));
@@ -91,8 +88,7 @@ std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whol
   std::vector<GlobalEdge> edges;
   for (std::size_t b = 0; comm.is_root() && b < whole.boundaries.size(); ++b) {
     for (const auto& [from, to] : whole.boundaries[b].edges) {
-      edges.push_back({numbers[static_cast<std::size_t>(from.value())],
-                       numbers[static_cast<std::size_t>(to.value())], static_cast<std::int32_t>(b)});
+      edges.push_back({numbers[from.value()], numbers[to.value()], static_cast<std::int32_t>(b)});
     }
   }
   return scatter_evenly(comm, std::span<const GlobalEdge>(edges));
@@ -127,7 +123,7 @@ class PartBuilder {
   }
   void add_edges(const std::vector<GlobalEdge>& edges) {
     for (const GlobalEdge& e : edges)
-      part_.boundaries[static_cast<std::size_t>(e.boundary)].edges.push_back({local(e.from), local(e.to)});
+      part_.boundaries[e.boundary].edges.push_back({local(e.from), local(e.to)});
   }
   Mesh& part() { return part_; }
 
@@ -169,8 +165,7 @@ void put_cells(const GlobalCells<width>& cells, const MeshOrder& order,
                const std::vector<std::int32_t>& cell_order, Cells<width>& whole) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (std::size_t k = 0; k < width; ++k) {
-      whole[static_cast<std::size_t>(cell_order[i])][k] =
-          NodeId{order.nodes[static_cast<std::size_t>(cells[i][k])]};
+      whole[cell_order[i]][k] = NodeId{order.nodes[cells[i][k]]};
     }
   }
 }
@@ -185,7 +180,7 @@ Cells<width> whole_cells(const GlobalCells<width>& cells) {
 }
 
 std::vector<Point> gather_points(const Communicator& comm, const Mesh& part) {
-  return gather_at_root(comm, std::span(part.points).first(static_cast<std::size_t>(part.owned_nodes)));
+  return gather_at_root(comm, std::span(part.points).first(part.owned_nodes));
 }
 
 }  // namespace
@@ -243,8 +238,7 @@ Field gather_field(const Communicator& comm, const Field& field, const MeshOrder
 
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole) {
   const std::vector<Point> points = gather_points(comm, part);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    whole.points[static_cast<std::size_t>(order.nodes[i])] = points[i];
+  for (std::size_t i = 0; i < points.size(); ++i) whole.points[order.nodes[i]] = points[i];
   put_cells(gather_cells(comm, part, part.triangles), order, order.triangles, whole.triangles);
   put_cells(gather_cells(comm, part, part.quads), order, order.quads, whole.quads);
 }

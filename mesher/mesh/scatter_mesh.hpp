@@ -70,7 +70,7 @@ std::vector<T> scatter_ordered(const Communicator& comm, const std::vector<T>& o
                                const std::vector<std::int32_t>& order) {
   std::vector<T> ordered;
   for (const std::int32_t i : order) {
-    if (!of_whole.empty()) ordered.push_back(of_whole[static_cast<std::size_t>(i)]);
+    if (!of_whole.empty()) ordered.push_back(of_whole[i]);
   }
   return scatter_evenly(comm, std::span<const T>(ordered));
 }

@@ -39,7 +39,7 @@ KeysOfLevels gather_asked(const Communicator& comm, std::span<const SplitDemand>
       const int level = std::countr_zero(levels);
       QUADLOOP_REQUIRE(level <= demand.leaf.level && level < Quadrant::unit_level - 1,
                        "a split below its leaf, or below the lattice");
-      auto& keys = asked[static_cast<std::size_t>(level)];
+      auto& keys = asked[level];
       const std::uint64_t key = key_of(demand.leaf, level);
       if (keys.empty() || keys.back() != key) keys.push_back(key);
     }
@@ -116,9 +116,7 @@ std::int32_t DemandedSplits::child(std::int32_t number, Corner quarter) const {
   return static_cast<std::int32_t>(roots_.size()) + before;
 }
 
-bool DemandedSplits::asked(std::int32_t number) const {
-  return (masks_[static_cast<std::size_t>(number)] & asked_bit) != 0;
-}
+bool DemandedSplits::asked(std::int32_t number) const { return (masks_[number] & asked_bit) != 0; }
 
 /// The steps that lead to this leaf too.
 void DemandPath::keep_above(const Quadrant& leaf) {
@@ -126,7 +124,7 @@ void DemandPath::keep_above(const Quadrant& leaf) {
   const int common = Quadrant::unit_level -
                      static_cast<int>(std::bit_width(different));  // negative where even the trees are others
   const int kept = std::min({static_cast<int>(steps_.size()), common + 1, leaf.level + 1});
-  steps_.resize(static_cast<std::size_t>(std::max(kept, 0)));
+  steps_.resize(std::max(kept, 0));
   last_ = leaf;
 }
 

@@ -58,7 +58,7 @@ SizeRules::Judgement SizeRules::judge(const SizedQuadrant& q) const {
   for (const Source& source : options_.sources) {
     if (meets(source, q.box)) ask_for(source.spacing);
   }
-  for (const std::int32_t vertex : q.corners) ask_for(corner_spacing_[static_cast<std::size_t>(vertex)]);
+  for (const std::int32_t vertex : q.corners) ask_for(corner_spacing_[vertex]);
   return said;
 }
 
@@ -81,8 +81,8 @@ int SizeRules::level_of_outline(const Quadrant& q, std::span<const std::int32_t>
   double spacing = lattice_->tree_edge();
   std::int64_t turning = 0;
   for (const std::int32_t s : segments) {
-    spacing = std::min(spacing, spacing_[static_cast<std::size_t>(s)]);
-    turning += turning_[static_cast<std::size_t>(s)];
+    spacing = std::min(spacing, spacing_[s]);
+    turning += turning_[s];
   }
   if (options_.curvature && turning > 0) {
     const double turns = static_cast<double>(turning) * turning_unit / *options_.curvature;
@@ -101,14 +101,12 @@ bool SizeRules::wants_split(const SizedQuadrant& quadrant) const {
   for (const Source& source : options_.sources) {
     if (size > source.spacing && meets(source, box)) return true;
   }
-  const auto too_large_for = [&](std::int32_t vertex) {
-    return size > corner_spacing_[static_cast<std::size_t>(vertex)];
-  };
+  const auto too_large_for = [&](std::int32_t vertex) { return size > corner_spacing_[vertex]; };
   if (std::ranges::any_of(quadrant.corners, too_large_for)) return true;
   const std::span<const std::int32_t> inside = quadrant.segments;
   if (inside.empty()) return false;
   for (const std::int32_t s : inside) {
-    if (size > spacing_[static_cast<std::size_t>(s)]) return true;
+    if (size > spacing_[s]) return true;
   }
   if (options_.curvature && turns_too_far(inside, box)) return true;
   if (proximity_ && proximity_->narrower(inside, box, *options_.gap * size)) return true;
@@ -126,9 +124,9 @@ bool SizeRules::turns_too_far(std::span<const std::int32_t> segments, const Box&
     const auto known = std::find_if(turned.begin(), turned.end(),
                                     [&](const auto& entry) { return entry.first == boundary; });
     if (known == turned.end()) {
-      turned.emplace_back(boundary, turning_[static_cast<std::size_t>(v)]);
+      turned.emplace_back(boundary, turning_[v]);
     } else {
-      known->second += turning_[static_cast<std::size_t>(v)];
+      known->second += turning_[v];
     }
   }
   const auto allowed = std::llround(*options_.curvature / turning_unit);

@@ -9,7 +9,7 @@ namespace quadloop {
 SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
                    SizeRules::Unresolved unresolved, const DemandedSplits& demanded)
     : rules_{outline, lattice, options, std::move(unresolved), demanded}, corners_{rules_.sized_corners()} {
-  segments_.resize(static_cast<std::size_t>(outline.geometry().size()));
+  segments_.resize(outline.geometry().size());
   std::iota(segments_.begin(), segments_.end(), 0);
   Node whole;
   whole.segments_end = static_cast<std::int32_t>(segments_.size());
@@ -27,7 +27,7 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
 
 std::int32_t SizeTree::root_of(const Quadrant& q) const {
   const auto tx = q.x >> Quadrant::unit_level, ty = q.y >> Quadrant::unit_level;
-  return roots_[static_cast<std::size_t>(ty * lattice().trees_x() + tx)];
+  return roots_[ty * lattice().trees_x() + tx];
 }
 
 bool SizeTree::is_split(std::int32_t n) const {
@@ -38,10 +38,10 @@ bool SizeTree::is_split(std::int32_t n) const {
 void SizeTree::grow(std::int32_t n) const {
   const Node parent = node(n);
   if (!rules_.wants_split(sized(parent))) {
-    nodes_[static_cast<std::size_t>(n)].children = Node::leaf;
+    nodes_[n].children = Node::leaf;
     return;
   }
-  nodes_[static_cast<std::size_t>(n)].children = size();
+  nodes_[n].children = size();
   for (const Corner quarter : corners_along_curve) {
     Node child;
     child.place = parent.place.child(quarter);
@@ -51,7 +51,7 @@ void SizeTree::grow(std::int32_t n) const {
   }
   for (std::int32_t above = n; above >= 0 && node(above).deepest_split < parent.place.level;
        above = node(above).parent)
-    nodes_[static_cast<std::size_t>(above)].deepest_split = parent.place.level;
+    nodes_[above].deepest_split = parent.place.level;
 }
 
 /// Takes over what the node holds of its parent's segments and corners. A corner on a lattice line touches
@@ -63,7 +63,7 @@ void SizeTree::add(Node child, const Node& parent) const {
                        const auto& holds) {
     const auto first = static_cast<std::int32_t>(all.size());
     for (std::int32_t i = begin; i < end; ++i) {
-      const std::int32_t number = all[static_cast<std::size_t>(i)];
+      const std::int32_t number = all[i];
       if (holds(number)) all.push_back(number);
     }
     return std::pair(first, static_cast<std::int32_t>(all.size()));

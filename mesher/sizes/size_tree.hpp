@@ -44,7 +44,7 @@ class SizeTree {
   /// Whether the node has children; it has got them then. References to nodes and spans of segments may be
   /// stale after it.
   bool is_split(std::int32_t node) const;
-  const Node& node(std::int32_t n) const { return nodes_[static_cast<std::size_t>(n)]; }
+  const Node& node(std::int32_t n) const { return nodes_[n]; }
   std::int32_t size() const { return static_cast<std::int32_t>(nodes_.size()); }
   /// The segments that meet the inside of the node, in ascending order.
   std::span<const std::int32_t> segments_of(const Node& node) const {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
-#include "mesher/snap/leaf_edge.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
+#include "mesher/snap/leaf_edge.hpp"
 
 namespace quadloop {
 
@@ -201,7 +201,7 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
   std::vector<CornerCapture> corners;
   std::vector<Snap> edges;
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const std::int32_t trace = traced.trace_of[static_cast<std::size_t>(leaf)];
+    const std::int32_t trace = traced.trace_of[leaf];
     if (trace < 0) continue;
     const LeafTrace view = traced.traces[trace];
     for (std::size_t p = 0; p < view.pieces.size(); ++p) {
@@ -228,7 +228,7 @@ std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, 
                                 const TracedForest& traced, double share) {
   std::vector<Snap> snaps;
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const std::int32_t trace = traced.trace_of[static_cast<std::size_t>(leaf)];
+    const std::int32_t trace = traced.trace_of[leaf];
     if (trace < 0) continue;
     const Quadrant& q = graph.leaf(leaf);
     for (const Side side : all_sides) {

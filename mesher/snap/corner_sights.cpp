@@ -32,7 +32,7 @@ std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& latti
                                     const TracedForest& traced) {
   std::vector<Sight> sights;
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const std::int32_t trace = traced.trace_of[static_cast<std::size_t>(leaf)];
+    const std::int32_t trace = traced.trace_of[leaf];
     if (trace < 0) continue;
     const LeafTrace view = traced.traces[trace];
     for (std::size_t p = 0; p < view.pieces.size(); ++p) {

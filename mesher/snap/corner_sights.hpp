@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "mesher/snap/leaf_trace.hpp"
 #include "mesher/forest/leaf_graph.hpp"
+#include "mesher/snap/leaf_trace.hpp"
 
 namespace quadloop {
 

@@ -108,7 +108,7 @@ LeafTrace LeafTraces::operator[](std::int32_t trace) const {
   const Begin& begin = begins_[i];
   const bool last = i + 1 == begins_.size();
   const auto part = [](const auto& all, std::int32_t from, std::size_t to) {
-    return std::span(all).subspan(static_cast<std::size_t>(from), to - static_cast<std::size_t>(from));
+    return std::span(all).subspan(from, to - static_cast<std::size_t>(from));
   };
   return {
       begin.box,

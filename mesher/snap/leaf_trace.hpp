@@ -33,10 +33,9 @@ struct LeafTrace {
   std::span<const Piece> pieces;
   std::span<const std::int32_t> vertices;
 
-  const Crossing& crossing(std::int32_t c) const { return crossings[static_cast<std::size_t>(c)]; }
+  const Crossing& crossing(std::int32_t c) const { return crossings[c]; }
   std::span<const std::int32_t> vertices_of(const Piece& p) const {
-    return vertices.subspan(static_cast<std::size_t>(p.vertices_begin),
-                            static_cast<std::size_t>(p.vertices_end - p.vertices_begin));
+    return vertices.subspan(p.vertices_begin, p.vertices_end - p.vertices_begin);
   }
 };
 

@@ -75,7 +75,7 @@ class CornerDecision {
   /// A piece's vertices inside its leaf.
   std::span<const std::int32_t> vertices_of(const Sight& s) const {
     const LeafTrace view = traces_[s.trace];
-    return view.vertices_of(view.pieces[static_cast<std::size_t>(s.piece)]);
+    return view.vertices_of(view.pieces[s.piece]);
   }
 
   /// Whether two sights belong to one run. A kept point far from the corner parts what comes before from what
@@ -146,7 +146,7 @@ class CornerDecision {
 
   Stretch stretch_from(const Sight& s) const {
     const LeafTrace view = traces_[s.trace];
-    const Piece& piece = view.pieces[static_cast<std::size_t>(s.piece)];
+    const Piece& piece = view.pieces[s.piece];
     const auto vertices = view.vertices_of(piece);
     Stretch stretch{{}, {s.segment}, view.crossing(s.at_entry ? piece.exit : piece.entry).position};
     for (std::size_t i = 0; i < vertices.size(); ++i) {

@@ -283,7 +283,7 @@ Warnings corner_warnings(const Geometry& geometry, double min) {
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
     if (geometry.corner_spacing_of(v) == 0) continue;
     for (const std::int32_t segment : {geometry.previous(v), v})
-      has_corner[static_cast<std::size_t>(geometry.boundary_of(segment).value())] = 1;
+      has_corner[geometry.boundary_of(segment).value()] = 1;
   }
   Warnings warnings;
   for (std::size_t b = 0; b < has_corner.size(); ++b) {

@@ -23,7 +23,7 @@ OutlinePath::OutlinePath(const Geometry& geometry)
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
     double arc = 0;
     for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {
-      arc_[static_cast<std::size_t>(v)] = arc;
+      arc_[v] = arc;
       arc += length(geometry.point(geometry.next(v)) - geometry.point(v));
     }
     length_.push_back(arc);
@@ -75,15 +75,14 @@ OutlinePlace OutlinePath::locate(Point p, const std::string& boundary, bool also
   }
   const Point a = geometry_.point(segment), b = geometry_.point(geometry_.next(segment));
   const std::int32_t loop = geometry_.loop_of(segment);
-  return {loop, within(loop, arc_[static_cast<std::size_t>(segment)] +
-                                 place_on_segment(p, a, b).parameter * length(b - a))};
+  return {loop, within(loop, arc_[segment] + place_on_segment(p, a, b).parameter * length(b - a))};
 }
 
 Point OutlinePath::point_at(OutlinePlace place) const {
   const double arc = within(place.loop, place.arc);
   const std::int32_t s = segment_at(place.loop, arc);
   const Point a = geometry_.point(s), b = geometry_.point(geometry_.next(s));
-  const double whole = length(b - a), along = arc - arc_[static_cast<std::size_t>(s)];
+  const double whole = length(b - a), along = arc - arc_[s];
   return along >= whole ? b : a + (along / whole) * (b - a);
 }
 
@@ -96,7 +95,7 @@ double OutlinePath::deviation(OutlinePlace from, Point a, OutlinePlace to, Point
   double deviation = 0;
   std::int32_t v = geometry_.next(segment_at(from.loop, start));
   for (std::size_t passed = 0; passed < most_vertices; ++passed, v = geometry_.next(v)) {
-    const double arc = way({from.loop, start}, {from.loop, arc_[static_cast<std::size_t>(v)]});
+    const double arc = way({from.loop, start}, {from.loop, arc_[v]});
     if (arc >= end || (arc == 0 && passed > 0)) return deviation;
     deviation = std::max(deviation, distance_to_segment(geometry_.point(v), a, b));
   }
@@ -111,7 +110,7 @@ bool OutlinePath::belongs(std::int32_t segment, OutlinePlace from, Point a, Outl
   if (segment == first || segment == last) return true;
   if (segment == geometry_.previous(first) && length(geometry_.point(first) - a) <= tolerance_) return true;
   if (segment == geometry_.next(last) && length(geometry_.point(segment) - b) <= tolerance_) return true;
-  return way(from, {from.loop, arc_[static_cast<std::size_t>(segment)]}) <= way(from, to);
+  return way(from, {from.loop, arc_[segment]}) <= way(from, to);
 }
 
 std::vector<std::int32_t> OutlinePath::met_elsewhere(const Chord& chord) const {

@@ -65,7 +65,7 @@ class OutlinePath {
     double distance = 0;
   };
   Nearest nearest(Point p, const std::string& boundary, double within) const;
-  double loop_length(std::int32_t loop) const { return length_[static_cast<std::size_t>(loop)]; }
+  double loop_length(std::int32_t loop) const { return length_[loop]; }
   std::int32_t segment_at(std::int32_t loop, double arc) const;
   double within(std::int32_t loop, double arc) const;
   bool belongs(std::int32_t segment, OutlinePlace from, Point a, OutlinePlace to, Point b) const;

@@ -69,7 +69,7 @@ class Notes final : public CycleObserver {
 };
 
 std::vector<Point> all_nodes(const Communicator& comm, const Mesh& mesh) {
-  return comm.all_gather_values(std::span(mesh.points).first(static_cast<std::size_t>(mesh.owned_nodes)));
+  return comm.all_gather_values(std::span(mesh.points).first(mesh.owned_nodes));
 }
 
 TEST(Loop, RefinesWhereTheFlowChangesAndIsTheSameOnOneRank) {

@@ -139,12 +139,11 @@ TEST(ExchangeMessages, GoInPieces) {
   std::vector<Communicator::Outgoing> out;
   std::vector<Communicator::Incoming> in;
   for (int rank = 0; rank < world().size(); ++rank) {
-    out.push_back({rank, sent[static_cast<std::size_t>(rank)]});
-    in.push_back({rank, received[static_cast<std::size_t>(rank)]});
+    out.push_back({rank, sent[rank]});
+    in.push_back({rank, received[rank]});
   }
   world().exchange_messages(out, in, 5);
-  for (int rank = 0; rank < world().size(); ++rank)
-    EXPECT_EQ(received[static_cast<std::size_t>(rank)], pattern(rank, world().rank()));
+  for (int rank = 0; rank < world().size(); ++rank) EXPECT_EQ(received[rank], pattern(rank, world().rank()));
 }
 
 /// Each rank owns three entries, 10 * rank + 0, 1, 2, behind `rank` others, and has copies of all ranks' last
@@ -169,8 +168,7 @@ TEST(CopyExchange, BringsOwnersValues) {
   Copies copies;
   const CopyExchange exchange(world(), copies.list, copies.first);
   std::vector<int> expected = copies.values;
-  for (const auto& copy : copies.list)
-    expected[static_cast<std::size_t>(copy.entry)] = 10 * copy.owner + copy.owners_entry;
+  for (const auto& copy : copies.list) expected[copy.entry] = 10 * copy.owner + copy.owners_entry;
   exchange.update(copies.values);
   EXPECT_EQ(copies.values, expected);
 }
@@ -180,8 +178,7 @@ TEST(CopyExchange, BringsThoseThatChangedAlone) {
   const CopyExchange exchange(world(), copies.list, copies.first);
   std::vector<int> expected = copies.values;
   for (const auto& copy : copies.list) {
-    if (copy.owner % 2 == 1 && copy.owners_entry == 2)
-      expected[static_cast<std::size_t>(copy.entry)] = 10 * copy.owner + 2;
+    if (copy.owner % 2 == 1 && copy.owners_entry == 2) expected[copy.entry] = 10 * copy.owner + 2;
   }
   exchange.update(copies.values,
                   [&](std::int32_t entry) { return copies.first % 2 == 1 && entry == copies.first + 2; });

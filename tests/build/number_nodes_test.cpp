@@ -73,10 +73,9 @@ struct Node {
 std::vector<Node> all_nodes(const Mesh& mesh) {
   std::vector<Node> own;
   for (std::int32_t n = 0; n < static_cast<std::int32_t>(mesh.points.size()); ++n) {
-    const std::int64_t number = n < mesh.owned_nodes
-                                    ? mesh.first_node + n
-                                    : mesh.copies[static_cast<std::size_t>(n - mesh.owned_nodes)].value();
-    own.push_back({number, mesh.points[static_cast<std::size_t>(n)]});
+    const std::int64_t number =
+        n < mesh.owned_nodes ? mesh.first_node + n : mesh.copies[n - mesh.owned_nodes].value();
+    own.push_back({number, mesh.points[n]});
   }
   std::vector<Node> all = test::world().all_gather_values(std::span<const Node>(own));
   std::sort(all.begin(), all.end());
@@ -118,8 +117,7 @@ TEST(NodeNumbering, LeavesHaveTheirNodesAtTheirCornersAndMiddles) {
   std::vector<Expected> expected;
   std::int64_t hanging = 0;
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-    if (numbered.cut.states[static_cast<std::size_t>(leaf - graph.local_begin())] != CutForest::State::inside)
-      continue;
+    if (numbered.cut.states[leaf - graph.local_begin()] != CutForest::State::inside) continue;
     const Quadrant& q = graph.leaf(leaf);
     for (const Site site : lattice_sites) {
       if (is_middle(site) && !graph.has_hanging(leaf, side_of(site))) continue;
@@ -131,8 +129,7 @@ TEST(NodeNumbering, LeavesHaveTheirNodesAtTheirCornersAndMiddles) {
   }
   EXPECT_GT(test::world().sum(hanging), 0);
   const Mesh mesh = numbered.mesh();
-  for (const Expected& e : expected)
-    EXPECT_EQ(mesh.points[static_cast<std::size_t>(e.node.value())], e.position);
+  for (const Expected& e : expected) EXPECT_EQ(mesh.points[e.node.value()], e.position);
 }
 
 TEST(NodeNumbering, CellsOfCutLeavesHaveTheirNodesWhereTheyWereCut) {
@@ -140,22 +137,20 @@ TEST(NodeNumbering, CellsOfCutLeavesHaveTheirNodesWhereTheyWereCut) {
   const LeafGraph& graph = numbered.graph;
   std::vector<std::pair<NodeId, Point>> expected;
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-    const std::int32_t e = numbered.cut.entry_of[static_cast<std::size_t>(leaf - graph.local_begin())];
+    const std::int32_t e = numbered.cut.entry_of[leaf - graph.local_begin()];
     if (e < 0) continue;
-    const CutForest::Entry& entry = numbered.cut.entries[static_cast<std::size_t>(e)];
+    const CutForest::Entry& entry = numbered.cut.entries[e];
     for (const auto& t :
          CutForest::part(numbered.cut.triangles, entry.begin.triangles, entry.end.triangles)) {
       for (const std::int32_t n : t) {
         const std::int32_t node = entry.begin.nodes + n;
-        expected.emplace_back(numbered.numbers.of_cut(leaf, node),
-                              numbered.cut.nodes[static_cast<std::size_t>(node)].position);
+        expected.emplace_back(numbered.numbers.of_cut(leaf, node), numbered.cut.nodes[node].position);
       }
     }
   }
   EXPECT_GT(test::world().sum(static_cast<std::int64_t>(expected.size())), 0);
   const Mesh mesh = numbered.mesh();
-  for (const auto& [node, position] : expected)
-    EXPECT_EQ(mesh.points[static_cast<std::size_t>(node.value())], position);
+  for (const auto& [node, position] : expected) EXPECT_EQ(mesh.points[node.value()], position);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ Cut cut_box(const Geometry& geometry, const Box& box, SideSet hanging = {}) {
   LeafCellMaker maker;
   LeafCells cells;
   result.sound = result.sound && maker.make({0, 0, 0}, box, result.leaf, cells);
-  const auto at = [&](std::int32_t n) { return result.leaf.nodes[static_cast<std::size_t>(n)].position; };
+  const auto at = [&](std::int32_t n) { return result.leaf.nodes[n].position; };
   for (const auto& t : cells.triangles) result.area += 0.5 * cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
   for (const auto& q : cells.quads) result.area += 0.5 * cross(at(q[2]) - at(q[0]), at(q[3]) - at(q[1]));
   result.cells = cells.triangles.size() + cells.quads.size();
@@ -61,7 +61,7 @@ using Points = std::vector<Point>;
 /// The ends of the chords, in their order.
 std::vector<std::pair<Point, Point>> chords_of(const Cut& cut) {
   std::vector<std::pair<Point, Point>> chords;
-  const auto at = [&](std::int32_t n) { return cut.leaf.nodes[static_cast<std::size_t>(n)].position; };
+  const auto at = [&](std::int32_t n) { return cut.leaf.nodes[n].position; };
   for (const CutLeaf::Edge& e : cut.leaf.outline) chords.emplace_back(at(e.from), at(e.to));
   return chords;
 }
@@ -69,7 +69,7 @@ std::vector<std::pair<Point, Point>> chords_of(const Cut& cut) {
 /// The nodes of a loop, from the leftmost one on, the lowest of several.
 Points places_of(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
   Points places;
-  for (const std::int32_t n : loop) places.push_back(leaf.nodes[static_cast<std::size_t>(n)].position);
+  for (const std::int32_t n : loop) places.push_back(leaf.nodes[n].position);
   std::rotate(places.begin(), std::min_element(places.begin(), places.end()), places.end());
   return places;
 }

@@ -35,8 +35,7 @@ class TracedLeaves {
       for (std::int32_t s = 0; s < geometry.size(); ++s) {
         if (outline.meets(s, box)) segments.push_back(s);
       }
-      if (!segments.empty())
-        traced.trace_of[static_cast<std::size_t>(leaf)] = traced.traces.add(outline, box, segments);
+      if (!segments.empty()) traced.trace_of[leaf] = traced.traces.add(outline, box, segments);
     }
   }
 

@@ -44,7 +44,7 @@ TEST(Triangulate, AreaInIsAreaOutAndEveryTriangleIsPositive) {
     const auto triangles = triangulated(points, std::vector<TieRank>(points.size()));
     EXPECT_EQ(triangles.size(), points.size() - 2);
     double area = 0;
-    const auto at = [&](std::int32_t n) { return points[static_cast<std::size_t>(n)]; };
+    const auto at = [&](std::int32_t n) { return points[n]; };
     for (const auto& t : triangles) {
       EXPECT_GT(orientation(at(t[0]), at(t[1]), at(t[2])), 0);
       area += 0.5 * cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
@@ -58,7 +58,7 @@ TEST(Triangulate, InnerEdgesAreLocallyDelaunay) {
   for (int trial = 0; trial < 50; ++trial) {
     const auto points = random_star(random, 6 + trial);
     const auto triangles = triangulated(points, std::vector<TieRank>(points.size()));
-    const auto at = [&](std::int32_t n) { return points[static_cast<std::size_t>(n)]; };
+    const auto at = [&](std::int32_t n) { return points[n]; };
     for (const auto& t : triangles) {
       for (const auto& other : triangles) {
         std::vector<std::int32_t> apart;

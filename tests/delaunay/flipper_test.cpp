@@ -43,8 +43,8 @@ struct Grid {
     return triangles;
   }
 
-  Point at(std::int32_t node) const { return points[static_cast<std::size_t>(node)]; }
-  const TieRank& rank(std::int32_t node) const { return ranks[static_cast<std::size_t>(node)]; }
+  Point at(std::int32_t node) const { return points[node]; }
+  const TieRank& rank(std::int32_t node) const { return ranks[node]; }
 
   std::int32_t n;
   std::vector<Point> points;

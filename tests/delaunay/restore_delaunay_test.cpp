@@ -128,8 +128,7 @@ class Moves {
 /// Nodes, triangles and boundary edges of all ranks, in the global order, on every rank.
 Mesh gather(const Communicator& comm, const Mesh& part) {
   Mesh whole;
-  whole.points =
-      comm.all_gather_values(std::span(part.points).first(static_cast<std::size_t>(part.owned_nodes)));
+  whole.points = comm.all_gather_values(std::span(part.points).first(part.owned_nodes));
   whole.owned_nodes = static_cast<std::int32_t>(whole.points.size());
   const auto renumber = [&](auto rows) {
     for (auto& row : rows) {
@@ -171,7 +170,7 @@ void expect_delaunay(const Mesh& whole) {
     const std::int32_t other = table.cell_left_of(to, from);
     if (other < 0) return;
     const auto apex = [&](std::int32_t t) {
-      const auto& nodes = whole.triangles[static_cast<std::size_t>(t)];
+      const auto& nodes = whole.triangles[t];
       return whole.point(
           *std::find_if(nodes.begin(), nodes.end(), [&](NodeId n) { return n != from && n != to; }));
     };
@@ -317,8 +316,7 @@ Mesh shuffled_part(const Communicator& comm, const Mesh& whole) {
   std::iota(number.begin(), number.end(), 0);
   std::shuffle(number.begin(), number.end(), random);
   std::vector<Point> points(number.size());
-  for (std::size_t i = 0; i < number.size(); ++i)
-    points[static_cast<std::size_t>(number[i])] = whole.points[i];
+  for (std::size_t i = 0; i < number.size(); ++i) points[number[i]] = whole.points[i];
   auto triangles = whole.triangles;
   std::shuffle(triangles.begin(), triangles.end(), random);
   const std::size_t shares = comm.size() > 1 ? static_cast<std::size_t>(comm.size()) - 1 : 1;
@@ -331,8 +329,8 @@ Mesh shuffled_part(const Communicator& comm, const Mesh& whole) {
   part.points.assign(points.begin() + part.first_node, points.begin() + part.first_node + part.owned_nodes);
   NodeTable nodes(part);
   const auto local = [&](NodeId node) {
-    const std::int32_t n = number[static_cast<std::size_t>(node.value())];
-    return nodes.local(n, points[static_cast<std::size_t>(n)]);
+    const std::int32_t n = number[node.value()];
+    return nodes.local(n, points[n]);
   };
   for (std::size_t t = from(triangles.size()); t < to(triangles.size()); ++t) {
     part.triangles.push_back({local(triangles[t][0]), local(triangles[t][1]), local(triangles[t][2])});

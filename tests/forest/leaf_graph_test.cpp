@@ -96,8 +96,8 @@ TEST(LeafGraph, PlacesNameTheOwners) {
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
     const LeafGraph::Place place = graph.place_of(leaf);
     std::int64_t at = place.index;
-    for (int rank = 0; rank < place.rank; ++rank) at += counts[static_cast<std::size_t>(rank)];
-    EXPECT_EQ(all[static_cast<std::size_t>(at)], graph.leaf(leaf));
+    for (int rank = 0; rank < place.rank; ++rank) at += counts[rank];
+    EXPECT_EQ(all[at], graph.leaf(leaf));
   }
 }
 

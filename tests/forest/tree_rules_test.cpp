@@ -130,7 +130,7 @@ bool finer_on_side(const Quadrant& q, const Quadrant& r, int s) {
 bool is_squeezed(const Quadrant& q, const std::vector<Quadrant>& leaves) {
   std::array<bool, 4> finer{};
   for (const Quadrant& r : leaves) {
-    for (int s = 0; s < 4; ++s) finer[static_cast<std::size_t>(s)] |= finer_on_side(q, r, s);
+    for (int s = 0; s < 4; ++s) finer[s] |= finer_on_side(q, r, s);
   }
   return (finer[0] && finer[2]) || (finer[1] && finer[3]);
 }

@@ -74,7 +74,7 @@ TEST(BoxTree, OfEquallyNearTheLowestNumberIsNearest) {
   for (double x = -3; x < 45; x += 0.5) {
     const Point p{x, 30 - x};
     const auto distance = [&](std::int32_t number) {
-      const auto& [a, b] = all[static_cast<std::size_t>(number)];
+      const auto& [a, b] = all[number];
       return place_on_segment(p, a, b).squared_distance;
     };
     std::int32_t wanted = 0;

@@ -169,8 +169,8 @@ TEST(TreeFile, ComesBackInShares) {
   EXPECT_EQ(world().sum(count), leaves);
   const std::int64_t first = world().exclusive_sum(count);
   for (std::int64_t i = 0; i < count; ++i) {
-    const LeafRecord& a = read.leaves[static_cast<std::size_t>(i)];
-    const LeafRecord& b = all.leaves[static_cast<std::size_t>(first + i)];
+    const LeafRecord& a = read.leaves[i];
+    const LeafRecord& b = all.leaves[first + i];
     const bool same = a.tree_x == b.tree_x && a.tree_y == b.tree_y && a.x == b.x && a.y == b.y &&
                       a.level == b.level && a.wanted == b.wanted && a.mark == b.mark &&
                       a.triangles == b.triangles && a.quads == b.quads && a.adapted == b.adapted;

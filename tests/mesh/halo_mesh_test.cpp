@@ -63,7 +63,7 @@ std::vector<Numbers> expected_cells(const Pieces& pieces) {
   const auto add = [&](const auto& cells, const Numbers& numbers) {
     for (const std::int64_t number : numbers) {
       rows.emplace_back();
-      for (const NodeId node : cells[static_cast<std::size_t>(number)]) rows.back().push_back(node.value());
+      for (const NodeId node : cells[number]) rows.back().push_back(node.value());
     }
   };
   add(pieces.whole.triangles,
@@ -92,7 +92,7 @@ TEST(HaloMesh, KnowsWhereItsNodesAre) {
     Numbers numbers;
     for (std::int32_t node = 0; node < static_cast<std::int32_t>(halo.points().size()); ++node) {
       numbers.push_back(halo.global(node));
-      EXPECT_EQ(halo.point(NodeId{node}), pieces.whole.points[static_cast<std::size_t>(halo.global(node))]);
+      EXPECT_EQ(halo.point(NodeId{node}), pieces.whole.points[halo.global(node)]);
     }
     std::sort(numbers.begin(), numbers.end());
     EXPECT_EQ(std::adjacent_find(numbers.begin(), numbers.end()), numbers.end()) << "a node is there twice";
@@ -154,12 +154,11 @@ TEST(HaloMesh, ExchangeBringsOnlyWhatHasChanged) {
     const HaloMesh halo(world(), pieces.part);
     const auto is_even = [&](std::int32_t node) { return halo.global(node) % 2 == 0; };
     Numbers values(halo.points().size(), -1);
-    for (std::int32_t node = 0; node < halo.owned_nodes(); ++node)
-      values[static_cast<std::size_t>(node)] = halo.global(node);
+    for (std::int32_t node = 0; node < halo.owned_nodes(); ++node) values[node] = halo.global(node);
     halo.exchange().update(values, is_even);
     for (std::int32_t node = 0; node < static_cast<std::int32_t>(values.size()); ++node) {
       const bool known = node < halo.owned_nodes() || is_even(node);
-      EXPECT_EQ(values[static_cast<std::size_t>(node)], known ? halo.global(node) : -1);
+      EXPECT_EQ(values[node], known ? halo.global(node) : -1);
     }
   });
 }

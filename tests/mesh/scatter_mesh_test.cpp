@@ -107,8 +107,7 @@ TEST(ScatterMesh, PartsNameTheNodesOfTheWhole) {
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(part.points.size()); ++i) {
     const std::int64_t number = part.global(NodeId{i}).value();
     EXPECT_TRUE(numbers.insert(number).second) << number << " twice";
-    EXPECT_EQ(part.point(NodeId{i}),
-              whole.points[static_cast<std::size_t>(order.nodes[static_cast<std::size_t>(number)])]);
+    EXPECT_EQ(part.point(NodeId{i}), whole.points[order.nodes[number]]);
   }
 }
 
@@ -123,8 +122,7 @@ TEST(ScatterMesh, BoundariesAreOnEveryRank) {
     std::vector<std::array<NodeId, 2>> edges;
     for (const auto& edge : part.boundaries[b].edges) {
       edges.push_back(edge);
-      for (NodeId& node : edges.back())
-        node = NodeId{order.nodes[static_cast<std::size_t>(part.global(node).value())]};
+      for (NodeId& node : edges.back()) node = NodeId{order.nodes[part.global(node).value()]};
     }
     EXPECT_TRUE(world().all_gather_values(std::span<const std::array<NodeId, 2>>(edges)) ==
                 whole.boundaries[b].edges);

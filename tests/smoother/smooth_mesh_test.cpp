@@ -368,8 +368,7 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWithTargets) {
   EXPECT_GT(s.report.moves, 0);
   expect_same_report(s.report, s.alone_report);
   for (std::int32_t node = 0; node < static_cast<std::int32_t>(s.part.points.size()); ++node) {
-    EXPECT_EQ(s.part.point(NodeId{node}),
-              s.alone.points[static_cast<std::size_t>(s.part.global(NodeId{node}).value())]);
+    EXPECT_EQ(s.part.point(NodeId{node}), s.alone.points[s.part.global(NodeId{node}).value()]);
   }
 }
 

@@ -53,8 +53,7 @@ void expect_same_positions(const Mesh& mesh, const Options& options_for) {
     expect_same_report(s.report, s.alone_report);
     for (std::int32_t node = 0; node < static_cast<std::int32_t>(s.part.points.size()); ++node) {
       const std::int64_t number = s.part.global(NodeId{node}).value();
-      EXPECT_EQ(s.part.point(NodeId{node}), s.alone.points[static_cast<std::size_t>(number)])
-          << "node " << number;
+      EXPECT_EQ(s.part.point(NodeId{node}), s.alone.points[number]) << "node " << number;
     }
   }
 }

@@ -107,7 +107,7 @@ RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& h
 
 /// Its nodes come in an order that all ranks have, and so does the sum.
 Point RegionTriangulation::centroid(const Triangle& nodes) const {
-  const auto at = [&](std::size_t k) { return points_[static_cast<std::size_t>(nodes[k])]; };
+  const auto at = [&](std::size_t k) { return points_[nodes[k]]; };
   return 1.0 / 3 * (at(0) + at(1) + at(2));
 }
 
@@ -129,7 +129,7 @@ void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) 
     MadeTriangle triangle{gone.nearest(t[0], centroid(t), block), {}, {}, block};
     for (std::size_t k = 0; k < 3; ++k) {
       triangle.nodes[k] = number_of(t[k]);
-      triangle.points[k] = points_[static_cast<std::size_t>(t[k])];
+      triangle.points[k] = points_[t[k]];
     }
     new_triangles_.push_back(t);
     made_.push_back(triangle);

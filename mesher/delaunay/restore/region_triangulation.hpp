@@ -56,8 +56,8 @@ class RegionTriangulation {
   void find_outgrown();
   std::vector<Edge> outer_edges() const;
 
-  std::int64_t number_of(std::int32_t node) const { return numbers_[static_cast<std::size_t>(node)]; }
-  bool is_core(std::int32_t node) const { return core_[static_cast<std::size_t>(node)] != 0; }
+  std::int64_t number_of(std::int32_t node) const { return numbers_[node]; }
+  bool is_core(std::int32_t node) const { return core_[node] != 0; }
 
   std::vector<std::int64_t> numbers_;  ///< of the nodes at hand, over all ranks, ascending
   std::vector<Point> points_;          ///< of each

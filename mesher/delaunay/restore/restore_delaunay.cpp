@@ -14,9 +14,7 @@ namespace {
 
 constexpr int first_rings = 2;  ///< fetched at once; more where circumcircles reach farther
 
-bool has_flag(const std::vector<char>& flags, NodeId node) {
-  return flags[static_cast<std::size_t>(node.value())] != 0;
-}
+bool has_flag(const std::vector<char>& flags, NodeId node) { return flags[node.value()] != 0; }
 
 /// The nodes of triangles that have a flagged node, by their numbers over all ranks.
 std::vector<std::int64_t> nodes_around(const Mesh& mesh, const std::vector<char>& flags) {
@@ -26,8 +24,7 @@ std::vector<std::int64_t> nodes_around(const Mesh& mesh, const std::vector<char>
   for (const auto& t : mesh.triangles) {
     if (std::none_of(t.begin(), t.end(), [&](NodeId node) { return has_flag(flags, node); })) continue;
     for (const NodeId node : t) {
-      if (std::exchange(named[static_cast<std::size_t>(node.value())], 1) == 0)
-        nodes.push_back(mesh.global(node).value());
+      if (std::exchange(named[node.value()], 1) == 0) nodes.push_back(mesh.global(node).value());
     }
   }
   return nodes;
@@ -50,8 +47,7 @@ class Region {
   void add(const std::vector<std::int64_t>& nodes) {
     Outbox<std::int64_t> to_owners;
     for (const std::int64_t node : nodes) to_owners.add(owners_.rank_of(GlobalNodeId{node}), node);
-    for (const std::int64_t node : to_owners.deliver(comm_))
-      core_[static_cast<std::size_t>(node - mesh_.first_node)] = 1;
+    for (const std::int64_t node : to_owners.deliver(comm_)) core_[node - mesh_.first_node] = 1;
     exchange_.update(core_, [&](std::int32_t node) { return has_flag(core_, NodeId{node}); });
   }
 
@@ -105,7 +101,7 @@ class Ranges {
   int rank_of(std::int64_t number) const {
     return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), number) - first_.begin()) - 1;
   }
-  std::int64_t begin(int rank) const { return first_[static_cast<std::size_t>(rank)]; }
+  std::int64_t begin(int rank) const { return first_[rank]; }
 
  private:
   std::vector<std::int64_t> first_;
@@ -145,8 +141,7 @@ void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle
   made = deliver(comm, made, [&](const MadeTriangle&) { return free_places.rank_of(next++); });
   NodeTable nodes(mesh);
   for (std::size_t i = 0; i < made.size(); ++i) {
-    auto& triangle =
-        mesh.triangles[static_cast<std::size_t>(places[i].number - triangles.begin(comm.rank()))];
+    auto& triangle = mesh.triangles[places[i].number - triangles.begin(comm.rank())];
     for (std::size_t k = 0; k < 3; ++k) triangle[k] = nodes.local(made[i].nodes[k], made[i].points[k]);
   }
 }
@@ -160,7 +155,7 @@ std::vector<std::int32_t> insert_triangles(const Communicator& comm, std::vector
   made = deliver(comm, made, [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
   std::sort(made.begin(), made.end());
   std::vector<std::int32_t> standing(mesh.triangles.size(), 1);
-  for (const FreedTriangle& t : freed) standing[static_cast<std::size_t>(t.number - first)] = 0;
+  for (const FreedTriangle& t : freed) standing[t.number - first] = 0;
   const auto before = std::exchange(mesh.triangles, {});
   mesh.triangles.reserve(before.size() + made.size() - freed.size());
   NodeTable nodes(mesh);

@@ -21,7 +21,7 @@ void turn_round(OutlineLoop& loop) {
 }
 
 std::string turned_text(const Outline& outline, const OutlineLoop& loop, const LoopPlace& place) {
-  const std::string& name = outline.names[static_cast<std::size_t>(loop.boundary.front().value())];
+  const std::string& name = outline.names[loop.boundary.front().value()];
   const Point p = loop.points.front();
   std::string text = fmt::format(
       "boundary '{}': the loop from ({}, {}) wound the wrong way round and was turned", name, p.x, p.y);
@@ -54,7 +54,7 @@ void warn_of_domains(const Outline& outline, const std::vector<LoopPlace>& place
   }
   if (outermost.size() < 2) return;
   const OutlineLoop& second = outline.loops[outermost[1]];
-  const std::string& name = outline.names[static_cast<std::size_t>(second.boundary.front().value())];
+  const std::string& name = outline.names[second.boundary.front().value()];
   warnings.push_back(fmt::format(
       "the geometry has {} domains beside each other; that of boundary '{}' at ({}, {}) lies in no other",
       outermost.size(), name, second.points.front().x, second.points.front().y));

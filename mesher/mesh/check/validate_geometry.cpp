@@ -33,7 +33,7 @@ class SegmentSet {
   std::pair<std::uint32_t, double> nearest(Point p) const {
     if (segments_.empty()) return {0, std::numeric_limits<double>::infinity()};
     const auto found = static_cast<std::uint32_t>(tree_.nearest(p, [&](std::int32_t number) {
-      const auto& [a, b] = segments_[static_cast<std::size_t>(number)];
+      const auto& [a, b] = segments_[number];
       return place_on_segment(p, a, b).squared_distance;
     }));
     const auto& [a, b] = segments_[found];
@@ -91,7 +91,7 @@ std::vector<Point> sharp_points(std::span<const Chain> geometry) {
 std::vector<double> longest_edge_of_cells(const Mesh& mesh) {
   std::vector<double> longest(mesh.triangles.size() + mesh.quads.size(), 0);
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    auto& value = longest[static_cast<std::size_t>(cell)];
+    auto& value = longest[cell];
     value = std::max(value, length(mesh.point(to) - mesh.point(from)));
   });
   return longest;
@@ -179,7 +179,7 @@ class Comparison {
     fit_.geometry_distance = std::max(fit_.geometry_distance, away);
     const auto& nodes = boundary.edges[edge];
     const std::int32_t cell = table_.cell_left_of(nodes[0], nodes[1]);
-    if (away <= tolerance_ || (cell >= 0 && away <= longest_[static_cast<std::size_t>(cell)])) return;
+    if (away <= tolerance_ || (cell >= 0 && away <= longest_[cell])) return;
     if (away <= reach_.size_at(p, away)) return;
     fault("a point of boundary " + boundary.name + " is farther from the mesh than the cells there are long",
           p);

@@ -60,21 +60,20 @@ std::vector<Point> piece_seeds(const Mesh& mesh) {
   std::vector<std::int32_t> parent(mesh.points.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](std::int32_t i) {
-    while (parent[static_cast<std::size_t>(i)] != i) {
-      auto& above = parent[static_cast<std::size_t>(i)];
-      above = parent[static_cast<std::size_t>(above)];
+    while (parent[i] != i) {
+      auto& above = parent[i];
+      above = parent[above];
       i = above;
     }
     return i;
   };
-  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
-    parent[static_cast<std::size_t>(root(from.value()))] = root(to.value());
-  });
+  for_each_cell_edge(
+      mesh, [&](NodeId from, NodeId to, std::int32_t) { parent[root(from.value())] = root(to.value()); });
   std::vector<char> seen(mesh.points.size(), 0);
   std::vector<Point> seeds;
   const auto visit = [&](const auto& cells) {
     for (const auto& cell : cells) {
-      char& known = seen[static_cast<std::size_t>(root(cell[0].value()))];
+      char& known = seen[root(cell[0].value())];
       if (known == 0)
         seeds.push_back(1.0 / 3.0 * (mesh.point(cell[0]) + mesh.point(cell[1]) + mesh.point(cell[2])));
       known = 1;
@@ -92,9 +91,8 @@ std::vector<double> turns_around_nodes(const Mesh& mesh) {
     for (const auto& cell : cells) {
       const std::size_t width = cell.size();
       for (std::size_t k = 0; k < width; ++k) {
-        turns[static_cast<std::size_t>(cell[k].value())] +=
-            corner_degrees(mesh.point(cell[(k + width - 1) % width]), mesh.point(cell[k]),
-                           mesh.point(cell[(k + 1) % width]));
+        turns[cell[k].value()] += corner_degrees(mesh.point(cell[(k + width - 1) % width]),
+                                                 mesh.point(cell[k]), mesh.point(cell[(k + 1) % width]));
       }
     }
   };
@@ -126,7 +124,7 @@ void check_overlap(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
   std::vector<std::int32_t> passages(mesh.points.size(), 0);
   std::vector<Segment> segments;
   for (const OuterEdge& edge : outer_edges(mesh, table)) {
-    ++passages[static_cast<std::size_t>(edge.from.value())];
+    ++passages[edge.from.value()];
     segments.push_back({mesh.point(edge.from), mesh.point(edge.to)});
   }
   const std::vector<double> turns = turns_around_nodes(mesh);

@@ -51,8 +51,7 @@ Values of_two_squares(const std::vector<Values>& fields_by_node, Indicator kind)
   Field field;
   for (std::size_t k = 0; k < fields_by_node.size(); ++k) field.names.push_back("q" + std::to_string(k));
   for (std::int32_t node = 0; node < part.owned_nodes; ++node) {
-    for (const Values& by_node : fields_by_node)
-      field.values.push_back(by_node[static_cast<std::size_t>(part.first_node + node)]);
+    for (const Values& by_node : fields_by_node) field.values.push_back(by_node[part.first_node + node]);
   }
   const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::uneven);
   return test::joined(world(), leaf_indicator(world(), part, own, field, kind));
@@ -163,8 +162,7 @@ TEST(LeafErrors, AreTheLargestAtTheLeafsNodes) {
   const Mesh mesh = two_squares(), part = test::Pieces(mesh, own_order(mesh)).part;
   const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::uneven);
   const auto errors = [&](const Values& by_node) {
-    const Field field = field_of(
-        part, "e", [&](std::int64_t node, Point) { return by_node[static_cast<std::size_t>(node)]; });
+    const Field field = field_of(part, "e", [&](std::int64_t node, Point) { return by_node[node]; });
     return test::joined(world(), leaf_errors(world(), part, own, field));
   };
   EXPECT_EQ(errors({5, 1, 2, 1, 3, 0}), (Values{5, 0, 2, 3}));

@@ -66,9 +66,7 @@ TEST(NodeGradients, HaveTheSameBitsOnAnyNumberOfRanks) {
     const std::vector<Point> part = node_gradients(world(), pieces.part, values_of(pieces.part, value));
     ASSERT_EQ(part.size(), pieces.part.points.size());
     for (std::size_t i = 0; i < part.size(); ++i) {
-      EXPECT_EQ(
-          part[i],
-          whole[static_cast<std::size_t>(pieces.part.global(NodeId{static_cast<std::int32_t>(i)}).value())]);
+      EXPECT_EQ(part[i], whole[pieces.part.global(NodeId{static_cast<std::int32_t>(i)}).value()]);
     }
   });
 }

@@ -53,7 +53,7 @@ TEST(OrderedValues, FindTheKth) {
     EXPECT_EQ(all.smallest(), 0);
     EXPECT_EQ(all.largest(), sorted.back());
     for (std::int64_t k = 1; k <= all.count(); k += 19) {
-      EXPECT_EQ(all.kth_smallest(k), sorted[static_cast<std::size_t>(k - 1)]);
+      EXPECT_EQ(all.kth_smallest(k), sorted[k - 1]);
       EXPECT_EQ(all.kth_largest(k), sorted[sorted.size() - static_cast<std::size_t>(k)]);
     }
   }

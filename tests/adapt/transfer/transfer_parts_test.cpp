@@ -126,7 +126,7 @@ TEST(EqualPoints, AreFoundByTheirCoordinatesAlone) {
   EXPECT_EQ(find_equal_points({}, points), std::vector<std::int32_t>(points.size(), -1));
   const std::vector<Point> many = graded_points(5000, 7);
   const std::vector<std::int32_t> found = find_equal_points(many, many);
-  for (std::size_t i = 0; i < many.size(); ++i) EXPECT_EQ(many[static_cast<std::size_t>(found[i])], many[i]);
+  for (std::size_t i = 0; i < many.size(); ++i) EXPECT_EQ(many[found[i]], many[i]);
 }
 
 TEST(PointCells, MeetEveryBoxThatHoldsAPoint) {
@@ -183,7 +183,7 @@ TEST(CurveShares, SharesAreEven) {
   const std::vector<Point> points = graded_points(2000, 200 + static_cast<std::uint64_t>(world().rank()));
   const CurveShares shares(world(), points, {});
   std::vector<std::int64_t> counts(static_cast<std::size_t>(world().size()), 0);
-  for (const Point p : points) ++counts[static_cast<std::size_t>(shares.rank_of(p))];
+  for (const Point p : points) ++counts[shares.rank_of(p)];
   for (std::int64_t& count : counts) count = world().sum(count);
   for (const std::int64_t count : counts) EXPECT_NEAR(static_cast<double>(count), 2000, 400);
 }
@@ -204,8 +204,7 @@ TEST(LocatePoints, OfSeveralTrianglesTheLowestNumberWins) {
   piece.points = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   const std::array<std::int64_t, 4> numbers{5, 1LL << 40, 2, 7};
   for (std::int32_t k = 0; k < 4; ++k)
-    piece.triangles.push_back(
-        {{NodeId{0}, NodeId{1 + k}, NodeId{1 + (k + 1) % 4}}, numbers[static_cast<std::size_t>(k)]});
+    piece.triangles.push_back({{NodeId{0}, NodeId{1 + k}, NodeId{1 + (k + 1) % 4}}, numbers[k]});
   const double next = std::nextafter(0.5, 1);
   const std::vector<Point> points{{0, 0},       {0.5, 0},   {0, 0.5},    {-0.5, 0}, {0, -0.5},
                                   {0.25, 0.25}, {0.5, 0.5}, {next, 0.5}, {-2, 0},   {-1, 0}};

@@ -144,13 +144,13 @@ TEST(Transfer, TakesTheLowestTriangleAndStaysWithinItsValues) {
     std::array<double, 3> q{};
     for (std::size_t k = 0; k < 3; ++k) {
       at[k] = reference.point(triangle->nodes[k]);
-      q[k] = old_values[static_cast<std::size_t>(triangle->nodes[k].value())];
+      q[k] = old_values[triangle->nodes[k].value()];
     }
     const double area = cross(at[1] - at[0], at[2] - at[0]);
     const double wanted = (q[0] * cross(at[1] - p, at[2] - p) + q[1] * cross(at[2] - p, at[0] - p) +
                            q[2] * cross(at[0] - p, at[1] - p)) /
                           area;
-    const double value = result.field.values[static_cast<std::size_t>(node)];
+    const double value = result.field.values[node];
     EXPECT_NEAR(value, wanted, 1e-13);
     EXPECT_GE(value, std::min({q[0], q[1], q[2]}));
     EXPECT_LE(value, std::max({q[0], q[1], q[2]}));
@@ -204,8 +204,7 @@ TEST(Transfer, OutsideTakesTheNearestBoundaryValue) {
                 nearest{std::clamp(p.x, 0.0, 1.0), std::clamp(p.y, 0.0, 1.0)};
     outside += p == nearest ? 0 : 1;
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(result.field.values[static_cast<std::size_t>(3 * node + k)], linear(nearest, 0, k),
-                  1e-13 * (k == 2 ? 1e5 : 1));
+      EXPECT_NEAR(result.field.values[3 * node + k], linear(nearest, 0, k), 1e-13 * (k == 2 ? 1e5 : 1));
     }
   }
   EXPECT_EQ(result.report.outside, world().sum(outside));
