@@ -30,7 +30,7 @@ void require_format(const ConvertArguments& arguments) {
 }
 
 Figures figures_of(const LoadedMesh& whole) {
-  const auto count = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
+  const auto count = [](const auto& rows) { return std::ssize(rows); };
   Figures figures;
   figures.add("nodes", count(whole.mesh.points));
   figures.add("triangles", count(whole.mesh.triangles));

@@ -59,7 +59,7 @@ LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& t
   LoadedSolution solution = read_solution(arguments.solution);
   LoadedMesh whole = read_mesh(solution.has_cells ? arguments.solution : mesh_beside(arguments.tree));
   require_same_mesh(solution, whole.mesh);
-  const auto count = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
+  const auto count = [](const auto& rows) { return std::ssize(rows); };
   require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0}, tree,
                  arguments.solution, arguments.tree);
   whole.solution = std::move(solution.solution);

@@ -77,7 +77,7 @@ std::string place_difference(const LoadedSolution& solution, const Mesh& mesh) {
   const std::vector<char> elsewhere = nodes_elsewhere(solution.points, mesh);
   const auto first = std::find(elsewhere.begin(), elsewhere.end(), 1);
   if (first == elsewhere.end()) return {};
-  const auto i = static_cast<std::size_t>(first - elsewhere.begin());
+  const std::size_t i = first - elsewhere.begin();
   const Point p = solution.points[i], wanted = mesh.points[i];
   return fmt::format(
       "node {} lies at ({}, {}), in the mesh at ({}, {}); it is a solution of another mesh, or its rows are "
@@ -89,9 +89,7 @@ std::string place_difference(const LoadedSolution& solution, const Mesh& mesh) {
 LoadedSolution read_with_mesh(const std::string& path) {
   LoadedMesh loaded = read_mesh(path);
   require_values(loaded, path);
-  LoadedSolution result{
-      path, std::move(*loaded.solution), static_cast<std::int64_t>(loaded.mesh.points.size()), {}, true, {},
-      {}};
+  LoadedSolution result{path, std::move(*loaded.solution), std::ssize(loaded.mesh.points), {}, true, {}, {}};
   result.points = std::move(loaded.mesh.points);
   result.triangles = std::move(loaded.mesh.triangles);
   result.quads = std::move(loaded.mesh.quads);
@@ -133,7 +131,7 @@ bool same_cells_in_any_order(const Mesh& one, const Mesh& other) {
 }
 
 std::string difference(const LoadedSolution& solution, const Mesh& whole) {
-  if (solution.nodes != static_cast<std::int64_t>(whole.points.size())) {
+  if (solution.nodes != std::ssize(whole.points)) {
     return fmt::format(
         "holds values at {} nodes, the mesh has {}; it is a solution of another mesh; solve on this one",
         solution.nodes, whole.points.size());

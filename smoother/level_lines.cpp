@@ -60,8 +60,7 @@ SquareCorner square_at(Point p, Point next, Point opposite, Point previous) {
 /// Finds the nodes of level lines among those that this rank owns.
 class LevelLines {
  public:
-  explicit LevelLines(const HaloMesh& mesh)
-      : mesh_{mesh}, round_(static_cast<std::size_t>(mesh.owned_nodes())) {
+  explicit LevelLines(const HaloMesh& mesh) : mesh_{mesh}, round_(mesh.owned_nodes()) {
     mesh.for_each_cell([&](const auto& nodes) { look_at_squares(nodes); });
     mesh.for_each_cell([&](const auto& nodes) { look_at_triangles(nodes); });
     for (const HaloEdge& edge : mesh.boundary_edges()) {
@@ -155,7 +154,7 @@ bool move_level_lines(const Communicator& comm, HaloMesh& mesh, const std::vecto
   std::vector<Point>& points = mesh.points();
   const std::vector<Point> before = points;
   for (std::int32_t node = 0; node < mesh.owned_nodes(); ++node) {
-    const auto n = static_cast<std::size_t>(node);
+    const std::size_t n = node;
     if (pinned.empty() || pinned[n] == 0) points[n] = points[n] + lines.move_of(node);
   }
   if (!comm.any(points != before)) return false;

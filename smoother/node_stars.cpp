@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -60,7 +62,7 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes,
 template <std::size_t width>
 std::int32_t NodeStars::first_target(const CellTarget& target) {
   if (target.ideal()) return static_cast<std::int32_t>(ideal_begin<width>());
-  const auto begin = static_cast<std::int32_t>(targets_.size());
+  const auto begin = size32(targets_);
   const auto seen = seen_targets<width>(stretched_targets<width>(target.w1, target.w2));
   targets_.insert(targets_.end(), seen.begin(), seen.end());
   return begin;

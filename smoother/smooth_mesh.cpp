@@ -151,7 +151,7 @@ std::vector<std::int32_t> free_nodes(const Survey& surveyed, const HaloMesh& mes
                                      const std::vector<char>& yielding) {
   std::vector<std::int32_t> free;
   for (std::int32_t node = 0; node < mesh.owned_nodes(); ++node) {
-    const auto n = static_cast<std::size_t>(node);
+    const std::size_t n = node;
     const bool may_move = surveyed.near[n] != 0 && (surveyed.parallel[n] == 0 || yielding[n] != 0);
     if (may_move && slide.freedom(node) != NodeFreedom::fixed) free.push_back(node);
   }
@@ -218,7 +218,7 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
       stage.say("sweep " + std::to_string(sweep + 1) + ", " + std::to_string(moves) + " nodes moved");
       stage.advance(sweep + 1);
     }
-    report.free_nodes = comm.sum(static_cast<std::int64_t>(stars.size()));
+    report.free_nodes = comm.sum(std::ssize(stars));
     if (round == free_rings) return;
     yielding = nodes_of_bad_cells(halo, targets, surveyed, options.bad, round);
     if (!comm.any(std::find(yielding.begin(), yielding.end(), 1) != yielding.end())) return;

@@ -98,7 +98,7 @@ std::string boundary_fault(const Mesh& before, const Mesh& found, const std::vec
   std::optional<OutlinePath> curves;
   for (const BoundaryEdges& boundary : before.boundaries) {
     for (const auto& edge : boundary.edges) {
-      const auto node = static_cast<std::size_t>(edge[0].value());
+      const std::size_t node = edge[0].value();
       if (moved[node] == 0) continue;
       if (outline != nullptr && !curves) curves.emplace(*outline);
       const double reach =

@@ -10,6 +10,7 @@
 #include "io/mesh_file.hpp"
 #include "io/solution_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/validate.hpp"
 
@@ -18,7 +19,7 @@ namespace quadloop {
 namespace {
 
 bool is_of(const TreeAttributes& tree, const Mesh& whole) {
-  const auto count = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
+  const auto count = [](const auto& rows) { return std::ssize(rows); };
   const bool counts = count(whole.points) == tree.nodes && count(whole.triangles) == tree.triangles &&
                       count(whole.quads) == tree.quads;
   return counts && digest_of_owned(whole) == tree.coordinate_digest && validate(whole).empty();
@@ -74,7 +75,7 @@ std::vector<std::array<NodeId, width>> cells_at_root(const Communicator& comm, c
 Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
   Mesh whole;
   whole.points = gather_at_root(comm, std::span(mesh.points).first(mesh.owned_nodes));
-  whole.owned_nodes = static_cast<std::int32_t>(whole.points.size());
+  whole.owned_nodes = size32(whole.points);
   whole.triangles = cells_at_root(comm, mesh, mesh.triangles);
   whole.quads = cells_at_root(comm, mesh, mesh.quads);
   std::vector<NamedEdge> edges;
@@ -90,7 +91,7 @@ Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
 }
 
 LoadedSolution mesh_as_found(LoadedMesh& loaded, const std::string& path) {
-  const auto nodes = static_cast<std::int64_t>(loaded.mesh.points.size());
+  const auto nodes = std::ssize(loaded.mesh.points);
   return {path, {}, nodes, loaded.mesh.points, true, loaded.mesh.triangles, loaded.mesh.quads};
 }
 

@@ -22,13 +22,12 @@ CellShare::CellShare(const Communicator& comm, std::int64_t held, std::int64_t w
 
 std::vector<double> CellShare::bring(const Communicator& comm, std::span<const double> held) const {
   QUADLOOP_REQUIRE(all_held() == all_wanted(), "the cells held are not the cells wanted");
-  const auto self = static_cast<std::size_t>(comm.rank());
+  const std::size_t self = comm.rank();
   const std::int64_t begin = first_held_[self], end = first_held_[self + 1];
-  QUADLOOP_REQUIRE(static_cast<std::int64_t>(held.size()) == end - begin,
-                   "there must be one value for each cell");
+  QUADLOOP_REQUIRE(std::ssize(held) == end - begin, "there must be one value for each cell");
   std::vector<int> ranks;
   for (int rank = 0; rank < comm.size(); ++rank) {
-    const auto r = static_cast<std::size_t>(rank);
+    const std::size_t r = rank;
     const std::int64_t from = std::clamp(first_wanted_[r], begin, end),
                        to = std::clamp(first_wanted_[r + 1], begin, end);
     ranks.insert(ranks.end(), static_cast<std::size_t>(to - from), rank);

@@ -39,7 +39,7 @@ std::vector<Point> node_gradients(const Communicator& comm, const Mesh& mesh,
   halo_values.resize(halo.points().size());
   halo.exchange().update(halo_values);
 
-  std::vector<Integral> round_node(static_cast<std::size_t>(mesh.owned_nodes));
+  std::vector<Integral> round_node(mesh.owned_nodes);
   halo.for_each_cell([&](const auto& nodes) {  // in global order, so that ranks add up alike
     const Integral cell = integral_over(nodes, halo, halo_values);
     for (const NodeId node : nodes) {

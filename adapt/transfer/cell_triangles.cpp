@@ -38,7 +38,7 @@ std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
                                                 const std::array<NodeId, 4>& quad) {
   std::array<TieRank, 4> ranks;
   for (std::size_t k = 0; k < 4; ++k) ranks[k] = tie_rank(centre, mesh.point(quad[k]));
-  const auto highest = static_cast<std::size_t>(std::max_element(ranks.begin(), ranks.end()) - ranks.begin());
+  const std::size_t highest = std::max_element(ranks.begin(), ranks.end()) - ranks.begin();
   const auto first = halves(quad, highest);
   if (turn_of(mesh, first[0]) > 0 && turn_of(mesh, first[1]) > 0) return first;
   const auto second = halves(quad, highest + 1);
@@ -46,8 +46,7 @@ std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
 }
 
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre) {
-  const auto own_triangles = static_cast<std::int64_t>(mesh.triangles.size()),
-             own_quads = static_cast<std::int64_t>(mesh.quads.size());
+  const auto own_triangles = std::ssize(mesh.triangles), own_quads = std::ssize(mesh.quads);
   std::int64_t number = comm.exclusive_sum(own_triangles);
   std::int64_t quad_number = comm.sum(own_triangles) + comm.exclusive_sum(own_quads);
   std::vector<CellTriangle> triangles;

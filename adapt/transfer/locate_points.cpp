@@ -71,7 +71,7 @@ class Search {
     const auto middle = std::partition(order.begin(), order.end(), [&](std::int32_t index) {
       return wide ? point(index).x < centre.x : point(index).y < centre.y;
     });
-    const auto low = static_cast<std::size_t>(middle - order.begin());
+    const std::size_t low = middle - order.begin();
     share_out(order.first(low), begin, depth + 1);
     share_out(order.subspan(low), begin, depth + 1);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 
@@ -21,11 +22,10 @@ std::vector<Edge> gather_edges(const Communicator& comm, const Mesh& mesh) {
   std::vector<Edge> own;
   std::int64_t before = 0;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
-    const auto count = static_cast<std::int64_t>(boundary.edges.size());
+    const auto count = std::ssize(boundary.edges);
     std::int64_t number = before + comm.exclusive_sum(count);
     for (const auto& [from, to] : boundary.edges) {
-      own.push_back(
-          {number++, mesh.point(from), mesh.point(to), comm.rank(), static_cast<std::int32_t>(own.size())});
+      own.push_back({number++, mesh.point(from), mesh.point(to), comm.rank(), size32(own)});
     }
     before += comm.sum(count);
   }

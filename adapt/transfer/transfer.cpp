@@ -181,7 +181,7 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field
   const CurveShares shares(comm, owned_points(old_mesh), owned_points(new_mesh));
   NewRows rows = ask(comm, {old_mesh, old, triangles, shares}, new_mesh);
   Transferred transferred;
-  transferred.report.outside = comm.sum(static_cast<std::int64_t>(rows.outside.size()));
+  transferred.report.outside = comm.sum(std::ssize(rows.outside));
   if (transferred.report.outside > 0) take_from_boundary(comm, old_mesh, old, new_mesh, rows);
   transferred.field = {old.names, std::move(rows.values), old.constants};
   OldIntegrals before{integrate(comm, old_mesh, triangles, old), {}};

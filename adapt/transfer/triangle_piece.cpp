@@ -1,6 +1,7 @@
 #include "adapt/transfer/triangle_piece.hpp"
 
 #include "mesher/base/exchange.hpp"
+#include "mesher/base/ids.hpp"
 
 namespace quadloop {
 
@@ -9,7 +10,7 @@ namespace {
 std::vector<std::vector<CellTriangle>> triangles_by_rank(const Communicator& comm, const CurveShares& shares,
                                                          const Mesh& mesh,
                                                          std::span<const CellTriangle> triangles) {
-  std::vector<std::vector<CellTriangle>> by_rank(static_cast<std::size_t>(comm.size()));
+  std::vector<std::vector<CellTriangle>> by_rank(comm.size());
   std::vector<int> ranks;
   for (const CellTriangle& triangle : triangles) {
     Box box;
@@ -27,7 +28,7 @@ std::vector<NodeId> renumber(std::vector<CellTriangle>& triangles, std::vector<s
     for (NodeId& node : triangle.nodes) {
       std::int32_t& place = place_of[node.value()];
       if (place < 0) {
-        place = static_cast<std::int32_t>(nodes.size());
+        place = size32(nodes);
         nodes.push_back(node);
       }
       node = NodeId{place};

@@ -13,7 +13,7 @@ namespace quadloop::euler {
 
 double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes) {
   std::vector<double> squares;
-  const auto owned = static_cast<std::size_t>(run.mesh.owned_nodes());
+  const std::size_t owned = run.mesh.owned_nodes();
   squares.reserve(owned);
   for (std::size_t node = 0; node < owned; ++node) squares.push_back(fluxes[node][0] * fluxes[node][0]);
   const auto count = static_cast<double>(run.comm.sum(run.mesh.owned_nodes()));

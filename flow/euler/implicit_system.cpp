@@ -41,7 +41,7 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
       model_{model},
       colours_{colour_edges(comm, mesh)},
       diagonal_(mesh.nodes()),
-      inverses_(static_cast<std::size_t>(mesh.owned_nodes())),
+      inverses_(mesh.owned_nodes()),
       skewness_(mesh.edges().size(), 0.0),
       wave_sums_(mesh.nodes()) {
   lay_out();
@@ -124,7 +124,7 @@ void ImplicitSystem::add_faces(const std::vector<State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
     const Condition condition = model_.boundaries[face.boundary].condition;
     for (const std::int32_t node : {face.from, face.to}) {
-      const auto at = static_cast<std::size_t>(node);
+      const std::size_t at = node;
       const State& state = states[at];
       if (condition == Condition::wall) {
         add_wall_matrix(model_.gas, state, face.normal, face.half_size, diagonal_[at]);
@@ -166,7 +166,7 @@ void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::v
 void ImplicitSystem::relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual,
                                 std::vector<Change>& change) const {
   for (std::size_t row = begin; row < end; ++row) {
-    const auto node = static_cast<std::size_t>(row_nodes_[row]);
+    const std::size_t node = row_nodes_[row];
     Eigen::Vector4f right;
     for (int k = 0; k < 4; ++k) right[k] = static_cast<float>(-residual[node][k]);
     for (std::size_t slot = row_starts_[row]; slot < row_starts_[row + 1]; ++slot) {

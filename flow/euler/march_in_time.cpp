@@ -64,7 +64,7 @@ void advance(const FlowRun& run, const Stage& stage, double step, const std::vec
 
 EulerResult march_in_time(const FlowRun& run) {
   std::vector<double> wave_sums(run.mesh.nodes());
-  std::vector<Conserved> start(static_cast<std::size_t>(run.mesh.owned_nodes()));
+  std::vector<Conserved> start(run.mesh.owned_nodes());
   const double cfl = std::min(run.options.cfl, largest_cfl);
   EulerResult result;
   double reference = 0;

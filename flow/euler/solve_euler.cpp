@@ -21,7 +21,7 @@ std::vector<std::string> flow_names() { return {euler_names.begin(), euler_names
 std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, const DualMesh& dual,
                                 const FlowModel& model, const EulerOptions& options, const Field& start) {
   std::vector<State> states(dual.nodes(), model.free_stream);
-  const auto owned = static_cast<std::size_t>(dual.owned_nodes());
+  const std::size_t owned = dual.owned_nodes();
   if (start.width() > 0) {
     const Field given = selected(start, flow_names(), "the starting state");
     QUADLOOP_REQUIRE(given.values.size() == 4 * owned, "a row for each owned node");

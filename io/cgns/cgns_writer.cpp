@@ -251,7 +251,7 @@ class CgnsWriter {
  private:
   template <class Rows>
   static std::int64_t size_of(const Rows& rows) {
-    return static_cast<std::int64_t>(rows.size());
+    return std::ssize(rows);
   }
 
   template <class Action>
@@ -277,7 +277,7 @@ class CgnsWriter {
                      std::span<const std::array<NodeId, width>> rows, std::int64_t all_rows) {
     if (all_rows == 0) return;
     on_root([&] { sink_->begin_section(name, type, all_rows); });
-    const RowStream stream{comm_, static_cast<std::int64_t>(rows.size()), rows_per_piece};
+    const RowStream stream{comm_, std::ssize(rows), rows_per_piece};
     stream.run<cgsize_t>(
         [&](std::int64_t begin, std::int64_t end) {
           std::vector<cgsize_t> nodes(static_cast<std::size_t>(end - begin) * width);

@@ -38,7 +38,7 @@ BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh) : com
 }
 
 std::vector<BoundaryStream::Incoming> BoundaryStream::all_incoming() const {
-  std::vector<Incoming> incoming(static_cast<std::size_t>(comm_.size()));
+  std::vector<Incoming> incoming(comm_.size());
   for (const Share& share : shares_) incoming[share.rank].all += share.edges;
   return incoming;
 }
@@ -48,7 +48,7 @@ void BoundaryStream::ask_for_next(int rank, Incoming& from) const {
   from.asked_for = std::min(from.all, first + edges_per_piece);
   from.piece = rank == 0 ? own_piece(first) : detail::from_bytes<Edge>(comm_.receive_bytes(rank));
   from.taken = 0;
-  QUADLOOP_REQUIRE(static_cast<std::int64_t>(from.piece.size()) == from.asked_for - first,
+  QUADLOOP_REQUIRE(std::ssize(from.piece) == from.asked_for - first,
                    "a piece of boundary edges is not what was announced");
 }
 

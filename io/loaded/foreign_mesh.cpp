@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "io/loaded/orient_cells.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
@@ -61,7 +62,7 @@ std::int64_t drop_repeated_cells(Cells& cells, std::vector<std::int32_t>& cell_t
 }
 
 std::int32_t block_of(const LoadedMesh& loaded, std::int32_t cell) {
-  const auto at = static_cast<std::size_t>(cell);
+  const std::size_t at = cell;
   const std::size_t triangles = loaded.triangle_to_block.size();
   return at < triangles ? loaded.triangle_to_block[at] : loaded.quad_to_block[at - triangles];
 }
@@ -179,7 +180,7 @@ LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
   Mesh& mesh = loaded.mesh;
   if (mesh.triangles.empty() && mesh.quads.empty())
     scan.refuse("the file has no triangle and no quadrilateral; a mesh needs cells");
-  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  mesh.owned_nodes = size32(mesh.points);
   drop_empty_blocks(loaded);
   const std::int64_t turned = orient_cells(mesh);
   sort_by_block(mesh.triangles, loaded.triangle_to_block);

@@ -4,6 +4,7 @@
 #include "io/text/name_index.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 
 namespace quadloop {
 
@@ -29,7 +30,7 @@ class NativeReader {
   void read_nodes() {
     Mesh& mesh = loaded_.mesh;
     mesh.points.resize(scan_.count("grid points", 2));
-    mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+    mesh.owned_nodes = size32(mesh.points);
     for (Point& p : mesh.points) {
       p.x = scan_.real("an x coordinate");
       p.y = scan_.real("a y coordinate");

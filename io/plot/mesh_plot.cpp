@@ -152,7 +152,7 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, Colour ink
   std::vector<std::vector<std::size_t>> classes(width_classes);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const double eighths = 8 * std::log2(edges[i].thickness / smallest);
-    classes[std::clamp(eighths, 0.0, width_classes - 1.0)].push_back(i);
+    classes[static_cast<std::size_t>(std::clamp(eighths, 0.0, width_classes - 1.0))].push_back(i);
   }
   for (std::size_t k = 0; k < classes.size(); ++k) {
     const double thickness = smallest * std::exp2(0.125 * static_cast<double>(k));

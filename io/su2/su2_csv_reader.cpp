@@ -134,7 +134,7 @@ class Su2CsvReader {
                         fmt::format("row {} has the PointID {}, which is none of 0 to {}; rows are missing",
                                     row + 1, id, rows - 1));
       }
-      std::size_t& place = row_of[id];
+      std::size_t& place = row_of[static_cast<std::size_t>(id)];
       if (place < rows)
         scan_.refuse_at(scan_.text().size(),
                         fmt::format("rows {} and {} have the same PointID {}", place + 1, row + 1, id));

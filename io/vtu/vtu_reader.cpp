@@ -88,7 +88,7 @@ class VtuReader {
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < types.size(); ++cell) {
       const std::int64_t end = offsets[cell];
-      if (end < begin || end > static_cast<std::int64_t>(nodes.size())) {
+      if (end < begin || end > std::ssize(nodes)) {
         scan_.refuse_at(offsets_array.place,
                         fmt::format("the offset of cell {} is {}, after {}", cell + 1, end, begin));
       }
@@ -120,7 +120,7 @@ class VtuReader {
   static std::string name_of(const std::vector<std::string>& names, std::int64_t number, const char* kind,
                              const char* without) {
     if (number <= 0) return without;
-    if (number <= static_cast<std::int64_t>(names.size())) return names[number - 1];
+    if (number <= std::ssize(names)) return names[number - 1];
     return fmt::format("{}_{}", kind, number);
   }
 

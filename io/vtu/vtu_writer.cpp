@@ -61,7 +61,7 @@ class VtuWriter {
   }
 
  private:
-  std::int64_t total(const auto& rows) const { return comm_.sum(static_cast<std::int64_t>(rows.size())); }
+  std::int64_t total(const auto& rows) const { return comm_.sum(std::ssize(rows)); }
 
   void write_head(const LoadedMesh* blocks) {
     const std::int64_t cells = total(mesh_.triangles) + total(mesh_.quads) + boundaries_.all_edges();
@@ -79,7 +79,7 @@ class VtuWriter {
 
   void write_points() {
     file_.write("<Points>\n" + array_tag("Float64", "Points", 3));
-    file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 3, [&](TextRows& text, std::size_t i) {
+    file_.write_rows(mesh_.owned_nodes, 3, [&](TextRows& text, std::size_t i) {
       text.put(mesh_.points[i].x, ' ');
       text.put(mesh_.points[i].y, ' ');
       text.put(0, '\n');
@@ -121,7 +121,7 @@ class VtuWriter {
     std::int64_t before = 0;
     for_each_kind([&]<class Row>(const std::vector<Row>& rows, int) {
       constexpr auto width = static_cast<std::int64_t>(std::tuple_size_v<Row>);
-      const std::int64_t first = before + width * comm_.exclusive_sum(static_cast<std::int64_t>(rows.size()));
+      const std::int64_t first = before + width * comm_.exclusive_sum(std::ssize(rows));
       file_.write_rows(rows.size(), 1, [&](TextRows& text, std::size_t i) {
         text.put(first + width * (static_cast<std::int64_t>(i) + 1), '\n');
       });
@@ -142,7 +142,7 @@ class VtuWriter {
     file_.write("<PointData>\n");
     for (std::size_t k = 0; k < width; ++k) {
       file_.write(array_tag("Float64", solution->names[k]));
-      file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 1, [&](TextRows& text, std::size_t i) {
+      file_.write_rows(mesh_.owned_nodes, 1, [&](TextRows& text, std::size_t i) {
         text.put(solution->values[i * width + k], '\n');
       });
       file_.write("</DataArray>\n");

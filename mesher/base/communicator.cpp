@@ -99,10 +99,10 @@ void Communicator::patient_barrier() const {
 
 std::vector<std::byte> Communicator::all_gather_bytes(std::span<const std::byte> bytes) const {
   const int mine = count_of(bytes.size());
-  std::vector<int> counts(static_cast<std::size_t>(size_));
+  std::vector<int> counts(size_);
   MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
   const std::vector<int> offsets = offsets_of(counts);
-  std::vector<std::byte> all(static_cast<std::size_t>(offsets.back()));
+  std::vector<std::byte> all(offsets.back());
   MPI_Allgatherv(bytes.data(), mine, MPI_BYTE, all.data(), counts.data(), offsets.data(), MPI_BYTE, comm_);
   return all;
 }

@@ -24,7 +24,7 @@ std::vector<Exchange::Source> stretches(const std::vector<std::int64_t>& counts)
 }  // namespace
 
 Exchange::Exchange(const Communicator& comm, std::span<const int> ranks) : comm_{&comm} {
-  std::vector<std::int64_t> counts(static_cast<std::size_t>(comm.size()), 0);
+  std::vector<std::int64_t> counts(comm.size(), 0);
   for (const int rank : ranks) {
     QUADLOOP_REQUIRE(0 <= rank && rank < comm.size(), "items are for one of the ranks");
     ++counts[rank];

@@ -18,7 +18,7 @@ class Assembler {
   }
 
   void add(std::int32_t leaf) {
-    const auto local = static_cast<std::size_t>(leaf - graph_.local_begin());
+    const std::size_t local = leaf - graph_.local_begin();
     if (cut_.states[local] == CutForest::State::inside) add_inside(leaf);
     if (cut_.states[local] == CutForest::State::cut)
       add_cut(leaf, static_cast<std::size_t>(cut_.entry_of[local]));

@@ -26,7 +26,7 @@ void report_tree(const Communicator& comm, const LeafGraph& graph, const CutFore
     coarsest = std::min<std::int64_t>(coarsest, graph.leaf(leaf).level);
     finest = std::max<std::int64_t>(finest, graph.leaf(leaf).level);
   }
-  const auto leaves = static_cast<std::int64_t>(cut.states.size());
+  const auto leaves = std::ssize(cut.states);
   const auto cut_leaves =
       static_cast<std::int64_t>(std::count(cut.states.begin(), cut.states.end(), CutForest::State::cut));
   report.leaves = comm.sum(leaves);
@@ -49,8 +49,8 @@ void describe_tree(const Communicator& comm, const Geometry& geometry, const Lat
   a.gradation = options.size.gradation;
   a.geometry_digest = geometry.digest();
   a.nodes = comm.sum(result.mesh.owned_nodes);
-  a.triangles = comm.sum(static_cast<std::int64_t>(result.mesh.triangles.size()));
-  a.quads = comm.sum(static_cast<std::int64_t>(result.mesh.quads.size()));
+  a.triangles = comm.sum(std::ssize(result.mesh.triangles));
+  a.quads = comm.sum(std::ssize(result.mesh.quads));
 }
 
 /// Of a large mesh that is the first of its run it is worth a line.

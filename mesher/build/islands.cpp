@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/build/outline_losses.hpp"
 
 namespace quadloop {
@@ -26,7 +27,7 @@ Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
       points.push_back(g.point(v));
       segment_boundary.push_back(g.boundary_of(v));
     }
-    starts.push_back(static_cast<std::int32_t>(points.size()));
+    starts.push_back(size32(points));
   }
   return {{g.boundaries().begin(), g.boundaries().end()},
           std::move(points),
@@ -48,7 +49,7 @@ std::vector<std::string> names_without_segments(const Geometry& g) {
 }  // namespace
 
 Geometry without_small_islands(const Geometry& g, double min, MeshReport& report) {
-  std::vector<char> keep(static_cast<std::size_t>(g.loop_count()), 1);
+  std::vector<char> keep(g.loop_count(), 1);
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     const Box box = box_of_loop(g, loop);
     if (box.width() >= min || box.height() >= min) continue;

@@ -42,7 +42,7 @@ std::vector<std::int64_t> nodes_of_cut_leaves(const CutForest& cut, const Mesh& 
 
 /// Flags the local leaves that are cut or have a snapped corner, and all around such leaves. *Collective.*
 std::vector<char> irregular_leaves(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
-  std::vector<char> is_cut(static_cast<std::size_t>(graph.size()), 0);
+  std::vector<char> is_cut(graph.size(), 0);
   for (std::size_t i = 0; i < cut.entry_of.size(); ++i) {
     is_cut[graph.from_local(static_cast<std::int32_t>(i))] = cut.entry_of[i] >= 0 ? 1 : 0;
   }

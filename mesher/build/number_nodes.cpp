@@ -140,13 +140,13 @@ void NodeNumbering::mark_inside(std::int32_t leaf) {
 
 void NodeNumbering::mark_used() {
   for (std::int32_t leaf = graph_->local_begin(); leaf < graph_->local_end(); ++leaf) {
-    const auto local = static_cast<std::size_t>(leaf - graph_->local_begin());
+    const std::size_t local = leaf - graph_->local_begin();
     if (cut_->states[local] == CutForest::State::outside) continue;
     if (cut_->states[local] == CutForest::State::inside) {
       mark_inside(leaf);
       continue;
     }
-    const auto entry = static_cast<std::size_t>(cut_->entry_of[local]);
+    const std::size_t entry = cut_->entry_of[local];
     const CutForest::Mark &begin = cut_->entries[entry].begin, &end = cut_->entries[entry].end;
     const auto mark_node = [&](std::int32_t n) {
       mark(home_of_cut_node(leaf, cut_->nodes[begin.nodes + n]));

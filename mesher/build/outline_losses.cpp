@@ -39,7 +39,7 @@ std::map<Point, std::int32_t> kept_vertices(const Geometry& geometry) {
 void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, const Mesh& mesh,
                           MeshReport& report) {
   const std::map<Point, std::int32_t> kept = kept_vertices(geometry);
-  std::vector<char> is_node(static_cast<std::size_t>(geometry.size()), 0);
+  std::vector<char> is_node(geometry.size(), 0);
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     for (const auto& edge : boundary.edges) {
       for (const NodeId node : edge) {

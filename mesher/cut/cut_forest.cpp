@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/base/progress.hpp"
 #include "mesher/cut/opposed_chords.hpp"
 #include "mesher/sizes/size_cursor.hpp"
@@ -23,7 +24,7 @@ constexpr double thinnest_sine = 1e-11;
 TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const ShiftedOutline& outline) {
   TracedForest traced;
   SizeCursor cursor(sizes);
-  traced.trace_of.assign(static_cast<std::size_t>(graph.size()), -1);
+  traced.trace_of.assign(graph.size(), -1);
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
     const auto segments = cursor.segments_in(graph.leaf(leaf));
     if (!segments.empty())
@@ -42,7 +43,7 @@ class ForestCutter {
         inside_{inside},
         traced_{traced},
         cutter_{outline, inside} {
-    const auto count = static_cast<std::size_t>(graph.local_end() - graph.local_begin());
+    const std::size_t count = graph.local_end() - graph.local_begin();
     result_.states.resize(count);
     result_.entry_of.assign(count, -1);
   }
@@ -133,9 +134,7 @@ class ForestCutter {
   }
 
   CutForest::Mark mark() const {
-    return {
-        static_cast<std::int32_t>(result_.nodes.size()), static_cast<std::int32_t>(result_.triangles.size()),
-        static_cast<std::int32_t>(result_.quads.size()), static_cast<std::int32_t>(result_.outline.size())};
+    return {size32(result_.nodes), size32(result_.triangles), size32(result_.quads), size32(result_.outline)};
   }
 
   void store(std::int32_t leaf) {
@@ -147,7 +146,7 @@ class ForestCutter {
     result_.outline.insert(result_.outline.end(), made.outline.begin(), made.outline.end());
     entry.end = mark();
     state(leaf) = CutForest::State::cut;
-    entry_of(leaf) = static_cast<std::int32_t>(result_.entries.size());
+    entry_of(leaf) = size32(result_.entries);
     result_.entries.push_back(entry);
   }
 

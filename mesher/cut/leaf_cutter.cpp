@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/cut/cut_leaf.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 
@@ -109,7 +110,7 @@ void LeafCutter::name_stops() {
     if (absorbed) continue;
     const bool at_last = i > 0 && stops_[i - 1].position == stop.position && stop_node_[i - 1] >= 0;
     if (!at_last) leaf_.nodes.push_back({stop.position, stop.site});
-    stop_node_[i] = static_cast<std::int32_t>(leaf_.nodes.size()) - 1;
+    stop_node_[i] = size32(leaf_.nodes) - 1;
     if (is_on_lattice(stop.site)) site_node[index_of(stop.site)] = stop_node_[i];
     if (stop.snap >= 0) snap_node_[stop.snap] = stop_node_[i];
   }
@@ -127,7 +128,7 @@ void LeafCutter::name_stops() {
   }
   for (std::size_t s = 0; s < input_.snaps.size(); ++s)
     leaf_.nodes[snap_node_[s]].position = input_.snaps[s].snap->position;
-  leaf_.side_nodes = static_cast<std::int32_t>(leaf_.nodes.size());
+  leaf_.side_nodes = size32(leaf_.nodes);
 }
 
 /// Adds the parts of the sides that lie in the domain. Walking round the leaf, an outline that leaves it has
@@ -183,7 +184,7 @@ std::int32_t LeafCutter::node_at(Point position) {
     if (leaf_.nodes[i].position == position) return static_cast<std::int32_t>(i);
   }
   leaf_.nodes.push_back({position, Site::inside});
-  return static_cast<std::int32_t>(leaf_.nodes.size()) - 1;
+  return size32(leaf_.nodes) - 1;
 }
 
 void LeafCutter::add_chords(Detail detail) {
@@ -309,7 +310,7 @@ void LeafCutter::keep_strays(std::size_t from, std::size_t to) {
 
 /// The order of the nodes inside must not depend on the order in which boundaries are listed.
 void LeafCutter::sort_inner_nodes() {
-  const auto first = static_cast<std::size_t>(leaf_.side_nodes);
+  const std::size_t first = leaf_.side_nodes;
   if (leaf_.nodes.size() <= first + 1) return;
   std::vector<std::int32_t> order;
   for (std::size_t i = first; i < leaf_.nodes.size(); ++i) order.push_back(static_cast<std::int32_t>(i));

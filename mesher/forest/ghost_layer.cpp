@@ -31,7 +31,7 @@ class GhostFinder {
       const auto end = std::partition_point(leaves.begin(), leaves.end(), [&](const Quadrant& q) {
         return curve_index(quarter_at(q.x, q.y, place.level)) <= curve_index(quarter);
       });
-      const auto count = static_cast<std::size_t>(end - leaves.begin());
+      const std::size_t count = end - leaves.begin();
       search(child, leaves.first(count), first);
       leaves = leaves.subspan(count);
       first += static_cast<std::int32_t>(count);
@@ -53,7 +53,7 @@ class GhostFinder {
   }
 
   bool is_own(const Stretch& s) const {
-    const auto rank = static_cast<std::size_t>(rank_);
+    const std::size_t rank = rank_;
     return owners_.owns(rank, s.first) && owners_.owns(rank, s.last);
   }
 

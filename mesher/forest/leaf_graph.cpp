@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/forest/ghost_layer.hpp"
 
 namespace quadloop {
@@ -11,7 +12,7 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
   const std::vector<Quadrant> local = forest.leaves();
   const std::vector<Ghost> ghosts = ghost_layer(comm, lattice, owners_, local);
   for (const auto& ghost : ghosts) local_begin_ += ghost.owner < rank_ ? 1 : 0;
-  local_count_ = static_cast<std::int32_t>(local.size());
+  local_count_ = size32(local);
   leaves_.reserve(local.size() + ghosts.size());
   for (const auto& ghost : ghosts) {
     if (ghost.owner < rank_) leaves_.push_back(ghost.place);
@@ -49,12 +50,12 @@ std::int32_t LeafGraph::leaf_at(std::int64_t x, std::int64_t y) const {
 
 LeafGraph::Ref LeafGraph::new_inner() {
   inner_.push_back({none, none, none, none});
-  return static_cast<Ref>(-1 - static_cast<std::int64_t>(inner_.size()));
+  return static_cast<Ref>(-1 - std::ssize(inner_));
 }
 
 /// Hangs each leaf into its tree; the path down to the leaf before it saves the way from the root.
 void LeafGraph::build_trees(const Lattice& lattice) {
-  roots_.assign(static_cast<std::size_t>(lattice.trees_x() * lattice.trees_y()), none);
+  roots_.assign(lattice.trees_x() * lattice.trees_y(), none);
   inner_.reserve(leaves_.size() / 3 + leaves_.size() / 16 + 64);
   std::array<Ref, Quadrant::unit_level + 1> path{};
   std::int64_t last_tree = -1;

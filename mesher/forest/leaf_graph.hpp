@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/forest/forest.hpp"
 
 namespace quadloop {
@@ -19,7 +20,7 @@ class LeafGraph {
   /// *Collective.*
   LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest);
 
-  std::int32_t size() const { return static_cast<std::int32_t>(leaves_.size()); }
+  std::int32_t size() const { return size32(leaves_); }
   std::int32_t local_begin() const { return local_begin_; }
   std::int32_t local_end() const { return local_begin_ + local_count_; }
   bool is_local(std::int32_t leaf) const { return local_begin() <= leaf && leaf < local_end(); }

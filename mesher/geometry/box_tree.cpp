@@ -1,5 +1,6 @@
 #include "mesher/geometry/box_tree.hpp"
 
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/geometry.hpp"
 
 namespace quadloop {
@@ -12,8 +13,8 @@ constexpr std::int32_t leaf_items = 8;
 
 BoxTree::BoxTree(std::span<const Box> boxes) {
   items_.reserve(boxes.size());
-  for (const Box& box : boxes) items_.push_back({box, static_cast<std::int32_t>(items_.size())});
-  if (!items_.empty()) build(0, static_cast<std::int32_t>(items_.size()));
+  for (const Box& box : boxes) items_.push_back({box, size32(items_)});
+  if (!items_.empty()) build(0, size32(items_));
 }
 
 /// Halves the items along the longer side of their box until few are left.
@@ -45,7 +46,7 @@ void BoxTree::build(std::int32_t begin, std::int32_t end) {
     std::sort(items_.begin() + begin, items_.begin() + end,
               [](const Item& a, const Item& b) { return a.number < b.number; });
   }
-  nodes_[self].after = static_cast<std::int32_t>(nodes_.size());
+  nodes_[self].after = size32(nodes_);
 }
 
 double BoxTree::squared_distance_to(const Box& box, Point p) {

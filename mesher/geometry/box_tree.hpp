@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {
@@ -75,7 +76,7 @@ class BoxTree {
 
 template <class Found>
 bool BoxTree::any_meeting(const Box& box, const Found& found) const {
-  const auto count = static_cast<std::int32_t>(nodes_.size());
+  const auto count = size32(nodes_);
   for (std::int32_t n = 0; n < count;) {
     const Node& here = node(n);
     if (!here.box.meets(box)) {

@@ -64,7 +64,7 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
   for (std::int32_t loop = 0; loop < loop_count(); ++loop) {
     const std::int32_t begin = loop_start(loop), end = loop_start(loop + 1);
     for (std::int32_t v = begin; v < end; ++v) {
-      const auto at = static_cast<std::size_t>(v);
+      const std::size_t at = v;
       loop_of_[at] = loop;
       next_[at] = v + 1 < end ? v + 1 : begin;
       previous_[at] = v > begin ? v - 1 : end - 1;

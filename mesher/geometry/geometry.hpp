@@ -37,10 +37,8 @@ class Geometry {
   Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
            std::vector<BoundaryId> segment_boundary);
 
-  std::int32_t size() const {
-    return static_cast<std::int32_t>(points_.size());
-  }  ///< number of vertices, and of segments
-  std::int32_t loop_count() const { return static_cast<std::int32_t>(loop_starts_.size()) - 1; }
+  std::int32_t size() const { return size32(points_); }  ///< number of vertices, and of segments
+  std::int32_t loop_count() const { return size32(loop_starts_) - 1; }
   std::int32_t loop_start(std::int32_t loop) const { return loop_starts_[loop]; }
   std::int32_t loop_of(std::int32_t v) const { return loop_of_[v]; }
 

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/predicates.hpp"
 
@@ -17,11 +18,11 @@ constexpr std::int64_t most_counted = 1000;  // enough for a user to know that t
 
 FlatOutline::FlatOutline(const Outline& outline) {
   for (const OutlineLoop& loop : outline.loops) {
-    loop_starts.push_back(static_cast<std::int32_t>(points.size()));
+    loop_starts.push_back(size32(points));
     points.insert(points.end(), loop.points.begin(), loop.points.end());
-    loop_of.resize(points.size(), static_cast<std::int32_t>(loop_starts.size()) - 1);
+    loop_of.resize(points.size(), size32(loop_starts) - 1);
   }
-  loop_starts.push_back(static_cast<std::int32_t>(points.size()));
+  loop_starts.push_back(size32(points));
 }
 
 bool FlatOutline::faulty(std::int32_t s, std::int32_t t) const {
@@ -44,7 +45,7 @@ Point FlatOutline::meeting_point(std::int32_t s, std::int32_t t) const {
 
 MeetingPairs meeting_pairs(const FlatOutline& flat) {
   std::vector<Box> boxes;
-  const auto size = static_cast<std::int32_t>(flat.points.size());
+  const auto size = size32(flat.points);
   for (std::int32_t s = 0; s < size; ++s) boxes.push_back(box_of(flat.point(s), flat.point(flat.next(s))));
   const BoxTree tree(boxes);
   MeetingPairs pairs;
@@ -59,7 +60,7 @@ MeetingPairs meeting_pairs(const FlatOutline& flat) {
       pairs.first = s;
       pairs.second = *std::min_element(met.begin(), met.end());
     }
-    pairs.count += static_cast<std::int64_t>(met.size());
+    pairs.count += std::ssize(met);
     pairs.complete = pairs.count < most_counted;
   }
   return pairs;

@@ -32,7 +32,7 @@ void CellReach::build() {
 }
 
 double CellReach::distance_to(std::int32_t cell, Point p) const {
-  const auto at = static_cast<std::size_t>(cell);
+  const std::size_t at = cell;
   const bool triangle = at < mesh_.triangles.size();
   const std::span<const NodeId> nodes =
       triangle ? std::span<const NodeId>(mesh_.triangles[at])

@@ -2,6 +2,7 @@
 
 #include <unordered_map>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
@@ -31,7 +32,7 @@ class NodeTable {
   NodeId local(std::int64_t number, Point point) {
     const NodeId known = find(number);
     if (known.valid()) return known;
-    const NodeId added{static_cast<std::int32_t>(points_.size())};
+    const NodeId added{size32(points_)};
     numbers_.emplace(number, added.value());
     points_.push_back(point);
     copies_.push_back(GlobalNodeId{number});

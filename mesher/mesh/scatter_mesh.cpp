@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/base/morton.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/node_table.hpp"
@@ -138,7 +139,7 @@ class PartBuilder {
   static Mesh part_of(const Communicator& comm, std::vector<Point> points) {
     Mesh part;
     part.points = std::move(points);
-    part.owned_nodes = static_cast<std::int32_t>(part.points.size());
+    part.owned_nodes = size32(part.points);
     part.first_node = comm.exclusive_sum(part.owned_nodes);
     return part;
   }
@@ -246,7 +247,7 @@ void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& or
 Mesh gather_whole(const Communicator& comm, const Mesh& part) {
   Mesh whole;
   whole.points = gather_points(comm, part);
-  whole.owned_nodes = static_cast<std::int32_t>(whole.points.size());
+  whole.owned_nodes = size32(whole.points);
   whole.triangles = whole_cells(gather_cells(comm, part, part.triangles));
   whole.quads = whole_cells(gather_cells(comm, part, part.quads));
   for (const BoundaryEdges& boundary : part.boundaries) {

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/base/morton.hpp"
 
 namespace quadloop {
@@ -69,7 +70,7 @@ DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDe
   const KeysOfLevels asked = gather_asked(comm, demands), all = with_ancestors(asked);
   std::int32_t first = 0;
   for (std::size_t level = 0; level < all.size() && !all[level].empty(); ++level) {
-    const auto begin = static_cast<std::int32_t>(masks_.size());
+    const auto begin = size32(masks_);
     append_level(all[level], asked[level],
                  level == 0 ? std::span<const Key>{} : std::span<const Key>(all[level - 1]), first);
     first = begin;
@@ -105,7 +106,7 @@ std::int32_t DemandedSplits::root(std::int64_t tree_x, std::int64_t tree_y) cons
 
 std::int32_t DemandedSplits::child(std::int32_t number, Corner quarter) const {
   const int k = curve_index(quarter);
-  const auto at = static_cast<std::size_t>(number);
+  const std::size_t at = number;
   if ((masks_[at] >> k & 1) == 0) return none;
   std::array<std::uint64_t, block / sizeof(std::uint64_t)>
       masks{};  // of the block, up to this one: whole words are counted at once
@@ -113,7 +114,7 @@ std::int32_t DemandedSplits::child(std::int32_t number, Corner quarter) const {
   std::int32_t before = children_before_[at / block];
   for (const std::uint64_t word : masks) before += std::popcount(word & children_of_word);
   before += std::popcount(static_cast<unsigned>(masks_[at]) & ((1U << k) - 1));
-  return static_cast<std::int32_t>(roots_.size()) + before;
+  return size32(roots_) + before;
 }
 
 bool DemandedSplits::asked(std::int32_t number) const { return (masks_[number] & asked_bit) != 0; }

@@ -32,7 +32,7 @@ const std::vector<std::int32_t>& Gradation::split_near(const Quadrant& q) { retu
 /// The path's last step becomes the parent of q, with its list of near nodes. A step depends on its place
 /// alone, so those that still hold q stay.
 Gradation::Step& Gradation::step_above(const Quadrant& q) {
-  const auto depth = static_cast<std::size_t>(q.level);  // steps at levels 0 .. depth-1
+  const std::size_t depth = q.level;  // steps at levels 0 .. depth-1
   if (path_.size() < depth) path_.resize(depth);
   std::size_t kept = depth;
   while (kept > 0 && !(path_[kept - 1].has_near && path_[kept - 1].place.contains(q))) --kept;

@@ -62,7 +62,7 @@ double LeavesAhead::source_leaves(const Quadrant& q) const {
 
 /// The level that the finest leaves in a split node may be expected to have.
 int LeavesAhead::level_ahead(std::int32_t node) {
-  const auto index = static_cast<std::size_t>(node);
+  const std::size_t index = node;
   if (levels_.size() <= index) levels_.resize(tree_.size(), 0);
   if (levels_[index] != 0) return levels_[index];
   const SizeRules& rules = tree_.rules();

@@ -4,6 +4,8 @@
 #include <tuple>
 #include <utility>
 
+#include "mesher/base/ids.hpp"
+
 namespace quadloop {
 
 SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
@@ -12,8 +14,8 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
   segments_.resize(outline.geometry().size());
   std::iota(segments_.begin(), segments_.end(), 0);
   Node whole;
-  whole.segments_end = static_cast<std::int32_t>(segments_.size());
-  whole.corners_end = static_cast<std::int32_t>(corners_.size());
+  whole.segments_end = size32(segments_);
+  whole.corners_end = size32(corners_);
   for (int ty = 0; ty < lattice.trees_y(); ++ty) {
     for (int tx = 0; tx < lattice.trees_x(); ++tx) {
       Node root;
@@ -61,12 +63,12 @@ void SizeTree::add(Node child, const Node& parent) const {
   const ShiftedOutline& outline = rules_.outline();
   const auto take = [](std::vector<std::int32_t>& all, std::int32_t begin, std::int32_t end,
                        const auto& holds) {
-    const auto first = static_cast<std::int32_t>(all.size());
+    const auto first = size32(all);
     for (std::int32_t i = begin; i < end; ++i) {
       const std::int32_t number = all[i];
       if (holds(number)) all.push_back(number);
     }
-    return std::pair(first, static_cast<std::int32_t>(all.size()));
+    return std::pair(first, size32(all));
   };
   std::tie(child.segments_begin, child.segments_end) =
       take(segments_, parent.segments_begin, parent.segments_end,

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/sizes/size_rules.hpp"
 
 namespace quadloop {
@@ -45,7 +46,7 @@ class SizeTree {
   /// stale after it.
   bool is_split(std::int32_t node) const;
   const Node& node(std::int32_t n) const { return nodes_[n]; }
-  std::int32_t size() const { return static_cast<std::int32_t>(nodes_.size()); }
+  std::int32_t size() const { return size32(nodes_); }
   /// The segments that meet the inside of the node, in ascending order.
   std::span<const std::int32_t> segments_of(const Node& node) const {
     return part(segments_, node.segments_begin, node.segments_end);

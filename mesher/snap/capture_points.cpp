@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/snap/leaf_edge.hpp"
 
@@ -108,7 +109,7 @@ class PointCapture {
       low = std::min(low, edge.along(crossing.position));
       high = std::max(high, edge.along(crossing.position));
     }
-    for (std::int32_t c = 0; c < static_cast<std::int32_t>(view.crossings.size()); ++c) {
+    for (std::int32_t c = 0; c < size32(view.crossings); ++c) {
       const Crossing& crossing = view.crossing(c);
       if (std::find(taken.begin(), taken.end(), c) != taken.end() || !on_edge(edge, crossing)) continue;
       if (low <= edge.along(crossing.position) && edge.along(crossing.position) <= high) return false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 
 namespace quadloop {
 
@@ -83,8 +84,7 @@ Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::spa
 
 std::int32_t LeafTraces::add(const ShiftedOutline& outline, const Box& box,
                              std::span<const std::int32_t> segments) {
-  begins_.push_back({box, static_cast<std::int32_t>(crossings_.size()),
-                     static_cast<std::int32_t>(pieces_.size()), static_cast<std::int32_t>(vertices_.size())});
+  begins_.push_back({box, size32(crossings_), size32(pieces_), size32(vertices_)});
   const std::size_t first_crossing = crossings_.size(), first_vertex = vertices_.size();
   thread_local std::vector<Passage> passages;
   thread_local std::vector<char> seen;
@@ -100,11 +100,11 @@ std::int32_t LeafTraces::add(const ShiftedOutline& outline, const Box& box,
     if (seen[i] == 0)
       pieces_.push_back(follow(outline.geometry(), segments, passages, seen, i, first_vertex, vertices_));
   }
-  return static_cast<std::int32_t>(begins_.size()) - 1;
+  return size32(begins_) - 1;
 }
 
 LeafTrace LeafTraces::operator[](std::int32_t trace) const {
-  const auto i = static_cast<std::size_t>(trace);
+  const std::size_t i = trace;
   const Begin& begin = begins_[i];
   const bool last = i + 1 == begins_.size();
   const auto part = [](const auto& all, std::int32_t from, std::size_t to) {

@@ -1,6 +1,7 @@
 # Every library that the door stands on, each as one imported target; those of the program alone are in ProgramDependencies.cmake.
 find_package(MPI REQUIRED COMPONENTS C CXX)
 find_package(Boost REQUIRED)
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE) # a notice that tells a user of ours nothing
 find_package(CGAL REQUIRED)
 find_package(Eigen3 REQUIRED CONFIG)
 find_package(fmt REQUIRED)

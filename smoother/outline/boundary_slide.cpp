@@ -28,7 +28,7 @@ BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
     : mesh_{mesh},
       boundaries_{boundaries},
       outline_{outline},
-      freedom_(static_cast<std::size_t>(mesh.owned_nodes()), NodeFreedom::interior) {
+      freedom_(mesh.owned_nodes(), NodeFreedom::interior) {
   for (const BoundaryEdges& boundary : boundaries)
     outlined_.push_back(outline != nullptr && outline->has(boundary.name) ? 1 : 0);
   if (outline != nullptr) find_tight_segments(comm);

@@ -103,7 +103,7 @@ std::vector<std::string> require_match(const Geometry& outline, const Mesh& whol
 
 std::vector<char> loops_against(const Geometry& outline, const Mesh& whole) {
   const OutlinePath curves(outline);
-  std::vector<std::int64_t> votes(static_cast<std::size_t>(outline.loop_count()), 0);
+  std::vector<std::int64_t> votes(outline.loop_count(), 0);
   for (const BoundaryEdges& boundary : whole.boundaries) {
     for (const auto& [from, to] : boundary.edges) {
       const OutlinePlace a = curves.locate(whole.point(from), boundary.name, true),

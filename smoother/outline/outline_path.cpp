@@ -17,7 +17,7 @@ constexpr std::size_t most_vertices = 1000;  ///< that one chord may stand for
 
 OutlinePath::OutlinePath(const Geometry& geometry)
     : geometry_{geometry},
-      arc_(static_cast<std::size_t>(geometry.size())),
+      arc_(geometry.size()),
       tolerance_{on_outline * std::max(geometry.box().width(), geometry.box().height())},
       segments_{segment_tree(geometry)} {
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {

@@ -43,7 +43,7 @@ SolvedFlow solve_front(const Communicator&, const Mesh& mesh, const Field&, int)
 
 SolvedFlow solve_constant(const Communicator&, const Mesh& mesh, const Field&, int) {
   SolvedFlow flow;
-  flow.solution = {{"q"}, std::vector<double>(static_cast<std::size_t>(mesh.owned_nodes), 3.0), {}};
+  flow.solution = {{"q"}, std::vector<double>(mesh.owned_nodes, 3.0), {}};
   return flow;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -72,7 +73,7 @@ TEST(Exchange, SourcesAreThoseThatSend) {
   auto source = exchange.sources().begin();
   for (int from = 0; from < world().size(); ++from) {
     EXPECT_EQ(exchange.arrivals_before(from), next);
-    const auto size = static_cast<std::size_t>(count(from, world().rank()));
+    const std::size_t size = count(from, world().rank());
     if (size == 0) continue;
     ASSERT_NE(source, exchange.sources().end());
     EXPECT_EQ(source->rank, from);
@@ -114,8 +115,8 @@ TEST(Exchange, RefusesRowsThatAreNotOneForEachItem) {
 }
 
 TEST(Exchange, GathersAtTheRootAndScatters) {
-  const std::vector<int> own(static_cast<std::size_t>(world().rank() % 3), world().rank());
-  const auto counts = world().all_gather(static_cast<std::int64_t>(own.size()));
+  const std::vector<int> own(world().rank() % 3, world().rank());
+  const auto counts = world().all_gather(std::ssize(own));
   std::vector<int> all;
   for (int rank = 0; rank < world().size(); ++rank)
     all.insert(all.end(), static_cast<std::size_t>(rank % 3), rank);
@@ -126,7 +127,7 @@ TEST(Exchange, GathersAtTheRootAndScatters) {
 
 TEST(ExchangeMessages, GoInPieces) {
   const auto pattern = [](int from, int to) {
-    std::vector<std::byte> bytes(static_cast<std::size_t>(7 * (from + 2 * to) % 31));
+    std::vector<std::byte> bytes(7 * (from + 2 * to) % 31);
     for (std::size_t i = 0; i < bytes.size(); ++i)
       bytes[i] = static_cast<std::byte>(100 * from + 10 * to + static_cast<int>(i));
     return bytes;
@@ -157,7 +158,7 @@ struct Copies {
     for (int k = 0; k < 3; ++k) values.push_back(10 * first + k);
     for (int k = 1; k < 3; ++k) {
       for (int owner = world().size() - 1; owner >= 0; --owner) {
-        list.push_back({static_cast<std::int32_t>(values.size()), owner, k});
+        list.push_back({size32(values), owner, k});
         values.push_back(-1);
       }
     }

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/build/sized_domain.hpp"
 #include "mesher/forest/refine_forest.hpp"
 #include "tests/support/world.hpp"
@@ -72,7 +73,7 @@ struct Node {
 /// All nodes of all ranks by their global numbers; what is held twice is there once.
 std::vector<Node> all_nodes(const Mesh& mesh) {
   std::vector<Node> own;
-  for (std::int32_t n = 0; n < static_cast<std::int32_t>(mesh.points.size()); ++n) {
+  for (std::int32_t n = 0; n < size32(mesh.points); ++n) {
     const std::int64_t number =
         n < mesh.owned_nodes ? mesh.first_node + n : mesh.copies[n - mesh.owned_nodes].value();
     own.push_back({number, mesh.points[n]});
@@ -148,7 +149,7 @@ TEST(NodeNumbering, CellsOfCutLeavesHaveTheirNodesWhereTheyWereCut) {
       }
     }
   }
-  EXPECT_GT(test::world().sum(static_cast<std::int64_t>(expected.size())), 0);
+  EXPECT_GT(test::world().sum(std::ssize(expected)), 0);
   const Mesh mesh = numbered.mesh();
   for (const auto& [node, position] : expected) EXPECT_EQ(mesh.points[node.value()], position);
 }

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/cut/leaf_cells.hpp"
 
 namespace quadloop {
@@ -16,7 +17,7 @@ Geometry loops_of(const std::vector<std::vector<Point>>& loops, double corner = 
   std::vector<std::int32_t> starts{0};
   for (const auto& loop : loops) {
     points.insert(points.end(), loop.begin(), loop.end());
-    starts.push_back(static_cast<std::int32_t>(points.size()));
+    starts.push_back(size32(points));
   }
   std::vector<BoundaryId> boundary(points.size(), BoundaryId{0});
   return {{{"outline", 0, corner, "wall"}}, std::move(points), std::move(starts), std::move(boundary)};

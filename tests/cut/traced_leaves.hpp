@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/snap/snap_corners.hpp"
 #include "tests/support/world.hpp"
 
@@ -14,7 +15,7 @@ inline Geometry loops_of(const std::vector<std::vector<Point>>& loops, double co
   std::vector<std::int32_t> starts{0};
   for (const auto& loop : loops) {
     points.insert(points.end(), loop.begin(), loop.end());
-    starts.push_back(static_cast<std::int32_t>(points.size()));
+    starts.push_back(size32(points));
   }
   std::vector<BoundaryId> boundary(points.size(), BoundaryId{0});
   return {{{"outline", 0, corner, "wall"}}, std::move(points), std::move(starts), std::move(boundary)};
@@ -28,7 +29,7 @@ class TracedLeaves {
 
   explicit TracedLeaves(Geometry given, const Box& fine = {{0, 0}, {4, 4}})
       : geometry{std::move(given)}, outline{geometry}, graph{world(), lattice, refined(fine)} {
-    traced.trace_of.assign(static_cast<std::size_t>(graph.size()), -1);
+    traced.trace_of.assign(graph.size(), -1);
     for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
       const Box box = lattice.box_of(graph.leaf(leaf));
       std::vector<std::int32_t> segments;

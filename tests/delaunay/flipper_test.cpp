@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/delaunay/delaunay_patch.hpp"
 
 namespace quadloop {
@@ -62,7 +63,7 @@ void expect_delaunay(const Grid& grid, const Triangles& triangles) {
   for (const Triangle& t : triangles) {
     EXPECT_TRUE(is_positive(grid.at(t[0]), grid.at(t[1]), grid.at(t[2])));
     const TieRank& highest = std::max({grid.rank(t[0]), grid.rank(t[1]), grid.rank(t[2])});
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(grid.points.size()); ++node) {
+    for (std::int32_t node = 0; node < size32(grid.points); ++node) {
       if (std::find(t.begin(), t.end(), node) != t.end()) continue;
       const int inside = in_circle(grid.at(t[0]), grid.at(t[1]), grid.at(t[2]), grid.at(node));
       EXPECT_LE(inside, 0);

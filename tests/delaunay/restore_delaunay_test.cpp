@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
@@ -91,7 +92,7 @@ class Moves {
   std::vector<char> apply(Mesh& part) const {
     std::vector<char> flags(part.points.size(), 0);
     for (std::size_t i = 0; i < part.points.size(); ++i) {
-      const auto number = static_cast<std::size_t>(part.global(NodeId{static_cast<std::int32_t>(i)}).value());
+      const std::size_t number = part.global(NodeId{static_cast<std::int32_t>(i)}).value();
       part.points[i] = points_[number];
       flags[i] = flags_[number];
     }
@@ -129,7 +130,7 @@ class Moves {
 Mesh gather(const Communicator& comm, const Mesh& part) {
   Mesh whole;
   whole.points = comm.all_gather_values(std::span(part.points).first(part.owned_nodes));
-  whole.owned_nodes = static_cast<std::int32_t>(whole.points.size());
+  whole.owned_nodes = size32(whole.points);
   const auto renumber = [&](auto rows) {
     for (auto& row : rows) {
       for (NodeId& node : row) node = NodeId{static_cast<std::int32_t>(part.global(node).value())};

@@ -91,7 +91,7 @@ TEST(LeafGraph, PlacesNameTheOwners) {
   std::vector<Quadrant> local;
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf)
     local.push_back(graph.leaf(leaf));
-  const auto counts = test::world().all_gather(static_cast<std::int64_t>(local.size()));
+  const auto counts = test::world().all_gather(std::ssize(local));
   const auto all = test::world().all_gather_values(std::span<const Quadrant>(local));
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
     const LeafGraph::Place place = graph.place_of(leaf);

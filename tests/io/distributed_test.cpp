@@ -165,7 +165,7 @@ TEST(TreeFile, ComesBackInShares) {
   const TreeRecord read = read_tree(world(), folder.file("t.h5")), all = test::sample_tree(leaves, 0, 1);
   EXPECT_EQ(read.attributes.coordinate_digest, all.attributes.coordinate_digest);
   EXPECT_EQ(read.attributes.root_x, all.attributes.root_x);
-  const auto count = static_cast<std::int64_t>(read.leaves.size());
+  const auto count = std::ssize(read.leaves);
   EXPECT_EQ(world().sum(count), leaves);
   const std::int64_t first = world().exclusive_sum(count);
   for (std::int64_t i = 0; i < count; ++i) {
@@ -194,8 +194,7 @@ std::string refusal_of_tree(const std::function<void(TreeRecord& whole)>& change
   const TemporaryFolder folder;
   TreeRecord whole = test::sample_tree(100, 0, 1);
   change(whole);
-  const std::int64_t count = static_cast<std::int64_t>(whole.leaves.size()), rank = world().rank(),
-                     ranks = world().size();
+  const std::int64_t count = std::ssize(whole.leaves), rank = world().rank(), ranks = world().size();
   TreeRecord own{
       whole.attributes,
       {whole.leaves.begin() + count * rank / ranks, whole.leaves.begin() + count * (rank + 1) / ranks}};

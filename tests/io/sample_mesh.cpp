@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 
+#include "mesher/base/ids.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop::test {
@@ -27,7 +28,7 @@ class Localiser {
   NodeId operator()(NodeId node) {
     const auto local = node.value() - static_cast<std::int32_t>(part_.first_node);
     if (local >= 0 && local < part_.owned_nodes) return NodeId{local};
-    const auto [found, added] = copies_.emplace(node.value(), static_cast<std::int32_t>(part_.points.size()));
+    const auto [found, added] = copies_.emplace(node.value(), size32(part_.points));
     if (added) {
       part_.points.push_back(whole_.point(node));
       part_.copies.push_back(GlobalNodeId{node.value()});
@@ -61,7 +62,7 @@ Mesh sample_mesh(std::int32_t columns) {
     for (std::int32_t i = 0; i <= columns; ++i)
       mesh.points.push_back({static_cast<double>(i), static_cast<double>(j)});
   }
-  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  mesh.owned_nodes = size32(mesh.points);
   BoundaryEdges wall{"wall", "wall", {}}, sides{"far field", "farfield", {}};
   for (std::int32_t i = 0; i < columns; ++i) {
     mesh.quads.push_back({node(i, 0), node(i + 1, 0), node(i + 1, 1), node(i, 1)});

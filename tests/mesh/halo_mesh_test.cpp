@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -21,8 +22,8 @@ struct Pieces {
   Pieces(const Mesh& mesh, const MeshOrder& order)
       : whole{scatter_mesh(Communicator(MPI_COMM_SELF), mesh, order)},
         part{scatter_mesh(world(), mesh, order)},
-        first_triangle{world().exclusive_sum(static_cast<std::int64_t>(part.triangles.size()))},
-        first_quad{world().exclusive_sum(static_cast<std::int64_t>(part.quads.size()))} {}
+        first_triangle{world().exclusive_sum(std::ssize(part.triangles))},
+        first_quad{world().exclusive_sum(std::ssize(part.quads))} {}
 
   bool is_owned(NodeId number) const {
     return part.first_node <= number.value() && number.value() < part.first_node + part.owned_nodes;
@@ -156,7 +157,7 @@ TEST(HaloMesh, ExchangeBringsOnlyWhatHasChanged) {
     Numbers values(halo.points().size(), -1);
     for (std::int32_t node = 0; node < halo.owned_nodes(); ++node) values[node] = halo.global(node);
     halo.exchange().update(values, is_even);
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(values.size()); ++node) {
+    for (std::int32_t node = 0; node < size32(values); ++node) {
       const bool known = node < halo.owned_nodes() || is_even(node);
       EXPECT_EQ(values[node], known ? halo.global(node) : -1);
     }

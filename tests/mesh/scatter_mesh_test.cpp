@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 #include "mesher/mesh/node_table.hpp"
 #include "tests/mesh/grid_mesh.hpp"
@@ -104,7 +105,7 @@ TEST(ScatterMesh, PartsNameTheNodesOfTheWhole) {
   const Mesh part = scatter_mesh(world(), on_root(whole), on_root(order));
   ASSERT_EQ(part.points.size(), static_cast<std::size_t>(part.owned_nodes) + part.copies.size());
   std::set<std::int64_t> numbers;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(part.points.size()); ++i) {
+  for (std::int32_t i = 0; i < size32(part.points); ++i) {
     const std::int64_t number = part.global(NodeId{i}).value();
     EXPECT_TRUE(numbers.insert(number).second) << number << " twice";
     EXPECT_EQ(part.point(NodeId{i}), whole.points[order.nodes[number]]);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/delaunay/restore/restore_delaunay.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/quality.hpp"
@@ -129,7 +130,7 @@ Mesh with_touchy_pieces(Mesh mesh, int pieces) {
     for (const auto& t : triangles) mesh.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
     for (const auto& e : sides) mesh.boundaries[0].edges.push_back({at(e[0]), at(e[1])});
   }
-  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  mesh.owned_nodes = size32(mesh.points);
   return mesh;
 }
 

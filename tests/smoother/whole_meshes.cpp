@@ -47,10 +47,7 @@ Geometry circle(int vertices) {
   for (int k = 0; k < vertices; ++k)
     points.push_back(
         {std::cos(2 * std::numbers::pi * k / vertices), std::sin(2 * std::numbers::pi * k / vertices)});
-  return {boundaries,
-          points,
-          {0, vertices},
-          std::vector<BoundaryId>(static_cast<std::size_t>(vertices), BoundaryId{0})};
+  return {boundaries, points, {0, vertices}, std::vector<BoundaryId>(vertices, BoundaryId{0})};
 }
 
 namespace {

@@ -71,7 +71,7 @@ DualMesh::DualMesh(const Communicator& comm, const Mesh& mesh) : halo_(comm, mes
 }
 
 void DualMesh::add_areas() {
-  areas_.assign(static_cast<std::size_t>(owned_nodes()), 0);
+  areas_.assign(owned_nodes(), 0);
   halo_.for_each_cell([&](const auto& nodes) {
     const Point centre = centre_of(halo_, nodes);
     const std::size_t n = nodes.size();

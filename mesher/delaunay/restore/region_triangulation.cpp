@@ -71,8 +71,8 @@ void RegionTriangulation::gather_nodes(std::span<const NumberedTriangle> triangl
     Triangle& nodes = triangles_.emplace_back();
     blocks_.push_back(t.block);
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto node = static_cast<std::size_t>(
-          std::lower_bound(numbers_.begin(), numbers_.end(), t.nodes[k]) - numbers_.begin());
+      const std::size_t node =
+          std::lower_bound(numbers_.begin(), numbers_.end(), t.nodes[k]) - numbers_.begin();
       nodes[k] = static_cast<std::int32_t>(node);
       points_[node] = t.points[k];
       core_[node] = t.core[k];

@@ -40,7 +40,7 @@ class Region {
         blocks_{triangle_to_block},
         owners_(comm, mesh.first_node),
         exchange_(comm, owners_, mesh.owned_nodes, mesh.copies),
-        first_triangle_{comm.exclusive_sum(static_cast<std::int64_t>(mesh.triangles.size()))},
+        first_triangle_{comm.exclusive_sum(std::ssize(mesh.triangles))},
         core_(mesh.points.size(), 0) {}
 
   /// Makes nodes core, by their numbers over all ranks; every rank may name any. *Collective.*
@@ -128,7 +128,7 @@ std::vector<Row> of_block(const std::vector<Row>& rows, std::int32_t block) {
 /// by their numbers, the triangles by that of the one before that they are near to. *Collective.*
 void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle>& freed,
                        std::vector<MadeTriangle> made, Mesh& mesh) {
-  const auto size_of = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
+  const auto size_of = [](const auto& rows) { return std::ssize(rows); };
   QUADLOOP_REQUIRE(comm.sum(size_of(freed)) == comm.sum(size_of(made)), "flips keep the number of triangles");
   const Ranges triangles(comm, mesh.triangles.size());
   std::vector<FreedTriangle> places =

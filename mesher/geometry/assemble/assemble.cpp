@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/assemble/join_chains.hpp"
 #include "mesher/geometry/assemble/rounded_ends.hpp"
 #include "mesher/geometry/validate.hpp"
@@ -67,7 +68,7 @@ Geometry to_geometry(const Outline& outline, const AssembleOptions& options) {
   for (const OutlineLoop& loop : outline.loops) {
     points.insert(points.end(), loop.points.begin(), loop.points.end());
     segment_boundary.insert(segment_boundary.end(), loop.boundary.begin(), loop.boundary.end());
-    loop_starts.push_back(static_cast<std::int32_t>(points.size()));
+    loop_starts.push_back(size32(points));
   }
   std::vector<Boundary> boundaries =
       boundaries_by_rules(outline.names, options.rules, options.default_corner_degrees);

@@ -67,7 +67,7 @@ std::vector<char> boundary_nodes(const HaloMesh& mesh) {
 }
 
 void count_inexact_nodes(const HaloMesh& mesh, const std::vector<char>& on_boundary, ShapeFigures& figures) {
-  std::vector<DualSum> sums(static_cast<std::size_t>(mesh.owned_nodes()));
+  std::vector<DualSum> sums(mesh.owned_nodes());
   mesh.for_each_cell([&](const auto& nodes) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (nodes[k].value() < mesh.owned_nodes()) add_corner(mesh, nodes, k, sums[nodes[k].value()]);
@@ -86,7 +86,7 @@ void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
         skew_of({mesh.point(q[0]), mesh.point(q[1]), mesh.point(q[2]), mesh.point(q[3])}) <= parallel_skew;
     figures.parallelograms += parallel ? 1 : 0;
   }
-  figures.quads = static_cast<std::int64_t>(mesh.quads.size());
+  figures.quads = std::ssize(mesh.quads);
 }
 
 double ratio_of(double a, double b) {
@@ -131,7 +131,7 @@ double largest_ratio(const HaloMesh& mesh, const std::vector<AreaRange>& ranges,
 /// An edge's ratio is at most that of all cells round either of its nodes: so only nodes of large ratios are
 /// looked at, and fewer than all as soon as an edge among them reaches the bound. *Collective.*
 double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh) {
-  std::vector<AreaRange> ranges(static_cast<std::size_t>(mesh.owned_nodes()));
+  std::vector<AreaRange> ranges(mesh.owned_nodes());
   mesh.for_each_cell([&](const auto& nodes) {
     const double area = area_of(mesh, nodes);
     for (const NodeId node : nodes) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/validate_rules.hpp"
 
@@ -44,7 +45,7 @@ bool is_unused_node(const MeshFault& fault) {
 bool senseless(const Faults& faults) { return !std::all_of(faults.begin(), faults.end(), is_unused_node); }
 
 std::int32_t block_of(const Mesh& mesh, const CellBlocks& blocks, std::int32_t cell) {
-  const auto at = static_cast<std::size_t>(cell);
+  const std::size_t at = cell;
   return at < mesh.triangles.size() ? blocks.of_triangle[at] : blocks.of_quad[at - mesh.triangles.size()];
 }
 
@@ -65,7 +66,7 @@ const char* name_of(MeshRule rule) {
 }
 
 void check_indices(const Mesh& mesh, Faults& faults) {
-  const auto nodes = static_cast<std::int32_t>(mesh.points.size());
+  const auto nodes = size32(mesh.points);
   for (const Point p : mesh.points) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y))
       faults.push_back({MeshRule::indices, "a coordinate is not finite", p});

@@ -214,7 +214,7 @@ class Comparison {
       }
     }
     nodes.build();
-    fit_.sharp_corners = static_cast<std::int64_t>(sharp.size());
+    fit_.sharp_corners = std::ssize(sharp);
     fit_.sharp_corners_lost = std::count_if(
         sharp.begin(), sharp.end(), [&](Point p) { return !any || nodes.nearest(p).second > tolerance_; });
   }

@@ -37,7 +37,7 @@ void check_boundary_crossings(const std::vector<Segment>& segments, Faults& faul
   const BoxTree tree(boxes);
   for (std::size_t i = 0; i < segments.size(); ++i) {
     tree.for_each_meeting(boxes[i], [&](std::int32_t number) {
-      const auto j = static_cast<std::size_t>(number);
+      const std::size_t j = number;
       if (j <= i || !meet_wrongly(segments[i], segments[j])) return;
       faults.push_back({MeshRule::overlap, "two boundary edges meet", segments[i].from});
     });

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "mesher/base/ids.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -18,8 +19,7 @@ LeafRecord leaf_with(std::int32_t triangles, std::int32_t quads) {
 
 std::vector<LeafRecord> leaves_of(const Mesh& whole, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  auto triangles = static_cast<std::int32_t>(whole.triangles.size()),
-       quads = static_cast<std::int32_t>(whole.quads.size());
+  auto triangles = size32(whole.triangles), quads = size32(whole.quads);
   std::vector<LeafRecord> leaves;
   while (triangles + quads > 0) {
     leaves.push_back(leaf_with(std::min(triangles, static_cast<std::int32_t>(random() % 4)),

@@ -12,6 +12,7 @@
 #include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate_points.hpp"
 #include "adapt/transfer/point_cells.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -27,7 +28,7 @@ constexpr std::array<NodeId, 4> quad{NodeId{0}, NodeId{1}, NodeId{2}, NodeId{3}}
 Mesh with_points(const std::vector<Point>& points) {
   Mesh mesh;
   mesh.points = points;
-  mesh.owned_nodes = static_cast<std::int32_t>(points.size());
+  mesh.owned_nodes = size32(points);
   return mesh;
 }
 
@@ -182,7 +183,7 @@ TEST(CurveShares, ABoxMeetsThePiecesOfItsPoints) {
 TEST(CurveShares, SharesAreEven) {
   const std::vector<Point> points = graded_points(2000, 200 + static_cast<std::uint64_t>(world().rank()));
   const CurveShares shares(world(), points, {});
-  std::vector<std::int64_t> counts(static_cast<std::size_t>(world().size()), 0);
+  std::vector<std::int64_t> counts(world().size(), 0);
   for (const Point p : points) ++counts[shares.rank_of(p)];
   for (std::int64_t& count : counts) count = world().sum(count);
   for (const std::int64_t count : counts) EXPECT_NEAR(static_cast<double>(count), 2000, 400);
