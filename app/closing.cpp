@@ -55,8 +55,7 @@ void send_notes(MPI_Comm comm, int rank, int ranks, std::vector<MPI_Request>& no
 void receive_notes(MPI_Comm comm, int rank, const std::vector<int>& statuses) {
   char note = 0;
   for (int r = 0; r < static_cast<int>(statuses.size()); ++r) {
-    if (r != rank && statuses[static_cast<std::size_t>(r)] != 0)
-      MPI_Recv(&note, 1, MPI_CHAR, r, failure_note, comm, MPI_STATUS_IGNORE);
+    if (r != rank && statuses[r] != 0) MPI_Recv(&note, 1, MPI_CHAR, r, failure_note, comm, MPI_STATUS_IGNORE);
   }
 }
 
@@ -88,7 +87,7 @@ ExitStatus close_together(MPI_Comm comm, const Outcome& outcome) {
   const int mine = static_cast<int>(outcome.status);
   std::vector<MPI_Request> notes;
   if (mine != 0) send_notes(comm, rank, ranks, notes);
-  std::vector<int> statuses(static_cast<std::size_t>(ranks));
+  std::vector<int> statuses(ranks);
   MPI_Request agreed = MPI_REQUEST_NULL;
   MPI_Iallgather(&mine, 1, MPI_INT, statuses.data(), 1, MPI_INT, comm, &agreed);
   if (mine != 0 && !completes_within(agreed, patience)) end_all(comm, rank, outcome);

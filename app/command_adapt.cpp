@@ -3,15 +3,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <set>
 #include <variant>
 
-#include "adapt/loop/loop.hpp"
+#include "adapt/loop/run_in_folder.hpp"
 #include "app/command.hpp"
+#include "app/command_line.hpp"
+#include "io/formats.hpp"
 #include "io/input/case_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -33,21 +34,16 @@ struct AdaptArguments {
 /// What would stop the loop after the first mesh, found out before it.
 void require_solver_files(const AdaptArguments& arguments, const CommandSolver& solver) {
   const CaseTable table = *read_case(arguments.case_path, arguments.assignments).table("solver");
-  const std::string ending = std::filesystem::path(solver.mesh).extension(),
-                    of_solution = std::filesystem::path(solver.solution).extension();
-  const auto is_one_of = [](const std::string& text, std::initializer_list<const char*> all) {
-    return std::find(all.begin(), all.end(), text) != all.end();
+  const auto is_for = [](const std::string& path, Content content) {
+    const FileFormat* format = format_of(path);
+    return format != nullptr && format->holds(content);
   };
-  if (!is_one_of(ending, {".mesh", ".cgns", ".vtu", ".su2", ".msh"}))
-    table.refuse(
-        "mesh",
-        "is '" + solver.mesh +
-            "', but meshes are written as .mesh, .cgns, .vtu, .su2 or .msh; end the name in one of these");
-  if (!is_one_of(of_solution, {".mesh", ".cgns", ".vtu", ".csv"}))
-    table.refuse(
-        "solution",
-        "is '" + solver.solution +
-            "', but solutions are read from .mesh, .cgns, .vtu and .csv; end the name in one of these");
+  if (!is_for(solver.mesh, Content::mesh))
+    table.refuse("mesh", "is '" + solver.mesh + "', but meshes are written as " +
+                             suffixes_for({Content::mesh}) + "; end the name in one of these");
+  if (!is_for(solver.solution, Content::solution))
+    table.refuse("solution", "is '" + solver.solution + "', but solutions are read from " +
+                                 suffixes_for({Content::solution}, "and") + "; end the name in one of these");
   if (solver.solution == solver.mesh || std::filesystem::path(solver.solution).stem() == "mesh")
     table.refuse(
         "solution",
@@ -71,8 +67,8 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   if (!settings.solver.given)
     note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach,
                        flow.alpha);
-  FlowSolver solver =
-      flow_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
+  ChosenSolver solver =
+      chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const auto* command = std::get_if<CommandSolver>(&solver)) require_solver_files(arguments, *command);
   AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.formats,
                         settings.values};
@@ -106,8 +102,8 @@ void keep(const CycleRecord& record, const std::string& folder, std::vector<Json
   of_run.files.insert(of_run.files.end(), files.begin(), files.end());
 }
 
-std::string closing_line(const std::string& folder, const RunEnd& end) {
-  const auto& [first, last, nothing_to_change] = end;
+std::string closing_line(const std::string& folder, const LoopEnd& end) {
+  const int first = end.first, last = end.last;
   if (first > last)
     return fmt::format("  all cycles are there already: {}/cycle_00 to cycle_{:02}\n", folder, last);
   if (first == last) return fmt::format("  wrote {}/cycle_{:02}\n", folder, last);
@@ -140,7 +136,7 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   };
   context.record.figures.add("folder", folder);
   context.record.figures.add("cycles", cycles);
-  const RunEnd end = run_adaptation(comm, *adaptive, folder, arguments.resume, report);
+  const LoopEnd end = run_in_folder(comm, *adaptive, folder, arguments.resume, report);
   if (comm.is_root()) context.record.figures.add("nothing_to_change", end.nothing_to_change);
   if (!context.shows_table()) return;
   if (end.nothing_to_change)

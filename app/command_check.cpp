@@ -9,6 +9,7 @@
 #include "app/command.hpp"
 #include "app/report/check_report.hpp"
 #include "app/report/refusals.hpp"
+#include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
@@ -70,7 +71,7 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
 void add_check_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check", "say whether a mesh is valid");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")
+  command->add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
       ->required()
       ->type_name("IN");
   command->add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")

@@ -8,6 +8,7 @@
 #include "app/command_line.hpp"
 #include "app/report/figures.hpp"
 #include "app/report/refusals.hpp"
+#include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 
@@ -20,15 +21,16 @@ struct ConvertArguments {
 };
 
 void require_format(const ConvertArguments& arguments) {
-  if (!arguments.format.empty() || !mesh_format_of(arguments.output).empty()) return;
+  const FileFormat* format = format_of(arguments.output);
+  if (!arguments.format.empty() || (format != nullptr && format->holds(Content::mesh))) return;
   throw InputError(
       fmt::format("{}: its suffix names none of the formats that meshes are written in; end it in .{}, or "
                   "give --format NAME",
-                  arguments.output, fmt::join(mesh_formats(), ", .")));
+                  arguments.output, fmt::join(formats_for({Content::mesh}), ", .")));
 }
 
 Figures figures_of(const LoadedMesh& whole) {
-  const auto count = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
+  const auto count = [](const auto& rows) { return std::ssize(rows); };
   Figures figures;
   figures.add("nodes", count(whole.mesh.points));
   figures.add("triangles", count(whole.mesh.triangles));
@@ -71,7 +73,7 @@ void add_convert_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand("convert", "write a mesh, as it is, in another format");
   command
       ->add_option("input", arguments->input,
-                   "the mesh (.mesh, .cgns, .vtu, .su2 or .msh), with a solution where it has one")
+                   "the mesh (" + suffixes_for({Content::mesh}) + "), with a solution where it has one")
       ->required()
       ->type_name("IN");
   command
@@ -81,7 +83,7 @@ void add_convert_command(CLI::App& app, CommandContext& context) {
       ->type_name("OUT");
   command->add_option("--format", arguments->format, "the format to write, whatever OUT ends in")
       ->type_name("NAME")
-      ->check(one_of(mesh_formats()));
+      ->check(one_of(formats_for({Content::mesh})));
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_convert(context, *arguments); }; });
 }

@@ -96,4 +96,12 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
       all);
 }
 
+void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells) {
+  command
+      .add_option("--max-cells", max_cells,
+                  "the most cells that a mesh may have by estimate; without it as many as free memory holds")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+}
+
 }  // namespace quadloop

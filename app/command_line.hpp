@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,8 @@ void answer(CLI::App& app, const CLI::ParseError& request, const Communicator& c
 
 /// An option's value must be one of these words.
 CLI::Validator one_of(const std::vector<std::string>& words);
+
+/// The option --max-cells of the commands that mesh.
+void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells);
 
 }  // namespace quadloop

@@ -12,6 +12,7 @@
 #include "app/report/summary.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/output_path.hpp"
+#include "io/formats.hpp"
 #include "io/input/geom_text.hpp"
 #include "io/mesh_file.hpp"
 #include "io/tree/tree_file.hpp"
@@ -53,9 +54,12 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   prepared.input = load_case(of_case);
   Settings& settings = prepared.input.settings;
   if (!arguments.prefix.empty()) settings.output_prefix = arguments.prefix;
-  if (std::erase(settings.formats, "csv") > 0)
-    prepared.input.warnings.push_back(
-        "output.formats: a .csv holds a solution alone, and a new mesh has none; it is left out");
+  std::erase_if(settings.formats, [&](const std::string& format) {
+    if (format_named(format)->holds(Content::mesh)) return false;
+    prepared.input.warnings.push_back(fmt::format(
+        "output.formats: a .{} holds a solution alone, and a new mesh has none; it is left out", format));
+    return true;
+  });
   for (const std::string& format : settings.formats)
     prepared.files.push_back(settings.output_prefix + "." + format);
   if (!arguments.geometry_out.empty()) prepared.files.push_back(arguments.geometry_out);

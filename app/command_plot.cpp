@@ -10,6 +10,7 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "io/files/output_file.hpp"
+#include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/plot/mesh_plot.hpp"
 #include "mesher/base/error.hpp"
@@ -98,7 +99,7 @@ void run_plot(const CommandContext& context, const PlotArguments& arguments) {
 void add_plot_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<PlotArguments>();
   CLI::App* command = app.add_subcommand("plot", "draw a mesh, or a field on it");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")
+  command->add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
       ->required()
       ->type_name("IN");
   command->add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")

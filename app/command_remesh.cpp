@@ -10,9 +10,11 @@
 #include "adapt/remesh/remesh.hpp"
 #include "adapt/remesh/tree_mesh.hpp"
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/report/summary.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/output_path.hpp"
+#include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/solution_file.hpp"
 #include "io/tree/tree_file.hpp"
@@ -57,7 +59,7 @@ LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& t
   LoadedSolution solution = read_solution(arguments.solution);
   LoadedMesh whole = read_mesh(solution.has_cells ? arguments.solution : mesh_beside(arguments.tree));
   require_same_mesh(solution, whole.mesh);
-  const auto count = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
+  const auto count = [](const auto& rows) { return std::ssize(rows); };
   require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0}, tree,
                  arguments.solution, arguments.tree);
   whole.solution = std::move(solution.solution);
@@ -110,61 +112,101 @@ void write(const Communicator& comm, const CarriedMesh& carried, const std::vect
 
 Figures transfer_figures(const CarriedMesh& carried) {
   Figures figures;
-  figures.add_raw("nodes outside the old mesh", std::to_string(carried.outside), json_of(carried.outside),
-                  "outside");
-  for (const auto& [name, drift] : carried.drift) figures.add("drift of " + name, drift, "{:.3e}");
+  figures.add_raw("nodes outside the old mesh", std::to_string(carried.report.outside),
+                  json_of(carried.report.outside), "outside");
+  for (const auto& [name, drift] : carried.drifts()) figures.add("drift of " + name, drift, "{:.3e}");
   return figures;
 }
 
-void run_remesh(const CommandContext& context, const RemeshArguments& arguments) {
-  const Communicator& comm = context.comm;
+/// What remesh works on; the whole mesh with its solution on the root alone.
+struct Problem {
+  TreeRecord tree;
+  CaseInput input;
+  LoadedMesh whole;
+  std::vector<std::string> files;  ///< to be written
+};
+
+/// *Collective.*
+Problem load(const Communicator& comm, const RemeshArguments& arguments) {
   if (arguments.tree.empty()) {
     throw UsageError(
         "--tree is required: 'quadloop mesh' writes it beside the mesh, as PREFIX.tree.h5; see 'quadloop "
         "remesh --help'");
   }
-  StageTimes times;
-  times.begin("read");
-  TreeRecord tree = read_tree(comm, arguments.tree);
-  CaseInput input;
-  LoadedMesh whole;
-  std::vector<std::string> files;
+  Problem problem;
+  problem.tree = read_tree(comm, arguments.tree);
   comm.together([&] {
-    input = load_case({arguments.case_path, arguments.assignments, arguments.geometry, tree.attributes});
-    const std::string prefix = arguments.prefix.empty() ? input.settings.output_prefix : arguments.prefix;
-    for (const std::string& format : input.settings.formats) files.push_back(prefix + "." + format);
-    files.push_back(prefix + ".tree.h5");
-    for (const std::string& file : files) require_possible_output(file);
-    if (comm.is_root()) whole = solved_mesh(arguments, tree.attributes);
+    const TreeAttributes& tree = problem.tree.attributes;
+    problem.input = load_case({arguments.case_path, arguments.assignments, arguments.geometry, tree});
+    const Settings& settings = problem.input.settings;
+    const std::string prefix = arguments.prefix.empty() ? settings.output_prefix : arguments.prefix;
+    for (const std::string& format : settings.formats) problem.files.push_back(prefix + "." + format);
+    problem.files.push_back(prefix + ".tree.h5");
+    for (const std::string& file : problem.files) require_possible_output(file);
+    if (comm.is_root()) problem.whole = solved_mesh(arguments, tree);
   });
-  times.begin("compare");
-  const Warnings doubts = settle(comm, arguments, tree, input, whole);
-  SolvedMesh solved = spread_solved(comm, whole, std::move(tree));
+  return problem;
+}
+
+/// The mesh that the solution counts on, spread over the ranks, and doubts about it. *Collective.*
+SolvedMesh compare(const Communicator& comm, const RemeshArguments& arguments, Problem& problem,
+                   Warnings& doubts) {
+  doubts = settle(comm, arguments, problem.tree, problem.input, problem.whole);
+  SolvedMesh solved = spread_solved(comm, problem.whole, std::move(problem.tree));
   solved.file = arguments.solution;
   require_own_mesh(comm, solved, arguments.solution, arguments.tree);
-  times.begin("adapt");
-  MeshInput& mesh = *input.mesh;
-  mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
-  const AdaptationPlan plan = input.settings.adapt
-                                  ? plan_adaptation(comm, mesh, *input.settings.adapt, solved)
-                                  : standing_plan(solved.tree, mesh);
-  times.end();
-  const CarriedMesh carried = carry_over(comm, mesh, plan, solved);
-  times.append(carried.times);
-  times.begin("write");
-  write(comm, carried, files, input.settings.solver.euler.gamma);
-  times.end();
-  context.warn(doubts);
-  context.warn(input.warnings);
-  context.warn(carried.generated.result.report.warnings);
-  context.warn(plan.warnings);
+  return solved;
+}
+
+void report(const CommandContext& context, const CarriedMesh& carried, const StageTimes& times,
+            const std::vector<std::string>& files) {
   for (const std::string& file : files) context.warn(renames_in(carried.generated.result.mesh, file));
-  const MeshSummary summary = summarise(comm, carried.generated.result, times.stages(), files);
+  const MeshSummary summary = summarise(context.comm, carried.generated.result, times.stages(), files);
   const Figures of_transfer = transfer_figures(carried);
   context.record.figures = record_of(summary);
   context.record.figures.append(of_transfer.record());
   context.record.files = files;
   if (context.shows_table()) std::cout << table_of(summary) << of_transfer.table(27, 10);
+}
+
+void run_remesh(const CommandContext& context, const RemeshArguments& arguments) {
+  const Communicator& comm = context.comm;
+  StageTimes times;
+  times.begin("read");
+  Problem problem = load(comm, arguments);
+  times.begin("compare");
+  Warnings doubts;
+  const SolvedMesh solved = compare(comm, arguments, problem, doubts);
+  times.begin("adapt");
+  MeshInput& mesh = *problem.input.mesh;
+  const Settings& settings = problem.input.settings;
+  mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
+  const AdaptationPlan plan = settings.adapt ? plan_adaptation(comm, mesh, *settings.adapt, solved)
+                                             : standing_plan(solved.tree, mesh);
+  times.end();
+  const CarriedMesh carried = carry_over(comm, mesh, plan, solved);
+  times.append(carried.times);
+  times.begin("write");
+  write(comm, carried, problem.files, settings.solver.euler.gamma);
+  times.end();
+  context.warn(doubts);
+  context.warn(problem.input.warnings);
+  context.warn(carried.generated.result.report.warnings);
+  context.warn(plan.warnings);
+  report(context, carried, times, problem.files);
+}
+
+std::string solution_help() {
+  std::string with_mesh, alone;
+  for (const FileFormat& format : file_formats()) {
+    if (!format.holds(Content::solution)) continue;
+    if (format.holds(Content::mesh)) {
+      with_mesh += "." + format.name + ", ";
+    } else {
+      alone += fmt::format("{}.{} ({})", alone.empty() ? "" : ", ", format.name, format.program);
+    }
+  }
+  return "the solution at its nodes: " + with_mesh + "or " + alone + " with the mesh beside the tree";
 }
 
 }  // namespace
@@ -180,12 +222,7 @@ void add_remesh_command(CLI::App& app, CommandContext& context) {
       ->add_option("--tree", arguments->tree,
                    "the tree of the mesh that was solved on: quadloop mesh writes it beside the mesh")
       ->type_name("TREE.h5 REQUIRED");
-  command
-      ->add_option(
-          "--solution", arguments->solution,
-          "the solution at its nodes: .mesh, .cgns, .vtu, or .csv (SU2) with the mesh beside the tree")
-      ->required()
-      ->type_name("IN");
+  command->add_option("--solution", arguments->solution, solution_help())->required()->type_name("IN");
   command->add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")
       ->type_name("NEW.geom");
   command

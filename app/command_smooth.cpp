@@ -12,12 +12,14 @@
 #include "app/report/smooth_report.hpp"
 #include "app/report/summary.hpp"
 #include "io/files/output_path.hpp"
+#include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/loaded/tidy_mesh.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -49,8 +51,8 @@ std::vector<char> interface_nodes(const LoadedMesh& loaded) {
   const auto visit = [&](const auto& cells, const std::vector<std::int32_t>& blocks) {
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
       for (const NodeId node : cells[cell]) {
-        std::int32_t& block = block_of[static_cast<std::size_t>(node.value())];
-        if (block >= 0 && block != blocks[cell]) shared[static_cast<std::size_t>(node.value())] = 1;
+        std::int32_t& block = block_of[node.value()];
+        if (block >= 0 && block != blocks[cell]) shared[node.value()] = 1;
         block = blocks[cell];
       }
     }
@@ -104,14 +106,6 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   return loaded;
 }
 
-Point centre_of(const Communicator& comm, const Mesh& part) {
-  Box box;
-  for (const Point p : part.points) box.include(p);
-  return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)},
-             {comm.maximum(box.high.x), comm.maximum(box.high.y)}}
-      .centre();
-}
-
 SmoothOptions options_of(const Communicator& comm, const SmoothArguments& arguments, const Loaded& loaded,
                          const Mesh& part) {
   SmoothOptions options;
@@ -122,7 +116,9 @@ SmoothOptions options_of(const Communicator& comm, const SmoothArguments& argume
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
   if (!loaded.delaunay) return options;
   options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);
-  options.delaunay = [centre = centre_of(comm, part)](Point p) { return tie_rank(centre, p); };
+  options.delaunay = [centre = box_over_ranks(comm, part.points).centre()](Point p) {
+    return tie_rank(centre, p);
+  };
   return options;
 }
 
@@ -201,7 +197,7 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
 void add_smooth_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<SmoothArguments>();
   CLI::App* command = app.add_subcommand("smooth", "move a mesh's nodes to better the shapes of its cells");
-  command->add_option("input", arguments->input, "the mesh (.mesh, .cgns, .vtu, .su2 or .msh)")
+  command->add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
       ->required()
       ->type_name("IN");
   command

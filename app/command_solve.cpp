@@ -3,21 +3,21 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "app/command.hpp"
 #include "app/report/summary.hpp"
+#include "flow/euler/euler_solver.hpp"
 #include "flow/euler/shortfall.hpp"
-#include "flow/euler/solve_euler.hpp"
 #include "io/files/output_path.hpp"
+#include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/variable_names.hpp"
 #include "quadloop/case/settings.hpp"
 
 namespace quadloop {
@@ -29,49 +29,43 @@ struct SolveArguments {
   std::vector<std::string> assignments;
 };
 
-using Row = std::array<double, 4>;  ///< one node's state
-const std::vector<std::string> state_names{"density", "x_velocity", "y_velocity", "pressure"};
-
 /// The settings, and on the root rank alone the mesh with the flow to start from.
 struct Problem {
   Settings settings;
   LoadedMesh whole;
   MeshOrder order;
-  std::vector<Row> start;  ///< of each node; empty: the flow starts as the case says
+  Field start;  ///< without variables: the flow starts as the case says
   Warnings warnings;
 };
 
 void require_outputs(const std::string& output) {
   require_writable_suffix(output);
-  if (!holds_solution(output))
-    throw InputError(output + ": this format has no place for the flow; name a .mesh, .cgns or .vtu file");
+  if (!format_of(output)->holds(Content::solution))
+    throw InputError(output + ": this format has no place for the flow; name a " +
+                     suffixes_for({Content::mesh, Content::solution}) + " file");
 }
 
 /// Where a mesh brings density, velocity and pressure along.
-std::vector<Row> start_of(const LoadedMesh& whole, const std::string& path, Warnings& warnings) {
+Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warnings) {
   if (!whole.solution || whole.solution->names.empty()) return {};
   const std::vector<std::string>& names = whole.solution->names;
-  std::array<std::size_t, 4> columns{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    columns[k] =
-        static_cast<std::size_t>(std::find(names.begin(), names.end(), state_names[k]) - names.begin());
-    if (columns[k] < names.size()) continue;
-    warnings.push_back(
-        fmt::format("{}: its solution has no {}, so the flow starts afresh and its solution is replaced",
-                    path, state_names[k]));
+  const std::vector<std::string> wanted(euler_names.begin(), euler_names.end());
+  for (const std::string& name : wanted) {
+    if (variables_like(names, name).size() == 1) continue;
+    warnings.push_back(fmt::format(
+        "{}: its solution has no {}, so the flow starts afresh and its solution is replaced", path, name));
     return {};
   }
-  std::vector<Row> rows(whole.mesh.points.size());
-  for (std::size_t node = 0; node < rows.size(); ++node) {
-    for (std::size_t k = 0; k < 4; ++k)
-      rows[node][k] = whole.solution->values[node * names.size() + columns[k]];
-    if (rows[node][0] > 0 && rows[node][3] > 0) continue;
+  Field start = selected(*whole.solution, wanted, path);
+  for (std::int32_t node = 0; node < whole.mesh.owned_nodes; ++node) {
+    const auto row = start.row(NodeId{node});
+    if (row[0] > 0 && row[3] > 0) continue;
     throw InputError(
         fmt::format("{}: density {} and pressure {} of node {} in its solution must be above 0; take the "
                     "solution out to start afresh",
-                    path, rows[node][0], rows[node][3], node + 1));
+                    path, row[0], row[3], node + 1));
   }
-  return rows;
+  return start;
 }
 
 /// Every rank reads the case, the root the mesh. *Collective.*
@@ -96,45 +90,13 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
   return problem;
 }
 
-std::vector<double> start_states(const Communicator& comm, const Problem& problem) {
-  std::vector<double> states;
-  for (const Row& row : scatter_nodes(comm, problem.start, problem.order))
-    states.insert(states.end(), row.begin(), row.end());
-  return states;
-}
-
-/// All ranks' states in the order of the whole mesh, on the root. *Collective.*
-std::vector<double> gather_states(const Communicator& comm, const std::vector<double>& states,
-                                  const MeshOrder& order) {
-  std::vector<std::vector<double>> out(static_cast<std::size_t>(comm.size()));
-  out[0] = states;
-  std::vector<double> whole(4 * order.nodes.size());
-  std::size_t next = 0;
-  for (const auto& from_rank : comm.exchange(out)) {
-    for (std::size_t i = 0; i < from_rank.size(); i += 4, ++next) {
-      std::copy_n(from_rank.begin() + static_cast<std::ptrdiff_t>(i), 4,
-                  whole.begin() + 4 * std::ptrdiff_t{order.nodes[next]});
-    }
-  }
-  return whole;
-}
-
 /// Puts the flow into the whole mesh on the root and writes it. *Collective.*
 void write(const Communicator& comm, Problem& problem, const EulerResult& result, const std::string& path) {
-  std::vector<double> states = gather_states(comm, result.states, problem.order);
+  Field solution =
+      gather_field(comm, flow_with_constants(result, problem.settings.solver.euler), problem.order);
   comm.together([&] {
     if (!comm.is_root()) return;
-    const EulerOptions& options = problem.settings.solver.euler;
-    Solution solution{{}, state_names, std::move(states)};
-    if (std::filesystem::path(path).extension() == ".mesh") {
-      solution.constants = {static_cast<double>(result.iterations),
-                            result.time,
-                            options.mach,
-                            options.alpha,
-                            result.cl,
-                            result.cd,
-                            result.residual};
-    }
+    if (!format_of(path)->holds(Content::constants)) solution.constants.clear();
     problem.whole.solution = std::move(solution);
     for (std::string& loss : losses_in(problem.whole, path)) problem.warnings.push_back(std::move(loss));
     const Communicator alone(MPI_COMM_SELF);
@@ -153,7 +115,7 @@ EulerResult solve(const Communicator& comm, const Problem& problem, const Mesh& 
     log::information(fmt::format("step {}: residual {:.2e}, cl {:.6f}, cd {:.6f}{}", p.iteration, p.residual,
                                  p.cl, p.cd, time));
   };
-  return solve_euler(comm, part, options, start_states(comm, problem));
+  return solve_euler(comm, part, options, scatter_field(comm, problem.start, part, problem.order));
 }
 
 Figures result_figures(std::int64_t nodes, const EulerResult& result, const EulerOptions& options) {
@@ -203,10 +165,12 @@ void add_solve_command(CLI::App& app, CommandContext& context) {
       ->type_name("CASE.toml");
   command
       ->add_option("input", arguments->input,
-                   "the mesh (.mesh, .cgns, .vtu, .su2 or .msh); a flow in it is started from")
+                   "the mesh (" + suffixes_for({Content::mesh}) + "); a flow in it is started from")
       ->required()
       ->type_name("IN");
-  command->add_option("-o,--output", arguments->output, "the mesh with the flow (.mesh, .cgns or .vtu)")
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "the mesh with the flow (" + suffixes_for({Content::mesh, Content::solution}) + ")")
       ->required()
       ->type_name("OUT");
   command

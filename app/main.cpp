@@ -16,6 +16,7 @@
 #include "app/command_line.hpp"
 #include "io/files/input_file.hpp"
 #include "io/files/interruption.hpp"
+#include "io/gis/gis_formats.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/free_memory.hpp"
@@ -142,6 +143,7 @@ int main(int argc, char** argv) {
   quadloop::keep_freed_memory();
   const quadloop::MpiGuard mpi(argc, argv);
   quadloop::remove_temporaries_when_killed();
+  quadloop::add_gis_formats();
   const quadloop::Communicator comm(MPI_COMM_WORLD), closing(MPI_COMM_WORLD);
   return static_cast<int>(close_together(closing.raw(), quadloop::recorded_run(argc, argv, comm)));
 }

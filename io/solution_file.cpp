@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "io/formats.hpp"
 #include "io/mesh_file.hpp"
-#include "io/su2/su2_csv_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/topology.hpp"
 #include "mesher/mesh/variable_names.hpp"
@@ -19,14 +19,11 @@ namespace {
 
 void require_values(const LoadedMesh& loaded, const std::string& path) {
   if (loaded.solution && !loaded.solution->names.empty()) return;
-  const bool vtu = std::filesystem::path(path).extension() == ".vtu";
-  throw InputError(path + ": holds a mesh without a solution; " +
-                   (vtu ? "let the solver save values at points (in ParaView: Cell Data to Point Data)"
-                        : "let the solver append its variables, a row of values for each node"));
+  throw InputError(path + ": holds a mesh without a solution; " + format_of(path)->without_values);
 }
 
 /// Finite, and so small that differences, squares and integrals over the mesh are finite too.
-void require_usable(const Solution& solution, const std::string& path) {
+void require_usable(const Field& solution, const std::string& path) {
   constexpr double largest = 1e150;
   const std::size_t width = solution.names.size();
   for (std::size_t i = 0; i < solution.values.size(); ++i) {
@@ -69,7 +66,7 @@ std::vector<double> shortest_edges(const Mesh& mesh) {
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
     const Point along = mesh.point(to) - mesh.point(from);
     for (const NodeId node : {from, to}) {
-      double& least = shortest[static_cast<std::size_t>(node.value())];
+      double& least = shortest[node.value()];
       least = std::min(least, dot(along, along));
     }
   });
@@ -80,7 +77,7 @@ std::string place_difference(const LoadedSolution& solution, const Mesh& mesh) {
   const std::vector<char> elsewhere = nodes_elsewhere(solution.points, mesh);
   const auto first = std::find(elsewhere.begin(), elsewhere.end(), 1);
   if (first == elsewhere.end()) return {};
-  const auto i = static_cast<std::size_t>(first - elsewhere.begin());
+  const std::size_t i = first - elsewhere.begin();
   const Point p = solution.points[i], wanted = mesh.points[i];
   return fmt::format(
       "node {} lies at ({}, {}), in the mesh at ({}, {}); it is a solution of another mesh, or its rows are "
@@ -92,9 +89,7 @@ std::string place_difference(const LoadedSolution& solution, const Mesh& mesh) {
 LoadedSolution read_with_mesh(const std::string& path) {
   LoadedMesh loaded = read_mesh(path);
   require_values(loaded, path);
-  LoadedSolution result{
-      path, std::move(*loaded.solution), static_cast<std::int64_t>(loaded.mesh.points.size()), {}, true, {},
-      {}};
+  LoadedSolution result{path, std::move(*loaded.solution), std::ssize(loaded.mesh.points), {}, true, {}, {}};
   result.points = std::move(loaded.mesh.points);
   result.triangles = std::move(loaded.mesh.triangles);
   result.quads = std::move(loaded.mesh.quads);
@@ -104,19 +99,20 @@ LoadedSolution read_with_mesh(const std::string& path) {
 }  // namespace
 
 LoadedSolution read_solution(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension();
   require_solution_suffix(path);
-  LoadedSolution result = suffix == ".csv" ? read_su2_csv(path) : read_with_mesh(path);
+  const auto read_alone = format_of(path)->read_solution;
+  LoadedSolution result = read_alone != nullptr ? read_alone(path) : read_with_mesh(path);
   result.solution.names = distinct_words(result.solution.names, path);
   require_usable(result.solution, path);
   return result;
 }
 
 void require_solution_suffix(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension();
-  if (suffix == ".mesh" || suffix == ".cgns" || suffix == ".vtu" || suffix == ".csv") return;
-  throw InputError(path + ": no solution is read from the format '" + suffix +
-                   "'; give a .mesh, .cgns, .vtu or .csv file");
+  const FileFormat* format = format_of(path);
+  if (format != nullptr && format->holds(Content::solution)) return;
+  throw InputError(path + ": no solution is read from the format '" +
+                   std::filesystem::path(path).extension().string() + "'; give a " +
+                   suffixes_for({Content::solution}) + " file");
 }
 
 std::vector<char> nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {
@@ -135,7 +131,7 @@ bool same_cells_in_any_order(const Mesh& one, const Mesh& other) {
 }
 
 std::string difference(const LoadedSolution& solution, const Mesh& whole) {
-  if (solution.nodes != static_cast<std::int64_t>(whole.points.size())) {
+  if (solution.nodes != std::ssize(whole.points)) {
     return fmt::format(
         "holds values at {} nodes, the mesh has {}; it is a solution of another mesh; solve on this one",
         solution.nodes, whole.points.size());

@@ -7,9 +7,9 @@
 
 namespace quadloop {
 
-/// Reads .mesh, .cgns and .vtu with a solution, and .csv as SU2 leaves its restart file, on the calling rank
-/// alone. Throws InputError, also where the file holds no values at its nodes, two variables of one name, or
-/// a value that is not finite or beyond 1e150.
+/// Reads a file of any format that has a place for a solution, with a mesh or without (.csv, as SU2 leaves
+/// its restart file), on the calling rank alone. Throws InputError, also where the file holds no values at
+/// its nodes, two variables of one name, or a value that is not finite or beyond 1e150.
 LoadedSolution read_solution(const std::string& path);
 
 /// Throws InputError unless the suffix is one that read_solution() knows; it lists them.

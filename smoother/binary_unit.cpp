@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "mesher/mesh/box_over_ranks.hpp"
+
 namespace quadloop {
 
 BinaryUnit::BinaryUnit(const Communicator& comm, const Mesh& mesh) {
-  Box box;
-  for (const Point p : mesh.points) box.include(p);
-  const Point low{comm.minimum(box.low.x), comm.minimum(box.low.y)},
-      high{comm.maximum(box.high.x), comm.maximum(box.high.y)};
+  const auto [low, high] = box_over_ranks(comm, mesh.points);
   const double half =
       std::max(high.x / 2 - low.x / 2, high.y / 2 - low.y / 2);  // halves, as a whole extent may overflow
   if (!(half > 0) || !std::isfinite(half)) return;

@@ -60,8 +60,7 @@ SquareCorner square_at(Point p, Point next, Point opposite, Point previous) {
 /// Finds the nodes of level lines among those that this rank owns.
 class LevelLines {
  public:
-  explicit LevelLines(const HaloMesh& mesh)
-      : mesh_{mesh}, round_(static_cast<std::size_t>(mesh.owned_nodes())) {
+  explicit LevelLines(const HaloMesh& mesh) : mesh_{mesh}, round_(mesh.owned_nodes()) {
     mesh.for_each_cell([&](const auto& nodes) { look_at_squares(nodes); });
     mesh.for_each_cell([&](const auto& nodes) { look_at_triangles(nodes); });
     for (const HaloEdge& edge : mesh.boundary_edges()) {
@@ -71,14 +70,14 @@ class LevelLines {
 
   /// Where an owned node goes; nowhere if it is of no level line.
   Point move_of(std::int32_t node) const {
-    const Surroundings& s = round_[static_cast<std::size_t>(node)];
+    const Surroundings& s = round_[node];
     if (s.line_ends != 0b11) return {};
     return -step * s.edge * into_squares(s.quadrants);
   }
 
  private:
   bool is_owned(NodeId node) const { return node.value() < mesh_.owned_nodes(); }
-  Surroundings& round(NodeId node) { return round_[static_cast<std::size_t>(node.value())]; }
+  Surroundings& round(NodeId node) { return round_[node.value()]; }
   void exclude(NodeId node) {
     if (is_owned(node)) round(node).quadrants |= unfit;
   }
@@ -124,7 +123,7 @@ class LevelLines {
 double ideal_cost(const auto& nodes, const std::vector<Point>& points) {
   constexpr std::size_t width = std::tuple_size_v<std::remove_cvref_t<decltype(nodes)>>;
   std::array<Point, width> corners;
-  for (std::size_t k = 0; k < width; ++k) corners[k] = points[static_cast<std::size_t>(nodes[k].value())];
+  for (std::size_t k = 0; k < width; ++k) corners[k] = points[nodes[k].value()];
   return cell_cost(corners, ideal_targets<width>());
 }
 
@@ -133,9 +132,7 @@ double ideal_cost(const auto& nodes, const std::vector<Point>& points) {
 bool take_back(const Communicator& comm, HaloMesh& mesh, const std::vector<Point>& before, double limit) {
   std::vector<Point>& points = mesh.points();
   std::vector<std::int32_t> back;
-  const auto has_moved = [&](NodeId n) {
-    return mesh.point(n) != before[static_cast<std::size_t>(n.value())];
-  };
+  const auto has_moved = [&](NodeId n) { return mesh.point(n) != before[n.value()]; };
   mesh.for_each_cell([&](const auto& nodes) {
     if (std::none_of(nodes.begin(), nodes.end(), has_moved)) return;
     const double cost = ideal_cost(nodes, points);
@@ -144,8 +141,7 @@ bool take_back(const Communicator& comm, HaloMesh& mesh, const std::vector<Point
       if (node.value() < mesh.owned_nodes()) back.push_back(node.value());
     }
   });
-  for (const std::int32_t node : back)
-    points[static_cast<std::size_t>(node)] = before[static_cast<std::size_t>(node)];
+  for (const std::int32_t node : back) points[node] = before[node];
   mesh.exchange().update(points);
   return comm.any(!back.empty());
 }
@@ -158,7 +154,7 @@ bool move_level_lines(const Communicator& comm, HaloMesh& mesh, const std::vecto
   std::vector<Point>& points = mesh.points();
   const std::vector<Point> before = points;
   for (std::int32_t node = 0; node < mesh.owned_nodes(); ++node) {
-    const auto n = static_cast<std::size_t>(node);
+    const std::size_t n = node;
     if (pinned.empty() || pinned[n] == 0) points[n] = points[n] + lines.move_of(node);
   }
   if (!comm.any(points != before)) return false;

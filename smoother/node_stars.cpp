@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -38,11 +40,10 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes,
     targets_.insert(targets_.end(), seen.begin(), seen.end());
   }
   std::vector<std::int32_t> place(mesh.points().size(), -1);
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    place[static_cast<std::size_t>(nodes_[i])] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) place[nodes_[i]] = static_cast<std::int32_t>(i);
   mesh.for_each_cell([&](const auto& cell) {
     for (const NodeId node : cell) {
-      const std::int32_t i = place[static_cast<std::size_t>(node.value())];
+      const std::int32_t i = place[node.value()];
       if (i >= 0)
         starts_[static_cast<std::size_t>(i) + 1] +=
             corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
@@ -61,7 +62,7 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes,
 template <std::size_t width>
 std::int32_t NodeStars::first_target(const CellTarget& target) {
   if (target.ideal()) return static_cast<std::int32_t>(ideal_begin<width>());
-  const auto begin = static_cast<std::int32_t>(targets_.size());
+  const auto begin = size32(targets_);
   const auto seen = seen_targets<width>(stretched_targets<width>(target.w1, target.w2));
   targets_.insert(targets_.end(), seen.begin(), seen.end());
   return begin;
@@ -73,12 +74,12 @@ void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget
   constexpr auto per_node = static_cast<std::int32_t>(corners_of_cell<width>);
   std::int32_t targets = -1;
   for (std::size_t k = 0; k < width; ++k) {
-    const std::int32_t i = place[static_cast<std::size_t>(cell[k].value())];
+    const std::int32_t i = place[cell[k].value()];
     if (i < 0) continue;
     if (targets < 0) targets = first_target<width>(target);
     const NodeId next = cell[(k + 1) % width], previous = cell[(k + width - 1) % width];
     const std::int32_t own = targets + per_node * static_cast<std::int32_t>(k);
-    std::size_t& end = ends[static_cast<std::size_t>(i)];
+    std::size_t& end = ends[i];
     corners_[end++] = {next, previous, own, width == 3 ? CellAngle::all : CellAngle::at_p};
     if constexpr (width == 4) {
       const NodeId opposite = cell[(k + 2) % width];
@@ -91,7 +92,7 @@ void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget
 void NodeStars::gather(std::size_t i, Star& star) const {
   star.clear();
   for (const Corner& c : corners_of(i))
-    star.add({mesh_.point(c.q), mesh_.point(c.r), targets_[static_cast<std::size_t>(c.target)], c.angle});
+    star.add({mesh_.point(c.q), mesh_.point(c.r), targets_[c.target], c.angle});
 }
 
 }  // namespace quadloop

@@ -42,7 +42,7 @@ void add_cell(const std::array<Point, width>& cell, std::vector<Histogram>& hist
 }  // namespace
 
 void Histogram::add(double value) {
-  ++counts[static_cast<std::size_t>(std::upper_bound(limits.begin(), limits.end(), value) - limits.begin())];
+  ++counts[std::upper_bound(limits.begin(), limits.end(), value) - limits.begin()];
 }
 
 std::vector<Histogram> shape_histograms(const Communicator& comm, const Mesh& mesh) {

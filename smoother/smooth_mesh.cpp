@@ -5,7 +5,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
-#include "mesher/delaunay/restore_delaunay.hpp"
+#include "mesher/delaunay/restore/restore_delaunay.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/node_exchange.hpp"
@@ -69,13 +69,12 @@ struct Survey {
 
 template <class Nodes>
 bool any_flagged(const std::vector<char>& flags, const Nodes& nodes) {
-  return std::any_of(nodes.begin(), nodes.end(),
-                     [&](NodeId n) { return flags[static_cast<std::size_t>(n.value())] != 0; });
+  return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[n.value()] != 0; });
 }
 
 template <class Nodes>
 void flag_all(const Nodes& nodes, std::vector<char>& flags) {
-  for (const NodeId node : nodes) flags[static_cast<std::size_t>(node.value())] = 1;
+  for (const NodeId node : nodes) flags[node.value()] = 1;
 }
 
 WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) {
@@ -152,7 +151,7 @@ std::vector<std::int32_t> free_nodes(const Survey& surveyed, const HaloMesh& mes
                                      const std::vector<char>& yielding) {
   std::vector<std::int32_t> free;
   for (std::int32_t node = 0; node < mesh.owned_nodes(); ++node) {
-    const auto n = static_cast<std::size_t>(node);
+    const std::size_t n = node;
     const bool may_move = surveyed.near[n] != 0 && (surveyed.parallel[n] == 0 || yielding[n] != 0);
     if (may_move && slide.freedom(node) != NodeFreedom::fixed) free.push_back(node);
   }
@@ -219,7 +218,7 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
       stage.say("sweep " + std::to_string(sweep + 1) + ", " + std::to_string(moves) + " nodes moved");
       stage.advance(sweep + 1);
     }
-    report.free_nodes = comm.sum(static_cast<std::int64_t>(stars.size()));
+    report.free_nodes = comm.sum(std::ssize(stars));
     if (round == free_rings) return;
     yielding = nodes_of_bad_cells(halo, targets, surveyed, options.bad, round);
     if (!comm.any(std::find(yielding.begin(), yielding.end(), 1) != yielding.end())) return;
@@ -261,20 +260,16 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
 std::vector<char> nodes_near_worse(const Communicator& comm, const Mesh& flipped, const Mesh& before,
                                    double limit, int rings) {
   const NodeOwners owners(comm, before.first_node);
-  std::vector<std::vector<std::int64_t>> to_owner(static_cast<std::size_t>(comm.size()));
+  Outbox<GlobalNodeId> to_owners;
   for (const auto& nodes : flipped.triangles) {
     if (ideal_cost(flipped, nodes) <= limit) continue;
-    for (const NodeId node : nodes)
-      to_owner[static_cast<std::size_t>(owners.rank_of(flipped.global(node)))].push_back(
-          flipped.global(node).value());
+    for (const NodeId node : nodes) to_owners.add(owners.rank_of(flipped.global(node)), flipped.global(node));
   }
   const HaloMesh halo(comm, before);
   std::vector<char> near(halo.points().size(), 0);
-  for (const auto& from_rank : comm.exchange(to_owner)) {
-    for (const std::int64_t node : from_rank) near[static_cast<std::size_t>(node - before.first_node)] = 1;
-  }
+  for (const GlobalNodeId node : to_owners.deliver(comm)) near[node.value() - before.first_node] = 1;
   grow(halo, near, rings);
-  near.resize(static_cast<std::size_t>(halo.owned_nodes()));
+  near.resize(halo.owned_nodes());
   return near;
 }
 
@@ -287,7 +282,7 @@ SmoothReport smooth_delaunay(const Communicator& comm, Mesh& mesh, const SmoothO
                    "blocks are known by places");
   const Mesh before = mesh;
   SmoothOptions careful = options;
-  careful.pinned.resize(static_cast<std::size_t>(mesh.owned_nodes), 0);
+  careful.pinned.resize(mesh.owned_nodes, 0);
   for (int attempt = 1;; ++attempt) {
     const SmoothReport report = smooth_once(comm, mesh, careful);
     const double limit = (1 + cost_rounding) * report.worst_cost_before;

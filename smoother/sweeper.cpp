@@ -18,9 +18,9 @@ Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& star
       visited_at_(stars.size(), -1),
       bad_(mesh.points().size(), 0) {
   const Colouring colouring = colour_stars(comm, mesh, stars);
-  by_colour_.resize(static_cast<std::size_t>(colouring.count));
+  by_colour_.resize(colouring.count);
   for (std::size_t i = 0; i < stars.size(); ++i) {
-    by_colour_[static_cast<std::size_t>(colouring.colour_of[static_cast<std::size_t>(node(i))])].push_back(i);
+    by_colour_[colouring.colour_of[node(i)]].push_back(i);
   }
 }
 
@@ -50,16 +50,14 @@ void Sweeper::find_bad() {
   for (std::size_t i = 0; i < stars_.size(); ++i) {
     if (!is_stale(i)) continue;
     stars_.gather(i, star_);
-    bad_[static_cast<std::size_t>(node(i))] =
-        star_.worst_cost(mesh_.points()[static_cast<std::size_t>(node(i))]) > threshold_ ? 1 : 0;
+    bad_[node(i)] = star_.worst_cost(mesh_.points()[node(i)]) > threshold_ ? 1 : 0;
   }
   mesh_.exchange().update(bad_);
 }
 
 bool Sweeper::is_active(std::size_t i) const {
-  bool active = bad_[static_cast<std::size_t>(node(i))] != 0;
-  stars_.for_each_neighbour(
-      i, [&](std::int32_t other) { active = active || bad_[static_cast<std::size_t>(other)] != 0; });
+  bool active = bad_[node(i)] != 0;
+  stars_.for_each_neighbour(i, [&](std::int32_t other) { active = active || bad_[other] != 0; });
   return active;
 }
 
@@ -67,11 +65,11 @@ bool Sweeper::visit(std::size_t i) {
   stars_.gather(i, star_);
   visited_at_[i] = clock_;
   const std::int32_t n = node(i);
-  Point& p = mesh_.points()[static_cast<std::size_t>(n)];
+  Point& p = mesh_.points()[n];
   const auto better = better_place(n, p);
   if (!better) return false;
   p = *better;
-  moved_at_[static_cast<std::size_t>(n)] = clock_;
+  moved_at_[n] = clock_;
   return true;
 }
 

@@ -23,7 +23,7 @@ class Sweeper {
 
  private:
   std::int32_t node(std::size_t i) const { return stars_.nodes()[i]; }
-  std::int32_t moved_at(std::int32_t n) const { return moved_at_[static_cast<std::size_t>(n)]; }
+  std::int32_t moved_at(std::int32_t n) const { return moved_at_[n]; }
   bool is_stale(std::size_t i) const;
   void find_bad();
   bool is_active(std::size_t i) const;

@@ -1,44 +1,58 @@
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "adapt/loop/flow_solver.hpp"
 #include "adapt/loop/record.hpp"
 #include "adapt/remesh/remesh.hpp"
+#include "flow/flow_solver.hpp"
 
 namespace quadloop {
 
-/// A case that is meshed, solved and adapted in turn.
-struct AdaptiveCase {
-  MeshInput mesh;
-  AdaptOptions adapt;
-  FlowSolver solver;
-  std::vector<std::string>
-      formats;            ///< suffixes of mesh files that each cycle is to have too, beside .mesh and .cgns
-  CaseSettings settings;  ///< all that the run's files depend on, beside the outline
+/// What a cycle comes to: a mesh with the flow on it, and what the next mesh is to be split at.
+struct CycleEnd {
+  SolvedMesh solved;
+  AdaptationPlan plan;
 };
 
-/// What a run tells its caller, on every rank.
-struct RunReport {
-  std::function<void(const CycleRecord&, const std::vector<std::string>& warnings)>
-      cycle;                                        ///< after each: what was dropped or not reached
-  std::function<void(const std::string&)> warning;  ///< before the first
+/// Looks on while the loop runs, and may write files. Every call is entered by all ranks; what it throws ends
+/// the loop.
+class CycleObserver {
+ public:
+  CycleObserver() = default;
+  CycleObserver(const CycleObserver&) = delete;
+  CycleObserver& operator=(const CycleObserver&) = delete;
+  virtual ~CycleObserver() = default;
+
+  /// Before a cycle's mesh is made.
+  virtual void begin(int /*cycle*/) {}
+  /// The mesh is made, and the state that the solver starts from, without variables in the first cycle.
+  virtual void meshed(const MeshResult& /*mesh*/, const Field& /*start*/) {}
+  /// The solver is done. What is returned joins the cycle's warnings.
+  virtual std::vector<std::string> solved(const Mesh& /*mesh*/, const Field& /*flow*/) { return {}; }
+  /// The cycle is done: its figures, what the solver noted, and what the user is to be told.
+  virtual void finished(CycleRecord /*record*/, const std::vector<std::string>& /*notes*/,
+                        const std::vector<std::string>& /*warnings*/) {}
+  /// The place of a cycle's solution, for messages; empty: none is named.
+  virtual std::string place_of_solution(int /*cycle*/) const { return {}; }
 };
 
-/// Which cycles a run made, and whether it came to its end before adapt.cycles because the last one marks no
-/// leaf.
-struct RunEnd {
-  int first = 0, last = 0;  ///< first > last: all were there already
-  bool nothing_to_change = false;
+/// Which cycles were made, and what the last one came to.
+struct LoopEnd {
+  int first = 0, last = 0;         ///< first > last: none
+  bool nothing_to_change = false;  ///< the last one marks no leaf, and so came before adapt.cycles
+  std::optional<CycleEnd> left;    ///< always after a cycle was made
 };
 
-/// Runs the cycles 0 to adapt.cycles in `folder`: mesh, transfer of the last solution, solve, marks. It ends
-/// before with a cycle that marks no leaf: the next one would solve on the same mesh again. Each cycle begins
-/// with what the last one left in its files, so that a run which was broken off and resumed ends with the
-/// same files as one that was not. Throws InputError, SolverError, OutputError; whole cycles then stay as
-/// they are. *Collective.*
-RunEnd run_adaptation(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
-                      bool resume, const RunReport& report);
+/// Meshes, solves and adapts in turn, in memory: the cycles from `first` to adapt.cycles, each on the mesh
+/// that the one before asks for and with its flow carried over. `before` is what the cycle first - 1 came to;
+/// without it the first mesh is that of the case alone. The loop ends with a cycle that marks no leaf: the
+/// next one would solve on the same mesh again. Meshes and flows have the same bits on any number of ranks,
+/// and whether `before` comes from memory or from files of ours. Throws what meshing, solver and observer
+/// throw. *Collective.*
+LoopEnd run_loop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
+                 const FlowSolver& solver, CycleObserver& observer, int first = 0,
+                 std::optional<CycleEnd> before = {});
 
 }  // namespace quadloop

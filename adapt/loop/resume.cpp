@@ -53,6 +53,20 @@ void require_cgns(const std::string& path, const Mesh& whole) {
   throw InputError(path + ": does not hold the mesh and the solution of the files beside it");
 }
 
+/// Throws InputError where a file is not whole. *Collective.*
+SolvedMesh read_cycle(const Communicator& comm, const std::string& folder) {
+  const std::string path = folder + "/mesh.mesh";
+  LoadedMesh whole;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    whole = read_native(path);
+    if (!whole.solution) throw InputError(path + ": holds no solution; a whole cycle has one");
+  });
+  SolvedMesh solved = spread_solved(comm, whole, read_tree(comm, folder + "/mesh.tree.h5"));
+  solved.file = path;
+  return solved;
+}
+
 }  // namespace
 
 std::vector<std::string> require_same_run(const Communicator& comm, const std::string& folder,
@@ -72,19 +86,6 @@ std::vector<std::string> require_same_run(const Communicator& comm, const std::s
       refuse_another_case(folder, refused, recorded.geometry_digest == now.geometry_digest);
   });
   return warnings;
-}
-
-SolvedMesh read_cycle(const Communicator& comm, const std::string& folder) {
-  const std::string path = folder + "/mesh.mesh";
-  LoadedMesh whole;
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    whole = read_native(path);
-    if (!whole.solution) throw InputError(path + ": holds no solution; a whole cycle has one");
-  });
-  SolvedMesh solved = spread_solved(comm, whole, read_tree(comm, folder + "/mesh.tree.h5"));
-  solved.file = path;
-  return solved;
 }
 
 SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folder) {

@@ -15,12 +15,8 @@ namespace quadloop {
 std::vector<std::string> require_same_run(const Communicator& comm, const std::string& folder,
                                           const CycleRecord& now);
 
-/// The mesh, the tree and the solution of a cycle's folder. Throws InputError where a file is not whole.
-/// *Collective.*
-SolvedMesh read_cycle(const Communicator& comm, const std::string& folder);
-
-/// The same of a cycle that an earlier run left: its files are compared with each other, and a refusal says
-/// how to be rid of the damage. *Collective.*
+/// The mesh, the tree and the solution of a cycle that an earlier run left, by its files. They are compared
+/// with each other; a refusal says how to be rid of the damage. *Collective.*
 SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folder);
 
 }  // namespace quadloop

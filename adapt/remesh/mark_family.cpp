@@ -4,30 +4,18 @@
 #include <cmath>
 
 #include "adapt/sensor/wanted_size.hpp"
-#include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop {
 
 namespace {
 
-NodeField field_of(const SolvedMesh& solved, const std::string& name) {
-  const auto& [constants, names, values] = solved.solution;
-  const std::size_t column = variable(names, name, "adapt.variable"), width = names.size();
-  NodeField field{names[column], {}};
-  for (std::size_t row = column; row < values.size(); row += width) field.values.push_back(values[row]);
-  return field;
-}
-
 std::vector<double> leaf_values(const Communicator& comm, const AdaptOptions& options,
                                 const SolvedMesh& solved) {
-  std::vector<NodeField> fields;
-  for (const std::string& name : options.variables) fields.push_back(field_of(solved, name));
+  const Field field = selected(solved.solution, options.variables, "adapt.variable");
   const auto& leaves = solved.tree.leaves;
-  if (options.source == AdaptOptions::Source::size)
-    return leaf_sizes(comm, solved.mesh, leaves, fields.front());
-  if (options.source == AdaptOptions::Source::error)
-    return leaf_errors(comm, solved.mesh, leaves, fields.front());
-  return leaf_indicator(comm, solved.mesh, leaves, fields, options.indicator);
+  if (options.source == AdaptOptions::Source::size) return leaf_sizes(comm, solved.mesh, leaves, field);
+  if (options.source == AdaptOptions::Source::error) return leaf_errors(comm, solved.mesh, leaves, field);
+  return leaf_indicator(comm, solved.mesh, leaves, field, options.indicator);
 }
 
 ThresholdRule rule_of(const AdaptOptions& options) {

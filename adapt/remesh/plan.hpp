@@ -5,20 +5,12 @@
 #include <vector>
 
 #include "adapt/remesh/adapt_options.hpp"
+#include "adapt/remesh/solved_mesh.hpp"
 #include "adapt/sensor/mark.hpp"
-#include "io/loaded/loaded_mesh.hpp"
 #include "mesher/generate/generate.hpp"
+#include "mesher/mesh/field.hpp"
 
 namespace quadloop {
-
-/// A mesh with its tree and what a solver left at its nodes. Cells stand in the order of the tree's leaves;
-/// the shares of leaves, cells and nodes that a rank has need not meet.
-struct SolvedMesh {
-  Mesh mesh;
-  TreeRecord tree;
-  Solution solution;
-  std::string file;  ///< where the solution was read, for messages
-};
 
 /// What the next tree is to be split at, and how that came about.
 struct AdaptationPlan {

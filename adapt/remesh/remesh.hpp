@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "adapt/remesh/plan.hpp"
+#include "adapt/transfer/transfer.hpp"
+#include "io/loaded/loaded_mesh.hpp"
 
 namespace quadloop {
-
-/// The root's solution on every rank, but for its values. *Collective.*
-Solution share_solution(const Communicator& comm, const Solution& of_root);
 
 /// The whole mesh on the root, its cells in the order of the tree's leaves, and its tree, spread over the
 /// ranks. *Collective.*
@@ -18,10 +17,12 @@ SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, Tree
 /// A new mesh and the old one's solution on it.
 struct CarriedMesh {
   GeneratedMesh generated;
-  Solution start;
-  StageTimes times;                                   ///< those of meshing, and "transfer"
-  std::int64_t outside = 0;                           ///< new nodes outside the old mesh
-  std::vector<std::pair<std::string, double>> drift;  ///< of each variable's integral
+  Field start;
+  StageTimes times;       ///< those of meshing, and "transfer"
+  TransferReport report;  ///< none in a first mesh
+
+  /// The drift of each variable's integral, by its name.
+  std::vector<std::pair<std::string, double>> drifts() const;
 };
 
 /// Meshes by the plan and carries the solution over. *Collective.*

@@ -20,21 +20,17 @@ struct MarkedLeaf {
 
 constexpr std::int64_t siblings = 4;
 
-int child_number(const Quadrant& q) {
-  const int shift = Quadrant::unit_level - q.level;
-  return static_cast<int>((q.x >> shift & 1) + 2 * (q.y >> shift & 1));
-}
+int child_number(const Quadrant& q) { return curve_index(quarter_at(q.x, q.y, q.level - 1)); }
 
 /// This rank's leaves with those before and after them, as many as a family may reach beyond them.
 class LeafRun {
  public:
   LeafRun(const Communicator& comm, std::vector<MarkedLeaf> own)
-      : first_{comm.exclusive_sum(static_cast<std::int64_t>(own.size()))} {
-    const auto count = static_cast<std::int64_t>(own.size());
+      : first_{comm.exclusive_sum(std::ssize(own))} {
+    const auto count = std::ssize(own);
     std::vector<Numbered> ends;
     for (std::int64_t i = 0; i < count; ++i) {
-      if (i < siblings - 1 || i >= count - (siblings - 1))
-        ends.push_back({first_ + i, own[static_cast<std::size_t>(i)]});
+      if (i < siblings - 1 || i >= count - (siblings - 1)) ends.push_back({first_ + i, own[i]});
     }
     std::vector<MarkedLeaf> before, after;
     for (const Numbered& end : comm.all_gather_values(std::span<const Numbered>(ends))) {
@@ -42,7 +38,7 @@ class LeafRun {
       if (end.number >= first_ + count && end.number < first_ + count + (siblings - 1))
         after.push_back(end.leaf);
     }
-    begin_ = first_ - static_cast<std::int64_t>(before.size());
+    begin_ = first_ - std::ssize(before);
     leaves_ = std::move(before);
     leaves_.insert(leaves_.end(), own.begin(), own.end());
     leaves_.insert(leaves_.end(), after.begin(), after.end());
@@ -53,8 +49,7 @@ class LeafRun {
     const std::int64_t number = first_ + index;
     const Quadrant& q = at(number).leaf;
     const std::int64_t eldest = number - child_number(q);
-    if (eldest < begin_ || eldest + siblings > begin_ + static_cast<std::int64_t>(leaves_.size()))
-      return false;
+    if (eldest < begin_ || eldest + siblings > begin_ + std::ssize(leaves_)) return false;
     for (std::int64_t k = 0; k < siblings; ++k) {
       const MarkedLeaf& sibling = at(eldest + k);
       if (sibling.leaf.level != q.level || child_number(sibling.leaf) != k || sibling.mark != Mark::coarsen)
@@ -68,9 +63,7 @@ class LeafRun {
     std::int64_t number;
     MarkedLeaf leaf;
   };
-  const MarkedLeaf& at(std::int64_t number) const {
-    return leaves_[static_cast<std::size_t>(number - begin_)];
-  }
+  const MarkedLeaf& at(std::int64_t number) const { return leaves_[number - begin_]; }
 
   std::int64_t first_,
       begin_ = 0;  ///< numbers over all ranks of this rank's first leaf, and of the first here

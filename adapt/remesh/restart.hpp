@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "adapt/sensor/thresholds.hpp"
-#include "mesher/forest/demanded_splits.hpp"
 #include "mesher/generate/generate.hpp"
 #include "mesher/mesh/tree_record.hpp"
+#include "mesher/sizes/demanded_splits.hpp"
 
 namespace quadloop {
 

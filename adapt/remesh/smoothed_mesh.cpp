@@ -72,14 +72,13 @@ std::string cost_fault(const Mesh& before, const Mesh& found, const std::vector<
   std::vector<double> gain(before.points.size(), 0);
   const auto add = [&](const auto& cell) {
     const std::int32_t patch = patches.patch_of(cell);
-    if (patch >= 0)
-      gain[static_cast<std::size_t>(patch)] += squared_cost(before, cell) - squared_cost(found, cell);
+    if (patch >= 0) gain[patch] += squared_cost(before, cell) - squared_cost(found, cell);
   };
   std::ranges::for_each(before.triangles, add);
   std::ranges::for_each(before.quads, add);
   const auto worse = std::ranges::find_if(gain, [](double g) { return g < 0; });
   if (worse == gain.end()) return {};
-  const Point place = found.points[static_cast<std::size_t>(worse - gain.begin())];
+  const Point place = found.points[worse - gain.begin()];
   return fmt::format("the cells round ({}, {}) are worse than they were", place.x, place.y);
 }
 
@@ -99,7 +98,7 @@ std::string boundary_fault(const Mesh& before, const Mesh& found, const std::vec
   std::optional<OutlinePath> curves;
   for (const BoundaryEdges& boundary : before.boundaries) {
     for (const auto& edge : boundary.edges) {
-      const auto node = static_cast<std::size_t>(edge[0].value());
+      const std::size_t node = edge[0].value();
       if (moved[node] == 0) continue;
       if (outline != nullptr && !curves) curves.emplace(*outline);
       const double reach =

@@ -10,6 +10,7 @@
 #include "io/mesh_file.hpp"
 #include "io/solution_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/validate.hpp"
 
@@ -18,7 +19,7 @@ namespace quadloop {
 namespace {
 
 bool is_of(const TreeAttributes& tree, const Mesh& whole) {
-  const auto count = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
+  const auto count = [](const auto& rows) { return std::ssize(rows); };
   const bool counts = count(whole.points) == tree.nodes && count(whole.triangles) == tree.triangles &&
                       count(whole.quads) == tree.quads;
   return counts && digest_of_owned(whole) == tree.coordinate_digest && validate(whole).empty();
@@ -44,16 +45,6 @@ struct NamedEdge {
   std::array<std::int64_t, 2> nodes{};
 };
 
-template <class T>
-std::vector<T> at_root(const Communicator& comm, std::vector<T> own) {
-  std::vector<std::vector<T>> out(static_cast<std::size_t>(comm.size()));
-  out[0] = std::move(own);
-  std::vector<T> all;
-  for (const std::vector<T>& of_rank : comm.exchange(out))
-    all.insert(all.end(), of_rank.begin(), of_rank.end());
-  return all;
-}
-
 template <std::size_t width>
 std::array<std::int64_t, width> global_numbers(const Mesh& mesh, const std::array<NodeId, width>& nodes) {
   std::array<std::int64_t, width> numbers{};
@@ -75,7 +66,7 @@ std::vector<std::array<NodeId, width>> cells_at_root(const Communicator& comm, c
   std::vector<std::array<std::int64_t, width>> numbers;
   for (const auto& cell : own) numbers.push_back(global_numbers(mesh, cell));
   std::vector<std::array<NodeId, width>> cells;
-  for (const auto& cell : at_root(comm, std::move(numbers))) cells.push_back(node_ids(cell));
+  for (const auto& cell : gather_at_root(comm, numbers)) cells.push_back(node_ids(cell));
   return cells;
 }
 
@@ -83,9 +74,8 @@ std::vector<std::array<NodeId, width>> cells_at_root(const Communicator& comm, c
 /// *Collective.*
 Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
   Mesh whole;
-  whole.points =
-      at_root(comm, std::vector<Point>(mesh.points.begin(), mesh.points.begin() + mesh.owned_nodes));
-  whole.owned_nodes = static_cast<std::int32_t>(whole.points.size());
+  whole.points = gather_at_root(comm, std::span(mesh.points).first(mesh.owned_nodes));
+  whole.owned_nodes = size32(whole.points);
   whole.triangles = cells_at_root(comm, mesh, mesh.triangles);
   whole.quads = cells_at_root(comm, mesh, mesh.quads);
   std::vector<NamedEdge> edges;
@@ -94,14 +84,14 @@ Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
       edges.push_back({static_cast<std::int64_t>(b), global_numbers(mesh, edge)});
     whole.boundaries.push_back({mesh.boundaries[b].name, mesh.boundaries[b].condition, {}});
   }
-  for (const NamedEdge& edge : at_root(comm, std::move(edges)))
-    whole.boundaries[static_cast<std::size_t>(edge.boundary)].edges.push_back(node_ids(edge.nodes));
+  for (const NamedEdge& edge : gather_at_root(comm, edges))
+    whole.boundaries[edge.boundary].edges.push_back(node_ids(edge.nodes));
   std::erase_if(whole.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   return whole;
 }
 
 LoadedSolution mesh_as_found(LoadedMesh& loaded, const std::string& path) {
-  const auto nodes = static_cast<std::int64_t>(loaded.mesh.points.size());
+  const auto nodes = std::ssize(loaded.mesh.points);
   return {path, {}, nodes, loaded.mesh.points, true, loaded.mesh.triangles, loaded.mesh.quads};
 }
 

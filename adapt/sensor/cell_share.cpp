@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/exchange.hpp"
 
 namespace quadloop {
 
@@ -21,21 +22,17 @@ CellShare::CellShare(const Communicator& comm, std::int64_t held, std::int64_t w
 
 std::vector<double> CellShare::bring(const Communicator& comm, std::span<const double> held) const {
   QUADLOOP_REQUIRE(all_held() == all_wanted(), "the cells held are not the cells wanted");
-  const auto self = static_cast<std::size_t>(comm.rank());
+  const std::size_t self = comm.rank();
   const std::int64_t begin = first_held_[self], end = first_held_[self + 1];
-  QUADLOOP_REQUIRE(static_cast<std::int64_t>(held.size()) == end - begin,
-                   "there must be one value for each cell");
-  std::vector<std::vector<double>> out(static_cast<std::size_t>(comm.size()));
-  for (std::size_t rank = 0; rank < out.size(); ++rank) {
-    const std::int64_t from = std::clamp(first_wanted_[rank], begin, end),
-                       to = std::clamp(first_wanted_[rank + 1], begin, end);
-    const auto piece =
-        held.subspan(static_cast<std::size_t>(from - begin), static_cast<std::size_t>(to - from));
-    out[rank].assign(piece.begin(), piece.end());
+  QUADLOOP_REQUIRE(std::ssize(held) == end - begin, "there must be one value for each cell");
+  std::vector<int> ranks;
+  for (int rank = 0; rank < comm.size(); ++rank) {
+    const std::size_t r = rank;
+    const std::int64_t from = std::clamp(first_wanted_[r], begin, end),
+                       to = std::clamp(first_wanted_[r + 1], begin, end);
+    ranks.insert(ranks.end(), static_cast<std::size_t>(to - from), rank);
   }
-  std::vector<double> wanted;
-  for (const auto& piece : comm.exchange(out)) wanted.insert(wanted.end(), piece.begin(), piece.end());
-  return wanted;
+  return Exchange(comm, ranks).deliver(held);
 }
 
 }  // namespace quadloop

@@ -24,9 +24,8 @@ std::string cells(std::int64_t triangles, std::int64_t quads) {
 CellsOfLeaves::CellsOfLeaves(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves)
     : leaves_{leaves},
       own_triangles_{mesh.triangles.size()},
-      triangles_(comm, static_cast<std::int64_t>(mesh.triangles.size()),
-                 count_of(leaves, &LeafRecord::triangles)),
-      quads_(comm, static_cast<std::int64_t>(mesh.quads.size()), count_of(leaves, &LeafRecord::quads)) {
+      triangles_(comm, std::ssize(mesh.triangles), count_of(leaves, &LeafRecord::triangles)),
+      quads_(comm, std::ssize(mesh.quads), count_of(leaves, &LeafRecord::quads)) {
   if (triangles_.all_held() == triangles_.all_wanted() && quads_.all_held() == quads_.all_wanted()) return;
   throw InputError("the mesh has " + cells(triangles_.all_held(), quads_.all_held()) +
                    ", but the leaves of the tree have " +

@@ -13,7 +13,7 @@ namespace {
 
 template <class T>
 T change(std::span<const T> of_nodes, NodeId from, NodeId to) {
-  return of_nodes[static_cast<std::size_t>(to.value())] - of_nodes[static_cast<std::size_t>(from.value())];
+  return of_nodes[to.value()] - of_nodes[from.value()];
 }
 
 /// Raises each cell's value to the largest of its edges. `of_edge(from, to)` must have the same bits as
@@ -22,7 +22,7 @@ T change(std::span<const T> of_nodes, NodeId from, NodeId to) {
 template <class OfEdge>
 void raise_by_edges(const Mesh& mesh, const OfEdge& of_edge, std::vector<double>& of_cells) {
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    double& value = of_cells[static_cast<std::size_t>(cell)];
+    double& value = of_cells[cell];
     value = std::max(value, of_edge(from, to));
   });
 }
@@ -61,27 +61,27 @@ void raise_by_field(const Communicator& comm, const Mesh& mesh, const ScaledFiel
 }  // namespace
 
 std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
-                                   std::span<const LeafRecord> leaves, std::span<const NodeField> fields,
-                                   Indicator kind) {
+                                   std::span<const LeafRecord> leaves, const Field& field, Indicator kind) {
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
   std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(), 0);
-  for (const NodeField& field : fields) {
-    check_field(comm, mesh, field, FieldSign::any);
-    const ScaledField scaled = scaled_by_range(comm, mesh, field);
+  check_field(comm, mesh, field, FieldSign::any);
+  const Field shared = with_copies(comm, mesh, field);
+  for (std::size_t variable = 0; variable < shared.width(); ++variable) {
+    const ScaledField scaled = scaled_by_range(comm, shared.column(variable));
     if (!scaled.constant) raise_by_field(comm, mesh, scaled, kind, of_cells);
   }
   return cells_of_leaves.largest(comm, of_cells);
 }
 
 std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh,
-                                std::span<const LeafRecord> leaves, const NodeField& error) {
+                                std::span<const LeafRecord> leaves, const Field& error) {
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
   check_field(comm, mesh, error, FieldSign::not_negative);
-  const std::vector<double> values = with_copies(comm, mesh, error);
+  const std::vector<double> values = with_copies(comm, mesh, error).column(0);
   std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(), 0);
   for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t cell) {
-    double& value = of_cells[static_cast<std::size_t>(cell)];
-    value = std::max(value, values[static_cast<std::size_t>(from.value())]);
+    double& value = of_cells[cell];
+    value = std::max(value, values[from.value()]);
   });
   return cells_of_leaves.largest(comm, of_cells);
 }

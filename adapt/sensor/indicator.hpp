@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "adapt/sensor/node_field.hpp"
+#include "adapt/sensor/scaled_field.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
@@ -18,19 +18,18 @@ enum class Indicator {
   hessian      ///< |dg . dx|: 0 where q is linear
 };
 
-/// For each leaf of this rank's share the largest indicator of any variable on any edge of the leaf's cells;
-/// 0 for leaves without cells. An edge counts for the leaves of both its cells. A constant variable adds
-/// nothing; what may be rounding of q (ScaledField::rounding) counts as 0 in the differences of `difference`,
-/// `gradient` and in `hessian`. The mesh must be valid. The same bits on any number of ranks, however leaves
-/// and cells are shared out. Throws InputError on all ranks for a value that is not finite, or where the tree
-/// is not this mesh's. *Collective.*
+/// For each leaf of this rank's share the largest indicator of any variable of the field on any edge of the
+/// leaf's cells; 0 for leaves without cells. An edge counts for the leaves of both its cells. A constant
+/// variable adds nothing; what may be rounding of q (ScaledField::rounding) counts as 0 in the differences of
+/// `difference`, `gradient` and in `hessian`. The mesh must be valid. The same bits on any number of ranks,
+/// however leaves and cells are shared out. Throws InputError on all ranks for a value that is not finite, or
+/// where the tree is not this mesh's. *Collective.*
 std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
-                                   std::span<const LeafRecord> leaves, std::span<const NodeField> fields,
-                                   Indicator kind);
+                                   std::span<const LeafRecord> leaves, const Field& field, Indicator kind);
 
-/// For each leaf the largest of the solver's own error estimates at the nodes of its cells; 0 for leaves
-/// without cells. Throws InputError as above, and for a negative error. *Collective.*
+/// For each leaf the largest of the solver's own error estimates, the field's only variable, at the nodes of
+/// its cells; 0 for leaves without cells. Throws InputError as above, and for a negative error. *Collective.*
 std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh,
-                                std::span<const LeafRecord> leaves, const NodeField& error);
+                                std::span<const LeafRecord> leaves, const Field& error);
 
 }  // namespace quadloop

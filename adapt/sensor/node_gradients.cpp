@@ -17,10 +17,7 @@ struct Integral {
 /// constant field has no gradient at all and little is lost far from the origin.
 template <class Nodes>
 Integral integral_over(const Nodes& nodes, const HaloMesh& halo, std::span<const double> values) {
-  const auto value = [&](NodeId node) {
-    return values[static_cast<std::size_t>(node.value())] -
-           values[static_cast<std::size_t>(nodes[0].value())];
-  };
+  const auto value = [&](NodeId node) { return values[node.value()] - values[nodes[0].value()]; };
   const auto place = [&](NodeId node) { return halo.point(node) - halo.point(nodes[0]); };
   Integral sum;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -42,12 +39,12 @@ std::vector<Point> node_gradients(const Communicator& comm, const Mesh& mesh,
   halo_values.resize(halo.points().size());
   halo.exchange().update(halo_values);
 
-  std::vector<Integral> round_node(static_cast<std::size_t>(mesh.owned_nodes));
+  std::vector<Integral> round_node(mesh.owned_nodes);
   halo.for_each_cell([&](const auto& nodes) {  // in global order, so that ranks add up alike
     const Integral cell = integral_over(nodes, halo, halo_values);
     for (const NodeId node : nodes) {
       if (node.value() >= mesh.owned_nodes) continue;
-      Integral& sum = round_node[static_cast<std::size_t>(node.value())];
+      Integral& sum = round_node[node.value()];
       sum.area += cell.area;
       sum.gradient = sum.gradient + cell.gradient;
     }

@@ -23,7 +23,7 @@ OrderedValues::OrderedValues(const Communicator& comm, std::span<const LeafRecor
     }
   });
   std::sort(own_.begin(), own_.end());
-  count_ = comm.sum(static_cast<std::int64_t>(own_.size()));
+  count_ = comm.sum(std::ssize(own_));
   if (count_ == 0) return;
   smallest_ = comm.minimum(own_.empty() ? std::numeric_limits<double>::infinity() : own_.front());
   largest_ = comm.maximum(own_.empty() ? 0 : own_.back());

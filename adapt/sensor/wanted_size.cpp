@@ -6,21 +6,21 @@
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/thresholds.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/forest/lattice.hpp"
+#include "mesher/lattice/lattice.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
 
 std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves,
-                               const NodeField& size) {
+                               const Field& size) {
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
   check_field(comm, mesh, size, FieldSign::positive);
-  const std::vector<double> values = with_copies(comm, mesh, size);
+  const std::vector<double> values = with_copies(comm, mesh, size).column(0);
   std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(),
                                std::numeric_limits<double>::infinity());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t cell) {
-    double& value = of_cells[static_cast<std::size_t>(cell)];
-    value = std::min(value, values[static_cast<std::size_t>(from.value())]);
+    double& value = of_cells[cell];
+    value = std::min(value, values[from.value()]);
   });
   return cells_of_leaves.smallest(comm, of_cells);
 }

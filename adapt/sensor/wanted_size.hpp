@@ -4,18 +4,18 @@
 #include <vector>
 
 #include "adapt/sensor/mark.hpp"
-#include "adapt/sensor/node_field.hpp"
+#include "adapt/sensor/scaled_field.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop {
 
-/// For each leaf of this rank's share the smallest edge length that the solver wants at the nodes of its
-/// cells; 0 for leaves without cells. Throws InputError on all ranks for a size that is not finite or not
-/// larger than 0, or where the tree is not this mesh's. *Collective.*
+/// For each leaf of this rank's share the smallest edge length that the solver wants, the field's only
+/// variable, at the nodes of its cells; 0 for leaves without cells. Throws InputError on all ranks for a size
+/// that is not finite or not larger than 0, or where the tree is not this mesh's. *Collective.*
 std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves,
-                               const NodeField& size);
+                               const Field& size);
 
 /// The level of the largest leaves whose edge is not over `size` (> 0), at most Quadrant::unit_level. Exact.
 int level_for_size(double tree_edge, double size);

@@ -4,6 +4,7 @@
 
 #include "mesher/delaunay/tie_order.hpp"
 #include "mesher/geometry/predicates.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
 
 namespace quadloop {
 
@@ -30,18 +31,14 @@ void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int64_t number,
 }  // namespace
 
 Point centre_of_nodes(const Communicator& comm, const Mesh& mesh) {
-  Box box;
-  for (const Point p : mesh.points) box.include(p);
-  return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)},
-             {comm.maximum(box.high.x), comm.maximum(box.high.y)}}
-      .centre();
+  return box_over_ranks(comm, mesh.points).centre();
 }
 
 std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
                                                 const std::array<NodeId, 4>& quad) {
   std::array<TieRank, 4> ranks;
   for (std::size_t k = 0; k < 4; ++k) ranks[k] = tie_rank(centre, mesh.point(quad[k]));
-  const auto highest = static_cast<std::size_t>(std::max_element(ranks.begin(), ranks.end()) - ranks.begin());
+  const std::size_t highest = std::max_element(ranks.begin(), ranks.end()) - ranks.begin();
   const auto first = halves(quad, highest);
   if (turn_of(mesh, first[0]) > 0 && turn_of(mesh, first[1]) > 0) return first;
   const auto second = halves(quad, highest + 1);
@@ -49,8 +46,7 @@ std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
 }
 
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre) {
-  const auto own_triangles = static_cast<std::int64_t>(mesh.triangles.size()),
-             own_quads = static_cast<std::int64_t>(mesh.quads.size());
+  const auto own_triangles = std::ssize(mesh.triangles), own_quads = std::ssize(mesh.quads);
   std::int64_t number = comm.exclusive_sum(own_triangles);
   std::int64_t quad_number = comm.sum(own_triangles) + comm.exclusive_sum(own_quads);
   std::vector<CellTriangle> triangles;

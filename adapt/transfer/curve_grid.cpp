@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mesher/base/morton.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
 
 namespace quadloop {
 
@@ -22,10 +23,7 @@ std::uint32_t step_at(double offset, double scale) {
 }  // namespace
 
 CurveGrid::CurveGrid(const Communicator& comm, std::span<const Point> points) {
-  Box box;
-  for (const Point p : points) box.include(p);
-  box = {{comm.minimum(box.low.x), comm.minimum(box.low.y)},
-         {comm.maximum(box.high.x), comm.maximum(box.high.y)}};
+  const Box box = box_over_ranks(comm, points);
   const double side = std::max(box.width(), box.height());
   low_ = box.low;
   scale_ = side > 0 ? std::min(0x1p32 / side, std::numeric_limits<double>::max()) : 0;

@@ -24,12 +24,12 @@ void CurveShares::set_splits(const Communicator& comm, std::span<const Point> po
                      step = std::max<std::int64_t>(1, comm.sum(own) / (samples_per_rank * comm.size()));
   std::vector<std::uint64_t> keys;
   for (std::int64_t i = (step - before % step) % step; i < own; i += step) {
-    const auto at = static_cast<std::size_t>(i);
+    const std::size_t at = i;
     keys.push_back(grid_.key_of(at < points.size() ? points[at] : more[at - points.size()]));
   }
   keys = comm.all_gather_values(std::span<const std::uint64_t>(keys));
   std::sort(keys.begin(), keys.end());
-  const auto ranks = static_cast<std::size_t>(comm.size());
+  const std::size_t ranks = comm.size();
   for (std::size_t rank = 1; rank < ranks; ++rank)
     splits_.push_back(keys.empty() ? 0 : keys[keys.size() * rank / ranks]);
 }

@@ -32,7 +32,7 @@ class PointTable {
   std::int32_t& slot_of(Point p) {
     const std::size_t mask = slots_.size() - 1;
     std::size_t at = hash_of(p) & mask;
-    while (slots_[at] >= 0 && !(points_[static_cast<std::size_t>(slots_[at])] == p)) at = (at + 1) & mask;
+    while (slots_[at] >= 0 && !(points_[slots_[at]] == p)) at = (at + 1) & mask;
     return slots_[at];
   }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesher/geometry/nearest_on_segment.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -24,9 +26,9 @@ void interpolate_on_nearest_side(const std::array<Point, 3>& corners,
                                  const std::array<std::span<const double>, 3>& at_corners, Point p,
                                  std::span<double> values) {
   std::size_t side = 0;
-  NearestOnSegment best = nearest_along_segment(corners[0], corners[1], p);
+  PlaceOnSegment best = place_on_segment(p, corners[0], corners[1]);
   for (std::size_t k = 1; k < 3; ++k) {
-    const NearestOnSegment other = nearest_along_segment(corners[k], corners[(k + 1) % 3], p);
+    const PlaceOnSegment other = place_on_segment(p, corners[k], corners[(k + 1) % 3]);
     if (!(other.squared_distance < best.squared_distance)) continue;
     best = other;
     side = k;
@@ -35,14 +37,6 @@ void interpolate_on_nearest_side(const std::array<Point, 3>& corners,
 }
 
 }  // namespace
-
-NearestOnSegment nearest_along_segment(Point a, Point b, Point p) {
-  const Point along = b - a;
-  const double square = dot(along, along);
-  const double parameter = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
-  const Point off = parameter == 1 ? b - p : a + parameter * along - p;
-  return {parameter, dot(off, off)};
-}
 
 void interpolate_on_segment(std::span<const double> at_a, std::span<const double> at_b, double parameter,
                             std::span<double> values) {

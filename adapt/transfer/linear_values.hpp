@@ -7,13 +7,6 @@
 
 namespace quadloop {
 
-/// The nearest point of a segment a-b to a point.
-struct NearestOnSegment {
-  double parameter = 0;  ///< 0 at a, 1 at b
-  double squared_distance = 0;
-};
-NearestOnSegment nearest_along_segment(Point a, Point b, Point p);
-
 /// Values along a segment by its parameter: those of an end bit for bit there, none outside the range of the
 /// two.
 void interpolate_on_segment(std::span<const double> at_a, std::span<const double> at_b, double parameter,

@@ -41,7 +41,7 @@ class Search {
   }
 
  private:
-  const Point& point(std::int32_t index) const { return points_[static_cast<std::size_t>(index)]; }
+  const Point& point(std::int32_t index) const { return points_[index]; }
 
   /// The points against candidates_[first ...], those whose boxes met the box above this one's.
   void share_out(std::span<std::int32_t> order, std::size_t first, int depth) {
@@ -54,7 +54,7 @@ class Search {
     for (std::size_t i = first; i < begin; ++i) {
       const std::int32_t candidate = candidates_[i];
       candidates_[end] = candidate;  // taken back unless its box meets this one
-      end += boxes_[static_cast<std::size_t>(candidate)].meets(box) ? 1 : 0;
+      end += boxes_[candidate].meets(box) ? 1 : 0;
     }
     candidates_.resize(end);
     if (std::min(order.size(), candidates_.size() - begin) <= few || depth == deepest) {
@@ -71,7 +71,7 @@ class Search {
     const auto middle = std::partition(order.begin(), order.end(), [&](std::int32_t index) {
       return wide ? point(index).x < centre.x : point(index).y < centre.y;
     });
-    const auto low = static_cast<std::size_t>(middle - order.begin());
+    const std::size_t low = middle - order.begin();
     share_out(order.first(low), begin, depth + 1);
     share_out(order.subspan(low), begin, depth + 1);
   }
@@ -79,21 +79,16 @@ class Search {
   void try_all(std::span<const std::int32_t> order, std::size_t begin) {
     for (const std::int32_t index : order) {
       const Point p = point(index);
-      std::int32_t& best = found_[static_cast<std::size_t>(index)];
+      std::int32_t& best = found_[index];
       for (std::size_t i = begin; i < candidates_.size(); ++i) {
         const std::int32_t candidate = candidates_[i];
-        if (!boxes_[static_cast<std::size_t>(candidate)].contains(p) ||
-            (best >= 0 && number_of(best) < number_of(candidate)))
-          continue;
-        if (contains(piece_.corners(piece_.triangles[static_cast<std::size_t>(candidate)]), p))
-          best = candidate;
+        if (!boxes_[candidate].contains(p) || (best >= 0 && number_of(best) < number_of(candidate))) continue;
+        if (contains(piece_.corners(piece_.triangles[candidate]), p)) best = candidate;
       }
     }
   }
 
-  std::int64_t number_of(std::int32_t triangle) const {
-    return piece_.triangles[static_cast<std::size_t>(triangle)].number;
-  }
+  std::int64_t number_of(std::int32_t triangle) const { return piece_.triangles[triangle].number; }
 
   const TrianglePiece& piece_;
   std::span<const Point> points_;

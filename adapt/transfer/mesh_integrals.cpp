@@ -30,31 +30,31 @@ double integral(const Communicator& comm, const Mesh& mesh, std::span<const Cell
 }
 
 /// Over the nodes of all ranks.
-bool has_negative(const Communicator& comm, const NodeRows& rows, std::size_t column) {
+bool has_negative(const Communicator& comm, const Field& field, std::size_t column) {
   bool negative = false;
-  for (std::size_t i = column; i < rows.values.size(); i += static_cast<std::size_t>(rows.width))
-    negative = negative || rows.values[i] < 0;
+  for (std::size_t i = column; i < field.values.size(); i += field.width())
+    negative = negative || field.values[i] < 0;
   return comm.any(negative);
 }
 
 }  // namespace
 
 std::vector<double> integrate(const Communicator& comm, const Mesh& mesh,
-                              std::span<const CellTriangle> triangles, const NodeRows& rows) {
+                              std::span<const CellTriangle> triangles, const Field& field) {
   std::vector<double> integrals;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(rows.width); ++k) {
-    integrals.push_back(integral(comm, mesh, triangles, [&](NodeId node) { return rows.of(node)[k]; }));
+  for (std::size_t k = 0; k < field.width(); ++k) {
+    integrals.push_back(integral(comm, mesh, triangles, [&](NodeId node) { return field.row(node)[k]; }));
   }
   return integrals;
 }
 
 std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh,
-                                    std::span<const CellTriangle> triangles, const NodeRows& rows,
+                                    std::span<const CellTriangle> triangles, const Field& field,
                                     const std::vector<double>& of_values) {
   std::vector<double> integrals = of_values;  // densities and pressures are their own absolute values
   for (std::size_t k = 0; k < integrals.size(); ++k) {
-    if (!has_negative(comm, rows, k)) continue;
-    integrals[k] = integral(comm, mesh, triangles, [&](NodeId node) { return std::abs(rows.of(node)[k]); });
+    if (!has_negative(comm, field, k)) continue;
+    integrals[k] = integral(comm, mesh, triangles, [&](NodeId node) { return std::abs(field.row(node)[k]); });
   }
   return integrals;
 }

@@ -4,19 +4,19 @@
 #include <vector>
 
 #include "adapt/transfer/cell_triangles.hpp"
-#include "adapt/transfer/node_rows.hpp"
+#include "mesher/mesh/field.hpp"
 
 namespace quadloop {
 
 /// For each variable area times the mean of the corners, summed over the triangles of all ranks; the same
 /// bits on any number of ranks. *Collective.*
 std::vector<double> integrate(const Communicator& comm, const Mesh& mesh,
-                              std::span<const CellTriangle> triangles, const NodeRows& rows);
+                              std::span<const CellTriangle> triangles, const Field& field);
 
 /// The same of the variables' absolute values, where the integrals of the values themselves are known.
 /// *Collective.*
 std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh,
-                                    std::span<const CellTriangle> triangles, const NodeRows& rows,
+                                    std::span<const CellTriangle> triangles, const Field& field,
                                     const std::vector<double>& of_values);
 
 }  // namespace quadloop

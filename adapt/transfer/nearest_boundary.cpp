@@ -1,26 +1,15 @@
 #include "adapt/transfer/nearest_boundary.hpp"
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/index/rtree.hpp>
 
-#include "adapt/transfer/linear_values.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
+#include "mesher/geometry/box_tree.hpp"
+#include "mesher/geometry/nearest_on_segment.hpp"
 
 namespace quadloop {
 
 namespace {
-
-namespace geometry = boost::geometry;
-using TreePoint = geometry::model::d2::point_xy<double>;
-using TreeBox = geometry::model::box<TreePoint>;
-using TreeItem = std::pair<TreeBox, std::int32_t>;
-using EdgeTree = geometry::index::rtree<TreeItem, geometry::index::quadratic<16>>;
-
-constexpr double slack =
-    1 + 1e-12;  ///< a box's distance is rounded too: boxes this much farther are still looked into
 
 struct Edge {
   std::int64_t number = 0;
@@ -33,11 +22,10 @@ std::vector<Edge> gather_edges(const Communicator& comm, const Mesh& mesh) {
   std::vector<Edge> own;
   std::int64_t before = 0;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
-    const auto count = static_cast<std::int64_t>(boundary.edges.size());
+    const auto count = std::ssize(boundary.edges);
     std::int64_t number = before + comm.exclusive_sum(count);
     for (const auto& [from, to] : boundary.edges) {
-      own.push_back(
-          {number++, mesh.point(from), mesh.point(to), comm.rank(), static_cast<std::int32_t>(own.size())});
+      own.push_back({number++, mesh.point(from), mesh.point(to), comm.rank(), size32(own)});
     }
     before += comm.sum(count);
   }
@@ -46,30 +34,24 @@ std::vector<Edge> gather_edges(const Communicator& comm, const Mesh& mesh) {
   return all;
 }
 
-std::vector<TreeItem> items_of(const std::vector<Edge>& edges) {
-  std::vector<TreeItem> items;
-  items.reserve(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    Box box;
-    box.include(edges[i].from);
-    box.include(edges[i].to);
-    items.emplace_back(TreeBox{{box.low.x, box.low.y}, {box.high.x, box.high.y}},
-                       static_cast<std::int32_t>(i));
-  }
-  return items;
+BoxTree tree_of(const std::vector<Edge>& edges) {
+  std::vector<Box> boxes;
+  boxes.reserve(edges.size());
+  for (const Edge& edge : edges) boxes.push_back(box_of(edge.from, edge.to));
+  return BoxTree(boxes);
 }
 
 }  // namespace
 
 struct NearestBoundary::Tree {
   std::vector<Edge> edges;
-  EdgeTree boxes;
+  BoxTree boxes;
 };
 
 NearestBoundary::NearestBoundary(const Communicator& comm, const Mesh& mesh)
     : tree_{std::make_unique<Tree>()} {
   tree_->edges = gather_edges(comm, mesh);
-  tree_->boxes = EdgeTree(items_of(tree_->edges));
+  tree_->boxes = tree_of(tree_->edges);
   QUADLOOP_REQUIRE(!tree_->edges.empty(),
                    "a mesh without boundary edges has no values for points outside it");
 }
@@ -77,23 +59,14 @@ NearestBoundary::NearestBoundary(const Communicator& comm, const Mesh& mesh)
 NearestBoundary::~NearestBoundary() = default;
 
 BoundaryPlace NearestBoundary::nearest(Point p) const {
-  const TreePoint at(p.x, p.y);
-  std::int32_t best = -1;
-  NearestOnSegment place;
-  for (auto item =
-           tree_->boxes.qbegin(geometry::index::nearest(at, static_cast<unsigned>(tree_->edges.size())));
-       item != tree_->boxes.qend(); ++item) {
-    if (best >= 0 && geometry::comparable_distance(at, item->first) > slack * place.squared_distance) break;
-    const Edge& edge = tree_->edges[static_cast<std::size_t>(item->second)];
-    const NearestOnSegment other = nearest_along_segment(edge.from, edge.to, p);
-    const bool nearer = other.squared_distance < place.squared_distance;
-    if (best >= 0 && !nearer && !(other.squared_distance == place.squared_distance && item->second < best))
-      continue;
-    best = item->second;
-    place = other;
-  }
-  const Edge& edge = tree_->edges[static_cast<std::size_t>(best)];
-  return {edge.rank, edge.index, place.parameter};
+  const auto place_on = [&](std::int32_t number) {
+    const Edge& edge = tree_->edges[number];
+    return place_on_segment(p, edge.from, edge.to);
+  };
+  const std::int32_t nearest =
+      tree_->boxes.nearest(p, [&](std::int32_t number) { return place_on(number).squared_distance; });
+  const Edge& edge = tree_->edges[nearest];
+  return {edge.rank, edge.index, place_on(nearest).parameter};
 }
 
 std::vector<std::array<NodeId, 2>> boundary_edges_of(const Mesh& mesh) {

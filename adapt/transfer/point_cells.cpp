@@ -17,8 +17,7 @@ PointCells::PointCells(const Communicator& comm, const CurveGrid& grid, std::spa
   keys.reserve(points.size());
   for (const Point p : points) keys.push_back(grid.key_of(p));
   std::sort(keys.begin(), keys.end());
-  const std::int64_t few =
-      std::max(few_points, 4 * comm.sum(static_cast<std::int64_t>(keys.size())) / most_cells);
+  const std::int64_t few = std::max(few_points, 4 * comm.sum(std::ssize(keys)) / most_cells);
   std::vector<Stretch> own;
   split(keys, whole_grid, static_cast<std::size_t>(few), own);
   own = comm.all_gather_values(std::span<const Stretch>(own));
@@ -41,7 +40,7 @@ void PointCells::split(std::span<const std::uint64_t> keys, const CurveGrid::Squ
   for (int k = 0; k < 4; ++k) {
     const CurveGrid::Square child = square.child(k);
     const auto end = std::upper_bound(keys.begin(), keys.end(), CurveGrid::key_at(child.last()));
-    const auto count = static_cast<std::size_t>(end - keys.begin());
+    const std::size_t count = end - keys.begin();
     split(keys.first(count), child, few, stretches);
     keys = keys.subspan(count);
   }

@@ -5,45 +5,22 @@
 #include "adapt/transfer/cell_triangles.hpp"
 #include "adapt/transfer/curve_shares.hpp"
 #include "adapt/transfer/equal_points.hpp"
-#include "adapt/transfer/exchange_pieces.hpp"
 #include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate_points.hpp"
 #include "adapt/transfer/mesh_integrals.hpp"
 #include "adapt/transfer/nearest_boundary.hpp"
-#include "adapt/transfer/node_rows.hpp"
 #include "adapt/transfer/point_cells.hpp"
 #include "adapt/transfer/triangle_piece.hpp"
+#include "mesher/base/exchange.hpp"
 
 namespace quadloop {
 
 namespace {
 
-template <class T>
-using ForRanks = std::vector<std::vector<T>>;
-
-/// Rows of new values at owned nodes, as they are found.
-struct NewRows {
-  std::size_t width = 0;
-  std::vector<double> values;
-
-  void put(std::int32_t node, const double* row) {
-    std::copy(row, row + width,
-              values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node) * width));
-  }
-};
-
-/// Which new nodes were asked of each rank, and its answers: a row for each that lies in a triangle there,
-/// one after another.
-struct Answers {
-  ForRanks<std::int32_t> asked;
-  ForRanks<char> inside;
-  ForRanks<double> rows;
-};
-
 /// The old mesh, and by which shares of the plane it is asked.
 struct OldMesh {
   const Mesh& mesh;
-  const NodeRows& rows;
+  const Field& field;
   std::span<const CellTriangle> triangles;
   const CurveShares& shares;
 };
@@ -51,30 +28,28 @@ struct OldMesh {
 /// Old nodes with their rows, those of one share of the plane.
 struct NodeShare {
   std::vector<Point> points;
-  NodeRows rows;
+  Field field;
 };
 
-template <class T>
-std::vector<T> joined(ForRanks<T> parts) {
-  if (parts.size() == 1) return std::move(parts.front());
-  std::vector<T> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
+std::span<const Point> owned_points(const Mesh& mesh) {
+  return std::span(mesh.points).first(mesh.owned_nodes);
+}
+
+/// From this rank's points to the shares of the plane that hold them.
+Exchange to_shares(const Communicator& comm, const CurveShares& shares, std::span<const Point> points) {
+  std::vector<int> ranks;
+  for (const Point p : points) ranks.push_back(shares.rank_of(p));
+  return {comm, ranks};
 }
 
 NodeShare gather_nodes(const Communicator& comm, const OldMesh& old) {
-  const auto ranks = static_cast<std::size_t>(comm.size());
-  ForRanks<Point> points(ranks);
-  ForRanks<double> rows(ranks);
-  for (std::int32_t node = 0; node < old.mesh.owned_nodes; ++node) {
-    const Point p = old.mesh.point(NodeId{node});
-    const auto rank = static_cast<std::size_t>(old.shares.rank_of(p));
-    const auto row = old.rows.of(NodeId{node});
-    points[rank].push_back(p);
-    rows[rank].insert(rows[rank].end(), row.begin(), row.end());
-  }
-  return {joined(exchange_pieces(comm, std::move(points))),
-          {old.rows.width, joined(exchange_pieces(comm, std::move(rows)))}};
+  const auto points = owned_points(old.mesh);
+  const Exchange exchange = to_shares(comm, old.shares, points);
+  const std::size_t width = old.field.width();
+  return {exchange.deliver(points),
+          {old.field.names,
+           exchange.deliver(std::span(old.field.values).first(points.size() * width), width),
+           {}}};
 }
 
 /// Only triangles that may hold one of the points leave their rank.
@@ -86,7 +61,7 @@ TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, std
     for (const NodeId node : triangle.nodes) box.include(old.mesh.point(node));
     if (cells.meet(box)) near.push_back(triangle);
   }
-  return gather_piece(comm, old.shares, old.mesh, old.rows, near);
+  return gather_piece(comm, old.shares, old.mesh, old.field, near);
 }
 
 /// The old mesh's values at points of this rank's share of the plane.
@@ -108,16 +83,17 @@ class Found {
   bool next(std::span<double> row) {
     const std::size_t point = next_point_++;
     if (const std::int32_t node = at_node_[point]; node >= 0) {
-      const auto values = nodes_.rows.of(NodeId{node});
+      const auto values = nodes_.field.row(NodeId{node});
       std::copy(values.begin(), values.end(), row.begin());
       return true;
     }
     const std::int32_t found = in_triangle_[next_moved_++];
     if (found < 0) return false;
-    const CellTriangle& triangle = piece_.triangles[static_cast<std::size_t>(found)];
+    const CellTriangle& triangle = piece_.triangles[found];
     const auto& [a, b, c] = triangle.nodes;
     interpolate_in_triangle(piece_.corners(triangle),
-                            {piece_.rows.of(a), piece_.rows.of(b), piece_.rows.of(c)}, points_[point], row);
+                            {piece_.field.row(a), piece_.field.row(b), piece_.field.row(c)}, points_[point],
+                            row);
     return true;
   }
 
@@ -130,80 +106,54 @@ class Found {
   std::size_t next_point_ = 0, next_moved_ = 0;
 };
 
-Answers ask(const Communicator& comm, const OldMesh& old, const Mesh& mesh) {
-  const auto ranks = static_cast<std::size_t>(comm.size());
-  Answers answers{ForRanks<std::int32_t>(ranks), ForRanks<char>(ranks), ForRanks<double>(ranks)};
-  ForRanks<Point> questions(ranks);
-  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
-    const Point p = mesh.point(NodeId{node});
-    const auto rank = static_cast<std::size_t>(old.shares.rank_of(p));
-    answers.asked[rank].push_back(node);
-    questions[rank].push_back(p);
-  }
-  questions = exchange_pieces(comm, std::move(questions));
-  std::vector<std::size_t> counts;
-  for (const auto& of_rank : questions) counts.push_back(of_rank.size());
-  const std::vector<Point> points = joined(std::move(questions));
+/// Rows at owned nodes, and the nodes that have none yet.
+struct NewRows {
+  std::vector<double> values;
+  std::vector<std::int32_t> outside;
+};
+
+/// What the old mesh has at the owned nodes of a new one. *Collective.*
+NewRows ask(const Communicator& comm, const OldMesh& old, const Mesh& mesh) {
+  const Exchange questions = to_shares(comm, old.shares, owned_points(mesh));
+  const std::vector<Point> points = questions.deliver(owned_points(mesh));
   Found found(comm, old, points);
-  std::vector<double> row(static_cast<std::size_t>(old.rows.width));
-  for (std::size_t rank = 0; rank < ranks; ++rank) {
-    answers.inside[rank].reserve(counts[rank]);
-    answers.rows[rank].reserve(counts[rank] * row.size());
-    for (std::size_t i = 0; i < counts[rank]; ++i) {
-      const bool inside = found.next(row);
-      answers.inside[rank].push_back(inside ? 1 : 0);
-      if (inside) answers.rows[rank].insert(answers.rows[rank].end(), row.begin(), row.end());
-    }
+  const auto width = old.field.width();
+  std::vector<double> rows(points.size() * width);
+  std::vector<char> is_inside;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    is_inside.push_back(found.next(std::span(rows).subspan(i * width, width)) ? 1 : 0);
+  NewRows answers{questions.answer(rows, width), {}};
+  is_inside = questions.answer(is_inside);
+  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
+    if (is_inside[node] == 0) answers.outside.push_back(node);
   }
-  answers.inside = exchange_pieces(comm, std::move(answers.inside));
-  answers.rows = exchange_pieces(comm, std::move(answers.rows));
   return answers;
 }
 
-/// The nodes that lie in no triangle.
-std::vector<std::int32_t> take(const Answers& answers, NewRows& rows) {
-  std::vector<std::int32_t> outside;
-  for (std::size_t rank = 0; rank < answers.asked.size(); ++rank) {
-    const double* row = answers.rows[rank].data();
-    for (std::size_t i = 0; i < answers.asked[rank].size(); ++i) {
-      if (answers.inside[rank][i] == 0) {
-        outside.push_back(answers.asked[rank][i]);
-        continue;
-      }
-      rows.put(answers.asked[rank][i], row);
-      row += rows.width;
-    }
-  }
-  return outside;
-}
-
-/// Each rank that has an edge tells the values there.
-void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const NodeRows& old_rows,
-                        const Mesh& new_mesh, const std::vector<std::int32_t>& outside, NewRows& rows) {
+/// Each rank that has an edge tells the values there. *Collective.*
+void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
+                        const Mesh& new_mesh, NewRows& rows) {
   const NearestBoundary boundary(comm, old_mesh);
-  const auto ranks = static_cast<std::size_t>(comm.size());
-  ForRanks<std::int32_t> asked(ranks);
-  ForRanks<BoundaryPlace> questions(ranks);
-  for (const std::int32_t node : outside) {
-    const BoundaryPlace place = boundary.nearest(new_mesh.point(NodeId{node}));
-    asked[static_cast<std::size_t>(place.rank)].push_back(node);
-    questions[static_cast<std::size_t>(place.rank)].push_back(place);
+  std::vector<BoundaryPlace> places;
+  std::vector<int> ranks;
+  for (const std::int32_t node : rows.outside) {
+    places.push_back(boundary.nearest(new_mesh.point(NodeId{node})));
+    ranks.push_back(places.back().rank);
   }
-  questions = exchange_pieces(comm, std::move(questions));
+  const Exchange questions(comm, ranks);
   const auto edges = boundary_edges_of(old_mesh);
-  std::vector<double> row(rows.width);
-  ForRanks<double> answers(ranks);
-  for (std::size_t rank = 0; rank < ranks; ++rank) {
-    for (const BoundaryPlace& place : questions[rank]) {
-      const auto& [from, to] = edges[static_cast<std::size_t>(place.edge)];
-      interpolate_on_segment(old_rows.of(from), old_rows.of(to), place.parameter, row);
-      answers[rank].insert(answers[rank].end(), row.begin(), row.end());
-    }
+  const auto width = old_field.width();
+  std::vector<double> row(width), answers;
+  for (const BoundaryPlace& place : questions.deliver(places)) {
+    const auto& [from, to] = edges[place.edge];
+    interpolate_on_segment(old_field.row(from), old_field.row(to), place.parameter, row);
+    answers.insert(answers.end(), row.begin(), row.end());
   }
-  answers = exchange_pieces(comm, std::move(answers));
-  for (std::size_t rank = 0; rank < ranks; ++rank) {
-    for (std::size_t i = 0; i < asked[rank].size(); ++i)
-      rows.put(asked[rank][i], answers[rank].data() + i * rows.width);
+  answers = questions.answer(answers, width);
+  for (std::size_t i = 0; i < rows.outside.size(); ++i) {
+    std::copy_n(
+        answers.begin() + static_cast<std::ptrdiff_t>(i * width), width,
+        rows.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(rows.outside[i]) * width));
   }
 }
 
@@ -212,11 +162,10 @@ struct OldIntegrals {
   std::vector<double> of_values, of_sizes;
 };
 
-void report_drift(const Communicator& comm, const Mesh& new_mesh, const std::vector<double>& values,
+void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& field,
                   const OldIntegrals& before, TransferReport& report) {
   const auto triangles = cell_triangles(comm, new_mesh, centre_of_nodes(comm, new_mesh));
-  const NodeRows rows = rows_with_copies(comm, new_mesh, values, static_cast<int>(before.of_values.size()));
-  const std::vector<double> after = integrate(comm, new_mesh, triangles, rows);
+  const std::vector<double> after = integrate(comm, new_mesh, triangles, with_copies(comm, new_mesh, field));
   for (std::size_t k = 0; k < after.size(); ++k) {
     report.drift.push_back(after[k] - before.of_values[k]);
     report.relative_drift.push_back(before.of_sizes[k] > 0 ? report.drift[k] / before.of_sizes[k] : 0);
@@ -225,25 +174,19 @@ void report_drift(const Communicator& comm, const Mesh& new_mesh, const std::vec
 
 }  // namespace
 
-Transferred transfer(const Communicator& comm, const Mesh& old_mesh, std::span<const double> old_values,
-                     int width, const Mesh& new_mesh) {
-  const NodeRows old_rows = rows_with_copies(comm, old_mesh, old_values, width);
+Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
+                     const Mesh& new_mesh) {
+  const Field old = with_copies(comm, old_mesh, old_field);
   const auto triangles = cell_triangles(comm, old_mesh, centre_of_nodes(comm, old_mesh));
-  const auto owned = [](const Mesh& mesh) {
-    return std::span(mesh.points).first(static_cast<std::size_t>(mesh.owned_nodes));
-  };
-  const CurveShares shares(comm, owned(old_mesh), owned(new_mesh));
-  NewRows rows{static_cast<std::size_t>(width),
-               std::vector<double>(owned(new_mesh).size() * static_cast<std::size_t>(width))};
-  const std::vector<std::int32_t> outside =
-      take(ask(comm, {old_mesh, old_rows, triangles, shares}, new_mesh), rows);
+  const CurveShares shares(comm, owned_points(old_mesh), owned_points(new_mesh));
+  NewRows rows = ask(comm, {old_mesh, old, triangles, shares}, new_mesh);
   Transferred transferred;
-  transferred.report.outside = comm.sum(static_cast<std::int64_t>(outside.size()));
-  if (transferred.report.outside > 0) take_from_boundary(comm, old_mesh, old_rows, new_mesh, outside, rows);
-  transferred.values = std::move(rows.values);
-  OldIntegrals before{integrate(comm, old_mesh, triangles, old_rows), {}};
-  before.of_sizes = integrate_sizes(comm, old_mesh, triangles, old_rows, before.of_values);
-  report_drift(comm, new_mesh, transferred.values, before, transferred.report);
+  transferred.report.outside = comm.sum(std::ssize(rows.outside));
+  if (transferred.report.outside > 0) take_from_boundary(comm, old_mesh, old, new_mesh, rows);
+  transferred.field = {old.names, std::move(rows.values), old.constants};
+  OldIntegrals before{integrate(comm, old_mesh, triangles, old), {}};
+  before.of_sizes = integrate_sizes(comm, old_mesh, triangles, old, before.of_values);
+  report_drift(comm, new_mesh, transferred.field, before, transferred.report);
   return transferred;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
+#include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
@@ -18,7 +18,7 @@ struct TransferReport {
 };
 
 struct Transferred {
-  std::vector<double> values;  ///< a row of `width` for each owned node of the new mesh
+  Field field;  ///< with a row for each owned node of the new mesh, and the old one's constants
   TransferReport report;
 };
 
@@ -28,10 +28,10 @@ struct Transferred {
 /// lowest number over all ranks. A node outside the old mesh takes the values at the nearest point of its
 /// boundary edges, of several edges as near those of the lowest number. So no value leaves the range of the
 /// nodes that it is made from, and the bits depend on the two meshes alone, not on how they are spread over
-/// the ranks. `old_values` holds a row of `width` finite numbers for each owned node. Each rank works on a
+/// the ranks. `old_field` holds a row of finite numbers for each owned node. Each rank works on a
 /// share of the old triangles and new nodes, told by place; the old boundary edges are gathered on all ranks
 /// if some node is outside. *Collective.*
-Transferred transfer(const Communicator& comm, const Mesh& old_mesh, std::span<const double> old_values,
-                     int width, const Mesh& new_mesh);
+Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
+                     const Mesh& new_mesh);
 
 }  // namespace quadloop

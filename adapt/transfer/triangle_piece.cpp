@@ -1,23 +1,22 @@
 #include "adapt/transfer/triangle_piece.hpp"
 
-#include "adapt/transfer/exchange_pieces.hpp"
+#include "mesher/base/exchange.hpp"
+#include "mesher/base/ids.hpp"
 
 namespace quadloop {
 
 namespace {
 
-template <class T>
-using ForRanks = std::vector<std::vector<T>>;
-
-ForRanks<CellTriangle> triangles_by_rank(const Communicator& comm, const CurveShares& shares,
-                                         const Mesh& mesh, std::span<const CellTriangle> triangles) {
-  ForRanks<CellTriangle> by_rank(static_cast<std::size_t>(comm.size()));
+std::vector<std::vector<CellTriangle>> triangles_by_rank(const Communicator& comm, const CurveShares& shares,
+                                                         const Mesh& mesh,
+                                                         std::span<const CellTriangle> triangles) {
+  std::vector<std::vector<CellTriangle>> by_rank(comm.size());
   std::vector<int> ranks;
   for (const CellTriangle& triangle : triangles) {
     Box box;
     for (const NodeId node : triangle.nodes) box.include(mesh.point(node));
     shares.ranks_meeting(box, ranks);
-    for (const int rank : ranks) by_rank[static_cast<std::size_t>(rank)].push_back(triangle);
+    for (const int rank : ranks) by_rank[rank].push_back(triangle);
   }
   return by_rank;
 }
@@ -27,51 +26,48 @@ std::vector<NodeId> renumber(std::vector<CellTriangle>& triangles, std::vector<s
   std::vector<NodeId> nodes;
   for (CellTriangle& triangle : triangles) {
     for (NodeId& node : triangle.nodes) {
-      std::int32_t& place = place_of[static_cast<std::size_t>(node.value())];
+      std::int32_t& place = place_of[node.value()];
       if (place < 0) {
-        place = static_cast<std::int32_t>(nodes.size());
+        place = size32(nodes);
         nodes.push_back(node);
       }
       node = NodeId{place};
     }
   }
-  for (const NodeId node : nodes) place_of[static_cast<std::size_t>(node.value())] = -1;
+  for (const NodeId node : nodes) place_of[node.value()] = -1;
   return nodes;
-}
-
-void append(TrianglePiece& piece, const std::vector<Point>& points, const std::vector<double>& values,
-            const std::vector<CellTriangle>& triangles) {
-  const auto before = static_cast<std::int32_t>(piece.points.size());
-  piece.points.insert(piece.points.end(), points.begin(), points.end());
-  piece.rows.values.insert(piece.rows.values.end(), values.begin(), values.end());
-  for (CellTriangle triangle : triangles) {
-    for (NodeId& node : triangle.nodes) node = NodeId{before + node.value()};
-    piece.triangles.push_back(triangle);
-  }
 }
 
 }  // namespace
 
 TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, const Mesh& mesh,
-                           const NodeRows& rows, std::span<const CellTriangle> triangles) {
-  ForRanks<CellTriangle> triangles_out = triangles_by_rank(comm, shares, mesh, triangles);
-  ForRanks<Point> points_out(triangles_out.size());
-  ForRanks<double> values_out(triangles_out.size());
+                           const Field& field, std::span<const CellTriangle> triangles) {
+  std::vector<CellTriangle> cells;
+  std::vector<Point> points;
+  std::vector<double> values;
+  std::vector<int> cell_ranks, node_ranks;
   std::vector<std::int32_t> place_of(mesh.points.size(), -1);
-  for (std::size_t rank = 0; rank < triangles_out.size(); ++rank) {
-    for (const NodeId node : renumber(triangles_out[rank], place_of)) {
-      points_out[rank].push_back(mesh.point(node));
-      const auto row = rows.of(node);
-      values_out[rank].insert(values_out[rank].end(), row.begin(), row.end());
+  int rank = 0;
+  for (std::vector<CellTriangle>& of_rank : triangles_by_rank(comm, shares, mesh, triangles)) {
+    for (const NodeId node : renumber(of_rank, place_of)) {
+      points.push_back(mesh.point(node));
+      const auto row = field.row(node);
+      values.insert(values.end(), row.begin(), row.end());
+    }
+    cells.insert(cells.end(), of_rank.begin(), of_rank.end());
+    cell_ranks.resize(cells.size(), rank);
+    node_ranks.resize(points.size(), rank++);
+  }
+  const Exchange of_cells(comm, cell_ranks), of_nodes(comm, node_ranks);
+  TrianglePiece piece{of_nodes.deliver(points),
+                      {field.names, of_nodes.deliver(values, field.width()), {}},
+                      of_cells.deliver(cells)};
+  for (const Exchange::Source& source : of_cells.sources()) {
+    const auto before = static_cast<std::int32_t>(of_nodes.arrivals_before(source.rank));
+    for (std::size_t i = source.begin; i < source.end; ++i) {
+      for (NodeId& node : piece.triangles[i].nodes) node = NodeId{before + node.value()};
     }
   }
-  const auto all_triangles = exchange_pieces(comm, std::move(triangles_out));
-  const auto all_points = exchange_pieces(comm, std::move(points_out));
-  const auto all_values = exchange_pieces(comm, std::move(values_out));
-  TrianglePiece piece;
-  piece.rows.width = rows.width;
-  for (std::size_t rank = 0; rank < all_triangles.size(); ++rank)
-    append(piece, all_points[rank], all_values[rank], all_triangles[rank]);
   return piece;
 }
 

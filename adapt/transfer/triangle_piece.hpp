@@ -5,20 +5,18 @@
 
 #include "adapt/transfer/cell_triangles.hpp"
 #include "adapt/transfer/curve_shares.hpp"
-#include "adapt/transfer/node_rows.hpp"
+#include "mesher/mesh/field.hpp"
 
 namespace quadloop {
 
 /// Triangles of any ranks, with nodes of their own numbering.
 struct TrianglePiece {
   std::vector<Point> points;
-  NodeRows rows;
+  Field field;
   std::vector<CellTriangle> triangles;
 
   std::array<Point, 3> corners(const CellTriangle& triangle) const {
-    const auto at = [&](std::size_t k) {
-      return points[static_cast<std::size_t>(triangle.nodes[k].value())];
-    };
+    const auto at = [&](std::size_t k) { return points[triangle.nodes[k].value()]; };
     return {at(0), at(1), at(2)};
   }
 };
@@ -26,6 +24,6 @@ struct TrianglePiece {
 /// From all ranks the triangles that meet this rank's part of the plane, with the values at their nodes.
 /// *Collective.*
 TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, const Mesh& mesh,
-                           const NodeRows& rows, std::span<const CellTriangle> triangles);
+                           const Field& field, std::span<const CellTriangle> triangles);
 
 }  // namespace quadloop

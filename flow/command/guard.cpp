@@ -131,7 +131,7 @@ class Tree {
     if (file >= 0) ::close(file);
     pid_t child = 0;
     for (ssize_t i = 0; i < length; ++i) {
-      const char c = list[static_cast<std::size_t>(i)];
+      const char c = list[i];
       if (c >= '0' && c <= '9') {
         child = 10 * child + (c - '0');
       } else if (child > 0) {  // each number is followed by a blank

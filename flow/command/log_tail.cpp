@@ -17,7 +17,7 @@ std::string end_of_file(const std::string& path) {
   file.seekg(std::max<std::streamoff>(0, size - most_bytes));
   std::string bytes(static_cast<std::size_t>(std::min(size, most_bytes)), '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  bytes.resize(file.gcount());
   return bytes;
 }
 

@@ -5,10 +5,10 @@
 namespace quadloop::euler {
 
 Colouring colour_edges(const Communicator& comm, const DualMesh& mesh) {
-  std::vector<std::vector<std::int32_t>> neighbours(static_cast<std::size_t>(mesh.owned_nodes()));
+  std::vector<std::vector<std::int32_t>> neighbours(mesh.owned_nodes());
   for (const DualEdge& edge : mesh.edges()) {
-    if (mesh.is_owned(edge.low)) neighbours[static_cast<std::size_t>(edge.low)].push_back(edge.high);
-    if (mesh.is_owned(edge.high)) neighbours[static_cast<std::size_t>(edge.high)].push_back(edge.low);
+    if (mesh.is_owned(edge.low)) neighbours[edge.low].push_back(edge.high);
+    if (mesh.is_owned(edge.high)) neighbours[edge.high].push_back(edge.low);
   }
   std::vector<std::int32_t> owned(neighbours.size());
   std::iota(owned.begin(), owned.end(), 0);

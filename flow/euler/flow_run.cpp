@@ -13,7 +13,7 @@ namespace quadloop::euler {
 
 double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes) {
   std::vector<double> squares;
-  const auto owned = static_cast<std::size_t>(run.mesh.owned_nodes());
+  const std::size_t owned = run.mesh.owned_nodes();
   squares.reserve(owned);
   for (std::size_t node = 0; node < owned; ++node) squares.push_back(fluxes[node][0] * fluxes[node][0]);
   const auto count = static_cast<double>(run.comm.sum(run.mesh.owned_nodes()));
@@ -46,7 +46,7 @@ std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes) {
   double worst = -1;
   std::int64_t at = std::numeric_limits<std::int64_t>::max();
   for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
-    double size = std::abs(fluxes[static_cast<std::size_t>(node)][0]);
+    double size = std::abs(fluxes[node][0]);
     if (!std::isfinite(size)) size = std::numeric_limits<double>::infinity();
     if (size <= worst) continue;
     worst = size;
@@ -58,7 +58,7 @@ std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes) {
   std::array<double, 6> told{nowhere, nowhere, nowhere, nowhere, nowhere, nowhere};
   for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
     if (run.mesh.global(node) != at) continue;
-    const State& state = run.states[static_cast<std::size_t>(node)];
+    const State& state = run.states[node];
     told = {run.mesh.point(node).x, run.mesh.point(node).y, state[0], state[1], state[2], state[3]};
   }
   for (double& value : told) value = run.comm.maximum(value);

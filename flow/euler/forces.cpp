@@ -9,11 +9,10 @@ ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, co
                               const std::vector<State>& states, double reference_length) {
   std::vector<double> along_x, along_y;  // of each half of a wall face that belongs to an owned node
   for (const BoundaryFace& face : mesh.faces()) {
-    if (!model.boundaries[static_cast<std::size_t>(face.boundary)].feels_force) continue;
+    if (!model.boundaries[face.boundary].feels_force) continue;
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
       if (!mesh.is_owned(own)) continue;
-      const State state =
-          state_at_half(states[static_cast<std::size_t>(own)], states[static_cast<std::size_t>(other)]);
+      const State state = state_at_half(states[own], states[other]);
       const double push = (state[3] - model.free_stream[3]) * face.half_size;
       along_x.push_back(push * face.normal.x);
       along_y.push_back(push * face.normal.y);

@@ -41,7 +41,7 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
       model_{model},
       colours_{colour_edges(comm, mesh)},
       diagonal_(mesh.nodes()),
-      inverses_(static_cast<std::size_t>(mesh.owned_nodes())),
+      inverses_(mesh.owned_nodes()),
       skewness_(mesh.edges().size(), 0.0),
       wave_sums_(mesh.nodes()) {
   lay_out();
@@ -54,8 +54,8 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
 }
 
 void ImplicitSystem::lay_out() {
-  const auto colour = [&](std::int32_t node) { return colours_.colour_of[static_cast<std::size_t>(node)]; };
-  row_nodes_.resize(static_cast<std::size_t>(mesh_.owned_nodes()));
+  const auto colour = [&](std::int32_t node) { return colours_.colour_of[node]; };
+  row_nodes_.resize(mesh_.owned_nodes());
   std::iota(row_nodes_.begin(), row_nodes_.end(), 0);
   std::stable_sort(row_nodes_.begin(), row_nodes_.end(),
                    [&](std::int32_t a, std::int32_t b) { return colour(a) < colour(b); });
@@ -69,18 +69,17 @@ void ImplicitSystem::lay_out() {
       0);  // of each owned node: first its number of neighbours, then the next slot in its row
   for (const DualEdge& edge : mesh_.edges()) {
     for (const std::int32_t node : {edge.low, edge.high}) {
-      if (mesh_.is_owned(node)) ++next[static_cast<std::size_t>(node)];
+      if (mesh_.is_owned(node)) ++next[node];
     }
   }
   row_starts_.push_back(0);
   for (const std::int32_t node : row_nodes_)
-    row_starts_.push_back(row_starts_.back() +
-                          std::exchange(next[static_cast<std::size_t>(node)], row_starts_.back()));
+    row_starts_.push_back(row_starts_.back() + std::exchange(next[node], row_starts_.back()));
   columns_.resize(row_starts_.back());
   blocks_.resize(row_starts_.back());
   const auto take = [&](std::int32_t node, std::int32_t column) {
     if (!mesh_.is_owned(node)) return -1;
-    const std::size_t slot = next[static_cast<std::size_t>(node)]++;
+    const std::size_t slot = next[node]++;
     columns_[slot] = column;
     return static_cast<std::int32_t>(slot);
   };
@@ -113,8 +112,8 @@ void ImplicitSystem::add_edges(const std::vector<State>& states) {
     add_flux_matrix(model_.gas, states[high], edge.normal, half, by_high);
     add(by_low, 1, diagonal_[low]);
     add(by_high, -1, diagonal_[high]);
-    if (slots_[e].in_low >= 0) store(by_high, 1, blocks_[static_cast<std::size_t>(slots_[e].in_low)]);
-    if (slots_[e].in_high >= 0) store(by_low, -1, blocks_[static_cast<std::size_t>(slots_[e].in_high)]);
+    if (slots_[e].in_low >= 0) store(by_high, 1, blocks_[slots_[e].in_low]);
+    if (slots_[e].in_high >= 0) store(by_low, -1, blocks_[slots_[e].in_high]);
     wave_sums_[low] += half * speed;
     wave_sums_[high] += half * speed;
   }
@@ -123,9 +122,9 @@ void ImplicitSystem::add_edges(const std::vector<State>& states) {
 /// Only the part that a node's own state has in its half of a face.
 void ImplicitSystem::add_faces(const std::vector<State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
-    const Condition condition = model_.boundaries[static_cast<std::size_t>(face.boundary)].condition;
+    const Condition condition = model_.boundaries[face.boundary].condition;
     for (const std::int32_t node : {face.from, face.to}) {
-      const auto at = static_cast<std::size_t>(node);
+      const std::size_t at = node;
       const State& state = states[at];
       if (condition == Condition::wall) {
         add_wall_matrix(model_.gas, state, face.normal, face.half_size, diagonal_[at]);
@@ -157,11 +156,9 @@ void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::v
     for (int step = sweep == 0 ? 0 : 1; step < colours_.count;
          ++step) {  // the sweep before ended with the colour that this one would begin with
       const int colour = sweep % 2 == 0 ? step : colours_.count - 1 - step;
-      relax_rows(colour_starts_[static_cast<std::size_t>(colour)],
-                 colour_starts_[static_cast<std::size_t>(colour) + 1], residual, change);
-      mesh_.exchange().update(change, [&](std::int32_t node) {
-        return colours_.colour_of[static_cast<std::size_t>(node)] == colour;
-      });
+      relax_rows(colour_starts_[colour], colour_starts_[static_cast<std::size_t>(colour) + 1], residual,
+                 change);
+      mesh_.exchange().update(change, [&](std::int32_t node) { return colours_.colour_of[node] == colour; });
     }
   }
 }
@@ -169,12 +166,11 @@ void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::v
 void ImplicitSystem::relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual,
                                 std::vector<Change>& change) const {
   for (std::size_t row = begin; row < end; ++row) {
-    const auto node = static_cast<std::size_t>(row_nodes_[row]);
+    const std::size_t node = row_nodes_[row];
     Eigen::Vector4f right;
-    for (int k = 0; k < 4; ++k) right[k] = static_cast<float>(-residual[node][static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 4; ++k) right[k] = static_cast<float>(-residual[node][k]);
     for (std::size_t slot = row_starts_[row]; slot < row_starts_[row + 1]; ++slot) {
-      right.noalias() -= MatrixMap(blocks_[slot].data()) *
-                         VectorMap(change[static_cast<std::size_t>(columns_[slot])].data());
+      right.noalias() -= MatrixMap(blocks_[slot].data()) * VectorMap(change[columns_[slot]].data());
     }
     Eigen::Map<Eigen::Vector4f>(change[node].data()).noalias() = MatrixMap(inverses_[node].data()) * right;
   }

@@ -16,19 +16,19 @@ constexpr double largest_cfl = 0.8;  ///< of the explicit steps
 /// times face size. *Collective.*
 double unit_time_step(const FlowRun& run, std::vector<double>& wave_sums) {
   const auto speed = [&](std::int32_t node, Point normal) {
-    const State& state = run.states[static_cast<std::size_t>(node)];
+    const State& state = run.states[node];
     return std::abs(state[1] * normal.x + state[2] * normal.y) + run.model.gas.sound_speed(state);
   };
   std::fill(wave_sums.begin(), wave_sums.end(), 0.0);
   for (const DualEdge& edge : run.mesh.edges()) {
     const double sum =
         0.5 * edge.size * std::max(speed(edge.low, edge.normal), speed(edge.high, edge.normal));
-    wave_sums[static_cast<std::size_t>(edge.low)] += sum;
-    wave_sums[static_cast<std::size_t>(edge.high)] += sum;
+    wave_sums[edge.low] += sum;
+    wave_sums[edge.high] += sum;
   }
   for (const BoundaryFace& face : run.mesh.faces()) {
     for (const std::int32_t node : {face.from, face.to})
-      wave_sums[static_cast<std::size_t>(node)] += 0.5 * face.half_size * speed(node, face.normal);
+      wave_sums[node] += 0.5 * face.half_size * speed(node, face.normal);
   }
   double step = std::numeric_limits<double>::infinity();
   const auto areas = run.mesh.areas();
@@ -64,7 +64,7 @@ void advance(const FlowRun& run, const Stage& stage, double step, const std::vec
 
 EulerResult march_in_time(const FlowRun& run) {
   std::vector<double> wave_sums(run.mesh.nodes());
-  std::vector<Conserved> start(static_cast<std::size_t>(run.mesh.owned_nodes()));
+  std::vector<Conserved> start(run.mesh.owned_nodes());
   const double cfl = std::min(run.options.cfl, largest_cfl);
   EulerResult result;
   double reference = 0;

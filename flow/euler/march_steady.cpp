@@ -49,7 +49,7 @@ class SteadyMarch {
       : run_{run},
         system_(run.comm, run.mesh, run.model),
         change_(run.mesh.nodes()),
-        shares_(static_cast<std::size_t>(run.mesh.owned_nodes())),
+        shares_(run.mesh.owned_nodes()),
         best_states_{run.states} {
     std::vector<State> uniform(run.mesh.nodes(), run.model.free_stream);
     reference_ = mass_residual(run, run.residual.evaluate(uniform));
@@ -153,7 +153,7 @@ class SteadyMarch {
     system_.assemble(run_.states, cfl, shares_.shares());
     system_.relax(fluxes, sweeps, change_);
     shares_.follow(change_);
-    const auto owned = static_cast<std::size_t>(run_.mesh.owned_nodes());
+    const std::size_t owned = run_.mesh.owned_nodes();
     for (std::size_t node = 0; node < owned; ++node)
       run_.states[node] = updated(run_.model.gas, run_.states[node], change_[node]);
     ++result_.iterations;

@@ -7,6 +7,7 @@
 #include "flow/euler/vortex.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
 
 namespace quadloop {
 
@@ -14,26 +15,21 @@ namespace {
 
 using namespace euler;
 
-Point middle_of(const Communicator& comm, const Mesh& mesh) {
-  Box box;
-  for (const Point p : mesh.points) box.include(p);
-  return Box{{comm.minimum(box.low.x), comm.minimum(box.low.y)},
-             {comm.maximum(box.high.x), comm.maximum(box.high.y)}}
-      .centre();
-}
+std::vector<std::string> flow_names() { return {euler_names.begin(), euler_names.end()}; }
 
 /// A state for each node; those of copies come later.
 std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, const DualMesh& dual,
-                                const FlowModel& model, const EulerOptions& options,
-                                std::span<const double> given) {
+                                const FlowModel& model, const EulerOptions& options, const Field& start) {
   std::vector<State> states(dual.nodes(), model.free_stream);
-  const auto owned = static_cast<std::size_t>(dual.owned_nodes());
-  if (comm.any(!given.empty())) {
-    QUADLOOP_REQUIRE(given.size() == 4 * owned, "four values for each owned node");
+  const std::size_t owned = dual.owned_nodes();
+  if (start.width() > 0) {
+    const Field given = selected(start, flow_names(), "the starting state");
+    QUADLOOP_REQUIRE(given.values.size() == 4 * owned, "a row for each owned node");
     for (std::size_t node = 0; node < owned; ++node)
-      std::copy_n(given.begin() + static_cast<std::ptrdiff_t>(4 * node), 4, states[node].begin());
+      std::copy_n(given.values.begin() + static_cast<std::ptrdiff_t>(4 * node), 4, states[node].begin());
   } else if (options.initial == EulerOptions::Initial::vortex) {
-    const Point centre = options.vortex_centre ? *options.vortex_centre : middle_of(comm, mesh);
+    const Point centre =
+        options.vortex_centre ? *options.vortex_centre : box_over_ranks(comm, mesh.points).centre();
     const Vortex vortex{model.gas, model.free_stream, centre, options.reference_length};
     for (std::size_t node = 0; node < owned; ++node)
       states[node] = vortex.state(dual.point(static_cast<std::int32_t>(node)), 0);
@@ -44,11 +40,11 @@ std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, cons
 }  // namespace
 
 EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
-                        std::span<const double> initial_states) {
+                        const Field& start) {
   validate(options);
   const FlowModel model = flow_model(comm, mesh, options);
   const DualMesh dual(comm, mesh);
-  std::vector<State> states = start_states(comm, mesh, dual, model, options, initial_states);
+  std::vector<State> states = start_states(comm, mesh, dual, model, options, start);
   Residual residual(dual, model, options);
   const FlowRun run{comm, options, dual, model, residual, states};
   const bool steady = options.time == EulerOptions::Time::steady;
@@ -58,8 +54,9 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
   const ForceCoefficients forces = wall_forces(comm, dual, model, states, options.reference_length);
   result.cl = forces.cl;
   result.cd = forces.cd;
+  result.flow.names = flow_names();
   for (std::size_t node = 0; node < dual.areas().size(); ++node)
-    result.states.insert(result.states.end(), states[node].begin(), states[node].end());
+    result.flow.values.insert(result.flow.values.end(), states[node].begin(), states[node].end());
   return result;
 }
 

@@ -1,18 +1,16 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "flow/euler/scheme/euler_options.hpp"
 #include "mesher/base/communicator.hpp"
+#include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
 
 /// What solve_euler found.
 struct EulerResult {
-  std::vector<double> states;  ///< density, x velocity, y velocity, pressure of each owned node
-  int iterations = 0;          ///< steps done
+  Field flow;             ///< euler_names at each owned node, without constants
+  int iterations = 0;     ///< steps done
   double residual = 0;    ///< root mean square of the nodes' net mass fluxes, relative to the larger of the
                           ///< start's and the uniform free stream's
   double cl = 0, cd = 0;  ///< over all boundaries with the condition "wall", in wind axes
@@ -24,11 +22,12 @@ struct EulerResult {
   double time = 0;           ///< of an accurate run
 };
 
-/// Solves the two-dimensional Euler equations on a mesh of triangles and quadrilaterals. `initial_states` has
-/// a row of four for each owned node, or is empty: then the flow starts as the options say. The result has
-/// the same bits on any number of ranks. Throws InputError for a mesh or options that it cannot use,
+/// Solves the two-dimensional Euler equations on a mesh of triangles and quadrilaterals. The flow starts
+/// from `start`, which has a row for each owned node; without variables, as the options say. The result has
+/// the same bits on any number of ranks. Throws InputError for a mesh or options that it cannot use, or a
+/// start in which variable() does not find euler_names,
 /// SolverError, with the place, where the flow cannot be kept physical. *Collective.*
 EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
-                        std::span<const double> initial_states = {});
+                        const Field& start = {});
 
 }  // namespace quadloop

@@ -15,11 +15,11 @@ namespace quadloop {
 /// The library is serial, so all passes through rank 0 in bounded pieces; a mesh with more entries than its
 /// sizes can count is refused. *Collective.* Throws OutputError on all ranks.
 void write_cgns(OutputSet& outputs, const Mesh& mesh, const std::string& path,
-                const Solution* solution = nullptr);
+                const Field* solution = nullptr);
 
 /// The same as an output of its own, in place when the function returns. *Collective.*
 void write_cgns(const Communicator& comm, const Mesh& mesh, const std::string& path,
-                const Solution* solution = nullptr);
+                const Field* solution = nullptr);
 
 /// Reads the first base of a 2D CGNS file on the calling rank alone: unstructured zones of TRI_3, QUAD_4,
 /// MIXED and BAR_2 sections, each zone a block, nodes at the same place in two zones made one. Throws

@@ -14,6 +14,7 @@
 #include "io/loaded/pass_mesh.hpp"
 #include "io/text/name_index.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 
 namespace quadloop {
 
@@ -28,7 +29,7 @@ class CgnsBoundaries {
   BoundaryEdges& named(Mesh& mesh, const std::string& name, const std::string& condition) {
     const auto [place, is_new] = names_.place_of(name);
     if (is_new) mesh.boundaries.push_back({name, condition, {}});
-    return mesh.boundaries[static_cast<std::size_t>(place)];
+    return mesh.boundaries[place];
   }
 
   std::string condition_of_family(const File& file, int base, const std::string& family) {
@@ -98,7 +99,7 @@ class ZoneReader {
   }
 
   std::vector<double> coordinate(const char* name) const {
-    std::vector<double> values(static_cast<std::size_t>(nodes_));
+    std::vector<double> values(nodes_);
     const cgsize_t first = 1;
     file_.check(cg_coord_read(file_.id(), base_, zone_, name, RealDouble, &first, &nodes_, values.data()));
     return values;
@@ -167,7 +168,7 @@ class ZoneReader {
       refuse("section " + std::string(name.data()) + " is said to hold the elements " +
              range_text(first, last));
     bars_.begin_section(name.data());
-    std::vector<cgsize_t> data(static_cast<std::size_t>(size));
+    std::vector<cgsize_t> data(size);
     const std::int64_t found =
         type == MIXED ? read_mixed(section, data, first) : read_rows(section, type, data, first);
     if (found == elements) return;
@@ -235,7 +236,7 @@ class ZoneReader {
       refuse("boundary " + full + " has " + std::to_string(count) + " numbers where " +
              (is_range ? "a range has 2" : "a list is"));
     }
-    std::vector<cgsize_t> elements(static_cast<std::size_t>(count));
+    std::vector<cgsize_t> elements(count);
     file_.check(cg_boco_read(file_.id(), base_, zone_, boundary, elements.data(), nullptr));
     BoundaryEdges& edges = boundaries_.named(loaded_.mesh, full, condition_of(boundary, type));
     if (is_range) return take_range(elements[0], elements[1], edges);
@@ -297,12 +298,12 @@ class ZoneReader {
     int fields = 0;
     file_.check(cg_nfields(file_.id(), base_, zone_, solution, &fields));
     if (!loaded_.solution) loaded_.solution.emplace();
-    Solution& result = *loaded_.solution;
-    const auto width = static_cast<std::size_t>(fields);
+    Field& result = *loaded_.solution;
+    const std::size_t width = fields;
     if (first_node_ > 0 && result.names.size() != width)
       refuse("its solution has other variables than the first zone's");
     result.values.resize((first_node_ + static_cast<std::size_t>(nodes_)) * width);
-    std::vector<double> column(static_cast<std::size_t>(nodes_));
+    std::vector<double> column(nodes_);
     for (int f = 1; f <= fields; ++f) {
       Name name{};
       DataType_t type = RealDouble;
@@ -340,7 +341,7 @@ LoadedMesh read_here(const std::string& path) {
   loaded.blocks = 0;
   for (int zone = 1; zone <= zones; ++zone) ZoneReader(file, 1, zone, loaded, boundaries).read();
   if (zones == 0) throw InputError(path + ": holds no zone");
-  loaded.mesh.owned_nodes = static_cast<std::int32_t>(loaded.mesh.points.size());
+  loaded.mesh.owned_nodes = size32(loaded.mesh.points);
   return loaded;
 }
 

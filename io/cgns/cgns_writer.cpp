@@ -210,7 +210,7 @@ class CgnsWriter {
     write_section("QUAD_4", QUAD_4, std::span(mesh_.quads), counts_.quads);
   }
 
-  void write_solution(const Solution& solution) {
+  void write_solution(const Field& solution) {
     const std::size_t width = solution.names.size();
     if (width == 0) return;
     const std::vector<std::string> names = cgns_variable_names(solution.names);
@@ -242,8 +242,7 @@ class CgnsWriter {
     boundaries_.run(
         [&](std::size_t n) {
           const BoundaryEdges* const boundary = boundaries_.present()[n];
-          sink->begin(names[static_cast<std::size_t>(boundary - mesh_.boundaries.data())], *boundary,
-                      boundaries_.edges_of(n));
+          sink->begin(names[boundary - mesh_.boundaries.data()], *boundary, boundaries_.edges_of(n));
         },
         [&](std::span<const BoundaryStream::Edge> edges) { sink->put(edges); });
     on_root([&] { sink->close(); });
@@ -252,7 +251,7 @@ class CgnsWriter {
  private:
   template <class Rows>
   static std::int64_t size_of(const Rows& rows) {
-    return static_cast<std::int64_t>(rows.size());
+    return std::ssize(rows);
   }
 
   template <class Action>
@@ -278,13 +277,12 @@ class CgnsWriter {
                      std::span<const std::array<NodeId, width>> rows, std::int64_t all_rows) {
     if (all_rows == 0) return;
     on_root([&] { sink_->begin_section(name, type, all_rows); });
-    const RowStream stream{comm_, static_cast<std::int64_t>(rows.size()), rows_per_piece};
+    const RowStream stream{comm_, std::ssize(rows), rows_per_piece};
     stream.run<cgsize_t>(
         [&](std::int64_t begin, std::int64_t end) {
           std::vector<cgsize_t> nodes(static_cast<std::size_t>(end - begin) * width);
           auto out = nodes.begin();
-          for (const auto& row :
-               rows.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin))) {
+          for (const auto& row : rows.subspan(begin, end - begin)) {
             for (const NodeId node : row) *out++ = static_cast<cgsize_t>(mesh_.global(node).value() + 1);
           }
           return nodes;
@@ -308,15 +306,14 @@ class CgnsWriter {
 
 }  // namespace
 
-void write_cgns(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
+void write_cgns(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution) {
   CgnsWriter writer(outputs, mesh, path);
   writer.write_mesh();
   if (solution != nullptr) writer.write_solution(*solution);
   writer.write_boundaries();
 }
 
-void write_cgns(const Communicator& comm, const Mesh& mesh, const std::string& path,
-                const Solution* solution) {
+void write_cgns(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field* solution) {
   OutputSet outputs(comm);
   write_cgns(outputs, mesh, path, solution);
   outputs.commit();

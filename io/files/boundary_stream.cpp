@@ -27,7 +27,7 @@ BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh) : com
   std::int64_t boundary = -1;
   for (const Share& share : all) {
     if (share.boundary != boundary) {
-      present_.push_back(&mesh.boundaries[static_cast<std::size_t>(share.boundary)]);
+      present_.push_back(&mesh.boundaries[share.boundary]);
       edges_.push_back(0);
     }
     boundary = share.boundary;
@@ -38,8 +38,8 @@ BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh) : com
 }
 
 std::vector<BoundaryStream::Incoming> BoundaryStream::all_incoming() const {
-  std::vector<Incoming> incoming(static_cast<std::size_t>(comm_.size()));
-  for (const Share& share : shares_) incoming[static_cast<std::size_t>(share.rank)].all += share.edges;
+  std::vector<Incoming> incoming(comm_.size());
+  for (const Share& share : shares_) incoming[share.rank].all += share.edges;
   return incoming;
 }
 
@@ -48,7 +48,7 @@ void BoundaryStream::ask_for_next(int rank, Incoming& from) const {
   from.asked_for = std::min(from.all, first + edges_per_piece);
   from.piece = rank == 0 ? own_piece(first) : detail::from_bytes<Edge>(comm_.receive_bytes(rank));
   from.taken = 0;
-  QUADLOOP_REQUIRE(static_cast<std::int64_t>(from.piece.size()) == from.asked_for - first,
+  QUADLOOP_REQUIRE(std::ssize(from.piece) == from.asked_for - first,
                    "a piece of boundary edges is not what was announced");
 }
 
@@ -75,14 +75,14 @@ void BoundaryStream::send_all() const {
 std::vector<BoundaryStream::Edge> BoundaryStream::own_piece(std::int64_t first) const {
   const std::int64_t end = std::min(own_before_.back(), first + edges_per_piece);
   std::vector<Edge> piece;
-  piece.reserve(static_cast<std::size_t>(end - first));
+  piece.reserve(end - first);
   auto b = static_cast<std::size_t>(std::upper_bound(own_before_.begin(), own_before_.end(), first) -
                                     own_before_.begin()) -
            1;
   for (std::int64_t at = first; at < end; ++b) {
     const std::int64_t stop = std::min(end, own_before_[b + 1]);
     for (; at < stop; ++at) {
-      const auto& [from, to] = mesh_.boundaries[b].edges[static_cast<std::size_t>(at - own_before_[b])];
+      const auto& [from, to] = mesh_.boundaries[b].edges[at - own_before_[b]];
       piece.push_back({mesh_.global(from).value(), mesh_.global(to).value()});
     }
   }

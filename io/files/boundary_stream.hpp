@@ -64,7 +64,7 @@ class BoundaryStream {
       for (const Share& share : shares_) {
         if (share.boundary != boundary) begin(static_cast<std::size_t>(++place));
         boundary = share.boundary;
-        take_share(share, incoming[static_cast<std::size_t>(share.rank)], put);
+        take_share(share, incoming[share.rank], put);
       }
     } catch (...) {
       failure = std::current_exception();

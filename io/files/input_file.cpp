@@ -97,7 +97,7 @@ void require_input_file(const std::string& path) { require_readable_kind(path, f
 std::string read_input(const std::string& path) {
   const struct stat found = require_readable_kind(path, pipes_allowed);
   if (!S_ISREG(found.st_mode)) return read_pipe(path);
-  const auto size = static_cast<std::size_t>(found.st_size);
+  const std::size_t size = found.st_size;
   try {
     return read_file(path, size);
   } catch (const std::bad_alloc&) {

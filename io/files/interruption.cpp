@@ -64,14 +64,14 @@ void end_cleanly(int number, siginfo_t* information, void*) {
     }
     if (here) remove_registered_temporaries();
   }
-  ::sigaction(number, &former_actions[static_cast<std::size_t>(number)], nullptr);
+  ::sigaction(number, &former_actions[number], nullptr);
   const bool repeats_itself = crash && number != SIGABRT && information->si_code > 0;
   if (!repeats_itself) ::raise(number);  // comes when this handler is left
   errno = error_before;
 }
 
 void handle(int number) {
-  struct sigaction& former = former_actions[static_cast<std::size_t>(number)];
+  struct sigaction& former = former_actions[number];
   ::sigaction(number, nullptr, &former);
   if (former.sa_handler == SIG_IGN || (!is_crash(number) && former.sa_handler != SIG_DFL)) return;
   struct sigaction action = {};

@@ -62,7 +62,7 @@ struct RowStream {
       stage.advance(++pieces_done);
     }
     for (int from = 1; from < comm.size(); ++from) {
-      for (std::int64_t k = 0; k < pieces_of_rank[static_cast<std::size_t>(from)]; ++k) {
+      for (std::int64_t k = 0; k < pieces_of_rank[from]; ++k) {
         const std::vector<std::byte> bytes = comm.receive_bytes(from);
         attempt([&] { consume(std::span<const T>(detail::from_bytes<T>(bytes))); });
         stage.advance(++pieces_done);
@@ -86,7 +86,7 @@ struct RowStream {
     std::vector<std::vector<T>> ahead;
     for (std::int64_t k = 0; k < std::min(pieces(), pieces_ahead); ++k) ahead.push_back(made(k));
     for (std::int64_t k = 0; k < pieces(); ++k) {
-      const std::vector<T> piece = k < pieces_ahead ? std::move(ahead[static_cast<std::size_t>(k)]) : made(k);
+      const std::vector<T> piece = k < pieces_ahead ? std::move(ahead[k]) : made(k);
       comm.send_bytes(std::as_bytes(std::span<const T>(piece)), 0);
     }
     if (failure) std::rethrow_exception(failure);

@@ -1,30 +1,42 @@
 #include "io/input/geometry_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <map>
 
 #include "io/input/airfoil_dat.hpp"
 #include "io/input/geom_text.hpp"
-#include "io/input/ogr_reader.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
+
+namespace {
+
+std::map<std::string, GeometryReader>& readers() {
+  static std::map<std::string, GeometryReader> all{
+      {".geom", [](const std::string& path, std::vector<std::string>&) { return read_geom(path); }},
+      {".dat", read_airfoil}};
+  return all;
+}
+
+}  // namespace
+
+void add_geometry_reader(const std::string& suffix, GeometryReader reader) { readers()[suffix] = reader; }
 
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings) {
   std::string suffix = std::filesystem::path(path).extension().string();
   std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (suffix == ".geom") return read_geom(path);
-  if (suffix == ".dat") return read_airfoil(path, warnings);
-  for (const char* known : {".dxf", ".geojson", ".shp", ".gpkg"}) {
-    if (suffix == known) return read_ogr(path, warnings);
-  }
-  throw InputError(fmt::format(
-      "{}: '{}' is not the suffix of a geometry file; known: .geom, .dat, .dxf, .geojson, .shp, .gpkg", path,
-      suffix));
+  const auto reader = readers().find(suffix);
+  if (reader != readers().end()) return reader->second(path, warnings);
+  if (std::find(gis_suffixes.begin(), gis_suffixes.end(), suffix) != gis_suffixes.end())
+    throw InputError(
+        fmt::format("{}: this program was linked without GDAL, which reads {} files", path, suffix));
+  throw InputError(fmt::format("{}: '{}' is not the suffix of a geometry file; known: .geom, .dat, {}", path,
+                               suffix, fmt::join(gis_suffixes, ", ")));
 }
 
 }  // namespace quadloop

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -7,9 +9,18 @@
 
 namespace quadloop {
 
-/// Reads the polylines of a geometry file, told by its suffix: .geom, .dat (airfoil), .dxf, .geojson, .shp,
-/// .gpkg. On the calling rank alone. Throws InputError "file:line: ..." where the file is not what its suffix
-/// says. What was left out of the file is told by a warning each.
+/// Reads the polylines of a geometry file, told by its suffix: .geom, .dat (airfoil), and those of
+/// gis_suffixes where add_geometry_reader() has brought a reader for them. On the calling rank alone. Throws
+/// InputError "file:line: ..." where the file is not what its suffix says. What was left out of the file is
+/// told by a warning each.
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings);
+
+/// Drawings and maps, read by a library of their own (io/gis).
+inline const std::array<std::string, 4> gis_suffixes{".dxf", ".geojson", ".shp", ".gpkg"};
+
+using GeometryReader = std::vector<Chain> (*)(const std::string& path, std::vector<std::string>& warnings);
+
+/// From here on files of this suffix are read by `reader`, in the whole process.
+void add_geometry_reader(const std::string& suffix, GeometryReader reader);
 
 }  // namespace quadloop

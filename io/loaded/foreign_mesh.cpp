@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "io/loaded/orient_cells.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
@@ -61,7 +62,7 @@ std::int64_t drop_repeated_cells(Cells& cells, std::vector<std::int32_t>& cell_t
 }
 
 std::int32_t block_of(const LoadedMesh& loaded, std::int32_t cell) {
-  const auto at = static_cast<std::size_t>(cell);
+  const std::size_t at = cell;
   const std::size_t triangles = loaded.triangle_to_block.size();
   return at < triangles ? loaded.triangle_to_block[at] : loaded.quad_to_block[at - triangles];
 }
@@ -70,7 +71,7 @@ std::int32_t block_of(const LoadedMesh& loaded, std::int32_t cell) {
 void drop_empty_blocks(LoadedMesh& loaded) {
   std::vector<std::int32_t> new_number(loaded.block_names.size(), -1);
   for (const auto* cell_to_block : {&loaded.triangle_to_block, &loaded.quad_to_block}) {
-    for (const std::int32_t block : *cell_to_block) new_number[static_cast<std::size_t>(block)] = 0;
+    for (const std::int32_t block : *cell_to_block) new_number[block] = 0;
   }
   std::size_t kept = 0;
   for (std::size_t block = 0; block < new_number.size(); ++block) {
@@ -81,14 +82,14 @@ void drop_empty_blocks(LoadedMesh& loaded) {
   loaded.block_names.resize(kept);
   loaded.blocks = static_cast<std::int32_t>(kept);
   for (auto* cell_to_block : {&loaded.triangle_to_block, &loaded.quad_to_block}) {
-    for (std::int32_t& block : *cell_to_block) block = new_number[static_cast<std::size_t>(block)];
+    for (std::int32_t& block : *cell_to_block) block = new_number[block];
   }
 }
 
 [[noreturn]] void refuse_edge(const ForeignMesh& foreign, const ForeignEdge& edge, const TextScanner& scan) {
   const Mesh& mesh = foreign.loaded.mesh;
   const Point a = mesh.point(edge.nodes[0]), b = mesh.point(edge.nodes[1]);
-  const std::string& name = mesh.boundaries[static_cast<std::size_t>(edge.boundary)].name;
+  const std::string& name = mesh.boundaries[edge.boundary].name;
   scan.refuse_at(edge.place, fmt::format("an edge of boundary {}, from ({}, {}) to ({}, {}), belongs to no "
                                          "cell; take it out of the boundary, "
                                          "or mesh the surface beside it",
@@ -110,7 +111,7 @@ std::int64_t place_edges(ForeignMesh& foreign, const TextScanner& scan) {
       continue;
     }
     if (left < 0 || (between && block_of(loaded, right) < block_of(loaded, left))) std::swap(from, to);
-    loaded.mesh.boundaries[static_cast<std::size_t>(edge.boundary)].edges.push_back({from, to});
+    loaded.mesh.boundaries[edge.boundary].edges.push_back({from, to});
   }
   return inside;
 }
@@ -152,10 +153,8 @@ void drop_repeated(ForeignMesh& foreign, const std::string& path) {
 void drop_unused_nodes(ForeignMesh& foreign, const std::string& path) {
   Mesh& mesh = foreign.loaded.mesh;
   std::vector<std::int32_t> new_number(mesh.points.size(), -1);
-  const auto mark = [&](NodeId& node) { new_number[static_cast<std::size_t>(node.value())] = 0; };
-  const auto renumber = [&](NodeId& node) {
-    node = NodeId{new_number[static_cast<std::size_t>(node.value())]};
-  };
+  const auto mark = [&](NodeId& node) { new_number[node.value()] = 0; };
+  const auto renumber = [&](NodeId& node) { node = NodeId{new_number[node.value()]}; };
   const auto for_each_node = [&](const auto& visit) {
     for (auto& nodes : mesh.triangles) std::for_each(nodes.begin(), nodes.end(), visit);
     for (auto& nodes : mesh.quads) std::for_each(nodes.begin(), nodes.end(), visit);
@@ -181,7 +180,7 @@ LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
   Mesh& mesh = loaded.mesh;
   if (mesh.triangles.empty() && mesh.quads.empty())
     scan.refuse("the file has no triangle and no quadrilateral; a mesh needs cells");
-  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  mesh.owned_nodes = size32(mesh.points);
   drop_empty_blocks(loaded);
   const std::int64_t turned = orient_cells(mesh);
   sort_by_block(mesh.triangles, loaded.triangle_to_block);

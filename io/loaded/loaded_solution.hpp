@@ -13,7 +13,7 @@ namespace quadloop {
 /// (distinct_words()); variable() finds one.
 struct LoadedSolution {
   std::string path;
-  Solution solution;
+  Field solution;
   std::int64_t nodes = 0;     ///< rows of the solution
   std::vector<Point> points;  ///< empty where the file has no coordinates
   bool has_cells = false;

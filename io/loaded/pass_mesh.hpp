@@ -23,7 +23,7 @@ void pass_fields(Pipe& pipe, Mesh& mesh) {
 }
 
 template <class Pipe>
-void pass_fields(Pipe& pipe, Solution& solution) {
+void pass_fields(Pipe& pipe, Field& solution) {
   pass(pipe, solution.constants);
   pass(pipe, solution.names);
   pass(pipe, solution.values);

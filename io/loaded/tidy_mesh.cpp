@@ -23,7 +23,7 @@ void for_each_named_node(Mesh& mesh, const Visit& visit) {
   }
 }
 
-void move_row(Solution& solution, std::size_t from, std::size_t to) {
+void move_row(Field& solution, std::size_t from, std::size_t to) {
   const std::size_t width = solution.names.size();
   if (from != to)
     std::copy_n(solution.values.begin() + static_cast<std::ptrdiff_t>(from * width), width,
@@ -38,14 +38,14 @@ std::size_t drop_unused_nodes(LoadedMesh& loaded) {
   std::int32_t kept = 0;
   for (std::size_t i = 0; i < new_number.size(); ++i) {
     if (new_number[i] < 0) continue;
-    mesh.points[static_cast<std::size_t>(kept)] = mesh.points[i];
+    mesh.points[kept] = mesh.points[i];
     if (loaded.solution) move_row(*loaded.solution, i, static_cast<std::size_t>(kept));
     new_number[i] = kept++;
   }
   const std::size_t dropped = mesh.points.size() - static_cast<std::size_t>(kept);
   if (dropped == 0) return 0;
   for_each_named_node(mesh, [&](NodeId& node) { node = NodeId{new_number[index_of(node)]}; });
-  mesh.points.resize(static_cast<std::size_t>(kept));
+  mesh.points.resize(kept);
   mesh.owned_nodes = kept;
   if (loaded.solution)
     loaded.solution->values.resize(static_cast<std::size_t>(kept) * loaded.solution->names.size());

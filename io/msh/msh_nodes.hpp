@@ -12,7 +12,7 @@ class NodeTags {
  public:
   void reserve(std::size_t nodes) { entries_.reserve(nodes); }
   /// Tags are added in the order of the nodes.
-  void add(std::int64_t tag) { entries_.push_back({tag, static_cast<std::int32_t>(entries_.size())}); }
+  void add(std::int64_t tag) { entries_.push_back({tag, size32(entries_)}); }
 
   /// After the last add(). A tag that was given to two nodes; 0 where there is none.
   std::int64_t sort();

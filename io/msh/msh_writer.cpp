@@ -32,13 +32,13 @@ class MshWriter {
   }
 
  private:
-  std::int64_t total(const auto& rows) const { return comm_.sum(static_cast<std::int64_t>(rows.size())); }
+  std::int64_t total(const auto& rows) const { return comm_.sum(std::ssize(rows)); }
   std::int32_t blocks() const { return whole_ != nullptr ? whole_->blocks : 1; }
   std::int64_t surface(std::int32_t block) const {
     return static_cast<std::int64_t>(boundaries_.present().size()) + 1 + block;
   }
   std::string block_name(std::int32_t block) const {
-    const auto b = static_cast<std::size_t>(block);
+    const std::size_t b = block;
     if (whole_ != nullptr && b < whole_->block_names.size()) return whole_->block_names[b];
     return blocks() == 1 ? "domain" : "block_" + std::to_string(block + 1);
   }
@@ -55,7 +55,7 @@ class MshWriter {
 
   void write_nodes() {
     file_.write("$Nodes\n" + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\n");
-    file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 4, [&](TextRows& text, std::size_t i) {
+    file_.write_rows(mesh_.owned_nodes, 4, [&](TextRows& text, std::size_t i) {
       text.put(mesh_.first_node + static_cast<std::int64_t>(i) + 1, ' ');
       text.put(mesh_.points[i].x, ' ');
       text.put(mesh_.points[i].y, ' ');
@@ -107,7 +107,7 @@ class MshWriter {
 
   template <std::size_t width>
   void write_elements(int type, std::int64_t group, std::span<const std::array<NodeId, width>> rows) {
-    const auto own = static_cast<std::int64_t>(rows.size());
+    const auto own = std::ssize(rows);
     const std::int64_t number = next_element_ + comm_.exclusive_sum(own);
     next_element_ += comm_.sum(own);
     file_.write_rows(rows.size(), 5 + width, [&](TextRows& text, std::size_t i) {

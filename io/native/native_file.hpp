@@ -13,11 +13,11 @@ namespace quadloop {
 /// without edges on any rank is left out. `solution`, where given, has a row for each owned node.
 /// *Collective.* Throws OutputError on all ranks.
 void write_native(OutputSet& outputs, const Mesh& mesh, const std::string& path,
-                  const Solution* solution = nullptr);
+                  const Field* solution = nullptr);
 
 /// The same as an output of its own, in place when the function returns. *Collective.*
 void write_native(const Communicator& comm, const Mesh& mesh, const std::string& path,
-                  const Solution* solution = nullptr);
+                  const Field* solution = nullptr);
 
 /// Writes a mesh that the set's only rank holds whole, block by block, with its solution. Throws OutputError.
 void write_native(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);

@@ -4,6 +4,7 @@
 #include "io/text/name_index.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 
 namespace quadloop {
 
@@ -29,7 +30,7 @@ class NativeReader {
   void read_nodes() {
     Mesh& mesh = loaded_.mesh;
     mesh.points.resize(scan_.count("grid points", 2));
-    mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+    mesh.owned_nodes = size32(mesh.points);
     for (Point& p : mesh.points) {
       p.x = scan_.real("an x coordinate");
       p.y = scan_.real("a y coordinate");
@@ -87,7 +88,7 @@ class NativeReader {
     if (is_new) {
       boundaries.push_back({name, "none", std::move(edges)});
     } else {
-      auto& same = boundaries[static_cast<std::size_t>(place)].edges;
+      auto& same = boundaries[place].edges;
       same.insert(same.end(), edges.begin(), edges.end());
     }
   }
@@ -103,7 +104,7 @@ class NativeReader {
   }
 
   void read_solution() {
-    Solution solution;
+    Field solution;
     solution.constants.resize(scan_.count("constants", 1));
     for (double& value : solution.constants) value = scan_.real("a constant");
     if (scan_.at_end()) {

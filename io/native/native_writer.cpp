@@ -31,9 +31,9 @@ class NativeWriter {
     write_boundaries();
   }
 
-  void write_solution(const Solution& solution) {
+  void write_solution(const Field& solution) {
     std::string head = "#Number of constants\n" + std::to_string(solution.constants.size()) + "\n";
-    TextRows constants(static_cast<std::int64_t>(solution.constants.size()), 1);
+    TextRows constants(std::ssize(solution.constants), 1);
     for (const double value : solution.constants) constants.put(value, '\n');
     const std::vector<char> text = constants.take();
     head.append(text.begin(), text.end());
@@ -54,7 +54,7 @@ class NativeWriter {
 
   void write_nodes() {
     file_.write("#Number of grid points\n" + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\n");
-    file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 2, [&](TextRows& text, std::size_t i) {
+    file_.write_rows(mesh_.owned_nodes, 2, [&](TextRows& text, std::size_t i) {
       text.put(mesh_.points[i].x, ' ');
       text.put(mesh_.points[i].y, '\n');
     });
@@ -63,14 +63,14 @@ class NativeWriter {
   /// One row of `width` numbers for each owned node.
   void write_real_rows(const double* values, std::size_t width) {
     if (width == 0) return;
-    file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), width, [&](TextRows& text, std::size_t i) {
+    file_.write_rows(mesh_.owned_nodes, width, [&](TextRows& text, std::size_t i) {
       for (std::size_t k = 0; k < width; ++k) text.put(values[i * width + k], k + 1 < width ? ' ' : '\n');
     });
   }
 
   template <std::size_t width>
   void write_connectivity(const std::string& comment, std::span<const std::array<NodeId, width>> rows) {
-    file_.write(comment + std::to_string(comm_.sum(static_cast<std::int64_t>(rows.size()))) + "\n");
+    file_.write(comment + std::to_string(comm_.sum(std::ssize(rows))) + "\n");
     file_.write_rows(rows.size(), width, [&](TextRows& text, std::size_t i) {
       for (std::size_t k = 0; k < width; ++k)
         text.put(mesh_.global(rows[i][k]).value() + 1, k + 1 < width ? ' ' : '\n');
@@ -99,7 +99,7 @@ class NativeWriter {
 
 }  // namespace
 
-void write_native(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
+void write_native(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution) {
   NativeWriter writer(outputs, mesh, path);
   writer.write_mesh();
   if (solution != nullptr) writer.write_solution(*solution);
@@ -114,7 +114,7 @@ void write_native(OutputSet& outputs, const LoadedMesh& whole, const std::string
 }
 
 void write_native(const Communicator& comm, const Mesh& mesh, const std::string& path,
-                  const Solution* solution) {
+                  const Field* solution) {
   OutputSet outputs(comm);
   write_native(outputs, mesh, path, solution);
   outputs.commit();

@@ -19,7 +19,7 @@ LoadedSolution read_su2_csv(const std::string& path);
 /// velocity and pressure they are computed with `gamma`, the ratio of specific heats, in the place of those;
 /// one with neither keeps its variables. Numbers are the shortest that read back as they are; the same bytes
 /// on any number of ranks. *Collective.* Throws OutputError on all ranks.
-void write_su2_csv(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution& solution,
+void write_su2_csv(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                    double gamma = 1.4);
 
 }  // namespace quadloop

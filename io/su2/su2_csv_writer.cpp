@@ -80,7 +80,7 @@ std::array<double, 4> conserved(const double* row, const Columns& at, double gam
 
 }  // namespace
 
-void write_su2_csv(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution& solution,
+void write_su2_csv(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                    double gamma) {
   const CsvTable table(solution.names);
   std::string header = R"("PointID","x","y")";
@@ -88,19 +88,18 @@ void write_su2_csv(OutputSet& outputs, const Mesh& mesh, const std::string& path
   TextOutput file(outputs, path);
   file.write(header + "\n");
   const std::size_t width = solution.names.size();
-  file.write_rows(static_cast<std::size_t>(mesh.owned_nodes), 3 + table.names.size(),
-                  [&](TextRows& text, std::size_t i) {
-                    const double* row = solution.values.data() + i * width;
-                    text.put(mesh.first_node + static_cast<std::int64_t>(i), ',');
-                    text.put(mesh.points[i].x, ',');
-                    text.put(mesh.points[i].y, table.names.empty() ? '\n' : ',');
-                    std::size_t left = table.names.size();
-                    const auto put = [&](double value) { text.put(value, --left == 0 ? '\n' : ','); };
-                    if (table.made_from) {
-                      for (const double value : conserved(row, *table.made_from, gamma)) put(value);
-                    }
-                    for (const std::size_t column : table.as_they_are) put(row[column]);
-                  });
+  file.write_rows(mesh.owned_nodes, 3 + table.names.size(), [&](TextRows& text, std::size_t i) {
+    const double* row = solution.values.data() + i * width;
+    text.put(mesh.first_node + static_cast<std::int64_t>(i), ',');
+    text.put(mesh.points[i].x, ',');
+    text.put(mesh.points[i].y, table.names.empty() ? '\n' : ',');
+    std::size_t left = table.names.size();
+    const auto put = [&](double value) { text.put(value, --left == 0 ? '\n' : ','); };
+    if (table.made_from) {
+      for (const double value : conserved(row, *table.made_from, gamma)) put(value);
+    }
+    for (const std::size_t column : table.as_they_are) put(row[column]);
+  });
   file.close();
 }
 

@@ -152,7 +152,7 @@ class Su2Reader {
   NodeId node_in_row() {
     expect_in_row("a point of this element");
     const std::int64_t number = scan_.integer("a point of this element");
-    const auto points = static_cast<std::int64_t>(foreign_.loaded.mesh.points.size());
+    const auto points = std::ssize(foreign_.loaded.mesh.points);
     if (number < 0 || number >= points) {
       scan_.refuse("point " + std::to_string(number) + " is none of the points 0 to " +
                    std::to_string(points - 1));

@@ -37,12 +37,12 @@ class Su2Writer {
   }
 
  private:
-  std::int64_t total(const auto& rows) const { return comm_.sum(static_cast<std::int64_t>(rows.size())); }
+  std::int64_t total(const auto& rows) const { return comm_.sum(std::ssize(rows)); }
 
   /// Each row ends with its number, counted from `first` over all ranks.
   template <std::size_t width>
   void write_elements(int type, std::span<const std::array<NodeId, width>> rows, std::int64_t first) {
-    const std::int64_t number = first + comm_.exclusive_sum(static_cast<std::int64_t>(rows.size()));
+    const std::int64_t number = first + comm_.exclusive_sum(std::ssize(rows));
     file_.write_rows(rows.size(), width + 2, [&](TextRows& text, std::size_t i) {
       text.put(type, ' ');
       for (const NodeId node : rows[i]) text.put(mesh_.global(node).value(), ' ');
@@ -52,7 +52,7 @@ class Su2Writer {
 
   void write_points() {
     file_.write("NPOIN= " + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\n");
-    file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 3, [&](TextRows& text, std::size_t i) {
+    file_.write_rows(mesh_.owned_nodes, 3, [&](TextRows& text, std::size_t i) {
       text.put(mesh_.points[i].x, ' ');
       text.put(mesh_.points[i].y, ' ');
       text.put(mesh_.first_node + static_cast<std::int64_t>(i), '\n');

@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "mesher/base/ids.hpp"
+
 namespace quadloop {
 
 /// Numbers names in the order in which they come, and finds them again in constant time: a file may name
@@ -18,7 +20,7 @@ class NameIndex {
     bool is_new;
   };
   Place place_of(const std::string& name) {
-    const auto [found, added] = numbers_.try_emplace(name, static_cast<std::int32_t>(numbers_.size()));
+    const auto [found, added] = numbers_.try_emplace(name, size32(numbers_));
     return {found->second, added};
   }
 

@@ -70,7 +70,7 @@ class TextOutput {
   /// Rows that rank 0 alone makes.
   template <class Put>
   void write_root_rows(std::int64_t rows, std::size_t width, const Put& put) {
-    write_rows(static_cast<std::size_t>(comm_.is_root() ? rows : 0), width, put);
+    write_rows(comm_.is_root() ? rows : 0, width, put);
   }
 
   /// The edges of all boundaries: `head(n)` is the text before those of present()[n], `put(text, n, edge)`
@@ -86,7 +86,7 @@ class TextOutput {
           waiting += head(n);
         },
         [&](std::span<const BoundaryStream::Edge> edges) {
-          TextRows rows(static_cast<std::int64_t>(edges.size()), width);
+          TextRows rows(std::ssize(edges), width);
           for (const BoundaryStream::Edge& edge : edges) put(rows, under_way, edge);
           const std::vector<char> text = rows.take();
           waiting.append(text.begin(), text.end());

@@ -108,7 +108,7 @@ double TextScanner::real(std::string_view expected) {
 std::size_t TextScanner::count(const std::string& of, std::size_t width) {
   const std::int64_t value = integer("the number of " + of);
   if (value < 0) refuse("the number of " + of + " is negative: " + std::to_string(value));
-  const auto rows = static_cast<std::size_t>(value);
+  const std::size_t rows = value;
   if (rows > std::numeric_limits<std::int32_t>::max())
     refuse("more than 2^31 - 1 " + of + " cannot be read on one rank");
   if (2 * width * rows > bytes_left() + 1) {

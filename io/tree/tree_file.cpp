@@ -110,7 +110,7 @@ class TreeSink {
     std::size_t dataset = 0;
     for_each_tree_dataset(
         [&](const char*, const auto& members) { write_column(datasets_[dataset++], members); });
-    written_ += static_cast<std::int64_t>(waiting_.size());
+    written_ += std::ssize(waiting_);
     waiting_.clear();
   }
 
@@ -142,7 +142,7 @@ class TreeSink {
 
 void write_tree(OutputSet& outputs, const TreeRecord& tree, const std::string& path) {
   const Communicator& comm = outputs.communicator();
-  const auto own = static_cast<std::int64_t>(tree.leaves.size());
+  const auto own = std::ssize(tree.leaves);
   const std::int64_t all = comm.sum(own);
   const StagedFile staged = outputs.stage(path);
   std::unique_ptr<TreeSink> sink;

@@ -50,7 +50,7 @@ class TreeSource {
   }
 
   std::vector<LeafRecord> read(std::int64_t begin, std::int64_t end) const {
-    std::vector<LeafRecord> result(static_cast<std::size_t>(end - begin));
+    std::vector<LeafRecord> result(end - begin);
     for_each_tree_dataset([&](const char* name, const auto& members) {
       if (begin < end) read_column(open(name), name, members, begin, result);
     });

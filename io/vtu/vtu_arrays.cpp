@@ -207,7 +207,7 @@ std::vector<Number> VtuNumbers::ascii_numbers(const VtuArray& array,
     result.push_back(value);
     at = end;
   }
-  if (count && static_cast<std::int64_t>(result.size()) != *count) {
+  if (count && std::ssize(result) != *count) {
     refuse(array, "holds " + std::to_string(result.size()) + " numbers, not " + std::to_string(*count));
   }
   return result;

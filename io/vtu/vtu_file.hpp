@@ -15,11 +15,11 @@ namespace quadloop {
 /// their bytes with a 0 after each. `solution`, where given, becomes point data of its names. *Collective.*
 /// Throws OutputError on all ranks.
 void write_vtu(OutputSet& outputs, const Mesh& mesh, const std::string& path,
-               const Solution* solution = nullptr);
+               const Field* solution = nullptr);
 
 /// The same as an output of its own, in place when the function returns. *Collective.*
 void write_vtu(const Communicator& comm, const Mesh& mesh, const std::string& path,
-               const Solution* solution = nullptr);
+               const Field* solution = nullptr);
 
 /// Writes a mesh that the set's only rank holds whole, with its solution; several blocks are told by the cell
 /// data "block". Throws OutputError.

@@ -88,12 +88,11 @@ class VtuReader {
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < types.size(); ++cell) {
       const std::int64_t end = offsets[cell];
-      if (end < begin || end > static_cast<std::int64_t>(nodes.size())) {
+      if (end < begin || end > std::ssize(nodes)) {
         scan_.refuse_at(offsets_array.place,
                         fmt::format("the offset of cell {} is {}, after {}", cell + 1, end, begin));
       }
-      const auto of_cell =
-          std::span(nodes).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+      const auto of_cell = std::span(nodes).subspan(begin, end - begin);
       place_ = connectivity.place;
       cell_ = cell + 1;
       add_cell(types[cell], of_cell, boundaries.empty() ? 0 : boundaries[cell],
@@ -121,7 +120,7 @@ class VtuReader {
   static std::string name_of(const std::vector<std::string>& names, std::int64_t number, const char* kind,
                              const char* without) {
     if (number <= 0) return without;
-    if (number <= static_cast<std::int64_t>(names.size())) return names[static_cast<std::size_t>(number - 1)];
+    if (number <= std::ssize(names)) return names[number - 1];
     return fmt::format("{}_{}", kind, number);
   }
 
@@ -170,7 +169,7 @@ class VtuReader {
       if (array.section == "PointData" && array.type != "String") add_columns(array, names, columns);
     }
     if (names.empty()) return;
-    Solution solution{{}, names, {}};
+    Field solution{names, {}, {}};
     solution.values.resize(names.size() * loaded.mesh.points.size());
     for (std::size_t k = 0; k < names.size(); ++k) {
       for (std::size_t i = 0; i < columns[k].size(); ++i)

@@ -48,7 +48,7 @@ class VtuWriter {
   VtuWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
       : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path}, boundaries_{comm_, mesh} {}
 
-  void write(const LoadedMesh* blocks, const Solution* solution) {
+  void write(const LoadedMesh* blocks, const Field* solution) {
     write_head(blocks);
     write_points();
     write_cells();
@@ -61,7 +61,7 @@ class VtuWriter {
   }
 
  private:
-  std::int64_t total(const auto& rows) const { return comm_.sum(static_cast<std::int64_t>(rows.size())); }
+  std::int64_t total(const auto& rows) const { return comm_.sum(std::ssize(rows)); }
 
   void write_head(const LoadedMesh* blocks) {
     const std::int64_t cells = total(mesh_.triangles) + total(mesh_.quads) + boundaries_.all_edges();
@@ -79,7 +79,7 @@ class VtuWriter {
 
   void write_points() {
     file_.write("<Points>\n" + array_tag("Float64", "Points", 3));
-    file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 3, [&](TextRows& text, std::size_t i) {
+    file_.write_rows(mesh_.owned_nodes, 3, [&](TextRows& text, std::size_t i) {
       text.put(mesh_.points[i].x, ' ');
       text.put(mesh_.points[i].y, ' ');
       text.put(0, '\n');
@@ -121,7 +121,7 @@ class VtuWriter {
     std::int64_t before = 0;
     for_each_kind([&]<class Row>(const std::vector<Row>& rows, int) {
       constexpr auto width = static_cast<std::int64_t>(std::tuple_size_v<Row>);
-      const std::int64_t first = before + width * comm_.exclusive_sum(static_cast<std::int64_t>(rows.size()));
+      const std::int64_t first = before + width * comm_.exclusive_sum(std::ssize(rows));
       file_.write_rows(rows.size(), 1, [&](TextRows& text, std::size_t i) {
         text.put(first + width * (static_cast<std::int64_t>(i) + 1), '\n');
       });
@@ -136,13 +136,13 @@ class VtuWriter {
     file_.write_rows(rows, 1, [&](TextRows& text, std::size_t) { text.put(number, '\n'); });
   }
 
-  void write_solution(const Solution* solution) {
+  void write_solution(const Field* solution) {
     if (solution == nullptr || solution->names.empty()) return;
     const std::size_t width = solution->names.size();
     file_.write("<PointData>\n");
     for (std::size_t k = 0; k < width; ++k) {
       file_.write(array_tag("Float64", solution->names[k]));
-      file_.write_rows(static_cast<std::size_t>(mesh_.owned_nodes), 1, [&](TextRows& text, std::size_t i) {
+      file_.write_rows(mesh_.owned_nodes, 1, [&](TextRows& text, std::size_t i) {
         text.put(solution->values[i * width + k], '\n');
       });
       file_.write("</DataArray>\n");
@@ -181,7 +181,7 @@ class VtuWriter {
 
 }  // namespace
 
-void write_vtu(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Solution* solution) {
+void write_vtu(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution) {
   VtuWriter(outputs, mesh, path).write(nullptr, solution);
 }
 
@@ -190,8 +190,7 @@ void write_vtu(OutputSet& outputs, const LoadedMesh& whole, const std::string& p
       .write(whole.blocks > 1 ? &whole : nullptr, whole.solution ? &*whole.solution : nullptr);
 }
 
-void write_vtu(const Communicator& comm, const Mesh& mesh, const std::string& path,
-               const Solution* solution) {
+void write_vtu(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field* solution) {
   OutputSet outputs(comm);
   write_vtu(outputs, mesh, path, solution);
   outputs.commit();

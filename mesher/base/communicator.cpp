@@ -15,14 +15,20 @@ namespace quadloop {
 namespace {
 
 constexpr auto shortest_nap = std::chrono::microseconds(100), longest_nap = std::chrono::microseconds(10000);
-constexpr std::size_t largest_message = std::size_t{1}
-                                        << 30;  // MPI counts are 32-bit: longer data go in pieces
+constexpr std::size_t largest_message = Communicator::largest_message;
 
 template <class T>
 T reduced(T value, MPI_Datatype type, MPI_Op operation, MPI_Comm comm) {
   T result{};
   MPI_Allreduce(&value, &result, 1, type, operation, comm);
   return result;
+}
+
+/// Calls `visit(begin, length)` for the pieces of a message.
+template <class Visit>
+void for_pieces(std::size_t size, std::size_t largest, const Visit& visit) {
+  for (std::size_t begin = 0; begin < size; begin += largest)
+    visit(begin, static_cast<int>(std::min(largest, size - begin)));
 }
 
 /// Refused rather than cut short: collective pieces are bounded by the callers.
@@ -93,62 +99,62 @@ void Communicator::patient_barrier() const {
 
 std::vector<std::byte> Communicator::all_gather_bytes(std::span<const std::byte> bytes) const {
   const int mine = count_of(bytes.size());
-  std::vector<int> counts(static_cast<std::size_t>(size_));
+  std::vector<int> counts(size_);
   MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
   const std::vector<int> offsets = offsets_of(counts);
-  std::vector<std::byte> all(static_cast<std::size_t>(offsets.back()));
+  std::vector<std::byte> all(offsets.back());
   MPI_Allgatherv(bytes.data(), mine, MPI_BYTE, all.data(), counts.data(), offsets.data(), MPI_BYTE, comm_);
   return all;
 }
 
-void Communicator::broadcast_bytes(std::vector<std::byte>& bytes) const {
+void Communicator::broadcast_bytes(std::vector<std::byte>& bytes, int from) const {
   std::uint64_t size = bytes.size();
-  MPI_Bcast(&size, 1, MPI_UINT64_T, 0, comm_);
+  MPI_Bcast(&size, 1, MPI_UINT64_T, from, comm_);
   bytes.resize(size);
-  for (std::size_t begin = 0; begin < size; begin += largest_message) {
-    MPI_Bcast(bytes.data() + begin, count_of(std::min(largest_message, size - begin)), MPI_BYTE, 0, comm_);
-  }
+  for_pieces(bytes.size(), largest_message, [&](std::size_t begin, int length) {
+    MPI_Bcast(bytes.data() + begin, length, MPI_BYTE, from, comm_);
+  });
 }
 
-std::vector<std::vector<std::byte>> Communicator::exchange_bytes(
-    const std::vector<std::span<const std::byte>>& to_rank) const {
-  const auto ranks = static_cast<std::size_t>(size_);
-  std::vector<int> send_counts(ranks), receive_counts(ranks);
-  for (std::size_t r = 0; r < ranks; ++r) send_counts[r] = count_of(to_rank[r].size());
-  MPI_Alltoall(send_counts.data(), 1, MPI_INT, receive_counts.data(), 1, MPI_INT, comm_);
-  std::vector<std::vector<std::byte>> received(ranks);
+std::vector<std::int64_t> Communicator::exchange_counts(const std::vector<std::int64_t>& to_rank) const {
+  std::vector<std::int64_t> from_rank(to_rank.size());
+  MPI_Alltoall(to_rank.data(), 1, MPI_INT64_T, from_rank.data(), 1, MPI_INT64_T, comm_);
+  return from_rank;
+}
+
+void Communicator::exchange_messages(std::span<const Outgoing> out, std::span<const Incoming> in,
+                                     std::size_t largest_piece) const {
   std::vector<MPI_Request> requests;
-  for (std::size_t r = 0; r < ranks; ++r) {
-    received[r].resize(static_cast<std::size_t>(receive_counts[r]));
-    if (receive_counts[r] == 0) continue;
-    MPI_Irecv(received[r].data(), receive_counts[r], MPI_BYTE, static_cast<int>(r), 1, comm_,
-              &requests.emplace_back());
+  for (const Incoming& message : in) {
+    for_pieces(message.bytes.size(), largest_piece, [&](std::size_t begin, int length) {
+      MPI_Irecv(message.bytes.data() + begin, length, MPI_BYTE, message.from, 1, comm_,
+                &requests.emplace_back());
+    });
   }
-  for (std::size_t r = 0; r < ranks; ++r) {
-    if (send_counts[r] == 0) continue;
-    MPI_Isend(to_rank[r].data(), send_counts[r], MPI_BYTE, static_cast<int>(r), 1, comm_,
-              &requests.emplace_back());
+  for (const Outgoing& message : out) {
+    for_pieces(message.bytes.size(), largest_piece, [&](std::size_t begin, int length) {
+      MPI_Isend(message.bytes.data() + begin, length, MPI_BYTE, message.to, 1, comm_,
+                &requests.emplace_back());
+    });
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-  return received;
 }
 
 void Communicator::send_bytes(std::span<const std::byte> bytes, int to) const {
   const std::uint64_t size = bytes.size();
   MPI_Send(&size, 1, MPI_UINT64_T, to, 2, comm_);
-  for (std::size_t begin = 0; begin < size; begin += largest_message) {
-    MPI_Send(bytes.data() + begin, count_of(std::min(largest_message, size - begin)), MPI_BYTE, to, 3, comm_);
-  }
+  for_pieces(bytes.size(), largest_message, [&](std::size_t begin, int length) {
+    MPI_Send(bytes.data() + begin, length, MPI_BYTE, to, 3, comm_);
+  });
 }
 
 std::vector<std::byte> Communicator::receive_bytes(int from) const {
   std::uint64_t size = 0;
   MPI_Recv(&size, 1, MPI_UINT64_T, from, 2, comm_, MPI_STATUS_IGNORE);
   std::vector<std::byte> bytes(size);
-  for (std::size_t begin = 0; begin < size; begin += largest_message) {
-    MPI_Recv(bytes.data() + begin, count_of(std::min(largest_message, size - begin)), MPI_BYTE, from, 3,
-             comm_, MPI_STATUS_IGNORE);
-  }
+  for_pieces(bytes.size(), largest_message, [&](std::size_t begin, int length) {
+    MPI_Recv(bytes.data() + begin, length, MPI_BYTE, from, 3, comm_, MPI_STATUS_IGNORE);
+  });
   return bytes;
 }
 
@@ -169,14 +175,23 @@ void Communicator::together(const std::function<void()>& local) const {
   }
   const auto failed_rank = minimum(std::int64_t{status == ExitStatus::done ? size_ : rank_});
   if (failed_rank == size_) return;
-  std::vector<char> text(message.begin(), message.end());
-  std::vector<std::vector<char>> to_rank(static_cast<std::size_t>(size_));
-  if (rank_ == failed_rank) {
-    text.insert(text.begin(), static_cast<char>(status));
-    for (auto& copy : to_rank) copy = text;
-  }
-  const std::vector<char> agreed = exchange(to_rank)[static_cast<std::size_t>(failed_rank)];
+  message.insert(message.begin(), static_cast<char>(status));
+  std::vector<char> agreed(message.begin(), message.end());
+  broadcast(agreed, static_cast<int>(failed_rank));
   rethrow(static_cast<ExitStatus>(agreed.front()), std::string(agreed.begin() + 1, agreed.end()));
+}
+
+std::vector<std::string> broadcast_words(const Communicator& comm, const std::vector<std::string>& words) {
+  std::vector<char> text;
+  for (const std::string& word : words) text.insert(text.end(), word.c_str(), word.c_str() + word.size() + 1);
+  comm.broadcast(text);
+  std::vector<std::string> shared;
+  for (auto at = text.begin(); at != text.end();) {
+    const auto end = std::find(at, text.end(), '\0');
+    shared.emplace_back(at, end);
+    at = end + 1;
+  }
+  return shared;
 }
 
 }  // namespace quadloop

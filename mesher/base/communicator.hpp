@@ -2,9 +2,11 @@
 
 #include <mpi.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -15,6 +17,9 @@ namespace quadloop {
 /// trivially copyable values. There is no floating-point sum: its result would depend on the number of ranks.
 class Communicator {
  public:
+  /// In bytes. MPI counts are 32-bit: longer data go in pieces.
+  static constexpr std::size_t largest_message = std::size_t{1} << 30;
+
   explicit Communicator(MPI_Comm to_duplicate);
   ~Communicator();
   Communicator(const Communicator&) = delete;
@@ -47,13 +52,25 @@ class Communicator {
   template <class T>
   std::vector<T> all_gather_values(std::span<const T> values) const;
 
-  /// The root's values on every rank.
+  /// The values of rank `from` on every rank.
   template <class T>
-  void broadcast(std::vector<T>& values) const;
+  void broadcast(std::vector<T>& values, int from = 0) const;
 
-  /// `to_rank[r]` goes to rank r; the result's entry r came from rank r.
-  template <class T>
-  std::vector<std::vector<T>> exchange(const std::vector<std::vector<T>>& to_rank) const;
+  /// One number for each rank; the result's entry r came from rank r.
+  std::vector<std::int64_t> exchange_counts(const std::vector<std::int64_t>& to_rank) const;
+
+  struct Outgoing {
+    int to;
+    std::span<const std::byte> bytes;
+  };
+  struct Incoming {
+    int from;
+    std::span<std::byte> bytes;  ///< room for them
+  };
+  /// Point to point, entered by the ranks named alone, self included: each expects one message of just that
+  /// length from those that send to it. Any length: it goes in pieces of at most `largest_piece` bytes.
+  void exchange_messages(std::span<const Outgoing> out, std::span<const Incoming> in,
+                         std::size_t largest_piece = largest_message) const;
 
   /// Point to point, not collective: sends to, receives from one rank. Any length.
   void send_bytes(std::span<const std::byte> bytes, int to) const;
@@ -64,14 +81,15 @@ class Communicator {
 
  private:
   std::vector<std::byte> all_gather_bytes(std::span<const std::byte> bytes) const;
-  void broadcast_bytes(std::vector<std::byte>& bytes) const;
-  std::vector<std::vector<std::byte>> exchange_bytes(
-      const std::vector<std::span<const std::byte>>& to_rank) const;
+  void broadcast_bytes(std::vector<std::byte>& bytes, int from) const;
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;
 };
+
+/// The root's words on every rank; none holds a zero byte. *Collective.*
+std::vector<std::string> broadcast_words(const Communicator& comm, const std::vector<std::string>& words);
 
 namespace detail {
 

@@ -27,21 +27,11 @@ std::vector<T> Communicator::all_gather_values(std::span<const T> values) const 
 }
 
 template <class T>
-void Communicator::broadcast(std::vector<T>& values) const {
+void Communicator::broadcast(std::vector<T>& values, int from) const {
   const auto view = std::as_bytes(std::span<const T>(values));
   std::vector<std::byte> bytes(view.begin(), view.end());
-  broadcast_bytes(bytes);
+  broadcast_bytes(bytes, from);
   values = detail::from_bytes<T>(bytes);
-}
-
-template <class T>
-std::vector<std::vector<T>> Communicator::exchange(const std::vector<std::vector<T>>& to_rank) const {
-  std::vector<std::span<const std::byte>> views;
-  views.reserve(to_rank.size());
-  for (const auto& values : to_rank) views.push_back(std::as_bytes(std::span<const T>(values)));
-  std::vector<std::vector<T>> received;
-  for (const auto& bytes : exchange_bytes(views)) received.push_back(detail::from_bytes<T>(bytes));
-  return received;
 }
 
 }  // namespace quadloop

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -31,5 +35,14 @@ using VertexId = Id<struct VertexTag, std::int32_t>;  ///< a point of the geomet
 using SegmentId =
     Id<struct SegmentTag, std::int32_t>;  ///< a segment of the geometry (replicated on all ranks)
 using BoundaryId = Id<struct BoundaryTag, std::int32_t>;  ///< a named boundary
+
+/// How many entries a list has, as ids on one rank count them: 32 bits. More are refused before a number
+/// wraps.
+template <class List>
+constexpr std::int32_t size32(const List& list) {
+  const std::size_t size = list.size();
+  QUADLOOP_REQUIRE(size <= std::numeric_limits<std::int32_t>::max(), "more entries than ids on one rank");
+  return static_cast<std::int32_t>(size);
+}
 
 }  // namespace quadloop

@@ -2,6 +2,7 @@
 
 #include "mesher/base/progress.hpp"
 #include "mesher/build/number_nodes.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 
 namespace quadloop {
 
@@ -17,7 +18,7 @@ class Assembler {
   }
 
   void add(std::int32_t leaf) {
-    const auto local = static_cast<std::size_t>(leaf - graph_.local_begin());
+    const std::size_t local = leaf - graph_.local_begin();
     if (cut_.states[local] == CutForest::State::inside) add_inside(leaf);
     if (cut_.states[local] == CutForest::State::cut)
       add_cut(leaf, static_cast<std::size_t>(cut_.entry_of[local]));
@@ -25,13 +26,14 @@ class Assembler {
 
  private:
   void add_inside(std::int32_t leaf) {
-    const unsigned finer = graph_.around(leaf).finer;
-    const auto node = [&](std::int32_t place) { return numbers_.of_leaf(leaf, place); };
-    if (finer == 0) {
-      mesh_.quads.push_back({node(0), node(1), node(2), node(3)});
+    const SideSet hanging = graph_.around(leaf).finer;
+    const auto node = [&](Site site) { return numbers_.of_leaf(leaf, site); };
+    if (hanging.empty()) {
+      mesh_.quads.push_back(
+          {node(Site::south_west), node(Site::south_east), node(Site::north_east), node(Site::north_west)});
       return;
     }
-    for (const auto& t : hanging_template(finer))
+    for (const SiteTriangle& t : hanging_template(hanging))
       mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
   }
 
@@ -46,8 +48,7 @@ class Assembler {
     }
     for (const auto& e : CutForest::part(cut_.outline, begin.outline, end.outline)) {
       const BoundaryId boundary = geometry_.boundary_of(e.segment);
-      mesh_.boundaries[static_cast<std::size_t>(boundary.value())].edges.push_back(
-          {node(e.from), node(e.to)});
+      mesh_.boundaries[boundary.value()].edges.push_back({node(e.from), node(e.to)});
     }
   }
 
@@ -72,7 +73,7 @@ LeafRecord record_of(const Quadrant& q, int wanted) {
 
 }  // namespace
 
-void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree& sizes,
+void assemble_mesh(const Communicator& comm, const Geometry& geometry, const SizeTree& sizes,
                    const LeafGraph& graph, const CutForest& cut, MeshResult& result) {
   NodeNumbering numbers(comm, sizes.lattice(), graph, cut);
   Mesh& mesh = result.mesh;
@@ -80,6 +81,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree&
   mesh.triangles.reserve(cut.states.size() / 2 + cut.triangles.size());
   Assembler assembler(geometry, graph, cut, numbers, mesh);
   DemandPath demands(sizes.demanded());
+  SizeCursor cursor(sizes);
   auto& leaves = result.tree.leaves;
   leaves.reserve(cut.states.size());
   progress::Stage stage("cells", graph.local_end() - graph.local_begin(), "leaves");
@@ -87,7 +89,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree&
     stage.advance(leaf - graph.local_begin());
     const auto triangles = mesh.triangles.size(), quads = mesh.quads.size();
     assembler.add(leaf);
-    LeafRecord record = record_of(graph.leaf(leaf), sizes.wanted_level(graph.leaf(leaf)));
+    LeafRecord record = record_of(graph.leaf(leaf), cursor.wanted_level(graph.leaf(leaf)));
     record.triangles = static_cast<std::int32_t>(mesh.triangles.size() - triangles);
     record.quads = static_cast<std::int32_t>(mesh.quads.size() - quads);
     record.adapted = demands.levels_above(graph.leaf(leaf));

@@ -6,7 +6,7 @@
 namespace quadloop {
 
 /// The distributed mesh and the tree record from the cut forest. *Collective.*
-void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree& sizes,
+void assemble_mesh(const Communicator& comm, const Geometry& geometry, const SizeTree& sizes,
                    const LeafGraph& graph, const CutForest& cut, MeshResult& result);
 
 }  // namespace quadloop

@@ -9,11 +9,11 @@
 #include "mesher/base/progress.hpp"
 #include "mesher/build/assemble_mesh.hpp"
 #include "mesher/build/islands.hpp"
-#include "mesher/build/lattice_rank.hpp"
 #include "mesher/build/make_delaunay.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
+#include "mesher/cut/lattice_rank.hpp"
 #include "mesher/forest/refine_forest.hpp"
 
 namespace quadloop {
@@ -26,7 +26,7 @@ void report_tree(const Communicator& comm, const LeafGraph& graph, const CutFore
     coarsest = std::min<std::int64_t>(coarsest, graph.leaf(leaf).level);
     finest = std::max<std::int64_t>(finest, graph.leaf(leaf).level);
   }
-  const auto leaves = static_cast<std::int64_t>(cut.states.size());
+  const auto leaves = std::ssize(cut.states);
   const auto cut_leaves =
       static_cast<std::int64_t>(std::count(cut.states.begin(), cut.states.end(), CutForest::State::cut));
   report.leaves = comm.sum(leaves);
@@ -49,8 +49,8 @@ void describe_tree(const Communicator& comm, const Geometry& geometry, const Lat
   a.gradation = options.size.gradation;
   a.geometry_digest = geometry.digest();
   a.nodes = comm.sum(result.mesh.owned_nodes);
-  a.triangles = comm.sum(static_cast<std::int64_t>(result.mesh.triangles.size()));
-  a.quads = comm.sum(static_cast<std::int64_t>(result.mesh.quads.size()));
+  a.triangles = comm.sum(std::ssize(result.mesh.triangles));
+  a.quads = comm.sum(std::ssize(result.mesh.quads));
 }
 
 /// Of a large mesh that is the first of its run it is worth a line.
@@ -77,7 +77,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
                     fmt::format("is smaller than spacing.min = {}", options.size.min));
   }
   SizedDomain domain(geometry, options.size, demanded);
-  SizeTree& sizes = domain.sizes;
+  const SizeTree& sizes = domain.sizes;
   result.report.finest_allowed = sizes.finest_level();
 
   times.begin("estimate");

@@ -7,11 +7,11 @@
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/forest/demanded_splits.hpp"
-#include "mesher/forest/size_options.hpp"
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/lattice/size_options.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
+#include "mesher/sizes/demanded_splits.hpp"
 
 namespace quadloop {
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/build/outline_losses.hpp"
 
 namespace quadloop {
@@ -21,12 +22,12 @@ Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
   std::vector<std::int32_t> starts{0};
   std::vector<BoundaryId> segment_boundary;
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
-    if (keep[static_cast<std::size_t>(loop)] == 0) continue;
+    if (keep[loop] == 0) continue;
     for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
       points.push_back(g.point(v));
       segment_boundary.push_back(g.boundary_of(v));
     }
-    starts.push_back(static_cast<std::int32_t>(points.size()));
+    starts.push_back(size32(points));
   }
   return {{g.boundaries().begin(), g.boundaries().end()},
           std::move(points),
@@ -37,7 +38,7 @@ Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
 /// In the order of the geometry.
 std::vector<std::string> names_without_segments(const Geometry& g) {
   std::vector<char> found(g.boundaries().size(), 0);
-  for (std::int32_t s = 0; s < g.size(); ++s) found[static_cast<std::size_t>(g.boundary_of(s).value())] = 1;
+  for (std::int32_t s = 0; s < g.size(); ++s) found[g.boundary_of(s).value()] = 1;
   std::vector<std::string> names;
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (found[b] == 0) names.push_back(g.boundaries()[b].name);
@@ -48,12 +49,11 @@ std::vector<std::string> names_without_segments(const Geometry& g) {
 }  // namespace
 
 Geometry without_small_islands(const Geometry& g, double min, MeshReport& report) {
-  std::vector<char> keep(static_cast<std::size_t>(g.loop_count()), 1);
+  std::vector<char> keep(g.loop_count(), 1);
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     const Box box = box_of_loop(g, loop);
     if (box.width() >= min || box.height() >= min) continue;
-    keep[static_cast<std::size_t>(loop)] =
-        0;  // loops nested in it are smaller still, so they go by the same rule
+    keep[loop] = 0;  // loops nested in it are smaller still, so they go by the same rule
     ++report.islands_dropped;
     report.area_dropped += area_of_loop(g, loop);
     std::ostringstream line;

@@ -11,9 +11,9 @@ namespace quadloop {
 /// the number of ranks. *Collective.*
 ///
 /// In a leaf that is not cut, nor any around it, the hybrid cells are constrained Delaunay already but for
-/// the diagonals of squares: no circumcircle reaches beyond the leaves that touch. The others are
-/// triangulated on every rank that has some of them, with as many rings of those around them as it takes
-/// until nothing farther off can matter; the triangulation being unique, all ranks find the same.
+/// the diagonals of squares: no circumcircle reaches beyond the leaves that touch. Of the others' triangles,
+/// edges that are not Delaunay are flipped wherever that leads; the result being unique, no rank needs to
+/// know where others began.
 void make_delaunay(const Communicator& comm, const Lattice& lattice, int finest_level, const LeafGraph& graph,
                    const CutForest& cut, Mesh& mesh, std::vector<LeafRecord>& leaves);
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "mesher/build/islands.hpp"
-#include "mesher/forest/leaf_estimate.hpp"
+#include "mesher/sizes/leaf_estimate.hpp"
 
 namespace quadloop {
 

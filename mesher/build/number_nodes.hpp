@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesher/base/exchange.hpp"
 #include "mesher/cut/cut_forest.hpp"
 #include "mesher/mesh/mesh.hpp"
 
@@ -14,8 +15,8 @@ class NodeNumbering {
   NodeNumbering(const Communicator& comm, const Lattice& lattice, const LeafGraph& graph,
                 const CutForest& cut);
 
-  /// The node at a place (0 to 7, as CutLeaf::Node::place) of an inside leaf.
-  NodeId of_leaf(std::int32_t leaf, int place) const;
+  /// The node at a lattice site of an inside leaf.
+  NodeId of_leaf(std::int32_t leaf, Site site) const;
   /// A node of a cut leaf, from its number in CutForest::nodes.
   NodeId of_cut(std::int32_t leaf, std::int32_t node) const;
 
@@ -23,38 +24,30 @@ class NodeNumbering {
   void fill(Mesh& mesh) &&;
 
  private:
-  /// Where a leaf keeps a node that it owns: at one of its corners, in the middle of its right or top side,
-  /// or in its list of cut nodes. Corners other than the upper right one only on the root's lower and left
-  /// side, where there is no leaf before it.
-  enum Slot : std::int32_t {
-    south_west,
-    south_east,
-    north_west,
-    north_east,
-    right_middle,
-    top_middle,
-    listed,
-    slot_count
-  };
+  /// The leaf that owns a node, and where it has it: at one of its corners, in the middle of its right or top
+  /// side, or inside: in its list of cut nodes. Corners other than the upper right one only on the root's
+  /// lower and left side, where there is no leaf before it.
   struct Home {
     std::int32_t leaf = -1;
-    Slot slot = north_east;
+    Site site = Site::north_east;
     Point position;  ///< names a listed node
   };
   struct Request {
+    int rank = 0;
     std::int32_t leaf = 0;  ///< counted from the owner's first leaf
-    std::int32_t slot = 0;
+    Site site = Site::north_east;
     Point position;
     friend auto operator<=>(const Request&, const Request&) = default;
   };
 
-  Home home_of_place(std::int32_t leaf, int place) const;
+  Home home_of_site(std::int32_t leaf, Site site) const;
   Home home_of_cut_node(std::int32_t leaf, const CutLeaf::Node& node) const;
-  Home corner_home(std::int32_t owner, std::int64_t x, std::int64_t y) const;
-  std::int32_t* local_slot(const Home& home);
-  const std::int32_t* local_slot(const Home& home) const {
-    return const_cast<NodeNumbering*>(this)->local_slot(home);
-  }
+  Home corner_home(std::int32_t owner, LatticePoint p) const;
+  std::size_t slot_of(const Home& home) const;
+  std::size_t border_slot(std::size_t border_leaf) const { return 3 * (cut_->states.size() + border_leaf); }
+  std::size_t listed_slot(std::int32_t node) const;
+  /// The slot of a local node.
+  std::int32_t& slot_at(const Home& home) { return slots_[slot_of(home)]; }
   std::int32_t listed_node(std::int32_t leaf, Point position) const;
   NodeId find(const Home& home) const;
 
@@ -62,27 +55,27 @@ class NodeNumbering {
   void mark_used();
   void mark_inside(std::int32_t leaf);
   bool marks_its_own(std::int32_t leaf) const;
-  void exchange_marks(const Communicator& comm);
+  std::vector<int> ranks_wanted();
+  Home home_of(const Request& asked) const {
+    return {graph_->from_local(asked.leaf), asked.site, asked.position};
+  }
   void number_owned();
   void place_moved();
-  void number_slot(std::int32_t& slot, Point position);
-  void exchange_numbers(const Communicator& comm);
-  int rank_of(const Home& home) const { return graph_->place_of(home.leaf).rank; }
+  void number_slot(std::size_t slot, Point position);
+  void fetch_copies(const Exchange& exchange, const std::vector<Request>& asked);
   Request request_of(const Home& home) const {
-    return {graph_->place_of(home.leaf).index, home.slot, home.slot == listed ? home.position : Point{}};
+    const LeafGraph::Place place = graph_->place_of(home.leaf);
+    return {place.rank, place.index, home.site, home.site == Site::inside ? home.position : Point{}};
   }
 
   const Lattice* lattice_;
   const LeafGraph* graph_;
   const CutForest* cut_;
-  std::vector<std::array<std::int32_t, 3>>
-      inner_slots_;  ///< of each local leaf: north east, right middle, top middle
-  std::vector<std::pair<std::int32_t, std::array<std::int32_t, 3>>>
-      border_slots_;                          ///< of leaves on the root's lower or left side, by leaf
-  std::vector<std::int32_t> listed_slots_;    ///< of each of CutForest::nodes
-  std::vector<std::vector<Request>> wanted_;  ///< from each rank, sorted
-  std::vector<std::vector<Request>> asked_;   ///< by each rank
-  std::vector<std::vector<std::int32_t>> wanted_nodes_;  ///< numbers here of what was wanted
+  std::vector<std::int32_t> border_leaves_;  ///< on the root's lower or left side, in ascending order
+  /// The nodes' numbers: three slots for each local leaf, three for each border leaf, one for each of
+  /// CutForest::nodes.
+  std::vector<std::int32_t> slots_;
+  std::vector<Request> wanted_;  ///< from other ranks, sorted: the copies
   std::vector<Point> points_;
   std::int64_t first_node_ = 0;
   std::int32_t owned_ = 0;

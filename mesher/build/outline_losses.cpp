@@ -23,8 +23,7 @@ std::vector<char> seen_anywhere(const Communicator& comm, const std::vector<char
     if (here[i] != 0) ids.push_back(static_cast<std::int32_t>(i));
   }
   std::vector<char> seen(here.size(), 0);
-  for (const std::int32_t i : comm.all_gather_values<std::int32_t>(ids))
-    seen[static_cast<std::size_t>(i)] = 1;
+  for (const std::int32_t i : comm.all_gather_values<std::int32_t>(ids)) seen[i] = 1;
   return seen;
 }
 
@@ -40,19 +39,19 @@ std::map<Point, std::int32_t> kept_vertices(const Geometry& geometry) {
 void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, const Mesh& mesh,
                           MeshReport& report) {
   const std::map<Point, std::int32_t> kept = kept_vertices(geometry);
-  std::vector<char> is_node(static_cast<std::size_t>(geometry.size()), 0);
+  std::vector<char> is_node(geometry.size(), 0);
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     for (const auto& edge : boundary.edges) {
       for (const NodeId node : edge) {
         const auto at = kept.find(mesh.point(node));
-        if (at != kept.end()) is_node[static_cast<std::size_t>(at->second)] = 1;
+        if (at != kept.end()) is_node[at->second] = 1;
       }
     }
   }
   is_node = seen_anywhere(comm, is_node);
   std::int32_t first = -1;
   for (std::int32_t v = geometry.size() - 1; v >= 0; --v) {
-    if (!geometry.kept(v) || is_node[static_cast<std::size_t>(v)] != 0) continue;
+    if (!geometry.kept(v) || is_node[v] != 0) continue;
     ++report.corners_lost;
     first = v;
   }
@@ -90,7 +89,7 @@ std::vector<std::vector<double>> shares_of_area(const Mesh& mesh, Point centre) 
 std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
   std::vector<double> shares(geometry.boundaries().size(), 0);
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
-    shares[static_cast<std::size_t>(geometry.boundary_of(s).value())] +=
+    shares[geometry.boundary_of(s).value()] +=
         cross(geometry.point(s) - centre, geometry.point(geometry.next(s)) - centre);
   }
   return shares;

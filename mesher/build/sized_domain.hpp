@@ -1,8 +1,8 @@
 #pragma once
 
 #include "mesher/cut/cut_forest.hpp"
-#include "mesher/forest/size_tree.hpp"
-#include "mesher/geometry/inside_test.hpp"
+#include "mesher/geometry/interior.hpp"
+#include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
 
@@ -24,7 +24,7 @@ struct SizedDomain {
 
   Lattice lattice;
   ShiftedOutline outline;
-  InsideTest inside;
+  Interior inside;
   ResolutionTest resolution;
   SizeTree sizes;
 };

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesher/geometry/predicates.hpp"
+#include "mesher/delaunay/flipper.hpp"
 #include "mesher/mesh/check/quality.hpp"
 
 namespace quadloop {
@@ -13,43 +13,35 @@ using Corners = std::array<Point, 4>;
 
 bool is_parallelogram(const Corners& p) { return skew_of(p) <= parallel_skew; }
 
-/// By the plain products in doubles that every reader of the mesh will use, at each corner.
-bool is_positive(Point a, Point b, Point c) {
-  return cross(b - a, c - a) > 0 && cross(c - b, a - b) > 0 && cross(a - c, b - c) > 0;
-}
-
 /// Whether the diagonal from the first corner to the third divides the quadrilateral, and not the other one.
 bool takes_first_diagonal(const Corners& p, const std::function<TieRank(Point)>& rank) {
-  if (!is_positive(p[0], p[1], p[2]) || !is_positive(p[0], p[2], p[3])) return false;
-  if (!is_positive(p[0], p[1], p[3]) || !is_positive(p[1], p[2], p[3])) return true;
-  const int inside = in_circle(p[0], p[1], p[2], p[3]);
-  if (inside != 0) return inside < 0;
-  return std::max(rank(p[0]), rank(p[2])) > std::max(rank(p[1]), rank(p[3]));
+  return is_positive(p[0], p[1], p[2]) && is_positive(p[0], p[2], p[3]) &&
+         !should_flip(p[0], p[2], p[3], p[1], [&](std::size_t k) {
+           const std::array<std::size_t, 4> corners{0, 2, 3, 1};
+           return rank(p[corners[k]]);
+         });
 }
 
 }  // namespace
 
-void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
-                      const std::function<TieRank(Point)>& rank) {
+void split_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
+                 const std::function<Diagonal(std::size_t, const std::array<NodeId, 4>&)>& choose) {
   std::vector<std::array<NodeId, 3>> triangles;
   std::vector<std::array<NodeId, 4>> quads;
   triangles.reserve(mesh.triangles.size() + mesh.triangles.size() / 4);
-  quads.reserve(mesh.quads.size());
   auto triangle = mesh.triangles.cbegin();
   auto quad = mesh.quads.cbegin();
-  for (LeafRecord& leaf : leaves) {
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    LeafRecord& leaf = leaves[i];
     const std::size_t triangles_before = triangles.size(), quads_before = quads.size();
     triangles.insert(triangles.end(), triangle, triangle + leaf.triangles);
     triangle += leaf.triangles;
     for (const auto end = quad + leaf.quads; quad != end; ++quad) {
       const auto& [a, b, c, d] = *quad;
-      const Corners corners{mesh.point(a), mesh.point(b), mesh.point(c), mesh.point(d)};
-      if (is_parallelogram(corners)) {
-        quads.push_back(*quad);
-      } else if (takes_first_diagonal(corners, rank)) {
-        triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
-      } else {
-        triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}});
+      switch (choose(i, *quad)) {
+        case Diagonal::none: quads.push_back(*quad); break;
+        case Diagonal::first: triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}}); break;
+        case Diagonal::second: triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}}); break;
       }
     }
     leaf.triangles = static_cast<std::int32_t>(triangles.size() - triangles_before);
@@ -57,6 +49,15 @@ void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
   }
   mesh.triangles = std::move(triangles);
   mesh.quads = std::move(quads);
+}
+
+void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
+                      const std::function<TieRank(Point)>& rank) {
+  split_quads(mesh, leaves, [&](std::size_t, const std::array<NodeId, 4>& quad) {
+    const Corners corners{mesh.point(quad[0]), mesh.point(quad[1]), mesh.point(quad[2]), mesh.point(quad[3])};
+    if (is_parallelogram(corners)) return Diagonal::none;
+    return takes_first_diagonal(corners, rank) ? Diagonal::first : Diagonal::second;
+  });
 }
 
 }  // namespace quadloop

@@ -4,8 +4,11 @@
 #include <sstream>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/base/progress.hpp"
 #include "mesher/cut/opposed_chords.hpp"
+#include "mesher/sizes/size_cursor.hpp"
+#include "mesher/snap/snap_corners.hpp"
 
 namespace quadloop {
 
@@ -18,20 +21,14 @@ Point centre_of(const Lattice& lattice, const Quadrant& q) {
 /// Cells with a smaller angle are shaped by rounding: another way to cut the leaf is looked for first.
 constexpr double thinnest_sine = 1e-11;
 
-/// A corner whose snap is taken back.
-struct Veto {
-  std::int64_t x = 0, y = 0;
-  friend auto operator<=>(const Veto&, const Veto&) = default;
-};
-
-TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline) {
+TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const ShiftedOutline& outline) {
   TracedForest traced;
-  traced.trace_of.assign(static_cast<std::size_t>(graph.size()), -1);
+  SizeCursor cursor(sizes);
+  traced.trace_of.assign(graph.size(), -1);
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const auto segments = sizes.segments_in(graph.leaf(leaf));
+    const auto segments = cursor.segments_in(graph.leaf(leaf));
     if (!segments.empty())
-      traced.trace_of[static_cast<std::size_t>(leaf)] =
-          traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
+      traced.trace_of[leaf] = traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
   }
   return traced;
 }
@@ -39,14 +36,14 @@ TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const Shifted
 class ForestCutter {
  public:
   ForestCutter(const LeafGraph& graph, const Lattice& lattice, const ShiftedOutline& outline,
-               const InsideTest& inside, const TracedForest& traced)
+               const Interior& inside, const TracedForest& traced)
       : graph_{graph},
         lattice_{lattice},
         outline_{outline},
         inside_{inside},
         traced_{traced},
         cutter_{outline, inside} {
-    const auto count = static_cast<std::size_t>(graph.local_end() - graph.local_begin());
+    const std::size_t count = graph.local_end() - graph.local_begin();
     result_.states.resize(count);
     result_.entry_of.assign(count, -1);
   }
@@ -68,21 +65,21 @@ class ForestCutter {
   }
 
   /// Cuts again the leaves around the corners whose snaps were taken back.
-  void cut_again(const std::vector<LeafSnap>& snaps, const std::vector<Veto>& vetoes) {
+  void cut_again(const std::vector<LeafSnap>& snaps, const std::vector<LatticePoint>& vetoes) {
     std::vector<std::int32_t> leaves;
-    for (const Veto& v : vetoes) {
-      for (const auto& [dx, dy] : {std::pair{-1, -1}, {0, -1}, {-1, 0}, {0, 0}})
-        leaves.push_back(graph_.leaf_at(v.x + dx, v.y + dy));
+    for (const LatticePoint corner : vetoes) {
+      const auto round = graph_.leaves_round(corner);
+      leaves.insert(leaves.end(), round.begin(), round.end());
     }
     std::sort(leaves.begin(), leaves.end());
     leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
     for (const std::int32_t leaf : leaves) {
       if (!graph_.is_local(leaf)) continue;
       const auto [first, last] =
-          std::equal_range(snaps.begin(), snaps.end(), LeafSnap{leaf, 0, nullptr},
+          std::equal_range(snaps.begin(), snaps.end(), LeafSnap{leaf, {}, nullptr},
                            [](const LeafSnap& a, const LeafSnap& b) { return a.leaf < b.leaf; });
       if (trace_of(leaf) < 0 && entry_of(leaf) >= 0) {
-        const bool inside = result_.entries[static_cast<std::size_t>(entry_of(leaf))].half_inside != 0;
+        const bool inside = result_.entries[entry_of(leaf)].inside_halves.any();
         state(leaf) = inside ? CutForest::State::inside : CutForest::State::outside;
         entry_of(leaf) = -1;
       }
@@ -96,19 +93,19 @@ class ForestCutter {
     const OpposedChords opposed(comm, graph_, result_);
     for (const Point p : opposed.ends()) {
       for (const Snap& s : snaps) {
-        if (s.position == p) vetoes_.push_back({s.x, s.y});
+        if (s.position == p) vetoes_.push_back(s.corner);
       }
     }
   }
 
-  std::vector<Veto> take_vetoes() { return std::exchange(vetoes_, {}); }
+  std::vector<LatticePoint> take_vetoes() { return std::exchange(vetoes_, {}); }
   CutForest take_result() { return std::move(result_); }
 
  private:
   std::size_t local(std::int32_t leaf) const { return static_cast<std::size_t>(leaf - graph_.local_begin()); }
   CutForest::State& state(std::int32_t leaf) { return result_.states[local(leaf)]; }
   std::int32_t& entry_of(std::int32_t leaf) { return result_.entry_of[local(leaf)]; }
-  std::int32_t trace_of(std::int32_t leaf) const { return traced_.trace_of[static_cast<std::size_t>(leaf)]; }
+  std::int32_t trace_of(std::int32_t leaf) const { return traced_.trace_of[leaf]; }
 
   void cut(std::int32_t leaf, std::span<const LeafSnap> snaps) {
     const Quadrant& q = graph_.leaf(leaf);
@@ -125,7 +122,7 @@ class ForestCutter {
     };
     if (!done(Detail::merged)) {
       if (!snaps.empty()) {
-        for (const LeafSnap& s : snaps) vetoes_.push_back({s.snap->x, s.snap->y});
+        for (const LeafSnap& s : snaps) vetoes_.push_back(s.snap->corner);
         return;
       }
       if (!done(Detail::full) && !done(Detail::exact)) refuse(input.trace);
@@ -137,21 +134,19 @@ class ForestCutter {
   }
 
   CutForest::Mark mark() const {
-    return {
-        static_cast<std::int32_t>(result_.nodes.size()), static_cast<std::int32_t>(result_.triangles.size()),
-        static_cast<std::int32_t>(result_.quads.size()), static_cast<std::int32_t>(result_.outline.size())};
+    return {size32(result_.nodes), size32(result_.triangles), size32(result_.quads), size32(result_.outline)};
   }
 
   void store(std::int32_t leaf) {
     const CutLeaf& made = cutter_.result();
-    CutForest::Entry entry{mark(), {}, made.half_inside};
+    CutForest::Entry entry{mark(), {}, made.inside_halves};
     result_.nodes.insert(result_.nodes.end(), made.nodes.begin(), made.nodes.end());
     result_.triangles.insert(result_.triangles.end(), cells_.triangles.begin(), cells_.triangles.end());
     result_.quads.insert(result_.quads.end(), cells_.quads.begin(), cells_.quads.end());
     result_.outline.insert(result_.outline.end(), made.outline.begin(), made.outline.end());
     entry.end = mark();
     state(leaf) = CutForest::State::cut;
-    entry_of(leaf) = static_cast<std::int32_t>(result_.entries.size());
+    entry_of(leaf) = size32(result_.entries);
     result_.entries.push_back(entry);
   }
 
@@ -165,20 +160,20 @@ class ForestCutter {
     };
     if (known(around.west)) {
       const Quadrant& west = graph_.leaf(around.west);
-      return side_inside(around.west, LeafGraph::right, west.level < q.level && q.y != west.y);
+      return side_inside(around.west, Side::right, west.level < q.level && q.y != west.y);
     }
     if (known(around.south)) {
       const Quadrant& south = graph_.leaf(around.south);
-      return side_inside(around.south, LeafGraph::top, south.level < q.level && q.x == south.x);
+      return side_inside(around.south, Side::top, south.level < q.level && q.x == south.x);
     }
     return inside_.contains(centre_of(lattice_, q));
   }
 
   /// Whether a half of a side, counter-clockwise, of a leaf that was dealt with lies inside.
-  bool side_inside(std::int32_t leaf, int side, bool second_half) {
+  bool side_inside(std::int32_t leaf, Side side, bool second_half) {
     if (state(leaf) != CutForest::State::cut) return state(leaf) == CutForest::State::inside;
-    const std::uint8_t halves = result_.entries[static_cast<std::size_t>(entry_of(leaf))].half_inside;
-    return ((halves >> (2 * side + (second_half ? 1 : 0))) & 1) != 0;
+    const auto& halves = result_.entries[entry_of(leaf)].inside_halves;
+    return (second_half ? halves.second : halves.first).contains(side);
   }
 
   [[noreturn]] void refuse(const LeafTrace& trace) const {
@@ -197,19 +192,19 @@ class ForestCutter {
   const LeafGraph& graph_;
   const Lattice& lattice_;
   const ShiftedOutline& outline_;
-  const InsideTest& inside_;
+  const Interior& inside_;
   const TracedForest& traced_;
   LeafCutter cutter_;
   LeafCellMaker maker_;
   LeafCells cells_;
   CutForest result_;
-  std::vector<Veto> vetoes_;
+  std::vector<LatticePoint> vetoes_;
 };
 
 }  // namespace
 
-CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
-                     const ShiftedOutline& outline, const InsideTest& inside, double snap) {
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
+                     const ShiftedOutline& outline, const Interior& inside, double snap) {
   const TracedForest traced = trace_forest(graph, sizes, outline);
   std::vector<Snap> snaps = choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap);
   std::vector<LeafSnap> leaf_snaps = snaps_of_leaves(graph, snaps);
@@ -217,20 +212,19 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
   comm.together([&] { cutter.cut_all(leaf_snaps); });
   while (true) {
     cutter.veto_opposed_chords(comm, snaps);
-    const std::vector<Veto> own = cutter.take_vetoes();
-    std::vector<Veto> vetoes = comm.all_gather_values(std::span<const Veto>(own));
+    const std::vector<LatticePoint> own = cutter.take_vetoes();
+    std::vector<LatticePoint> vetoes = comm.all_gather_values(std::span<const LatticePoint>(own));
     if (vetoes.empty()) break;
     std::sort(vetoes.begin(), vetoes.end());
     vetoes.erase(std::unique(vetoes.begin(), vetoes.end()), vetoes.end());
-    std::erase_if(snaps, [&](const Snap& s) {
-      return std::binary_search(vetoes.begin(), vetoes.end(), Veto{s.x, s.y});
-    });
+    std::erase_if(snaps,
+                  [&](const Snap& s) { return std::binary_search(vetoes.begin(), vetoes.end(), s.corner); });
     leaf_snaps = snaps_of_leaves(graph, snaps);
     comm.together([&] { cutter.cut_again(leaf_snaps, vetoes); });
   }
   CutForest result = cutter.take_result();
   for (const Snap& s : snaps) {
-    if (!s.on_edge) result.moved.push_back({s.x, s.y, s.position});
+    if (!s.on_edge) result.moved.push_back({s.corner, s.position});
   }
   return result;
 }
@@ -238,7 +232,7 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
 bool ResolutionTest::unresolved(const Quadrant& q, std::span<const std::int32_t> segments) {
   traces_.clear();
   const LeafTrace trace = traces_[traces_.add(*outline_, lattice_->box_of(q), segments)];
-  const bool sound = cutter_.cut({trace, centre_of(*lattice_, q), 0, {}, {}}, Detail::merged);
+  const bool sound = cutter_.cut({trace, centre_of(*lattice_, q), {}, {}, {}}, Detail::merged);
   return !sound || cutter_.result().refined;
 }
 

@@ -3,7 +3,7 @@
 #include "mesher/base/communicator.hpp"
 #include "mesher/cut/leaf_cells.hpp"
 #include "mesher/forest/leaf_graph.hpp"
-#include "mesher/forest/size_tree.hpp"
+#include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
 
@@ -17,7 +17,7 @@ struct CutForest {
   };
   struct Entry {
     Mark begin, end;
-    std::uint8_t half_inside = 0;  ///< as CutLeaf::half_inside
+    CutLeaf::InsideHalves inside_halves;
   };
 
   std::vector<State> states;           ///< of each local leaf
@@ -29,7 +29,7 @@ struct CutForest {
   std::vector<CutLeaf::Edge> outline;
   /// Lattice corners that are not where the lattice has them; all of those at local leaves, and some others.
   struct Moved {
-    std::int64_t x = 0, y = 0;
+    LatticePoint corner;
     Point position;
   };
   std::vector<Moved> moved;
@@ -37,7 +37,7 @@ struct CutForest {
 
   template <class T>
   static std::span<const T> part(const std::vector<T>& all, std::int32_t begin, std::int32_t end) {
-    return std::span(all).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+    return std::span(all).subspan(begin, end - begin);
   }
 };
 
@@ -46,14 +46,14 @@ struct CutForest {
 /// taken back. *Collective.* Throws InputError on all ranks where boundaries come nearer to each other than
 /// double precision can resolve. `snap`: how near a crossing takes a lattice corner along, as a share of the
 /// local edge.
-CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
-                     const ShiftedOutline& outline, const InsideTest& inside, double snap);
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
+                     const ShiftedOutline& outline, const Interior& inside, double snap);
 
 /// Whether a leaf of this place needs to be refined to be cut: a whole loop inside it, chords that would
 /// cross, or that would stray too far from the outline.
 class ResolutionTest {
  public:
-  ResolutionTest(const Lattice& lattice, const ShiftedOutline& outline, const InsideTest& inside)
+  ResolutionTest(const Lattice& lattice, const ShiftedOutline& outline, const Interior& inside)
       : lattice_{&lattice}, outline_{&outline}, cutter_{outline, inside} {}
   bool unresolved(const Quadrant& q, std::span<const std::int32_t> segments);
 

@@ -6,20 +6,17 @@
 #include <span>
 #include <vector>
 
-#include "mesher/cut/leaf_trace.hpp"
-#include "mesher/cut/snap_corners.hpp"
-#include "mesher/geometry/inside_test.hpp"
+#include "mesher/geometry/interior.hpp"
+#include "mesher/snap/leaf_trace.hpp"
+#include "mesher/snap/snap.hpp"
 
 namespace quadloop {
 
 /// What is left of a leaf inside the domain: closed loops over nodes on its sides and in its inside.
 struct CutLeaf {
-  /// Where a node sits: 0 to 3 the corners from the lower left one counter-clockwise, 4 to 7 the hanging
-  /// nodes of the sides, 8 to 11 a crossing on a side, 12 a point of the geometry inside.
   struct Node {
     Point position;
-    int place = 12;
-    bool on_side() const { return place < 12; }
+    Site site = Site::inside;  ///< as the lattice has it, before any snap
   };
   /// A directed edge with the domain to its left.
   struct Edge {
@@ -35,8 +32,13 @@ struct CutLeaf {
   std::vector<std::int32_t> loop_nodes;   ///< the loops one after another
   std::vector<std::int32_t> loop_starts;  ///< one more than there are loops
   std::int32_t side_nodes = 0;            ///< how many nodes lie on the sides
-  std::uint8_t half_inside = 0;  ///< bit 2s+h: the first (h=0) or second half of side s, counter-clockwise,
-                                 ///< lies in the domain, where no crossing parts it
+  /// The sides whose first half, counter-clockwise, lies in the domain, where no crossing parts it, and those
+  /// whose second half does.
+  struct InsideHalves {
+    SideSet first, second;
+    bool any() const { return !first.empty() || !second.empty(); }
+  };
+  InsideHalves inside_halves;
   bool simple =
       false;  ///< one piece of outline was merged into one chord: convex loops, nothing can be wrong
   bool refined =
@@ -44,9 +46,7 @@ struct CutLeaf {
 
   std::size_t loop_count() const { return loop_starts.size() - 1; }
   std::span<const std::int32_t> loop(std::size_t i) const {
-    return std::span(loop_nodes)
-        .subspan(static_cast<std::size_t>(loop_starts[i]),
-                 static_cast<std::size_t>(loop_starts[i + 1] - loop_starts[i]));
+    return std::span(loop_nodes).subspan(loop_starts[i], loop_starts[i + 1] - loop_starts[i]);
   }
 };
 
@@ -60,14 +60,13 @@ enum class Detail {
 /// Cuts leaves; keeps its working memory from one to the next.
 class LeafCutter {
  public:
-  LeafCutter(const ShiftedOutline& outline, const InsideTest& inside)
-      : outline_{&outline}, inside_{&inside} {}
+  LeafCutter(const ShiftedOutline& outline, const Interior& inside) : outline_{&outline}, inside_{&inside} {}
 
   /// One leaf as the cutter needs it.
   struct Input {
     LeafTrace trace;
     Point centre;                     ///< where hanging nodes lie on the sides
-    unsigned hanging = 0;             ///< bit s: side s has one
+    SideSet hanging;                  ///< the sides that have one
     std::span<const LeafSnap> snaps;  ///< of this leaf
     std::optional<bool> inside;       ///< where the leaf holds no geometry: whether it lies in the domain
   };
@@ -81,16 +80,16 @@ class LeafCutter {
 
  private:
   struct Stop {
-    int side = 0;
+    Side side = Side::bottom;
     double along = 0;  ///< ascending counter-clockwise
     Point position;    ///< before any snap
-    int place = 8;
+    Site site = Site::on_bottom;
     std::int32_t crossing = -1;
     std::int32_t snap = -1;  ///< of the leaf's snaps, where the side bends through a kept point
   };
 
   void gather_stops();
-  void add_stop(int side, Point position, int place, std::int32_t crossing, std::int32_t snap = -1);
+  void add_stop(Side side, Point position, Site site, std::int32_t crossing, std::int32_t snap = -1);
   void name_stops();
   const LeafSnap* absorbing_snap(const Crossing& crossing) const;
   std::span<const std::int32_t> trimmed_vertices(const Piece& piece) const;
@@ -108,7 +107,7 @@ class LeafCutter {
   bool cancel_opposites();
 
   const ShiftedOutline* outline_;
-  const InsideTest* inside_;
+  const Interior* inside_;
   Input input_;
   CutLeaf leaf_;
   std::vector<Stop> stops_;

@@ -51,7 +51,7 @@ void triangulate_region(std::span<const Point> points, std::span<const std::span
   const auto vertex = [&](std::int32_t node) {
     auto& handle = vertices[node];
     if (handle == nullptr) {
-      const Point p = points[static_cast<std::size_t>(node)];
+      const Point p = points[node];
       handle = triangulation.insert({p.x, p.y});
       handle->info() = node;
     }

@@ -1,10 +1,10 @@
 #include "mesher/cut/leaf_cells.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "mesher/base/error.hpp"
+#include "mesher/cut/lattice_rank.hpp"
 #include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
@@ -15,29 +15,14 @@ namespace {
 // may have been snapped, 40 in a cut one.
 constexpr double whole_cosine = 0.766, cut_cosine = 0.643;
 
-/// Trailing zeros of a lattice coordinate, at most those of a tree's edge: the sides of the root rank alike.
-std::int8_t rank_of(std::int64_t coordinate) {
-  return static_cast<std::int8_t>(
-      coordinate == 0
-          ? Quadrant::unit_level
-          : std::min(Quadrant::unit_level, std::countr_zero(static_cast<std::uint64_t>(coordinate))));
-}
-
-TieKey key_of_lattice_node(std::int64_t x, std::int64_t y) {
-  const auto [low, high] =
-      std::minmax({rank_of(x), rank_of(y)});  // a list: values, not references to temporaries
-  return {low, high, 0, 0};
-}
-
 bool is_whole(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
-  return std::all_of(loop.begin(), loop.end(),
-                     [&](std::int32_t n) { return leaf.nodes[static_cast<std::size_t>(n)].place < 4; });
+  return std::all_of(loop.begin(), loop.end(), [&](std::int32_t n) { return is_corner(leaf.nodes[n].site); });
 }
 
 /// Strictly convex, in plain doubles as every reader of the mesh will compute it, and no corner far from a
 /// right angle: such a quadrilateral stays one.
 bool is_well_shaped(const CutLeaf& leaf, std::span<const std::int32_t> loop, double largest_cosine) {
-  const auto at = [&](std::size_t i) { return leaf.nodes[static_cast<std::size_t>(loop[i % 4])].position; };
+  const auto at = [&](std::size_t i) { return leaf.nodes[loop[i % 4]].position; };
   for (std::size_t i = 0; i < 4; ++i) {
     const Point u = at(i + 1) - at(i), v = at(i + 3) - at(i);
     if (cross(u, v) <= 0 || orientation(at(i + 3), at(i), at(i + 1)) <= 0) return false;
@@ -46,41 +31,47 @@ bool is_well_shaped(const CutLeaf& leaf, std::span<const std::int32_t> loop, dou
   return true;
 }
 
-using Template = std::array<LocalTriangle, 5>;
+using Template = std::array<SiteTriangle, 4>;
 
-/// A hanging node on side s, or on s and s+1: the templates of the bottom side, turned.
-Template turned(const Template& bottom, int s) {
-  Template result = bottom;
-  for (auto& triangle : result) {
-    for (auto& n : triangle) n = n < 4 ? (n + s) % 4 : 4 + (n - 4 + s) % 4;
+/// A template of the bottom side, turned until that is where each side is.
+constexpr std::array<Template, 4> turned_templates(const Template& bottom) {
+  std::array<Template, 4> result{bottom, bottom, bottom, bottom};
+  for (const Side side : all_sides) {
+    for (SiteTriangle& triangle : result[index_of(side)]) {
+      for (Site& site : triangle) site = turned(site, side);
+    }
   }
   return result;
 }
 
-constexpr Template one_hanging{{{0, 4, 3}, {4, 1, 2}, {4, 2, 3}, {}, {}}};
-constexpr Template two_hanging{{{0, 4, 3}, {4, 5, 3}, {4, 1, 5}, {5, 2, 3}, {}}};
+/// Of three triangles and of four: a hanging node on a side; one more on the next side.
+constexpr std::array<Template, 4> one_hanging =
+    turned_templates({{{Site::south_west, Site::bottom_middle, Site::north_west},
+                       {Site::bottom_middle, Site::south_east, Site::north_east},
+                       {Site::bottom_middle, Site::north_east, Site::north_west},
+                       {}}});
+constexpr std::array<Template, 4> two_hanging =
+    turned_templates({{{Site::south_west, Site::bottom_middle, Site::north_west},
+                       {Site::bottom_middle, Site::right_middle, Site::north_west},
+                       {Site::bottom_middle, Site::south_east, Site::right_middle},
+                       {Site::right_middle, Site::north_east, Site::north_west}}});
 
 }  // namespace
 
-void LeafCellMaker::set_keys(const Quadrant& q, const Box& box, const CutLeaf& leaf) {
-  const std::int64_t s = q.size(), half = s / 2;
-  const std::array<std::array<std::int64_t, 2>, 8> offset{
-      {{0, 0}, {s, 0}, {s, s}, {0, s}, {half, 0}, {s, half}, {half, s}, {0, half}}};
+void LeafCellMaker::set_ranks(const Quadrant& q, const Box& box, const CutLeaf& leaf) {
   const std::array<Point, 4> corner{box.low, Point{box.high.x, box.low.y}, box.high,
                                     Point{box.low.x, box.high.y}};
-  std::array<TieKey, 8> lattice;
-  for (std::size_t i = 0; i < 8; ++i)
-    lattice[i] = key_of_lattice_node(q.x + offset[i][0], q.y + offset[i][1]);
-  const auto origin = corner[static_cast<std::size_t>(std::max_element(lattice.begin(), lattice.begin() + 4) -
-                                                      lattice.begin())];
-  keys_.clear();
+  std::array<TieRank, 8> lattice;
+  for (const Site site : lattice_sites) lattice[index_of(site)] = line_rank(q.at(site).x, q.at(site).y);
+  const auto origin = corner[std::max_element(lattice.begin(), lattice.begin() + 4) - lattice.begin()];
+  ranks_.clear();
   for (const CutLeaf::Node& node : leaf.nodes) {
-    TieKey key = node.place < 8 ? lattice[static_cast<std::size_t>(node.place)] : TieKey{};
+    TieRank rank = is_on_lattice(node.site) ? lattice[index_of(node.site)] : TieRank{};
     const auto [near, far] = std::minmax(
         {std::abs(node.position.x - origin.x), std::abs(node.position.y - origin.y)});  // a list: values
-    key.farther = far;
-    key.nearer = near;
-    keys_.push_back(key);
+    rank.farther = far;
+    rank.nearer = near;
+    ranks_.push_back(rank);
   }
 }
 
@@ -90,7 +81,7 @@ bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf,
   smallest_sine_ = 1;
   points_.clear();
   for (const CutLeaf::Node& node : leaf.nodes) points_.push_back(node.position);
-  set_keys(q, box, leaf);
+  set_ranks(q, box, leaf);
   std::vector<std::span<const std::int32_t>> loops;
   bool holes = false;
   for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
@@ -109,21 +100,17 @@ bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf,
 }
 
 bool LeafCellMaker::triangulate(std::span<const std::span<const std::int32_t>> loops, LeafCells& cells) {
-  if (!triangulator_.triangulate(points_, keys_, loops, cells.triangles)) return false;
+  if (!triangulator_.triangulate(points_, ranks_, loops, cells.triangles)) return false;
   smallest_sine_ = std::min(smallest_sine_, triangulator_.smallest_sine());
   return true;
 }
 
-std::span<const LocalTriangle> hanging_template(unsigned finer) {
-  static const std::array<Template, 4> one{one_hanging, turned(one_hanging, 1), turned(one_hanging, 2),
-                                           turned(one_hanging, 3)};
-  static const std::array<Template, 4> two{two_hanging, turned(two_hanging, 1), turned(two_hanging, 2),
-                                           turned(two_hanging, 3)};
-  if (std::has_single_bit(finer))
-    return std::span(one[static_cast<std::size_t>(std::countr_zero(finer))]).first(3);
-  const int side = finer == 0b1001 ? 3 : std::countr_zero(finer);
-  QUADLOOP_REQUIRE(finer == 0b1001 || finer == 0b11U << side, "a leaf has hanging nodes on opposite sides");
-  return std::span(two[static_cast<std::size_t>(side)]).first(4);
+std::span<const SiteTriangle> hanging_template(SideSet hanging) {
+  for (const Side side : all_sides) {
+    if (hanging == SideSet{side}) return std::span(one_hanging[index_of(side)]).first(3);
+    if (hanging == SideSet{side, next(side)}) return two_hanging[index_of(side)];
+  }
+  throw Fault("a leaf has hanging nodes on opposite sides");
 }
 
 }  // namespace quadloop

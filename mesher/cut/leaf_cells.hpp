@@ -2,7 +2,7 @@
 
 #include "mesher/cut/cut_leaf.hpp"
 #include "mesher/cut/triangulate.hpp"
-#include "mesher/forest/lattice.hpp"
+#include "mesher/lattice/lattice.hpp"
 
 namespace quadloop {
 
@@ -24,19 +24,21 @@ class LeafCellMaker {
   double smallest_sine() const { return smallest_sine_; }
 
  private:
-  void set_keys(const Quadrant& q, const Box& box, const CutLeaf& leaf);
+  void set_ranks(const Quadrant& q, const Box& box, const CutLeaf& leaf);
 
   bool triangulate(std::span<const std::span<const std::int32_t>> loops, LeafCells& cells);
 
   Triangulator triangulator_;
   double smallest_sine_ = 1;
   std::vector<Point> points_;
-  std::vector<TieKey> keys_;
+  std::vector<TieRank> ranks_;
 };
 
-/// The closed templates for an uncut leaf (thesis 3.6.2). Nodes are named as CutLeaf::Node::place: 0 to 3
-/// corners, 4 to 7 hanging nodes. `finer` has bit s set where side s has a hanging node: none, one, or two on
-/// adjacent sides.
-std::span<const LocalTriangle> hanging_template(unsigned finer);
+/// A triangle of a template: its nodes by where they sit.
+using SiteTriangle = std::array<Site, 3>;
+
+/// The closed templates for an uncut leaf with hanging nodes (thesis 3.6.2): on one side, or on two adjacent
+/// ones.
+std::span<const SiteTriangle> hanging_template(SideSet hanging);
 
 }  // namespace quadloop

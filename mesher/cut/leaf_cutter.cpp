@@ -1,6 +1,8 @@
 #include <algorithm>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/cut/cut_leaf.hpp"
+#include "mesher/geometry/nearest_on_segment.hpp"
 
 namespace quadloop {
 
@@ -10,20 +12,15 @@ constexpr double stray_of_leaf =
     0.15;  ///< how far the outline may lie from its chord, as a share of the leaf's edge
 constexpr double stray_of_chord = 0.2;  ///< and as a share of the chord
 
-std::array<Point, 4> corners_of(const Box& box) {
-  return {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+/// A coordinate that ascends counter-clockwise along a side.
+double along(Side side, Point p) {
+  const double ascending = is_vertical(side) ? p.y : p.x;
+  return side == Side::bottom || side == Side::right ? ascending : -ascending;
 }
 
-/// The same for the segment b-a and for mirror images, so that mirrored outlines keep mirrored points:
-/// rounded only at the end.
-double distance_to_segment(Point p, Point a, Point b) {
-  using Wide = long double;
-  const Wide abx = Wide(b.x) - a.x, aby = Wide(b.y) - a.y, apx = Wide(p.x) - a.x, apy = Wide(p.y) - a.y;
-  const Wide square = abx * abx + aby * aby, along = apx * abx + apy * aby;
-  if (square == 0 || along <= 0) return length(p - a);
-  if (along >= square) return length(p - b);
-  const Wide twice_area = abx * apy - aby * apx;
-  return std::sqrt(static_cast<double>(twice_area * twice_area / square));
+/// By Corner.
+std::array<Point, 4> corners_of(const Box& box) {
+  return {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
 }
 
 }  // namespace
@@ -50,15 +47,10 @@ bool LeafCutter::cut(const Input& input, Detail detail) {
                     (input_.snaps.empty() || sides_are_sound(edges_, bare_sides_, leaf_)));
 }
 
-void LeafCutter::add_stop(int side, Point position, int place, std::int32_t crossing, std::int32_t snap) {
-  const std::array<Point, 4> corner = corners_of(input_.trace.box);
-  const auto next = static_cast<std::size_t>((side + 1) % 4);
-  if (position == corner[next]) side = static_cast<int>(next);
-  const double along = side == 0   ? position.x
-                       : side == 1 ? position.y
-                       : side == 2 ? -position.x
-                                   : -position.y;
-  stops_.push_back({side, along, position, place, crossing, snap});
+void LeafCutter::add_stop(Side side, Point position, Site site, std::int32_t crossing, std::int32_t snap) {
+  if (position == corners_of(input_.trace.box)[index_of(start_of(next(side)))]) side = next(side);
+  stops_.push_back({side, along(side, position), position, is_on_lattice(site) ? site : elsewhere_on(side),
+                    crossing, snap});
 }
 
 /// Corners, hanging nodes and crossings in their order round the leaf, before any snap.
@@ -69,26 +61,26 @@ void LeafCutter::gather_stops() {
   const std::array<Point, 4> corner = corners_of(box);
   const std::array<Point, 4> middle{
       Point{centre.x, box.low.y}, {box.high.x, centre.y}, {centre.x, box.high.y}, {box.low.x, centre.y}};
-  for (int side = 0; side < 4; ++side) {
-    const auto s = static_cast<std::size_t>(side);
-    add_stop(side, corner[s], side, -1);
-    if (((input_.hanging >> side) & 1) != 0) add_stop(side, middle[s], 4 + side, -1);
+  for (const Side side : all_sides) {
+    add_stop(side, corner[index_of(start_of(side))], start_of(side), -1);
+    if (input_.hanging.contains(side)) add_stop(side, middle[index_of(side)], middle_of(side), -1);
   }
   for (std::size_t c = 0; c < input_.trace.crossings.size(); ++c) {
     const Crossing& crossing = input_.trace.crossings[c];
-    add_stop(crossing.side, crossing.position, 8, static_cast<std::int32_t>(c));
+    add_stop(crossing.side, crossing.position, elsewhere_on(crossing.side), static_cast<std::int32_t>(c));
   }
   for (std::size_t s = 0; s < input_.snaps.size(); ++s) {
-    const int side = input_.snaps[s].place - 8;
-    if (side < 0) continue;
-    const Point p = input_.snaps[s].snap->position, from = corner[static_cast<std::size_t>(side)];
-    add_stop(side, side % 2 == 0 ? Point{p.x, from.y} : Point{from.x, p.y}, 8, -1,
+    const Site site = input_.snaps[s].site;
+    if (is_on_lattice(site)) continue;
+    const Side side = side_of(site);
+    const Point p = input_.snaps[s].snap->position, from = corner[index_of(start_of(side))];
+    add_stop(side, is_vertical(side) ? Point{from.x, p.y} : Point{p.x, from.y}, site, -1,
              static_cast<std::int32_t>(s));
   }
   std::sort(stops_.begin(), stops_.end(), [](const Stop& a, const Stop& b) {
     return a.side != b.side     ? a.side < b.side
            : a.along != b.along ? a.along < b.along
-           : a.place != b.place ? a.place < b.place
+           : a.site != b.site   ? a.site < b.site
                                 : a.crossing < b.crossing;
   });
   name_stops();
@@ -97,11 +89,9 @@ void LeafCutter::gather_stops() {
 /// The snap that takes the crossing; null for none.
 const LeafSnap* LeafCutter::absorbing_snap(const Crossing& crossing) const {
   for (const LeafSnap& s : input_.snaps) {
-    const bool on_side = s.place == crossing.side || s.place == 4 + crossing.side ||
-                         s.place == 8 + crossing.side || s.place == (crossing.side + 1) % 4;
-    if (!on_side) continue;
+    if (!sides_of(s.site).contains(crossing.side)) continue;
     const auto& absorbed = s.snap->absorbed;
-    const Snap::Absorbed wanted{crossing.segment, crossing.side % 2 == 1};
+    const Snap::Absorbed wanted{crossing.segment, is_vertical(crossing.side)};
     if (std::find(absorbed.begin(), absorbed.end(), wanted) != absorbed.end()) return &s;
   }
   return nullptr;
@@ -112,34 +102,33 @@ void LeafCutter::name_stops() {
   stop_node_.assign(stops_.size(), -1);
   crossing_node_.assign(input_.trace.crossings.size(), -1);
   snap_node_.assign(input_.snaps.size(), -1);
-  std::array<std::int32_t, 8> place_node{};
+  std::array<std::int32_t, 8> site_node{};
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const Stop& stop = stops_[i];
     const bool absorbed =
         stop.crossing >= 0 && absorbing_snap(input_.trace.crossing(stop.crossing)) != nullptr;
     if (absorbed) continue;
     const bool at_last = i > 0 && stops_[i - 1].position == stop.position && stop_node_[i - 1] >= 0;
-    if (!at_last) leaf_.nodes.push_back({stop.position, stop.place < 8 ? stop.place : 8 + stop.side});
-    stop_node_[i] = static_cast<std::int32_t>(leaf_.nodes.size()) - 1;
-    if (stop.place < 8) place_node[static_cast<std::size_t>(stop.place)] = stop_node_[i];
-    if (stop.snap >= 0) snap_node_[static_cast<std::size_t>(stop.snap)] = stop_node_[i];
+    if (!at_last) leaf_.nodes.push_back({stop.position, stop.site});
+    stop_node_[i] = size32(leaf_.nodes) - 1;
+    if (is_on_lattice(stop.site)) site_node[index_of(stop.site)] = stop_node_[i];
+    if (stop.snap >= 0) snap_node_[stop.snap] = stop_node_[i];
   }
   for (std::size_t s = 0; s < input_.snaps.size(); ++s) {
-    if (input_.snaps[s].place < 8)
-      snap_node_[s] = place_node[static_cast<std::size_t>(input_.snaps[s].place)];
+    if (is_on_lattice(input_.snaps[s].site)) snap_node_[s] = site_node[index_of(input_.snaps[s].site)];
   }
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const std::int32_t c = stops_[i].crossing;
     if (c < 0) continue;
     if (stop_node_[i] < 0) {
       const auto snap = absorbing_snap(input_.trace.crossing(c)) - input_.snaps.data();
-      stop_node_[i] = snap_node_[static_cast<std::size_t>(snap)];
+      stop_node_[i] = snap_node_[snap];
     }
-    crossing_node_[static_cast<std::size_t>(c)] = stop_node_[i];
+    crossing_node_[c] = stop_node_[i];
   }
   for (std::size_t s = 0; s < input_.snaps.size(); ++s)
-    leaf_.nodes[static_cast<std::size_t>(snap_node_[s])].position = input_.snaps[s].snap->position;
-  leaf_.side_nodes = static_cast<std::int32_t>(leaf_.nodes.size());
+    leaf_.nodes[snap_node_[s]].position = input_.snaps[s].snap->position;
+  leaf_.side_nodes = size32(leaf_.nodes);
 }
 
 /// Adds the parts of the sides that lie in the domain. Walking round the leaf, an outline that leaves it has
@@ -147,7 +136,7 @@ void LeafCutter::name_stops() {
 bool LeafCutter::walk_sides() {
   bool inside = false;
   if (!status_at_start(inside)) return false;
-  leaf_.half_inside = 0;
+  leaf_.inside_halves = {};
   int status = inside ? 1 : 0;
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const std::size_t next = (i + 1) % stops_.size();
@@ -164,13 +153,9 @@ bool LeafCutter::walk_sides() {
 
 /// A part of a side, from one stop to the next, lies in the domain.
 void LeafCutter::note_side(const Stop& from, const Stop& to) {
-  const double middle = from.side == 0   ? input_.centre.x
-                        : from.side == 1 ? input_.centre.y
-                        : from.side == 2 ? -input_.centre.x
-                                         : -input_.centre.y;
-  const bool first = from.along < middle, second = to.side != from.side || to.along > middle;
-  leaf_.half_inside = static_cast<std::uint8_t>(leaf_.half_inside | (first << (2 * from.side)) |
-                                                (second << (2 * from.side + 1)));
+  const double middle = along(from.side, input_.centre);
+  if (from.along < middle) leaf_.inside_halves.first.add(from.side);
+  if (to.side != from.side || to.along > middle) leaf_.inside_halves.second.add(from.side);
 }
 
 /// Whether the domain lies just before the first stop (counter-clockwise).
@@ -198,8 +183,8 @@ std::int32_t LeafCutter::node_at(Point position) {
   for (std::size_t i = 0; i < leaf_.nodes.size(); ++i) {
     if (leaf_.nodes[i].position == position) return static_cast<std::int32_t>(i);
   }
-  leaf_.nodes.push_back({position, 12});
-  return static_cast<std::int32_t>(leaf_.nodes.size()) - 1;
+  leaf_.nodes.push_back({position, Site::inside});
+  return size32(leaf_.nodes) - 1;
 }
 
 void LeafCutter::add_chords(Detail detail) {
@@ -218,13 +203,11 @@ void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
   list_points(piece, trimmed_vertices(piece));
   choose_points(closed, detail);
   std::size_t from = 0;
-  std::int32_t from_node =
-      closed ? node_at(run_[0].position) : crossing_node_[static_cast<std::size_t>(piece.entry)];
+  std::int32_t from_node = closed ? node_at(run_[0].position) : crossing_node_[piece.entry];
   for (std::size_t i = 1; i < run_.size(); ++i) {
     if (!run_[i].chosen) continue;
     const bool at_exit = !closed && i + 1 == run_.size();
-    const std::int32_t to_node =
-        at_exit ? crossing_node_[static_cast<std::size_t>(piece.exit)] : node_at(run_[i].position);
+    const std::int32_t to_node = at_exit ? crossing_node_[piece.exit] : node_at(run_[i].position);
     if (from_node != to_node) leaf_.outline.push_back({from_node, to_node, run_[from].segment});
     from = i;
     from_node = to_node;
@@ -236,7 +219,7 @@ std::span<const std::int32_t> LeafCutter::trimmed_vertices(const Piece& piece) c
   auto vertices = input_.trace.vertices_of(piece);
   if (piece.entry < 0) return vertices;
   const auto vanishes = [&](const LeafSnap& s, std::int32_t v) {
-    return length(outline_->geometry().point(v) - s.snap->corner) < s.snap->radius;
+    return length(outline_->geometry().point(v) - s.snap->centre) < s.snap->radius;
   };
   if (const LeafSnap* entry = absorbing_snap(input_.trace.crossing(piece.entry))) {
     while (!vertices.empty() && vanishes(*entry, vertices.front())) vertices = vertices.subspan(1);
@@ -252,9 +235,7 @@ std::span<const std::int32_t> LeafCutter::trimmed_vertices(const Piece& piece) c
 void LeafCutter::list_points(const Piece& piece, std::span<const std::int32_t> vertices) {
   const Geometry& g = outline_->geometry();
   const bool closed = piece.entry < 0;
-  const auto node_position = [&](std::int32_t c) {
-    return leaf_.nodes[static_cast<std::size_t>(crossing_node_[static_cast<std::size_t>(c)])].position;
-  };
+  const auto node_position = [&](std::int32_t c) { return leaf_.nodes[crossing_node_[c]].position; };
   run_.clear();
   if (!closed) {
     const auto all = input_.trace.vertices_of(piece);
@@ -280,8 +261,7 @@ void LeafCutter::add_hanging_nodes(Point segment_end) {
   const std::size_t first = run_.size();
   for (const LeafSnap& s : input_.snaps) {
     const Point p = s.snap->position;
-    if (s.place < 4 || s.place >= 8 || s.snap->segment != start.segment || p == start.position ||
-        p == segment_end)
+    if (!is_middle(s.site) || s.snap->segment != start.segment || p == start.position || p == segment_end)
       continue;
     run_.push_back({p, start.segment, true, true});
   }
@@ -330,24 +310,24 @@ void LeafCutter::keep_strays(std::size_t from, std::size_t to) {
 
 /// The order of the nodes inside must not depend on the order in which boundaries are listed.
 void LeafCutter::sort_inner_nodes() {
-  const auto first = static_cast<std::size_t>(leaf_.side_nodes);
+  const std::size_t first = leaf_.side_nodes;
   if (leaf_.nodes.size() <= first + 1) return;
   std::vector<std::int32_t> order;
   for (std::size_t i = first; i < leaf_.nodes.size(); ++i) order.push_back(static_cast<std::int32_t>(i));
-  const auto position = [&](std::int32_t i) { return leaf_.nodes[static_cast<std::size_t>(i)].position; };
+  const auto position = [&](std::int32_t i) { return leaf_.nodes[i].position; };
   std::sort(order.begin(), order.end(),
             [&](std::int32_t a, std::int32_t b) { return position(a) < position(b); });
   std::vector<std::int32_t> renamed(leaf_.nodes.size());
   for (std::size_t i = 0; i < first; ++i) renamed[i] = static_cast<std::int32_t>(i);
   std::vector<CutLeaf::Node> sorted;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    renamed[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(first + i);
-    sorted.push_back(leaf_.nodes[static_cast<std::size_t>(order[i])]);
+    renamed[order[i]] = static_cast<std::int32_t>(first + i);
+    sorted.push_back(leaf_.nodes[order[i]]);
   }
   std::copy(sorted.begin(), sorted.end(), leaf_.nodes.begin() + static_cast<std::ptrdiff_t>(first));
   for (auto& edge : leaf_.outline) {
-    edge.from = renamed[static_cast<std::size_t>(edge.from)];
-    edge.to = renamed[static_cast<std::size_t>(edge.to)];
+    edge.from = renamed[edge.from];
+    edge.to = renamed[edge.to];
   }
 }
 

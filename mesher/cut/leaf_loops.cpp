@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/cut/cut_leaf.hpp"
 #include "mesher/geometry/predicates.hpp"
 
@@ -10,9 +11,7 @@ namespace {
 
 using Edges = std::span<const CutLeaf::Edge>;
 
-Point at(const CutLeaf& leaf, std::int32_t node) {
-  return leaf.nodes[static_cast<std::size_t>(node)].position;
-}
+Point at(const CutLeaf& leaf, std::int32_t node) { return leaf.nodes[node].position; }
 
 /// How far a ray from `hub` must turn clockwise from the ray to `start` until it meets p: 0 for less than
 /// half a turn, 1 for half, 2 for more.
@@ -49,7 +48,7 @@ void split_into_loops(const std::vector<std::int32_t>& walk, CutLeaf& leaf) {
     const auto again = std::find(open.begin(), open.end(), node);
     if (again != open.end()) {
       leaf.loop_nodes.insert(leaf.loop_nodes.end(), again, open.end());
-      leaf.loop_starts.push_back(static_cast<std::int32_t>(leaf.loop_nodes.size()));
+      leaf.loop_starts.push_back(size32(leaf.loop_nodes));
       open.erase(again, open.end());
     }
     open.push_back(node);
@@ -176,13 +175,13 @@ bool sides_are_sound(Edges edges, Edges bare_sides, const CutLeaf& leaf) {
       if (edges_conflict(leaf, bare_sides[i], bare_sides[j])) return false;
     }
   }
-  std::vector<std::int32_t> round(static_cast<std::size_t>(leaf.side_nodes));
+  std::vector<std::int32_t> round(leaf.side_nodes);
   std::iota(round.begin(), round.end(), 0);
   for (const CutLeaf::Edge& e : leaf.outline) {
     if (e.from < leaf.side_nodes && !starts_inwards(leaf, e.from, e.to)) return false;
     if (e.to < leaf.side_nodes && !starts_inwards(leaf, e.to, e.from)) return false;
   }
-  for (auto n = static_cast<std::size_t>(leaf.side_nodes); n < leaf.nodes.size(); ++n) {
+  for (std::size_t n = leaf.side_nodes; n < leaf.nodes.size(); ++n) {
     if (times_round(leaf, round, leaf.nodes[n].position) != 1) return false;
   }
   return winding_of(leaf, round) > 0;

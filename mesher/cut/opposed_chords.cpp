@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesher/base/exchange.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -12,51 +14,44 @@ struct SideChord {
   friend auto operator<=>(const SideChord&, const SideChord&) = default;
 };
 
-/// The sides that a node lies on, one bit each.
-unsigned sides_of(int place) {
-  if (place < 4) return (1U << place) | (1U << ((place + 3) % 4));
-  return place < 12 ? 1U << (place % 4) : 0U;
-}
-
 /// The leaves across a side.
-std::array<std::int32_t, 2> across(const LeafGraph& graph, std::int32_t leaf, int side) {
+std::array<std::int32_t, 2> across(const LeafGraph& graph, std::int32_t leaf, Side side) {
   const Quadrant& q = graph.leaf(leaf);
   const std::int64_t last = q.size() - 1;
-  const std::int64_t x = side == 1 ? q.x + q.size() : side == 3 ? q.x - 1 : q.x;
-  const std::int64_t y = side == 2 ? q.y + q.size() : side == 0 ? q.y - 1 : q.y;
-  return {graph.leaf_at(x, y), side % 2 == 0 ? graph.leaf_at(x + last, y) : graph.leaf_at(x, y + last)};
+  const std::int64_t beyond = q.line(side) - (side == Side::left || side == Side::bottom ? 1 : 0);
+  if (is_vertical(side)) return {graph.leaf_at(beyond, q.y), graph.leaf_at(beyond, q.y + last)};
+  return {graph.leaf_at(q.x, beyond), graph.leaf_at(q.x + last, beyond)};
 }
 
 }  // namespace
 
 OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
   std::vector<SideChord> chords;
-  std::vector<std::vector<SideChord>> to_rank(static_cast<std::size_t>(comm.size()));
+  Outbox<SideChord> out;
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-    const std::int32_t e = cut.entry_of[static_cast<std::size_t>(leaf - graph.local_begin())];
+    const std::int32_t e = cut.entry_of[leaf - graph.local_begin()];
     if (e < 0) continue;
-    const CutForest::Entry& entry = cut.entries[static_cast<std::size_t>(e)];
+    const CutForest::Entry& entry = cut.entries[e];
     for (const CutLeaf::Edge& edge : CutForest::part(cut.outline, entry.begin.outline, entry.end.outline)) {
-      const auto& from = cut.nodes[static_cast<std::size_t>(entry.begin.nodes + edge.from)];
-      const auto& to = cut.nodes[static_cast<std::size_t>(entry.begin.nodes + edge.to)];
-      const unsigned common = sides_of(from.place) & sides_of(to.place);
-      if (common == 0) continue;
+      const auto& from = cut.nodes[entry.begin.nodes + edge.from];
+      const auto& to = cut.nodes[entry.begin.nodes + edge.to];
+      const SideSet common = sides_of(from.site) & sides_of(to.site);
+      if (common.empty()) continue;
       const bool rising = from.position < to.position;
       const SideChord chord{rising ? from.position : to.position, rising ? to.position : from.position,
                             rising};
       chords.push_back(chord);
       if (comm.size() == 1) continue;
-      for (int side = 0; side < 4; ++side) {
-        if (((common >> side) & 1) == 0) continue;
+      for (const Side side : all_sides) {
+        if (!common.contains(side)) continue;
         for (const std::int32_t other : across(graph, leaf, side)) {
-          if (other != LeafGraph::none && !graph.is_local(other))
-            to_rank[static_cast<std::size_t>(graph.place_of(other).rank)].push_back(chord);
+          if (other != LeafGraph::none && !graph.is_local(other)) out.add(graph.place_of(other).rank, chord);
         }
       }
     }
   }
-  for (const auto& received : comm.exchange(to_rank))
-    chords.insert(chords.end(), received.begin(), received.end());
+  const auto received = out.deliver(comm);
+  chords.insert(chords.end(), received.begin(), received.end());
   std::sort(chords.begin(), chords.end());
   for (std::size_t i = 0; i + 1 < chords.size(); ++i) {
     const SideChord &a = chords[i], &b = chords[i + 1];

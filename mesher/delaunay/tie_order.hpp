@@ -11,14 +11,15 @@ namespace quadloop {
 
 /// Ranks the nodes of a mesh for a choice between the diagonals of four nodes on one circle: the diagonal
 /// through the node of the highest rank wins. Made of numbers that mirror images and quarter turns of the
-/// root keep; only nodes that are mirror images of each other are told apart by their coordinates. The order
-/// is strict, so that a constrained Delaunay triangulation is unique under it: nodes on one circle are joined
-/// to the highest of them.
+/// root (or of a leaf alone) keep; only nodes that are mirror images of each other are told apart by their
+/// coordinates. Over a mesh the order is strict, so that a constrained Delaunay triangulation is unique under
+/// it: nodes on one circle are joined to the highest of them.
 struct TieRank {
   std::int8_t
       coarser = -1,
       finer = -1;  ///< trailing zeros of a lattice node's coordinates, the smaller first; -1 for other nodes
-  double farther = 0, nearer = 0;  ///< distances along the axes from the root's centre, the larger first
+  double farther = 0, nearer = 0;  ///< distances along the axes, the larger first: from the root's centre, or
+                                   ///< from a leaf's corner of the highest rank
   double x = 0, y = 0;
   friend auto operator<=>(const TieRank&, const TieRank&) = default;
 };

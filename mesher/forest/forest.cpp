@@ -60,7 +60,7 @@ struct Callbacks {
 };
 
 Quadrant place_of(const std::vector<Quadrant>& tree_corners, p4est_topidx_t tree, const p4est_quadrant_t& q) {
-  const Quadrant& corner = tree_corners[static_cast<std::size_t>(tree)];
+  const Quadrant& corner = tree_corners[tree];
   return {corner.x + q.x, corner.y + q.y, q.level};
 }
 
@@ -97,12 +97,12 @@ Forest::Forest(const Communicator& comm, const Lattice& lattice) : impl_{std::ma
   impl_->trees_x = lattice.trees_x();
   impl_->connectivity.reset(p4est_connectivity_new_brick(lattice.trees_x(), lattice.trees_y(), 0, 0));
   p4est_connectivity_t& trees = *impl_->connectivity;
-  impl_->tree_numbers.resize(static_cast<std::size_t>(trees.num_trees));
+  impl_->tree_numbers.resize(trees.num_trees);
   for (p4est_topidx_t t = 0; t < trees.num_trees; ++t) {
     const double* corner = trees.vertices + 3 * trees.tree_to_vertex[P4EST_CHILDREN * t];
     const std::int64_t column = std::llround(corner[0]), row = std::llround(corner[1]);
     impl_->tree_corners.push_back({column << Quadrant::unit_level, row << Quadrant::unit_level, 0});
-    impl_->tree_numbers[static_cast<std::size_t>(row * lattice.trees_x() + column)] = t;
+    impl_->tree_numbers[row * lattice.trees_x() + column] = t;
   }
   impl_->forest.reset(p4est_new_ext(comm.raw(), impl_->connectivity.get(), 0, 1, 1, 0, nullptr, nullptr));
 }
@@ -137,7 +137,7 @@ std::int64_t Forest::global_leaves() const { return impl_->forest->global_num_qu
 
 std::vector<Quadrant> Forest::leaves() const {
   std::vector<Quadrant> leaves;
-  leaves.reserve(static_cast<std::size_t>(local_leaves()));
+  leaves.reserve(local_leaves());
   p4est_t& forest = *impl_->forest;
   for (p4est_topidx_t t = forest.first_local_tree; t <= forest.last_local_tree; ++t) {
     sc_array_t& quadrants = p4est_tree_array_index(forest.trees, t)->quadrants;
@@ -147,18 +147,13 @@ std::vector<Quadrant> Forest::leaves() const {
   return leaves;
 }
 
-std::vector<CurvePlace> Forest::begins() const {
+CurveOwners Forest::owners() const {
   std::vector<CurvePlace> begins;
   for (int rank = 0; rank <= impl_->forest->mpisize; ++rank) {
     const p4est_quadrant_t& first = impl_->forest->global_first_position[rank];
     begins.push_back({first.p.which_tree, p4est_quadrant_linear_id(&first, P4EST_MAXLEVEL)});
   }
-  return begins;
-}
-
-std::int32_t Forest::tree_at(const Quadrant& q) const {
-  return impl_->tree_numbers[static_cast<std::size_t>((q.y >> Quadrant::unit_level) * impl_->trees_x +
-                                                      (q.x >> Quadrant::unit_level))];
+  return {std::move(begins), impl_->tree_numbers, impl_->trees_x};
 }
 
 }  // namespace quadloop

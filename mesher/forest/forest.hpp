@@ -1,23 +1,14 @@
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
-#include "mesher/forest/lattice.hpp"
+#include "mesher/forest/curve_owners.hpp"
 
 namespace quadloop {
-
-/// A unit square by its place on the space-filling curve: first along the trees, then (Morton order) within
-/// the tree.
-struct CurvePlace {
-  std::int32_t tree = 0;
-  std::uint64_t square = 0;
-  friend auto operator<=>(const CurvePlace&, const CurvePlace&) = default;
-};
 
 /// The quadtrees over the root, their leaves distributed over the ranks in the order of the space-filling
 /// curve. The only owner of the p4est structures. Every member function but the plain reads is *collective*.
@@ -45,10 +36,8 @@ class Forest {
   /// This rank's leaves in the order of the curve.
   std::vector<Quadrant> leaves() const;
 
-  /// Where on the curve each rank's leaves begin, and last the curve's end. Not collective.
-  std::vector<CurvePlace> begins() const;
-  /// The number along the curve of the tree that holds the quadrant. Not collective.
-  std::int32_t tree_at(const Quadrant& q) const;
+  /// Who has which leaves now. Not collective.
+  CurveOwners owners() const;
 
  private:
   struct Impl;

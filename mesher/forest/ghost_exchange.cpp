@@ -2,16 +2,20 @@
 
 namespace quadloop {
 
-GhostExchange::GhostExchange(const Communicator& comm, const LeafGraph& graph)
-    : comm_{comm}, graph_{graph}, ghosts_(static_cast<std::size_t>(comm.size())) {
-  std::vector<std::vector<std::int32_t>> wanted(ghosts_.size());
+namespace {
+
+std::vector<CopyExchange::Copy> ghosts_of(const LeafGraph& graph) {
+  std::vector<CopyExchange::Copy> ghosts;
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    if (graph.is_local(leaf)) continue;
-    const LeafGraph::Place place = graph.place_of(leaf);
-    ghosts_[static_cast<std::size_t>(place.rank)].push_back(leaf);
-    wanted[static_cast<std::size_t>(place.rank)].push_back(place.index);
+    if (!graph.is_local(leaf))
+      ghosts.push_back({leaf, graph.place_of(leaf).rank, graph.place_of(leaf).index});
   }
-  asked_ = comm.exchange(wanted);
+  return ghosts;
 }
+
+}  // namespace
+
+GhostExchange::GhostExchange(const Communicator& comm, const LeafGraph& graph)
+    : CopyExchange(comm, ghosts_of(graph), graph.local_begin()) {}
 
 }  // namespace quadloop

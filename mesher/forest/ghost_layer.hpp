@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
-#include "mesher/forest/forest.hpp"
+#include "mesher/forest/curve_owners.hpp"
 
 namespace quadloop {
 
@@ -19,7 +19,7 @@ struct Ghost {
 /// All of them, in the order of the curve. `leaves` are this rank's. Only the quadrants that touch the border
 /// of this rank's part are looked at, so that the work grows with the border and not with the leaves.
 /// *Collective.*
-std::vector<Ghost> ghost_layer(const Communicator& comm, const Lattice& lattice, const Forest& forest,
+std::vector<Ghost> ghost_layer(const Communicator& comm, const Lattice& lattice, const CurveOwners& owners,
                                std::span<const Quadrant> leaves);
 
 }  // namespace quadloop

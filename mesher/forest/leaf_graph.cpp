@@ -2,16 +2,17 @@
 
 #include <bit>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/forest/ghost_layer.hpp"
 
 namespace quadloop {
 
 LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest)
-    : rank_{comm.rank()}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()} {
+    : owners_{forest.owners()}, rank_{comm.rank()}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()} {
   const std::vector<Quadrant> local = forest.leaves();
-  const std::vector<Ghost> ghosts = ghost_layer(comm, lattice, forest, local);
+  const std::vector<Ghost> ghosts = ghost_layer(comm, lattice, owners_, local);
   for (const auto& ghost : ghosts) local_begin_ += ghost.owner < rank_ ? 1 : 0;
-  local_count_ = static_cast<std::int32_t>(local.size());
+  local_count_ = size32(local);
   leaves_.reserve(local.size() + ghosts.size());
   for (const auto& ghost : ghosts) {
     if (ghost.owner < rank_) leaves_.push_back(ghost.place);
@@ -25,7 +26,7 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
   around_.resize(leaves_.size());
   const int nx = lattice.trees_x(), ny = lattice.trees_y();
   const auto root = [&](int x, int y) {
-    return x < 0 || y < 0 || x >= nx || y >= ny ? none : roots_[static_cast<std::size_t>(y * nx + x)];
+    return x < 0 || y < 0 || x >= nx || y >= ny ? none : roots_[y * nx + x];
   };
   for (int y = 0; y < ny; ++y) {
     for (int x = 0; x < nx; ++x) {
@@ -36,27 +37,25 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
 
 LeafGraph::Place LeafGraph::place_of(std::int32_t leaf) const {
   if (is_local(leaf)) return {rank_, leaf - local_begin_};
-  return ghost_places_[static_cast<std::size_t>(leaf < local_begin_ ? leaf : leaf - local_count_)];
+  return ghost_places_[leaf < local_begin_ ? leaf : leaf - local_count_];
 }
 
 std::int32_t LeafGraph::leaf_at(std::int64_t x, std::int64_t y) const {
   const std::int64_t tx = x >> Quadrant::unit_level, ty = y >> Quadrant::unit_level;
   if (x < 0 || y < 0 || tx >= trees_x_ || ty >= trees_y_) return none;
-  Ref ref = roots_[static_cast<std::size_t>(ty * trees_x_ + tx)];
-  for (int shift = Quadrant::unit_level - 1; is_inner(ref); --shift) {
-    ref = down(ref, static_cast<int>((x >> shift) & 1) + 2 * static_cast<int>((y >> shift) & 1));
-  }
+  Ref ref = roots_[ty * trees_x_ + tx];
+  for (int level = 0; is_inner(ref); ++level) ref = down(ref, quarter_at(x, y, level));
   return ref;
 }
 
 LeafGraph::Ref LeafGraph::new_inner() {
   inner_.push_back({none, none, none, none});
-  return static_cast<Ref>(-1 - static_cast<std::int64_t>(inner_.size()));
+  return static_cast<Ref>(-1 - std::ssize(inner_));
 }
 
 /// Hangs each leaf into its tree; the path down to the leaf before it saves the way from the root.
 void LeafGraph::build_trees(const Lattice& lattice) {
-  roots_.assign(static_cast<std::size_t>(lattice.trees_x() * lattice.trees_y()), none);
+  roots_.assign(lattice.trees_x() * lattice.trees_y(), none);
   inner_.reserve(leaves_.size() / 3 + leaves_.size() / 16 + 64);
   std::array<Ref, Quadrant::unit_level + 1> path{};
   std::int64_t last_tree = -1;
@@ -70,13 +69,11 @@ void LeafGraph::build_trees(const Lattice& lattice) {
       const auto differing = static_cast<std::uint64_t>((q.x ^ last.x) | (q.y ^ last.y));
       common = Quadrant::unit_level - static_cast<int>(std::bit_width(differing));
     } else {
-      path[0] = roots_[static_cast<std::size_t>(tree)] = new_inner();
+      path[0] = roots_[tree] = new_inner();
     }
     for (int level = common; level < q.level; ++level) {
-      const int shift = Quadrant::unit_level - 1 - level;
-      const int k = static_cast<int>((q.x >> shift) & 1) + 2 * static_cast<int>((q.y >> shift) & 1);
       const Ref below = level + 1 == q.level ? i : new_inner();
-      child(path[static_cast<std::size_t>(level)], k) = below;
+      child(path[level], quarter_at(q.x, q.y, level)) = below;
       path[static_cast<std::size_t>(level) + 1] = below;
     }
     last = q;
@@ -92,26 +89,31 @@ void LeafGraph::visit(Ref ref, const Neighbours& n) {
     visit_leaf(ref, n);
     return;
   }
-  const Ref sw = down(ref, 0), se = down(ref, 1), nw = down(ref, 2), ne = down(ref, 3);
-  visit(sw, {down(n.west, 1), down(n.south, 2), se, nw, down(n.south_west, 3)});
-  visit(se, {sw, down(n.south, 3), down(n.east, 0), ne, down(n.south, 2)});
-  visit(nw, {down(n.west, 3), sw, ne, down(n.north, 0), down(n.west, 1)});
-  visit(ne, {nw, se, down(n.east, 2), down(n.north, 1), sw});
+  using enum Corner;
+  const Ref sw = down(ref, south_west), se = down(ref, south_east), nw = down(ref, north_west),
+            ne = down(ref, north_east);
+  visit(sw, {down(n.west, south_east), down(n.south, north_west), se, nw, down(n.south_west, north_east)});
+  visit(se, {sw, down(n.south, north_east), down(n.east, south_west), ne, down(n.south, north_west)});
+  visit(nw, {down(n.west, north_east), sw, ne, down(n.north, south_west), down(n.west, south_east)});
+  visit(ne, {nw, se, down(n.east, north_west), down(n.north, south_east), sw});
 }
 
 void LeafGraph::visit_leaf(std::int32_t leaf, const Neighbours& n) {
-  const auto deepest = [&](Ref ref, int k) {
-    while (is_inner(ref)) ref = down(ref, k);
+  using enum Corner;
+  const auto deepest = [&](Ref ref, Corner quarter) {
+    while (is_inner(ref)) ref = down(ref, quarter);
     return ref;
   };
-  Around& around = around_[static_cast<std::size_t>(leaf)];
-  around.south_west = deepest(n.south_west, 3);
-  around.south = deepest(n.south, 3);
-  around.west = deepest(n.west, 3);
-  if (is_inner(n.south)) around.south_half = deepest(down(n.south, 2), 3);
-  if (is_inner(n.west)) around.west_half = deepest(down(n.west, 1), 3);
-  around.finer = static_cast<std::uint8_t>((is_inner(n.south) << bottom) | (is_inner(n.east) << right) |
-                                           (is_inner(n.north) << top) | (is_inner(n.west) << left));
+  Around& around = around_[leaf];
+  around.south_west = deepest(n.south_west, north_east);
+  around.south = deepest(n.south, north_east);
+  around.west = deepest(n.west, north_east);
+  if (is_inner(n.south)) around.south_half = deepest(down(n.south, north_west), north_east);
+  if (is_inner(n.west)) around.west_half = deepest(down(n.west, south_east), north_east);
+  if (is_inner(n.south)) around.finer.add(Side::bottom);
+  if (is_inner(n.east)) around.finer.add(Side::right);
+  if (is_inner(n.north)) around.finer.add(Side::top);
+  if (is_inner(n.west)) around.finer.add(Side::left);
 }
 
 }  // namespace quadloop

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/forest/forest.hpp"
 
 namespace quadloop {
@@ -15,16 +16,15 @@ namespace quadloop {
 class LeafGraph {
  public:
   static constexpr std::int32_t none = -1;
-  enum Side : int { bottom = 0, right = 1, top = 2, left = 3 };
 
   /// *Collective.*
   LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest);
 
-  std::int32_t size() const { return static_cast<std::int32_t>(leaves_.size()); }
+  std::int32_t size() const { return size32(leaves_); }
   std::int32_t local_begin() const { return local_begin_; }
   std::int32_t local_end() const { return local_begin_ + local_count_; }
   bool is_local(std::int32_t leaf) const { return local_begin() <= leaf && leaf < local_end(); }
-  const Quadrant& leaf(std::int32_t leaf) const { return leaves_[static_cast<std::size_t>(leaf)]; }
+  const Quadrant& leaf(std::int32_t leaf) const { return leaves_[leaf]; }
   const std::vector<Quadrant>& leaves() const { return leaves_; }
 
   /// The rank that a leaf belongs to, and its number there (counted from that rank's first leaf).
@@ -39,6 +39,13 @@ class LeafGraph {
   /// The leaf that holds the unit square right above the lattice corner (x, y); none where there is none in
   /// sight.
   std::int32_t leaf_at(std::int64_t x, std::int64_t y) const;
+  /// The rank with the leaf that holds it, in sight or not; it must lie in the root.
+  int rank_at(std::int64_t x, std::int64_t y) const { return owners_.rank_of(owners_.place_of(x, y)); }
+  /// The leaves round a lattice point, as Corner counts from it; a leaf that it lies on a side of is there
+  /// twice.
+  std::array<std::int32_t, 4> leaves_round(LatticePoint p) const {
+    return {leaf_at(p.x - 1, p.y - 1), leaf_at(p.x, p.y - 1), leaf_at(p.x, p.y), leaf_at(p.x - 1, p.y)};
+  }
 
   /// The leaves around the lower left part of a leaf, each named by the point of it that they touch; such a
   /// leaf is the first along the curve of all that touch the point.
@@ -48,11 +55,10 @@ class LeafGraph {
     std::int32_t west = none;        ///< left of the upper left corner (left of the left side)
     std::int32_t south_half = none;  ///< below the bottom side's left half, where the leaves below are finer
     std::int32_t west_half = none;   ///< left of the left side's lower half, where the leaves there are finer
-    std::uint8_t finer =
-        0;  ///< bit s: the neighbours across side s are finer, so the side has a hanging node
+    SideSet finer;  ///< the sides across which the neighbours are finer: each has a hanging node
   };
-  const Around& around(std::int32_t leaf) const { return around_[static_cast<std::size_t>(leaf)]; }
-  bool has_hanging(std::int32_t leaf, Side side) const { return ((around(leaf).finer >> side) & 1) != 0; }
+  const Around& around(std::int32_t leaf) const { return around_[leaf]; }
+  bool has_hanging(std::int32_t leaf, Side side) const { return around(leaf).finer.contains(side); }
 
  private:
   using Ref = std::int32_t;  ///< a leaf (>= 0), none, or an inner node of the tree (-2 and below)
@@ -60,23 +66,22 @@ class LeafGraph {
     Ref west = none, south = none, east = none, north = none, south_west = none;
   };
   static constexpr bool is_inner(Ref ref) { return ref < none; }
-  Ref& child(Ref inner, int k) {
-    return inner_[static_cast<std::size_t>(-2 - inner)][static_cast<std::size_t>(k)];
-  }
-  Ref down(Ref ref, int k) const {
-    return is_inner(ref) ? inner_[static_cast<std::size_t>(-2 - ref)][static_cast<std::size_t>(k)] : ref;
+  Ref& child(Ref inner, Corner quarter) { return inner_[-2 - inner][index_of(quarter)]; }
+  Ref down(Ref ref, Corner quarter) const {
+    return is_inner(ref) ? inner_[-2 - ref][index_of(quarter)] : ref;
   }
   Ref new_inner();
   void build_trees(const Lattice& lattice);
   void visit(Ref ref, const Neighbours& n);
   void visit_leaf(std::int32_t leaf, const Neighbours& n);
 
+  CurveOwners owners_;
   std::vector<Quadrant> leaves_;
   std::int32_t local_begin_ = 0, local_count_ = 0;
   int rank_ = 0;
   std::vector<Place> ghost_places_;
   std::vector<Around> around_;
-  std::vector<std::array<Ref, 4>> inner_;
+  std::vector<std::array<Ref, 4>> inner_;  ///< by Corner
   std::vector<Ref> roots_;
   int trees_x_ = 1, trees_y_ = 1;
 };

@@ -4,6 +4,8 @@
 #include <array>
 
 #include "mesher/base/progress.hpp"
+#include "mesher/sizes/gradation.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 
 namespace quadloop {
 
@@ -39,8 +41,7 @@ class SqueezedLeaves {
   std::size_t local(std::int32_t leaf) const { return static_cast<std::size_t>(leaf - graph_.local_begin()); }
 
   void mark(std::int32_t leaf) {
-    const unsigned finer = finer_[local(leaf)];
-    if ((finer & (finer >> 2)) == 0 || marked_[local(leaf)] != 0) return;
+    if (!finer_[local(leaf)].has_opposites() || marked_[local(leaf)] != 0) return;
     marked_[local(leaf)] = 1;
     any_ = true;
     waiting_.push_back(leaf);
@@ -50,21 +51,20 @@ class SqueezedLeaves {
   void tell_neighbours(std::int32_t leaf) {
     const Quadrant& q = graph_.leaf(leaf);
     const std::int64_t s = q.size();
-    constexpr int sides = 4;
-    const std::array<std::int32_t, sides> across{graph_.leaf_at(q.x, q.y - 1), graph_.leaf_at(q.x + s, q.y),
-                                                 graph_.leaf_at(q.x, q.y + s), graph_.leaf_at(q.x - 1, q.y)};
-    for (int side = 0; side < sides; ++side) {
-      const std::int32_t neighbour = across[static_cast<std::size_t>(side)];
+    const std::array<std::int32_t, 4> across{graph_.leaf_at(q.x, q.y - 1), graph_.leaf_at(q.x + s, q.y),
+                                             graph_.leaf_at(q.x, q.y + s), graph_.leaf_at(q.x - 1, q.y)};
+    for (const Side side : all_sides) {
+      const std::int32_t neighbour = across[index_of(side)];
       if (neighbour == LeafGraph::none || !graph_.is_local(neighbour) ||
           graph_.leaf(neighbour).level != q.level)
         continue;
-      finer_[local(neighbour)] |= static_cast<std::uint8_t>(1U << ((side + 2) % sides));
+      finer_[local(neighbour)].add(opposite(side));
       mark(neighbour);
     }
   }
 
   const LeafGraph& graph_;
-  std::vector<std::uint8_t> finer_;
+  std::vector<SideSet> finer_;
   std::vector<char> marked_;
   std::vector<std::int32_t> waiting_;
   bool any_ = false;
@@ -93,24 +93,26 @@ std::vector<int> stops_of(const Communicator& comm, const SizeTree& sizes) {
 
 /// An estimate of the leaves that a quadrant will hold, in the end, for each that it holds where there is no
 /// outline: those as large as any may be, and about `leaves_across` of each finer size beside the outline.
-int leaves_to_come(const Quadrant& q, SizeTree& sizes) {
+int leaves_to_come(const Quadrant& q, const SizeTree& sizes, SizeCursor& cursor) {
   constexpr int leaves_across = 4, deepest = 12;
-  if (sizes.segments_in(q).empty()) return 1;
+  if (cursor.segments_in(q).empty()) return 1;
   return 1 + (leaves_across << std::min(sizes.finest_level() - q.level, deepest)) /
                  (1 << 2 * std::clamp(sizes.coarsest_level() - q.level, 0, deepest));
 }
 
 /// The weight of a leaf when the leaves are shared out at a stop: at the last one by the work of cutting,
 /// before by the leaves still to come.
-int weight_at(const Quadrant& q, SizeTree& sizes, int stop) {
-  if (stop == sizes.finest_level()) return sizes.segments_in(q).empty() ? weight_uncut : weight_cut;
-  if (stop < sizes.coarsest_level()) return leaves_to_come(q, sizes);
-  return q.level == stop && sizes.must_split(q) ? weight_unfinished : 1;
+int weight_at(const Quadrant& q, const SizeTree& sizes, SizeCursor& cursor, Gradation& gradation, int stop) {
+  if (stop == sizes.finest_level()) return cursor.segments_in(q).empty() ? weight_uncut : weight_cut;
+  if (stop < sizes.coarsest_level()) return leaves_to_come(q, sizes, cursor);
+  return q.level == stop && gradation.must_split(q) ? weight_unfinished : 1;
 }
 
 }  // namespace
 
-LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes, double expected_leaves) {
+LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, double expected_leaves) {
+  SizeCursor cursor(sizes);
+  Gradation gradation(sizes);
   Forest forest(comm, sizes.lattice());
   progress::Stage stage("refinement", expected_leaves * quadrants_of_leaf / comm.size(), "quadrants");
   double looked_at = 0;
@@ -119,10 +121,11 @@ LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes, double expect
     const auto must_split = [&](const Quadrant& q) {
       if (q.level < refined) return false;
       stage.advance(++looked_at);
-      return sizes.must_split(q);
+      return gradation.must_split(q);
     };
     forest.refine(must_split, stop);
-    if (comm.size() > 1) forest.partition([&](const Quadrant& q) { return weight_at(q, sizes, stop); });
+    const auto weight = [&](const Quadrant& q) { return weight_at(q, sizes, cursor, gradation, stop); };
+    if (comm.size() > 1) forest.partition(weight);
     refined = stop;
   }
   while (true) {

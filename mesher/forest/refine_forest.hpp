@@ -2,7 +2,7 @@
 
 #include "mesher/forest/forest.hpp"
 #include "mesher/forest/leaf_graph.hpp"
-#include "mesher/forest/size_tree.hpp"
+#include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
 
@@ -14,6 +14,6 @@ constexpr int weight_uncut = 1, weight_cut = 16;
 /// sides (thesis Fig. 3.4 (a)), so that a leaf has at most two hanging nodes, on adjacent sides. The leaves
 /// are shared out by weight. Returns the leaves of this rank and those around them. *Collective.*
 /// `expected_leaves`, over all ranks, are for the line of progress alone; 0: not known.
-LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes, double expected_leaves = 0);
+LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, double expected_leaves = 0);
 
 }  // namespace quadloop

@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "mesher/base/log.hpp"
-#include "mesher/build/lattice_rank.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
+#include "mesher/cut/lattice_rank.hpp"
 #include "mesher/generate/digests.hpp"
 
 namespace quadloop {
@@ -29,8 +29,8 @@ void count_triangles(const std::vector<std::int32_t>& standing, std::vector<Leaf
 void keep_parallelograms(const Communicator& comm, const std::function<TieRank(Point)>& rank,
                          MeshResult& result) {
   split_skew_quads(result.mesh, result.tree.leaves, rank);
-  result.tree.attributes.triangles = comm.sum(static_cast<std::int64_t>(result.mesh.triangles.size()));
-  result.tree.attributes.quads = comm.sum(static_cast<std::int64_t>(result.mesh.quads.size()));
+  result.tree.attributes.triangles = comm.sum(std::ssize(result.mesh.triangles));
+  result.tree.attributes.quads = comm.sum(std::ssize(result.mesh.quads));
 }
 
 void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result) {

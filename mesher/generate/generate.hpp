@@ -7,8 +7,8 @@
 
 #include "mesher/base/communicator.hpp"
 #include "mesher/build/build_mesh.hpp"
-#include "mesher/forest/demanded_splits.hpp"
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/sizes/demanded_splits.hpp"
 #include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {

@@ -64,7 +64,7 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
   for (std::int32_t loop = 0; loop < loop_count(); ++loop) {
     const std::int32_t begin = loop_start(loop), end = loop_start(loop + 1);
     for (std::int32_t v = begin; v < end; ++v) {
-      const auto at = static_cast<std::size_t>(v);
+      const std::size_t at = v;
       loop_of_[at] = loop;
       next_[at] = v + 1 < end ? v + 1 : begin;
       previous_[at] = v > begin ? v - 1 : end - 1;
@@ -76,8 +76,8 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
   for (std::int32_t v = 0; v < size(); ++v) {
     const BoundaryId before = boundary_of(previous(v)), after = boundary_of(v);
     const double turn = turn_degrees(v);
-    kept_[static_cast<std::size_t>(v)] = before != after || turn > boundary(after).corner_degrees;
-    straight_[static_cast<std::size_t>(v)] = before == after && turn < straight_degrees;
+    kept_[v] = before != after || turn > boundary(after).corner_degrees;
+    straight_[v] = before == after && turn < straight_degrees;
   }
 }
 
@@ -126,8 +126,7 @@ std::vector<Chain> chains_of(const Geometry& geometry) {
     const std::int32_t begin = geometry.loop_start(loop), end = geometry.loop_start(loop + 1),
                        change = first_change(geometry, loop);
     if (change < 0) {
-      const auto points =
-          geometry.points().subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+      const auto points = geometry.points().subspan(begin, end - begin);
       chains.push_back({name_of(geometry, begin), false, {points.begin(), points.end()}, {}});
       continue;
     }

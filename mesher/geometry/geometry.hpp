@@ -37,31 +37,27 @@ class Geometry {
   Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
            std::vector<BoundaryId> segment_boundary);
 
-  std::int32_t size() const {
-    return static_cast<std::int32_t>(points_.size());
-  }  ///< number of vertices, and of segments
-  std::int32_t loop_count() const { return static_cast<std::int32_t>(loop_starts_.size()) - 1; }
-  std::int32_t loop_start(std::int32_t loop) const { return loop_starts_[static_cast<std::size_t>(loop)]; }
-  std::int32_t loop_of(std::int32_t v) const { return loop_of_[static_cast<std::size_t>(v)]; }
+  std::int32_t size() const { return size32(points_); }  ///< number of vertices, and of segments
+  std::int32_t loop_count() const { return size32(loop_starts_) - 1; }
+  std::int32_t loop_start(std::int32_t loop) const { return loop_starts_[loop]; }
+  std::int32_t loop_of(std::int32_t v) const { return loop_of_[v]; }
 
-  Point point(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
-  std::int32_t next(std::int32_t v) const { return next_[static_cast<std::size_t>(v)]; }
-  std::int32_t previous(std::int32_t v) const { return previous_[static_cast<std::size_t>(v)]; }
-  BoundaryId boundary_of(std::int32_t segment) const {
-    return segment_boundary_[static_cast<std::size_t>(segment)];
-  }
+  Point point(std::int32_t v) const { return points_[v]; }
+  std::int32_t next(std::int32_t v) const { return next_[v]; }
+  std::int32_t previous(std::int32_t v) const { return previous_[v]; }
+  BoundaryId boundary_of(std::int32_t segment) const { return segment_boundary_[segment]; }
 
   std::span<const Boundary> boundaries() const { return boundaries_; }
-  const Boundary& boundary(BoundaryId b) const { return boundaries_[static_cast<std::size_t>(b.value())]; }
+  const Boundary& boundary(BoundaryId b) const { return boundaries_[b.value()]; }
   std::span<const Point> points() const { return points_; }
   const Box& box() const { return box_; }
 
   /// Whether the vertex must become a mesh node: it turns by more than its boundary's corner, or two
   /// boundaries meet there.
-  bool kept(std::int32_t v) const { return kept_[static_cast<std::size_t>(v)] != 0; }
+  bool kept(std::int32_t v) const { return kept_[v] != 0; }
   /// Whether the outline runs straight on through the vertex (to straight_degrees) within one boundary: such
   /// a point is no feature, so a mesh does not change when segments are split.
-  bool straight(std::int32_t v) const { return straight_[static_cast<std::size_t>(v)] != 0; }
+  bool straight(std::int32_t v) const { return straight_[v] != 0; }
   static constexpr double straight_degrees = 1e-6;
   /// By how much the outline turns at the vertex, in degrees, 0 to 180.
   double turn_degrees(std::int32_t v) const;

@@ -1,23 +1,153 @@
 #include "mesher/geometry/predicates.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <array>
+#include <bit>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
 
 namespace quadloop {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+namespace mp = boost::multiprecision;
+template <unsigned bits>
+using Fixed = mp::number<mp::cpp_int_backend<bits, bits, mp::signed_magnitude, mp::unchecked, void>>;
 
-Kernel::Point_2 exact(Point p) { return {p.x, p.y}; }
+/// A coordinate as mantissa * 2^exponent, the mantissa odd; 0 * 2^0.
+struct Binary {
+  std::int64_t mantissa = 0;
+  int exponent = 0;
+};
+
+Binary binary(double coordinate) {
+  if (coordinate == 0) return {};
+  constexpr int digits = 52, bias = 1075;
+  constexpr std::uint64_t hidden = std::uint64_t{1} << digits;
+  const auto bits = std::bit_cast<std::uint64_t>(coordinate);
+  const auto field = static_cast<int>(bits >> digits) & 0x7ff;
+  const std::uint64_t digits_set = (bits & (hidden - 1)) | (field == 0 ? 0 : hidden);
+  const int zeros = std::countr_zero(digits_set);
+  const auto mantissa = static_cast<std::int64_t>(digits_set >> zeros);
+  return {std::signbit(coordinate) ? -mantissa : mantissa, std::max(field, 1) - bias + zeros};
+}
+
+/// Points in units of the largest power of two that divides all their coordinates.
+class IntegerPoints {
+ public:
+  explicit IntegerPoints(const std::array<Point, 4>& points) {
+    int lowest = std::numeric_limits<int>::max();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      coordinates_[2 * i] = binary(points[i].x);
+      coordinates_[2 * i + 1] = binary(points[i].y);
+    }
+    for (const Binary& b : coordinates_) {
+      if (b.mantissa != 0) lowest = std::min(lowest, b.exponent);
+    }
+    for (Binary& b : coordinates_) {
+      if (b.mantissa == 0) continue;
+      b.exponent -= lowest;
+      const auto magnitude = static_cast<std::uint64_t>(std::abs(b.mantissa));
+      bits_ = std::max(bits_, static_cast<int>(std::bit_width(magnitude)) + b.exponent);
+    }
+  }
+
+  /// That the largest coordinate takes.
+  int bits() const { return bits_; }
+  template <class Integer>
+  Integer dx(std::size_t i, std::size_t from) const {
+    return coordinate<Integer>(2 * i) - coordinate<Integer>(2 * from);
+  }
+  template <class Integer>
+  Integer dy(std::size_t i, std::size_t from) const {
+    return coordinate<Integer>(2 * i + 1) - coordinate<Integer>(2 * from + 1);
+  }
+
+ private:
+  template <class Integer>
+  Integer coordinate(std::size_t i) const {
+    return Integer(coordinates_[i].mantissa) *
+           (Integer(1) << static_cast<unsigned>(coordinates_[i].exponent));
+  }
+  std::array<Binary, 8> coordinates_;
+  int bits_ = 0;
+};
+
+template <class Integer>
+int orientation_in(const IntegerPoints& p) {
+  const Integer left = p.dx<Integer>(0, 2) * p.dy<Integer>(1, 2),
+                right = p.dy<Integer>(0, 2) * p.dx<Integer>(1, 2);
+  return left.compare(right);
+}
+
+template <class Integer>
+int in_circle_in(const IntegerPoints& p) {
+  std::array<Integer, 3> x, y, lift;
+  for (std::size_t i = 0; i < 3; ++i) {
+    x[i] = p.dx<Integer>(i, 3);
+    y[i] = p.dy<Integer>(i, 3);
+    lift[i] = x[i] * x[i] + y[i] * y[i];
+  }
+  Integer determinant = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    determinant += lift[i] * (x[j] * y[k] - y[j] * x[k]);
+  }
+  return determinant.sign();
+}
+
+/// Leaves make many such circles, through corners of rectangles that are parallel to the axes.
+bool is_rectangle(Point a, Point b, Point c, Point d) {
+  const auto is = [d](Point above, Point beside, Point opposite) {
+    return above.x == d.x && beside.y == d.y && opposite.x == beside.x && opposite.y == above.y;
+  };
+  return is(a, b, c) || is(a, c, b) || is(b, a, c) || is(b, c, a) || is(c, a, b) || is(c, b, a);
+}
+
+int exact_in_circle(Point a, Point b, Point c, Point d) {
+  if (is_rectangle(a, b, c, d)) return 0;
+  const IntegerPoints points({a, b, c, d});  // with n bits the determinant takes 4 (n + 1) + 4
+  if (points.bits() <= 29) return in_circle_in<Fixed<127>>(points);
+  if (points.bits() <= 126) return in_circle_in<Fixed<512>>(points);
+  return in_circle_in<mp::cpp_int>(points);
+}
+
+/// 0 where rounding hides the sign. The bound is that of Shewchuk's paper (see the header) for this sum, with
+/// a part in ten more for products that underflow: with lifts below 2^100 they lose less than 2^-960.
+template <class Real>
+int rounded_in_circle(Point a, Point b, Point c, Point d) {
+  constexpr Real unit = std::numeric_limits<Real>::epsilon() / 2, bound = 11 * unit;
+  constexpr Real no_underflow = 0x1p-850, no_overflow = 0x1p100;
+  const auto ax = Real(a.x) - Real(d.x), ay = Real(a.y) - Real(d.y), bx = Real(b.x) - Real(d.x),
+             by = Real(b.y) - Real(d.y), cx = Real(c.x) - Real(d.x), cy = Real(c.y) - Real(d.y);
+  const Real lift_a = ax * ax + ay * ay, lift_b = bx * bx + by * by, lift_c = cx * cx + cy * cy;
+  const Real bxcy = bx * cy, bycx = by * cx, cxay = cx * ay, cyax = cy * ax, axby = ax * by, aybx = ay * bx;
+  const Real determinant = lift_a * (bxcy - bycx) + lift_b * (cxay - cyax) + lift_c * (axby - aybx);
+  const Real sum = lift_a * (std::abs(bxcy) + std::abs(bycx)) + lift_b * (std::abs(cxay) + std::abs(cyax)) +
+                   lift_c * (std::abs(axby) + std::abs(aybx));
+  const bool sure =
+      lift_a + lift_b + lift_c < no_overflow && sum > no_underflow && std::abs(determinant) > bound * sum;
+  return !sure ? 0 : determinant > 0 ? 1 : -1;
+}
+
+int sign(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
 }  // namespace
 
 int exact_orientation(Point a, Point b, Point c) {
-  return static_cast<int>(CGAL::orientation(exact(a), exact(b), exact(c)));
+  const int left = sign(a.x - c.x) * sign(b.y - c.y), right = sign(a.y - c.y) * sign(b.x - c.x);
+  if (left != right) return left > right ? 1 : -1;
+  if (left == 0) return 0;
+  const IntegerPoints points({a, b, c, c});  // with n bits the products take 2 (n + 1)
+  if (points.bits() <= 62) return orientation_in<Fixed<127>>(points);
+  return orientation_in<mp::cpp_int>(points);
 }
 
 int in_circle(Point a, Point b, Point c, Point d) {
-  return static_cast<int>(CGAL::side_of_oriented_circle(exact(a), exact(b), exact(c), exact(d)));
+  if (const int side = rounded_in_circle<double>(a, b, c, d); side != 0) return side;
+  if (const int side = rounded_in_circle<long double>(a, b, c, d); side != 0) return side;
+  return exact_in_circle(a, b, c, d);
 }
 
 bool on_segment(Point p, Point a, Point b) {

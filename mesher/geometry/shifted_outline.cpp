@@ -36,9 +36,8 @@ using Wide =
 
 }  // namespace
 
-ShiftedOutline::ShiftedOutline(const Geometry& geometry)
-    : geometry_{&geometry}, shift_(static_cast<std::size_t>(geometry.size())) {
-  for (std::int32_t v = 0; v < geometry.size(); ++v) shift_[static_cast<std::size_t>(v)] = shift_of(v);
+ShiftedOutline::ShiftedOutline(const Geometry& geometry) : geometry_{&geometry}, shift_(geometry.size()) {
+  for (std::int32_t v = 0; v < geometry.size(); ++v) shift_[v] = shift_of(v);
 }
 
 ShiftedOutline::Shift ShiftedOutline::shift_of(std::int32_t vertex) const {

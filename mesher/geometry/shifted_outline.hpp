@@ -26,11 +26,11 @@ class ShiftedOutline {
   /// (above it).
   bool beyond_x(std::int32_t vertex, double x) const {
     const double at = geometry_->point(vertex).x;
-    return at != x ? at > x : shift_[static_cast<std::size_t>(vertex)].x > 0;
+    return at != x ? at > x : shift_[vertex].x > 0;
   }
   bool beyond_y(std::int32_t vertex, double y) const {
     const double at = geometry_->point(vertex).y;
-    return at != y ? at > y : shift_[static_cast<std::size_t>(vertex)].y > 0;
+    return at != y ? at > y : shift_[vertex].y > 0;
   }
 
   /// Whether p lies to the left of the (infinite) line through the segment.

@@ -82,13 +82,13 @@ class Sweep {
 
   void enter(std::int32_t s) {
     const auto at = status_.insert(s).first;
-    place_[static_cast<std::size_t>(s)] = at;
+    place_[s] = at;
     if (at != status_.begin()) check(*std::prev(at), s);
     if (std::next(at) != status_.end()) check(s, *std::next(at));
   }
 
   void leave(std::int32_t s) {
-    const auto after = status_.erase(place_[static_cast<std::size_t>(s)]);
+    const auto after = status_.erase(place_[s]);
     if (after != status_.begin() && after != status_.end()) check(*std::prev(after), *after);
   }
 
@@ -98,7 +98,7 @@ class Sweep {
   void note_below(std::int32_t v, std::int32_t s, std::int32_t t) {
     begun_[flat_.loop(v)] = 1;
     first_points_.push_back(v);
-    const auto lower = place_[static_cast<std::size_t>(is_below(s, t) ? s : t)];
+    const auto lower = place_[is_below(s, t) ? s : t];
     if (lower != status_.begin()) below_[flat_.loop(v)] = *std::prev(lower);
   }
 
@@ -130,9 +130,9 @@ std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::
   const std::int32_t loop_begin = flat.loop_starts[flat.loop(s)];
   const OutlineLoop& loop = outline.loops[flat.loop(s)];
   const Point a = flat.point(s), b = flat.point(flat.next(s));
-  const BoundaryId boundary = loop.boundary[static_cast<std::size_t>(s - loop_begin)];
-  return fmt::format("'{}' between ({}, {}) and ({}, {})",
-                     outline.names[static_cast<std::size_t>(boundary.value())], a.x, a.y, b.x, b.y);
+  const BoundaryId boundary = loop.boundary[s - loop_begin];
+  return fmt::format("'{}' between ({}, {}) and ({}, {})", outline.names[boundary.value()], a.x, a.y, b.x,
+                     b.y);
 }
 
 [[noreturn]] void refuse(const Outline& outline, const FlatOutline& flat) {

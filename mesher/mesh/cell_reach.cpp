@@ -7,9 +7,9 @@
 #include <limits>
 #include <span>
 
-namespace quadloop {
+#include "mesher/geometry/nearest_on_segment.hpp"
 
-namespace bgi = boost::geometry::index;
+namespace quadloop {
 
 namespace {
 
@@ -17,30 +17,22 @@ constexpr double largest_slope = 0.5;  ///< of the leaves' sizes: (g - 1) / 2 fo
 
 }  // namespace
 
-double distance_to_segment(Point p, Point a, Point b) {
-  const Point edge = b - a;
-  const double squared = dot(edge, edge);
-  const double t = squared > 0 ? std::clamp(dot(p - a, edge) / squared, 0.0, 1.0) : 0.0;
-  return length(p - a - t * edge);
-}
-
 void CellReach::build() {
-  std::vector<Entry> entries;
+  std::vector<Box> boxes;
   const auto add = [&](const auto& cells) {
     for (const auto& nodes : cells) {
       Box box;
       for (const NodeId node : nodes) box.include(mesh_.point(node));
-      entries.emplace_back(IndexBox{{box.low.x, box.low.y}, {box.high.x, box.high.y}},
-                           static_cast<std::int32_t>(entries.size()));
+      boxes.push_back(box);
     }
   };
   add(mesh_.triangles);
   add(mesh_.quads);
-  cells_ = decltype(cells_)(entries);
+  cells_ = BoxTree(boxes);
 }
 
 double CellReach::distance_to(std::int32_t cell, Point p) const {
-  const auto at = static_cast<std::size_t>(cell);
+  const std::size_t at = cell;
   const bool triangle = at < mesh_.triangles.size();
   const std::span<const NodeId> nodes =
       triangle ? std::span<const NodeId>(mesh_.triangles[at])
@@ -58,20 +50,20 @@ double CellReach::distance_to(std::int32_t cell, Point p) const {
 /// The largest of longest edge less `slope` times the distance, over the cells within `distance`; 0 where
 /// there are none.
 double CellReach::largest_within(Point p, double distance, double slope) const {
-  const IndexBox around{{p.x - distance, p.y - distance}, {p.x + distance, p.y + distance}};
+  const Box around{{p.x - distance, p.y - distance}, {p.x + distance, p.y + distance}};
   double size = 0;
-  for (auto found = cells_.qbegin(bgi::intersects(around)); found != cells_.qend(); ++found) {
-    const double here = longest_[static_cast<std::size_t>(found->second)];
-    if (here <= size) continue;
-    const double away = distance_to(found->second, p);
+  cells_.for_each_meeting(around, [&](std::int32_t cell) {
+    const double here = longest_[cell];
+    if (here <= size) return;
+    const double away = distance_to(cell, p);
     if (away <= distance) size = std::max(size, here - slope * away);
-  }
+  });
   return size;
 }
 
 double CellReach::longest_of_nearest(Point p) const {
-  const auto nearest = cells_.qbegin(bgi::nearest(IndexPoint(p.x, p.y), 1));
-  return nearest == cells_.qend() ? 0 : longest_[static_cast<std::size_t>(nearest->second)];
+  const std::int32_t nearest = cells_.nearest_box(p);
+  return nearest == BoxTree::none ? 0 : longest_[nearest];
 }
 
 double CellReach::size_at(Point p, double enough) {

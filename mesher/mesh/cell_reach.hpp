@@ -1,12 +1,8 @@
 #pragma once
 
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
-#include <utility>
 #include <vector>
 
+#include "mesher/geometry/box_tree.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
@@ -30,10 +26,6 @@ class CellReach {
   double longest_within(Point p, double distance);
 
  private:
-  using IndexPoint = boost::geometry::model::point<double, 2, boost::geometry::cs::cartesian>;
-  using IndexBox = boost::geometry::model::box<IndexPoint>;
-  using Entry = std::pair<IndexBox, std::int32_t>;
-
   void build();
   double largest_within(Point p, double distance, double slope) const;
   double longest_of_nearest(Point p) const;
@@ -41,10 +33,7 @@ class CellReach {
 
   const Mesh& mesh_;
   const std::vector<double>& longest_;
-  boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>> cells_;
+  BoxTree cells_;
 };
-
-/// Of a point to a segment.
-double distance_to_segment(Point p, Point a, Point b);
 
 }  // namespace quadloop

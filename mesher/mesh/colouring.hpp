@@ -44,7 +44,7 @@ Colouring colour_nodes(const Communicator& comm, const NodeExchange& exchange, s
   colours.assign(all, Colouring::none);
   std::vector<std::size_t> order;  // those that have not chosen yet
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    colours[static_cast<std::size_t>(nodes[i])] = waiting;
+    colours[nodes[i]] = waiting;
     order.push_back(i);
   }
   const auto priority = [&](std::int32_t node) { return colouring_priority(number_of(node)); };
@@ -55,14 +55,14 @@ Colouring colour_nodes(const Communicator& comm, const NodeExchange& exchange, s
     std::uint64_t taken = 0;
     bool must_wait = false;
     for_each_neighbour(i, [&](std::int32_t other) {
-      const std::int8_t colour = colours[static_cast<std::size_t>(other)];
+      const std::int8_t colour = colours[other];
       if (colour == Colouring::none || other == nodes[i] || priority(other) < own) return;
       must_wait = must_wait || colour == waiting;
       if (colour != waiting) taken |= std::uint64_t{1} << colour;
     });
     if (must_wait) return false;
     QUADLOOP_REQUIRE(~taken != 0, "a node has fewer than 64 neighbours of different colours");
-    colours[static_cast<std::size_t>(nodes[i])] = static_cast<std::int8_t>(std::countr_one(taken));
+    colours[nodes[i]] = static_cast<std::int8_t>(std::countr_one(taken));
     return true;
   };
   exchange.update(colours);

@@ -8,6 +8,7 @@
 #include "mesher/base/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/node_exchange.hpp"
+#include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
 
@@ -28,7 +29,7 @@ class HaloMesh {
   /// Owned nodes first, as in the mesh; then its copies; then the other nodes of other ranks' cells.
   std::vector<Point>& points() { return points_; }
   const std::vector<Point>& points() const { return points_; }
-  const Point& point(NodeId node) const { return points_[static_cast<std::size_t>(node.value())]; }
+  const Point& point(NodeId node) const { return points_[node.value()]; }
   std::int32_t owned_nodes() const { return mesh_->owned_nodes; }
   std::int64_t global(std::int32_t node) const;
   const NodeExchange& exchange() const { return exchange_; }
@@ -56,16 +57,19 @@ class HaloMesh {
   template <std::size_t width>
   using Cells = std::vector<std::array<NodeId, width>>;
 
-  class Numbering;
-  using CellLists = std::vector<std::vector<std::int32_t>>;  ///< for each rank
+  /// Own cells that other ranks have too, each with the rank that has it.
+  struct Sent {
+    std::vector<std::int32_t> cells;
+    std::vector<int> ranks;
+  };
+  NodeExchange gather(const Communicator& comm);
   template <std::size_t width>
   void receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own,
-                     Numbering& numbering, Cells<width>& before, Cells<width>& after, CellLists& sent);
+                     NodeTable& nodes, Cells<width>& before, Cells<width>& after, Sent& sent);
+  void receive_edges(const Communicator& comm, const NodeOwners& owners, const NodeTable& nodes);
   template <class T>
-  void append_spread(const Communicator& comm, const CellLists& sent, std::span<const T> own,
-                     std::vector<T>& all) const;
-  void receive_edges(const Communicator& comm, const NodeOwners& owners, const Numbering& numbering);
-  NodeExchange gather(const Communicator& comm);
+  static void append_spread(const Communicator& comm, const Sent& sent, std::size_t before,
+                            std::span<const T> own, std::vector<T>& all);
 
   const Mesh* mesh_;
   std::vector<Point> points_;
@@ -73,31 +77,28 @@ class HaloMesh {
   Cells<3> triangles_before_, triangles_after_;  ///< of lower and of higher ranks
   Cells<4> quads_before_, quads_after_;
   std::vector<HaloEdge> edges_;
-  CellLists triangles_sent_, quads_sent_;  ///< own cells that other ranks have too
+  Sent triangles_sent_, quads_sent_;
   NodeExchange exchange_;
 };
 
 template <class T>
-void HaloMesh::append_spread(const Communicator& comm, const CellLists& sent, std::span<const T> own,
-                             std::vector<T>& all) const {
-  std::vector<std::vector<T>> out(sent.size());
-  for (std::size_t rank = 0; rank < sent.size(); ++rank) {
-    for (const std::int32_t cell : sent[rank]) out[rank].push_back(own[static_cast<std::size_t>(cell)]);
-  }
-  const auto received = comm.exchange(out);
-  const auto self = static_cast<std::size_t>(comm.rank());
-  for (std::size_t rank = 0; rank < received.size(); ++rank) {
-    if (rank == self) all.insert(all.end(), own.begin(), own.end());
-    all.insert(all.end(), received[rank].begin(), received[rank].end());
-  }
+void HaloMesh::append_spread(const Communicator& comm, const Sent& sent, std::size_t before,
+                             std::span<const T> own, std::vector<T>& all) {
+  std::vector<T> out;
+  for (const std::int32_t cell : sent.cells) out.push_back(own[cell]);
+  out = Exchange(comm, sent.ranks).deliver(out);
+  const auto middle = out.begin() + static_cast<std::ptrdiff_t>(before);
+  all.insert(all.end(), out.begin(), middle);
+  all.insert(all.end(), own.begin(), own.end());
+  all.insert(all.end(), middle, out.end());
 }
 
 template <class T>
 std::vector<T> HaloMesh::spread(const Communicator& comm, const std::vector<T>& own) const {
   std::vector<T> all;
   const std::size_t triangles = mesh_->triangles.size();
-  append_spread(comm, triangles_sent_, std::span(own).first(triangles), all);
-  append_spread(comm, quads_sent_, std::span(own).subspan(triangles), all);
+  append_spread(comm, triangles_sent_, triangles_before_.size(), std::span(own).first(triangles), all);
+  append_spread(comm, quads_sent_, quads_before_.size(), std::span(own).subspan(triangles), all);
   return all;
 }
 

@@ -31,10 +31,10 @@ struct Mesh {
   std::vector<std::array<NodeId, 4>> quads;
   std::vector<BoundaryEdges> boundaries;
 
-  const Point& point(NodeId node) const { return points[static_cast<std::size_t>(node.value())]; }
+  const Point& point(NodeId node) const { return points[node.value()]; }
   GlobalNodeId global(NodeId node) const {
     return node.value() < owned_nodes ? GlobalNodeId{first_node + node.value()}
-                                      : copies[static_cast<std::size_t>(node.value() - owned_nodes)];
+                                      : copies[node.value() - owned_nodes];
   }
 };
 

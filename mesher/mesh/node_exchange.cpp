@@ -4,20 +4,24 @@
 
 namespace quadloop {
 
+namespace {
+
+std::vector<CopyExchange::Copy> listed(const NodeOwners& owners, std::int32_t owned_nodes,
+                                       std::span<const GlobalNodeId> copies) {
+  std::vector<CopyExchange::Copy> list;
+  for (const GlobalNodeId node : copies)
+    list.push_back({owned_nodes++, owners.rank_of(node), owners.index_of(node)});
+  return list;
+}
+
+}  // namespace
+
 int NodeOwners::rank_of(GlobalNodeId node) const {
   return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), node.value()) - first_.begin()) - 1;
 }
 
 NodeExchange::NodeExchange(const Communicator& comm, const NodeOwners& owners, std::int32_t owned_nodes,
                            std::span<const GlobalNodeId> copies)
-    : comm_{comm}, wanted_(static_cast<std::size_t>(comm.size())) {
-  std::vector<std::vector<std::int32_t>> asked(wanted_.size());
-  for (std::size_t i = 0; i < copies.size(); ++i) {
-    const auto owner = static_cast<std::size_t>(owners.rank_of(copies[i]));
-    wanted_[owner].push_back(owned_nodes + static_cast<std::int32_t>(i));
-    asked[owner].push_back(owners.index_of(copies[i]));
-  }
-  shared_ = comm.exchange(asked);
-}
+    : CopyExchange(comm, listed(owners, owned_nodes, copies)) {}
 
 }  // namespace quadloop

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/base/morton.hpp"
 #include "mesher/mesh/node_exchange.hpp"
+#include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
 
@@ -37,22 +38,25 @@ std::vector<std::uint64_t> curve_places(const Mesh& mesh) {
   return places;
 }
 
+std::vector<std::int32_t> numbers_to(std::size_t count) {
+  std::vector<std::int32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
 /// Numbers in the order of their keys, equal ones as they are.
 template <class Key>
 std::vector<std::int32_t> ordered_by(const std::vector<Key>& keys) {
-  std::vector<std::int32_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
-  });
+  std::vector<std::int32_t> order = numbers_to(keys.size());
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::int32_t a, std::int32_t b) { return keys[a] < keys[b]; });
   return order;
 }
 
 /// For each node of the whole mesh its number in the order.
 std::vector<std::int32_t> inverse_of(const std::vector<std::int32_t>& order) {
   std::vector<std::int32_t> inverse(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    inverse[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < order.size(); ++i) inverse[order[i]] = static_cast<std::int32_t>(i);
   return inverse;
 }
 
@@ -60,8 +64,8 @@ template <std::size_t width>
 std::vector<std::int32_t> ordered_cells(const Cells<width>& cells, const std::vector<std::int32_t>& numbers) {
   std::vector<std::int32_t> first;
   for (const auto& nodes : cells) {
-    std::int32_t least = numbers[static_cast<std::size_t>(nodes[0].value())];
-    for (const NodeId node : nodes) least = std::min(least, numbers[static_cast<std::size_t>(node.value())]);
+    std::int32_t least = numbers[nodes[0].value()];
+    for (const NodeId node : nodes) least = std::min(least, numbers[node.value()]);
     first.push_back(least);
   }
   return ordered_by(first);
@@ -74,8 +78,7 @@ GlobalCells<width> scatter_cells(const Communicator& comm, const Cells<width>& c
   GlobalCells<width> ordered;
   for (const std::int32_t cell : order) {
     std::array<std::int64_t, width> nodes;
-    for (std::size_t k = 0; k < width; ++k)
-      nodes[k] = numbers[static_cast<std::size_t>(cells[static_cast<std::size_t>(cell)][k].value())];
+    for (std::size_t k = 0; k < width; ++k) nodes[k] = numbers[cells[cell][k].value()];
     ordered.push_back(nodes);
   }
   return scatter_evenly(comm, std::span<const std::array<std::int64_t, width>>(ordered));
@@ -86,8 +89,7 @@ std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whol
   std::vector<GlobalEdge> edges;
   for (std::size_t b = 0; comm.is_root() && b < whole.boundaries.size(); ++b) {
     for (const auto& [from, to] : whole.boundaries[b].edges) {
-      edges.push_back({numbers[static_cast<std::size_t>(from.value())],
-                       numbers[static_cast<std::size_t>(to.value())], static_cast<std::int32_t>(b)});
+      edges.push_back({numbers[from.value()], numbers[to.value()], static_cast<std::int32_t>(b)});
     }
   }
   return scatter_evenly(comm, std::span<const GlobalEdge>(edges));
@@ -95,35 +97,22 @@ std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whol
 
 /// The root's boundaries on every rank, without their edges.
 std::vector<BoundaryEdges> broadcast_boundaries(const Communicator& comm, const Mesh& whole) {
-  std::vector<char> text;
-  for (std::size_t b = 0; comm.is_root() && b < whole.boundaries.size(); ++b) {
-    for (const std::string* word : {&whole.boundaries[b].name, &whole.boundaries[b].condition}) {
-      text.insert(text.end(), word->begin(), word->end());
-      text.push_back('\0');
-    }
+  std::vector<std::string> words;
+  for (const BoundaryEdges& boundary : whole.boundaries) {
+    words.push_back(boundary.name);
+    words.push_back(boundary.condition);
   }
-  comm.broadcast(text);
+  words = broadcast_words(comm, words);
   std::vector<BoundaryEdges> boundaries;
-  for (auto at = text.begin(); at != text.end();) {
-    std::array<std::string, 2> words;
-    for (std::string& word : words) {
-      const auto end = std::find(at, text.end(), '\0');
-      word.assign(at, end);
-      at = end + 1;
-    }
-    boundaries.push_back({words[0], words[1], {}});
-  }
+  for (std::size_t i = 0; i < words.size(); i += 2) boundaries.push_back({words[i], words[i + 1], {}});
   return boundaries;
 }
 
 /// Makes a rank's part from what it was sent: its nodes, and cells that name nodes over all ranks.
 class PartBuilder {
  public:
-  PartBuilder(const Communicator& comm, std::vector<Point> points) {
-    part_.points = std::move(points);
-    part_.owned_nodes = static_cast<std::int32_t>(part_.points.size());
-    part_.first_node = comm.exclusive_sum(part_.owned_nodes);
-  }
+  PartBuilder(const Communicator& comm, std::vector<Point> points)
+      : part_{part_of(comm, std::move(points))}, nodes_{part_} {}
 
   template <std::size_t width>
   void add_cells(const GlobalCells<width>& cells, Cells<width>& to) {
@@ -135,58 +124,64 @@ class PartBuilder {
   }
   void add_edges(const std::vector<GlobalEdge>& edges) {
     for (const GlobalEdge& e : edges)
-      part_.boundaries[static_cast<std::size_t>(e.boundary)].edges.push_back({local(e.from), local(e.to)});
+      part_.boundaries[e.boundary].edges.push_back({local(e.from), local(e.to)});
   }
   Mesh& part() { return part_; }
 
   /// Fetches the copies' positions. *Collective.*
   Mesh finish(const Communicator& comm) {
-    part_.points.resize(part_.points.size() + part_.copies.size());
     const NodeOwners owners(comm, part_.first_node);
     NodeExchange(comm, owners, part_.owned_nodes, part_.copies).update(part_.points);
     return std::move(part_);
   }
 
  private:
-  NodeId local(std::int64_t number) {
-    const std::int64_t offset = number - part_.first_node;
-    if (0 <= offset && offset < part_.owned_nodes) return NodeId{static_cast<std::int32_t>(offset)};
-    const auto [found, added] =
-        copies_.emplace(number, part_.owned_nodes + static_cast<std::int32_t>(part_.copies.size()));
-    if (added) part_.copies.push_back(GlobalNodeId{number});
-    return NodeId{found->second};
+  static Mesh part_of(const Communicator& comm, std::vector<Point> points) {
+    Mesh part;
+    part.points = std::move(points);
+    part.owned_nodes = size32(part.points);
+    part.first_node = comm.exclusive_sum(part.owned_nodes);
+    return part;
   }
+  NodeId local(std::int64_t number) { return nodes_.local(number, {}); }
 
   Mesh part_;
-  std::unordered_map<std::int64_t, std::int32_t> copies_;
+  NodeTable nodes_;
 };
 
-/// All ranks' values on the root, one rank's after the other's; elsewhere none. *Collective.*
-template <class T>
-std::vector<T> gather_values(const Communicator& comm, std::vector<T> values) {
-  std::vector<std::vector<T>> out(static_cast<std::size_t>(comm.size()));
-  out[0] = std::move(values);
-  std::vector<T> all;
-  for (const auto& from_rank : comm.exchange(out)) all.insert(all.end(), from_rank.begin(), from_rank.end());
-  return all;
-}
-
+/// All ranks' cells on the root, with nodes by their numbers over all ranks. *Collective.*
 template <std::size_t width>
-void gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>& cells,
-                  const MeshOrder& order, const std::vector<std::int32_t>& cell_order, Cells<width>& whole) {
+GlobalCells<width> gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>& cells) {
   GlobalCells<width> named;
   for (const auto& nodes : cells) {
     std::array<std::int64_t, width> numbers;
     for (std::size_t k = 0; k < width; ++k) numbers[k] = part.global(nodes[k]).value();
     named.push_back(numbers);
   }
-  named = gather_values(comm, std::move(named));
-  for (std::size_t i = 0; i < named.size(); ++i) {
+  return gather_at_root(comm, named);
+}
+
+template <std::size_t width>
+void put_cells(const GlobalCells<width>& cells, const MeshOrder& order,
+               const std::vector<std::int32_t>& cell_order, Cells<width>& whole) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
     for (std::size_t k = 0; k < width; ++k) {
-      whole[static_cast<std::size_t>(cell_order[i])][k] =
-          NodeId{order.nodes[static_cast<std::size_t>(named[i][k])]};
+      whole[cell_order[i]][k] = NodeId{order.nodes[cells[i][k]]};
     }
   }
+}
+
+template <std::size_t width>
+Cells<width> whole_cells(const GlobalCells<width>& cells) {
+  Cells<width> whole(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (std::size_t k = 0; k < width; ++k) whole[i][k] = NodeId{static_cast<std::int32_t>(cells[i][k])};
+  }
+  return whole;
+}
+
+std::vector<Point> gather_points(const Communicator& comm, const Mesh& part) {
+  return gather_at_root(comm, std::span(part.points).first(part.owned_nodes));
 }
 
 }  // namespace
@@ -200,6 +195,11 @@ MeshOrder space_filling_order(const Mesh& whole) {
   return order;
 }
 
+MeshOrder own_order(const Mesh& whole) {
+  return {numbers_to(whole.points.size()), numbers_to(whole.triangles.size()),
+          numbers_to(whole.quads.size())};
+}
+
 Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& order) {
   const std::vector<std::int32_t> numbers = inverse_of(order.nodes);
   PartBuilder builder(comm, scatter_nodes(comm, whole.points, order));
@@ -210,13 +210,51 @@ Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& 
   return builder.finish(comm);
 }
 
+Field scatter_field(const Communicator& comm, const Field& of_whole, const Mesh& part,
+                    const MeshOrder& order) {
+  Field field{broadcast_words(comm, of_whole.names), {}, of_whole.constants};
+  comm.broadcast(field.constants);
+  const auto width = static_cast<std::int64_t>(field.width());
+  const std::vector<std::int64_t> counts = comm.all_gather(std::int64_t{part.owned_nodes} * width);
+  std::vector<double> rows;
+  for (std::size_t i = 0; width > 0 && i < order.nodes.size(); ++i) {
+    const auto row = of_whole.row(NodeId{order.nodes[i]});
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+  field.values = scatter_from_root(comm, rows, counts);
+  return field;
+}
+
+Field gather_field(const Communicator& comm, const Field& field, const MeshOrder& order) {
+  const std::vector<double> by_rank = gather_at_root(comm, field.values);
+  Field whole{field.names, by_rank, field.constants};
+  auto from = by_rank.begin();
+  for (std::size_t i = 0; i < order.nodes.size() && comm.is_root(); ++i) {
+    const auto row = whole.row(NodeId{order.nodes[i]});
+    std::copy_n(from, row.size(), row.begin());
+    from += static_cast<std::ptrdiff_t>(row.size());
+  }
+  return whole;
+}
+
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole) {
-  const auto owned = part.points.begin() + part.owned_nodes;
-  const std::vector<Point> points = gather_values(comm, std::vector<Point>(part.points.begin(), owned));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    whole.points[static_cast<std::size_t>(order.nodes[i])] = points[i];
-  gather_cells(comm, part, part.triangles, order, order.triangles, whole.triangles);
-  gather_cells(comm, part, part.quads, order, order.quads, whole.quads);
+  const std::vector<Point> points = gather_points(comm, part);
+  for (std::size_t i = 0; i < points.size(); ++i) whole.points[order.nodes[i]] = points[i];
+  put_cells(gather_cells(comm, part, part.triangles), order, order.triangles, whole.triangles);
+  put_cells(gather_cells(comm, part, part.quads), order, order.quads, whole.quads);
+}
+
+Mesh gather_whole(const Communicator& comm, const Mesh& part) {
+  Mesh whole;
+  whole.points = gather_points(comm, part);
+  whole.owned_nodes = size32(whole.points);
+  whole.triangles = whole_cells(gather_cells(comm, part, part.triangles));
+  whole.quads = whole_cells(gather_cells(comm, part, part.quads));
+  for (const BoundaryEdges& boundary : part.boundaries) {
+    const auto edges = gather_cells(comm, part, boundary.edges);
+    whole.boundaries.push_back({boundary.name, boundary.condition, whole_cells(edges)});
+  }
+  return whole;
 }
 
 }  // namespace quadloop

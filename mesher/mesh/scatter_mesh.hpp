@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/exchange.hpp"
+#include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
@@ -18,6 +19,9 @@ struct MeshOrder {
 /// Nodes along a space-filling curve over the mesh's box, cells by their first node along it. A function of
 /// the mesh alone, linear but for sorting.
 MeshOrder space_filling_order(const Mesh& whole);
+
+/// Nodes and cells as the mesh numbers them.
+MeshOrder own_order(const Mesh& whole);
 
 /// Spreads a mesh that the root rank holds whole over all ranks, in the order given: an even share of nodes,
 /// triangles, quads and boundary edges for each. `whole` and `order` count on the root alone. *Collective.*
@@ -34,20 +38,31 @@ template <class T>
 std::vector<T> scatter_triangles(const Communicator& comm, const std::vector<T>& of_whole,
                                  const MeshOrder& order);
 
+/// The root's field on a whole mesh, spread over the ranks as scatter_mesh() spread the mesh, into `part`, in
+/// the same order. `of_whole` and `order` count on the root alone. *Collective.*
+Field scatter_field(const Communicator& comm, const Field& of_whole, const Mesh& part,
+                    const MeshOrder& order);
+
+/// The way back: on the root the field on the whole mesh, elsewhere one without values. Rows of copies must
+/// not stand in `field`. *Collective.*
+Field gather_field(const Communicator& comm, const Field& field, const MeshOrder& order);
+
 /// Puts the parts' positions and cells back into their places in the whole mesh on the root. *Collective.*
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole);
+
+/// A distributed mesh whole on the root, nodes and cells in their global order, with its boundaries;
+/// elsewhere one without nodes. *Collective.*
+Mesh gather_whole(const Communicator& comm, const Mesh& part);
 
 /// Even shares of the root's values, in the order of ranks. *Collective.*
 template <class T>
 std::vector<T> scatter_evenly(const Communicator& comm, std::span<const T> values) {
-  std::vector<std::vector<T>> out(static_cast<std::size_t>(comm.size()));
-  for (std::size_t rank = 0; comm.is_root() && rank < out.size(); ++rank) {
-    const std::size_t begin = values.size() * rank / out.size(),
-                      end = values.size() * (rank + 1) / out.size();
-    out[rank].assign(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                     values.begin() + static_cast<std::ptrdiff_t>(end));
-  }
-  return std::move(comm.exchange(out)[0]);
+  const std::size_t ranks = static_cast<std::size_t>(comm.size());
+  std::vector<std::int64_t> counts;
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+    counts.push_back(
+        static_cast<std::int64_t>(values.size() * (rank + 1) / ranks - values.size() * rank / ranks));
+  return scatter_from_root(comm, values, counts);
 }
 
 template <class T>
@@ -55,7 +70,7 @@ std::vector<T> scatter_ordered(const Communicator& comm, const std::vector<T>& o
                                const std::vector<std::int32_t>& order) {
   std::vector<T> ordered;
   for (const std::int32_t i : order) {
-    if (!of_whole.empty()) ordered.push_back(of_whole[static_cast<std::size_t>(i)]);
+    if (!of_whole.empty()) ordered.push_back(of_whole[i]);
   }
   return scatter_evenly(comm, std::span<const T>(ordered));
 }

@@ -21,7 +21,7 @@ void StarHalo::list_spokes() {
 
 /// Each triangle goes to the owners of its nodes.
 void StarHalo::gather_stars(std::span<const NumberedTriangle> own) {
-  std::vector<std::vector<NumberedTriangle>> to_rank(static_cast<std::size_t>(comm_.size()));
+  Outbox<NumberedTriangle> to_owners;
   for (const NumberedTriangle& triangle : own) {
     std::array<int, 3> ranks{};
     for (std::size_t k = 0; k < 3; ++k) ranks[k] = owners_.rank_of(GlobalNodeId{triangle.nodes[k]});
@@ -31,12 +31,11 @@ void StarHalo::gather_stars(std::span<const NumberedTriangle> own) {
       if (*rank == comm_.rank()) {
         add(triangle);
       } else {
-        to_rank[static_cast<std::size_t>(*rank)].push_back(triangle);
+        to_owners.add(*rank, triangle);
       }
     }
   }
-  for (const auto& from_rank : comm_.exchange(to_rank))
-    std::for_each(from_rank.begin(), from_rank.end(), [&](const auto& t) { add(t); });
+  for (const NumberedTriangle& triangle : to_owners.deliver(comm_)) add(triangle);
 }
 
 void StarHalo::add(const NumberedTriangle& triangle) {
@@ -63,17 +62,22 @@ std::vector<NumberedTriangle> StarHalo::around(std::span<const std::int64_t> nod
 }
 
 void StarHalo::grow(bool wanted) {
-  std::vector<std::vector<std::int64_t>> asking(static_cast<std::size_t>(comm_.size()));
+  std::vector<std::int64_t> nodes;
+  std::vector<int> owners;
   if (wanted) {
-    for (const std::int64_t node : frontier_)
-      asking[static_cast<std::size_t>(owners_.rank_of(GlobalNodeId{node}))].push_back(node);
+    nodes.assign(frontier_.begin(), frontier_.end());
+    for (const std::int64_t node : nodes) owners.push_back(owners_.rank_of(GlobalNodeId{node}));
     fetched_.insert(frontier_.begin(), frontier_.end());
     frontier_.clear();
   }
-  std::vector<std::vector<NumberedTriangle>> answers;
-  for (const auto& nodes : comm_.exchange(asking)) answers.push_back(around(nodes));
-  for (const auto& from_rank : comm_.exchange(answers))
-    std::for_each(from_rank.begin(), from_rank.end(), [&](const auto& t) { add(t); });
+  const Exchange questions(comm_, owners);
+  nodes = questions.deliver(nodes);
+  Outbox<NumberedTriangle> answers;
+  for (const Exchange::Source& asking : questions.sources()) {
+    for (const NumberedTriangle& triangle : around(std::span(nodes).subspan(asking.begin, asking.size())))
+      answers.add(asking.rank, triangle);
+  }
+  for (const NumberedTriangle& triangle : answers.deliver(comm_)) add(triangle);
 }
 
 bool StarHalo::at_rim(const NumberedTriangle& triangle) const {

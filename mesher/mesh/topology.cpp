@@ -13,7 +13,7 @@ EdgeTable::EdgeTable(const Mesh& mesh)
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
     auto& next = starts_[static_cast<std::size_t>(from.value()) +
                          1];  // shifted by one: it moves to where the node's edges end
-    edges_[static_cast<std::size_t>(next++)] = {to, cell};
+    edges_[next++] = {to, cell};
   });
 }
 

@@ -37,9 +37,8 @@ class EdgeTable {
 
   /// The cell edges that leave a node, in the order of the cells.
   std::span<const Edge> from(NodeId node) const {
-    const auto at = static_cast<std::size_t>(node.value());
-    return std::span(edges_).subspan(static_cast<std::size_t>(starts_[at]),
-                                     static_cast<std::size_t>(starts_[at + 1] - starts_[at]));
+    const std::size_t at = node.value();
+    return std::span(edges_).subspan(starts_[at], starts_[at + 1] - starts_[at]);
   }
   /// -1 where no cell has this directed edge; the first where several have it.
   std::int32_t cell_left_of(NodeId from_node, NodeId to) const {

@@ -99,7 +99,7 @@ std::vector<std::string> distinct_words(std::span<const std::string> names, cons
     const std::string word = name.empty() ? "v" + std::to_string(words.size() + 1) : word_of(name);
     const auto same = std::find(words.begin(), words.end(), word);
     if (same != words.end()) {
-      const std::string& other = names[static_cast<std::size_t>(same - words.begin())];
+      const std::string& other = names[same - words.begin()];
       const std::string fault = other == name ? "two variables are named '" + name + "'"
                                               : "the variables '" + other + "' and '" + name +
                                                     "' are both '" + word + "', as blanks become '_'";

@@ -1,6 +1,5 @@
 #include "quadloop/case/case_input.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 
@@ -52,14 +51,6 @@ CaseInput load_case(const CaseArguments& arguments) {
   input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth, case_digest(options)});
   if (arguments.saved) keep_root(*arguments.saved, *input.mesh);
   return input;
-}
-
-void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells) {
-  command
-      .add_option("--max-cells", max_cells,
-                  "the most cells that a mesh may have by estimate; without it as many as free memory holds")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
 }
 
 MeshLimit mesh_limit(const Communicator& comm, const std::optional<double>& max_cells) {

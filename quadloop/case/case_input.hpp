@@ -7,10 +7,6 @@
 #include "mesher/generate/generate.hpp"
 #include "quadloop/case/settings.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace quadloop {
 
 /// What a command that meshes is told.
@@ -30,9 +26,6 @@ struct CaseInput {
 
 /// Reads case and geometry. On the calling rank alone. Throws InputError.
 CaseInput load_case(const CaseArguments& arguments);
-
-/// The option --max-cells of the commands that mesh.
-void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells);
 
 /// What a mesh may cost: so many cells, or what free memory holds. *Collective.*
 MeshLimit mesh_limit(const Communicator& comm, const std::optional<double>& max_cells);

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 
+#include "io/formats.hpp"
 #include "io/input/case_file.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
-#include "mesher/forest/lattice.hpp"
+#include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
 
 namespace quadloop {
@@ -188,11 +188,10 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
   if (table->has("formats")) {
     settings.formats.clear();
     for (const std::string& format : table->texts("formats")) {
-      constexpr std::array known{"mesh", "cgns", "vtu", "su2", "msh", "csv"};
-      if (std::find(known.begin(), known.end(), format) == known.end()) {
-        table->refuse("formats",
-                      fmt::format("holds '{}', but this version writes: mesh, cgns, vtu, su2, msh, csv{}",
-                                  format, guess_for(format, {known.begin(), known.end()})));
+      if (format_named(format) == nullptr) {
+        const std::vector<std::string> known = formats_for({});
+        table->refuse("formats", fmt::format("holds '{}', but this version writes: {}{}", format,
+                                             fmt::join(known, ", "), guess_for(format, known)));
       }
       if (std::find(settings.formats.begin(), settings.formats.end(), format) == settings.formats.end())
         settings.formats.push_back(format);
@@ -234,10 +233,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
 
 std::string format_suffix_of(const std::string& prefix) {
   const std::string suffix = std::filesystem::path(prefix).extension();
-  for (const char* known : {".mesh", ".cgns", ".vtu", ".su2", ".msh", ".csv", ".h5"}) {
-    if (suffix == known) return suffix;
-  }
-  return {};
+  return format_of(prefix) != nullptr || suffix == ".h5" ? suffix : std::string();
 }
 
 Geometry load_geometry(const Settings& settings, Warnings& warnings,
@@ -287,7 +283,7 @@ Warnings corner_warnings(const Geometry& geometry, double min) {
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
     if (geometry.corner_spacing_of(v) == 0) continue;
     for (const std::int32_t segment : {geometry.previous(v), v})
-      has_corner[static_cast<std::size_t>(geometry.boundary_of(segment).value())] = 1;
+      has_corner[geometry.boundary_of(segment).value()] = 1;
   }
   Warnings warnings;
   for (std::size_t b = 0; b < has_corner.size(); ++b) {

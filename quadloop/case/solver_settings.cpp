@@ -103,8 +103,8 @@ void require_known_variables(const SolverSettings& settings, const std::vector<s
   }
 }
 
-FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
-                       const Geometry& geometry, const std::string& case_path) {
+ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                           const Geometry& geometry, const std::string& case_path) {
   if (settings.kind == SolverSettings::Kind::euler) {
     Mesh named;
     for (const Boundary& boundary : geometry.boundaries())

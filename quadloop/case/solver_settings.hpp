@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "adapt/loop/flow_solver.hpp"
+#include "adapt/loop/run_in_folder.hpp"
 #include "io/input/case_file.hpp"
 #include "mesher/geometry/assemble/boundary_rules.hpp"
 #include "mesher/geometry/geometry.hpp"
@@ -43,7 +43,7 @@ void require_known_variables(const SolverSettings& settings, const std::vector<s
                              const std::string& case_path);
 
 /// The solver of an adaptive run on meshes of this geometry. `case_path` names the case file.
-FlowSolver flow_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
-                       const Geometry& geometry, const std::string& case_path);
+ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                           const Geometry& geometry, const std::string& case_path);
 
 }  // namespace quadloop

@@ -1,15 +1,13 @@
-# Every library the program stands on, each as one imported target.
+# Every library that the door stands on, each as one imported target; those of the program alone are in ProgramDependencies.cmake.
 find_package(MPI REQUIRED COMPONENTS C CXX)
 find_package(Boost REQUIRED)
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE) # a notice that tells a user of ours nothing
 find_package(CGAL REQUIRED)
 find_package(Eigen3 REQUIRED CONFIG)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
-find_package(CLI11 REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
-pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
-find_package(GDAL REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(EXPAT REQUIRED)
 find_package(ZLIB REQUIRED)

@@ -12,16 +12,16 @@ endif()
 set_target_properties(quadloop_options PROPERTIES EXPORT_NAME options)
 install(TARGETS quadloop_options EXPORT quadloop)
 
-# quadloop_module(NAME SOURCES ... PUBLIC ... PRIVATE ...): one folder, one library, one idea. It is installed with its headers,
-# under the path that an #include names.
+# quadloop_module(NAME SOURCES ... PUBLIC ... PRIVATE ... [COMPONENT name | PROGRAM]): one folder, one library, one idea. It is installed
+# as what the door stands on, or as a component that a user of the package asks for, or not at all as only the program needs it.
+# Headers are installed by Package.cmake.
 function(quadloop_module name)
-  cmake_parse_arguments(MODULE "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(MODULE "PROGRAM" "COMPONENT" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(quadloop_${name} STATIC ${MODULE_SOURCES})
   add_library(quadloop::${name} ALIAS quadloop_${name})
   target_link_libraries(quadloop_${name} PUBLIC quadloop_options ${MODULE_PUBLIC} PRIVATE ${MODULE_PRIVATE})
   set_target_properties(quadloop_${name} PROPERTIES EXPORT_NAME ${name})
-  install(TARGETS quadloop_${name} EXPORT quadloop ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-  file(RELATIVE_PATH folder "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
-  file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.hpp" "${CMAKE_CURRENT_SOURCE_DIR}/*.ipp")
-  install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quadloop/${folder}")
+  if(NOT MODULE_PROGRAM)
+    install(TARGETS quadloop_${name} EXPORT quadloop${MODULE_COMPONENT} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  endif()
 endfunction()

@@ -28,7 +28,7 @@ BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
     : mesh_{mesh},
       boundaries_{boundaries},
       outline_{outline},
-      freedom_(static_cast<std::size_t>(mesh.owned_nodes()), NodeFreedom::interior) {
+      freedom_(mesh.owned_nodes(), NodeFreedom::interior) {
   for (const BoundaryEdges& boundary : boundaries)
     outlined_.push_back(outline != nullptr && outline->has(boundary.name) ? 1 : 0);
   if (outline != nullptr) find_tight_segments(comm);
@@ -37,7 +37,7 @@ BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
 
 std::optional<OutlinePath::Chord> BoundarySlide::chord_of(const HaloEdge& edge) const {
   if (!is_outlined(edge.boundary)) return std::nullopt;
-  const std::string& name = boundaries_[static_cast<std::size_t>(edge.boundary)].name;
+  const std::string& name = boundaries_[edge.boundary].name;
   const Point a = mesh_.point(edge.from), b = mesh_.point(edge.to);
   const OutlinePath::Chord chord{outline_->locate(a, name, true), outline_->locate(b, name, true), a, b};
   if (!chord.from.valid() || chord.from.loop != chord.to.loop) return std::nullopt;
@@ -105,16 +105,14 @@ void BoundarySlide::find_rails(const std::vector<char>& pinned) {
   const std::vector<EdgeEnd> ends = edge_ends(mesh_);
   std::vector<char> pinched(mesh_.points().size(),
                             0);  // the boundary comes back there: its place on the outline is only one of two
-  for_each_boundary_node(ends, [&](std::span<const EdgeEnd> at) {
-    pinched[static_cast<std::size_t>(at[0].node)] = at.size() > 2 ? 1 : 0;
-  });
+  for_each_boundary_node(ends,
+                         [&](std::span<const EdgeEnd> at) { pinched[at[0].node] = at.size() > 2 ? 1 : 0; });
   mesh_.exchange().update(pinched);
   for_each_boundary_node(ends, [&](std::span<const EdgeEnd> at) {
     const EdgeEnd &in = at.front(), &out = at.back();
-    NodeFreedom& freedom = freedom_[static_cast<std::size_t>(in.node)];
+    NodeFreedom& freedom = freedom_[in.node];
     const bool through = at.size() == 2 && !in.leaves && out.leaves && in.boundary == out.boundary &&
-                         pinched[static_cast<std::size_t>(in.other)] == 0 &&
-                         pinched[static_cast<std::size_t>(out.other)] == 0;
+                         pinched[in.other] == 0 && pinched[out.other] == 0;
     const Rail rail{in.node, in.other, out.other, in.boundary};
     const bool slides = freedom == NodeFreedom::interior && through && may_slide(rail);
     freedom = slides ? NodeFreedom::sliding : NodeFreedom::fixed;
@@ -129,7 +127,7 @@ bool BoundarySlide::is_straight(const Rail& rail) const {
 
 /// The chords' ends may be kept vertices, whose places are those of any other point.
 BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
-  const std::string& name = boundaries_[static_cast<std::size_t>(rail.boundary)].name;
+  const std::string& name = boundaries_[rail.boundary].name;
   return {outline_->locate(point(rail.before), name, true), outline_->locate(point(rail.node), name, false),
           outline_->locate(point(rail.after), name, true)};
 }
@@ -192,7 +190,7 @@ std::optional<Point> BoundarySlide::improve(std::int32_t node, const Star& star,
   std::vector<int> order = ranked_places(star, p, objective, x, y);
   for (const int k : order) {
     const Point to{x[k], y[k]};
-    if (!outlined || keeps_outline(rail, places, moved[static_cast<std::size_t>(k)], to)) return to;
+    if (!outlined || keeps_outline(rail, places, moved[k], to)) return to;
   }
   return std::nullopt;
 }

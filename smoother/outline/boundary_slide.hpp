@@ -25,7 +25,7 @@ class BoundarySlide {
                 const OutlinePath* outline, const std::vector<char>& pinned);
 
   /// Of an owned node.
-  NodeFreedom freedom(std::int32_t node) const { return freedom_[static_cast<std::size_t>(node)]; }
+  NodeFreedom freedom(std::int32_t node) const { return freedom_[node]; }
 
   /// A better place for a sliding node, or none: by Acceptance where the star is valid, else one that
   /// untangles.
@@ -48,9 +48,9 @@ class BoundarySlide {
   std::optional<OutlinePath::Chord> chord_of(const HaloEdge& edge) const;
   bool may_slide(const Rail& rail) const;
   bool is_straight(const Rail& rail) const;
-  bool is_outlined(std::int32_t boundary) const { return outlined_[static_cast<std::size_t>(boundary)] != 0; }
+  bool is_outlined(std::int32_t boundary) const { return outlined_[boundary] != 0; }
   Places locate(const Rail& rail) const;
-  const Point& point(std::int32_t node) const { return mesh_.points()[static_cast<std::size_t>(node)]; }
+  const Point& point(std::int32_t node) const { return mesh_.points()[node]; }
   const Rail& rail_of(std::int32_t node) const;
   bool keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const;
 

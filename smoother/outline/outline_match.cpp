@@ -103,13 +103,13 @@ std::vector<std::string> require_match(const Geometry& outline, const Mesh& whol
 
 std::vector<char> loops_against(const Geometry& outline, const Mesh& whole) {
   const OutlinePath curves(outline);
-  std::vector<std::int64_t> votes(static_cast<std::size_t>(outline.loop_count()), 0);
+  std::vector<std::int64_t> votes(outline.loop_count(), 0);
   for (const BoundaryEdges& boundary : whole.boundaries) {
     for (const auto& [from, to] : boundary.edges) {
       const OutlinePlace a = curves.locate(whole.point(from), boundary.name, true),
                          b = curves.locate(whole.point(to), boundary.name, true);
       if (!a.valid() || a.loop != b.loop) continue;
-      votes[static_cast<std::size_t>(a.loop)] += curves.way(b, a) < curves.way(a, b) ? 1 : -1;
+      votes[a.loop] += curves.way(b, a) < curves.way(a, b) ? 1 : -1;
     }
   }
   std::vector<char> against;
@@ -125,7 +125,7 @@ Geometry with_loops_turned(const Geometry& outline, const std::vector<char>& tur
   for (std::int32_t loop = 0; loop < outline.loop_count(); ++loop) {
     const std::int32_t begin = outline.loop_start(loop), end = outline.loop_start(loop + 1);
     starts.push_back(end);
-    if (turned[static_cast<std::size_t>(loop)] == 0) continue;
+    if (turned[loop] == 0) continue;
     std::reverse(points.begin() + begin + 1, points.begin() + end);
     std::reverse(segment_boundary.begin() + begin, segment_boundary.begin() + end);
   }

@@ -1,66 +1,34 @@
 #include "smoother/outline/outline_path.hpp"
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 #include <limits>
 
+#include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
 
 namespace {
 
-namespace bg = boost::geometry;
-using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
-using Extent = bg::model::box<Corner>;
-using Entry = std::pair<Extent, std::int32_t>;
-
 constexpr std::size_t most_vertices = 1000;  ///< that one chord may stand for
-
-Extent extent_of(Point a, Point b, double margin = 0) {
-  return {{std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin},
-          {std::max(a.x, b.x) + margin, std::max(a.y, b.y) + margin}};
-}
-
-/// The share of the way from a to b at which the nearest point to p lies.
-double nearest_share(Point p, Point a, Point b) {
-  const Point ab = b - a;
-  const double square = dot(ab, ab);
-  return square > 0 ? std::clamp(dot(p - a, ab) / square, 0.0, 1.0) : 0.0;
-}
-
-double distance_to(Point p, Point a, Point b) { return length(p - a - nearest_share(p, a, b) * (b - a)); }
 
 }  // namespace
 
-struct OutlinePath::Index {
-  bg::index::rtree<Entry, bg::index::quadratic<16>> tree;
-};
-
 OutlinePath::OutlinePath(const Geometry& geometry)
     : geometry_{geometry},
-      arc_(static_cast<std::size_t>(geometry.size())),
+      arc_(geometry.size()),
       tolerance_{on_outline * std::max(geometry.box().width(), geometry.box().height())},
-      index_{std::make_unique<Index>()} {
-  std::vector<Entry> entries;
+      segments_{segment_tree(geometry)} {
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
     double arc = 0;
     for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {
-      arc_[static_cast<std::size_t>(v)] = arc;
-      const Point a = geometry.point(v), b = geometry.point(geometry.next(v));
-      arc += length(b - a);
-      entries.emplace_back(extent_of(a, b), v);
+      arc_[v] = arc;
+      arc += length(geometry.point(geometry.next(v)) - geometry.point(v));
     }
     length_.push_back(arc);
   }
-  index_->tree = decltype(index_->tree)(entries);
 }
-
-OutlinePath::~OutlinePath() = default;
 
 double OutlinePath::within(std::int32_t loop, double arc) const {
   const double whole = loop_length(loop);
@@ -76,19 +44,16 @@ std::int32_t OutlinePath::segment_at(std::int32_t loop, double arc) const {
 
 /// The nearest segment of that boundary, the lowest of several; none where it is farther than `within`.
 OutlinePath::Nearest OutlinePath::nearest(Point p, const std::string& boundary, double within) const {
-  Nearest found_so_far{-1, within};
-  auto& [segment, nearest] = found_so_far;
-  const Extent around = extent_of(p, p, within);
-  for (auto found = index_->tree.qbegin(bg::index::intersects(around)); found != index_->tree.qend();
-       ++found) {
-    const std::int32_t s = found->second;
-    if (geometry_.boundary(geometry_.boundary_of(s)).name != boundary) continue;
-    const double distance = distance_to(p, geometry_.point(s), geometry_.point(geometry_.next(s)));
-    if (distance > nearest || (distance == nearest && segment >= 0 && s > segment)) continue;
-    nearest = distance;
-    segment = s;
-  }
-  return found_so_far;
+  Nearest found{-1, within};
+  const Point reach{within, within};
+  segments_.for_each_meeting({p - reach, p + reach}, [&](std::int32_t s) {
+    if (geometry_.boundary(geometry_.boundary_of(s)).name != boundary) return;
+    const double distance = distance_to_segment(p, geometry_.point(s), geometry_.point(geometry_.next(s)));
+    if (distance > found.distance || (distance == found.distance && found.segment >= 0 && s > found.segment))
+      return;
+    found = {s, distance};
+  });
+  return found;
 }
 
 bool OutlinePath::has(const std::string& boundary) const {
@@ -110,15 +75,14 @@ OutlinePlace OutlinePath::locate(Point p, const std::string& boundary, bool also
   }
   const Point a = geometry_.point(segment), b = geometry_.point(geometry_.next(segment));
   const std::int32_t loop = geometry_.loop_of(segment);
-  return {loop,
-          within(loop, arc_[static_cast<std::size_t>(segment)] + nearest_share(p, a, b) * length(b - a))};
+  return {loop, within(loop, arc_[segment] + place_on_segment(p, a, b).parameter * length(b - a))};
 }
 
 Point OutlinePath::point_at(OutlinePlace place) const {
   const double arc = within(place.loop, place.arc);
   const std::int32_t s = segment_at(place.loop, arc);
   const Point a = geometry_.point(s), b = geometry_.point(geometry_.next(s));
-  const double whole = length(b - a), along = arc - arc_[static_cast<std::size_t>(s)];
+  const double whole = length(b - a), along = arc - arc_[s];
   return along >= whole ? b : a + (along / whole) * (b - a);
 }
 
@@ -131,9 +95,9 @@ double OutlinePath::deviation(OutlinePlace from, Point a, OutlinePlace to, Point
   double deviation = 0;
   std::int32_t v = geometry_.next(segment_at(from.loop, start));
   for (std::size_t passed = 0; passed < most_vertices; ++passed, v = geometry_.next(v)) {
-    const double arc = way({from.loop, start}, {from.loop, arc_[static_cast<std::size_t>(v)]});
+    const double arc = way({from.loop, start}, {from.loop, arc_[v]});
     if (arc >= end || (arc == 0 && passed > 0)) return deviation;
-    deviation = std::max(deviation, distance_to(geometry_.point(v), a, b));
+    deviation = std::max(deviation, distance_to_segment(geometry_.point(v), a, b));
   }
   return std::numeric_limits<double>::infinity();
 }
@@ -146,34 +110,30 @@ bool OutlinePath::belongs(std::int32_t segment, OutlinePlace from, Point a, Outl
   if (segment == first || segment == last) return true;
   if (segment == geometry_.previous(first) && length(geometry_.point(first) - a) <= tolerance_) return true;
   if (segment == geometry_.next(last) && length(geometry_.point(segment) - b) <= tolerance_) return true;
-  return way(from, {from.loop, arc_[static_cast<std::size_t>(segment)]}) <= way(from, to);
+  return way(from, {from.loop, arc_[segment]}) <= way(from, to);
 }
 
 std::vector<std::int32_t> OutlinePath::met_elsewhere(const Chord& chord) const {
   std::vector<std::int32_t> met;
-  for (auto found = index_->tree.qbegin(bg::index::intersects(extent_of(chord.a, chord.b)));
-       found != index_->tree.qend(); ++found) {
-    const std::int32_t s = found->second;
-    if (belongs(s, chord.from, chord.a, chord.to, chord.b)) continue;
+  segments_.for_each_meeting(box_of(chord.a, chord.b), [&](std::int32_t s) {
+    if (belongs(s, chord.from, chord.a, chord.to, chord.b)) return;
     if (segments_meet(chord.a, chord.b, geometry_.point(s), geometry_.point(geometry_.next(s))))
       met.push_back(s);
-  }
+  });
   return met;
 }
 
 bool OutlinePath::sweeps_over(const Chord& chord, Point apex) const {
   const Point a = chord.a, b = chord.b, c = apex;
-  Extent around = extent_of(a, b);
-  bg::expand(around, Corner{c.x, c.y});
-  for (auto found = index_->tree.qbegin(bg::index::intersects(around)); found != index_->tree.qend();
-       ++found) {
-    const Point v = geometry_.point(found->second);
+  Box around = box_of(a, b);
+  around.include(c);
+  return segments_.any_meeting(around, [&](std::int32_t s) {
+    const Point v = geometry_.point(s);
     const std::array<int, 3> turns{orientation(a, b, v), orientation(b, c, v), orientation(c, a, v)};
     const auto [least, most] = std::minmax_element(turns.begin(), turns.end());
     const bool in_triangle = *least * *most >= 0 && (*least != 0 || *most != 0);
-    if (in_triangle && !belongs(found->second, chord.from, a, chord.to, b)) return true;
-  }
-  return false;
+    return in_triangle && !belongs(s, chord.from, a, chord.to, b);
+  });
 }
 
 std::vector<std::int32_t> OutlinePath::segments_between(OutlinePlace from, OutlinePlace to) const {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/geometry.hpp"
 
 namespace quadloop {
@@ -22,9 +22,6 @@ class OutlinePath {
  public:
   /// `geometry` must outlive it.
   explicit OutlinePath(const Geometry& geometry);
-  ~OutlinePath();
-  OutlinePath(const OutlinePath&) = delete;
-  OutlinePath& operator=(const OutlinePath&) = delete;
 
   /// The place of a point that lies on the boundary of this name, to `on_outline` of the outline's extent; an
   /// invalid one where it does not, or, unless `also_kept`, where it is a vertex that a mesh must keep.
@@ -63,13 +60,12 @@ class OutlinePath {
   std::vector<std::int32_t> segments_between(OutlinePlace from, OutlinePlace to) const;
 
  private:
-  struct Index;
   struct Nearest {
     std::int32_t segment = -1;
     double distance = 0;
   };
   Nearest nearest(Point p, const std::string& boundary, double within) const;
-  double loop_length(std::int32_t loop) const { return length_[static_cast<std::size_t>(loop)]; }
+  double loop_length(std::int32_t loop) const { return length_[loop]; }
   std::int32_t segment_at(std::int32_t loop, double arc) const;
   double within(std::int32_t loop, double arc) const;
   bool belongs(std::int32_t segment, OutlinePlace from, Point a, OutlinePlace to, Point b) const;
@@ -78,7 +74,7 @@ class OutlinePath {
   std::vector<double> arc_;     ///< of each vertex, from its loop's first
   std::vector<double> length_;  ///< of each loop
   double tolerance_ = 0;
-  std::unique_ptr<Index> index_;
+  BoxTree segments_;
 };
 
 }  // namespace quadloop

@@ -152,8 +152,7 @@ TEST(Restart, LeavesAtWallsGoBackThoughTheirSiblingsHaveNoCells) {
                                       [](const Quadrant& q) { return q.level >= 6; });  // those at the disc
     tree = tree_of(input, changed_splits(world(), tree, marks, finest).demands);
   }
-  EXPECT_GT(world().sum(static_cast<std::int64_t>(tree.leaves.size())),
-            2 * world().sum(static_cast<std::int64_t>(first.leaves.size())));
+  EXPECT_GT(world().sum(std::ssize(tree.leaves)), 2 * world().sum(std::ssize(first.leaves)));
   const std::vector<Mark> nothing(tree.leaves.size(), Mark::keep);
   EXPECT_EQ(all_leaves(tree_of(input, changed_splits(world(), tree, nothing, finest).demands)),
             all_leaves(tree));
@@ -169,7 +168,7 @@ TEST(Restart, LeavesAtWallsGoBackThoughTheirSiblingsHaveNoCells) {
 TreeRecord all_marked(const MeshInput& input, const TreeRecord& tree, Mark mark) {
   const ChangedSplits changed =
       changed_splits(world(), tree, std::vector<Mark>(tree.leaves.size(), mark), finest);
-  const std::int64_t leaves = world().sum(static_cast<std::int64_t>(tree.leaves.size()));
+  const std::int64_t leaves = world().sum(std::ssize(tree.leaves));
   EXPECT_EQ(mark == Mark::refine ? changed.refined : changed.coarsened, leaves);
   return tree_of(input, changed.demands);
 }

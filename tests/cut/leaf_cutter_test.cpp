@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/cut/leaf_cells.hpp"
 
 namespace quadloop {
@@ -16,7 +17,7 @@ Geometry loops_of(const std::vector<std::vector<Point>>& loops, double corner = 
   std::vector<std::int32_t> starts{0};
   for (const auto& loop : loops) {
     points.insert(points.end(), loop.begin(), loop.end());
-    starts.push_back(static_cast<std::int32_t>(points.size()));
+    starts.push_back(size32(points));
   }
   std::vector<BoundaryId> boundary(points.size(), BoundaryId{0});
   return {{{"outline", 0, corner, "wall"}}, std::move(points), std::move(starts), std::move(boundary)};
@@ -29,9 +30,9 @@ struct Cut {
   std::size_t cells = 0;
 };
 
-Cut cut_box(const Geometry& geometry, const Box& box, unsigned hanging = 0) {
+Cut cut_box(const Geometry& geometry, const Box& box, SideSet hanging = {}) {
   const ShiftedOutline outline(geometry);
-  const InsideTest inside(outline);
+  const Interior inside(outline);
   std::vector<std::int32_t> segments;
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
     if (outline.meets(s, box)) segments.push_back(s);
@@ -45,14 +46,14 @@ Cut cut_box(const Geometry& geometry, const Box& box, unsigned hanging = 0) {
   LeafCellMaker maker;
   LeafCells cells;
   result.sound = result.sound && maker.make({0, 0, 0}, box, result.leaf, cells);
-  const auto at = [&](std::int32_t n) { return result.leaf.nodes[static_cast<std::size_t>(n)].position; };
+  const auto at = [&](std::int32_t n) { return result.leaf.nodes[n].position; };
   for (const auto& t : cells.triangles) result.area += 0.5 * cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
   for (const auto& q : cells.quads) result.area += 0.5 * cross(at(q[2]) - at(q[0]), at(q[3]) - at(q[1]));
   result.cells = cells.triangles.size() + cells.quads.size();
   return result;
 }
 
-Cut cut_unit_square(const Geometry& geometry, unsigned hanging = 0) {
+Cut cut_unit_square(const Geometry& geometry, SideSet hanging = {}) {
   return cut_box(geometry, unit, hanging);
 }
 
@@ -61,7 +62,7 @@ using Points = std::vector<Point>;
 /// The ends of the chords, in their order.
 std::vector<std::pair<Point, Point>> chords_of(const Cut& cut) {
   std::vector<std::pair<Point, Point>> chords;
-  const auto at = [&](std::int32_t n) { return cut.leaf.nodes[static_cast<std::size_t>(n)].position; };
+  const auto at = [&](std::int32_t n) { return cut.leaf.nodes[n].position; };
   for (const CutLeaf::Edge& e : cut.leaf.outline) chords.emplace_back(at(e.from), at(e.to));
   return chords;
 }
@@ -69,7 +70,7 @@ std::vector<std::pair<Point, Point>> chords_of(const Cut& cut) {
 /// The nodes of a loop, from the leftmost one on, the lowest of several.
 Points places_of(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
   Points places;
-  for (const std::int32_t n : loop) places.push_back(leaf.nodes[static_cast<std::size_t>(n)].position);
+  for (const std::int32_t n : loop) places.push_back(leaf.nodes[n].position);
   std::rotate(places.begin(), std::min_element(places.begin(), places.end()), places.end());
   return places;
 }
@@ -107,8 +108,7 @@ TEST(LeafCutter, ASegmentAlongASideBelongsToTheDomainsSide) {
 TEST(LeafCutter, ASegmentAlongPartOfASideWithItsHangingNode) {
   // The finer leaves across lie outside but for the lower one's lower half, so the hanging node is no cell's:
   // one chord passes it.
-  const Cut cut =
-      cut_unit_square(loops_of({{{0, 0.25}, {-1, -3}, {3, -3}, {3, 3}, {0, 3}}}), 1U << LeafGraph::left);
+  const Cut cut = cut_unit_square(loops_of({{{0, 0.25}, {-1, -3}, {3, -3}, {3, 3}, {0, 3}}}), {Side::left});
   EXPECT_TRUE(cut.sound);
   EXPECT_NEAR(cut.area, 1.0, 1e-15);
   EXPECT_EQ(chords_of(cut), (std::vector<std::pair<Point, Point>>{{{0, 1}, {0, 0.25}}}));
@@ -124,7 +124,7 @@ TEST(LeafCutter, ASegmentAlongTwoFinerLeavesIsAnEdgeOfEach) {
   EXPECT_TRUE(lower.sound && upper.sound);
   EXPECT_EQ(chords_of(lower), (std::vector<std::pair<Point, Point>>{{{0, 0.25}, {0, 0.5}}}));
   EXPECT_EQ(chords_of(upper), (std::vector<std::pair<Point, Point>>{{{0, 0.5}, {0, 1}}}));
-  const Cut coarse = cut_unit_square(geometry, 1U << LeafGraph::left);
+  const Cut coarse = cut_unit_square(geometry, {Side::left});
   EXPECT_TRUE(coarse.sound);
   EXPECT_NEAR(coarse.area, 0.5 * 0.25 * 0.25 * 3 / 3.25, 1e-15)
       << "what lies below the line from (0, 0.25) to (3, -3)";
@@ -208,7 +208,7 @@ TEST(LeafCutter, TwoDomainsThatMeetInACornerAreTwoLoops) {
 std::optional<std::vector<Points>> traced(const Points& places,
                                           const std::vector<std::pair<int, int>>& edges) {
   CutLeaf leaf;
-  for (const Point p : places) leaf.nodes.push_back({p, 12});
+  for (const Point p : places) leaf.nodes.push_back({p, Site::inside});
   std::vector<CutLeaf::Edge> directed;
   for (const auto& [from, to] : edges) directed.push_back({from, to, -1});
   leaf.loop_starts.assign(1, 0);

@@ -11,13 +11,13 @@
 namespace quadloop {
 namespace {
 
-std::vector<LocalTriangle> triangulated(const std::vector<Point>& points, const std::vector<TieKey>& keys) {
+std::vector<LocalTriangle> triangulated(const std::vector<Point>& points, const std::vector<TieRank>& ranks) {
   std::vector<std::int32_t> loop(points.size());
   std::iota(loop.begin(), loop.end(), 0);
   const std::span<const std::int32_t> whole(loop);
   Triangulator triangulator;
   std::vector<LocalTriangle> triangles;
-  EXPECT_TRUE(triangulator.triangulate(points, keys, std::span(&whole, 1), triangles));
+  EXPECT_TRUE(triangulator.triangulate(points, ranks, std::span(&whole, 1), triangles));
   return triangles;
 }
 
@@ -41,10 +41,10 @@ TEST(Triangulate, AreaInIsAreaOutAndEveryTriangleIsPositive) {
   std::mt19937_64 random(1);
   for (const int count : {3, 4, 5, 8, 24, 25, 60, 300}) {
     const auto points = random_star(random, count);
-    const auto triangles = triangulated(points, std::vector<TieKey>(points.size()));
+    const auto triangles = triangulated(points, std::vector<TieRank>(points.size()));
     EXPECT_EQ(triangles.size(), points.size() - 2);
     double area = 0;
-    const auto at = [&](std::int32_t n) { return points[static_cast<std::size_t>(n)]; };
+    const auto at = [&](std::int32_t n) { return points[n]; };
     for (const auto& t : triangles) {
       EXPECT_GT(orientation(at(t[0]), at(t[1]), at(t[2])), 0);
       area += 0.5 * cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
@@ -57,8 +57,8 @@ TEST(Triangulate, InnerEdgesAreLocallyDelaunay) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 50; ++trial) {
     const auto points = random_star(random, 6 + trial);
-    const auto triangles = triangulated(points, std::vector<TieKey>(points.size()));
-    const auto at = [&](std::int32_t n) { return points[static_cast<std::size_t>(n)]; };
+    const auto triangles = triangulated(points, std::vector<TieRank>(points.size()));
+    const auto at = [&](std::int32_t n) { return points[n]; };
     for (const auto& t : triangles) {
       for (const auto& other : triangles) {
         std::vector<std::int32_t> apart;
@@ -73,19 +73,19 @@ TEST(Triangulate, InnerEdgesAreLocallyDelaunay) {
   }
 }
 
-TEST(Triangulate, TheHighestKeyTakesTheDiagonalOfASquare) {
+TEST(Triangulate, TheHighestRankTakesTheDiagonalOfASquare) {
   const std::vector<Point> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   for (std::size_t best = 0; best < 4; ++best) {
-    std::vector<TieKey> keys(4);
-    keys[best].coarser = 5;
-    for (const auto& t : triangulated(square, keys))
+    std::vector<TieRank> ranks(4);
+    ranks[best].coarser = 5;
+    for (const auto& t : triangulated(square, ranks))
       EXPECT_NE(std::find(t.begin(), t.end(), static_cast<std::int32_t>(best)), t.end());
   }
 }
 
 TEST(Triangulate, PointsOnAStraightSideGiveNoFlatTriangle) {
   const std::vector<Point> points{{0, 0}, {0.25, 0}, {0.5, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0, 1}};
-  EXPECT_EQ(triangulated(points, std::vector<TieKey>(points.size())).size(), 5U);
+  EXPECT_EQ(triangulated(points, std::vector<TieRank>(points.size())).size(), 5U);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // What adaptation asks to split: every rank knows all of it, the tree follows, and what was asked for can be
 // read off the leaves again.
-#include "mesher/forest/demanded_splits.hpp"
+#include "mesher/sizes/demanded_splits.hpp"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ std::int32_t number_of(const DemandedSplits& splits, const Quadrant& q) {
   std::int32_t number = splits.root(q.x / tree_edge, q.y / tree_edge);
   for (int level = 0; number != DemandedSplits::none && level < q.level; ++level) {
     const int shift = Quadrant::unit_level - 1 - level;
-    number = splits.child(number, static_cast<int>((q.x >> shift & 1) + 2 * (q.y >> shift & 1)));
+    number = splits.child(number, corner_at((q.x >> shift & 1) != 0, (q.y >> shift & 1) != 0));
   }
   return number;
 }

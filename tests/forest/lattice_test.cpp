@@ -1,15 +1,16 @@
-#include "mesher/forest/lattice.hpp"
+#include "mesher/lattice/lattice.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 
 namespace quadloop {
 namespace {
 
 Geometry polygon(std::vector<Point> points) {
   std::vector<BoundaryId> boundary(points.size(), BoundaryId{0});
-  const auto count = static_cast<std::int32_t>(points.size());
+  const auto count = size32(points);
   return {{{"frame", 0, 30, "none"}}, std::move(points), {0, count}, std::move(boundary)};
 }
 

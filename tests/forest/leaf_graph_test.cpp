@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -49,10 +51,10 @@ TEST(LeafGraph, NeighboursAreTheLeavesThatTouch) {
     const auto finer = [&](std::int32_t other) {
       return other != LeafGraph::none && graph.leaf(other).level > q.level;
     };
-    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::right), finer(graph.leaf_at(q.x + q.size(), q.y)));
-    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::top), finer(graph.leaf_at(q.x, q.y + q.size())));
-    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::left), finer(around.west));
-    EXPECT_EQ(graph.has_hanging(leaf, LeafGraph::bottom), finer(around.south));
+    EXPECT_EQ(graph.has_hanging(leaf, Side::right), finer(graph.leaf_at(q.x + q.size(), q.y)));
+    EXPECT_EQ(graph.has_hanging(leaf, Side::top), finer(graph.leaf_at(q.x, q.y + q.size())));
+    EXPECT_EQ(graph.has_hanging(leaf, Side::left), finer(around.west));
+    EXPECT_EQ(graph.has_hanging(leaf, Side::bottom), finer(around.south));
   }
 }
 
@@ -66,19 +68,36 @@ TEST(LeafGraph, EarlierNeighboursComeEarlierAlongTheCurve) {
   }
 }
 
+TEST(LeafGraph, KnowsTheRankOfLeavesOutOfSight) {
+  const Forest forest = refined_brick(brick_lattice);
+  const LeafGraph graph(test::world(), brick_lattice, forest);
+  std::vector<std::pair<Quadrant, int>> all;
+  for (const Quadrant& q : test::world().all_gather_values(std::span<const Quadrant>(forest.leaves())))
+    all.emplace_back(q, graph.rank_at(q.x, q.y));
+  EXPECT_TRUE(std::is_sorted(all.begin(), all.end(),
+                             [](const auto& a, const auto& b) { return a.second < b.second; }));
+  const auto own = std::count_if(all.begin(), all.end(),
+                                 [](const auto& leaf) { return leaf.second == test::world().rank(); });
+  EXPECT_EQ(own, forest.local_leaves());
+  for (const Quadrant& q : forest.leaves()) {
+    EXPECT_EQ(graph.rank_at(q.x, q.y), test::world().rank());
+    EXPECT_EQ(graph.rank_at(q.x + q.size() - 1, q.y + q.size() - 1), test::world().rank());
+  }
+}
+
 TEST(LeafGraph, PlacesNameTheOwners) {
   const Forest forest = refined_brick(brick_lattice);
   const LeafGraph graph(test::world(), brick_lattice, forest);
   std::vector<Quadrant> local;
   for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf)
     local.push_back(graph.leaf(leaf));
-  const auto counts = test::world().all_gather(static_cast<std::int64_t>(local.size()));
+  const auto counts = test::world().all_gather(std::ssize(local));
   const auto all = test::world().all_gather_values(std::span<const Quadrant>(local));
   for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
     const LeafGraph::Place place = graph.place_of(leaf);
     std::int64_t at = place.index;
-    for (int rank = 0; rank < place.rank; ++rank) at += counts[static_cast<std::size_t>(rank)];
-    EXPECT_EQ(all[static_cast<std::size_t>(at)], graph.leaf(leaf));
+    for (int rank = 0; rank < place.rank; ++rank) at += counts[rank];
+    EXPECT_EQ(all[at], graph.leaf(leaf));
   }
 }
 

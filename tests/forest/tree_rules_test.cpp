@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "mesher/forest/refine_forest.hpp"
+#include "mesher/sizes/gradation.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -62,12 +64,13 @@ TEST(TreeRules, LeavesTileTheRoot) {
 
 TEST(TreeRules, SpacingIsKeptWhereTheGeometryIs) {
   const Geometry geometry = circle_in_square(0.02);
-  Tree tree(geometry, options_with(0.001, 0.25, 1.5));
+  const Tree tree(geometry, options_with(0.001, 0.25, 1.5));
+  SizeCursor cursor(tree.sizes);
   for (const Quadrant& q : tree.leaves) {
     const double size = tree.lattice.edge(q.level);
     EXPECT_LE(size, 0.25);
     EXPECT_GE(size, 0.001);
-    const auto segments = tree.sizes.segments_in(q);
+    const auto segments = cursor.segments_in(q);
     const bool holds_circle =
         std::any_of(segments.begin(), segments.end(), [](std::int32_t s) { return s >= 4; });
     if (holds_circle) {
@@ -76,16 +79,16 @@ TEST(TreeRules, SpacingIsKeptWhereTheGeometryIs) {
   }
 }
 
-class Gradation : public testing::TestWithParam<double> {};
+class TreeRulesAt : public testing::TestWithParam<double> {};
 
-TEST_P(Gradation, NoLeafIsTooLargeForAWantedOne) {
+TEST_P(TreeRulesAt, NoLeafIsTooLargeForAWantedOne) {
   const Geometry geometry = circle_in_square(0.02);
-  Tree tree(geometry, options_with(0.01, 0.5, GetParam()));
+  const Tree tree(geometry, options_with(0.01, 0.5, GetParam()));
   const double slope = (GetParam() - 1) / 2;
   int wanted_leaves = 0;
+  SizeCursor cursor(tree.sizes);
   for (const Quadrant& w : tree.leaves) {
-    if (tree.sizes.wanted_level(w) != w.level)
-      continue;  // smaller than it was asked to be: it asks for nothing
+    if (cursor.wanted_level(w) != w.level) continue;  // smaller than it was asked to be: it asks for nothing
     ++wanted_leaves;
     for (const Quadrant& q : tree.leaves) {
       EXPECT_LE(static_cast<double>(q.size()),
@@ -95,7 +98,7 @@ TEST_P(Gradation, NoLeafIsTooLargeForAWantedOne) {
   EXPECT_GT(wanted_leaves, 10);
 }
 
-TEST_P(Gradation, TouchingLeavesDifferByOneLevelAtMost) {
+TEST_P(TreeRulesAt, TouchingLeavesDifferByOneLevelAtMost) {
   const Geometry even = circle_in_square(0.02), uneven = circle_in_square(0.05, 0.06);
   for (const Geometry* geometry : {&even, &uneven}) {
     const Tree tree(*geometry, options_with(0.01, 0.5, GetParam()));
@@ -109,7 +112,7 @@ TEST_P(Gradation, TouchingLeavesDifferByOneLevelAtMost) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Values, Gradation, testing::Values(1.25, 1.5, 2.0));
+INSTANTIATE_TEST_SUITE_P(Gradations, TreeRulesAt, testing::Values(1.25, 1.5, 2.0));
 
 /// Whether the leaf r lies on side s of q (0 the bottom, counter-clockwise) and is finer.
 bool finer_on_side(const Quadrant& q, const Quadrant& r, int s) {
@@ -127,17 +130,17 @@ bool finer_on_side(const Quadrant& q, const Quadrant& r, int s) {
 bool is_squeezed(const Quadrant& q, const std::vector<Quadrant>& leaves) {
   std::array<bool, 4> finer{};
   for (const Quadrant& r : leaves) {
-    for (int s = 0; s < 4; ++s) finer[static_cast<std::size_t>(s)] |= finer_on_side(q, r, s);
+    for (int s = 0; s < 4; ++s) finer[s] |= finer_on_side(q, r, s);
   }
   return (finer[0] && finer[2]) || (finer[1] && finer[3]);
 }
 
-void split_by_size(const Quadrant& q, SizeTree& sizes, std::vector<Quadrant>& leaves) {
-  if (q.level >= 1 && !sizes.must_split(q)) {
+void split_by_size(const Quadrant& q, Gradation& gradation, std::vector<Quadrant>& leaves) {
+  if (q.level >= 1 && !gradation.must_split(q)) {
     leaves.push_back(q);
     return;
   }
-  for (int k = 0; k < 4; ++k) split_by_size(q.child(k), sizes, leaves);
+  for (const Corner quarter : corners_along_curve) split_by_size(q.child(quarter), gradation, leaves);
 }
 
 using Places = std::vector<std::array<std::int64_t, 3>>;
@@ -150,12 +153,13 @@ Places sorted_places(const std::vector<Quadrant>& leaves) {
 
 /// What sizes and gradation ask for, then leaves between finer ones split, one after another, until there is
 /// none.
-std::vector<Quadrant> smallest_tree(Tree& tree) {
+std::vector<Quadrant> smallest_tree(const Tree& tree) {
   std::vector<Quadrant> leaves;
+  Gradation gradation(tree.sizes);
   for (int ty = 0; ty < tree.lattice.trees_y(); ++ty) {
     for (int tx = 0; tx < tree.lattice.trees_x(); ++tx)
       split_by_size({std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0},
-                    tree.sizes, leaves);
+                    gradation, leaves);
   }
   for (std::size_t i = 0; i < leaves.size();) {
     const Quadrant q = leaves[i];
@@ -163,18 +167,19 @@ std::vector<Quadrant> smallest_tree(Tree& tree) {
       ++i;
       continue;
     }
-    leaves[i] = q.child(0);
-    for (int k = 1; k < 4; ++k) leaves.push_back(q.child(k));
+    leaves[i] = q.child(corners_along_curve[0]);
+    for (std::size_t k = 1; k < 4; ++k) leaves.push_back(q.child(corners_along_curve[k]));
     i = 0;
   }
   return leaves;
 }
 
 /// The leaves of the wanted tree, of which those of the tree are parts.
-std::vector<Quadrant> wanted_leaves(Tree& tree) {
+std::vector<Quadrant> wanted_leaves(const Tree& tree) {
+  SizeCursor cursor(tree.sizes);
   std::vector<Quadrant> wanted;
   for (const Quadrant& q : tree.leaves) {
-    const int level = tree.sizes.wanted_level(q);
+    const int level = cursor.wanted_level(q);
     const std::int64_t mask = ~((std::int64_t{1} << (Quadrant::unit_level - level)) - 1);
     wanted.push_back({q.x & mask, q.y & mask, level});
   }
@@ -192,18 +197,19 @@ bool is_forbidden(const Quadrant& q, const std::vector<Quadrant>& wanted, double
 
 /// Nothing is split but what sizes and gradation ask for, and leaves between two finer ones, in the end and
 /// one after another.
-TEST_P(Gradation, TheTreeIsTheSmallest) {
+TEST_P(TreeRulesAt, TheTreeIsTheSmallest) {
   const Geometry even = circle_in_square(0.02), uneven = circle_in_square(0.05, 0.06);
   int squeezed = 0;
   for (const Geometry* geometry : {&even, &uneven}) {
-    Tree tree(*geometry, options_with(0.01, 0.5, GetParam()));
+    const Tree tree(*geometry, options_with(0.01, 0.5, GetParam()));
     EXPECT_EQ(sorted_places(tree.leaves), sorted_places(smallest_tree(tree)));
     const std::vector<Quadrant> wanted = wanted_leaves(tree);
+    Gradation gradation(tree.sizes);
     for (const Quadrant& q : tree.leaves) {
       const Quadrant parent{q.x & ~(q.size() * 2 - 1), q.y & ~(q.size() * 2 - 1), q.level - 1};
       if (q.level <= 1 || q.x != parent.x || q.y != parent.y) continue;
       const bool forbidden = is_forbidden(parent, wanted, (GetParam() - 1) / 2);
-      EXPECT_EQ(forbidden, tree.sizes.must_split(parent));
+      EXPECT_EQ(forbidden, gradation.must_split(parent));
       if (forbidden) continue;
       ++squeezed;
       EXPECT_TRUE(is_squeezed(parent, tree.leaves))
@@ -217,8 +223,7 @@ TEST(TreeRules, NoLeafLiesBetweenFinerOnes) {
   const Geometry geometry = circle_in_square(0.05, 0.06);
   const Tree tree(geometry, options_with(0.02, 0.5, 2.0));
   for (std::int32_t leaf = tree.graph.local_begin(); leaf < tree.graph.local_end(); ++leaf) {
-    const unsigned finer = tree.graph.around(leaf).finer;
-    EXPECT_EQ(finer & (finer >> 2), 0U);
+    EXPECT_FALSE(tree.graph.around(leaf).finer.has_opposites());
   }
 }
 
@@ -250,7 +255,9 @@ TEST(TreeRules, DemandsRefineBelowTheCasesSmallestLeaf) {
   const auto coarsest =
       std::min_element(before.leaves.begin(), before.leaves.end(),
                        [](const Quadrant& a, const Quadrant& b) { return a.level < b.level; });
-  const Quadrant deep = coarsest->child(3).child(0).child(3).child(3).child(0);
+  using enum Corner;
+  const Quadrant deep =
+      coarsest->child(north_east).child(south_west).child(north_east).child(north_east).child(south_west);
   const std::vector<SplitDemand> demands{{deep, 1U << deep.level}};
   const Tree after(geometry, options, test::world().is_root() ? demands : std::vector<SplitDemand>{});
   EXPECT_LT(after.lattice.edge(deep.level + 1), 0.05);

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/assemble/join_chains.hpp"
 #include "mesher/geometry/meeting_pairs.hpp"
 #include "tests/geometry/outlines.hpp"
@@ -116,7 +117,7 @@ TEST(Validate, AgreesWithTryingAllPairs) {
     }
     const FlatOutline flat(outline);
     bool simple = true;
-    const auto size = static_cast<std::int32_t>(flat.points.size());
+    const auto size = size32(flat.points);
     for (std::int32_t s = 0; s < size; ++s) {
       for (std::int32_t t = s + 1; t < size; ++t) simple = simple && !flat.faulty(s, t);
     }

@@ -132,7 +132,7 @@ void read_and_look(const std::string& path) {
 void damage_written(const std::string& name) {
   const TemporaryFolder folder;
   const Mesh mesh = test::sample_mesh(7);
-  const Solution solution = test::sample_solution(mesh);
+  const Field solution = test::sample_solution(mesh);
   OutputSet outputs(test::world());
   write_mesh(outputs, mesh, folder.file(name), &solution);
   outputs.commit();

@@ -41,7 +41,7 @@ void expect_same_mesh(const LoadedMesh& loaded, const Mesh& mesh) {
   EXPECT_TRUE(validate(loaded.mesh).empty());
 }
 
-void expect_same_solution(const LoadedMesh& loaded, const Solution& solution) {
+void expect_same_solution(const LoadedMesh& loaded, const Field& solution) {
   ASSERT_TRUE(loaded.solution);
   EXPECT_EQ(loaded.solution->values, solution.values);
 }
@@ -49,9 +49,9 @@ void expect_same_solution(const LoadedMesh& loaded, const Solution& solution) {
 /// The whole sample, and this rank's part of it.
 struct Sample {
   Mesh mesh = test::sample_mesh(columns);
-  Solution solution = test::sample_solution(mesh);
+  Field solution = test::sample_solution(mesh);
   Mesh own = test::share_of(mesh, world().rank(), world().size());
-  Solution own_solution = test::share_of(solution, mesh, own);
+  Field own_solution = test::share_of(solution, mesh, own);
   Communicator alone{MPI_COMM_SELF};
 };
 
@@ -165,12 +165,12 @@ TEST(TreeFile, ComesBackInShares) {
   const TreeRecord read = read_tree(world(), folder.file("t.h5")), all = test::sample_tree(leaves, 0, 1);
   EXPECT_EQ(read.attributes.coordinate_digest, all.attributes.coordinate_digest);
   EXPECT_EQ(read.attributes.root_x, all.attributes.root_x);
-  const auto count = static_cast<std::int64_t>(read.leaves.size());
+  const auto count = std::ssize(read.leaves);
   EXPECT_EQ(world().sum(count), leaves);
   const std::int64_t first = world().exclusive_sum(count);
   for (std::int64_t i = 0; i < count; ++i) {
-    const LeafRecord& a = read.leaves[static_cast<std::size_t>(i)];
-    const LeafRecord& b = all.leaves[static_cast<std::size_t>(first + i)];
+    const LeafRecord& a = read.leaves[i];
+    const LeafRecord& b = all.leaves[first + i];
     const bool same = a.tree_x == b.tree_x && a.tree_y == b.tree_y && a.x == b.x && a.y == b.y &&
                       a.level == b.level && a.wanted == b.wanted && a.mark == b.mark &&
                       a.triangles == b.triangles && a.quads == b.quads && a.adapted == b.adapted;
@@ -194,8 +194,7 @@ std::string refusal_of_tree(const std::function<void(TreeRecord& whole)>& change
   const TemporaryFolder folder;
   TreeRecord whole = test::sample_tree(100, 0, 1);
   change(whole);
-  const std::int64_t count = static_cast<std::int64_t>(whole.leaves.size()), rank = world().rank(),
-                     ranks = world().size();
+  const std::int64_t count = std::ssize(whole.leaves), rank = world().rank(), ranks = world().size();
   TreeRecord own{
       whole.attributes,
       {whole.leaves.begin() + count * rank / ranks, whole.leaves.begin() + count * (rank + 1) / ranks}};

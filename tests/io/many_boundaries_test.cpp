@@ -66,7 +66,7 @@ Mesh own_share(const Mesh& whole) {
   for (std::size_t b = 0; b < dealt.boundaries.size(); ++b) {
     BoundaryEdges& boundary = dealt.boundaries[b];
     const auto rank = b % static_cast<std::size_t>(world().size());
-    boundary.edges.assign(static_cast<std::size_t>(world().size()),
+    boundary.edges.assign(world().size(),
                           boundary.edges.front());  // one for each rank, of which one is kept
     if (rank != static_cast<std::size_t>(world().rank())) boundary.name += " not here";
   }

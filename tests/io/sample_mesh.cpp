@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 
+#include "mesher/base/ids.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop::test {
@@ -27,7 +28,7 @@ class Localiser {
   NodeId operator()(NodeId node) {
     const auto local = node.value() - static_cast<std::int32_t>(part_.first_node);
     if (local >= 0 && local < part_.owned_nodes) return NodeId{local};
-    const auto [found, added] = copies_.emplace(node.value(), static_cast<std::int32_t>(part_.points.size()));
+    const auto [found, added] = copies_.emplace(node.value(), size32(part_.points));
     if (added) {
       part_.points.push_back(whole_.point(node));
       part_.copies.push_back(GlobalNodeId{node.value()});
@@ -61,7 +62,7 @@ Mesh sample_mesh(std::int32_t columns) {
     for (std::int32_t i = 0; i <= columns; ++i)
       mesh.points.push_back({static_cast<double>(i), static_cast<double>(j)});
   }
-  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  mesh.owned_nodes = size32(mesh.points);
   BoundaryEdges wall{"wall", "wall", {}}, sides{"far field", "farfield", {}};
   for (std::int32_t i = 0; i < columns; ++i) {
     mesh.quads.push_back({node(i, 0), node(i + 1, 0), node(i + 1, 1), node(i, 1)});
@@ -78,8 +79,8 @@ Mesh sample_mesh(std::int32_t columns) {
   return mesh;
 }
 
-Solution sample_solution(const Mesh& mesh) {
-  Solution solution{{12, 0.1, -3e-300}, {"density", "pressure"}, {}};
+Field sample_solution(const Mesh& mesh) {
+  Field solution{{"density", "pressure"}, {}, {12, 0.1, -3e-300}};
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
     solution.values.push_back(1 + i / 3.0);
     solution.values.push_back(-1e17 / (i + 7));
@@ -104,8 +105,8 @@ Mesh share_of(const Mesh& whole, int rank, int ranks) {
   return part;
 }
 
-Solution share_of(const Solution& whole, const Mesh& mesh, const Mesh& share) {
-  Solution part{whole.constants, whole.names, {}};
+Field share_of(const Field& whole, const Mesh& mesh, const Mesh& share) {
+  Field part{whole.names, {}, whole.constants};
   const std::size_t width = whole.values.size() / mesh.points.size();
   const auto begin =
       whole.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(share.first_node) * width);

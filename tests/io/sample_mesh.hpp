@@ -15,12 +15,12 @@ namespace quadloop::test {
 Mesh sample_mesh(std::int32_t columns);
 
 /// Two variables with rows that need all digits, and three constants.
-Solution sample_solution(const Mesh& mesh);
+Field sample_solution(const Mesh& mesh);
 
 /// What this rank holds of a whole mesh: its share of the nodes and the cells, in order, and copies of the
 /// nodes that they touch.
 Mesh share_of(const Mesh& whole, int rank, int ranks);
-Solution share_of(const Solution& whole, const Mesh& mesh, const Mesh& share);
+Field share_of(const Field& whole, const Mesh& mesh, const Mesh& share);
 
 /// This rank's share of `leaves` leaves with made-up numbers.
 TreeRecord sample_tree(std::int32_t leaves, int rank, int ranks);

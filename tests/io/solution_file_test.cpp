@@ -86,7 +86,7 @@ TEST(Su2Csv, RefusesByLine) {
 LoadedSolution through_csv(const std::vector<std::string>& names, const std::vector<double>& row,
                            std::string* header = nullptr) {
   const Mesh mesh = test::sample_mesh(2);
-  Solution solution{{}, names, {}};
+  Field solution{names, {}, {}};
   for (std::size_t node = 0; node < mesh.points.size(); ++node)
     solution.values.insert(solution.values.end(), row.begin(), row.end());
   const TemporaryFolder folder;
@@ -130,10 +130,10 @@ TEST(Su2Csv, KeepsOtherVariablesUnderNamesThatAreReadBack) {
 class Formats : public testing::TestWithParam<std::string> {
  public:
   Mesh mesh = test::sample_mesh(4);
-  Solution solution = test::sample_solution(mesh);
+  Field solution = test::sample_solution(mesh);
   TemporaryFolder folder;
 
-  std::string write(const Mesh& other, const Solution* values) const {
+  std::string write(const Mesh& other, const Field* values) const {
     const std::string path = folder.file("s" + GetParam());
     if (GetParam() == ".mesh") write_native(test::world(), other, path, values);
     if (GetParam() == ".cgns") write_cgns(test::world(), other, path, values);
@@ -159,7 +159,7 @@ TEST_P(Formats, AMeshWithoutSolutionIsRefused) {
 
 TEST_P(Formats, SolutionsOfOtherMeshesAreTold) {
   const Mesh larger = test::sample_mesh(5);
-  const Solution its = test::sample_solution(larger);
+  const Field its = test::sample_solution(larger);
   expect_in(refusal_of([&] { require_same_mesh(read_solution(write(larger, &its)), mesh); }),
             "holds values at 18 nodes, the mesh has 15");
   Mesh moved = mesh;
@@ -226,7 +226,7 @@ TEST(VariableNames, BlanksBecomeUnderscoresInEveryFormat) {
             (std::vector<std::string>{"wave_height", "b"}));
   const TemporaryFolder folder;
   const Mesh mesh = test::sample_mesh(5);
-  Solution solution = test::sample_solution(mesh);
+  Field solution = test::sample_solution(mesh);
   for (std::string& name : solution.names) name = "of \tname " + name;
   write_vtu(test::world(), mesh, folder.file("a.vtu"), &solution);
   write_native(test::world(), mesh, folder.file("a.mesh"), &solution);
@@ -238,7 +238,7 @@ TEST(VariableNames, BlanksBecomeUnderscoresInEveryFormat) {
 TEST(VariableNames, CgnsKeepsEachVariable) {
   const TemporaryFolder folder;
   const Mesh mesh = test::sample_mesh(5);
-  Solution solution = test::sample_solution(mesh);
+  Field solution = test::sample_solution(mesh);
   const std::string of_40(40, 'a');
   for (const auto& names :
        {std::vector<std::string>{of_40 + "1", of_40 + "2"}, {"density", "Density"}, {"a/b", "a_b"}}) {

@@ -67,7 +67,7 @@ TEST(TidyMesh, DropsNodesOfNoCellWithTheirRows) {
   one_later(mesh.triangles);
   one_later(mesh.quads);
   for (BoundaryEdges& b : mesh.boundaries) one_later(b.edges);
-  loaded.solution = Solution{{}, {"a", "b"}, {}};
+  loaded.solution = Field{{"a", "b"}, {}, {}};
   for (int i = 0; i < 22; ++i) loaded.solution->values.push_back(i);
   tidy_mesh(loaded, "m.mesh");
   expect_same(mesh, square().mesh);

@@ -53,7 +53,7 @@ Mesh Grid::mesh() const {
 void jitter(const Grid& grid, double share, std::uint64_t seed, Mesh& mesh) {
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
     const std::int32_t i = node % (grid.n + 1), j = node / (grid.n + 1);
-    Point& p = mesh.points[static_cast<std::size_t>(node)];
+    Point& p = mesh.points[node];
     if (0 < i && i < grid.n) p.x += share * grid.size.x / grid.n * scattered(seed, node, 1);
     if (0 < j && j < grid.n) p.y += share * grid.size.y / grid.n * scattered(seed, node, 2);
   }

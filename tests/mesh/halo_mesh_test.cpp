@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -21,8 +22,8 @@ struct Pieces {
   Pieces(const Mesh& mesh, const MeshOrder& order)
       : whole{scatter_mesh(Communicator(MPI_COMM_SELF), mesh, order)},
         part{scatter_mesh(world(), mesh, order)},
-        first_triangle{world().exclusive_sum(static_cast<std::int64_t>(part.triangles.size()))},
-        first_quad{world().exclusive_sum(static_cast<std::int64_t>(part.quads.size()))} {}
+        first_triangle{world().exclusive_sum(std::ssize(part.triangles))},
+        first_quad{world().exclusive_sum(std::ssize(part.quads))} {}
 
   bool is_owned(NodeId number) const {
     return part.first_node <= number.value() && number.value() < part.first_node + part.owned_nodes;
@@ -63,7 +64,7 @@ std::vector<Numbers> expected_cells(const Pieces& pieces) {
   const auto add = [&](const auto& cells, const Numbers& numbers) {
     for (const std::int64_t number : numbers) {
       rows.emplace_back();
-      for (const NodeId node : cells[static_cast<std::size_t>(number)]) rows.back().push_back(node.value());
+      for (const NodeId node : cells[number]) rows.back().push_back(node.value());
     }
   };
   add(pieces.whole.triangles,
@@ -92,7 +93,7 @@ TEST(HaloMesh, KnowsWhereItsNodesAre) {
     Numbers numbers;
     for (std::int32_t node = 0; node < static_cast<std::int32_t>(halo.points().size()); ++node) {
       numbers.push_back(halo.global(node));
-      EXPECT_EQ(halo.point(NodeId{node}), pieces.whole.points[static_cast<std::size_t>(halo.global(node))]);
+      EXPECT_EQ(halo.point(NodeId{node}), pieces.whole.points[halo.global(node)]);
     }
     std::sort(numbers.begin(), numbers.end());
     EXPECT_EQ(std::adjacent_find(numbers.begin(), numbers.end()), numbers.end()) << "a node is there twice";
@@ -154,12 +155,11 @@ TEST(HaloMesh, ExchangeBringsOnlyWhatHasChanged) {
     const HaloMesh halo(world(), pieces.part);
     const auto is_even = [&](std::int32_t node) { return halo.global(node) % 2 == 0; };
     Numbers values(halo.points().size(), -1);
-    for (std::int32_t node = 0; node < halo.owned_nodes(); ++node)
-      values[static_cast<std::size_t>(node)] = halo.global(node);
+    for (std::int32_t node = 0; node < halo.owned_nodes(); ++node) values[node] = halo.global(node);
     halo.exchange().update(values, is_even);
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(values.size()); ++node) {
+    for (std::int32_t node = 0; node < size32(values); ++node) {
       const bool known = node < halo.owned_nodes() || is_even(node);
-      EXPECT_EQ(values[static_cast<std::size_t>(node)], known ? halo.global(node) : -1);
+      EXPECT_EQ(values[node], known ? halo.global(node) : -1);
     }
   });
 }

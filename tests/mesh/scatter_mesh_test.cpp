@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <set>
 
+#include "mesher/base/ids.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
+#include "mesher/mesh/node_table.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -102,11 +105,10 @@ TEST(ScatterMesh, PartsNameTheNodesOfTheWhole) {
   const Mesh part = scatter_mesh(world(), on_root(whole), on_root(order));
   ASSERT_EQ(part.points.size(), static_cast<std::size_t>(part.owned_nodes) + part.copies.size());
   std::set<std::int64_t> numbers;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(part.points.size()); ++i) {
+  for (std::int32_t i = 0; i < size32(part.points); ++i) {
     const std::int64_t number = part.global(NodeId{i}).value();
     EXPECT_TRUE(numbers.insert(number).second) << number << " twice";
-    EXPECT_EQ(part.point(NodeId{i}),
-              whole.points[static_cast<std::size_t>(order.nodes[static_cast<std::size_t>(number)])]);
+    EXPECT_EQ(part.point(NodeId{i}), whole.points[order.nodes[number]]);
   }
 }
 
@@ -121,8 +123,7 @@ TEST(ScatterMesh, BoundariesAreOnEveryRank) {
     std::vector<std::array<NodeId, 2>> edges;
     for (const auto& edge : part.boundaries[b].edges) {
       edges.push_back(edge);
-      for (NodeId& node : edges.back())
-        node = NodeId{order.nodes[static_cast<std::size_t>(part.global(node).value())]};
+      for (NodeId& node : edges.back()) node = NodeId{order.nodes[part.global(node).value()]};
     }
     EXPECT_TRUE(world().all_gather_values(std::span<const std::array<NodeId, 2>>(edges)) ==
                 whole.boundaries[b].edges);
@@ -154,6 +155,34 @@ TEST(ScatterNodes, FollowsTheNodes) {
   ASSERT_EQ(own.size(), static_cast<std::size_t>(part.owned_nodes));
   for (std::size_t i = 0; i < own.size(); ++i) EXPECT_EQ(own[i], part.points[i].x);
   EXPECT_TRUE(scatter_nodes(world(), std::vector<char>{}, on_root(order)).empty());
+}
+
+TEST(BoxOverRanks, HoldsAllRanksPoints) {
+  const double rank = world().rank();
+  std::vector<Point> points;
+  if (world().rank() % 2 == 0) points = {{rank, -rank}, {-1, 2}};  // the others have none
+  const Box box = box_over_ranks(world(), points);
+  const double last = world().size() - 1 - (world().size() - 1) % 2;
+  EXPECT_EQ(box.low, (Point{-1, -last}));
+  EXPECT_EQ(box.high, (Point{last, 2}));
+}
+
+TEST(NodeTable, KnowsOwnedNodesAndLearnsCopies) {
+  Mesh part;
+  part.first_node = 10;
+  part.owned_nodes = 2;
+  part.points = {{0, 0}, {1, 0}, {2, 0}};
+  part.copies = {GlobalNodeId{3}};
+  NodeTable nodes(part);
+  EXPECT_EQ(nodes.find(11), NodeId{1});
+  EXPECT_EQ(nodes.find(3), NodeId{2});
+  EXPECT_FALSE(nodes.find(12).valid());
+  EXPECT_FALSE(nodes.find(9).valid());
+  EXPECT_EQ(nodes.local(12, {5, 5}), NodeId{3});
+  EXPECT_EQ(nodes.find(12), NodeId{3});
+  EXPECT_EQ(nodes.local(12, {6, 6}), NodeId{3});
+  EXPECT_EQ(part.copies.back(), GlobalNodeId{12});
+  EXPECT_EQ(part.points.back(), (Point{5, 5}));
 }
 
 }  // namespace

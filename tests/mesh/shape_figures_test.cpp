@@ -87,7 +87,7 @@ void expect_figures_of_whole(const Mesh& whole) {
     const ShapeFigures figures = shape_figures(world(), scatter_mesh(world(), whole, order));
     EXPECT_EQ(figures.inexact_nodes, inexact);
     EXPECT_EQ(figures.parallelograms, parallel);
-    EXPECT_EQ(figures.quads, static_cast<std::int64_t>(whole.quads.size()));
+    EXPECT_EQ(figures.quads, std::ssize(whole.quads));
     EXPECT_EQ(figures.area_ratio_max, ratio);
   }
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesher/base/ids.hpp"
+
 namespace quadloop {
 namespace {
 
@@ -30,10 +32,10 @@ Mesh fan(std::span<const double> degrees) {
   double sum = 0;
   for (const double angle : degrees) {
     mesh.points.push_back(at_degrees(sum += angle));
-    const auto last = static_cast<std::int32_t>(mesh.points.size()) - 1;
+    const auto last = size32(mesh.points) - 1;
     mesh.triangles.push_back({node(0), node(last - 1), node(last)});
   }
-  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  mesh.owned_nodes = size32(mesh.points);
   return mesh;
 }
 Mesh fan(std::initializer_list<double> degrees) { return fan(std::span(degrees.begin(), degrees.size())); }
@@ -153,7 +155,7 @@ Mesh channel() {
     mesh.triangles.push_back({node(2 * i), node(2 * i + 2), node(2 * i + 3)});
     mesh.triangles.push_back({node(2 * i), node(2 * i + 3), node(2 * i + 1)});
   }
-  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  mesh.owned_nodes = size32(mesh.points);
   return mesh;
 }
 
@@ -176,7 +178,7 @@ Mesh strip(std::int32_t squares) {
     mesh.points.insert(mesh.points.end(), {{x, 0}, {x, 1}});
     if (i > 0) mesh.quads.push_back({node(2 * i - 2), node(2 * i), node(2 * i + 1), node(2 * i - 1)});
   }
-  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  mesh.owned_nodes = size32(mesh.points);
   return mesh;
 }
 

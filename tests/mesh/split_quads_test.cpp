@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/mesh/check/quality.hpp"
 
 namespace quadloop {
@@ -16,7 +17,7 @@ TieRank rank_from_origin(Point p) { return tie_rank(Point{0, 0}, p); }
 Mesh mesh_of(std::vector<Point> points, const std::vector<std::array<std::int32_t, 4>>& quads) {
   Mesh mesh;
   mesh.points = std::move(points);
-  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  mesh.owned_nodes = size32(mesh.points);
   for (const auto& q : quads) mesh.quads.push_back({NodeId{q[0]}, NodeId{q[1]}, NodeId{q[2]}, NodeId{q[3]}});
   return mesh;
 }

@@ -10,8 +10,8 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/build/build_mesh.hpp"
-#include "mesher/build/lattice_rank.hpp"
 #include "mesher/build/outline_losses.hpp"
+#include "mesher/cut/lattice_rank.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/quality.hpp"
@@ -72,7 +72,7 @@ std::string delaunay_fault(const Mesh& mesh) {
       const NodeId a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
       const std::int32_t across = table.cell_left_of(b, a);
       if (across < 0) continue;
-      for (const NodeId d : mesh.triangles[static_cast<std::size_t>(across)]) {
+      for (const NodeId d : mesh.triangles[across]) {
         if (d == a || d == b) continue;
         const Point pa = mesh.point(a), pb = mesh.point(b), pc = mesh.point(c), pd = mesh.point(d);
         if (in_circle(pa, pb, pc, pd) > 0 && positive(pa, pd, pc) && positive(pd, pb, pc))

@@ -24,12 +24,11 @@ struct Coloured {
   std::vector<std::int32_t> free_nodes(const MeshOrder& order, const std::vector<char>& is_free) const {
     std::vector<std::int32_t> nodes;
     for (std::int32_t i = 0; i < part.owned_nodes; ++i) {
-      if (is_free[static_cast<std::size_t>(order.nodes[static_cast<std::size_t>(part.first_node + i)])] != 0)
-        nodes.push_back(i);
+      if (is_free[order.nodes[part.first_node + i]] != 0) nodes.push_back(i);
     }
     return nodes;
   }
-  std::int8_t colour(std::int32_t node) const { return colouring.colour_of[static_cast<std::size_t>(node)]; }
+  std::int8_t colour(std::int32_t node) const { return colouring.colour_of[node]; }
 
   Mesh part;
   HaloMesh halo;
@@ -72,7 +71,7 @@ void expect_coloured_alike(const test::Grid& grid, const MeshOrder& order, doubl
     const std::int64_t number = together.halo.global(node);
     EXPECT_EQ(together.colour(node), alone.colour(static_cast<std::int32_t>(number)));
     const bool is_none = together.colour(node) == Colouring::none;
-    EXPECT_EQ(is_none, is_free[static_cast<std::size_t>(order.nodes[static_cast<std::size_t>(number)])] == 0);
+    EXPECT_EQ(is_none, is_free[order.nodes[number]] == 0);
   }
 }
 

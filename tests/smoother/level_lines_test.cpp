@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -26,7 +27,7 @@ Mesh two_levels(const Place& place) {
   const auto add_row = [&](std::int32_t steps, double y) {
     for (std::int32_t i = 0; i <= steps; ++i)
       mesh.points.push_back(place(Point{static_cast<double>(i * coarse) / steps, y}));
-    return static_cast<std::int32_t>(mesh.points.size()) - steps - 1;
+    return size32(mesh.points) - steps - 1;
   };
   const std::array<std::int32_t, 5> rows{add_row(2 * coarse, 0), add_row(2 * coarse, 0.5),
                                          add_row(2 * coarse, 1), add_row(coarse, 2), add_row(coarse, 3)};
@@ -52,7 +53,7 @@ Mesh two_levels(const Place& place) {
     edges.push_back(
         {node(row, row < 3 ? 2 * coarse : coarse), node(row + 1, row + 1 < 3 ? 2 * coarse : coarse)});
   }
-  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  mesh.owned_nodes = size32(mesh.points);
   return mesh;
 }
 

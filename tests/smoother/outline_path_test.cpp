@@ -176,7 +176,7 @@ TEST(OutlinePath, GivesUpOnWaysOfTooManyVertices) {
   boundaries[0].name = "circle";
   const Geometry circle(boundaries, points, {0, 4000}, std::vector<BoundaryId>(4000, BoundaryId{0}));
   const OutlinePath path(circle);
-  const auto place = [&](int k) { return path.locate(points[static_cast<std::size_t>(k)], "circle", false); };
+  const auto place = [&](int k) { return path.locate(points[k], "circle", false); };
   EXPECT_EQ(path.deviation(place(0), points[0], place(2000), points[2000]),
             std::numeric_limits<double>::infinity());
   EXPECT_TRUE(path.segments_between(place(0), place(2000)).empty());

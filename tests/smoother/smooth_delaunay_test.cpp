@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "mesher/delaunay/restore_delaunay.hpp"
+#include "mesher/base/ids.hpp"
+#include "mesher/delaunay/restore/restore_delaunay.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/topology.hpp"
@@ -60,9 +61,7 @@ std::vector<std::array<NodeId, 2>> interface_of(const Mesh& whole, const std::ve
   std::vector<std::array<NodeId, 2>> edges;
   for_each_cell_edge(whole, [&](NodeId from, NodeId to, std::int32_t cell) {
     const std::int32_t other = table.cell_left_of(to, from);
-    if (other >= 0 && blocks[static_cast<std::size_t>(cell)] == 0 &&
-        blocks[static_cast<std::size_t>(other)] == 1)
-      edges.push_back({from, to});
+    if (other >= 0 && blocks[cell] == 0 && blocks[other] == 1) edges.push_back({from, to});
   });
   std::sort(edges.begin(), edges.end());
   return edges;
@@ -77,8 +76,7 @@ TEST(SmoothDelaunay, KeepsEdgesBetweenBlocksOfADelaunayMesh) {
   ASSERT_TRUE(is_delaunay(mesh, blocks));
   EXPECT_FALSE(is_delaunay(mesh)) << "without blocks the interface would be flipped";
   std::vector<char> pinned(mesh.points.size(), 0);
-  for (const auto& [from, to] : interface)
-    pinned[static_cast<std::size_t>(from.value())] = pinned[static_cast<std::size_t>(to.value())] = 1;
+  for (const auto& [from, to] : interface) pinned[from.value()] = pinned[to.value()] = 1;
   for (const MeshOrder& order : {space_filling_order(mesh), test::shuffled_order(mesh, 7)}) {
     Mesh smoothed[2] = {mesh, mesh};
     for (int all = 0; all < 2; ++all) {
@@ -132,7 +130,7 @@ Mesh with_touchy_pieces(Mesh mesh, int pieces) {
     for (const auto& t : triangles) mesh.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
     for (const auto& e : sides) mesh.boundaries[0].edges.push_back({at(e[0]), at(e[1])});
   }
-  mesh.owned_nodes = static_cast<std::int32_t>(mesh.points.size());
+  mesh.owned_nodes = size32(mesh.points);
   return mesh;
 }
 

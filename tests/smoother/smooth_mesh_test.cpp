@@ -10,6 +10,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "smoother/objective/condition_number.hpp"
@@ -50,7 +51,7 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWhereLittleIsBad) {
   const Grid grid{16};
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Mesh mesh = jittered(grid, 0.08, seed);
-    const auto displaced = static_cast<std::size_t>(17 * (3 + seed) + 8);
+    const std::size_t displaced = 17 * (3 + seed) + 8;
     mesh.points[displaced] = mesh.points[displaced] + Point{0.03, 0.03};
     SmoothOptions options;
     options.threshold = seed % 2 == 0 ? 0.05 : 0.1;
@@ -195,7 +196,7 @@ TEST(SmoothMesh, PinnedNodesStay) {
     options.pinned.push_back((part.first_node + node) % 3 == 0 ? 1 : 0);
   smooth_mesh(world(), part, options);
   std::int64_t moved = 0;
-  for (std::int32_t node = 0; node < static_cast<std::int32_t>(part.points.size()); ++node) {
+  for (std::int32_t node = 0; node < size32(part.points); ++node) {
     const bool pinned = part.global(NodeId{node}).value() % 3 == 0;
     EXPECT_TRUE(!pinned || part.point(NodeId{node}) == before.point(NodeId{node})) << node;
     moved += part.point(NodeId{node}) != before.point(NodeId{node}) ? 1 : 0;
@@ -356,7 +357,7 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWithTargets) {
     const Communicator& comm = part.owned_nodes == mesh.owned_nodes ? self() : world();
     SmoothOptions options;
     const auto take = [&](std::size_t count, const std::vector<std::int32_t>& cells, std::size_t offset) {
-      const auto first = static_cast<std::size_t>(comm.exclusive_sum(static_cast<std::int64_t>(count)));
+      const std::size_t first = comm.exclusive_sum(static_cast<std::int64_t>(count));
       for (std::size_t c = first; c < first + count; ++c)
         options.targets.push_back(all[offset + static_cast<std::size_t>(cells[c])]);
     };
@@ -367,9 +368,8 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksWithTargets) {
   const Smoothed s = smooth_both_ways(mesh, order, options_for);
   EXPECT_GT(s.report.moves, 0);
   expect_same_report(s.report, s.alone_report);
-  for (std::int32_t node = 0; node < static_cast<std::int32_t>(s.part.points.size()); ++node) {
-    EXPECT_EQ(s.part.point(NodeId{node}),
-              s.alone.points[static_cast<std::size_t>(s.part.global(NodeId{node}).value())]);
+  for (std::int32_t node = 0; node < size32(s.part.points); ++node) {
+    EXPECT_EQ(s.part.point(NodeId{node}), s.alone.points[s.part.global(NodeId{node}).value()]);
   }
 }
 

@@ -278,14 +278,14 @@ TEST(RankedPlaces, AreAcceptedAndBestFirst) {
     const std::vector<int> order = ranked_places(star, p, Objective::power, x, y);
     ranked[valid ? 1 : 0] += order.size();
     std::vector<char> listed(Star::batch, 0);
-    for (const int k : order) listed[static_cast<std::size_t>(k)] = 1;
+    for (const int k : order) listed[k] = 1;
     const Acceptance acceptance(star.cost(p, Objective::power));
     const UntanglingRule rule(star, p, Objective::power);
     const auto place = [&](int k) { return Point{x[k], y[k]}; };
     for (int k = 0; k < Star::batch; ++k) {
       const bool accepted =
           valid ? acceptance.accepts(star.cost(place(k), Objective::power), 0) : rule.accepts(place(k));
-      EXPECT_EQ(accepted, listed[static_cast<std::size_t>(k)] != 0);
+      EXPECT_EQ(accepted, listed[k] != 0);
     }
     for (std::size_t k = 0; k + 1 < order.size(); ++k) {
       const Point a = place(order[k]), b = place(order[k + 1]);

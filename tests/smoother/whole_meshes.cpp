@@ -25,9 +25,7 @@ Mesh tangled(const Grid& grid, std::uint64_t seed) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const NodeId a = nodes[k], b = nodes[(k + 1) % nodes.size()];
       const double edge = length(mesh.point(b) - mesh.point(a));
-      for (const NodeId node : {a, b})
-        shortest[static_cast<std::size_t>(node.value())] =
-            std::min(shortest[static_cast<std::size_t>(node.value())], edge);
+      for (const NodeId node : {a, b}) shortest[node.value()] = std::min(shortest[node.value()], edge);
     }
   };
   for (const auto& t : mesh.triangles) look_at(t);
@@ -36,8 +34,8 @@ Mesh tangled(const Grid& grid, std::uint64_t seed) {
     if (!grid.inner(node) || scattered(seed, node, 4) > -0.6) continue;
     const double turn = std::numbers::pi * scattered(seed, node, 5),
                  reach = 0.45 * (1 + scattered(seed, node, 6));
-    Point& p = mesh.points[static_cast<std::size_t>(node)];
-    p = p + reach * shortest[static_cast<std::size_t>(node)] * Point{std::cos(turn), std::sin(turn)};
+    Point& p = mesh.points[node];
+    p = p + reach * shortest[node] * Point{std::cos(turn), std::sin(turn)};
   }
   return mesh;
 }
@@ -49,10 +47,7 @@ Geometry circle(int vertices) {
   for (int k = 0; k < vertices; ++k)
     points.push_back(
         {std::cos(2 * std::numbers::pi * k / vertices), std::sin(2 * std::numbers::pi * k / vertices)});
-  return {boundaries,
-          points,
-          {0, vertices},
-          std::vector<BoundaryId>(static_cast<std::size_t>(vertices), BoundaryId{0})};
+  return {boundaries, points, {0, vertices}, std::vector<BoundaryId>(vertices, BoundaryId{0})};
 }
 
 namespace {
@@ -73,8 +68,7 @@ Mesh disc(const Grid& grid, const Geometry& polygon) {
     const Point round{p.x * std::sqrt(1 - p.y * p.y / 2), p.y * std::sqrt(1 - p.x * p.x / 2)};
     const Point by{scattered(5, node, 1), scattered(5, node, 2)};
     const double angle = std::atan2(round.y, round.x) + 0.35 / grid.n * by.x;
-    mesh.points[static_cast<std::size_t>(node)] =
-        grid.inner(node) ? round + 0.25 / grid.n * by : on_polygon(polygon, angle);
+    mesh.points[node] = grid.inner(node) ? round + 0.25 / grid.n * by : on_polygon(polygon, angle);
   }
   auto& boundaries = mesh.boundaries;
   boundaries[0].name = "circle";

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "mesher/base/ids.hpp"
 #include "smoother/smooth_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -51,10 +52,9 @@ void expect_same_positions(const Mesh& mesh, const Options& options_for) {
     const Smoothed s = smooth_both_ways(mesh, order, options_for);
     EXPECT_GT(s.report.moves, 0);
     expect_same_report(s.report, s.alone_report);
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(s.part.points.size()); ++node) {
+    for (std::int32_t node = 0; node < size32(s.part.points); ++node) {
       const std::int64_t number = s.part.global(NodeId{node}).value();
-      EXPECT_EQ(s.part.point(NodeId{node}), s.alone.points[static_cast<std::size_t>(number)])
-          << "node " << number;
+      EXPECT_EQ(s.part.point(NodeId{node}), s.alone.points[number]) << "node " << number;
     }
   }
 }

@@ -71,7 +71,7 @@ DualMesh::DualMesh(const Communicator& comm, const Mesh& mesh) : halo_(comm, mes
 }
 
 void DualMesh::add_areas() {
-  areas_.assign(static_cast<std::size_t>(owned_nodes()), 0);
+  areas_.assign(owned_nodes(), 0);
   halo_.for_each_cell([&](const auto& nodes) {
     const Point centre = centre_of(halo_, nodes);
     const std::size_t n = nodes.size();
@@ -80,8 +80,7 @@ void DualMesh::add_areas() {
       if (!is_owned(node.value())) continue;
       const Point p = halo_.point(node), before = halo_.point(nodes[(k + n - 1) % n]),
                   after = halo_.point(nodes[(k + 1) % n]);
-      areas_[static_cast<std::size_t>(node.value())] +=
-          0.5 * twice_area({p, middle(p, after), centre, middle(before, p)});
+      areas_[node.value()] += 0.5 * twice_area({p, middle(p, after), centre, middle(before, p)});
     }
   });
 }
@@ -133,7 +132,7 @@ void DualMesh::collect_faces() {
     const Point from = point(e.from.value()), to = point(e.to.value());
     if (found == edges_.end() || key(found->low, found->high) != wanted)
       refuse_edge("boundary edge", from, to, "belongs to no cell; mesh it anew");
-    char& open = open_[static_cast<std::size_t>(found - edges_.begin())];
+    char& open = open_[found - edges_.begin()];
     if (open == 0) {
       refuse_edge("boundary edge", from, to,
                   "has cells on both sides or is there twice, and the flow solver takes one domain alone; "

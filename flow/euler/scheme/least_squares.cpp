@@ -14,13 +14,13 @@ LeastSquares::LeastSquares(const DualMesh& mesh) : mesh_{mesh}, inverse_(mesh.no
     const Point d = edge.half;
     const double w = weight(edge);
     for (const std::int32_t node : {edge.low, edge.high}) {
-      Symmetric& m = inverse_[static_cast<std::size_t>(node)];
+      Symmetric& m = inverse_[node];
       m.xx += w * d.x * d.x;
       m.xy += w * d.x * d.y;
       m.yy += w * d.y * d.y;
     }
   }
-  inverse_.resize(static_cast<std::size_t>(mesh.owned_nodes()));
+  inverse_.resize(mesh.owned_nodes());
   for (Symmetric& m : inverse_) {
     const double determinant = m.xx * m.yy - m.xy * m.xy;
     m = {m.yy / determinant, -m.xy / determinant, m.xx / determinant};
@@ -31,10 +31,8 @@ void LeastSquares::compute(const std::vector<State>& states, std::vector<Gradien
   for (Gradient& gradient : gradients) gradient = {};
   for (const DualEdge& edge : mesh_.edges()) {
     const double w = 0.5 * weight(edge);
-    const State &low = states[static_cast<std::size_t>(edge.low)],
-                &high = states[static_cast<std::size_t>(edge.high)];
-    Gradient &at_low = gradients[static_cast<std::size_t>(edge.low)],
-             &at_high = gradients[static_cast<std::size_t>(edge.high)];
+    const State &low = states[edge.low], &high = states[edge.high];
+    Gradient &at_low = gradients[edge.low], &at_high = gradients[edge.high];
     for (std::size_t k = 0; k < 4; ++k) {
       const double change = w * (high[k] - low[k]), along_x = change * edge.half.x,
                    along_y = change * edge.half.y;

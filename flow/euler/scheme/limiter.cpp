@@ -22,7 +22,7 @@ Limiter::Limiter(const DualMesh& mesh, double reference_length)
     : mesh_{mesh},
       values_(mesh.nodes()),
       changes_(mesh.nodes()),
-      factors_(static_cast<std::size_t>(mesh.owned_nodes()), std::array<double, 4>{1, 1, 1, 1}) {
+      factors_(mesh.owned_nodes(), std::array<double, 4>{1, 1, 1, 1}) {
   for (const double area : mesh.areas()) {
     const double h = smallness * std::sqrt(area) / reference_length;
     small_squared_.push_back(h * h * h);

@@ -90,12 +90,11 @@ void Residual::add_skew(const std::vector<State>& states) {
 
 void Residual::add_faces(const std::vector<State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
-    const BoundaryModel& boundary = model_.boundaries[static_cast<std::size_t>(face.boundary)];
+    const BoundaryModel& boundary = model_.boundaries[face.boundary];
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
-      const State state =
-          state_at_half(states[static_cast<std::size_t>(own)], states[static_cast<std::size_t>(other)]);
+      const State state = state_at_half(states[own], states[other]);
       const Flux flux = boundary_flux(model_, boundary, state, face.normal);
-      for (std::size_t k = 0; k < 4; ++k) sums_[static_cast<std::size_t>(own)][k] += face.half_size * flux[k];
+      for (std::size_t k = 0; k < 4; ++k) sums_[own][k] += face.half_size * flux[k];
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/assemble/join_chains.hpp"
 #include "mesher/geometry/assemble/rounded_ends.hpp"
 #include "mesher/geometry/validate.hpp"
@@ -21,7 +22,7 @@ void turn_round(OutlineLoop& loop) {
 }
 
 std::string turned_text(const Outline& outline, const OutlineLoop& loop, const LoopPlace& place) {
-  const std::string& name = outline.names[static_cast<std::size_t>(loop.boundary.front().value())];
+  const std::string& name = outline.names[loop.boundary.front().value()];
   const Point p = loop.points.front();
   std::string text = fmt::format(
       "boundary '{}': the loop from ({}, {}) wound the wrong way round and was turned", name, p.x, p.y);
@@ -54,7 +55,7 @@ void warn_of_domains(const Outline& outline, const std::vector<LoopPlace>& place
   }
   if (outermost.size() < 2) return;
   const OutlineLoop& second = outline.loops[outermost[1]];
-  const std::string& name = outline.names[static_cast<std::size_t>(second.boundary.front().value())];
+  const std::string& name = outline.names[second.boundary.front().value()];
   warnings.push_back(fmt::format(
       "the geometry has {} domains beside each other; that of boundary '{}' at ({}, {}) lies in no other",
       outermost.size(), name, second.points.front().x, second.points.front().y));
@@ -67,7 +68,7 @@ Geometry to_geometry(const Outline& outline, const AssembleOptions& options) {
   for (const OutlineLoop& loop : outline.loops) {
     points.insert(points.end(), loop.points.begin(), loop.points.end());
     segment_boundary.insert(segment_boundary.end(), loop.boundary.begin(), loop.boundary.end());
-    loop_starts.push_back(static_cast<std::int32_t>(points.size()));
+    loop_starts.push_back(size32(points));
   }
   std::vector<Boundary> boundaries =
       boundaries_by_rules(outline.names, options.rules, options.default_corner_degrees);

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 
 namespace quadloop {
 
@@ -147,8 +148,7 @@ class Joiner {
 
  private:
   void number(const std::string& name) {
-    if (!numbers_.try_emplace(name, BoundaryId{static_cast<std::int32_t>(outline_.names.size())}).second)
-      return;
+    if (!numbers_.try_emplace(name, BoundaryId{size32(outline_.names)}).second) return;
     outline_.names.push_back(name);
   }
 

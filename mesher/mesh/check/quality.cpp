@@ -69,10 +69,9 @@ double skew_of(const std::array<Point, 4>& p) {
 
 MeshCounts count(const Communicator& comm, const Mesh& mesh) {
   std::int64_t edges = 0;
-  for (const BoundaryEdges& boundary : mesh.boundaries)
-    edges += static_cast<std::int64_t>(boundary.edges.size());
-  return {comm.sum(mesh.owned_nodes), comm.sum(static_cast<std::int64_t>(mesh.triangles.size())),
-          comm.sum(static_cast<std::int64_t>(mesh.quads.size())), comm.sum(edges)};
+  for (const BoundaryEdges& boundary : mesh.boundaries) edges += std::ssize(boundary.edges);
+  return {comm.sum(mesh.owned_nodes), comm.sum(std::ssize(mesh.triangles)), comm.sum(std::ssize(mesh.quads)),
+          comm.sum(edges)};
 }
 
 QualitySummary summarise_quality(const Communicator& comm, const Mesh& mesh) {

@@ -60,18 +60,17 @@ void add_corner(const HaloMesh& mesh, const Nodes& nodes, std::size_t k, DualSum
 std::vector<char> boundary_nodes(const HaloMesh& mesh) {
   std::vector<char> flags(mesh.points().size(), 0);
   for (const HaloEdge& edge : mesh.boundary_edges()) {
-    for (const NodeId node : {edge.from, edge.to}) flags[static_cast<std::size_t>(node.value())] = 1;
+    for (const NodeId node : {edge.from, edge.to}) flags[node.value()] = 1;
   }
   mesh.exchange().update(flags);
   return flags;
 }
 
 void count_inexact_nodes(const HaloMesh& mesh, const std::vector<char>& on_boundary, ShapeFigures& figures) {
-  std::vector<DualSum> sums(static_cast<std::size_t>(mesh.owned_nodes()));
+  std::vector<DualSum> sums(mesh.owned_nodes());
   mesh.for_each_cell([&](const auto& nodes) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (nodes[k].value() < mesh.owned_nodes())
-        add_corner(mesh, nodes, k, sums[static_cast<std::size_t>(nodes[k].value())]);
+      if (nodes[k].value() < mesh.owned_nodes()) add_corner(mesh, nodes, k, sums[nodes[k].value()]);
     }
   });
   for (std::size_t node = 0; node < sums.size(); ++node) {
@@ -87,7 +86,7 @@ void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
         skew_of({mesh.point(q[0]), mesh.point(q[1]), mesh.point(q[2]), mesh.point(q[3])}) <= parallel_skew;
     figures.parallelograms += parallel ? 1 : 0;
   }
-  figures.quads = static_cast<std::int64_t>(mesh.quads.size());
+  figures.quads = std::ssize(mesh.quads);
 }
 
 double ratio_of(double a, double b) {
@@ -112,7 +111,7 @@ double largest_ratio(const HaloMesh& mesh, const std::vector<AreaRange>& ranges,
     const std::size_t n = nodes.size();
     for (std::size_t k = 0; k < n; ++k) {
       const std::int32_t node = nodes[k].value();
-      if (node >= mesh.owned_nodes() || ranges[static_cast<std::size_t>(node)].ratio() < least) continue;
+      if (node >= mesh.owned_nodes() || ranges[node].ratio() < least) continue;
       const double area = area_of(mesh, nodes);
       sides.push_back({node, nodes[(k + 1) % n].value(), area});
       sides.push_back({node, nodes[(k + n - 1) % n].value(), area});
@@ -132,12 +131,12 @@ double largest_ratio(const HaloMesh& mesh, const std::vector<AreaRange>& ranges,
 /// An edge's ratio is at most that of all cells round either of its nodes: so only nodes of large ratios are
 /// looked at, and fewer than all as soon as an edge among them reaches the bound. *Collective.*
 double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh) {
-  std::vector<AreaRange> ranges(static_cast<std::size_t>(mesh.owned_nodes()));
+  std::vector<AreaRange> ranges(mesh.owned_nodes());
   mesh.for_each_cell([&](const auto& nodes) {
     const double area = area_of(mesh, nodes);
     for (const NodeId node : nodes) {
       if (node.value() >= mesh.owned_nodes()) continue;
-      AreaRange& range = ranges[static_cast<std::size_t>(node.value())];
+      AreaRange& range = ranges[node.value()];
       range = {std::min(range.smallest, area), std::max(range.largest, area)};
     }
   });
@@ -168,8 +167,8 @@ std::vector<BoundaryNeighbours> boundary_neighbours(const HaloMesh& mesh) {
   std::vector<BoundaryNeighbours> neighbours(mesh.points().size());
   for (const HaloEdge& edge : mesh.boundary_edges()) {
     const std::int32_t from = edge.from.value(), to = edge.to.value();
-    if (from < mesh.owned_nodes()) neighbours[static_cast<std::size_t>(from)].add(mesh.global(to));
-    if (to < mesh.owned_nodes()) neighbours[static_cast<std::size_t>(to)].add(mesh.global(from));
+    if (from < mesh.owned_nodes()) neighbours[from].add(mesh.global(to));
+    if (to < mesh.owned_nodes()) neighbours[to].add(mesh.global(from));
   }
   mesh.exchange().update(neighbours);
   return neighbours;
@@ -179,14 +178,14 @@ std::vector<BoundaryNeighbours> boundary_neighbours(const HaloMesh& mesh) {
 std::int64_t count_passage_cells(const HaloMesh& mesh, const std::vector<char>& on_boundary) {
   const std::vector<BoundaryNeighbours> neighbours = boundary_neighbours(mesh);
   const auto is_boundary = [&](NodeId a, NodeId b) {
-    return neighbours[static_cast<std::size_t>(a.value())].holds(mesh.global(b.value()));
+    return neighbours[a.value()].holds(mesh.global(b.value()));
   };
   std::int64_t count = 0;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t n = nodes.size();
     if (nodes[0].value() >= mesh.owned_nodes()) return;
     for (const NodeId node : nodes) {
-      if (on_boundary[static_cast<std::size_t>(node.value())] == 0) return;
+      if (on_boundary[node.value()] == 0) return;
     }
     for (std::size_t k = 0; k < n; ++k) {
       if (is_boundary(nodes[k], nodes[(k + 1) % n]) && is_boundary(nodes[(k + 1) % n], nodes[(k + 2) % n]))

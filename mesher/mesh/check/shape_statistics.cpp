@@ -97,7 +97,7 @@ class PassageTest {
   PassageTest(const Mesh& mesh, const EdgeTable& table) : table_{table}, on_boundary_(mesh.points.size(), 0) {
     for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
       if (is_inner(from, to)) return;
-      for (const NodeId node : {from, to}) on_boundary_[static_cast<std::size_t>(node.value())] = 1;
+      for (const NodeId node : {from, to}) on_boundary_[node.value()] = 1;
     });
   }
 
@@ -107,7 +107,7 @@ class PassageTest {
   template <std::size_t width>
   bool fills(const std::array<NodeId, width>& cell) const {
     for (const NodeId node : cell) {
-      if (on_boundary_[static_cast<std::size_t>(node.value())] == 0) return false;
+      if (on_boundary_[node.value()] == 0) return false;
     }
     for (std::size_t k = 0; k < width; ++k) {
       const NodeId a = cell[k], b = cell[(k + 1) % width], c = cell[(k + 2) % width];
@@ -187,7 +187,7 @@ double ratio_of(double a, double b) {
 /// One ratio for each edge between two cells.
 std::vector<double> ratios_at_edges(const Mesh& mesh, const EdgeTable& table) {
   const std::vector<double> areas = cell_areas(mesh);
-  const auto area = [&](std::int32_t cell) { return areas[static_cast<std::size_t>(cell)]; };
+  const auto area = [&](std::int32_t cell) { return areas[cell]; };
   std::vector<double> ratios;
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
     if (to < from) return;  // the cell on the other side says it

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/validate_rules.hpp"
 
@@ -44,7 +45,7 @@ bool is_unused_node(const MeshFault& fault) {
 bool senseless(const Faults& faults) { return !std::all_of(faults.begin(), faults.end(), is_unused_node); }
 
 std::int32_t block_of(const Mesh& mesh, const CellBlocks& blocks, std::int32_t cell) {
-  const auto at = static_cast<std::size_t>(cell);
+  const std::size_t at = cell;
   return at < mesh.triangles.size() ? blocks.of_triangle[at] : blocks.of_quad[at - mesh.triangles.size()];
 }
 
@@ -65,7 +66,7 @@ const char* name_of(MeshRule rule) {
 }
 
 void check_indices(const Mesh& mesh, Faults& faults) {
-  const auto nodes = static_cast<std::int32_t>(mesh.points.size());
+  const auto nodes = size32(mesh.points);
   for (const Point p : mesh.points) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y))
       faults.push_back({MeshRule::indices, "a coordinate is not finite", p});
@@ -79,7 +80,7 @@ void check_indices(const Mesh& mesh, Faults& faults) {
   };
   for_each_cell(mesh, [&](std::span<const NodeId> cell) {
     for (const NodeId node : cell) {
-      if (exists(node)) used[static_cast<std::size_t>(node.value())] = 1;
+      if (exists(node)) used[node.value()] = 1;
     }
   });
   for_each_boundary_edge(mesh, [&](const BoundaryEdges&, const std::array<NodeId, 2>& edge) {
@@ -102,7 +103,7 @@ void check_indices(const Mesh& mesh, Faults& faults) {
 void check_coincident(const Mesh& mesh, Faults& faults) {
   std::vector<std::int32_t> order(mesh.points.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto at = [&](std::int32_t i) { return mesh.points[static_cast<std::size_t>(i)]; };
+  const auto at = [&](std::int32_t i) { return mesh.points[i]; };
   std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) { return at(i) < at(j); });
   for (std::size_t k = 1; k < order.size(); ++k) {
     if (at(order[k]) != at(order[k - 1])) continue;
@@ -169,8 +170,8 @@ void check_closed(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
   }
   std::vector<std::int32_t> out_minus_in(mesh.points.size(), 0);
   for (const OuterEdge& edge : outer_edges(mesh, table)) {
-    ++out_minus_in[static_cast<std::size_t>(edge.from.value())];
-    --out_minus_in[static_cast<std::size_t>(edge.to.value())];
+    ++out_minus_in[edge.from.value()];
+    --out_minus_in[edge.to.value()];
   }
   for (std::size_t i = 0; i < out_minus_in.size(); ++i) {
     if (out_minus_in[i] != 0)
@@ -212,8 +213,7 @@ std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blo
 
 std::int64_t pinched_nodes(const Mesh& mesh) {
   std::vector<std::int32_t> passages(mesh.points.size(), 0);
-  for (const OuterEdge& edge : outer_edges(mesh, EdgeTable(mesh)))
-    ++passages[static_cast<std::size_t>(edge.from.value())];
+  for (const OuterEdge& edge : outer_edges(mesh, EdgeTable(mesh))) ++passages[edge.from.value()];
   return std::count_if(passages.begin(), passages.end(), [](std::int32_t n) { return n > 1; });
 }
 

@@ -1,16 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/geometries/segment.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/mesh/cell_reach.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate_rules.hpp"
@@ -18,10 +15,6 @@
 namespace quadloop {
 
 namespace {
-
-namespace bg = boost::geometry;
-using IndexPoint = bg::model::point<double, 2, bg::cs::cartesian>;
-using IndexSegment = bg::model::segment<IndexPoint>;
 
 constexpr double sharp_degrees = 30;
 constexpr double fragments = 2, loop_reach = 4;  ///< a leaf may be that much larger than its pieces, which
@@ -32,26 +25,24 @@ class SegmentSet {
  public:
   void add(Point a, Point b) { segments_.emplace_back(a, b); }
   void build() {
-    std::vector<Entry> entries;
-    for (std::uint32_t i = 0; i < segments_.size(); ++i) {
-      const auto& [a, b] = segments_[i];
-      entries.emplace_back(IndexSegment{{a.x, a.y}, {b.x, b.y}}, i);
-    }
-    index_ = Index(entries);
+    std::vector<Box> boxes;
+    for (const auto& [a, b] : segments_) boxes.push_back(box_of(a, b));
+    tree_ = BoxTree(boxes);
   }
-  /// Number of the nearest segment, and how far it is: infinitely, where there is none.
+  /// Number of the nearest segment, the lowest of equals, and how far it is: infinitely, where there is none.
   std::pair<std::uint32_t, double> nearest(Point p) const {
     if (segments_.empty()) return {0, std::numeric_limits<double>::infinity()};
-    const auto found = index_.qbegin(bg::index::nearest(IndexPoint(p.x, p.y), 1));
-    const auto& [a, b] = segments_[found->second];
-    return {found->second, distance_to_segment(p, a, b)};
+    const auto found = static_cast<std::uint32_t>(tree_.nearest(p, [&](std::int32_t number) {
+      const auto& [a, b] = segments_[number];
+      return place_on_segment(p, a, b).squared_distance;
+    }));
+    const auto& [a, b] = segments_[found];
+    return {found, distance_to_segment(p, a, b)};
   }
 
  private:
-  using Entry = std::pair<IndexSegment, std::uint32_t>;
-  using Index = bg::index::rtree<Entry, bg::index::quadratic<16>>;
   std::vector<std::pair<Point, Point>> segments_;
-  Index index_;
+  BoxTree tree_;
 };
 
 /// All chains of one name.
@@ -100,7 +91,7 @@ std::vector<Point> sharp_points(std::span<const Chain> geometry) {
 std::vector<double> longest_edge_of_cells(const Mesh& mesh) {
   std::vector<double> longest(mesh.triangles.size() + mesh.quads.size(), 0);
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    auto& value = longest[static_cast<std::size_t>(cell)];
+    auto& value = longest[cell];
     value = std::max(value, length(mesh.point(to) - mesh.point(from)));
   });
   return longest;
@@ -188,7 +179,7 @@ class Comparison {
     fit_.geometry_distance = std::max(fit_.geometry_distance, away);
     const auto& nodes = boundary.edges[edge];
     const std::int32_t cell = table_.cell_left_of(nodes[0], nodes[1]);
-    if (away <= tolerance_ || (cell >= 0 && away <= longest_[static_cast<std::size_t>(cell)])) return;
+    if (away <= tolerance_ || (cell >= 0 && away <= longest_[cell])) return;
     if (away <= reach_.size_at(p, away)) return;
     fault("a point of boundary " + boundary.name + " is farther from the mesh than the cells there are long",
           p);
@@ -223,7 +214,7 @@ class Comparison {
       }
     }
     nodes.build();
-    fit_.sharp_corners = static_cast<std::int64_t>(sharp.size());
+    fit_.sharp_corners = std::ssize(sharp);
     fit_.sharp_corners_lost = std::count_if(
         sharp.begin(), sharp.end(), [&](Point p) { return !any || nodes.nearest(p).second > tolerance_; });
   }

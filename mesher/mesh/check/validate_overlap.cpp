@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 
+#include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate_rules.hpp"
@@ -14,11 +12,6 @@ namespace quadloop {
 
 namespace {
 
-namespace bg = boost::geometry;
-using IndexPoint = bg::model::point<double, 2, bg::cs::cartesian>;
-using IndexBox = bg::model::box<IndexPoint>;
-using Index = bg::index::rtree<std::pair<IndexBox, std::uint32_t>, bg::index::quadratic<16>>;
-
 constexpr double area_tolerance = 1e-10;  // relative: rounding of a sum over many cells
 constexpr double turn_tolerance = 1e-4;   // degrees
 constexpr double full_turn = 360;
@@ -26,10 +19,6 @@ constexpr std::size_t most_components = 2000;  // whose winding is counted; beyo
 
 struct Segment {
   Point from, to;
-  IndexBox box() const {
-    return {{std::min(from.x, to.x), std::min(from.y, to.y)},
-            {std::max(from.x, to.x), std::max(from.y, to.y)}};
-  }
 };
 
 /// Whether two boundary edges meet but at a common end.
@@ -43,14 +32,15 @@ bool meet_wrongly(const Segment& s, const Segment& t) {
 }
 
 void check_boundary_crossings(const std::vector<Segment>& segments, Faults& faults) {
-  std::vector<std::pair<IndexBox, std::uint32_t>> entries;
-  for (std::uint32_t i = 0; i < segments.size(); ++i) entries.emplace_back(segments[i].box(), i);
-  const Index index(entries);
-  for (std::uint32_t i = 0; i < segments.size(); ++i) {
-    for (auto found = index.qbegin(bg::index::intersects(entries[i].first)); found != index.qend(); ++found) {
-      if (found->second <= i || !meet_wrongly(segments[i], segments[found->second])) continue;
+  std::vector<Box> boxes;
+  for (const Segment& s : segments) boxes.push_back(box_of(s.from, s.to));
+  const BoxTree tree(boxes);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    tree.for_each_meeting(boxes[i], [&](std::int32_t number) {
+      const std::size_t j = number;
+      if (j <= i || !meet_wrongly(segments[i], segments[j])) return;
       faults.push_back({MeshRule::overlap, "two boundary edges meet", segments[i].from});
-    }
+    });
   }
 }
 
@@ -70,21 +60,20 @@ std::vector<Point> piece_seeds(const Mesh& mesh) {
   std::vector<std::int32_t> parent(mesh.points.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](std::int32_t i) {
-    while (parent[static_cast<std::size_t>(i)] != i) {
-      auto& above = parent[static_cast<std::size_t>(i)];
-      above = parent[static_cast<std::size_t>(above)];
+    while (parent[i] != i) {
+      auto& above = parent[i];
+      above = parent[above];
       i = above;
     }
     return i;
   };
-  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
-    parent[static_cast<std::size_t>(root(from.value()))] = root(to.value());
-  });
+  for_each_cell_edge(
+      mesh, [&](NodeId from, NodeId to, std::int32_t) { parent[root(from.value())] = root(to.value()); });
   std::vector<char> seen(mesh.points.size(), 0);
   std::vector<Point> seeds;
   const auto visit = [&](const auto& cells) {
     for (const auto& cell : cells) {
-      char& known = seen[static_cast<std::size_t>(root(cell[0].value()))];
+      char& known = seen[root(cell[0].value())];
       if (known == 0)
         seeds.push_back(1.0 / 3.0 * (mesh.point(cell[0]) + mesh.point(cell[1]) + mesh.point(cell[2])));
       known = 1;
@@ -102,9 +91,8 @@ std::vector<double> turns_around_nodes(const Mesh& mesh) {
     for (const auto& cell : cells) {
       const std::size_t width = cell.size();
       for (std::size_t k = 0; k < width; ++k) {
-        turns[static_cast<std::size_t>(cell[k].value())] +=
-            corner_degrees(mesh.point(cell[(k + width - 1) % width]), mesh.point(cell[k]),
-                           mesh.point(cell[(k + 1) % width]));
+        turns[cell[k].value()] += corner_degrees(mesh.point(cell[(k + width - 1) % width]),
+                                                 mesh.point(cell[k]), mesh.point(cell[(k + 1) % width]));
       }
     }
   };
@@ -136,7 +124,7 @@ void check_overlap(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
   std::vector<std::int32_t> passages(mesh.points.size(), 0);
   std::vector<Segment> segments;
   for (const OuterEdge& edge : outer_edges(mesh, table)) {
-    ++passages[static_cast<std::size_t>(edge.from.value())];
+    ++passages[edge.from.value()];
     segments.push_back({mesh.point(edge.from), mesh.point(edge.to)});
   }
   const std::vector<double> turns = turns_around_nodes(mesh);

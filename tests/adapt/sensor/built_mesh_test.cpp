@@ -52,7 +52,7 @@ TEST(BuiltMesh, ALeafHasWhatLiesInIt) {
   const MeshResult result = round_a_circle(world(), MeshType::hybrid);
   const TreeAttributes& tree = result.tree.attributes;
   const double shift = 2;  // errors are not negative
-  const NodeField place = field_of(result.mesh, "x", [&](std::int64_t, Point p) { return p.x + shift; });
+  const Field place = field_of(result.mesh, "x", [&](std::int64_t, Point p) { return p.x + shift; });
   const std::vector<double> rightmost = leaf_errors(world(), result.mesh, result.tree.leaves, place);
   std::int64_t with_cells = 0;
   for (std::size_t i = 0; i < rightmost.size(); ++i) {
@@ -71,7 +71,7 @@ TEST(BuiltMesh, LeavesAtAShockAreRefined) {
   for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
     const MeshResult result = round_a_circle(world(), type);
     const TreeAttributes& tree = result.tree.attributes;
-    const std::vector<NodeField> fields{field_of(result.mesh, "density", step)};
+    const Field fields = field_of(result.mesh, "density", step);
     const auto values =
         leaf_indicator(world(), result.mesh, result.tree.leaves, fields, Indicator::difference);
     const MarkedLeaves marked = mark_leaves(world(), result.tree.leaves, values, DeviationRule{});
@@ -98,8 +98,8 @@ TEST(BuiltMesh, MarksAreTheSameOnAnyNumberOfRanks) {
     const MeshResult one = round_a_circle(alone, type), all = round_a_circle(world(), type);
     for (const Indicator kind : {Indicator::difference, Indicator::gradient, Indicator::hessian}) {
       const auto values_of = [&](const Communicator& comm, const MeshResult& result) {
-        return leaf_indicator(comm, result.mesh, result.tree.leaves,
-                              std::vector<NodeField>{field_of(result.mesh, "density", step)}, kind);
+        return leaf_indicator(comm, result.mesh, result.tree.leaves, field_of(result.mesh, "density", step),
+                              kind);
       };
       const std::vector<double> of_one = values_of(alone, one), of_all = values_of(world(), all);
       EXPECT_EQ(test::joined(world(), of_all), of_one);

@@ -58,7 +58,7 @@ TEST(CellsOfLeaves, GiveEachLeafTheBestOfItsCells) {
 
 TEST(CellsOfLeaves, RefuseATreeOfAnotherMesh) {
   const Mesh mesh = test::Grid{3}.mesh();
-  const test::Pieces pieces(mesh, test::unchanged_order(mesh));
+  const test::Pieces pieces(mesh, own_order(mesh));
   std::vector<LeafRecord> leaves = test::leaves_of(pieces.whole, 4);
   ++leaves.front().quads;
   const auto own = test::share_of(leaves, test::Sharing::uneven);

@@ -47,14 +47,14 @@ Leaves leaves_of_two_squares() {
 
 /// What all leaves of two_squares get from fields given node by node.
 Values of_two_squares(const std::vector<Values>& fields_by_node, Indicator kind) {
-  const Mesh mesh = two_squares(), part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
-  std::vector<NodeField> fields;
-  for (const Values& by_node : fields_by_node) {
-    fields.push_back(field_of(
-        part, "q", [&](std::int64_t node, Point) { return by_node[static_cast<std::size_t>(node)]; }));
+  const Mesh mesh = two_squares(), part = test::Pieces(mesh, own_order(mesh)).part;
+  Field field;
+  for (std::size_t k = 0; k < fields_by_node.size(); ++k) field.names.push_back("q" + std::to_string(k));
+  for (std::int32_t node = 0; node < part.owned_nodes; ++node) {
+    for (const Values& by_node : fields_by_node) field.values.push_back(by_node[part.first_node + node]);
   }
   const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::uneven);
-  return test::joined(world(), leaf_indicator(world(), part, own, fields, kind));
+  return test::joined(world(), leaf_indicator(world(), part, own, field, kind));
 }
 
 TEST(Indicator, DifferenceIsTheLargestChangeOfAnEdge) {
@@ -84,15 +84,15 @@ TEST(Indicator, HessianIsTheChangeOfTheGradientAlongAnEdge) {
   mesh.quads.clear();
   for (std::int32_t i = 0; i < 3; ++i)
     mesh.quads.push_back({NodeId{i}, NodeId{i + 1}, NodeId{i + 5}, NodeId{i + 4}});
-  const Mesh part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
+  const Mesh part = test::Pieces(mesh, own_order(mesh)).part;
   // x^2 at 0, 1, 2, 3 has range 9, cell gradients 1, 3, 5, nodal ones 1, 2, 4, 5. Nodes of no cell are not to
   // matter: 0.
-  const NodeField field =
+  const Field field =
       field_of(part, "q", [](std::int64_t node, Point p) { return node < 8 ? p.x * p.x : 0; });
   const Leaves leaves{test::leaf_with(0, 1), test::leaf_with(0, 1), test::leaf_with(0, 1)};
-  const Values found =
-      test::joined(world(), leaf_indicator(world(), part, test::share_of(leaves, test::Sharing::even),
-                                           std::vector<NodeField>{field}, Indicator::hessian));
+  const Values found = test::joined(
+      world(),
+      leaf_indicator(world(), part, test::share_of(leaves, test::Sharing::even), field, Indicator::hessian));
   const Values expected{1.0 / 9, 2.0 / 9, 1.0 / 9};
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-15);
 }
@@ -101,12 +101,11 @@ TEST(Indicator, LinearFieldsHaveNoHessianAndOneGradient) {
   test::for_each_distribution([](const test::Pieces& pieces) {
     const Leaves own = test::share_of(test::leaves_of(pieces.whole, 4), test::Sharing::uneven);
     for (const double level : {0.0, 1e5}) {
-      const NodeField linear =
+      const Field linear =
           field_of(pieces.part, "q", [&](std::int64_t, Point p) { return level + 3 * p.x - 2 * p.y; });
-      const std::vector<NodeField> fields{linear};
-      for (const double value : leaf_indicator(world(), pieces.part, own, fields, Indicator::hessian))
+      for (const double value : leaf_indicator(world(), pieces.part, own, linear, Indicator::hessian))
         EXPECT_EQ(value, 0);
-      for (const double value : leaf_indicator(world(), pieces.part, own, fields, Indicator::gradient))
+      for (const double value : leaf_indicator(world(), pieces.part, own, linear, Indicator::gradient))
         EXPECT_LE(value, std::sqrt(13.0) / 5 * (1 + 1e-9));
     }
   });
@@ -116,9 +115,9 @@ TEST(Indicator, DoesNotKnowUnits) {
   test::for_each_distribution([](const test::Pieces& pieces) {
     const Leaves own = test::share_of(test::leaves_of(pieces.whole, 4), test::Sharing::even);
     const auto indicator = [&](double factor, Indicator kind) {
-      const NodeField field =
+      const Field field =
           field_of(pieces.part, "q", [&](std::int64_t node, Point p) { return factor * wave(node, p); });
-      return leaf_indicator(world(), pieces.part, own, std::vector<NodeField>{field}, kind);
+      return leaf_indicator(world(), pieces.part, own, field, kind);
     };
     for (const Indicator kind : all_kinds) EXPECT_EQ(indicator(1, kind), indicator(0x1p20, kind));
   });
@@ -128,7 +127,7 @@ TEST(Indicator, IsTheSameOnAnyNumberOfRanks) {
   test::for_each_distribution([](const test::Pieces& pieces) {
     const Leaves leaves = test::leaves_of(pieces.whole, 4);
     const auto fields_of = [](const Mesh& mesh) {
-      return std::vector<NodeField>{field_of(mesh, "a", wave), field_of(mesh, "b", noise)};
+      return test::joined_fields(field_of(mesh, "a", wave), field_of(mesh, "b", noise));
     };
     for (const Indicator kind : all_kinds) {
       const Values whole =
@@ -144,12 +143,12 @@ TEST(Indicator, IsTheSameOnAnyNumberOfRanks) {
 }
 
 TEST(Indicator, RefusesWhatIsNotFinite) {
-  const Mesh mesh = two_squares(), part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
+  const Mesh mesh = two_squares(), part = test::Pieces(mesh, own_order(mesh)).part;
   const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::even);
   const double bad = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<NodeField> fields{
+  const Field fields = test::joined_fields(
       field_of(part, "density", wave),
-      field_of(part, "pressure", [&](std::int64_t node, Point) { return node == 4 ? bad : 1; })};
+      field_of(part, "pressure", [&](std::int64_t node, Point) { return node == 4 ? bad : 1; }));
   try {
     leaf_indicator(world(), part, own, fields, Indicator::difference);
     FAIL() << "nothing was refused";
@@ -160,11 +159,10 @@ TEST(Indicator, RefusesWhatIsNotFinite) {
 }
 
 TEST(LeafErrors, AreTheLargestAtTheLeafsNodes) {
-  const Mesh mesh = two_squares(), part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
+  const Mesh mesh = two_squares(), part = test::Pieces(mesh, own_order(mesh)).part;
   const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::uneven);
   const auto errors = [&](const Values& by_node) {
-    const NodeField field = field_of(
-        part, "e", [&](std::int64_t node, Point) { return by_node[static_cast<std::size_t>(node)]; });
+    const Field field = field_of(part, "e", [&](std::int64_t node, Point) { return by_node[node]; });
     return test::joined(world(), leaf_errors(world(), part, own, field));
   };
   EXPECT_EQ(errors({5, 1, 2, 1, 3, 0}), (Values{5, 0, 2, 3}));

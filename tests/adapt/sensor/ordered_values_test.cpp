@@ -49,11 +49,11 @@ TEST(OrderedValues, FindTheKth) {
   std::sort(sorted.begin(), sorted.end());
   for (const test::Sharing sharing : test::all_sharings) {
     const OrderedValues all = ordered(values, sharing);
-    ASSERT_EQ(all.count(), static_cast<std::int64_t>(values.size()));
+    ASSERT_EQ(all.count(), std::ssize(values));
     EXPECT_EQ(all.smallest(), 0);
     EXPECT_EQ(all.largest(), sorted.back());
     for (std::int64_t k = 1; k <= all.count(); k += 19) {
-      EXPECT_EQ(all.kth_smallest(k), sorted[static_cast<std::size_t>(k - 1)]);
+      EXPECT_EQ(all.kth_smallest(k), sorted[k - 1]);
       EXPECT_EQ(all.kth_largest(k), sorted[sorted.size() - static_cast<std::size_t>(k)]);
     }
   }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <random>
 
+#include "mesher/base/ids.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -19,8 +19,7 @@ LeafRecord leaf_with(std::int32_t triangles, std::int32_t quads) {
 
 std::vector<LeafRecord> leaves_of(const Mesh& whole, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  auto triangles = static_cast<std::int32_t>(whole.triangles.size()),
-       quads = static_cast<std::int32_t>(whole.quads.size());
+  auto triangles = size32(whole.triangles), quads = size32(whole.quads);
   std::vector<LeafRecord> leaves;
   while (triangles + quads > 0) {
     leaves.push_back(leaf_with(std::min(triangles, static_cast<std::int32_t>(random() % 4)),
@@ -52,15 +51,6 @@ Pieces::Pieces(const Mesh& mesh, const MeshOrder& order)
     : whole{scatter_mesh(Communicator(MPI_COMM_SELF), mesh, order)},
       part{scatter_mesh(world(), mesh, order)} {}
 
-MeshOrder unchanged_order(const Mesh& mesh) {
-  const auto numbers = [](std::size_t count) {
-    std::vector<std::int32_t> all(count);
-    std::iota(all.begin(), all.end(), 0);
-    return all;
-  };
-  return {numbers(mesh.points.size()), numbers(mesh.triangles.size()), numbers(mesh.quads.size())};
-}
-
 void for_each_distribution(const std::function<void(const Pieces&)>& check) {
   for (const std::int32_t n : {1, 2, 9}) {
     const Grid grid{n};
@@ -71,13 +61,25 @@ void for_each_distribution(const std::function<void(const Pieces&)>& check) {
   }
 }
 
-NodeField field_of(const Mesh& mesh, const std::string& name,
-                   const std::function<double(std::int64_t, Point)>& value) {
-  NodeField field{name, {}};
+Field field_of(const Mesh& mesh, const std::string& name,
+               const std::function<double(std::int64_t, Point)>& value) {
+  Field field{{name}, {}, {}};
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node)
     field.values.push_back(value(mesh.first_node + node, mesh.point(NodeId{node})));
   field.values.resize(mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
   return field;
+}
+
+Field joined_fields(const Field& one, const Field& other) {
+  Field both{one.names, {}, {}};
+  both.names.insert(both.names.end(), other.names.begin(), other.names.end());
+  for (std::size_t i = 0; i < one.values.size() / one.width(); ++i) {
+    for (const Field* field : {&one, &other}) {
+      const auto row = field->row(NodeId{static_cast<std::int32_t>(i)});
+      both.values.insert(both.values.end(), row.begin(), row.end());
+    }
+  }
+  return both;
 }
 
 }  // namespace quadloop::test

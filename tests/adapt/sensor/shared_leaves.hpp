@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "adapt/sensor/node_field.hpp"
+#include "adapt/sensor/scaled_field.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -49,15 +49,15 @@ struct Pieces {
   Mesh whole, part;
 };
 
-/// The mesh as it is numbered.
-MeshOrder unchanged_order(const Mesh& mesh);
-
 /// Calls `check(pieces)` for several meshes and orders.
 void for_each_distribution(const std::function<void(const Pieces&)>& check);
 
 /// A field by a function of the global node number and the position. Copies' values are wrong, which nobody
 /// must notice.
-NodeField field_of(const Mesh& mesh, const std::string& name,
-                   const std::function<double(std::int64_t, Point)>& value);
+Field field_of(const Mesh& mesh, const std::string& name,
+               const std::function<double(std::int64_t, Point)>& value);
+
+/// The variables of both at the same nodes.
+Field joined_fields(const Field& one, const Field& other);
 
 }  // namespace quadloop::test

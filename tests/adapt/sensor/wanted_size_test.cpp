@@ -51,11 +51,10 @@ TEST(WantedSize, OfALeafIsTheSmallestOfItsNodes) {
 }
 
 TEST(WantedSize, RefusesSizesThatNoLeafCanHave) {
-  const Mesh mesh = test::Grid{2}.mesh(), part = test::Pieces(mesh, test::unchanged_order(mesh)).part;
+  const Mesh mesh = test::Grid{2}.mesh(), part = test::Pieces(mesh, own_order(mesh)).part;
   const std::vector<LeafRecord> own = test::share_of(test::leaves_of(mesh, 1), test::Sharing::even);
   for (const double bad : {0.0, -1.0}) {
-    const NodeField field =
-        field_of(part, "h", [&](std::int64_t node, Point) { return node == 7 ? bad : 1; });
+    const Field field = field_of(part, "h", [&](std::int64_t node, Point) { return node == 7 ? bad : 1; });
     try {
       leaf_sizes(world(), part, own, field);
       FAIL() << "nothing was refused";

@@ -9,10 +9,10 @@
 #include "adapt/transfer/cell_triangles.hpp"
 #include "adapt/transfer/curve_shares.hpp"
 #include "adapt/transfer/equal_points.hpp"
-#include "adapt/transfer/exchange_pieces.hpp"
 #include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate_points.hpp"
 #include "adapt/transfer/point_cells.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -28,7 +28,7 @@ constexpr std::array<NodeId, 4> quad{NodeId{0}, NodeId{1}, NodeId{2}, NodeId{3}}
 Mesh with_points(const std::vector<Point>& points) {
   Mesh mesh;
   mesh.points = points;
-  mesh.owned_nodes = static_cast<std::int32_t>(points.size());
+  mesh.owned_nodes = size32(points);
   return mesh;
 }
 
@@ -127,7 +127,7 @@ TEST(EqualPoints, AreFoundByTheirCoordinatesAlone) {
   EXPECT_EQ(find_equal_points({}, points), std::vector<std::int32_t>(points.size(), -1));
   const std::vector<Point> many = graded_points(5000, 7);
   const std::vector<std::int32_t> found = find_equal_points(many, many);
-  for (std::size_t i = 0; i < many.size(); ++i) EXPECT_EQ(many[static_cast<std::size_t>(found[i])], many[i]);
+  for (std::size_t i = 0; i < many.size(); ++i) EXPECT_EQ(many[found[i]], many[i]);
 }
 
 TEST(PointCells, MeetEveryBoxThatHoldsAPoint) {
@@ -183,8 +183,8 @@ TEST(CurveShares, ABoxMeetsThePiecesOfItsPoints) {
 TEST(CurveShares, SharesAreEven) {
   const std::vector<Point> points = graded_points(2000, 200 + static_cast<std::uint64_t>(world().rank()));
   const CurveShares shares(world(), points, {});
-  std::vector<std::int64_t> counts(static_cast<std::size_t>(world().size()), 0);
-  for (const Point p : points) ++counts[static_cast<std::size_t>(shares.rank_of(p))];
+  std::vector<std::int64_t> counts(world().size(), 0);
+  for (const Point p : points) ++counts[shares.rank_of(p)];
   for (std::int64_t& count : counts) count = world().sum(count);
   for (const std::int64_t count : counts) EXPECT_NEAR(static_cast<double>(count), 2000, 400);
 }
@@ -205,8 +205,7 @@ TEST(LocatePoints, OfSeveralTrianglesTheLowestNumberWins) {
   piece.points = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   const std::array<std::int64_t, 4> numbers{5, 1LL << 40, 2, 7};
   for (std::int32_t k = 0; k < 4; ++k)
-    piece.triangles.push_back(
-        {{NodeId{0}, NodeId{1 + k}, NodeId{1 + (k + 1) % 4}}, numbers[static_cast<std::size_t>(k)]});
+    piece.triangles.push_back({{NodeId{0}, NodeId{1 + k}, NodeId{1 + (k + 1) % 4}}, numbers[k]});
   const double next = std::nextafter(0.5, 1);
   const std::vector<Point> points{{0, 0},       {0.5, 0},   {0, 0.5},    {-0.5, 0}, {0, -0.5},
                                   {0.25, 0.25}, {0.5, 0.5}, {next, 0.5}, {-2, 0},   {-1, 0}};
@@ -252,32 +251,6 @@ TEST(LinearValues, AFlatTriangleIsItsSides) {
   EXPECT_EQ(value[0], 1.5);
   interpolate_in_triangle(corners, {a, b, c}, {1.5, 0}, value);
   EXPECT_EQ(value[0], 3.5);
-}
-
-TEST(NearestOnSegment, EndsAndMiddle) {
-  const Point a{0, 0}, b{2, 0};
-  EXPECT_EQ(nearest_along_segment(a, b, {-3, 4}).squared_distance, 25);
-  EXPECT_EQ(nearest_along_segment(a, b, {-3, 4}).parameter, 0);
-  EXPECT_EQ(nearest_along_segment(a, b, {5, 4}).parameter, 1);
-  EXPECT_EQ(nearest_along_segment(a, b, {5, 4}).squared_distance, 25);
-  EXPECT_EQ(nearest_along_segment(a, b, {0.5, 4}).parameter, 0.25);
-  EXPECT_EQ(nearest_along_segment(a, a, {3, 4}).squared_distance, 25);
-}
-
-TEST(ExchangePieces, AnySizeArrivesInOrder) {
-  const auto ranks = static_cast<std::size_t>(world().size());
-  const auto number = [](std::size_t from, std::size_t to, std::size_t i) {
-    return static_cast<std::int64_t>(10000 * from + 100 * to + i);
-  };
-  const auto self = static_cast<std::size_t>(world().rank());
-  std::vector<std::vector<std::int64_t>> out(ranks), wanted(ranks);
-  for (std::size_t rank = 0; rank < ranks; ++rank) {
-    for (std::size_t i = 0; i < 7 * (self + 2 * rank) % 31; ++i) out[rank].push_back(number(self, rank, i));
-    for (std::size_t i = 0; i < 7 * (rank + 2 * self) % 31; ++i)
-      wanted[rank].push_back(number(rank, self, i));
-  }
-  EXPECT_EQ(exchange_pieces(world(), out, 5 * sizeof(std::int64_t)), wanted);
-  EXPECT_EQ(exchange_pieces(world(), out), wanted);
 }
 
 }  // namespace

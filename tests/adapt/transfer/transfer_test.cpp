@@ -40,15 +40,16 @@ Mesh moved(Mesh mesh, Point by) {
   return mesh;
 }
 
-/// Rows for the owned nodes of a part, by a function of position and number.
+/// A field of some variables at the owned nodes of a part, by a function of position and number.
 template <class Function>
-std::vector<double> rows_of(const Mesh& part, int width, const Function& function) {
-  std::vector<double> rows;
+Field field_of(const Mesh& part, int width, const Function& function) {
+  Field field;
+  for (int k = 0; k < width; ++k) field.names.push_back("q" + std::to_string(k));
   for (std::int32_t node = 0; node < part.owned_nodes; ++node) {
     for (int k = 0; k < width; ++k)
-      rows.push_back(function(part.point(NodeId{node}), part.first_node + node, k));
+      field.values.push_back(function(part.point(NodeId{node}), part.first_node + node, k));
   }
-  return rows;
+  return field;
 }
 
 double linear(Point p, std::int64_t, int k) {
@@ -84,13 +85,13 @@ TEST(Transfer, LinearFieldsAreExact) {
     const Whole old_whole = jittered({13, {1, 1}, quads}, 0.2, 3),
                 new_whole = jittered({17, {1, 1}, quads}, 0.2, 4);
     const Mesh old_mesh = old_whole.part(world()), new_mesh = new_whole.part(world());
-    const Transferred result = transfer(world(), old_mesh, rows_of(old_mesh, 3, linear), 3, new_mesh);
+    const Transferred result = transfer(world(), old_mesh, field_of(old_mesh, 3, linear), new_mesh);
     EXPECT_EQ(result.report.outside, 0);
-    const std::vector<double> wanted = rows_of(new_mesh, 3, linear);
-    ASSERT_EQ(result.values.size(), wanted.size());
+    const std::vector<double> wanted = field_of(new_mesh, 3, linear).values;
+    ASSERT_EQ(result.field.values.size(), wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const double scale = i % 3 == 2 ? 1e5 : 1;
-      EXPECT_NEAR(result.values[i], wanted[i], i % 3 == 0 ? 0 : 1e-13 * scale) << i;
+      EXPECT_NEAR(result.field.values[i], wanted[i], i % 3 == 0 ? 0 : 1e-13 * scale) << i;
     }
     ASSERT_EQ(result.report.drift.size(), 3U);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(result.report.relative_drift[k], 0, 1e-14);
@@ -101,10 +102,13 @@ TEST(Transfer, LinearFieldsAreExact) {
 TEST(Transfer, OldNodesKeepTheirBits) {
   const Whole whole = jittered({11, {2, 1}, true}, 0.2, 5);
   const Mesh old_mesh = whole.part(world());
-  std::vector<double> values = rows_of(old_mesh, 2, random_value);
-  if (!values.empty()) values[0] = -0.0;
-  const Transferred result = transfer(world(), old_mesh, values, 2, old_mesh);
-  EXPECT_EQ(bits(result.values), bits(values));
+  Field field = field_of(old_mesh, 2, random_value);
+  field.constants = {12, 0.5};
+  if (!field.values.empty()) field.values[0] = -0.0;
+  const Transferred result = transfer(world(), old_mesh, field, old_mesh);
+  EXPECT_EQ(result.field.names, field.names);
+  EXPECT_EQ(result.field.constants, field.constants);
+  EXPECT_EQ(bits(result.field.values), bits(field.values));
   EXPECT_EQ(result.report.outside, 0);
   EXPECT_EQ(result.report.drift, (std::vector<double>{0, 0}));
   EXPECT_EQ(result.report.relative_drift, (std::vector<double>{0, 0}));
@@ -128,8 +132,8 @@ TEST(Transfer, TakesTheLowestTriangleAndStaysWithinItsValues) {
   const Whole old_whole = jittered({9, {1, 1}, true}, 0.2, 6),
               new_whole = jittered({14, {1, 1}, true}, 0.2, 8);
   const Mesh old_mesh = old_whole.part(world()), new_mesh = new_whole.part(world());
-  const Transferred result = transfer(world(), old_mesh, rows_of(old_mesh, 1, random_value), 1, new_mesh);
-  const std::vector<double> old_values = gathered(rows_of(old_mesh, 1, random_value));
+  const Transferred result = transfer(world(), old_mesh, field_of(old_mesh, 1, random_value), new_mesh);
+  const std::vector<double> old_values = gathered(field_of(old_mesh, 1, random_value).values);
   const Mesh reference = old_whole.part(alone);
   const auto triangles = cell_triangles(alone, reference, centre_of_nodes(alone, reference));
   for (std::int32_t node = 0; node < new_mesh.owned_nodes; ++node) {
@@ -140,13 +144,13 @@ TEST(Transfer, TakesTheLowestTriangleAndStaysWithinItsValues) {
     std::array<double, 3> q{};
     for (std::size_t k = 0; k < 3; ++k) {
       at[k] = reference.point(triangle->nodes[k]);
-      q[k] = old_values[static_cast<std::size_t>(triangle->nodes[k].value())];
+      q[k] = old_values[triangle->nodes[k].value()];
     }
     const double area = cross(at[1] - at[0], at[2] - at[0]);
     const double wanted = (q[0] * cross(at[1] - p, at[2] - p) + q[1] * cross(at[2] - p, at[0] - p) +
                            q[2] * cross(at[0] - p, at[1] - p)) /
                           area;
-    const double value = result.values[static_cast<std::size_t>(node)];
+    const double value = result.field.values[node];
     EXPECT_NEAR(value, wanted, 1e-13);
     EXPECT_GE(value, std::min({q[0], q[1], q[2]}));
     EXPECT_LE(value, std::max({q[0], q[1], q[2]}));
@@ -160,12 +164,12 @@ TEST(Transfer, SameBitsHoweverTheMeshesAreSpread) {
   new_whole.mesh = moved(new_whole.mesh, {-0.1, -0.05});
   const auto run = [&](const Communicator& comm) {
     const Mesh old_mesh = old_whole.part(comm), new_mesh = new_whole.part(comm);
-    return transfer(comm, old_mesh, rows_of(old_mesh, 3, random_value), 3, new_mesh);
+    return transfer(comm, old_mesh, field_of(old_mesh, 3, random_value), new_mesh);
   };
   const Transferred here = run(world()), reference = run(alone);
   EXPECT_GT(here.report.outside, 0);
   EXPECT_EQ(here.report.outside, reference.report.outside);
-  EXPECT_EQ(bits(gathered(here.values)), bits(reference.values));
+  EXPECT_EQ(bits(gathered(here.field.values)), bits(reference.field.values));
   EXPECT_EQ(bits(here.report.drift), bits(reference.report.drift));
   EXPECT_EQ(bits(here.report.relative_drift), bits(reference.report.relative_drift));
 }
@@ -181,11 +185,11 @@ TEST(Transfer, PointsOnEdgesAndNodesHaveOneAnswer) {
   }
   const auto run = [&](const Communicator& comm) {
     const Mesh old_mesh = whole.part(comm);
-    return transfer(comm, old_mesh, rows_of(old_mesh, 2, random_value), 2, only_points(comm, points));
+    return transfer(comm, old_mesh, field_of(old_mesh, 2, random_value), only_points(comm, points));
   };
   const Transferred here = run(world()), reference = run(alone);
   EXPECT_EQ(here.report.outside, 0);
-  EXPECT_EQ(bits(gathered(here.values)), bits(reference.values));
+  EXPECT_EQ(bits(gathered(here.field.values)), bits(reference.field.values));
 }
 
 TEST(Transfer, OutsideTakesTheNearestBoundaryValue) {
@@ -193,15 +197,14 @@ TEST(Transfer, OutsideTakesTheNearestBoundaryValue) {
   Whole new_whole = jittered({20, {2, 2}, true}, 0, 12);
   new_whole.mesh = moved(new_whole.mesh, {-0.5, -0.5});
   const Mesh old_mesh = old_whole.part(world()), new_mesh = new_whole.part(world());
-  const Transferred result = transfer(world(), old_mesh, rows_of(old_mesh, 3, linear), 3, new_mesh);
+  const Transferred result = transfer(world(), old_mesh, field_of(old_mesh, 3, linear), new_mesh);
   std::int64_t outside = 0;
   for (std::int32_t node = 0; node < new_mesh.owned_nodes; ++node) {
     const Point p = new_mesh.point(NodeId{node}),
                 nearest{std::clamp(p.x, 0.0, 1.0), std::clamp(p.y, 0.0, 1.0)};
     outside += p == nearest ? 0 : 1;
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(result.values[static_cast<std::size_t>(3 * node + k)], linear(nearest, 0, k),
-                  1e-13 * (k == 2 ? 1e5 : 1));
+      EXPECT_NEAR(result.field.values[3 * node + k], linear(nearest, 0, k), 1e-13 * (k == 2 ? 1e5 : 1));
     }
   }
   EXPECT_EQ(result.report.outside, world().sum(outside));
@@ -215,7 +218,7 @@ TEST(Transfer, DriftIsAShareOfTheAbsoluteIntegral) {
   const auto values = [](Point p, std::int64_t, int k) { return k == 0 ? 2.0 : (k == 1 ? -2.0 : p.x - 1); };
   const Mesh larger = Whole{moved(whole, {2, 0}), space_filling_order(whole)}.part(
       world());  // takes the values of the side x = 2
-  const Transferred result = transfer(world(), mesh, rows_of(mesh, 3, values), 3, larger);
+  const Transferred result = transfer(world(), mesh, field_of(mesh, 3, values), larger);
   EXPECT_EQ(result.report.outside, 6);
   EXPECT_EQ(result.report.drift, (std::vector<double>{0, 0, 4}));
   EXPECT_EQ(result.report.relative_drift, (std::vector<double>{0, 0, 2}));  // |x - 1| over [0, 2]^2 is 2
@@ -246,9 +249,9 @@ TEST(Transfer, InAHoleTheLowestOfTheNearestEdgesWins) {
   const auto by_place = [](Point p, std::int64_t, int) { return 10 * p.x + p.y; };
   const std::vector<Point> points{{1.5, 1.5}, {1.25, 1.25}, {1.5, 1.75}, {1, 1.5}};
   const Transferred result =
-      transfer(world(), old_mesh, rows_of(old_mesh, 1, by_place), 1, only_points(world(), points));
+      transfer(world(), old_mesh, field_of(old_mesh, 1, by_place), only_points(world(), points));
   EXPECT_EQ(result.report.outside, 3);  // the last lies on the rim
-  EXPECT_EQ(gathered(result.values), (std::vector<double>{16, 13.5, 17, 11.5}));
+  EXPECT_EQ(gathered(result.field.values), (std::vector<double>{16, 13.5, 17, 11.5}));
 }
 
 /// All of one mesh on the last rank, all of the other on the first.
@@ -266,22 +269,22 @@ TEST(Transfer, RanksMayHaveNothing) {
     return none;
   };
   const Mesh old_mesh = only_on(world().size() - 1, old_whole), new_mesh = only_on(0, new_whole);
-  const Transferred here = transfer(world(), old_mesh, rows_of(old_mesh, 2, random_value), 2, new_mesh);
+  const Transferred here = transfer(world(), old_mesh, field_of(old_mesh, 2, random_value), new_mesh);
   const Mesh old_alone = old_whole.part(alone);
   const Transferred reference =
-      transfer(alone, old_alone, rows_of(old_alone, 2, random_value), 2, new_whole.part(alone));
-  EXPECT_EQ(bits(gathered(here.values)), bits(reference.values));
+      transfer(alone, old_alone, field_of(old_alone, 2, random_value), new_whole.part(alone));
+  EXPECT_EQ(bits(gathered(here.field.values)), bits(reference.field.values));
   EXPECT_EQ(bits(here.report.drift), bits(reference.report.drift));
 }
 
 TEST(Transfer, WithoutVariablesOrNewNodesThereIsNothingToDo) {
   const Whole whole = jittered({4, {1, 1}, true}, 0.2, 15);
   const Mesh mesh = whole.part(world());
-  const Transferred none = transfer(world(), mesh, {}, 0, mesh);
-  EXPECT_TRUE(none.values.empty());
+  const Transferred none = transfer(world(), mesh, {}, mesh);
+  EXPECT_TRUE(none.field.values.empty());
   EXPECT_TRUE(none.report.drift.empty());
-  const Transferred nowhere = transfer(world(), mesh, rows_of(mesh, 1, linear), 1, only_points(world(), {}));
-  EXPECT_TRUE(nowhere.values.empty());
+  const Transferred nowhere = transfer(world(), mesh, field_of(mesh, 1, linear), only_points(world(), {}));
+  EXPECT_TRUE(nowhere.field.values.empty());
   EXPECT_NEAR(nowhere.report.relative_drift.at(0), -1, 1e-15);
 }
 

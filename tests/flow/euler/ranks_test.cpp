@@ -19,8 +19,8 @@ void expect_same_on_all_ranks(const Mesh& whole, const MeshOrder& order, const E
   const Mesh part = scatter_mesh(world(), whole, order);
   const Mesh all = scatter_mesh(self, whole, order);
   const EulerResult together = solve_euler(world(), part, options), alone = solve_euler(self, all, options);
-  const auto first = alone.states.begin() + static_cast<std::ptrdiff_t>(4 * part.first_node);
-  EXPECT_TRUE(std::equal(together.states.begin(), together.states.end(), first));
+  const auto first = alone.flow.values.begin() + static_cast<std::ptrdiff_t>(4 * part.first_node);
+  EXPECT_TRUE(std::equal(together.flow.values.begin(), together.flow.values.end(), first));
   EXPECT_EQ(together.iterations, alone.iterations);
   EXPECT_EQ(together.residual, alone.residual);
   EXPECT_EQ(together.cl, alone.cl);

@@ -37,15 +37,12 @@ TEST(DualMesh, FillsTheMeshAndClosesRoundEachNode) {
   std::vector<Point> sums(dual.nodes());
   for (const DualEdge& edge : dual.edges()) {
     EXPECT_LT(dual.global(edge.low), dual.global(edge.high));
-    sums[static_cast<std::size_t>(edge.low)] =
-        sums[static_cast<std::size_t>(edge.low)] + edge.size * edge.normal;
-    sums[static_cast<std::size_t>(edge.high)] =
-        sums[static_cast<std::size_t>(edge.high)] - edge.size * edge.normal;
+    sums[edge.low] = sums[edge.low] + edge.size * edge.normal;
+    sums[edge.high] = sums[edge.high] - edge.size * edge.normal;
   }
   for (const BoundaryFace& face : dual.faces()) {
     for (const std::int32_t node : {face.from, face.to}) {
-      sums[static_cast<std::size_t>(node)] =
-          sums[static_cast<std::size_t>(node)] + face.half_size * face.normal;
+      sums[node] = sums[node] + face.half_size * face.normal;
     }
   }
   for (const Point& sum : sums) EXPECT_LT(length(sum), 1e-15);
@@ -66,8 +63,7 @@ TEST(LeastSquares, IsExactForLinearFields) {
   const std::array<Point, 4> slopes{{{1, 2}, {-0.5, 0.25}, {0, 3}, {-2, 0}}};
   std::vector<State> states(dual.nodes());
   for (std::int32_t node = 0; node < dual.owned_nodes(); ++node) {
-    for (std::size_t k = 0; k < 4; ++k)
-      states[static_cast<std::size_t>(node)][k] = 1.0 + dot(slopes[k], dual.point(node));
+    for (std::size_t k = 0; k < 4; ++k) states[node][k] = 1.0 + dot(slopes[k], dual.point(node));
   }
   std::vector<Gradient> gradients(dual.nodes());
   LeastSquares(dual).compute(states, gradients);

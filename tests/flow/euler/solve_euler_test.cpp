@@ -22,23 +22,23 @@ double departure(const EulerResult& result, const EulerOptions& options) {
   const std::array<double, 4> uniform{1, options.mach * std::cos(angle), options.mach * std::sin(angle),
                                       1 / options.gamma};
   double largest = 0;
-  for (std::size_t i = 0; i < result.states.size(); ++i)
-    largest = std::max(largest, std::abs(result.states[i] - uniform[i % 4]));
+  for (std::size_t i = 0; i < result.flow.values.size(); ++i)
+    largest = std::max(largest, std::abs(result.flow.values[i] - uniform[i % 4]));
   return world().maximum(largest);
 }
 
 Mesh shared(const Mesh& whole) { return scatter_mesh(world(), whole, space_filling_order(whole)); }
 
 /// Starts a little off the free stream where asked to.
-std::vector<double> disturbed(const Mesh& mesh, const EulerOptions& options, double by) {
+Field disturbed(const Mesh& mesh, const EulerOptions& options, double by) {
   const double angle = options.alpha * std::acos(-1.0) / 180;
-  std::vector<double> states;
+  Field start{{"rho", "u", "v", "p"}, {}, {}};
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
     const double more = 1 + by * test::scattered(2, mesh.first_node + node, 0);
-    states.insert(states.end(), {more, options.mach * std::cos(angle), options.mach * std::sin(angle),
-                                 more / options.gamma});
+    start.values.insert(start.values.end(), {more, options.mach * std::cos(angle),
+                                             options.mach * std::sin(angle), more / options.gamma});
   }
-  return states;
+  return start;
 }
 
 TEST(UniformFlow, IsKeptAndComesBack) {
@@ -104,15 +104,15 @@ TEST(SteadyFlow, StartsFromWhatItIsGiven) {
   options.mach = 0.4;
   options.limiter = EulerOptions::Limiter::none;  // its factors are no part of a start
   const EulerResult cold = solve_euler(world(), mesh, options),
-                    warm = solve_euler(world(), mesh, options, cold.states);
+                    warm = solve_euler(world(), mesh, options, cold.flow);
   EXPECT_TRUE(cold.converged);
   EXPECT_GT(cold.iterations, 20);
   EXPECT_TRUE(warm.converged);
   EXPECT_EQ(warm.iterations, 0);
-  EXPECT_EQ(warm.states, cold.states);
+  EXPECT_EQ(warm.flow.values, cold.flow.values);
   options.limiter = EulerOptions::Limiter::venkatakrishnan;
   const EulerResult limited = solve_euler(world(), mesh, options),
-                    again = solve_euler(world(), mesh, options, limited.states);
+                    again = solve_euler(world(), mesh, options, limited.flow);
   EXPECT_TRUE(again.converged);
   EXPECT_LT(2 * again.iterations, limited.iterations);
 }
@@ -126,7 +126,8 @@ TEST(BowShock, StandsBeforeABluntBody) {
   const EulerResult result = solve_euler(world(), mesh, options);
   EXPECT_TRUE(result.converged) << result.residual;
   double largest = 0;
-  for (std::size_t i = 3; i < result.states.size(); i += 4) largest = std::max(largest, result.states[i]);
+  for (std::size_t i = 3; i < result.flow.values.size(); i += 4)
+    largest = std::max(largest, result.flow.values[i]);
   EXPECT_NEAR(world().maximum(largest) * 1.4, 5.640,
               0.08);  // pressure behind a normal shock at Mach 2, brought to rest
   EXPECT_NEAR(result.cl, 0, 2e-3);
@@ -142,10 +143,10 @@ TEST(Refusals, NameTheValue) {
 TEST(Refusals, AFlowThatIsNoneFailsWithItsPlace) {
   const Mesh mesh = shared(test::irregular_grid(6, {1, 1}, 0));
   EulerOptions options;
-  std::vector<double> states = disturbed(mesh, options, 0);
-  if (world().is_root()) states[3] = -1;
+  Field start = disturbed(mesh, options, 0);
+  if (world().is_root()) start.values[3] = -1;
   try {
-    solve_euler(world(), mesh, options, states);
+    solve_euler(world(), mesh, options, start);
     FAIL() << "solved";
   } catch (const SolverError& error) {
     EXPECT_NE(std::string(error.what()).find("pressure -1"), std::string::npos) << error.what();

@@ -26,8 +26,7 @@ double vortex_error(std::int32_t n, EulerOptions::Limiter limiter, bool quads) {
   const euler::Vortex exact{gas, gas.free_stream(options.mach, options.alpha), *options.vortex_centre, 1};
   std::vector<double> squares;
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
-    const double error = result.states[static_cast<std::size_t>(4 * node)] -
-                         exact.state(mesh.point(NodeId{node}), result.time)[0];
+    const double error = result.flow.values[4 * node] - exact.state(mesh.point(NodeId{node}), result.time)[0];
     squares.push_back(error * error);
   }
   return std::sqrt(reproducible_sum(world(), squares) / ((n + 1) * (n + 1)));

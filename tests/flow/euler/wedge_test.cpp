@@ -27,7 +27,7 @@ struct WedgeFlow {
     result = solve_euler(self, mesh, options);
   }
   double pressure_ratio(std::int32_t i, std::int32_t j) const {
-    return 1.4 * result.states[static_cast<std::size_t>(4 * (j * (n + 1) + i) + 3)];
+    return 1.4 * result.flow.values[4 * (j * (n + 1) + i) + 3];
   }
 
   /// Where the pressure of a column falls through the middle of the jump.
@@ -37,7 +37,7 @@ struct WedgeFlow {
       const double above = pressure_ratio(i, j + 1), below = pressure_ratio(i, j);
       if (below < middle) continue;
       const double share = (middle - below) / (above - below);
-      const auto at = [&](std::int32_t k) { return mesh.points[static_cast<std::size_t>(k * (n + 1) + i)]; };
+      const auto at = [&](std::int32_t k) { return mesh.points[k * (n + 1) + i]; };
       return at(j) + share * (at(j + 1) - at(j));
     }
     return {};

@@ -1,4 +1,4 @@
-#include "io/input/ogr_reader.hpp"
+#include "io/gis/ogr_reader.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/gis/gis_formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "tests/io/input/temporary_file.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 class OgrReader : public ::testing::Test {
  protected:
+  static void SetUpTestSuite() { add_gis_formats(); }
   std::vector<Chain> read(const std::string& name, const std::string& text) {
     return read_ogr(folder_.write(name, text), warnings_);
   }

@@ -1,0 +1,88 @@
+#include "adapt/loop/command_solver.hpp"
+
+#include <filesystem>
+#include <utility>
+
+#include "io/files/output_file.hpp"
+#include "io/formats.hpp"
+#include "io/mesh_file.hpp"
+#include "io/native/native_file.hpp"
+#include "io/solution_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Where a cycle's mesh stands in any case.
+std::string native_in(const std::string& folder) {
+  return (std::filesystem::path(folder) / "mesh.mesh").string();
+}
+
+SolverFiles files_in(const std::string& folder, const CommandSolver& solver, int ranks, int cycle) {
+  const std::filesystem::path cycle_folder = std::filesystem::absolute(folder);
+  SolverFiles files;
+  files.folder = cycle_folder;
+  files.mesh = (cycle_folder / solver.mesh).string();
+  files.solution = (cycle_folder / solver.solution).string();
+  files.case_folder = solver.case_folder;
+  files.ranks = solver.ranks > 0 ? solver.ranks : ranks;
+  files.cycle = cycle;
+  files.state = (cycle_folder / solver.state()).string();
+  return files;
+}
+
+/// The mesh in the format that the user's solver reads, and the starting state beside it where that has no
+/// place for one. *Collective.*
+void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, const SolverFiles& files,
+               double gamma) {
+  OutputSet outputs(comm);
+  const Field* state = start.width() > 0 ? &start : nullptr;
+  if (files.mesh != native_in(files.folder)) write_mesh(outputs, mesh, files.mesh, state);
+  if (files.state != files.mesh) write_mesh(outputs, mesh, files.state, state, gamma);
+  outputs.commit();
+}
+
+/// What the command left, spread over the ranks. *Collective.*
+Field read_left(const Communicator& comm, const Mesh& mesh, const SolverCommand& command,
+                const SolverFiles& files) {
+  Field whole;
+  MeshOrder order;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    try {
+      LoadedSolution left = read_solution(files.solution);
+      const LoadedMesh given = read_native(native_in(files.folder));
+      require_same_mesh(left, given.mesh);
+      order = own_order(given.mesh);
+      whole = std::move(left.solution);
+    } catch (const InputError& fault) {
+      throw SolverError(
+          solver_message(command, files, std::string("left no solution for its mesh: ") + fault.what()));
+    }
+  });
+  return scatter_field(comm, whole, mesh, order);
+}
+
+}  // namespace
+
+std::string CommandSolver::state() const {
+  const FileFormat* format = format_of(mesh);
+  const bool holds_state = format != nullptr && format->holds(Content::solution);
+  return holds_state ? mesh : std::filesystem::path(mesh).replace_extension(".csv").string();
+}
+
+FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of) {
+  return [solver = std::move(solver), folder_of = std::move(folder_of)](
+             const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
+    const SolverFiles files = files_in(folder_of(cycle), solver, comm.size(), cycle);
+    write_for(comm, mesh, start, files, solver.gamma);
+    run_solver(comm, solver.command, files);
+    SolvedFlow flow;
+    flow.solution = read_left(comm, mesh, solver.command, files);
+    return flow;
+  };
+}
+
+}  // namespace quadloop

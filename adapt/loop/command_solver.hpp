@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "flow/command/solver_command.hpp"
+#include "flow/flow_solver.hpp"
+
+namespace quadloop {
+
+/// A solver of the user's own, and the files through which it is spoken to, by their names in the cycle's
+/// folder.
+struct CommandSolver {
+  SolverCommand command;
+  std::string mesh = "mesh.mesh", solution = "solution.mesh";
+  int ranks = 0;  ///< 0: as many as quadloop runs on
+  std::string case_folder;
+  double gamma = 1.4;  ///< ratio of specific heats of the starting state, where its format wants it
+
+  /// The file that the starting state stands in: that of the mesh where its format has a place for it, else a
+  /// .csv beside it.
+  std::string state() const;
+};
+
+/// The command as any other solver. Where it solves, folder_of(cycle), the mesh must stand in mesh.mesh
+/// already, with the starting state where there is one. Throws SolverError for what the command does or
+/// leaves.
+FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of);
+
+}  // namespace quadloop

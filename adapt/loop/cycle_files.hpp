@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "adapt/loop/cycle_folders.hpp"
+#include "adapt/loop/loop.hpp"
+
+namespace quadloop {
+
+/// Which files a cycle is to have, and what its record keeps of the case.
+struct CycleFileOptions {
+  std::vector<std::string> formats;         ///< suffixes of mesh files beside .mesh and .cgns
+  std::vector<std::string> read_by_solver;  ///< names of further mesh files that are written, for warnings
+  double gamma = 1.4;                       ///< ratio of specific heats, where a format wants it
+  CycleRecord of_case;                      ///< its digests and settings alone count
+};
+
+/// Writes what the loop does to the run's folder, a folder for each cycle, put in place when it is whole:
+/// mesh.mesh (with the starting state as long as the solver runs), mesh.tree.h5, mesh.cgns, the other
+/// formats, log.txt, record.json.
+class CycleFiles final : public CycleObserver {
+ public:
+  using Told = std::function<void(const CycleRecord&, const std::vector<std::string>& warnings)>;
+
+  /// `told` hears of each cycle once its folder stands.
+  CycleFiles(const Communicator& comm, CycleFolders& folders, CycleFileOptions options, Told told);
+
+  void begin(int cycle) override;
+  void meshed(const MeshResult& mesh, const Field& start) override;
+  std::vector<std::string> solved(const Mesh& mesh, const Field& flow) override;
+  void finished(CycleRecord record, const std::vector<std::string>& notes,
+                const std::vector<std::string>& warnings) override;
+  std::string place_of_solution(int cycle) const override;
+
+ private:
+  std::vector<std::string> renames(const Mesh& mesh) const;
+
+  const Communicator& comm_;
+  CycleFolders& folders_;
+  CycleFileOptions options_;
+  Told told_;
+  int cycle_ = 0;
+  bool starts_afresh_ = true;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,68 @@
+#include "adapt/loop/run_in_folder.hpp"
+
+#include <utility>
+
+#include "adapt/loop/cycle_files.hpp"
+#include "adapt/loop/cycle_folders.hpp"
+#include "adapt/loop/resume.hpp"
+#include "flow/euler/euler_solver.hpp"
+
+namespace quadloop {
+
+namespace {
+
+CycleRecord record_of_case(const AdaptiveCase& adaptive) {
+  CycleRecord record;
+  record.geometry_digest = adaptive.mesh.geometry.digest();
+  record.case_digest = run_digest(adaptive.settings, record.geometry_digest);
+  record.settings = adaptive.settings;
+  return record;
+}
+
+CycleFileOptions file_options(const AdaptiveCase& adaptive) {
+  CycleFileOptions options{adaptive.formats, {}, 1.4, record_of_case(adaptive)};
+  if (const auto* command = std::get_if<CommandSolver>(&adaptive.solver)) {
+    options.read_by_solver = {command->mesh};
+    options.gamma = command->gamma;
+  } else {
+    options.gamma = std::get<EulerOptions>(adaptive.solver).gamma;
+  }
+  return options;
+}
+
+FlowSolver solver_in(const CycleFolders& folders, const ChosenSolver& chosen) {
+  if (const auto* options = std::get_if<EulerOptions>(&chosen)) return euler_solver(*options);
+  return command_solver(std::get<CommandSolver>(chosen),
+                        [&folders](int cycle) { return folders.under_way(cycle); });
+}
+
+/// What an earlier run's last whole cycle came to, by its files. A finished run is looked at too: whoever
+/// resumes it is told of damage. *Collective.*
+CycleEnd left_by_earlier_run(const Communicator& comm, const AdaptiveCase& adaptive,
+                             const std::string& folder, int cycle, const RunReport& report) {
+  for (const std::string& warning : require_same_run(comm, folder, record_of_case(adaptive)))
+    report.warning(warning);
+  CycleEnd left{read_earlier_cycle(comm, folder), {}};
+  if (cycle >= adaptive.adapt.cycles) return left;
+  left.plan = plan_adaptation(comm, adaptive.mesh, adaptive.adapt, left.solved);
+  if (left.plan.changes_mesh()) return left;
+  for (const std::string& warning : left.plan.warnings) report.warning(warning);
+  return left;
+}
+
+}  // namespace
+
+LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
+                      bool resume, const RunReport& report) {
+  CycleFolders folders(comm, folder);
+  const int first = folders.open(resume);
+  if (resume && first == 0)
+    report.warning(folder + ": holds no whole cycle to go on after; the run begins with cycle 0");
+  std::optional<CycleEnd> before;
+  if (first > 0) before = left_by_earlier_run(comm, adaptive, folders.whole(first - 1), first - 1, report);
+  CycleFiles files(comm, folders, file_options(adaptive), report.cycle);
+  return run_loop(comm, adaptive.mesh, adaptive.adapt, solver_in(folders, adaptive.solver), files, first,
+                  std::move(before));
+}
+
+}  // namespace quadloop

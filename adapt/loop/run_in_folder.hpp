@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "adapt/loop/case_settings.hpp"
+#include "adapt/loop/command_solver.hpp"
+#include "adapt/loop/loop.hpp"
+#include "flow/euler/scheme/euler_options.hpp"
+
+namespace quadloop {
+
+/// The built-in solver or a command, as a case chooses.
+using ChosenSolver = std::variant<EulerOptions, CommandSolver>;
+
+/// A case that is meshed, solved and adapted in turn.
+struct AdaptiveCase {
+  MeshInput mesh;
+  AdaptOptions adapt;
+  ChosenSolver solver;
+  /// Suffixes of mesh files that each cycle is to have too, beside .mesh and .cgns.
+  std::vector<std::string> formats;
+  CaseSettings settings;  ///< all that the run's files depend on, beside the outline
+};
+
+/// What a run tells its caller, on every rank.
+struct RunReport {
+  /// After each cycle: what it came to, and what was dropped or not reached.
+  std::function<void(const CycleRecord&, const std::vector<std::string>& warnings)> cycle;
+  std::function<void(const std::string&)> warning;  ///< before the first
+};
+
+/// Runs the cycles 0 to adapt.cycles in `folder`, with the files that CycleFiles writes. With `resume` it
+/// goes on after the last whole cycle there and ends with the same files as a run that was not broken off.
+/// Throws InputError, SolverError, OutputError; whole cycles then stay as they are. *Collective.*
+LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
+                      bool resume, const RunReport& report);
+
+}  // namespace quadloop

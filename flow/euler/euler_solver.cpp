@@ -1,0 +1,43 @@
+#include "flow/euler/euler_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "flow/euler/shortfall.hpp"
+
+namespace quadloop {
+
+Field flow_with_constants(const EulerResult& result, const EulerOptions& options) {
+  Field flow = result.flow;
+  flow.constants = {static_cast<double>(result.iterations),
+                    result.time,
+                    options.mach,
+                    options.alpha,
+                    result.cl,
+                    result.cd,
+                    result.residual};
+  return flow;
+}
+
+FlowSolver euler_solver(EulerOptions options) {
+  return [options = std::move(options)](const Communicator& comm, const Mesh& mesh, const Field& start,
+                                        int cycle) {
+    SolvedFlow flow;
+    EulerOptions told = options;
+    told.progress = [&](const EulerProgress& p) {
+      flow.notes.push_back(fmt::format("iteration {}: residual {:.3e}, cl {:.6f}, cd {:.6f}", p.iteration,
+                                       p.residual, p.cl, p.cd));
+    };
+    const EulerResult result = solve_euler(comm, mesh, told, start);
+    if (!result.converged)
+      flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, shortfall(result, options)));
+    flow.solution = flow_with_constants(result, options);
+    flow.cl = result.cl;
+    flow.cd = result.cd;
+    flow.residual = result.residual;
+    return flow;
+  };
+}
+
+}  // namespace quadloop

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "flow/euler/solve_euler.hpp"
+#include "flow/flow_solver.hpp"
+
+namespace quadloop {
+
+/// The flow with what a mesh file keeps of the run beside it: steps, time, Mach number, angle of attack, CL,
+/// CD, residual, as constants in this order.
+Field flow_with_constants(const EulerResult& result, const EulerOptions& options);
+
+/// The built-in solver as any other: notes every step that solve_euler() tells of, warns where a flow did not
+/// converge.
+FlowSolver euler_solver(EulerOptions options);
+
+}  // namespace quadloop

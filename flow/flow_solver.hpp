@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/mesh/field.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// A flow on a mesh, and what the solver says of it.
+struct SolvedFlow {
+  Field solution;                            ///< a row for each owned node
+  std::optional<double> cl, cd, residual;    ///< where the solver knows them
+  std::vector<std::string> notes, warnings;  ///< for the cycle's log; for the user too
+};
+
+/// Any flow solver: `start` is the state to begin with, a row for each of the mesh's owned nodes, or without
+/// variables where there is none yet; `cycle` counts the solver's meshes from 0. Entered by all ranks.
+/// Throws InputError, SolverError, the same on all ranks.
+using FlowSolver =
+    std::function<SolvedFlow(const Communicator& comm, const Mesh& mesh, const Field& start, int cycle)>;
+
+}  // namespace quadloop

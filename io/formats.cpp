@@ -1,0 +1,101 @@
+#include "io/formats.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/cgns/cgns_file.hpp"
+#include "io/cgns/cgns_names.hpp"
+#include "io/msh/msh_file.hpp"
+#include "io/native/native_file.hpp"
+#include "io/su2/su2_csv_file.hpp"
+#include "io/su2/su2_file.hpp"
+#include "io/vtu/vtu_file.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// The writer of a format that has no place for a solution.
+template <void (*write)(OutputSet&, const Mesh&, const std::string&)>
+void write_alone(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field*) {
+  write(outputs, mesh, path);
+}
+
+std::vector<std::string> msh_group_names(const std::vector<std::string>& boundaries) {
+  std::vector<std::string> names = boundaries;
+  std::ranges::transform(boundaries, names.begin(), msh_group_name);
+  return names;
+}
+
+}  // namespace
+
+const std::vector<FileFormat>& file_formats() {
+  using enum Content;
+  const char* const save = "let the solver save values at points (in ParaView: Cell Data to Point Data)";
+  static const std::vector<FileFormat> formats{{.name = "mesh",
+                                                .places = {mesh, solution, constants, blocks},
+                                                .read_mesh = read_native,
+                                                .write_mesh = write_native,
+                                                .write_blocks = write_native},
+                                               {.name = "cgns",
+                                                .places = {mesh, solution, conditions},
+                                                .read_mesh = read_cgns,
+                                                .write_mesh = write_cgns,
+                                                .boundary_names = cgns_boundary_names},
+                                               {.name = "vtu",
+                                                .places = {mesh, solution, blocks},
+                                                .without_values = save,
+                                                .read_mesh = read_vtu,
+                                                .write_mesh = write_vtu,
+                                                .write_blocks = write_vtu},
+                                               {.name = "su2",
+                                                .places = {mesh},
+                                                .read_mesh = read_su2,
+                                                .write_mesh = write_alone<write_su2>,
+                                                .boundary_names = su2_marker_names},
+                                               {.name = "msh",
+                                                .places = {mesh, blocks},
+                                                .read_mesh = read_msh,
+                                                .write_mesh = write_alone<write_msh>,
+                                                .write_blocks = write_msh,
+                                                .boundary_names = msh_group_names},
+                                               {.name = "csv",
+                                                .program = "SU2",
+                                                .places = {solution},
+                                                .read_solution = read_su2_csv,
+                                                .write_solution = write_su2_csv}};
+  return formats;
+}
+
+bool FileFormat::holds(Content content) const { return std::ranges::count(places, content) > 0; }
+
+const FileFormat* format_named(const std::string& name) {
+  const auto found = std::ranges::find(file_formats(), name, &FileFormat::name);
+  return found == file_formats().end() ? nullptr : &*found;
+}
+
+const FileFormat* format_of(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  return suffix.empty() ? nullptr : format_named(suffix.substr(1));
+}
+
+std::vector<std::string> formats_for(std::initializer_list<Content> contents) {
+  std::vector<std::string> names;
+  for (const FileFormat& format : file_formats()) {
+    if (std::ranges::all_of(contents, [&](Content content) { return format.holds(content); }))
+      names.push_back(format.name);
+  }
+  return names;
+}
+
+std::string suffixes_for(std::initializer_list<Content> contents, const std::string& last) {
+  const std::vector<std::string> names = formats_for(contents);
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " " + last + " " : ", ";
+    text += "." + names[i];
+  }
+  return text;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "io/files/output_file.hpp"
+#include "io/loaded/loaded_mesh.hpp"
+#include "io/loaded/loaded_solution.hpp"
+
+namespace quadloop {
+
+/// What a format may have a place for.
+enum class Content {
+  mesh,
+  solution,
+  constants,  ///< of the solution
+  blocks,
+  conditions  ///< of boundaries
+};
+
+/// A row of the table of formats: a file holds a mesh, often with a solution, or a solution alone. Whoever
+/// adds a format adds a folder and a row: commands, case keys and messages list it by what it has a place
+/// for.
+struct FileFormat {
+  std::string name;             ///< the suffix without its dot
+  std::string program = {};     ///< whose format it is, where the suffix does not tell
+  std::vector<Content> places;  ///< what it has a place for
+  /// What a user is to do where a mesh comes without a solution.
+  std::string without_values = "let the solver append its variables, a row of values for each node";
+
+  /// On the calling rank alone. Throws InputError.
+  LoadedMesh (*read_mesh)(const std::string& path) = nullptr;
+  /// A distributed mesh, with its solution unless that is null. *Collective.* Throws OutputError.
+  void (*write_mesh)(OutputSet& outputs, const Mesh& mesh, const std::string& path,
+                     const Field* solution) = nullptr;
+  /// Where there is a place for blocks: a mesh that the set's only rank holds whole, block by block.
+  void (*write_blocks)(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) = nullptr;
+  /// The boundaries' names as a file has them; null: as they are.
+  std::vector<std::string> (*boundary_names)(const std::vector<std::string>& names) = nullptr;
+
+  /// A solution alone, as above; `gamma` is the ratio of specific heats of its gas.
+  LoadedSolution (*read_solution)(const std::string& path) = nullptr;
+  void (*write_solution)(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
+                         double gamma) = nullptr;
+
+  bool holds(Content content) const;
+};
+
+/// The table.
+const std::vector<FileFormat>& file_formats();
+
+/// The format of this name, or the one that the path's suffix tells; null where it is none.
+const FileFormat* format_named(const std::string& name);
+const FileFormat* format_of(const std::string& path);
+
+/// The names of all formats that have a place for each of these, in the order of the table.
+std::vector<std::string> formats_for(std::initializer_list<Content> contents);
+
+/// The same as suffixes in a sentence: ".mesh, .cgns or .vtu" for last = "or".
+std::string suffixes_for(std::initializer_list<Content> contents, const std::string& last = "or");
+
+}  // namespace quadloop

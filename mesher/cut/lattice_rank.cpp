@@ -1,0 +1,35 @@
+#include "mesher/cut/lattice_rank.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace quadloop {
+
+namespace {
+
+/// Trailing zeros of a line's number, at most those of a tree's edge: the sides of the root rank alike.
+std::int8_t zeros_of(std::int64_t line) {
+  if (line == 0) return Quadrant::unit_level;
+  return static_cast<std::int8_t>(
+      std::min(Quadrant::unit_level, std::countr_zero(static_cast<std::uint64_t>(line))));
+}
+
+}  // namespace
+
+TieRank line_rank(std::int64_t column, std::int64_t row) {
+  const auto [low, high] = std::minmax({zeros_of(column), zeros_of(row)});  // a list: values, not references
+  return {low, high, 0, 0, 0, 0};
+}
+
+TieRank tie_rank(const Lattice& lattice, int finest_level, Point position) {
+  TieRank rank = tie_rank(lattice.box().centre(), position);
+  const std::int64_t column = lattice.column_at(position.x), row = lattice.row_at(position.y);
+  if (lattice.x(column) != position.x || lattice.y(row) != position.y) return rank;
+  const TieRank lines = line_rank(column, row);
+  if (lines.coarser < Quadrant::unit_level - finest_level) return rank;  // on no line of the tree
+  rank.coarser = lines.coarser;
+  rank.finer = lines.finer;
+  return rank;
+}
+
+}  // namespace quadloop

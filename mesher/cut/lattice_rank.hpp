@@ -1,0 +1,15 @@
+#pragma once
+
+#include "mesher/delaunay/tie_order.hpp"
+#include "mesher/lattice/lattice.hpp"
+
+namespace quadloop {
+
+/// What the lattice's lines through it tell of a node's rank: the numbers of its column and its row.
+TieRank line_rank(std::int64_t column, std::int64_t row);
+
+/// The rank of a node where the tree is known: nodes on its lines rank above all others, the coarser the line
+/// the higher.
+TieRank tie_rank(const Lattice& lattice, int finest_level, Point position);
+
+}  // namespace quadloop

@@ -1,0 +1,89 @@
+#include "mesher/delaunay/flipper.hpp"
+
+#include <numeric>
+
+namespace quadloop {
+
+void Flipper::flip_to_delaunay(std::span<const Point> points, std::span<const TieRank> ranks,
+                               std::span<Triangle> triangles, std::span<const char> open,
+                               std::span<const std::int32_t> blocks) {
+  points_ = points;
+  ranks_ = ranks;
+  triangles_ = triangles;
+  list_spokes();
+  std::size_t begin = 0;
+  for (const std::size_t end : spokes_end_) {
+    join(std::span(spokes_).subspan(begin, end - begin), open, blocks);
+    begin = end;
+  }
+  waiting_.clear();
+  for (Edge e = 0; e < edges(); ++e) {
+    if (across(e) > e) waiting_.push_back(e);
+  }
+  while (!waiting_.empty()) {
+    const Edge e = waiting_.back();
+    waiting_.pop_back();
+    if (across(e) < 0 || !is_wrong(e)) continue;
+    const Edge s = e - e % 3, t = across(e) - across(e) % 3;
+    flip(e);
+    for (Edge k = 0; k < 3; ++k) waiting_.insert(waiting_.end(), {s + k, t + k});
+  }
+}
+
+/// All edges, one node after the other.
+void Flipper::list_spokes() {
+  across_.assign(3 * triangles_.size(), border);
+  spokes_.resize(across_.size());
+  spokes_end_.assign(points_.size(), 0);
+  const auto low = [&](Edge e) { return static_cast<std::size_t>(std::min(node(e, 1), node(e, 2))); };
+  for (Edge e = 0; e < edges(); ++e) ++spokes_end_[low(e)];
+  std::exclusive_scan(spokes_end_.begin(), spokes_end_.end(), spokes_end_.begin(), std::size_t{0});
+  for (Edge e = 0; e < edges(); ++e) spokes_[spokes_end_[low(e)]++] = {std::max(node(e, 1), node(e, 2)), e};
+}
+
+/// Finds the triangles across the edges of one node.
+void Flipper::join(std::span<Spoke> spokes, std::span<const char> open,
+                   std::span<const std::int32_t> blocks) {
+  std::sort(spokes.begin(), spokes.end());
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    const Edge e = spokes[i].edge;
+    if (i + 1 < spokes.size() && spokes[i].high == spokes[i + 1].high) {
+      const Edge f = spokes[++i].edge;
+      if (blocks.empty() || blocks[triangle_of(e)] == blocks[triangle_of(f)]) set_across(e, f);
+    } else if (!open.empty() && open[triangle_of(e)] != 0) {
+      set_across(e, open_border);
+    }
+  }
+}
+
+bool Flipper::is_wrong(Edge e) const {
+  const std::array<std::size_t, 4> n{
+      static_cast<std::size_t>(node(e, 1)), static_cast<std::size_t>(node(e, 2)),
+      static_cast<std::size_t>(node(e, 0)), static_cast<std::size_t>(node(across(e), 0))};
+  return should_flip(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]],
+                     [&](std::size_t k) -> const TieRank& { return ranks_[n[k]]; });
+}
+
+void Flipper::set_across(Edge e, Edge other) {
+  across_[e] = other;
+  if (other >= 0) across_[other] = e;
+}
+
+/// The triangles c a b and d b a become c a d and d b c.
+void Flipper::flip(Edge e) {
+  const Edge f = across(e);
+  const auto next = [](Edge edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; };
+  const std::int32_t c = node(e, 0), a = node(e, 1), b = node(e, 2), d = node(f, 0);
+  const Edge beyond_bc = across(next(e)), beyond_ca = across(next(next(e)));  // opposite a, opposite b
+  const Edge beyond_ad = across(next(f)), beyond_db = across(next(next(f)));  // opposite b, opposite a
+  const Edge s = e - e % 3, t = f - f % 3;
+  triangles_[triangle_of(s)] = {c, a, d};
+  triangles_[triangle_of(t)] = {d, b, c};
+  set_across(s, beyond_ad);
+  set_across(s + 2, beyond_ca);
+  set_across(t, beyond_bc);
+  set_across(t + 2, beyond_db);
+  set_across(s + 1, t + 1);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/delaunay/tie_order.hpp"
+#include "mesher/geometry/point.hpp"
+#include "mesher/geometry/predicates.hpp"
+
+namespace quadloop {
+
+/// Counter-clockwise exactly, and by the plain products in doubles that every reader of the mesh will use, at
+/// each corner.
+inline bool is_positive(Point a, Point b, Point c) {
+  return cross(b - a, c - a) > 0 && cross(c - b, a - b) > 0 && cross(a - c, b - c) > 0 &&
+         orientation(a, b, c) > 0;
+}
+
+/// Whether the edge a-b between the triangles a b c and b a d should give way to c-d. Of four points on one
+/// circle that with the highest rank gets the edge; `rank_of(k)` is the rank of the k-th of a, b, c, d.
+/// Exact; never where a new triangle would not be positive.
+template <class RankOf>
+bool should_flip(Point a, Point b, Point c, Point d, const RankOf& rank_of) {
+  const int inside = in_circle(a, b, c, d);
+  if (inside < 0) return false;
+  if (inside == 0 && !(std::max(rank_of(2), rank_of(3)) > std::max(rank_of(0), rank_of(1)))) return false;
+  return is_positive(a, d, c) && is_positive(d, b, c);
+}
+
+/// Makes a triangulation constrained Delaunay by flips (Lawson 1977). Keeps its memory for the next one.
+class Flipper {
+ public:
+  using Triangle = std::array<std::int32_t, 3>;
+  /// The edge of a triangle opposite its node k is number 3 t + k.
+  using Edge = std::int32_t;
+  static constexpr Edge border = -1, open_border = -2;
+
+  /// Flips edges of counter-clockwise `triangles` over the `points`, which the edges shared by two of them
+  /// join. Edges with one triangle stay, and those between triangles of two `blocks` (one for each triangle,
+  /// or none where all are of one block). If the order of the `ranks` is strict, the result depends on
+  /// points, ranks and such edges alone, not on the triangles at the beginning; triangles keep their blocks.
+  /// Where `open` (a flag for each triangle, or none) is set, an edge with one triangle becomes an open
+  /// border.
+  void flip_to_delaunay(std::span<const Point> points, std::span<const TieRank> ranks,
+                        std::span<Triangle> triangles, std::span<const char> open = {},
+                        std::span<const std::int32_t> blocks = {});
+
+  /// The same edge of the triangle beyond it, `border` or `open_border`, after the flips.
+  Edge across(Edge e) const { return across_[e]; }
+  static std::size_t triangle_of(Edge e) { return static_cast<std::size_t>(e / 3); }
+  static std::size_t corner_of(Edge e, int step) { return static_cast<std::size_t>((e % 3 + step) % 3); }
+
+ private:
+  /// An edge of a triangle, listed with its lower node.
+  struct Spoke {
+    std::int32_t high;
+    Edge edge;
+    friend auto operator<=>(const Spoke&, const Spoke&) = default;
+  };
+
+  Edge edges() const { return static_cast<Edge>(across_.size()); }
+  std::int32_t node(Edge e, int step) const { return triangles_[triangle_of(e)][corner_of(e, step)]; }
+  void list_spokes();
+  void join(std::span<Spoke> spokes, std::span<const char> open, std::span<const std::int32_t> blocks);
+  bool is_wrong(Edge e) const;
+  void flip(Edge e);
+  void set_across(Edge e, Edge other);
+
+  std::span<const Point> points_;
+  std::span<const TieRank> ranks_;
+  std::span<Triangle> triangles_;
+  std::vector<Edge> across_;
+  std::vector<std::size_t> spokes_end_;  ///< of each node, in spokes_
+  std::vector<Spoke> spokes_;
+  std::vector<Edge> waiting_;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,172 @@
+#include "mesher/delaunay/restore/region_triangulation.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace quadloop {
+
+namespace {
+
+template <class Node>
+void put_smallest_first(std::array<Node, 3>& nodes) {
+  std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end()), nodes.end());
+}
+
+/// The triangles that are gone around each node.
+class GoneTriangles {
+ public:
+  struct Gone {
+    FreedTriangle triangle;
+    Point centroid;
+  };
+
+  void add(const std::array<std::int32_t, 3>& nodes, const Gone& gone) {
+    for (const std::int32_t node : nodes) around_.emplace_back(node, gone_.size());
+    gone_.push_back(gone);
+  }
+  void sort() { std::sort(around_.begin(), around_.end()); }
+
+  /// The number of the one of a block around the node that is nearest to a place; of several as near the
+  /// lowest.
+  std::int64_t nearest(std::int32_t node, Point place, std::int32_t block) const {
+    std::pair best{std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max()};
+    for (auto at = std::lower_bound(around_.begin(), around_.end(), std::pair{node, std::size_t{0}});
+         at != around_.end() && at->first == node; ++at) {
+      const auto& [triangle, centroid] = gone_[at->second];
+      const Point off = centroid - place;
+      if (triangle.block == block) best = std::min(best, {dot(off, off), triangle.number});
+    }
+    return best.second;
+  }
+
+ private:
+  std::vector<Gone> gone_;
+  std::vector<std::pair<std::int32_t, std::size_t>> around_;  ///< node, index
+};
+
+}  // namespace
+
+RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) {
+  gather_nodes(halo.triangles());
+  const DelaunayPatch patch = make_patch(halo, rank_of);
+  const std::vector<char> doubts = patch.doubtful();
+  for (std::size_t t = 0; t < doubts.size() && !uncertain_; ++t) {
+    const Triangle& nodes = patch.triangles()[t];
+    uncertain_ = doubts[t] != 0 && std::any_of(nodes.begin(), nodes.end(),
+                                               [&](std::int32_t node) { return halo.owns(number_of(node)); });
+  }
+  if (uncertain_) return;
+  compare(halo, find_changes(halo, patch));
+  find_outgrown();
+}
+
+void RegionTriangulation::gather_nodes(std::span<const NumberedTriangle> triangles) {
+  for (const NumberedTriangle& t : triangles) numbers_.insert(numbers_.end(), t.nodes.begin(), t.nodes.end());
+  std::sort(numbers_.begin(), numbers_.end());
+  numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+  points_.resize(numbers_.size());
+  core_.resize(numbers_.size());
+  triangles_.reserve(triangles.size());
+  for (const NumberedTriangle& t : triangles) {
+    Triangle& nodes = triangles_.emplace_back();
+    blocks_.push_back(t.block);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t node =
+          std::lower_bound(numbers_.begin(), numbers_.end(), t.nodes[k]) - numbers_.begin();
+      nodes[k] = static_cast<std::int32_t>(node);
+      points_[node] = t.points[k];
+      core_[node] = t.core[k];
+    }
+  }
+}
+
+DelaunayPatch RegionTriangulation::make_patch(const StarHalo& halo,
+                                              const std::function<TieRank(Point)>& rank_of) const {
+  std::vector<TieRank> ranks;
+  for (const Point& p : points_) ranks.push_back(rank_of(p));
+  std::vector<char> open;
+  for (const NumberedTriangle& t : halo.triangles()) open.push_back(halo.at_rim(t) ? 1 : 0);
+  return {points_, ranks, triangles_, open, blocks_};
+}
+
+RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& halo,
+                                                               const DelaunayPatch& patch) const {
+  Changes changes;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    Triangle before = triangles_[i], after = patch.triangles()[i];
+    if (before == after) continue;
+    put_smallest_first(before);
+    put_smallest_first(after);
+    changes.before.push_back({before, {halo.triangles()[i].number, blocks_[i]}});
+    changes.after.emplace_back(after, blocks_[i]);
+  }
+  std::sort(changes.before.begin(), changes.before.end());
+  std::sort(changes.after.begin(), changes.after.end());
+  return changes;
+}
+
+/// Its nodes come in an order that all ranks have, and so does the sum.
+Point RegionTriangulation::centroid(const Triangle& nodes) const {
+  const auto at = [&](std::size_t k) { return points_[nodes[k]]; };
+  return 1.0 / 3 * (at(0) + at(1) + at(2));
+}
+
+/// A triangle may come back at another place of the patch.
+void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) {
+  std::vector<std::pair<Triangle, std::int32_t>> before, made;
+  GoneTriangles gone;
+  for (const auto& [nodes, freed] : changes.before) {
+    before.emplace_back(nodes, freed.block);
+    if (std::binary_search(changes.after.begin(), changes.after.end(), before.back())) continue;
+    gone.add(nodes, {freed, centroid(nodes)});
+    if (halo.owns(number_of(nodes[0]))) freed_.push_back(freed);
+  }
+  gone.sort();
+  std::set_difference(changes.after.begin(), changes.after.end(), before.begin(), before.end(),
+                      std::back_inserter(made));
+  for (const auto& [t, block] : made) {
+    if (!halo.owns(number_of(t[0]))) continue;
+    MadeTriangle triangle{gone.nearest(t[0], centroid(t), block), {}, {}, block};
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle.nodes[k] = number_of(t[k]);
+      triangle.points[k] = points_[t[k]];
+    }
+    new_triangles_.push_back(t);
+    made_.push_back(triangle);
+  }
+}
+
+/// Those with one triangle at hand, between nodes that may have more triangles around them than the region
+/// has.
+std::vector<RegionTriangulation::Edge> RegionTriangulation::outer_edges() const {
+  std::vector<Edge> edges, single;
+  for (const Triangle& nodes : triangles_) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax({nodes[k], nodes[(k + 1) % 3]});
+      if (!is_core(low) && !is_core(high)) edges.push_back({low, high});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (auto edge = edges.begin(); edge != edges.end();) {
+    const auto next = std::upper_bound(edge, edges.end(), *edge);
+    if (next - edge == 1) single.push_back(*edge);
+    edge = next;
+  }
+  return single;
+}
+
+void RegionTriangulation::find_outgrown() {
+  if (new_triangles_.empty()) return;
+  const std::vector<Edge> outer = outer_edges();
+  for (std::size_t i = 0; i < new_triangles_.size(); ++i) {
+    const Triangle& t = new_triangles_[i];
+    const auto is_outer = [&](std::size_t k) {
+      const auto [low, high] = std::minmax({t[k], t[(k + 1) % 3]});
+      return std::binary_search(outer.begin(), outer.end(), Edge{low, high});
+    };
+    if (is_outer(0) || is_outer(1) || is_outer(2))
+      outgrown_.insert(outgrown_.end(), made_[i].nodes.begin(), made_[i].nodes.end());
+  }
+}
+
+}  // namespace quadloop

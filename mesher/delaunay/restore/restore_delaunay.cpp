@@ -1,0 +1,226 @@
+#include "mesher/delaunay/restore/restore_delaunay.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "mesher/base/error.hpp"
+#include "mesher/delaunay/restore/region_triangulation.hpp"
+#include "mesher/mesh/node_table.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr int first_rings = 2;  ///< fetched at once; more where circumcircles reach farther
+
+bool has_flag(const std::vector<char>& flags, NodeId node) { return flags[node.value()] != 0; }
+
+/// The nodes of triangles that have a flagged node, by their numbers over all ranks.
+std::vector<std::int64_t> nodes_around(const Mesh& mesh, const std::vector<char>& flags) {
+  QUADLOOP_REQUIRE(flags.size() == mesh.points.size(), "a flag for each point");
+  std::vector<std::int64_t> nodes;
+  std::vector<char> named(flags.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    if (std::none_of(t.begin(), t.end(), [&](NodeId node) { return has_flag(flags, node); })) continue;
+    for (const NodeId node : t) {
+      if (std::exchange(named[node.value()], 1) == 0) nodes.push_back(mesh.global(node).value());
+    }
+  }
+  return nodes;
+}
+
+/// The triangles around core nodes: no edge from one of these is at the border of the region, but for edges
+/// of the mesh's boundaries.
+class Region {
+ public:
+  Region(const Communicator& comm, const Mesh& mesh, const std::vector<std::int32_t>& triangle_to_block)
+      : comm_{comm},
+        mesh_{mesh},
+        blocks_{triangle_to_block},
+        owners_(comm, mesh.first_node),
+        exchange_(comm, owners_, mesh.owned_nodes, mesh.copies),
+        first_triangle_{comm.exclusive_sum(std::ssize(mesh.triangles))},
+        core_(mesh.points.size(), 0) {}
+
+  /// Makes nodes core, by their numbers over all ranks; every rank may name any. *Collective.*
+  void add(const std::vector<std::int64_t>& nodes) {
+    Outbox<std::int64_t> to_owners;
+    for (const std::int64_t node : nodes) to_owners.add(owners_.rank_of(GlobalNodeId{node}), node);
+    for (const std::int64_t node : to_owners.deliver(comm_)) core_[node - mesh_.first_node] = 1;
+    exchange_.update(core_, [&](std::int32_t node) { return has_flag(core_, NodeId{node}); });
+  }
+
+  /// *Collective.*
+  RegionTriangulation triangulate(const std::function<TieRank(Point)>& rank_of) const {
+    StarHalo halo(comm_, owners_, own_triangles());
+    for (int ring = 0; ring < first_rings; ++ring) halo.grow(true);
+    std::optional<RegionTriangulation> triangulation(std::in_place, halo, rank_of);
+    while (comm_.any(triangulation->uncertain())) {
+      const bool again = triangulation->uncertain();
+      halo.grow(again);
+      if (again) triangulation.emplace(halo, rank_of);
+    }
+    return std::move(*triangulation);
+  }
+
+ private:
+  std::vector<NumberedTriangle> own_triangles() const {
+    std::vector<NumberedTriangle> triangles;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const auto& nodes = mesh_.triangles[i];
+      NumberedTriangle t{
+          first_triangle_ + static_cast<std::int64_t>(i), {}, {}, blocks_.empty() ? 0 : blocks_[i], {}};
+      for (std::size_t k = 0; k < 3; ++k) t.core[k] = has_flag(core_, nodes[k]) ? 1 : 0;
+      if (t.core == std::array<char, 3>{}) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        t.nodes[k] = mesh_.global(nodes[k]).value();
+        t.points[k] = mesh_.point(nodes[k]);
+      }
+      triangles.push_back(t);
+    }
+    return triangles;
+  }
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  const std::vector<std::int32_t>& blocks_;
+  NodeOwners owners_;
+  NodeExchange exchange_;
+  std::int64_t first_triangle_;
+  std::vector<char> core_;
+};
+
+/// A range of numbers on each rank, in the order of ranks.
+class Ranges {
+ public:
+  /// *Collective.*
+  Ranges(const Communicator& comm, std::size_t size)
+      : first_{comm.all_gather(comm.exclusive_sum(static_cast<std::int64_t>(size)))} {}
+
+  int rank_of(std::int64_t number) const {
+    return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), number) - first_.begin()) - 1;
+  }
+  std::int64_t begin(int rank) const { return first_[rank]; }
+
+ private:
+  std::vector<std::int64_t> first_;
+};
+
+/// Each row goes to the rank that `rank_of` tells; returns those for this rank, in the order of ranks.
+/// *Collective.*
+template <class Row, class RankOf>
+std::vector<Row> deliver(const Communicator& comm, const std::vector<Row>& rows, const RankOf& rank_of) {
+  std::vector<int> ranks;
+  for (const Row& row : rows) ranks.push_back(rank_of(row));
+  return Exchange(comm, ranks).deliver(rows);
+}
+
+template <class Row>
+std::vector<Row> of_block(const std::vector<Row>& rows, std::int32_t block) {
+  std::vector<Row> found;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(found),
+               [&](const Row& row) { return row.block == block; });
+  return found;
+}
+
+/// Puts a block's new triangles at its free places, both in an order that all ranks make together: the places
+/// by their numbers, the triangles by that of the one before that they are near to. *Collective.*
+void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle>& freed,
+                       std::vector<MadeTriangle> made, Mesh& mesh) {
+  const auto size_of = [](const auto& rows) { return std::ssize(rows); };
+  QUADLOOP_REQUIRE(comm.sum(size_of(freed)) == comm.sum(size_of(made)), "flips keep the number of triangles");
+  const Ranges triangles(comm, mesh.triangles.size());
+  std::vector<FreedTriangle> places =
+      deliver(comm, freed, [&](const FreedTriangle& t) { return triangles.rank_of(t.number); });
+  made = deliver(comm, made, [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
+  std::sort(places.begin(), places.end());
+  std::sort(made.begin(), made.end());
+  const Ranges free_places(comm, places.size());
+  std::int64_t next = comm.exclusive_sum(size_of(made));
+  made = deliver(comm, made, [&](const MadeTriangle&) { return free_places.rank_of(next++); });
+  NodeTable nodes(mesh);
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    auto& triangle = mesh.triangles[places[i].number - triangles.begin(comm.rank())];
+    for (std::size_t k = 0; k < 3; ++k) triangle[k] = nodes.local(made[i].nodes[k], made[i].points[k]);
+  }
+}
+
+/// Puts new triangles where those were that they are near to. *Collective.*
+std::vector<std::int32_t> insert_triangles(const Communicator& comm, std::vector<FreedTriangle> freed,
+                                           std::vector<MadeTriangle> made, Mesh& mesh) {
+  const Ranges triangles(comm, mesh.triangles.size());
+  const std::int64_t first = triangles.begin(comm.rank());
+  freed = deliver(comm, freed, [&](const FreedTriangle& t) { return triangles.rank_of(t.number); });
+  made = deliver(comm, made, [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
+  std::sort(made.begin(), made.end());
+  std::vector<std::int32_t> standing(mesh.triangles.size(), 1);
+  for (const FreedTriangle& t : freed) standing[t.number - first] = 0;
+  const auto before = std::exchange(mesh.triangles, {});
+  mesh.triangles.reserve(before.size() + made.size() - freed.size());
+  NodeTable nodes(mesh);
+  auto next = made.begin();
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (standing[i] == 1) mesh.triangles.push_back(before[i]);
+    for (; next != made.end() && next->near == first + static_cast<std::int64_t>(i); ++next, ++standing[i]) {
+      auto& triangle = mesh.triangles.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) triangle[k] = nodes.local(next->nodes[k], next->points[k]);
+    }
+  }
+  return standing;
+}
+
+std::int32_t number_of_blocks(const Communicator& comm, const std::vector<std::int32_t>& triangle_to_block) {
+  const auto last = std::max_element(triangle_to_block.begin(), triangle_to_block.end());
+  return static_cast<std::int32_t>(comm.maximum(std::int64_t{last == triangle_to_block.end() ? 0 : *last})) +
+         1;
+}
+
+/// What changes; nothing where no node is named. *Collective.*
+std::optional<RegionTriangulation> changed_region(const Communicator& comm, const Mesh& mesh,
+                                                  std::vector<std::int64_t> nodes,
+                                                  const std::function<TieRank(Point)>& rank_of,
+                                                  const std::vector<std::int32_t>& triangle_to_block) {
+  QUADLOOP_REQUIRE(mesh.quads.empty(), "triangles alone");
+  QUADLOOP_REQUIRE(triangle_to_block.empty() || triangle_to_block.size() == mesh.triangles.size(),
+                   "a block for each triangle, or none");
+  std::optional<RegionTriangulation> triangulation;
+  if (!comm.any(!nodes.empty())) return triangulation;
+  Region region(comm, mesh, triangle_to_block);
+  do {
+    region.add(nodes);
+    triangulation.emplace(region.triangulate(rank_of));
+    nodes = triangulation->outgrown();
+  } while (comm.any(!nodes.empty()));
+  return triangulation;
+}
+
+}  // namespace
+
+void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<std::int64_t> nodes,
+                         const std::function<TieRank(Point)>& rank_of,
+                         const std::vector<std::int32_t>& triangle_to_block) {
+  const std::optional<RegionTriangulation> changed =
+      changed_region(comm, mesh, std::move(nodes), rank_of, triangle_to_block);
+  const std::int32_t blocks = changed ? number_of_blocks(comm, triangle_to_block) : 0;
+  for (std::int32_t block = 0; block < blocks; ++block) {
+    replace_triangles(comm, of_block(changed->freed(), block), of_block(changed->made(), block), mesh);
+  }
+}
+
+void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved,
+                      const std::function<TieRank(Point)>& rank_of,
+                      const std::vector<std::int32_t>& triangle_to_block) {
+  restore_delaunay_at(comm, mesh, nodes_around(mesh, moved), rank_of, triangle_to_block);
+}
+
+std::vector<std::int32_t> restore_delaunay_nearby(const Communicator& comm, Mesh& mesh,
+                                                  const std::vector<char>& moved,
+                                                  const std::function<TieRank(Point)>& rank_of) {
+  const std::optional<RegionTriangulation> changed =
+      changed_region(comm, mesh, nodes_around(mesh, moved), rank_of, {});
+  if (!changed) return std::vector<std::int32_t>(mesh.triangles.size(), 1);
+  return insert_triangles(comm, changed->freed(), changed->made(), mesh);
+}
+
+}  // namespace quadloop

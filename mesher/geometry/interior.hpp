@@ -1,0 +1,22 @@
+#pragma once
+
+#include "mesher/geometry/box_tree.hpp"
+#include "mesher/geometry/shifted_outline.hpp"
+
+namespace quadloop {
+
+/// Whether a point lies in the domain of a shifted outline, by an exact count of the crossings of a ray to
+/// its left; a point on the outline itself is outside. O(log n + k) for a ray that meets k boxes of segments;
+/// the index is built at the first question.
+class Interior {
+ public:
+  explicit Interior(const ShiftedOutline& outline) : outline_{&outline} {}
+
+  bool contains(Point p) const;
+
+ private:
+  const ShiftedOutline* outline_;
+  mutable BoxTree segments_;
+};
+
+}  // namespace quadloop

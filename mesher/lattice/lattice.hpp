@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "mesher/geometry/geometry.hpp"
+#include "mesher/lattice/size_options.hpp"
+#include "mesher/lattice/square.hpp"
+
+namespace quadloop {
+
+/// A corner of the lattice: where lattice lines meet, counted in lattice units from the root's lower left
+/// corner.
+struct LatticePoint {
+  std::int64_t x = 0, y = 0;
+  friend constexpr auto operator<=>(const LatticePoint&, const LatticePoint&) = default;
+};
+
+/// A square of the forest by its place alone. x and y count lattice units from the root's lower left corner;
+/// a tree's edge is 2^30 units.
+struct Quadrant {
+  static constexpr int unit_level = 30;
+
+  std::int64_t x = 0, y = 0;
+  int level = 0;
+
+  constexpr std::int64_t size() const { return std::int64_t{1} << (unit_level - level); }
+  constexpr Quadrant child(Corner quarter) const {
+    const Halves from = halves_of(site_of(quarter));
+    return {x + from.x * size() / 4, y + from.y * size() / 4, level + 1};
+  }
+  /// Of a corner, or the middle of a side.
+  constexpr LatticePoint at(Site site) const {
+    const std::int64_t half = size() / 2;
+    return {x + halves_of(site).x * half, y + halves_of(site).y * half};
+  }
+  /// The site at a lattice point that is a corner of the square, or the middle of a side.
+  constexpr Site site(LatticePoint p) const {
+    const std::int64_t half = size() / 2;
+    return site_at({static_cast<int>((p.x - x) / half), static_cast<int>((p.y - y) / half)});
+  }
+  /// The lattice line that a side lies on: a column for a vertical side, else a row.
+  constexpr std::int64_t line(Side side) const {
+    const std::int64_t low = is_vertical(side) ? x : y;
+    return side == Side::right || side == Side::top ? low + size() : low;
+  }
+  constexpr bool contains(const Quadrant& q) const {
+    return level <= q.level && x <= q.x && q.x < x + size() && y <= q.y && q.y < y + size();
+  }
+  friend constexpr bool operator==(const Quadrant&, const Quadrant&) = default;
+};
+
+/// The quarter in which the unit square right above (x, y) lies, of the quadrant of this level that holds it.
+constexpr Corner quarter_at(std::int64_t x, std::int64_t y, int level) {
+  const int shift = Quadrant::unit_level - 1 - level;
+  return corner_at((x >> shift & 1) != 0, (y >> shift & 1) != 0);
+}
+
+/// The largest of the two distances along the axes between the closed squares; 0 where they touch.
+constexpr std::int64_t chebyshev_gap(const Quadrant& a, const Quadrant& b) {
+  const std::int64_t left = a.x - (b.x + b.size()), right = b.x - (a.x + a.size());
+  const std::int64_t below = a.y - (b.y + b.size()), above = b.y - (a.y + a.size());
+  std::int64_t gap = 0;
+  for (const std::int64_t d : {left, right, below, above}) gap = d > gap ? d : gap;
+  return gap;
+}
+
+/// Where the lattice lines lie. Every coordinate is one double, computed the same way wherever it is needed;
+/// mirrored roots have mirrored coordinates, bit for bit.
+class Lattice {
+ public:
+  /// `box` is cut into trees_x by trees_y square trees (square but for rounding).
+  Lattice(const Box& box, int trees_x, int trees_y);
+
+  int trees_x() const { return trees_x_; }
+  int trees_y() const { return trees_y_; }
+  const Box& box() const { return box_; }
+  double tree_edge() const { return tree_edge_; }
+  double edge(int level) const { return tree_edge_ / static_cast<double>(std::int64_t{1} << level); }
+
+  double x(std::int64_t i) const { return x_.at(i); }
+  double y(std::int64_t j) const { return y_.at(j); }
+  Point corner(std::int64_t i, std::int64_t j) const { return {x(i), y(j)}; }
+  Point corner(LatticePoint p) const { return corner(p.x, p.y); }
+  /// The last line at or before a coordinate inside the root (the last but the root's side at most); the unit
+  /// square right of it, above it holds the coordinate.
+  std::int64_t column_at(double x) const { return x_.line_before(x); }
+  std::int64_t row_at(double y) const { return y_.line_before(y); }
+  Box box_of(const Quadrant& q) const { return {corner(q.x, q.y), corner(q.x + q.size(), q.y + q.size())}; }
+
+  /// The finest level whose leaves are not smaller than `min`. Throws InputError where that is deeper than
+  /// the forest or than double precision can tell apart; it names the setting.
+  int finest_level(double min, const char* setting = "spacing.min") const;
+
+ private:
+  struct Axis {
+    double low = 0, high = 0;
+    std::int64_t count = 0;
+    double unit = 0, unit_rest = 0;  ///< (high - low) / count as a sum of two doubles
+    bool exact = false;              ///< whether every i * unit is a double
+    double at(std::int64_t i) const;
+    std::int64_t line_before(double coordinate) const;
+  };
+  static Axis make_axis(double low, double high, int trees);
+
+  Box box_;
+  int trees_x_, trees_y_;
+  double tree_edge_;
+  Axis x_, y_;
+};
+
+/// The root for a geometry: as the user gave it; the geometry's own bounding box where all four sides are
+/// boundary and square trees tile it; else that box, padded. Throws InputError where the geometry sticks out
+/// of the user's root.
+Lattice choose_root(const Geometry& geometry, const std::optional<RootOptions>& wanted);
+
+}  // namespace quadloop

@@ -1,0 +1,146 @@
+#include "mesher/sizes/demanded_splits.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
+#include "mesher/base/morton.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::size_t block = 16;
+constexpr std::uint8_t children_bits = 0xf, asked_bit = 0x10;
+constexpr std::uint64_t children_of_word = 0x0f0f0f0f0f0f0f0fULL;
+
+/// Of the quadrant of this level that holds a place. No quadrant deeper than this is split: its coordinates
+/// in units of its size fit into 32 bits.
+std::uint64_t key_of(const Quadrant& place, int level) {
+  const int shift = Quadrant::unit_level - level;
+  return morton_key(static_cast<std::uint32_t>(place.x >> shift),
+                    static_cast<std::uint32_t>(place.y >> shift));
+}
+
+void make_unique(std::vector<std::uint64_t>& keys) {
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+}
+
+using KeysOfLevels = std::array<std::vector<std::uint64_t>, Quadrant::unit_level>;
+
+/// The keys that are asked for, level by level, the same on all ranks.
+KeysOfLevels gather_asked(const Communicator& comm, std::span<const SplitDemand> demands) {
+  KeysOfLevels asked;
+  for (const SplitDemand& demand : demands) {
+    for (std::uint32_t levels = demand.levels; levels != 0; levels &= levels - 1) {
+      const int level = std::countr_zero(levels);
+      QUADLOOP_REQUIRE(level <= demand.leaf.level && level < Quadrant::unit_level - 1,
+                       "a split below its leaf, or below the lattice");
+      auto& keys = asked[level];
+      const std::uint64_t key = key_of(demand.leaf, level);
+      if (keys.empty() || keys.back() != key) keys.push_back(key);
+    }
+  }
+  for (auto& keys : asked) {
+    make_unique(keys);
+    keys = comm.all_gather_values(std::span<const std::uint64_t>(keys));
+    make_unique(keys);
+  }
+  return asked;
+}
+
+/// Those keys and all above them.
+KeysOfLevels with_ancestors(KeysOfLevels keys) {
+  for (std::size_t level = keys.size() - 1; level > 0; --level) {
+    for (const std::uint64_t key : keys[level]) {
+      if (keys[level - 1].empty() || keys[level - 1].back() != key >> 2) keys[level - 1].push_back(key >> 2);
+    }
+    make_unique(keys[level - 1]);
+  }
+  return keys;
+}
+
+}  // namespace
+
+DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands) {
+  const KeysOfLevels asked = gather_asked(comm, demands), all = with_ancestors(asked);
+  std::int32_t first = 0;
+  for (std::size_t level = 0; level < all.size() && !all[level].empty(); ++level) {
+    const auto begin = size32(masks_);
+    append_level(all[level], asked[level],
+                 level == 0 ? std::span<const Key>{} : std::span<const Key>(all[level - 1]), first);
+    first = begin;
+    finest_ = static_cast<int>(level) + 1;
+  }
+  roots_ = all[0];
+  std::int32_t children = 0;
+  for (std::size_t i = 0; i < masks_.size(); ++i) {
+    if (i % block == 0) children_before_.push_back(children);
+    children += std::popcount(static_cast<unsigned>(masks_[i] & children_bits));
+  }
+}
+
+/// `first_above` is the number of the first of the level above. Marks the parents.
+void DemandedSplits::append_level(std::span<const Key> all, std::span<const Key> asked,
+                                  std::span<const Key> above, std::int32_t first_above) {
+  std::size_t next_asked = 0, parent = 0;
+  for (const Key key : all) {
+    const bool is_asked = next_asked < asked.size() && asked[next_asked] == key;
+    if (is_asked) ++next_asked;
+    masks_.push_back(is_asked ? asked_bit : 0);
+    if (above.empty()) continue;
+    while (above[parent] != key >> 2) ++parent;
+    masks_[static_cast<std::size_t>(first_above) + parent] |= static_cast<std::uint8_t>(1U << (key & 3));
+  }
+}
+
+std::int32_t DemandedSplits::root(std::int64_t tree_x, std::int64_t tree_y) const {
+  const Key key = key_of({tree_x << Quadrant::unit_level, tree_y << Quadrant::unit_level, 0}, 0);
+  const auto found = std::lower_bound(roots_.begin(), roots_.end(), key);
+  return found == roots_.end() || *found != key ? none : static_cast<std::int32_t>(found - roots_.begin());
+}
+
+std::int32_t DemandedSplits::child(std::int32_t number, Corner quarter) const {
+  const int k = curve_index(quarter);
+  const std::size_t at = number;
+  if ((masks_[at] >> k & 1) == 0) return none;
+  std::array<std::uint64_t, block / sizeof(std::uint64_t)>
+      masks{};  // of the block, up to this one: whole words are counted at once
+  if (at % block != 0) std::memcpy(masks.data(), &masks_[at - at % block], at % block);
+  std::int32_t before = children_before_[at / block];
+  for (const std::uint64_t word : masks) before += std::popcount(word & children_of_word);
+  before += std::popcount(static_cast<unsigned>(masks_[at]) & ((1U << k) - 1));
+  return size32(roots_) + before;
+}
+
+bool DemandedSplits::asked(std::int32_t number) const { return (masks_[number] & asked_bit) != 0; }
+
+/// The steps that lead to this leaf too.
+void DemandPath::keep_above(const Quadrant& leaf) {
+  const auto different = static_cast<std::uint64_t>((leaf.x ^ last_.x) | (leaf.y ^ last_.y));
+  const int common = Quadrant::unit_level -
+                     static_cast<int>(std::bit_width(different));  // negative where even the trees are others
+  const int kept = std::min({static_cast<int>(steps_.size()), common + 1, leaf.level + 1});
+  steps_.resize(std::max(kept, 0));
+  last_ = leaf;
+}
+
+std::uint32_t DemandPath::levels_above(const Quadrant& leaf) {
+  keep_above(leaf);
+  if (steps_.empty())
+    steps_.push_back({demanded_->root(leaf.x >> Quadrant::unit_level, leaf.y >> Quadrant::unit_level), 0});
+  while (true) {
+    const auto [number, levels] = steps_.back();
+    const int level = static_cast<int>(steps_.size()) - 1;
+    if (number == DemandedSplits::none || level == leaf.level) return levels;
+    const Corner quarter = quarter_at(leaf.x, leaf.y, level);
+    steps_.push_back(
+        {demanded_->child(number, quarter), levels | (demanded_->asked(number) ? 1U << level : 0U)});
+  }
+}
+
+}  // namespace quadloop

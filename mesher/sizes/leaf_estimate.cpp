@@ -1,0 +1,126 @@
+#include "mesher/sizes/leaf_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "mesher/sizes/leaves_ahead.hpp"
+#include "mesher/sizes/size_cursor.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double followed = 192;  ///< split quadrants of a level, about
+
+/// A quadrant that stands for `weight` of its level.
+struct Sampled {
+  Quadrant place;
+  double weight = 1;
+  enum class Side : std::uint8_t {
+    unknown,
+    inside,
+    outside
+  } side = Side::unknown;  ///< known where it holds no outline
+};
+
+/// The chances of being followed: half by the leaves expected, a quarter by the outline inside, a quarter for
+/// each alike, so that a wrong guess of any one kind cannot hide much.
+std::vector<double> chances_of(const std::vector<Sampled>& splits, LeavesAhead& leaves, SizeCursor& cursor) {
+  std::vector<double> ahead, outline;
+  double all_ahead = 0, all_outline = 0, all = 0;
+  for (const Sampled& s : splits) {
+    ahead.push_back(s.weight * leaves.below(s.place));
+    outline.push_back(s.weight * static_cast<double>(cursor.segments_in(s.place).size()));
+    all_ahead += ahead.back();
+    all_outline += outline.back();
+    all += s.weight;
+  }
+  std::vector<double> chances;
+  for (std::size_t i = 0; i < splits.size(); ++i) {
+    const double by_outline = all_outline > 0 ? outline[i] / all_outline : 0;
+    chances.push_back(std::min(
+        1.0, followed * (0.5 * ahead[i] / all_ahead + 0.25 * by_outline + 0.25 * splits[i].weight / all)));
+  }
+  return chances;
+}
+
+/// Evenly along the curve. All where there are few.
+std::vector<Sampled> chosen(std::vector<Sampled> splits, LeavesAhead& leaves, SizeCursor& cursor) {
+  if (static_cast<double>(splits.size()) <= followed) return splits;
+  const std::vector<double> chances = chances_of(splits, leaves, cursor);
+  std::vector<Sampled> kept;
+  double sum = 0.5;
+  for (std::size_t i = 0; i < splits.size(); ++i) {
+    const double before = sum;
+    sum += chances[i];
+    if (chances[i] < 1 && std::floor(sum) == std::floor(before)) continue;
+    kept.push_back(splits[i]);
+    kept.back().weight /= chances[i];
+  }
+  return kept;
+}
+
+class LeafCount {
+ public:
+  LeafCount(const SizeTree& sizes, const Interior& inside)
+      : sizes_{sizes}, inside_{inside}, cursor_{sizes}, gradation_{sizes}, ahead_{sizes, gradation_} {}
+
+  LeafEstimate count() {
+    std::vector<Sampled> level;
+    for (std::int64_t ty = 0; ty < sizes_.lattice().trees_y(); ++ty) {
+      for (std::int64_t tx = 0; tx < sizes_.lattice().trees_x(); ++tx) {
+        level.push_back({{tx << Quadrant::unit_level, ty << Quadrant::unit_level, 0}});
+      }
+    }
+    while (!level.empty()) level = chosen(splits_among(children_of(level)), ahead_, cursor_);
+    return counted_;
+  }
+
+ private:
+  static std::vector<Sampled> children_of(const std::vector<Sampled>& parents) {
+    std::vector<Sampled> children;
+    for (const Sampled& parent : parents) {
+      for (const Corner quarter : corners_along_curve)
+        children.push_back({parent.place.child(quarter), parent.weight, parent.side});
+    }
+    return children;
+  }
+
+  std::vector<Sampled> splits_among(const std::vector<Sampled>& quadrants) {
+    std::vector<Sampled> splits;
+    for (Sampled q : quadrants) {
+      const bool cut = q.side == Sampled::Side::unknown && !cursor_.segments_in(q.place).empty();
+      if (!cut && q.side == Sampled::Side::unknown) q.side = side_of(q.place);
+      if (gradation_.must_split(q.place)) {
+        splits.push_back(q);
+      } else {
+        (cut                               ? counted_.cut
+         : q.side == Sampled::Side::inside ? counted_.inside
+                                           : counted_.outside) += q.weight;
+      }
+    }
+    return splits;
+  }
+
+  Sampled::Side side_of(const Quadrant& q) const {
+    const std::int64_t half = q.size() / 2;
+    const Point centre = sizes_.lattice().corner(q.x + half, q.y + half);
+    return inside_.contains(centre) ? Sampled::Side::inside : Sampled::Side::outside;
+  }
+
+  const SizeTree& sizes_;
+  const Interior& inside_;
+  SizeCursor cursor_;
+  Gradation gradation_;
+  LeavesAhead ahead_;
+  LeafEstimate counted_;
+};
+
+}  // namespace
+
+LeafEstimate estimate_leaves(const SizeTree& sizes, const Interior& inside) {
+  return LeafCount(sizes, inside).count();
+}
+
+}  // namespace quadloop

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/sizes/size_tree.hpp"
+
+namespace quadloop {
+
+/// Looks quadrants up in the wanted tree; few steps each where they come in the order of the curve, as it
+/// remembers the last one.
+class SizeCursor {
+ public:
+  /// `tree` must outlive it.
+  explicit SizeCursor(const SizeTree& tree) : tree_{tree} {}
+
+  /// The segments that meet the inside of the quadrant, in ascending order; valid until the next call.
+  std::span<const std::int32_t> segments_in(const Quadrant& q);
+  /// The level at which case, geometry and demands alone would have stopped at this leaf's place.
+  int wanted_level(const Quadrant& leaf);
+
+ private:
+  std::int32_t deepest_node_at(const Quadrant& q);
+
+  const SizeTree& tree_;
+  std::int32_t last_ = -1;  ///< node last found
+  std::vector<std::int32_t> found_;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,136 @@
+#include "mesher/sizes/size_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace quadloop {
+
+namespace {
+
+constexpr double turning_unit = 0x1p-20;  // degrees; integers, so that a sum does not depend on its order
+
+}  // namespace
+
+SizeRules::SizeRules(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
+                     Unresolved unresolved, const DemandedSplits& demanded)
+    : outline_{&outline},
+      lattice_{&lattice},
+      options_{options},
+      demanded_{&demanded},
+      unresolved_{std::move(unresolved)},
+      finest_of_case_{lattice.finest_level(options.min)},
+      finest_{std::max(finest_of_case_, demanded.finest_level())},
+      coarsest_{1},
+      slope_{std::llround((options.gradation - 1) / 2 * static_cast<double>(1 << slope_bits))} {
+  while (coarsest_ < finest_of_case_ && lattice.edge(coarsest_) > options.max) ++coarsest_;
+  const Geometry& g = outline.geometry();
+  const auto line_after = [](std::int64_t line, double at, double coordinate) {
+    return at < coordinate ? line + 1 : line;
+  };
+  const std::int64_t right = lattice.column_at(g.box().high.x), top = lattice.row_at(g.box().high.y);
+  domain_ = {lattice.column_at(g.box().low.x), line_after(right, lattice.x(right), g.box().high.x),
+             lattice.row_at(g.box().low.y), line_after(top, lattice.y(top), g.box().high.y)};
+  if (options.gap) proximity_.emplace(g);
+  for (std::int32_t s = 0; s < g.size(); ++s) {
+    spacing_.push_back(g.spacing_of(s));
+    corner_spacing_.push_back(g.corner_spacing_of(s));
+    turning_.push_back(g.kept(s) ? 0 : std::llround(g.turn_degrees(s) / turning_unit));
+  }
+}
+
+std::vector<std::int32_t> SizeRules::sized_corners() const {
+  std::vector<std::int32_t> vertices;
+  for (std::size_t v = 0; v < corner_spacing_.size(); ++v) {
+    if (corner_spacing_[v] > 0) vertices.push_back(static_cast<std::int32_t>(v));
+  }
+  return vertices;
+}
+
+SizeRules::Judgement SizeRules::judge(const SizedQuadrant& q) const {
+  const bool fine_inside = !q.segments.empty() || q.demanded;
+  Judgement said{!fine_inside && !q.made_by_demand, fine_inside ? finest_ : coarsest_};
+  if (q.made_by_demand) said.finest = std::max(said.finest, q.place.level);
+  const auto ask_for = [&](double spacing) {
+    said.plain = false;
+    said.finest = std::max(said.finest, level_for(spacing));
+  };
+  for (const Source& source : options_.sources) {
+    if (meets(source, q.box)) ask_for(source.spacing);
+  }
+  for (const std::int32_t vertex : q.corners) ask_for(corner_spacing_[vertex]);
+  return said;
+}
+
+bool SizeRules::in_domains_box(const Quadrant& q) const {
+  return q.x < domain_[1] && domain_[0] < q.x + q.size() && q.y < domain_[3] && domain_[2] < q.y + q.size();
+}
+
+std::int64_t SizeRules::gap_to_domain(const Quadrant& q) const {
+  return std::max({std::int64_t{0}, domain_[0] - (q.x + q.size()), q.x - domain_[1],
+                   domain_[2] - (q.y + q.size()), q.y - domain_[3]});
+}
+
+int SizeRules::level_for(double spacing) const {
+  int level = coarsest_;
+  while (level < finest_of_case_ && lattice_->edge(level) > spacing) ++level;
+  return level;
+}
+
+int SizeRules::level_of_outline(const Quadrant& q, std::span<const std::int32_t> segments) const {
+  double spacing = lattice_->tree_edge();
+  std::int64_t turning = 0;
+  for (const std::int32_t s : segments) {
+    spacing = std::min(spacing, spacing_[s]);
+    turning += turning_[s];
+  }
+  if (options_.curvature && turning > 0) {
+    const double turns = static_cast<double>(turning) * turning_unit / *options_.curvature;
+    spacing = std::min(spacing, lattice_->edge(q.level) / turns);
+  }
+  return level_for(spacing);
+}
+
+bool SizeRules::wants_split(const SizedQuadrant& quadrant) const {
+  const Quadrant& q = quadrant.place;
+  if (quadrant.demanded) return true;
+  if (q.level >= finest_of_case_) return false;
+  const Box& box = quadrant.box;
+  if (q.level < coarsest_ && in_domains_box(q)) return true;
+  const double size = lattice_->edge(q.level);
+  for (const Source& source : options_.sources) {
+    if (size > source.spacing && meets(source, box)) return true;
+  }
+  const auto too_large_for = [&](std::int32_t vertex) { return size > corner_spacing_[vertex]; };
+  if (std::ranges::any_of(quadrant.corners, too_large_for)) return true;
+  const std::span<const std::int32_t> inside = quadrant.segments;
+  if (inside.empty()) return false;
+  for (const std::int32_t s : inside) {
+    if (size > spacing_[s]) return true;
+  }
+  if (options_.curvature && turns_too_far(inside, box)) return true;
+  if (proximity_ && proximity_->narrower(inside, box, *options_.gap * size)) return true;
+  return unresolved_(q, inside);
+}
+
+bool SizeRules::turns_too_far(std::span<const std::int32_t> segments, const Box& box) const {
+  const Geometry& g = outline_->geometry();
+  std::vector<std::pair<BoundaryId, std::int64_t>> turned;
+  for (const std::int32_t v : segments) {
+    const bool inside = outline_->beyond_x(v, box.low.x) && !outline_->beyond_x(v, box.high.x) &&
+                        outline_->beyond_y(v, box.low.y) && !outline_->beyond_y(v, box.high.y);
+    if (!inside) continue;
+    const BoundaryId boundary = g.boundary_of(v);
+    const auto known = std::find_if(turned.begin(), turned.end(),
+                                    [&](const auto& entry) { return entry.first == boundary; });
+    if (known == turned.end()) {
+      turned.emplace_back(boundary, turning_[v]);
+    } else {
+      known->second += turning_[v];
+    }
+  }
+  const auto allowed = std::llround(*options_.curvature / turning_unit);
+  return std::any_of(turned.begin(), turned.end(), [&](const auto& entry) { return entry.second > allowed; });
+}
+
+}  // namespace quadloop

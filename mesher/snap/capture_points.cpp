@@ -1,0 +1,245 @@
+#include "mesher/snap/capture_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "mesher/base/ids.hpp"
+#include "mesher/geometry/nearest_on_segment.hpp"
+#include "mesher/snap/leaf_edge.hpp"
+
+namespace quadloop {
+
+namespace {
+
+// Shares of the local edge, where crossings nearer than usual_snap take a corner.
+constexpr double usual_snap = 0.4, corner_reach = 0.45, edge_reach = 0.34;
+constexpr double pointed_degrees =
+    45;  ///< a point that turns by more takes corners and edges along even where it is not kept
+constexpr double crossing_reach = 0.4;  ///< a crossing nearer to the point than this is taken by its edge
+
+/// Looks for what one kept point takes along.
+class PointCapture {
+ public:
+  PointCapture(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, double snap)
+      : graph_{graph}, lattice_{lattice}, geometry_{geometry}, share_{std::min(1.0, snap / usual_snap)} {}
+
+  /// Whether a point lies on a side of the leaf: the crossings there have its position already.
+  bool on_lattice(std::int32_t leaf, Point p) const {
+    const Box box = lattice_.box_of(graph_.leaf(leaf));
+    return p.x == box.low.x || p.x == box.high.x || p.y == box.low.y || p.y == box.high.y;
+  }
+
+  /// The corner of the leaf, or hanging node on its sides, that is near enough.
+  std::optional<CornerCapture> corner_near(std::int32_t leaf, Point p) const {
+    std::optional<CornerCapture> nearest;
+    bool contested = false;
+    for (const Site site : lattice_sites) {
+      if (is_middle(site) && !graph_.has_hanging(leaf, side_of(site))) continue;
+      const LatticePoint corner = graph_.leaf(leaf).at(site);
+      const double distance = length(lattice_.corner(corner) - p);
+      if (distance >= share_ * corner_reach * shortest_edge_at(graph_, lattice_, corner) ||
+          (nearest && distance > nearest->distance))
+        continue;
+      contested = nearest && distance == nearest->distance;
+      nearest = CornerCapture{corner, distance, -1, -1, -1};
+    }
+    return contested ? std::nullopt : nearest;
+  }
+
+  /// The edge of the leaf that is near enough, with the crossings that it loses to the point.
+  std::optional<Snap> edge_near(std::int32_t leaf, std::int32_t vertex, const LeafTrace& view,
+                                const Piece& piece) const {
+    const Point p = geometry_.point(vertex);
+    LeafEdge nearest;
+    bool contested = false;
+    double least = share_ * edge_reach;
+    for (const Side side : all_sides) {
+      const LeafEdge edge = leaf_edge_near(graph_, lattice_, leaf, side, p);
+      const double distance = std::abs(edge.across(p) - line_of(edge)) / edge.length(lattice_);
+      if (distance > least) continue;
+      contested = distance == least;
+      nearest = edge;
+      least = distance;
+    }
+    if (contested || least == share_ * edge_reach || across(nearest) == LeafGraph::none) return std::nullopt;
+    Snap snap;
+    snap.corner = nearest.point((nearest.from + nearest.to) / 2);
+    snap.position = snap.centre = p;
+    snap.radius = share_ * edge_reach * nearest.length(lattice_);
+    snap.on_edge = true;
+    snap.vertical = nearest.vertical();
+    if (!take_crossings(nearest, vertex, view, piece, snap)) return std::nullopt;
+    return snap;
+  }
+
+ private:
+  double line_of(const LeafEdge& edge) const {
+    return edge.vertical() ? lattice_.x(edge.line) : lattice_.y(edge.line);
+  }
+
+  std::int32_t across(const LeafEdge& edge) const {
+    const bool ahead = edge.side == Side::right || edge.side == Side::top;
+    const std::int64_t beyond = ahead ? edge.line : edge.line - 1;
+    return edge.vertical() ? graph_.leaf_at(beyond, edge.from) : graph_.leaf_at(edge.from, beyond);
+  }
+
+  bool on_edge(const LeafEdge& edge, const Crossing& c) const {
+    const double at = edge.along(c.position);
+    return c.side == edge.side && edge.at(lattice_, edge.from) <= at && at <= edge.at(lattice_, edge.to);
+  }
+
+  /// The crossings of the point's own piece that lie on the edge and near it. False where another one lies
+  /// between, or another kept point near, or where what lies between point and crossing, which vanishes,
+  /// holds a kept point or reaches far: a bay behind a narrow mouth.
+  bool take_crossings(const LeafEdge& edge, std::int32_t vertex, const LeafTrace& view, const Piece& piece,
+                      Snap& snap) const {
+    const Point p = geometry_.point(vertex);
+    const double size = edge.length(lattice_);
+    double low = edge.along(p), high = low;
+    std::vector<std::int32_t> taken;
+    for (const std::int32_t c : {piece.entry, piece.exit}) {
+      const Crossing& crossing = view.crossing(c);
+      if (!on_edge(edge, crossing) || length(crossing.position - p) >= crossing_reach * size) continue;
+      if (!may_vanish(between(view.vertices_of(piece), vertex, c == piece.entry), p, crossing_reach * size))
+        return false;
+      snap.absorbed.push_back({crossing.segment, edge.vertical()});
+      taken.push_back(c);
+      low = std::min(low, edge.along(crossing.position));
+      high = std::max(high, edge.along(crossing.position));
+    }
+    for (std::int32_t c = 0; c < size32(view.crossings); ++c) {
+      const Crossing& crossing = view.crossing(c);
+      if (std::find(taken.begin(), taken.end(), c) != taken.end() || !on_edge(edge, crossing)) continue;
+      if (low <= edge.along(crossing.position) && edge.along(crossing.position) <= high) return false;
+    }
+    const auto vertices = view.vertices_of(piece);
+    return std::none_of(vertices.begin(), vertices.end(), [&](std::int32_t v) {
+      return v != vertex && geometry_.kept(v) && length(geometry_.point(v) - p) < crossing_reach * size;
+    });
+  }
+
+  /// The vertices of a piece before one of them, or after it.
+  static std::span<const std::int32_t> between(std::span<const std::int32_t> vertices, std::int32_t vertex,
+                                               bool before) {
+    const auto at =
+        static_cast<std::size_t>(std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin());
+    return before ? vertices.first(at) : vertices.subspan(at + 1);
+  }
+
+  bool may_vanish(std::span<const std::int32_t> vertices, Point into, double reach) const {
+    return std::none_of(vertices.begin(), vertices.end(), [&](std::int32_t v) {
+      return geometry_.kept(v) || length(geometry_.point(v) - into) >= reach;
+    });
+  }
+
+  const LeafGraph& graph_;
+  const Lattice& lattice_;
+  const Geometry& geometry_;
+  double share_;
+};
+
+/// Of those that claim one corner the nearest has it; none where two are equally near.
+std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
+  std::sort(claims.begin(), claims.end(), [](const CornerCapture& a, const CornerCapture& b) {
+    return a.corner != b.corner ? a.corner < b.corner : a.distance < b.distance;
+  });
+  std::vector<CornerCapture> settled;
+  for (std::size_t begin = 0, end = 0; begin < claims.size(); begin = end) {
+    while (end < claims.size() && claims[end].corner == claims[begin].corner) ++end;
+    if (end - begin == 1 || claims[begin].distance < claims[begin + 1].distance)
+      settled.push_back(claims[begin]);
+  }
+  return settled;
+}
+
+/// Moves one hanging node onto the nearest point of the outline in its leaf, if that is within reach and the
+/// node is the only one to be there.
+std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometry, const LeafTrace& view,
+                                 LatticePoint corner, double reach) {
+  const Point node = lattice.corner(corner);
+  Snap snap;
+  snap.corner = corner;
+  snap.centre = node;
+  double nearest = reach;
+  bool contested = false;  // two places are equally near
+  for (const Piece& piece : view.pieces) {
+    const auto vertices = view.vertices_of(piece);
+    const auto try_segment = [&](std::int32_t s) {
+      const Point p = nearest_on_segment(node, geometry.point(s), geometry.point(geometry.next(s)));
+      if (length(p - node) > nearest || !view.box.contains(p)) return;
+      contested = length(p - node) == nearest && snap.segment >= 0 && p != snap.position;
+      nearest = length(p - node);
+      snap.position = p;
+      snap.segment = s;
+    };
+    if (piece.entry >= 0) try_segment(piece.first_segment);
+    std::for_each(vertices.begin(), vertices.end(), try_segment);
+  }
+  if (snap.segment < 0 || contested) return std::nullopt;
+  return snap;
+}
+
+/// An edge that two points claim goes to neither.
+std::vector<Snap> settle_edges(std::vector<Snap> claims) {
+  const auto same = [](const Snap& a, const Snap& b) { return a.corner == b.corner; };
+  std::sort(claims.begin(), claims.end(), [](const Snap& a, const Snap& b) { return a.corner < b.corner; });
+  std::vector<Snap> settled;
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    const bool contested = (i > 0 && same(claims[i - 1], claims[i])) ||
+                           (i + 1 < claims.size() && same(claims[i], claims[i + 1]));
+    if (!contested) settled.push_back(claims[i]);
+  }
+  return settled;
+}
+
+}  // namespace
+
+Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
+                        const TracedForest& traced, double snap) {
+  const PointCapture capture(graph, lattice, geometry, snap);
+  std::vector<CornerCapture> corners;
+  std::vector<Snap> edges;
+  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    const std::int32_t trace = traced.trace_of[leaf];
+    if (trace < 0) continue;
+    const LeafTrace view = traced.traces[trace];
+    for (std::size_t p = 0; p < view.pieces.size(); ++p) {
+      if (view.pieces[p].entry < 0) continue;
+      for (const std::int32_t v : view.vertices_of(view.pieces[p])) {
+        if (!geometry.kept(v) && geometry.turn_degrees(v) < pointed_degrees) continue;
+        if (capture.on_lattice(leaf, geometry.point(v))) continue;
+        if (auto corner = capture.corner_near(leaf, geometry.point(v))) {
+          corner->vertex = v;
+          corner->trace = trace;
+          corner->piece = static_cast<std::int32_t>(p);
+          corners.push_back(*corner);
+        } else if (auto edge =
+                       !geometry.kept(v) ? std::nullopt : capture.edge_near(leaf, v, view, view.pieces[p])) {
+          edges.push_back(std::move(*edge));
+        }
+      }
+    }
+  }
+  return {settle_corners(std::move(corners)), settle_edges(std::move(edges))};
+}
+
+std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
+                                const TracedForest& traced, double share) {
+  std::vector<Snap> snaps;
+  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    const std::int32_t trace = traced.trace_of[leaf];
+    if (trace < 0) continue;
+    const Quadrant& q = graph.leaf(leaf);
+    for (const Side side : all_sides) {
+      if (!graph.has_hanging(leaf, side)) continue;
+      auto snap = hanging_snap(lattice, geometry, traced.traces[trace], q.at(middle_of(side)),
+                               share * lattice.edge(q.level + 1));
+      if (snap) snaps.push_back(std::move(*snap));
+    }
+  }
+  return snaps;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,57 @@
+#include "mesher/snap/corner_sights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/snap/leaf_edge.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Sorts small keys and then moves each sight once.
+std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
+  struct Key {
+    LatticePoint corner;
+    std::uint32_t index;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<Key> keys;
+  keys.reserve(sights.size());
+  for (const Sight& s : sights) keys.push_back({s.corner, static_cast<std::uint32_t>(keys.size())});
+  std::sort(keys.begin(), keys.end());
+  std::vector<Sight> sorted;
+  sorted.reserve(sights.size());
+  for (const Key& key : keys) sorted.push_back(sights[key.index]);
+  return sorted;
+}
+
+}  // namespace
+
+std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& lattice,
+                                    const TracedForest& traced) {
+  std::vector<Sight> sights;
+  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    const std::int32_t trace = traced.trace_of[leaf];
+    if (trace < 0) continue;
+    const LeafTrace view = traced.traces[trace];
+    for (std::size_t p = 0; p < view.pieces.size(); ++p) {
+      const Piece& piece = view.pieces[p];
+      if (piece.entry < 0) continue;
+      for (const std::int32_t c : {piece.entry, piece.exit}) {
+        const Crossing& crossing = view.crossing(c);
+        const LeafEdge edge = leaf_edge_near(graph, lattice, leaf, crossing.side, crossing.position);
+        const auto see = [&](std::int64_t end, Direction direction) {
+          const double distance = std::abs(edge.along(crossing.position) - edge.at(lattice, end));
+          sights.push_back({edge.point(end), direction, distance, edge.length(lattice), crossing.segment,
+                            trace, static_cast<std::int32_t>(p), c == piece.entry});
+        };
+        see(edge.from, edge.vertical() ? Direction::north : Direction::east);
+        see(edge.to, edge.vertical() ? Direction::south : Direction::west);
+      }
+    }
+  }
+  return sorted_by_corner(sights);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,129 @@
+#include "mesher/snap/leaf_trace.hpp"
+
+#include <algorithm>
+
+#include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// The numbers of the crossings of one segment with the sides of the leaf: at most one inwards and one
+/// outwards.
+struct Passage {
+  std::int32_t entry = -1, exit = -1;
+};
+
+Point crossing_of_vertical(const Geometry& g, std::int32_t s, double x, double low, double high) {
+  return {x, std::clamp(crossing_height(g.point(s), g.point(g.next(s)), x), low, high)};
+}
+
+Point crossing_of_horizontal(const Geometry& g, std::int32_t s, double y, double low, double high) {
+  const Point a = g.point(s), b = g.point(g.next(s));
+  return {std::clamp(crossing_height({a.y, a.x}, {b.y, b.x}, y), low, high), y};
+}
+
+/// Appends the crossings of one segment.
+Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& box, std::size_t first,
+                     std::vector<Crossing>& crossings) {
+  const Geometry& g = outline.geometry();
+  const std::int32_t end = g.next(s);
+  Passage passage;
+  const auto add = [&](Side side, bool enters, Point position) {
+    (enters ? passage.entry : passage.exit) = static_cast<std::int32_t>(crossings.size() - first);
+    crossings.push_back({s, side, enters, position});
+  };
+  const auto crosses = [&](bool a_beyond, bool b_beyond, Point from, Point to) {
+    return a_beyond != b_beyond && outline.has_left(s, from) != outline.has_left(s, to);
+  };
+  const Point sw = box.low, se{box.high.x, box.low.y}, ne = box.high, nw{box.low.x, box.high.y};
+  const bool above_low = outline.beyond_y(end, box.low.y), above_high = outline.beyond_y(end, box.high.y);
+  const bool past_low = outline.beyond_x(end, box.low.x), past_high = outline.beyond_x(end, box.high.x);
+  if (crosses(outline.beyond_y(s, box.low.y), above_low, sw, se)) {
+    add(Side::bottom, above_low, crossing_of_horizontal(g, s, box.low.y, box.low.x, box.high.x));
+  }
+  if (crosses(outline.beyond_x(s, box.high.x), past_high, se, ne)) {
+    add(Side::right, !past_high, crossing_of_vertical(g, s, box.high.x, box.low.y, box.high.y));
+  }
+  if (crosses(outline.beyond_y(s, box.high.y), above_high, ne, nw)) {
+    add(Side::top, !above_high, crossing_of_horizontal(g, s, box.high.y, box.low.x, box.high.x));
+  }
+  if (crosses(outline.beyond_x(s, box.low.x), past_low, nw, sw)) {
+    add(Side::left, past_low, crossing_of_vertical(g, s, box.low.x, box.low.y, box.high.y));
+  }
+  return passage;
+}
+
+/// Follows the outline from the segment at `start` to where it leaves the leaf or comes back; appends the
+/// vertices on the way.
+Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::span<const Passage> passages,
+             std::vector<char>& seen, std::size_t start, std::size_t first_vertex,
+             std::vector<std::int32_t>& vertices) {
+  Piece piece;
+  piece.first_segment = segments[start];
+  piece.entry = passages[start].entry;
+  piece.vertices_begin = static_cast<std::int32_t>(vertices.size() - first_vertex);
+  std::size_t at = start;
+  while (true) {
+    seen[at] = 1;
+    piece.exit = passages[at].exit;
+    if (piece.exit >= 0) break;
+    const std::int32_t vertex = g.next(segments[at]);
+    vertices.push_back(vertex);
+    const auto found = std::lower_bound(segments.begin(), segments.end(), vertex);
+    QUADLOOP_REQUIRE(found != segments.end() && *found == vertex, "the outline ends inside a leaf");
+    at = static_cast<std::size_t>(found - segments.begin());
+    if (at == start) break;
+  }
+  piece.vertices_end = static_cast<std::int32_t>(vertices.size() - first_vertex);
+  return piece;
+}
+
+}  // namespace
+
+std::int32_t LeafTraces::add(const ShiftedOutline& outline, const Box& box,
+                             std::span<const std::int32_t> segments) {
+  begins_.push_back({box, size32(crossings_), size32(pieces_), size32(vertices_)});
+  const std::size_t first_crossing = crossings_.size(), first_vertex = vertices_.size();
+  thread_local std::vector<Passage> passages;
+  thread_local std::vector<char> seen;
+  passages.clear();
+  for (const std::int32_t s : segments)
+    passages.push_back(find_passage(outline, s, box, first_crossing, crossings_));
+  seen.assign(segments.size(), 0);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (passages[i].entry >= 0)
+      pieces_.push_back(follow(outline.geometry(), segments, passages, seen, i, first_vertex, vertices_));
+  }
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (seen[i] == 0)
+      pieces_.push_back(follow(outline.geometry(), segments, passages, seen, i, first_vertex, vertices_));
+  }
+  return size32(begins_) - 1;
+}
+
+LeafTrace LeafTraces::operator[](std::int32_t trace) const {
+  const std::size_t i = trace;
+  const Begin& begin = begins_[i];
+  const bool last = i + 1 == begins_.size();
+  const auto part = [](const auto& all, std::int32_t from, std::size_t to) {
+    return std::span(all).subspan(from, to - static_cast<std::size_t>(from));
+  };
+  return {
+      begin.box,
+      part(crossings_, begin.crossings,
+           last ? crossings_.size() : static_cast<std::size_t>(begins_[i + 1].crossings)),
+      part(pieces_, begin.pieces, last ? pieces_.size() : static_cast<std::size_t>(begins_[i + 1].pieces)),
+      part(vertices_, begin.vertices,
+           last ? vertices_.size() : static_cast<std::size_t>(begins_[i + 1].vertices))};
+}
+
+void LeafTraces::clear() {
+  begins_.clear();
+  crossings_.clear();
+  pieces_.clear();
+  vertices_.clear();
+}
+
+}  // namespace quadloop

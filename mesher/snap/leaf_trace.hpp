@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/geometry/shifted_outline.hpp"
+#include "mesher/lattice/lattice.hpp"
+
+namespace quadloop {
+
+/// Where the outline crosses a side of a leaf.
+struct Crossing {
+  std::int32_t segment = -1;
+  Side side = Side::bottom;
+  bool enters = false;  ///< into the leaf
+  Point position;       ///< rounded once; the same for both leaves at the side
+};
+
+/// The outline's run through a leaf: from a crossing over vertices inside to a crossing, or a whole loop
+/// inside (no crossings). Numbers count from the first of its leaf.
+struct Piece {
+  std::int32_t entry = -1, exit = -1;                 ///< numbers of crossings; -1 for a loop
+  std::int32_t first_segment = -1;                    ///< the segment that the piece begins on
+  std::int32_t vertices_begin = 0, vertices_end = 0;  ///< its vertices inside the leaf
+};
+
+/// All of the outline inside one leaf, cut at its sides (thesis Fig. 3.10, 3.11). A view of a LeafTraces.
+struct LeafTrace {
+  Box box;
+  std::span<const Crossing> crossings;
+  std::span<const Piece> pieces;
+  std::span<const std::int32_t> vertices;
+
+  const Crossing& crossing(std::int32_t c) const { return crossings[c]; }
+  std::span<const std::int32_t> vertices_of(const Piece& p) const {
+    return vertices.subspan(p.vertices_begin, p.vertices_end - p.vertices_begin);
+  }
+};
+
+/// The outline inside any number of leaves.
+class LeafTraces {
+ public:
+  /// Traces the outline through one more leaf. `segments` are those that meet its inside, in ascending order.
+  /// Exact in its decisions; the positions of crossings are rounded. Work and memory depend on these segments
+  /// alone. Returns the number of the trace.
+  std::int32_t add(const ShiftedOutline& outline, const Box& box, std::span<const std::int32_t> segments);
+
+  LeafTrace operator[](std::int32_t trace) const;
+  void clear();
+
+ private:
+  struct Begin {
+    Box box;
+    std::int32_t crossings = 0, pieces = 0, vertices = 0;
+  };
+  std::vector<Begin> begins_;
+  std::vector<Crossing> crossings_;
+  std::vector<Piece> pieces_;
+  std::vector<std::int32_t> vertices_;
+};
+
+/// The outline in this rank's leaves and in the ghost leaves.
+struct TracedForest {
+  LeafTraces traces;
+  std::vector<std::int32_t> trace_of;  ///< of each leaf of the graph; -1 where it holds no geometry
+};
+
+}  // namespace quadloop

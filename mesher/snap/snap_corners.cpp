@@ -1,0 +1,69 @@
+#include "mesher/snap/snap_corners.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "mesher/snap/leaf_edge.hpp"
+#include "mesher/snap/snap_corner.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Forgets the crossings that bent edges have taken.
+void drop_taken(const std::vector<Snap>& edges, std::vector<Sight>& sights) {
+  std::set<std::tuple<bool, std::int64_t, std::int32_t>> taken;  // vertical, line, segment
+  for (const Snap& edge : edges) {
+    for (const Snap::Absorbed& a : edge.absorbed)
+      taken.emplace(edge.vertical, edge.vertical ? edge.corner.x : edge.corner.y, a.segment);
+  }
+  std::erase_if(sights, [&](const Sight& s) {
+    const bool vertical = is_vertical(s.direction);
+    return taken.contains({vertical, vertical ? s.corner.x : s.corner.y, s.segment});
+  });
+}
+
+/// Whether any crossing can be near enough: the edges at a corner differ by a factor of two at most.
+bool may_claim(std::span<const Sight> sights, double share) {
+  const double reach = share * sights.front().edge * 2;
+  return std::any_of(sights.begin(), sights.end(), [&](const Sight& s) { return s.distance < reach; });
+}
+
+/// Adds those whose place is not taken.
+void add_hanging(std::vector<Snap> hanging, std::vector<Snap>& snaps) {
+  std::set<LatticePoint> taken;
+  for (const Snap& s : snaps) taken.insert(s.corner);
+  for (Snap& s : hanging) {
+    if (taken.insert(s.corner).second) snaps.push_back(std::move(s));
+  }
+}
+
+}  // namespace
+
+std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
+                               const TracedForest& traced, double share) {
+  std::vector<Sight> sights = sights_by_corner(graph, lattice, traced);
+  Captures captures = capture_points(graph, lattice, geometry, traced, share);
+  drop_taken(captures.edges, sights);
+  std::vector<Snap> snaps = std::move(captures.edges);
+  auto captured = captures.corners.begin();
+  for (std::size_t begin = 0, end = 0; begin < sights.size() || captured != captures.corners.end();
+       begin = end) {
+    const bool is_captured = captured != captures.corners.end() &&
+                             (begin == sights.size() || captured->corner <= sights[begin].corner);
+    const LatticePoint corner = is_captured ? captured->corner : sights[begin].corner;
+    while (end < sights.size() && sights[end].corner == corner) ++end;
+    const auto seen = std::span<const Sight>(sights).subspan(begin, end - begin);
+    if (!is_captured && !may_claim(seen, share)) continue;
+    const SightedCorner sighted{corner, lattice.corner(corner), shortest_edge_at(graph, lattice, corner),
+                                seen};
+    auto snap = is_captured ? snap_captured(geometry, traced.traces, sighted, share, *captured++)
+                            : snap_corner(geometry, traced.traces, sighted, share);
+    if (snap) snaps.push_back(std::move(*snap));
+  }
+  add_hanging(hanging_snaps(graph, lattice, geometry, traced, share), snaps);
+  return snaps;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "mesher/snap/leaf_trace.hpp"
+#include "mesher/snap/snap.hpp"
+
+namespace quadloop {
+
+/// Chooses the corners to snap: first those that kept points capture (capture_points), then those with a
+/// crossing nearer than `share` of the shortest leaf edge there (snap_corner). Each corner is decided alone,
+/// from the traces of the leaves around it, so that all ranks which see it decide the same.
+std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
+                               const TracedForest& traced, double share);
+
+}  // namespace quadloop

@@ -1,0 +1,121 @@
+#include "quadloop/quadloop.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "adapt/remesh/remesh.hpp"
+#include "flow/euler/euler_solver.hpp"
+#include "io/mesh_file.hpp"
+#include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "quadloop/case/case_input.hpp"
+
+namespace quadloop {
+
+struct CaseParts {
+  CaseInput input;
+  std::string path;
+};
+
+namespace {
+
+const MeshInput& mesh_input(const Case& of) { return *of.parts().input.mesh; }
+
+const AdaptOptions& adapt_options(const Case& of) {
+  const auto& adapt = of.parts().input.settings.adapt;
+  if (!adapt)
+    throw InputError(of.parts().path + ": has no table [adapt]; it says from what the mesh is to be adapted");
+  return *adapt;
+}
+
+std::string text_of(const MeshFault& fault) {
+  return fmt::format("{}: {} at ({}, {})", name_of(fault.rule), fault.what, fault.place.x, fault.place.y);
+}
+
+}  // namespace
+
+Case::Case(const Communicator& comm, const std::string& path, const std::vector<std::string>& assignments) {
+  auto parts = std::make_shared<CaseParts>();
+  comm.together([&] { *parts = {load_case({path, assignments, {}, {}}), path}; });
+  parts->input.mesh->mesh.limit = mesh_limit(comm, {});
+  parts_ = std::move(parts);
+}
+
+const std::string& Case::title() const { return parts_->input.settings.title; }
+
+int Case::cycles() const {
+  const auto& adapt = parts_->input.settings.adapt;
+  return adapt ? adapt->cycles : 0;
+}
+
+const std::vector<std::string>& Case::warnings() const { return parts_->input.warnings; }
+
+NewMesh make_mesh(const Communicator& comm, const Case& of) {
+  MeshResult made = generate_mesh(comm, mesh_input(of)).result;
+  return {{std::move(made.mesh), std::move(made.tree), {}, {}}, {}, std::move(made.report.warnings)};
+}
+
+void smooth(const Communicator& comm, const Case& of, Mesh& mesh) {
+  SmoothOptions options = mesh_input(of).smooth;
+  options.geometry = &mesh_input(of).geometry;
+  smooth_mesh(comm, mesh, options);
+}
+
+FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
+  const auto& [input, path] = of.parts();
+  std::optional<ChosenSolver> chosen;
+  comm.together([&] {
+    chosen = chosen_solver(input.settings.solver, input.settings.outline.rules, input.mesh->geometry, path);
+    if (!std::holds_alternative<EulerOptions>(*chosen))
+      throw InputError(path + ": 'solver.kind' is 'command', not the built-in solver; set kind = \"euler\"");
+  });
+  return euler_solver(std::get<EulerOptions>(*chosen));
+}
+
+Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved) {
+  auto plan = std::make_shared<const AdaptationPlan>(
+      plan_adaptation(comm, mesh_input(of), adapt_options(of), solved));
+  return {plan->refined, plan->coarsened, plan->warnings, plan};
+}
+
+NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks, const SolvedMesh& before) {
+  CarriedMesh carried = carry_over(comm, mesh_input(of), *marks.plan, before);
+  MeshResult& made = carried.generated.result;
+  return {{std::move(made.mesh), std::move(made.tree), std::move(carried.start), {}},
+          std::move(carried.report),
+          std::move(made.report.warnings)};
+}
+
+std::vector<std::string> check(const Communicator& comm, const Mesh& mesh) {
+  const Mesh whole = gather_whole(comm, mesh);
+  std::vector<std::string> faults;
+  if (comm.is_root()) {
+    for (const MeshFault& fault : validate(whole)) faults.push_back(text_of(fault));
+  }
+  return broadcast_words(comm, faults);
+}
+
+MeshFile read(const Communicator& comm, const std::string& path) {
+  LoadedMesh loaded;
+  MeshOrder order;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    loaded = read_mesh(path);
+    order = space_filling_order(loaded.mesh);
+  });
+  MeshFile file;
+  file.mesh = scatter_mesh(comm, loaded.mesh, order);
+  file.field = scatter_field(comm, loaded.solution.value_or(Field{}), file.mesh, order);
+  file.warnings = broadcast_words(comm, loaded.warnings);
+  return file;
+}
+
+void write(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field& field) {
+  OutputSet outputs(comm);
+  write_mesh(outputs, mesh, path, field.width() > 0 ? &field : nullptr);
+  outputs.commit();
+}
+
+}  // namespace quadloop

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adapt/remesh/solved_mesh.hpp"
+#include "adapt/transfer/transfer.hpp"
+#include "flow/flow_solver.hpp"
+#include "mesher/base/communicator.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/field.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+/// quadloop as a library: this header and those that it names are its whole interface.
+///
+/// Life cycle: MPI is begun before the first Communicator and ended after the last one is gone. Every
+/// function here is *collective* over the communicator that it is given: all its ranks call it, in the same
+/// order, with the same case. Meshes and fields are spread over the ranks, and their bits do not depend on
+/// how many there are. Nothing is written to disk but by write().
+///
+/// Errors are exceptions derived from Error, the same on all ranks: InputError for a case, mesh or field that
+/// cannot be used, SolverError, OutputError; their text names the place and the cure.
+///
+///     const Communicator comm(MPI_COMM_WORLD);
+///     const Case wing(comm, "wing.toml");
+///     SolvedMesh now = make_mesh(comm, wing).solved;
+///     now.solution = my_solver(comm, now.mesh, now.solution, 0).solution;
+///     now = remesh(comm, wing, sense(comm, wing, now), now).solved;
+namespace quadloop {
+
+struct CaseParts;
+
+/// A case file with its geometry in place: sizes, smoothing, what to adapt to, the solver. Copies share it.
+class Case {
+ public:
+  /// Reads the file on every rank. `assignments` take the place of keys in it, as in "spacing.min=0.01".
+  /// Throws InputError with file, line and key.
+  Case(const Communicator& comm, const std::string& path, const std::vector<std::string>& assignments = {});
+
+  const std::string& title() const;
+  int cycles() const;  ///< adapt.cycles; 0 where the case does not adapt
+  /// What the user is to be told of case and geometry.
+  const std::vector<std::string>& warnings() const;
+
+  const CaseParts& parts() const { return *parts_; }  ///< for this library alone
+
+ private:
+  std::shared_ptr<const CaseParts> parts_;
+};
+
+/// A mesh that was made, and how.
+struct NewMesh {
+  SolvedMesh solved;       ///< the solution without variables in a first mesh, else carried over
+  TransferReport carried;  ///< what carrying over did to each variable
+  std::vector<std::string> warnings;
+};
+
+/// The case's first mesh, smoothed as the case says. Throws InputError, naming the boundary, where the
+/// geometry cannot be meshed.
+NewMesh make_mesh(const Communicator& comm, const Case& of);
+
+/// Moves the nodes of a mesh for better cells, as the case says; boundary nodes slide along its geometry. Any
+/// valid mesh of that geometry will do; its cells stay as they are. Never makes the worst cell worse.
+void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
+
+/// The built-in solver of the two-dimensional Euler equations with the case's settings. Writes density,
+/// x_velocity, y_velocity and pressure. Throws InputError where the case chooses a solver of its own.
+FlowSolver built_in_solver(const Communicator& comm, const Case& of);
+
+/// What a solution asks of the next mesh.
+struct Marks {
+  std::int64_t refined = 0, coarsened = 0;  ///< leaves of all ranks
+  std::vector<std::string> warnings;        ///< why nothing is marked, what was not reached
+  std::shared_ptr<const struct AdaptationPlan> plan;
+
+  bool change_mesh() const { return refined + coarsened > 0; }
+};
+
+/// Marks leaves by the case's table [adapt], from the solution. Throws InputError where the case has no such
+/// table, or the solution no such variable, or one that is not finite.
+Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
+
+/// The next mesh, smoothed, with the solution of the one before carried over to it.
+NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks, const SolvedMesh& before);
+
+/// What is wrong with a mesh: one line for each fault, with its place; none where it is valid. Gathers the
+/// mesh on one rank. The same lines on every rank.
+std::vector<std::string> check(const Communicator& comm, const Mesh& mesh);
+
+/// A mesh as a file had it.
+struct MeshFile {
+  Mesh mesh;
+  Field field;  ///< without variables where the file has none
+  std::vector<std::string> warnings;
+};
+
+/// Reads a mesh, and the field at its nodes, in the format that the suffix tells: .mesh, .cgns, .vtu, .su2,
+/// .msh. Throws InputError with the file and, in text, the line.
+MeshFile read(const Communicator& comm, const std::string& path);
+
+/// Writes a mesh, with the field where the format has a place for one, as the suffix tells; the file appears
+/// whole or not at all. The same bytes on any number of ranks. Throws OutputError.
+void write(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field& field = {});
+
+}  // namespace quadloop

@@ -1,0 +1,139 @@
+// The loop in memory, with a solver of a few lines: each cycle's mesh is finer where the flow changes, the
+// flow is carried over, and one rank alone finds the same.
+#include "adapt/loop/loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesher/base/error.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+const MeshInput square_input = [] {
+  const std::vector<Point> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  MeshInput input{
+      {{{"side", 0, 30, "wall"}}, corners, {0, 4}, std::vector<BoundaryId>(4, BoundaryId{0})}, {}, {}, 0};
+  input.mesh.size.min = input.mesh.size.max = 0.125;
+  return input;
+}();
+
+AdaptOptions options_of(int cycles) {
+  AdaptOptions options;
+  options.cycles = cycles;
+  options.variables = {"q"};
+  options.min = 1.0 / 256;
+  return options;
+}
+
+/// q rises by 1 across a circle about the origin.
+double front(Point p) { return std::tanh(30 * (std::hypot(p.x, p.y) - 0.6)); }
+
+SolvedFlow solve_front(const Communicator&, const Mesh& mesh, const Field&, int) {
+  SolvedFlow flow;
+  flow.solution.names = {"q"};
+  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
+    flow.solution.values.push_back(front(mesh.point(NodeId{i})));
+  return flow;
+}
+
+SolvedFlow solve_constant(const Communicator&, const Mesh& mesh, const Field&, int) {
+  SolvedFlow flow;
+  flow.solution = {{"q"}, std::vector<double>(mesh.owned_nodes, 3.0), {}};
+  return flow;
+}
+
+/// What is called in which order, and the states that solvers start from.
+class Notes final : public CycleObserver {
+ public:
+  void begin(int cycle) override { calls += "b" + std::to_string(cycle); }
+  void meshed(const MeshResult&, const Field& start) override { calls += start.width() > 0 ? "M" : "m"; }
+  std::vector<std::string> solved(const Mesh&, const Field&) override {
+    calls += "s";
+    return {"from the observer"};
+  }
+  void finished(CycleRecord record, const std::vector<std::string>&,
+                const std::vector<std::string>& warnings) override {
+    calls += "f ";
+    records.push_back(record);
+    told = warnings;
+  }
+
+  std::string calls;
+  std::vector<CycleRecord> records;
+  std::vector<std::string> told;
+};
+
+std::vector<Point> all_nodes(const Communicator& comm, const Mesh& mesh) {
+  return comm.all_gather_values(std::span(mesh.points).first(mesh.owned_nodes));
+}
+
+TEST(Loop, RefinesWhereTheFlowChangesAndIsTheSameOnOneRank) {
+  Notes notes;
+  const LoopEnd end = run_loop(world(), square_input, options_of(2), solve_front, notes);
+  EXPECT_EQ(notes.calls, "b0msf b1Msf b2Msf ");
+  ASSERT_EQ(notes.records.size(), 3U);
+  EXPECT_GT(notes.records[1].nodes, notes.records[0].nodes);
+  EXPECT_GT(notes.records[2].nodes, notes.records[1].nodes);
+  EXPECT_LT(std::abs(notes.records[2].drift.at(0).second), 0.01);
+  EXPECT_EQ(end.first, 0);
+  EXPECT_EQ(end.last, 2);
+  EXPECT_FALSE(end.nothing_to_change);
+
+  const Communicator alone(MPI_COMM_SELF);
+  Notes of_one;
+  const LoopEnd on_one = run_loop(alone, square_input, options_of(2), solve_front, of_one);
+  ASSERT_TRUE(end.left && on_one.left);
+  EXPECT_EQ(all_nodes(world(), end.left->solved.mesh), all_nodes(alone, on_one.left->solved.mesh));
+  EXPECT_EQ(notes.records[2].drift, of_one.records[2].drift);
+}
+
+TEST(Loop, BeginsWithTheLastFlowCarriedOver) {
+  double worst = 0;
+  const FlowSolver solver = [&](const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
+    for (std::int32_t i = 0; cycle > 0 && i < mesh.owned_nodes; ++i)
+      worst = std::max(worst, std::abs(start.row(NodeId{i})[0] - front(mesh.point(NodeId{i}))));
+    return solve_front(comm, mesh, start, cycle);
+  };
+  Notes notes;
+  run_loop(world(), square_input, options_of(3), solver, notes);
+  EXPECT_GT(world().maximum(worst), 1e-4);  // linear between the nodes of a coarser mesh
+  EXPECT_LT(world().maximum(worst), 0.9);
+}
+
+TEST(Loop, GoesOnFromWhatACycleCameTo) {
+  Notes notes;
+  const LoopEnd whole = run_loop(world(), square_input, options_of(2), solve_front, notes);
+  LoopEnd begun = run_loop(world(), square_input, options_of(1), solve_front, notes);
+  const LoopEnd resumed =
+      run_loop(world(), square_input, options_of(2), solve_front, notes, 2, std::move(begun.left));
+  EXPECT_EQ(resumed.first, 2);
+  EXPECT_EQ(resumed.last, 2);
+  EXPECT_EQ(all_nodes(world(), whole.left->solved.mesh), all_nodes(world(), resumed.left->solved.mesh));
+}
+
+TEST(Loop, EndsWhereNothingIsToBeChanged) {
+  Notes notes;
+  const LoopEnd end = run_loop(world(), square_input, options_of(5), solve_constant, notes);
+  EXPECT_TRUE(end.nothing_to_change);
+  EXPECT_EQ(end.last, 0);
+  ASSERT_EQ(notes.told.size(), 2U);
+  EXPECT_EQ(notes.told[0], "from the observer");
+  EXPECT_NE(notes.told[1].find("is constant"), std::string::npos) << notes.told[1];
+}
+
+TEST(Loop, HandsOnWhatTheSolverThrows) {
+  const FlowSolver failing = [](const Communicator&, const Mesh&, const Field&, int) -> SolvedFlow {
+    throw SolverError("no flow today");
+  };
+  Notes notes;
+  EXPECT_THROW(run_loop(world(), square_input, options_of(1), failing, notes), SolverError);
+  EXPECT_EQ(notes.calls, "b0m");
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,187 @@
+// Edges are flipped until the triangulation is constrained Delaunay: unique under a strict order of nodes,
+// whatever triangles it began with.
+#include "mesher/delaunay/flipper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mesher/base/ids.hpp"
+#include "mesher/delaunay/delaunay_patch.hpp"
+
+namespace quadloop {
+namespace {
+
+using Triangle = Flipper::Triangle;
+using Triangles = std::vector<Triangle>;
+
+/// Nodes of a square grid, many on one circle, or moved a little.
+struct Grid {
+  explicit Grid(std::int32_t cells, double noise = 0) : n{cells} {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> off(-noise, noise);
+    for (std::int32_t j = 0; j <= n; ++j) {
+      for (std::int32_t i = 0; i <= n; ++i) {
+        const bool inner = 0 < i && i < n && 0 < j && j < n;
+        points.push_back({i + (inner ? off(random) : 0), j + (inner ? off(random) : 0)});
+      }
+    }
+    for (const Point& p : points) ranks.push_back(tie_rank({0.3 * n, 0.45 * n}, p));
+  }
+
+  /// Each square cut along a diagonal by lot.
+  Triangles split(unsigned seed) const {
+    std::mt19937_64 random(seed);
+    Triangles triangles;
+    for (std::int32_t j = 0; j < n; ++j) {
+      for (std::int32_t i = 0; i < n; ++i) {
+        const std::int32_t a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
+        const bool first = (random() & 1) != 0;
+        triangles.push_back(first ? Triangle{a, b, c} : Triangle{a, b, d});
+        triangles.push_back(first ? Triangle{a, c, d} : Triangle{b, c, d});
+      }
+    }
+    return triangles;
+  }
+
+  Point at(std::int32_t node) const { return points[node]; }
+  const TieRank& rank(std::int32_t node) const { return ranks[node]; }
+
+  std::int32_t n;
+  std::vector<Point> points;
+  std::vector<TieRank> ranks;
+};
+
+Triangles sorted(Triangles triangles) {
+  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+/// No node inside any circumcircle; the nodes on one are joined to the highest of them.
+void expect_delaunay(const Grid& grid, const Triangles& triangles) {
+  for (const Triangle& t : triangles) {
+    EXPECT_TRUE(is_positive(grid.at(t[0]), grid.at(t[1]), grid.at(t[2])));
+    const TieRank& highest = std::max({grid.rank(t[0]), grid.rank(t[1]), grid.rank(t[2])});
+    for (std::int32_t node = 0; node < size32(grid.points); ++node) {
+      if (std::find(t.begin(), t.end(), node) != t.end()) continue;
+      const int inside = in_circle(grid.at(t[0]), grid.at(t[1]), grid.at(t[2]), grid.at(node));
+      EXPECT_LE(inside, 0);
+      if (inside == 0) {
+        EXPECT_LT(grid.rank(node), highest);
+      }
+    }
+  }
+}
+
+TEST(Flipper, OneResultFromAnyDiagonals) {
+  for (const double noise : {0.0, 0.2}) {
+    const Grid grid(12, noise);
+    Flipper flipper;
+    Triangles first;
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      Triangles triangles = grid.split(seed);
+      flipper.flip_to_delaunay(grid.points, grid.ranks, triangles);
+      expect_delaunay(grid, triangles);
+      if (seed == 0) first = sorted(triangles);
+      EXPECT_EQ(sorted(triangles), first);
+    }
+  }
+}
+
+TEST(Flipper, RemembersNothingOfTheLastTriangulation) {
+  const Grid large(9, 0.2), small(3, 0.2);
+  Flipper used, fresh;
+  Triangles triangles = large.split(1), again = small.split(1), expected = again;
+  used.flip_to_delaunay(large.points, large.ranks, triangles);
+  used.flip_to_delaunay(small.points, small.ranks, again);
+  fresh.flip_to_delaunay(small.points, small.ranks, expected);
+  EXPECT_EQ(again, expected);
+}
+
+/// A quadrilateral whose longer diagonal, from the first node to the third, is not Delaunay.
+const std::vector<Point> kite{{-2, 0}, {0, -1}, {2, 0}, {0, 1}};
+const std::vector<TieRank> kite_ranks(4);
+const Triangles kite_triangles{{0, 1, 2}, {0, 2, 3}};
+
+TEST(Flipper, KeepsEdgesBetweenBlocks) {
+  Triangles triangles = kite_triangles;
+  const std::vector<std::int32_t> two{0, 1}, one{7, 7};
+  Flipper flipper;
+  flipper.flip_to_delaunay(kite, kite_ranks, triangles, {}, two);
+  EXPECT_EQ(triangles, kite_triangles);
+  flipper.flip_to_delaunay(kite, kite_ranks, triangles, {}, one);
+  EXPECT_EQ(sorted(triangles), (Triangles{{0, 1, 3}, {1, 2, 3}}));
+}
+
+/// So small that products of lengths vanish in double precision, though exactly it ought to be flipped.
+TEST(Flipper, MakesNoTriangleThatIsNotPositive) {
+  std::vector<Point> tiny;
+  for (const Point& p : kite) tiny.push_back(0x1p-600 * p);
+  ASSERT_GT(in_circle(tiny[0], tiny[2], tiny[3], tiny[1]), 0);
+  ASSERT_FALSE(is_positive(tiny[0], tiny[1], tiny[3]));
+  Triangles triangles = kite_triangles;
+  Flipper flipper;
+  flipper.flip_to_delaunay(tiny, kite_ranks, triangles);
+  EXPECT_EQ(triangles, kite_triangles);
+}
+
+/// The same edge is seen from both sides, and has the same nodes there; the others are at the border.
+TEST(Flipper, KnowsWhatIsAcross) {
+  const Grid grid(5, 0.2);
+  Triangles triangles = grid.split(2);
+  const std::vector<char> open(triangles.size(), 1);
+  Flipper flipper;
+  for (const bool is_open : {false, true}) {
+    flipper.flip_to_delaunay(grid.points, grid.ranks, triangles,
+                             is_open ? std::span<const char>(open) : std::span<const char>());
+    int outer = 0;
+    for (Flipper::Edge e = 0; e < static_cast<Flipper::Edge>(3 * triangles.size()); ++e) {
+      const auto node = [&](Flipper::Edge edge, int step) {
+        return triangles[Flipper::triangle_of(edge)][Flipper::corner_of(edge, step)];
+      };
+      const Flipper::Edge other = flipper.across(e);
+      if (other < 0) {
+        EXPECT_EQ(other, is_open ? Flipper::open_border : Flipper::border);
+        ++outer;
+        continue;
+      }
+      EXPECT_EQ(flipper.across(other), e);
+      EXPECT_EQ(node(e, 1), node(other, 2));
+      EXPECT_EQ(node(e, 2), node(other, 1));
+    }
+    EXPECT_EQ(outer, 4 * grid.n);
+  }
+}
+
+TEST(ShouldFlip, OnOneCircleTheHighestRankGetsTheEdge) {
+  const Point a{0, 0}, b{1, 1}, c{0, 1}, d{1, 0};
+  for (std::size_t highest = 0; highest < 4; ++highest) {
+    std::array<TieRank, 4> ranks;
+    ranks[highest].farther = 1;
+    EXPECT_EQ(should_flip(a, b, c, d, [&](std::size_t k) { return ranks[k]; }), highest >= 2);
+  }
+  EXPECT_FALSE(should_flip(a, b, c, d, [](std::size_t) { return TieRank{}; }));
+}
+
+/// Only triangles whose circles keep clear of the open side are final.
+TEST(DelaunayPatch, DoubtsWhatAnOpenBorderMightUndo) {
+  const Grid grid(10);
+  const Triangles triangles = grid.split(4);
+  std::vector<char> open(triangles.size(), 0);
+  EXPECT_EQ(DelaunayPatch(grid.points, grid.ranks, triangles, open).doubtful(), open);
+  std::fill(open.begin(), open.begin() + 2 * grid.n,
+            1);  // the lowest row of squares, and so three sides of it
+  const DelaunayPatch patch(grid.points, grid.ranks, triangles, open);
+  const std::vector<char> doubts = patch.doubtful();
+  for (std::size_t t = 0; t < doubts.size(); ++t) {
+    double lowest = grid.n;
+    for (const std::int32_t node : patch.triangles()[t]) lowest = std::min(lowest, patch.point(node).y);
+    if (lowest != 1) {
+      EXPECT_EQ(doubts[t] != 0, lowest == 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quadloop

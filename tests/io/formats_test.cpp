@@ -1,0 +1,75 @@
+// The table of formats: what lists are made from it, and that each row reads what it writes.
+#include "io/formats.hpp"
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include "tests/io/sample_mesh.hpp"
+
+namespace quadloop {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(Formats, AreListedByWhatTheyHold) {
+  EXPECT_EQ(formats_for({}), (Names{"mesh", "cgns", "vtu", "su2", "msh", "csv"}));
+  EXPECT_EQ(formats_for({Content::mesh}), (Names{"mesh", "cgns", "vtu", "su2", "msh"}));
+  EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "cgns", "vtu"}));
+  EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh"}));
+  EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), Names{});
+}
+
+TEST(Formats, StandInASentenceBySuffix) {
+  EXPECT_EQ(suffixes_for({Content::mesh}), ".mesh, .cgns, .vtu, .su2 or .msh");
+  EXPECT_EQ(suffixes_for({Content::solution}, "and"), ".mesh, .cgns, .vtu and .csv");
+  EXPECT_EQ(suffixes_for({Content::conditions}), ".cgns");
+}
+
+TEST(Formats, AreFoundByNameAndSuffix) {
+  EXPECT_EQ(format_named("vtu")->name, "vtu");
+  EXPECT_EQ(format_of("a/b.tree.cgns")->name, "cgns");
+  for (const char* path : {"a", "a.MESH", "mesh", "a.mesh/b", ".mesh", "a.tree.h5", "a."})
+    EXPECT_EQ(format_of(path), nullptr) << path;
+  EXPECT_EQ(format_named(""), nullptr);
+  EXPECT_EQ(format_named(".vtu"), nullptr);
+}
+
+void expect_same_solution(const FileFormat& format, const LoadedMesh& loaded, const Field& solution) {
+  ASSERT_EQ(loaded.solution.has_value(), format.holds(Content::solution));
+  if (!loaded.solution) return;
+  EXPECT_EQ(loaded.solution->values, solution.values);
+  EXPECT_EQ(loaded.solution->constants,
+            format.holds(Content::constants) ? solution.constants : std::vector<double>{});
+}
+
+TEST(Formats, EachReadsWhatItWrites) {
+  const Communicator alone(MPI_COMM_SELF);
+  const test::TemporaryFolder folder;
+  const Mesh mesh = test::sample_mesh(5);
+  const Field solution = test::sample_solution(mesh);
+  for (const FileFormat& format : file_formats()) {
+    SCOPED_TRACE(format.name);
+    const std::string path = folder.file("a." + format.name);
+    OutputSet outputs(alone);
+    if (format.holds(Content::mesh)) {
+      format.write_mesh(outputs, mesh, path, &solution);
+      outputs.commit();
+      const LoadedMesh loaded = format.read_mesh(path);
+      EXPECT_EQ(loaded.mesh.points, mesh.points);
+      EXPECT_EQ(loaded.mesh.triangles, mesh.triangles);
+      expect_same_solution(format, loaded, solution);
+    } else {
+      format.write_solution(outputs, mesh, path, solution, 1.4);
+      outputs.commit();
+      EXPECT_EQ(format.read_solution(path).solution.values, solution.values);
+    }
+  }
+}
+
+TEST(Formats, AreWrittenBlockByBlockWhereBlocksHaveAPlace) {
+  for (const FileFormat& format : file_formats())
+    EXPECT_EQ(format.write_blocks != nullptr, format.holds(Content::blocks)) << format.name;
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,119 @@
+// The door: what other programs see of the library, in memory and on disk, and how it refuses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "quadloop/quadloop.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+/// A square and its case in a folder of the test's own.
+class Door : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("door_test." + std::to_string(world().size()));
+    world().together([&] {
+      if (!world().is_root()) return;
+      std::filesystem::create_directories(folder_);
+      std::ofstream(folder_ / "square.geom") << "1\nside\n4\n0 0\n1 0\n1 1\n0 1\n";
+      std::ofstream(case_path()) << "title = \"square\"\n[geometry]\nfile = \"square.geom\"\n"
+                                    "[spacing]\nmin = 0.02\nmax = 0.1\n[boundary.side]\nbc = \"wall\"\n"
+                                    "[adapt]\nvariable = \"q\"\ncycles = 2\n";
+    });
+  }
+  void TearDown() override {
+    world().barrier();
+    if (world().is_root()) std::filesystem::remove_all(folder_);
+  }
+
+  std::string case_path() const { return (folder_ / "case.toml").string(); }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::filesystem::path folder_;
+};
+
+Field front(const Mesh& mesh) {
+  Field field{{"q"}, {}, {}};
+  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
+    field.values.push_back(std::tanh(40 * (mesh.point(NodeId{i}).x - 0.4)));
+  return field;
+}
+
+std::int64_t nodes(const Mesh& mesh) { return world().sum(mesh.owned_nodes); }
+
+TEST_F(Door, MeshesAdaptsAndChecks) {
+  const Case square(world(), case_path(), {"adapt.min=0.005"});
+  EXPECT_EQ(square.title(), "square");
+  EXPECT_EQ(square.cycles(), 2);
+  NewMesh made = make_mesh(world(), square);
+  EXPECT_TRUE(check(world(), made.solved.mesh).empty());
+  EXPECT_EQ(made.solved.solution.width(), 0U);
+  made.solved.solution = front(made.solved.mesh);
+  const Marks marks = sense(world(), square, made.solved);
+  ASSERT_TRUE(marks.change_mesh());
+  const NewMesh next = remesh(world(), square, marks, made.solved);
+  EXPECT_GT(nodes(next.solved.mesh), nodes(made.solved.mesh));
+  EXPECT_TRUE(check(world(), next.solved.mesh).empty());
+  EXPECT_EQ(next.solved.solution.names, made.solved.solution.names);
+  ASSERT_EQ(next.carried.relative_drift.size(), 1U);
+  EXPECT_LT(std::abs(next.carried.relative_drift[0]), 0.05);
+}
+
+TEST_F(Door, WritesAndReadsTheSameMeshAndField) {
+  const Case square(world(), case_path());
+  const Mesh mesh = make_mesh(world(), square).solved.mesh;
+  for (const char* name : {"a.mesh", "a.vtu"}) {
+    write(world(), mesh, file(name), front(mesh));
+    const MeshFile back = read(world(), file(name));
+    EXPECT_EQ(nodes(back.mesh), nodes(mesh)) << name;
+    EXPECT_TRUE(check(world(), back.mesh).empty()) << name;
+    ASSERT_EQ(back.field.names, std::vector<std::string>{"q"}) << name;
+    EXPECT_EQ(back.field.values, front(back.mesh).values) << name;
+  }
+}
+
+TEST_F(Door, SmoothsAMeshThatWasRead) {
+  const Case square(world(), case_path(), {"smooth.sweeps=5"});
+  Mesh mesh = make_mesh(world(), square).solved.mesh;
+  write(world(), mesh, file("b.mesh"));
+  MeshFile back = read(world(), file("b.mesh"));
+  smooth(world(), square, back.mesh);
+  EXPECT_TRUE(check(world(), back.mesh).empty());
+}
+
+TEST_F(Door, SolvesWithTheBuiltInSolver) {
+  const Case square(world(), case_path(), {"solver.iterations=2", "boundary.side.bc=\"farfield\""});
+  const Mesh mesh = make_mesh(world(), square).solved.mesh;
+  const SolvedFlow flow = built_in_solver(world(), square)(world(), mesh, {}, 0);
+  EXPECT_EQ(flow.solution.width(), 4U);
+  EXPECT_EQ(flow.solution.values.size(), 4 * static_cast<std::size_t>(mesh.owned_nodes));
+}
+
+TEST_F(Door, NamesWhatIsWrongWithAMesh) {
+  Mesh mesh = make_mesh(world(), Case(world(), case_path())).solved.mesh;
+  if (world().is_root()) mesh.points.front() = {5, 5};
+  const std::vector<std::string> faults = check(world(), mesh);
+  ASSERT_FALSE(faults.empty());
+  EXPECT_NE(faults.front().find(" at ("), std::string::npos) << faults.front();
+}
+
+TEST_F(Door, RefusesOnAllRanks) {
+  EXPECT_THROW(Case(world(), file("none.toml")), InputError);
+  EXPECT_THROW(Case(world(), case_path(), {"spacing.mni=1"}), InputError);
+  EXPECT_THROW(read(world(), file("none.mesh")), InputError);
+  const Case square(world(), case_path());
+  SolvedMesh solved = make_mesh(world(), square).solved;
+  EXPECT_THROW(sense(world(), square, solved), InputError);  // no such variable
+  EXPECT_THROW(write(world(), solved.mesh, file("none/a.mesh")), OutputError);
+  const Case by_command(world(), case_path(), {"solver.kind=\"command\"", "solver.command=[\"true\"]"});
+  EXPECT_THROW(built_in_solver(world(), by_command), InputError);
+}
+
+}  // namespace
+}  // namespace quadloop
