@@ -26,9 +26,8 @@ bool may_be_run(const std::string& path) { return ::access(path.c_str(), X_OK) =
 /// Of a name that is no program.
 [[noreturn]] void refuse_unknown(const std::string& name, const std::string& fault) {
   if (name.find(' ') == std::string::npos) refuse(name, fault);
-  refuse(
-      name,
-      R"(is not there; command is a list of the program and its arguments, as in ["python3", "{case}/my_solver.py", "{mesh}"])");
+  refuse(name, R"(is not there; command is a list of the program and its arguments, as in )"
+               R"(["python3", "{case}/my_solver.py", "{mesh}"])");
 }
 
 /// `name` has a slash.

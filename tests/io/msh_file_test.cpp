@@ -25,7 +25,8 @@ const std::string old_house =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"                                                     // 1-3
     "$PhysicalNames\n3\n1 7 \"ground floor\"\n1 8 \"walls\"\n2 9 \"room\"\n$EndPhysicalNames\n"  // 4-9
     "$Nodes\n6\n10 0 0 3\n20 1 0 3\n30 1 1 3\n99 5 5 3\n40 0 1 3\n5 0.5 1.5 3\n$EndNodes\n"      // 10-18
-    "$Elements\n8\n1 15 2 0 1 10\n2 1 2 7 1 10 20\n3 1 2 8 2 20 30\n4 1 2 8 2 30 5\n5 1 2 8 3 5 40\n"  // 19-25
+    "$Elements\n8\n1 15 2 0 1 10\n2 1 2 7 1 10 20\n3 1 2 8 2 20 30\n"                            // 19-25
+    "4 1 2 8 2 30 5\n5 1 2 8 3 5 40\n"
     "6 1 2 8 3 40 10\n7 3 2 9 1 10 20 30 40\n8 2 2 9 1 40 30 5\n$EndElements\n";  // 26-29
 
 /// The same in version 4.1, with parameters of nodes and without the node of no cell.
