@@ -26,6 +26,14 @@ class Digest {
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
 
+void digest_layers(const LayerSpec& layers, Digest& digest) {
+  digest.add(layers.first);
+  digest.add(layers.growth);
+  digest.add(layers.growth_to);
+  digest.add(std::uint64_t(layers.count));
+  digest.add(std::uint64_t(layers.equal));
+}
+
 const std::string& name_of(const Geometry& geometry, std::int32_t segment) {
   return geometry.boundary(geometry.boundary_of(segment)).name;
 }
@@ -86,7 +94,17 @@ double Geometry::turn_degrees(std::int32_t v) const {
   return std::abs(std::atan2(cross(in, out), dot(in, out))) * (180 / std::numbers::pi);
 }
 
+Geometry Geometry::with(LocalDemands demands) const {
+  QUADLOOP_REQUIRE(demands.spacing.size() == points_.size() && demands.kept.size() == points_.size(),
+                   "one demand for each vertex and each segment");
+  Geometry other = *this;
+  other.spacing_ = std::move(demands.spacing);
+  other.kept_ = std::move(demands.kept);
+  return other;
+}
+
 double Geometry::spacing_of(std::int32_t segment) const {
+  if (!spacing_.empty()) return spacing_[segment];
   const double wanted = boundary(boundary_of(segment)).spacing;
   return wanted > 0 ? wanted : length(point(next(segment)) - point(segment));
 }
@@ -110,6 +128,7 @@ std::uint64_t Geometry::digest() const {
     digest.add(b.corner_degrees);
     if (b.corner_spacing > 0)
       digest.add(b.corner_spacing);  // without it trees from before there was such a thing stay good
+    if (b.layers) digest_layers(*b.layers, digest);
   }
   for (const Point p : points_) {
     digest.add(p.x);

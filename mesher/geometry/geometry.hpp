@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/geometry/layer_spec.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {
@@ -26,6 +28,13 @@ struct Boundary {
   double corner_degrees = 30;      ///< a point that turns by more is kept as a node; 180 keeps none
   std::string condition = "none";  ///< wall | farfield | inflow | outflow | symmetry | interface | none
   double corner_spacing = 0;  ///< size wanted of the leaves at its sharp corners; 0: that of any other place
+  std::optional<LayerSpec> layers = {};
+};
+
+/// What single places of an outline ask for, in the place of what their boundary does.
+struct LocalDemands {
+  std::vector<double> spacing;  ///< of each segment; above 0
+  std::vector<char> kept;       ///< of each vertex: whether it must become a mesh node
 };
 
 /// The outline of the domain: simple closed loops that do not meet, each walked with the domain to its left,
@@ -36,6 +45,9 @@ class Geometry {
   /// loop_starts[l+1]-1. `segment_boundary[v]` is the boundary of the segment from vertex v to the next one.
   Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
            std::vector<BoundaryId> segment_boundary);
+
+  /// The same outline, in which single places ask for something else.
+  Geometry with(LocalDemands demands) const;
 
   std::int32_t size() const { return size32(points_); }  ///< number of vertices, and of segments
   std::int32_t loop_count() const { return size32(loop_starts_) - 1; }
@@ -78,6 +90,7 @@ class Geometry {
   std::vector<Point> points_;
   std::vector<std::int32_t> loop_starts_, loop_of_, next_, previous_;
   std::vector<BoundaryId> segment_boundary_;
+  std::vector<double> spacing_;  ///< of each segment, where LocalDemands say so
   std::vector<char> kept_, straight_;
   Box box_;
 };

@@ -18,6 +18,7 @@ void apply_rule(const BoundaryRule& rule, Boundary& boundary) {
   boundary.corner_degrees = rule.corner_degrees.value_or(boundary.corner_degrees);
   boundary.condition = rule.condition.value_or(boundary.condition);
   boundary.corner_spacing = rule.corner_spacing.value_or(boundary.corner_spacing);
+  if (rule.layers) boundary.layers = rule.layers;
 }
 
 bool is_claimed(const std::vector<BoundaryRule>& rules, const std::string& name) {

@@ -18,6 +18,7 @@ struct BoundaryRule {
   bool must_match = true;  ///< a rule of ours (not the user's) may find nothing
   bool claims = false;  ///< the boundary was added by us: patterns, meant for the user's own, do not reach it
   std::optional<double> corner_spacing = {};
+  std::optional<LayerSpec> layers = {};
 };
 
 /// Whether the whole name matches the pattern.

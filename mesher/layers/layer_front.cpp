@@ -1,0 +1,114 @@
+#include "mesher/layers/layer_front.hpp"
+
+#include <algorithm>
+
+#include "mesher/layers/thickness.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double leaf_over_last_layer = 2;
+constexpr double sine_of_sector = 0.3;  // columns of a fan are at least some 18 degrees apart
+
+/// The outline outside the layers, on its way to a Geometry.
+class OuterOutline {
+ public:
+  OuterOutline(const WallLine& line, const FittingColumns& fitting)
+      : line_{line}, g_{line.geometry()}, fitting_{fitting}, first_of_segment_(g_.points().size(), WallLine::none) {
+    for (std::int32_t i = line_.size() - 1; i >= 0; --i) {
+      if (begins(i)) first_of_segment_[line_[i].segment] = i;
+    }
+  }
+
+  void build(LayerFront& into) {
+    for (std::int32_t loop = 0; loop < g_.loop_count(); ++loop) {
+      for (std::int32_t v = g_.loop_start(loop); v < g_.loop_start(loop + 1); ++v) add_segment(v);
+      starts_.push_back(size32(points_));
+    }
+    into.outer = Geometry({g_.boundaries().begin(), g_.boundaries().end()}, std::move(points_), std::move(starts_),
+                          std::move(boundary_))
+                     .with({std::move(spacing_), std::move(kept_)});
+    into.station_of = std::move(station_of_);
+  }
+
+ private:
+  /// Whether there is a place after the station.
+  bool begins(std::int32_t i) const { return line_.next(i) != WallLine::none; }
+  bool ends_run(std::int32_t i) const { return line_[i].shape == Station::Shape::end; }
+
+  void add_segment(std::int32_t s) {
+    if (const std::int32_t first = first_of_segment_[s]; first != WallLine::none) {
+      add_front(first, s);
+    } else if (!begins_below(s)) {
+      add_vertex(g_.point(s), s, WallLine::none, g_.spacing_of(s), g_.kept(s));
+    }
+  }
+  void add_front(std::int32_t first, std::int32_t s);
+  void add_vertex(Point p, std::int32_t segment, std::int32_t station, double spacing, bool kept) {
+    points_.push_back(p);
+    boundary_.push_back(g_.boundary_of(segment));
+    station_of_.push_back(station);
+    spacing_.push_back(spacing);
+    kept_.push_back(kept ? 1 : 0);
+  }
+  bool begins_below(std::int32_t s) const;
+  double spacing_after(std::int32_t i) const;
+  double last_layer(std::int32_t i) const;
+
+  const WallLine& line_;
+  const Geometry& g_;
+  const FittingColumns& fitting_;
+  std::vector<std::int32_t> first_of_segment_;
+  std::vector<Point> points_;
+  std::vector<std::int32_t> starts_{0};
+  std::vector<BoundaryId> boundary_;
+  std::vector<std::int32_t> station_of_;
+  std::vector<double> spacing_;
+  std::vector<char> kept_;
+};
+
+/// The stations of segment s from the first one on; where the run ends, the rest of the boundary that it ends on.
+void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
+  std::int32_t i = first;
+  for (; i != WallLine::none && begins(i) && line_[i].segment == s; i = line_.next(i))
+    add_vertex(fitting_.front[i], s, i, spacing_after(i), line_[i].kept);
+  if (i == WallLine::none || line_[i].segment != s) return;
+  std::int32_t on = g_.next(s);  // the segment on which the run's last column ends
+  add_vertex(fitting_.front[i], on, WallLine::none, g_.spacing_of(on), true);
+}
+
+/// Whether the segment of a boundary without layers begins at a wall, behind its last column.
+bool OuterOutline::begins_below(std::int32_t s) const {
+  return first_of_segment_[g_.previous(s)] != WallLine::none;
+}
+
+double OuterOutline::last_layer(std::int32_t i) const {
+  const LayerSpec& spec = line_.spec(i);
+  const ColumnHeights column = column_heights(spec, spec.first, fitting_.thickness[i]);
+  return column.reached[spec.count] - column.reached[spec.count - 1];
+}
+
+double OuterOutline::spacing_after(std::int32_t i) const {
+  const std::int32_t j = line_.next(i);
+  const double height = std::min(last_layer(i), last_layer(j));
+  const double wall = line_.width(i), front = length(fitting_.front[j] - fitting_.front[i]);
+  double spacing = leaf_over_last_layer * height;
+  if (wall == 0) return std::max(spacing, sine_of_sector * fitting_.thickness[i]);
+  return std::min(spacing, g_.spacing_of(line_[i].segment) * std::min(1.0, front / wall));
+}
+
+}  // namespace
+
+LayerFront layer_front(const Geometry& geometry) {
+  WallLine line(geometry, wall_runs(geometry));
+  FittingColumns fitting = fit_thickness(line);
+  LayerFront front{std::move(line), {}, {}, {}, geometry, {}};
+  OuterOutline(front.line, fitting).build(front);
+  front.thickness = std::move(fitting.thickness);
+  front.columns = std::move(fitting.columns);
+  front.points = std::move(fitting.front);
+  return front;
+}
+
+}  // namespace quadloop
