@@ -22,7 +22,7 @@ namespace {
 
 void report_tree(const Communicator& comm, const LeafGraph& graph, const CutForest& cut, MeshReport& report) {
   std::int64_t coarsest = Quadrant::unit_level, finest = 0;
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+  for (const LeafId leaf : graph.local()) {
     coarsest = std::min<std::int64_t>(coarsest, graph.leaf(leaf).level);
     finest = std::max<std::int64_t>(finest, graph.leaf(leaf).level);
   }

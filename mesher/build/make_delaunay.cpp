@@ -44,15 +44,16 @@ std::vector<std::int64_t> nodes_of_cut_leaves(const CutForest& cut, const Mesh& 
 std::vector<char> irregular_leaves(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
   std::vector<char> is_cut(graph.size(), 0);
   for (std::size_t i = 0; i < cut.entry_of.size(); ++i) {
-    is_cut[graph.from_local(static_cast<std::int32_t>(i))] = cut.entry_of[i] >= 0 ? 1 : 0;
+    is_cut[graph.from_local(static_cast<std::int32_t>(i)).value()] = cut.entry_of[i] >= 0 ? 1 : 0;
   }
   GhostExchange(comm, graph).update(is_cut);
   std::vector<char> irregular = is_cut;
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    if (is_cut[leaf] == 0) continue;
-    for_touching_leaves(graph, leaf, [&](std::int32_t other) { irregular[other] = 1; });
+  for (const LeafId leaf : graph.all()) {
+    if (is_cut[leaf.value()] == 0) continue;
+    for_touching_leaves(graph, leaf, [&](LeafId other) { irregular[other.value()] = 1; });
   }
-  return {irregular.begin() + graph.local_begin(), irregular.begin() + graph.local_end()};
+  const auto first = irregular.begin() + graph.local_begin();
+  return {first, first + graph.local_size()};
 }
 
 using Numbers = std::array<std::int64_t, 3>;
@@ -65,7 +66,7 @@ struct FreeTriangle {
 
 /// A triangle that has arrived.
 struct PlacedTriangle {
-  std::int32_t leaf = 0;  ///< counted from this rank's first
+  std::int32_t leaf = 0;  ///< its local index
   Numbers numbers{};      ///< of its nodes over all ranks, the smallest first
   std::array<NodeId, 3> nodes{};
   friend auto operator<=>(const PlacedTriangle&, const PlacedTriangle&) = default;
@@ -89,7 +90,7 @@ class LeafTriangles {
     NodeTable table(mesh_);
     for (const FreeTriangle& t : on_their_way_.deliver(comm)) {
       const auto [column, row] = square_of(t.points);
-      PlacedTriangle placed{graph_.leaf_at(column, row) - graph_.local_begin(), t.nodes, {}};
+      PlacedTriangle placed{graph_.local_index(graph_.leaf_at(column, row)), t.nodes, {}};
       for (std::size_t k = 0; k < 3; ++k) placed.nodes[k] = table.local(t.nodes[k], t.points[k]);
       placed_.push_back(placed);
     }
@@ -125,9 +126,9 @@ class LeafTriangles {
       t.points[k] = mesh_.point(nodes[k]);
     }
     const auto [column, row] = square_of(t.points);
-    const std::int32_t leaf = graph_.leaf_at(column, row);
+    const LeafId leaf = graph_.leaf_at(column, row);
     if (graph_.is_local(leaf)) {
-      placed_.push_back({leaf - graph_.local_begin(), t.nodes, nodes});
+      placed_.push_back({graph_.local_index(leaf), t.nodes, nodes});
     } else {
       on_their_way_.add(graph_.rank_at(column, row), t);
     }

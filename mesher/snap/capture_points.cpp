@@ -26,13 +26,13 @@ class PointCapture {
       : graph_{graph}, lattice_{lattice}, geometry_{geometry}, share_{std::min(1.0, snap / usual_snap)} {}
 
   /// Whether a point lies on a side of the leaf: the crossings there have its position already.
-  bool on_lattice(std::int32_t leaf, Point p) const {
+  bool on_lattice(LeafId leaf, Point p) const {
     const Box box = lattice_.box_of(graph_.leaf(leaf));
     return p.x == box.low.x || p.x == box.high.x || p.y == box.low.y || p.y == box.high.y;
   }
 
   /// The corner of the leaf, or hanging node on its sides, that is near enough.
-  std::optional<CornerCapture> corner_near(std::int32_t leaf, Point p) const {
+  std::optional<CornerCapture> corner_near(LeafId leaf, Point p) const {
     std::optional<CornerCapture> nearest;
     bool contested = false;
     for (const Site site : lattice_sites) {
@@ -49,7 +49,7 @@ class PointCapture {
   }
 
   /// The edge of the leaf that is near enough, with the crossings that it loses to the point.
-  std::optional<Snap> edge_near(std::int32_t leaf, std::int32_t vertex, const LeafTrace& view,
+  std::optional<Snap> edge_near(LeafId leaf, std::int32_t vertex, const LeafTrace& view,
                                 const Piece& piece) const {
     const Point p = geometry_.point(vertex);
     LeafEdge nearest;
@@ -79,7 +79,7 @@ class PointCapture {
     return edge.vertical() ? lattice_.x(edge.line) : lattice_.y(edge.line);
   }
 
-  std::int32_t across(const LeafEdge& edge) const {
+  LeafId across(const LeafEdge& edge) const {
     const bool ahead = edge.side == Side::right || edge.side == Side::top;
     const std::int64_t beyond = ahead ? edge.line : edge.line - 1;
     return edge.vertical() ? graph_.leaf_at(beyond, edge.from) : graph_.leaf_at(edge.from, beyond);
@@ -201,8 +201,8 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
   const PointCapture capture(graph, lattice, geometry, snap);
   std::vector<CornerCapture> corners;
   std::vector<Snap> edges;
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const std::int32_t trace = traced.trace_of[leaf];
+  for (const LeafId leaf : graph.all()) {
+    const std::int32_t trace = traced.trace_of[leaf.value()];
     if (trace < 0) continue;
     const LeafTrace view = traced.traces[trace];
     for (std::size_t p = 0; p < view.pieces.size(); ++p) {
@@ -228,8 +228,8 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
 std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
                                 const TracedForest& traced, double share) {
   std::vector<Snap> snaps;
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const std::int32_t trace = traced.trace_of[leaf];
+  for (const LeafId leaf : graph.all()) {
+    const std::int32_t trace = traced.trace_of[leaf.value()];
     if (trace < 0) continue;
     const Quadrant& q = graph.leaf(leaf);
     for (const Side side : all_sides) {

@@ -31,8 +31,8 @@ std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
 std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& lattice,
                                     const TracedForest& traced) {
   std::vector<Sight> sights;
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const std::int32_t trace = traced.trace_of[leaf];
+  for (const LeafId leaf : graph.all()) {
+    const std::int32_t trace = traced.trace_of[leaf.value()];
     if (trace < 0) continue;
     const LeafTrace view = traced.traces[trace];
     for (std::size_t p = 0; p < view.pieces.size(); ++p) {

@@ -196,8 +196,8 @@ TEST(SnapCorners, LeavesKnowTheirSnapsByTheirSites) {
                               {{2, 0}, left_middle, 0}, {{2, 2}, south_west, 1}, {{2, 2}, on_left, 2}};
   for (const Seen& s : all) {
     const Point corner = std::get<0>(s);
-    const std::int32_t leaf = leaves.graph.leaf_at(static_cast<std::int64_t>(corner.x) * unit,
-                                                   static_cast<std::int64_t>(corner.y) * unit);
+    const LeafId leaf = leaves.graph.leaf_at(static_cast<std::int64_t>(corner.x) * unit,
+                                             static_cast<std::int64_t>(corner.y) * unit);
     if (leaves.graph.is_local(leaf)) expected.push_back(s);
   }
   for (const LeafSnap& s : snaps_of_leaves(leaves.graph, snaps)) {

@@ -30,20 +30,20 @@ class TracedLeaves {
   explicit TracedLeaves(Geometry given, const Box& fine = {{0, 0}, {4, 4}})
       : geometry{std::move(given)}, outline{geometry}, graph{world(), lattice, refined(fine)} {
     traced.trace_of.assign(graph.size(), -1);
-    for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    for (const LeafId leaf : graph.all()) {
       const Box box = lattice.box_of(graph.leaf(leaf));
       std::vector<std::int32_t> segments;
       for (std::int32_t s = 0; s < geometry.size(); ++s) {
         if (outline.meets(s, box)) segments.push_back(s);
       }
-      if (!segments.empty()) traced.trace_of[leaf] = traced.traces.add(outline, box, segments);
+      if (!segments.empty()) traced.trace_of[leaf.value()] = traced.traces.add(outline, box, segments);
     }
   }
 
   /// Whether a leaf of this rank touches the lattice corner, or holds it on a side.
   bool at_local_leaf(LatticePoint corner) const {
     const auto round = graph.leaves_round(corner);
-    return std::any_of(round.begin(), round.end(), [&](std::int32_t leaf) { return graph.is_local(leaf); });
+    return std::any_of(round.begin(), round.end(), [&](LeafId leaf) { return graph.is_local(leaf); });
   }
 
   const Lattice lattice{{{0, 0}, {4, 4}}, 1, 1};

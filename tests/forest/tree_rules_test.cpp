@@ -34,8 +34,7 @@ struct Tree {
               demanded},
         graph{refine_forest(test::world(), sizes)} {
     std::vector<Quadrant> local;
-    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf)
-      local.push_back(graph.leaf(leaf));
+    for (const LeafId leaf : graph.local()) local.push_back(graph.leaf(leaf));
     leaves = test::world().all_gather_values(std::span<const Quadrant>(local));
   }
   ShiftedOutline outline;
@@ -222,7 +221,7 @@ TEST_P(TreeRulesAt, TheTreeIsTheSmallest) {
 TEST(TreeRules, NoLeafLiesBetweenFinerOnes) {
   const Geometry geometry = circle_in_square(0.05, 0.06);
   const Tree tree(geometry, options_with(0.02, 0.5, 2.0));
-  for (std::int32_t leaf = tree.graph.local_begin(); leaf < tree.graph.local_end(); ++leaf) {
+  for (const LeafId leaf : tree.graph.local()) {
     EXPECT_FALSE(tree.graph.around(leaf).finer.has_opposites());
   }
 }
