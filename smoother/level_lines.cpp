@@ -13,10 +13,10 @@ namespace quadloop {
 namespace {
 
 constexpr double step = 0.25;  ///< of the smaller square's edge
-constexpr double rounding =
-    1e-6;  ///< of that edge: coordinates that went through a file are on the lattice nearly
-constexpr unsigned unfit =
-    1U << 8;  ///< a flag beside those of the quadrants: the node's cells are not those of a level line
+/// Of that edge: coordinates that went through a file are on the lattice nearly.
+constexpr double rounding = 1e-6;
+/// A flag beside those of the quadrants: the node's cells are not those of a level line.
+constexpr unsigned unfit = 1U << 8;
 
 /// What lies round a node: bit k of `quadrants` stands for a square in quadrant k (0: right and up, then
 /// counter-clockwise).

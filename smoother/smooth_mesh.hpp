@@ -18,10 +18,10 @@ struct SmoothOptions {
   int sweeps = 20;  ///< at most; fewer where nothing moves any more
   Objective objective = Objective::power;
   Method method = Method::perturb;
-  double threshold =
-      0.05;  ///< nodes of cells that cost no more stay, unless they share a cell with a node of one that does
-  bool level_lines =
-      true;  ///< first moves lines where squares of two sizes meet, which lifts 26.6 degrees to 29.7
+  /// Nodes of cells that cost no more stay, unless they share a cell with a node of one that does.
+  double threshold = 0.05;
+  /// First moves lines where squares of two sizes meet, which lifts 26.6 degrees to 29.7.
+  bool level_lines = true;
   double bad = 0.072;  ///< nodes of parallelograms stay unless a cell that costs more is near; one below 28
                        ///< degrees does
   const Geometry* geometry = nullptr;  ///< the outline that boundary nodes slide along; without it they slide
@@ -29,8 +29,8 @@ struct SmoothOptions {
   std::vector<char> pinned;            ///< a flag for each owned node that must stay, or none at all
   std::function<TieRank(Point)> delaunay;  ///< if set, the mesh is Delaunay under this order of nodes, and is
                                            ///< made so again by flips in the end
-  std::vector<std::int32_t>
-      triangle_to_block;    ///< of each own triangle, or none: flips keep edges between two blocks
+  /// Of each own triangle, or none: flips keep edges between two blocks.
+  std::vector<std::int32_t> triangle_to_block;
   bool keep_places = true;  ///< triangles made by flips take the places in the order that become free, else
                             ///< those beside them; not with blocks
   std::vector<CellTarget> targets;  ///< the shape of each own cell, triangles, then quads; or none at all for

@@ -65,8 +65,8 @@ class LeafRun {
   };
   const MarkedLeaf& at(std::int64_t number) const { return leaves_[number - begin_]; }
 
-  std::int64_t first_,
-      begin_ = 0;  ///< numbers over all ranks of this rank's first leaf, and of the first here
+  /// Numbers over all ranks of this rank's first leaf, and of the first here.
+  std::int64_t first_, begin_ = 0;
   std::vector<MarkedLeaf> leaves_;
 };
 

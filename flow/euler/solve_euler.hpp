@@ -14,8 +14,8 @@ struct EulerResult {
   double residual = 0;    ///< root mean square of the nodes' net mass fluxes, relative to the larger of the
                           ///< start's and the uniform free stream's
   double cl = 0, cd = 0;  ///< over all boundaries with the condition "wall", in wind axes
-  int kept_iteration =
-      0;  ///< the step whose flow this is: the last, or that of the best residual where it rose again
+  /// The step whose flow this is: the last, or that of the best residual where it rose again.
+  int kept_iteration = 0;
   double last_residual = 0;  ///< after the last step
   bool stalled = false;      ///< the residual did not halve in the second half of the steps
   bool converged = false;    ///< steady: the tolerance is met; accurate: the end time is reached

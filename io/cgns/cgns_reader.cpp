@@ -55,8 +55,8 @@ class CgnsBoundaries {
   }
 
   NameIndex names_;
-  std::optional<std::unordered_map<std::string, std::string>>
-      families_;  ///< to conditions, once they are asked for
+  /// To conditions, once they are asked for.
+  std::optional<std::unordered_map<std::string, std::string>> families_;
 };
 
 /// Reads one zone into the mesh; nodes are numbered after those that are already there.

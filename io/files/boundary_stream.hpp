@@ -95,8 +95,8 @@ class BoundaryStream {
   const Mesh& mesh_;
   std::vector<const BoundaryEdges*> present_;
   std::vector<std::int64_t> edges_;  ///< of each of them, over all ranks
-  std::vector<std::int64_t>
-      own_before_;  ///< this rank's edges of the boundaries before each; the last entry is all of them
+  /// This rank's edges of the boundaries before each; the last entry is all of them.
+  std::vector<std::int64_t> own_before_;
   std::vector<Share> shares_;  ///< on rank 0: by boundary, then rank
   std::int64_t all_edges_ = 0;
 };

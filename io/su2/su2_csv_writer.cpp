@@ -44,8 +44,8 @@ std::string column_name(std::string name) {
 /// Which columns a solution makes: SU2's four conservative variables in front where it has them or what they
 /// follow from, then all others as they are.
 struct CsvTable {
-  std::optional<Columns>
-      made_from;  ///< density, velocity and pressure, of which the first four columns are computed
+  /// Density, velocity and pressure, of which the first four columns are computed.
+  std::optional<Columns> made_from;
   std::vector<std::size_t> as_they_are;
   std::vector<std::string> names;
 

@@ -8,8 +8,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double stray_of_leaf =
-    0.15;  ///< how far the outline may lie from its chord, as a share of the leaf's edge
+/// How far the outline may lie from its chord, as a share of the leaf's edge.
+constexpr double stray_of_leaf = 0.15;
 constexpr double stray_of_chord = 0.2;  ///< and as a share of the chord
 
 /// A coordinate that ascends counter-clockwise along a side.

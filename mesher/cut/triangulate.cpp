@@ -8,8 +8,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t most_ears =
-    24;  ///< nodes; beyond, clipping ears in square time loses to a real triangulation
+/// Nodes; beyond, clipping ears in square time loses to a real triangulation.
+constexpr std::size_t most_ears = 24;
 
 }  // namespace
 

@@ -15,8 +15,8 @@ namespace quadloop {
 /// Colours for nodes that are to be visited, no two neighbours the same, so that all of one colour can be
 /// visited at once.
 struct Colouring {
-  std::vector<std::int8_t>
-      colour_of;          ///< of each node, owned and copies; none for those that are not visited
+  /// Of each node, owned and copies; none for those that are not visited.
+  std::vector<std::int8_t> colour_of;
   std::int8_t count = 0;  ///< over all ranks
   static constexpr std::int8_t none = -1;
 };

@@ -17,11 +17,8 @@ constexpr double followed = 192;  ///< split quadrants of a level, about
 struct Sampled {
   Quadrant place;
   double weight = 1;
-  enum class Side : std::uint8_t {
-    unknown,
-    inside,
-    outside
-  } side = Side::unknown;  ///< known where it holds no outline
+  enum class Side : std::uint8_t { unknown, inside, outside };
+  Side side = Side::unknown;  ///< known where it holds no outline
 };
 
 /// The chances of being followed: half by the leaves expected, a quarter by the outline inside, a quarter for

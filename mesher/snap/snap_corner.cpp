@@ -9,8 +9,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double capture_share =
-    0.45;  ///< of the local edge: a kept point nearer than this takes the corner; two corners cannot claim it
+/// Of the local edge: a kept point nearer than this takes the corner; two corners cannot claim it.
+constexpr double capture_share = 0.45;
 constexpr double swallow_share = 0.15;  ///< of the local edge: no vertex vanishes that lies farther than this
                                         ///< from the outline as it goes on from the corner
 

@@ -32,8 +32,8 @@ struct FarField {
 /// A case file as each module wants it: the only place that knows the names of keys.
 struct Settings {
   std::string title;
-  std::vector<std::pair<std::string, std::string>>
-      values;  ///< of all keys but those that no file of a cycle depends on: dotted name, JSON
+  /// Of all keys but those that no file of a cycle depends on: dotted name, JSON.
+  std::vector<std::pair<std::string, std::string>> values;
   std::vector<GeometryInput> files;
   std::optional<FarField> far_field;
   AssembleOptions outline;

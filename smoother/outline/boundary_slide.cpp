@@ -15,10 +15,10 @@ namespace {
 /// Shares of the way to the neighbour on that side.
 constexpr std::array<double, 4> shares{0.3, 0.12, 0.04, 0.01};
 constexpr double straight_sine = 1e-10;
-constexpr double stray_share =
-    0.15;  ///< of the shorter chord: so far the outline may stray from the chords, as it may in cutting
-constexpr double longest_way =
-    20;  ///< a chord that stands for a part of the outline longer than so many times itself is left alone
+/// Of the shorter chord: so far the outline may stray from the chords, as it may in cutting.
+constexpr double stray_share = 0.15;
+/// A chord that stands for a part of the outline longer than so many times itself is left alone.
+constexpr double longest_way = 20;
 
 }  // namespace
 
