@@ -140,7 +140,7 @@ void for_each_tree_dataset(const Visit& visit) {
   visit("y", std::array{&LeafRecord::y});
   visit("level", std::array{&LeafRecord::level});
   visit("wanted", std::array{&LeafRecord::wanted});
-  visit("mark", std::array{&LeafRecord::mark});
+  visit("mark", std::array{&LeafRecord::block});
   visit("triangles", std::array{&LeafRecord::triangles});
   visit("quads", std::array{&LeafRecord::quads});
   visit("adapted", std::array{&LeafRecord::adapted});

@@ -37,28 +37,28 @@ std::vector<char> repeated(const std::vector<Row>& rows, const NodesOf& nodes_of
     std::sort(keys.back().first.begin(), keys.back().first.end());
   }
   std::sort(keys.begin(), keys.end());
-  std::vector<char> marks(rows.size(), 0);
+  std::vector<char> is_repeated(rows.size(), 0);
   for (std::size_t k = 1; k < keys.size(); ++k)
-    marks[keys[k].second] = keys[k].first == keys[k - 1].first ? 1 : 0;
-  return marks;
+    is_repeated[keys[k].second] = keys[k].first == keys[k - 1].first ? 1 : 0;
+  return is_repeated;
 }
 
-/// Takes the marked rows out; the number of them.
+/// Takes the flagged rows out; the number of them.
 template <class Rows>
-std::int64_t drop(Rows& rows, const std::vector<char>& marks) {
+std::int64_t drop(Rows& rows, const std::vector<char>& flags) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (marks[i] == 0) rows[kept++] = rows[i];
+    if (flags[i] == 0) rows[kept++] = rows[i];
   }
   rows.resize(kept);
-  return static_cast<std::int64_t>(marks.size() - kept);
+  return static_cast<std::int64_t>(flags.size() - kept);
 }
 
 template <class Cells>
 std::int64_t drop_repeated_cells(Cells& cells, std::vector<std::int32_t>& cell_to_block) {
-  const std::vector<char> marks = repeated(cells, [](const auto& nodes) { return nodes; });
-  drop(cell_to_block, marks);
-  return drop(cells, marks);
+  const std::vector<char> is_repeated = repeated(cells, [](const auto& nodes) { return nodes; });
+  drop(cell_to_block, is_repeated);
+  return drop(cells, is_repeated);
 }
 
 std::int32_t block_of(const LoadedMesh& loaded, std::int32_t cell) {
@@ -153,14 +153,14 @@ void drop_repeated(ForeignMesh& foreign, const std::string& path) {
 void drop_unused_nodes(ForeignMesh& foreign, const std::string& path) {
   Mesh& mesh = foreign.loaded.mesh;
   std::vector<std::int32_t> new_number(mesh.points.size(), -1);
-  const auto mark = [&](NodeId& node) { new_number[node.value()] = 0; };
+  const auto note_used = [&](NodeId& node) { new_number[node.value()] = 0; };
   const auto renumber = [&](NodeId& node) { node = NodeId{new_number[node.value()]}; };
   const auto for_each_node = [&](const auto& visit) {
     for (auto& nodes : mesh.triangles) std::for_each(nodes.begin(), nodes.end(), visit);
     for (auto& nodes : mesh.quads) std::for_each(nodes.begin(), nodes.end(), visit);
     for (ForeignEdge& edge : foreign.edges) std::for_each(edge.nodes.begin(), edge.nodes.end(), visit);
   };
-  for_each_node(mark);
+  for_each_node(note_used);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < new_number.size(); ++i) {
     if (new_number[i] < 0) continue;

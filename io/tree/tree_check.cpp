@@ -33,8 +33,9 @@ std::string fault_of(const LeafRecord& leaf, const TreeAttributes& attributes) {
     return fmt::format("is coarser than its wanted level {}", leaf.wanted);
   if ((std::uint64_t{leaf.adapted} >> leaf.level) != 0)
     return fmt::format("has splits below itself ('adapted' is {:#x})", leaf.adapted);
-  if (leaf.mark < 0 || leaf.triangles < 0 || leaf.quads < 0) return "has a mark or a number of cells below 0";
-  if (leaf.mark == 0 && leaf.triangles + std::int64_t{leaf.quads} > 0)
+  if (leaf.block < 0 || leaf.triangles < 0 || leaf.quads < 0)
+    return "has a mark or a number of cells below 0";
+  if (leaf.block == 0 && leaf.triangles + std::int64_t{leaf.quads} > 0)
     return "is outside the domain, but has cells";
   return {};
 }

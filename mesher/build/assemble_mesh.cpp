@@ -38,7 +38,7 @@ class Assembler {
   }
 
   void add_cut(LeafId leaf, std::size_t entry) {
-    const CutForest::Mark &begin = cut_.entries[entry].begin, &end = cut_.entries[entry].end;
+    const CutForest::Offsets &begin = cut_.entries[entry].begin, &end = cut_.entries[entry].end;
     const auto node = [&](std::int32_t n) { return numbers_.of_cut(leaf, begin.nodes + n); };
     for (const auto& t : CutForest::part(cut_.triangles, begin.triangles, end.triangles)) {
       mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
@@ -93,7 +93,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, const Siz
     record.triangles = static_cast<std::int32_t>(mesh.triangles.size() - triangles);
     record.quads = static_cast<std::int32_t>(mesh.quads.size() - quads);
     record.adapted = demands.levels_above(graph.leaf(leaf));
-    record.mark = record.triangles + record.quads > 0 ? 1 : 0;
+    record.block = record.triangles + record.quads > 0 ? 1 : 0;
     leaves.push_back(record);
   }
   std::move(numbers).fill(mesh);

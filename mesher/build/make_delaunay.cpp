@@ -111,7 +111,7 @@ class LeafTriangles {
       for (; placed != placed_.end() && placed->leaf == static_cast<std::int32_t>(i); ++placed)
         mesh_.triangles.push_back(placed->nodes);
       leaves[i].triangles = static_cast<std::int32_t>(mesh_.triangles.size() - begin);
-      leaves[i].mark = leaves[i].triangles > 0 ? 1 : 0;
+      leaves[i].block = leaves[i].triangles > 0 ? 1 : 0;
     }
     QUADLOOP_REQUIRE(placed == placed_.end(), "the centroid of each triangle lies in a leaf");
   }

@@ -28,7 +28,7 @@ NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, c
     if (graph.leaf(leaf).x == 0 || graph.leaf(leaf).y == 0) border_leaves_.push_back(leaf);
   }
   slots_.assign(border_slot(border_leaves_.size()) + cut.nodes.size(), unused);
-  mark_used();
+  use_nodes_of_cells();
   const Exchange exchange(comm, ranks_wanted());
   const auto asked = exchange.deliver(wanted_);
   for (const Request& request : asked) slot_at(home_of(request)) = used;
@@ -110,7 +110,7 @@ std::size_t NodeNumbering::slot_of(const Home& home) const {
          index_in(border_sites, home.site);
 }
 
-void NodeNumbering::mark(const Home& home) {
+void NodeNumbering::use(const Home& home) {
   if (graph_->is_local(home.leaf)) {
     slot_at(home) = used;
   } else {
@@ -119,44 +119,42 @@ void NodeNumbering::mark(const Home& home) {
 }
 
 /// Whether the leaf is a local inside one: that uses all nodes that it owns, and sees to them itself.
-bool NodeNumbering::marks_its_own(LeafId leaf) const {
+bool NodeNumbering::uses_its_own(LeafId leaf) const {
   return graph_->is_local(leaf) && cut_->states[graph_->local_index(leaf)] == CutForest::State::inside;
 }
 
-void NodeNumbering::mark_inside(LeafId leaf) {
+void NodeNumbering::use_nodes_of_inside(LeafId leaf) {
   const LeafGraph::Around& around = graph_->around(leaf);
   slot_at({leaf, Site::north_east, {}}) = used;
   if (graph_->has_hanging(leaf, Side::right)) slot_at({leaf, Site::right_middle, {}}) = used;
   if (graph_->has_hanging(leaf, Side::top)) slot_at({leaf, Site::top_middle, {}}) = used;
-  if (!marks_its_own(around.south_west)) mark(home_of_site(leaf, Site::south_west));
-  if (!marks_its_own(around.south)) mark(home_of_site(leaf, Site::south_east));
-  if (!marks_its_own(around.west)) mark(home_of_site(leaf, Site::north_west));
-  if (graph_->has_hanging(leaf, Side::bottom) && !marks_its_own(around.south_half))
-    mark(home_of_site(leaf, Site::bottom_middle));
-  if (graph_->has_hanging(leaf, Side::left) && !marks_its_own(around.west_half))
-    mark(home_of_site(leaf, Site::left_middle));
+  if (!uses_its_own(around.south_west)) use(home_of_site(leaf, Site::south_west));
+  if (!uses_its_own(around.south)) use(home_of_site(leaf, Site::south_east));
+  if (!uses_its_own(around.west)) use(home_of_site(leaf, Site::north_west));
+  if (graph_->has_hanging(leaf, Side::bottom) && !uses_its_own(around.south_half))
+    use(home_of_site(leaf, Site::bottom_middle));
+  if (graph_->has_hanging(leaf, Side::left) && !uses_its_own(around.west_half))
+    use(home_of_site(leaf, Site::left_middle));
 }
 
-void NodeNumbering::mark_used() {
+void NodeNumbering::use_nodes_of_cells() {
   for (const LeafId leaf : graph_->local()) {
     const std::size_t local = graph_->local_index(leaf);
     if (cut_->states[local] == CutForest::State::outside) continue;
     if (cut_->states[local] == CutForest::State::inside) {
-      mark_inside(leaf);
+      use_nodes_of_inside(leaf);
       continue;
     }
     const std::size_t entry = cut_->entry_of[local];
-    const CutForest::Mark &begin = cut_->entries[entry].begin, &end = cut_->entries[entry].end;
-    const auto mark_node = [&](std::int32_t n) {
-      mark(home_of_cut_node(leaf, cut_->nodes[begin.nodes + n]));
-    };
+    const CutForest::Offsets &begin = cut_->entries[entry].begin, &end = cut_->entries[entry].end;
+    const auto use_node = [&](std::int32_t n) { use(home_of_cut_node(leaf, cut_->nodes[begin.nodes + n])); };
     for (const auto& triangle : CutForest::part(cut_->triangles, begin.triangles, end.triangles))
-      std::for_each(triangle.begin(), triangle.end(), mark_node);
+      std::for_each(triangle.begin(), triangle.end(), use_node);
     for (const auto& quad : CutForest::part(cut_->quads, begin.quads, end.quads))
-      std::for_each(quad.begin(), quad.end(), mark_node);
+      std::for_each(quad.begin(), quad.end(), use_node);
     for (const auto& edge : CutForest::part(cut_->outline, begin.outline, end.outline)) {
-      mark_node(edge.from);
-      mark_node(edge.to);
+      use_node(edge.from);
+      use_node(edge.to);
     }
   }
 }

@@ -51,10 +51,10 @@ class NodeNumbering {
   std::int32_t listed_node(LeafId leaf, Point position) const;
   NodeId find(const Home& home) const;
 
-  void mark(const Home& home);
-  void mark_used();
-  void mark_inside(LeafId leaf);
-  bool marks_its_own(LeafId leaf) const;
+  void use(const Home& home);
+  void use_nodes_of_cells();
+  void use_nodes_of_inside(LeafId leaf);
+  bool uses_its_own(LeafId leaf) const;
   std::vector<int> ranks_wanted();
   Home home_of(const Request& asked) const {
     return {graph_->from_local(asked.leaf), asked.site, asked.position};

@@ -133,18 +133,18 @@ class ForestCutter {
     if (state(leaf) != CutForest::State::outside || trace_of(leaf) >= 0 || bent) store(leaf);
   }
 
-  CutForest::Mark mark() const {
+  CutForest::Offsets offsets() const {
     return {size32(result_.nodes), size32(result_.triangles), size32(result_.quads), size32(result_.outline)};
   }
 
   void store(LeafId leaf) {
     const CutLeaf& made = cutter_.result();
-    CutForest::Entry entry{mark(), {}, made.inside_halves};
+    CutForest::Entry entry{offsets(), {}, made.inside_halves};
     result_.nodes.insert(result_.nodes.end(), made.nodes.begin(), made.nodes.end());
     result_.triangles.insert(result_.triangles.end(), cells_.triangles.begin(), cells_.triangles.end());
     result_.quads.insert(result_.quads.end(), cells_.quads.begin(), cells_.quads.end());
     result_.outline.insert(result_.outline.end(), made.outline.begin(), made.outline.end());
-    entry.end = mark();
+    entry.end = offsets();
     state(leaf) = CutForest::State::cut;
     entry_of(leaf) = size32(result_.entries);
     result_.entries.push_back(entry);

@@ -12,11 +12,11 @@ struct CutForest {
   enum class State : char { outside, inside, cut };
 
   /// Where the lists below begin for a cut leaf, or end.
-  struct Mark {
+  struct Offsets {
     std::int32_t nodes = 0, triangles = 0, quads = 0, outline = 0;
   };
   struct Entry {
-    Mark begin, end;
+    Offsets begin, end;
     CutLeaf::InsideHalves inside_halves;
   };
 

@@ -271,7 +271,7 @@ void LeafCutter::add_hanging_nodes(Point segment_end) {
             });
 }
 
-/// Marks the points of a piece that the chords go through.
+/// Chooses the points of a piece that the chords go through.
 void LeafCutter::choose_points(bool closed, Detail detail) {
   leaf_.refined = leaf_.refined || closed;
   run_.front().chosen = run_.back().chosen = true;

@@ -20,7 +20,7 @@ void count_triangles(const std::vector<std::int32_t>& standing, std::vector<Leaf
   for (LeafRecord& leaf : leaves) {
     const auto end = place + leaf.triangles;
     leaf.triangles = std::accumulate(place, end, std::int32_t{0});
-    leaf.mark = leaf.triangles + leaf.quads > 0 ? 1 : 0;
+    leaf.block = leaf.triangles + leaf.quads > 0 ? 1 : 0;
     place = end;
   }
 }

@@ -84,7 +84,7 @@ DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDe
   }
 }
 
-/// `first_above` is the number of the first of the level above. Marks the parents.
+/// `first_above` is the number of the first of the level above, which learns of its children.
 void DemandedSplits::append_level(std::span<const Key> all, std::span<const Key> asked,
                                   std::span<const Key> above, std::int32_t first_above) {
   std::size_t next_asked = 0, parent = 0;
