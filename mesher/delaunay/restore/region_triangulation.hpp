@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "mesher/delaunay/delaunay_patch.hpp"
-#include "mesher/mesh/star_halo.hpp"
+#include "mesher/delaunay/restore/star_halo.hpp"
 
 namespace quadloop {
 

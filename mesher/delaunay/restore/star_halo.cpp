@@ -1,4 +1,4 @@
-#include "mesher/mesh/star_halo.hpp"
+#include "mesher/delaunay/restore/star_halo.hpp"
 
 #include <algorithm>
 
