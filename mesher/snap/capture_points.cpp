@@ -14,7 +14,7 @@ namespace quadloop {
 namespace {
 
 // Shares of the local edge, where crossings nearer than usual_snap take a corner.
-constexpr double usual_snap = 0.4, corner_reach = 0.45, edge_reach = 0.34;
+constexpr double usual_snap = 0.4, edge_reach = 0.34;
 /// A point that turns by more takes corners and edges along even where it is not kept.
 constexpr double pointed_degrees = 45;
 constexpr double crossing_reach = 0.4;  ///< a crossing nearer to the point than this is taken by its edge
