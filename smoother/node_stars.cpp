@@ -39,11 +39,11 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes,
   for (const auto& seen : {seen_targets<3>(ideal_targets<3>()), seen_targets<4>(ideal_targets<4>())}) {
     targets_.insert(targets_.end(), seen.begin(), seen.end());
   }
-  std::vector<std::int32_t> place(mesh.points().size(), -1);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) place[nodes_[i]] = static_cast<std::int32_t>(i);
+  std::vector<std::int32_t> star_of(mesh.points().size(), -1);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) star_of[nodes_[i]] = static_cast<std::int32_t>(i);
   mesh.for_each_cell([&](const auto& cell) {
     for (const NodeId node : cell) {
-      const std::int32_t i = place[node.value()];
+      const std::int32_t i = star_of[node.value()];
       if (i >= 0)
         starts_[static_cast<std::size_t>(i) + 1] +=
             corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
@@ -54,7 +54,7 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes,
   std::vector<std::size_t> ends(starts_.begin(), starts_.end() - 1);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& cell) {
-    add_cell(cell, targets.empty() ? CellTarget{} : targets[number], place, ends);
+    add_cell(cell, targets.empty() ? CellTarget{} : targets[number], star_of, ends);
     ++number;
   });
 }
@@ -70,11 +70,11 @@ std::int32_t NodeStars::first_target(const CellTarget& target) {
 
 template <std::size_t width>
 void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
-                         std::span<const std::int32_t> place, std::vector<std::size_t>& ends) {
+                         std::span<const std::int32_t> star_of, std::vector<std::size_t>& ends) {
   constexpr auto per_node = static_cast<std::int32_t>(corners_of_cell<width>);
   std::int32_t targets = -1;
   for (std::size_t k = 0; k < width; ++k) {
-    const std::int32_t i = place[cell[k].value()];
+    const std::int32_t i = star_of[cell[k].value()];
     if (i < 0) continue;
     if (targets < 0) targets = first_target<width>(target);
     const NodeId next = cell[(k + 1) % width], previous = cell[(k + width - 1) % width];

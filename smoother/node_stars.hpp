@@ -49,7 +49,7 @@ class NodeStars {
   }
   template <std::size_t width>
   void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
-                std::span<const std::int32_t> place, std::vector<std::size_t>& ends);
+                std::span<const std::int32_t> star_of, std::vector<std::size_t>& ends);
   template <std::size_t width>
   std::int32_t first_target(const CellTarget& target);
 

@@ -244,8 +244,8 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
   const std::vector<char> moved = take_positions(halo, mesh);
   const bool sound = after.inverted == 0 || !comm.any(any_turns_right(mesh));
   if (options.delaunay && sound && report.moves > 0) {
-    if (options.keep_places) restore_delaunay(comm, mesh, moved, options.delaunay, options.triangle_to_block);
-    if (!options.keep_places) report.standing = restore_delaunay_nearby(comm, mesh, moved, options.delaunay);
+    if (options.keep_slots) restore_delaunay(comm, mesh, moved, options.delaunay, options.triangle_to_block);
+    if (!options.keep_slots) report.standing = restore_delaunay_nearby(comm, mesh, moved, options.delaunay);
     after = worst_triangle(comm, mesh);
   }
   report.worst_cost_before = first.cost;
@@ -278,8 +278,8 @@ std::vector<char> nodes_near_worse(const Communicator& comm, const Mesh& flipped
 /// end the whole mesh is left as it was. *Collective.*
 SmoothReport smooth_delaunay(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
   QUADLOOP_REQUIRE(!comm.any(!options.targets.empty()), "flips would leave cells without targets");
-  QUADLOOP_REQUIRE(options.keep_places || !comm.any(!options.triangle_to_block.empty()),
-                   "blocks are known by places");
+  QUADLOOP_REQUIRE(options.keep_slots || !comm.any(!options.triangle_to_block.empty()),
+                   "blocks are known by slots");
   const Mesh before = mesh;
   SmoothOptions careful = options;
   careful.pinned.resize(mesh.owned_nodes, 0);

@@ -31,8 +31,8 @@ struct SmoothOptions {
                                            ///< made so again by flips in the end
   /// Of each own triangle, or none: flips keep edges between two blocks.
   std::vector<std::int32_t> triangle_to_block;
-  bool keep_places = true;  ///< triangles made by flips take the places in the order that become free, else
-                            ///< those beside them; not with blocks
+  bool keep_slots = true;  ///< triangles made by flips take the slots in the order that become free, else
+                           ///< those beside them; not with blocks
   std::vector<CellTarget> targets;  ///< the shape of each own cell, triangles, then quads; or none at all for
                                     ///< ideal ones. Not with `delaunay`
 };
@@ -48,8 +48,8 @@ struct SmoothReport {
   std::int64_t free_nodes = 0, moves = 0;
   double worst_cost_before = 0, worst_cost_after = 0;    ///< Eq. 3.2, over all cells
   std::int64_t inverted_before = 0, inverted_after = 0;  ///< cells
-  std::vector<std::int32_t> standing;  ///< without `keep_places`, after flips: how many triangles stand in
-                                       ///< the place of each of this rank's before
+  std::vector<std::int32_t> standing;  ///< without `keep_slots`, after flips: how many triangles stand in
+                                       ///< the slot of each of this rank's before
 };
 
 /// Moves nodes to better the cells' shapes, T 3.7; connectivity stays but for the flips of a Delaunay mesh.

@@ -27,9 +27,9 @@ using Name = std::array<char, 33>;
 class CgnsBoundaries {
  public:
   BoundaryEdges& named(Mesh& mesh, const std::string& name, const std::string& condition) {
-    const auto [place, is_new] = names_.place_of(name);
+    const auto [number, is_new] = names_.entry_of(name);
     if (is_new) mesh.boundaries.push_back({name, condition, {}});
-    return mesh.boundaries[place];
+    return mesh.boundaries[number];
   }
 
   std::string condition_of_family(const File& file, int base, const std::string& family) {

@@ -25,9 +25,9 @@ class BoundaryStream {
   std::int64_t all_edges() const { return all_edges_; }
   /// The boundaries that have edges on any rank, in their order; and how many.
   const std::vector<const BoundaryEdges*>& present() const { return present_; }
-  std::int64_t edges_of(std::size_t place) const { return edges_[place]; }
+  std::int64_t edges_of(std::size_t index) const { return edges_[index]; }
 
-  /// On rank 0, for each boundary that has edges, `begin(n)` with its place in present(), then
+  /// On rank 0, for each boundary that has edges, `begin(n)` with its index in present(), then
   /// `put(std::span<const Edge>)` for each piece of it. *Collective*; what either throws ends on every rank,
   /// and nobody hangs.
   template <class Begin, class Put>
@@ -60,9 +60,9 @@ class BoundaryStream {
     std::vector<Incoming> incoming = all_incoming();
     std::exception_ptr failure;
     try {
-      std::int64_t boundary = -1, place = -1;
+      std::int64_t boundary = -1, index = -1;
       for (const Share& share : shares_) {
-        if (share.boundary != boundary) begin(static_cast<std::size_t>(++place));
+        if (share.boundary != boundary) begin(static_cast<std::size_t>(++index));
         boundary = share.boundary;
         take_share(share, incoming[share.rank], put);
       }

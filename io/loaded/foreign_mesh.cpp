@@ -128,13 +128,13 @@ void add_outer_boundary(Mesh& mesh) {
 }  // namespace
 
 std::int32_t ForeignMesh::boundary_named(const std::string& name) {
-  const auto [number, is_new] = boundary_names.place_of(name);
+  const auto [number, is_new] = boundary_names.entry_of(name);
   if (is_new) loaded.mesh.boundaries.push_back({name, "none", {}});
   return number;
 }
 
 std::int32_t ForeignMesh::block_named(const std::string& name) {
-  const auto [number, is_new] = block_names.place_of(name);
+  const auto [number, is_new] = block_names.entry_of(name);
   if (is_new) loaded.block_names.push_back(name);
   return number;
 }

@@ -64,8 +64,8 @@ class NodeNumbering {
   void number_slot(std::size_t slot, Point position);
   void fetch_copies(const Exchange& exchange, const std::vector<Request>& asked);
   Request request_of(const Home& home) const {
-    const LeafGraph::Place place = graph_->place_of(home.leaf);
-    return {place.rank, place.index, home.site, home.site == Site::inside ? home.position : Point{}};
+    const LeafGraph::Owner owner = graph_->owner_of(home.leaf);
+    return {owner.rank, owner.index, home.site, home.site == Site::inside ? home.position : Point{}};
   }
 
   const Lattice* lattice_;

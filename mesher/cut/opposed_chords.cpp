@@ -45,7 +45,7 @@ OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, c
       for (const Side side : all_sides) {
         if (!common.contains(side)) continue;
         for (const LeafId other : across(graph, leaf, side)) {
-          if (other != LeafGraph::none && !graph.is_local(other)) out.add(graph.place_of(other).rank, chord);
+          if (other != LeafGraph::none && !graph.is_local(other)) out.add(graph.owner_of(other).rank, chord);
         }
       }
     }

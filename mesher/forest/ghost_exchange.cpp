@@ -8,7 +8,7 @@ std::vector<CopyExchange::Copy> ghosts_of(const LeafGraph& graph) {
   std::vector<CopyExchange::Copy> ghosts;
   for (const LeafId leaf : graph.all()) {
     if (!graph.is_local(leaf))
-      ghosts.push_back({leaf.value(), graph.place_of(leaf).rank, graph.place_of(leaf).index});
+      ghosts.push_back({leaf.value(), graph.owner_of(leaf).rank, graph.owner_of(leaf).index});
   }
   return ghosts;
 }

@@ -15,12 +15,12 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
   local_count_ = size32(local);
   leaves_.reserve(local.size() + ghosts.size());
   for (const auto& ghost : ghosts) {
-    if (ghost.owner < rank_) leaves_.push_back(ghost.place);
-    ghost_places_.push_back({ghost.owner, ghost.index});
+    if (ghost.owner < rank_) leaves_.push_back(ghost.quadrant);
+    ghost_owners_.push_back({ghost.owner, ghost.index});
   }
   leaves_.insert(leaves_.end(), local.begin(), local.end());
   for (const auto& ghost : ghosts) {
-    if (ghost.owner > rank_) leaves_.push_back(ghost.place);
+    if (ghost.owner > rank_) leaves_.push_back(ghost.quadrant);
   }
   build_trees(lattice);
   around_.resize(leaves_.size());
@@ -35,9 +35,9 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
   }
 }
 
-LeafGraph::Place LeafGraph::place_of(LeafId leaf) const {
+LeafGraph::Owner LeafGraph::owner_of(LeafId leaf) const {
   if (is_local(leaf)) return {rank_, local_index(leaf)};
-  return ghost_places_[leaf.value() - (local_index(leaf) < 0 ? 0 : local_count_)];
+  return ghost_owners_[leaf.value() - (local_index(leaf) < 0 ? 0 : local_count_)];
 }
 
 LeafId LeafGraph::leaf_at(std::int64_t x, std::int64_t y) const {

@@ -34,17 +34,17 @@ class LeafGraph {
   const std::vector<Quadrant>& leaves() const { return leaves_; }
 
   /// The rank that a leaf belongs to, and its local index there.
-  struct Place {
+  struct Owner {
     int rank = 0;
     std::int32_t index = 0;
   };
-  Place place_of(LeafId leaf) const;
+  Owner owner_of(LeafId leaf) const;
 
   /// The leaf that holds the unit square right above the lattice corner (x, y); none where there is none in
   /// sight.
   LeafId leaf_at(std::int64_t x, std::int64_t y) const;
   /// The rank with the leaf that holds it, in sight or not; it must lie in the root.
-  int rank_at(std::int64_t x, std::int64_t y) const { return owners_.rank_of(owners_.place_of(x, y)); }
+  int rank_at(std::int64_t x, std::int64_t y) const { return owners_.rank_of(owners_.key_at(x, y)); }
   /// The leaves round a lattice point, as Corner counts from it; a leaf that it lies on a side of is there
   /// twice.
   std::array<LeafId, 4> leaves_round(LatticePoint p) const {
@@ -84,7 +84,7 @@ class LeafGraph {
   std::vector<Quadrant> leaves_;
   std::int32_t local_begin_ = 0, local_count_ = 0;
   int rank_ = 0;
-  std::vector<Place> ghost_places_;
+  std::vector<Owner> ghost_owners_;
   std::vector<Around> around_;
   std::vector<std::array<Ref, 4>> inner_;  ///< by Corner
   std::vector<Ref> roots_;

@@ -23,8 +23,8 @@ struct GlobalEdge {
   std::int32_t boundary;
 };
 
-/// Places along the Morton curve over the box of all nodes.
-std::vector<std::uint64_t> curve_places(const Mesh& mesh) {
+/// Keys along the Morton curve over the box of all nodes.
+std::vector<std::uint64_t> curve_keys(const Mesh& mesh) {
   Box box;
   for (const Point p : mesh.points) box.include(p);
   const double side = std::max(box.width(), box.height());
@@ -32,10 +32,10 @@ std::vector<std::uint64_t> curve_places(const Mesh& mesh) {
   const auto step = [&](double at, double low) {
     return static_cast<std::uint32_t>(side > 0 ? (at - low) / side * steps : 0);
   };
-  std::vector<std::uint64_t> places;
-  places.reserve(mesh.points.size());
-  for (const Point p : mesh.points) places.push_back(morton_key(step(p.x, box.low.x), step(p.y, box.low.y)));
-  return places;
+  std::vector<std::uint64_t> keys;
+  keys.reserve(mesh.points.size());
+  for (const Point p : mesh.points) keys.push_back(morton_key(step(p.x, box.low.x), step(p.y, box.low.y)));
+  return keys;
 }
 
 std::vector<std::int32_t> numbers_to(std::size_t count) {
@@ -188,7 +188,7 @@ std::vector<Point> gather_points(const Communicator& comm, const Mesh& part) {
 
 MeshOrder space_filling_order(const Mesh& whole) {
   MeshOrder order;
-  order.nodes = ordered_by(curve_places(whole));
+  order.nodes = ordered_by(curve_keys(whole));
   const std::vector<std::int32_t> numbers = inverse_of(order.nodes);
   order.triangles = ordered_cells(whole.triangles, numbers);
   order.quads = ordered_cells(whole.quads, numbers);

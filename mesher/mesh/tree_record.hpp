@@ -7,7 +7,7 @@ namespace quadloop {
 
 /// One leaf as the tree file keeps it.
 struct LeafRecord {
-  std::int32_t tree_x = 0, tree_y = 0;  ///< its tree's place in the brick
+  std::int32_t tree_x = 0, tree_y = 0;  ///< its tree's column and row in the brick
   std::int32_t x = 0, y = 0;            ///< its lower left corner in its tree, a tree's edge being 2^30
   std::int8_t level = 0;                ///< edge = tree edge / 2^level
   std::int8_t wanted = 0;               ///< the level that case, geometry and adaptation ask for

@@ -17,12 +17,11 @@ constexpr std::size_t block = 16;
 constexpr std::uint8_t children_bits = 0xf, asked_bit = 0x10;
 constexpr std::uint64_t children_of_word = 0x0f0f0f0f0f0f0f0fULL;
 
-/// Of the quadrant of this level that holds a place. No quadrant deeper than this is split: its coordinates
+/// Of the quadrant of this level that holds q. No quadrant deeper than this is split: its coordinates
 /// in units of its size fit into 32 bits.
-std::uint64_t key_of(const Quadrant& place, int level) {
+std::uint64_t key_of(const Quadrant& q, int level) {
   const int shift = Quadrant::unit_level - level;
-  return morton_key(static_cast<std::uint32_t>(place.x >> shift),
-                    static_cast<std::uint32_t>(place.y >> shift));
+  return morton_key(static_cast<std::uint32_t>(q.x >> shift), static_cast<std::uint32_t>(q.y >> shift));
 }
 
 void make_unique(std::vector<std::uint64_t>& keys) {

@@ -41,7 +41,7 @@ class DemandedSplits {
   bool asked(std::int32_t number) const;
 
  private:
-  /// Place of a quadrant on the Morton curve over all trees, among those of its level.
+  /// Key of a quadrant on the Morton curve over all trees, among those of its level.
   using Key = std::uint64_t;
   void append_level(std::span<const Key> all, std::span<const Key> asked, std::span<const Key> above,
                     std::int32_t first_above);

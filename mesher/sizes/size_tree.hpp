@@ -16,7 +16,7 @@ namespace quadloop {
 class SizeTree {
  public:
   struct Node {
-    Quadrant place;
+    Quadrant quadrant;
     std::int32_t parent = -1;
     std::int32_t children = unknown;  ///< index of the first of four, or one of the two below
     std::int32_t segments_begin = 0, segments_end = 0;

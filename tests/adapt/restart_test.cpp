@@ -45,7 +45,7 @@ std::vector<std::array<std::int64_t, 6>> all_leaves(const TreeRecord& tree,
                                                     const Communicator& comm = world()) {
   std::vector<std::array<std::int64_t, 6>> own;
   for (const LeafRecord& leaf : tree.leaves) {
-    const Quadrant q = place_of(leaf);
+    const Quadrant q = quadrant_of(leaf);
     own.push_back({q.x, q.y, q.level, leaf.wanted, leaf.adapted, leaf.triangles + 1000 * leaf.quads});
   }
   return comm.all_gather_values(std::span<const std::array<std::int64_t, 6>>(own));
@@ -61,7 +61,7 @@ constexpr int finest = 12;
 ChangedSplits refined_by_choice(const TreeRecord& tree, const Communicator& comm = world()) {
   std::vector<Mark> marks;
   for (const LeafRecord& leaf : tree.leaves)
-    marks.push_back(chosen(place_of(leaf)) ? Mark::refine : Mark::keep);
+    marks.push_back(chosen(quadrant_of(leaf)) ? Mark::refine : Mark::keep);
   return changed_splits(comm, tree, marks, finest);
 }
 
@@ -138,7 +138,7 @@ std::vector<Mark> marks_of_cells(const TreeRecord& tree, Mark mark,
                                  const std::function<bool(const Quadrant&)>& where) {
   std::vector<Mark> marks;
   for (const LeafRecord& leaf : tree.leaves)
-    marks.push_back(leaf.triangles + leaf.quads > 0 && where(place_of(leaf)) ? mark : Mark::keep);
+    marks.push_back(leaf.triangles + leaf.quads > 0 && where(quadrant_of(leaf)) ? mark : Mark::keep);
   return marks;
 }
 

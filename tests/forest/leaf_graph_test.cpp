@@ -85,7 +85,26 @@ TEST(LeafGraph, KnowsTheRankOfLeavesOutOfSight) {
   }
 }
 
-TEST(LeafGraph, PlacesNameTheOwners) {
+TEST(LeafGraph, LocalLeavesHaveAnIndexAndGhostsHaveNone) {
+  const Forest forest = refined_brick(brick_lattice);
+  const LeafGraph graph(test::world(), brick_lattice, forest);
+  std::int32_t leaves = 0, local = 0;
+  for (const LeafId leaf : graph.all()) {
+    EXPECT_EQ(leaf, LeafId{leaves++});
+    const bool in_range = leaf.value() >= graph.local_begin() && local < graph.local_size();
+    EXPECT_EQ(graph.is_local(leaf), in_range);
+    if (!graph.is_local(leaf)) continue;
+    EXPECT_EQ(graph.local_index(leaf), local);
+    EXPECT_EQ(graph.from_local(local++), leaf);
+  }
+  EXPECT_EQ(leaves, graph.size());
+  EXPECT_EQ(local, graph.local_size());
+  for (const LeafId leaf : graph.local()) local -= graph.is_local(leaf) ? 1 : 0;
+  EXPECT_EQ(local, 0);
+  EXPECT_FALSE(graph.is_local(LeafGraph::none));
+}
+
+TEST(LeafGraph, LeavesKnowTheirOwners) {
   const Forest forest = refined_brick(brick_lattice);
   const LeafGraph graph(test::world(), brick_lattice, forest);
   std::vector<Quadrant> local;
@@ -93,9 +112,9 @@ TEST(LeafGraph, PlacesNameTheOwners) {
   const auto counts = test::world().all_gather(std::ssize(local));
   const auto all = test::world().all_gather_values(std::span<const Quadrant>(local));
   for (const LeafId leaf : graph.all()) {
-    const LeafGraph::Place place = graph.place_of(leaf);
-    std::int64_t at = place.index;
-    for (int rank = 0; rank < place.rank; ++rank) at += counts[rank];
+    const LeafGraph::Owner owner = graph.owner_of(leaf);
+    std::int64_t at = owner.index;
+    for (int rank = 0; rank < owner.rank; ++rank) at += counts[rank];
     EXPECT_EQ(all[at], graph.leaf(leaf));
   }
 }

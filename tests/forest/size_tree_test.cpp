@@ -115,11 +115,11 @@ TEST(SizeTree, NodesHoldWhatMeetsThem) {
     const auto found = tree.segments_of(node);
     std::vector<std::int32_t> wanted;
     for (std::int32_t s = 0; s < sizes.geometry.size(); ++s) {
-      if (sizes.outline.meets(s, sizes.lattice.box_of(node.place))) wanted.push_back(s);
+      if (sizes.outline.meets(s, sizes.lattice.box_of(node.quadrant))) wanted.push_back(s);
     }
     EXPECT_EQ(std::vector<std::int32_t>(found.begin(), found.end()), wanted);
     if (node.parent >= 0) {
-      EXPECT_TRUE(tree.node(node.parent).place.contains(node.place));
+      EXPECT_TRUE(tree.node(node.parent).quadrant.contains(node.quadrant));
     }
     EXPECT_LE(node.deepest_split, node.finest);
   }

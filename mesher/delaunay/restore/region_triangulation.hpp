@@ -42,7 +42,7 @@ class RegionTriangulation {
  private:
   using Triangle = DelaunayPatch::Triangle;
   using Edge = std::array<std::int32_t, 2>;
-  /// What triangles at some places of the patch were, and what they are now; the smallest node first.
+  /// What triangles in some slots of the patch were, and what they are now; the smallest node first.
   struct Changes {
     std::vector<std::pair<Triangle, FreedTriangle>> before;
     std::vector<std::pair<Triangle, std::int32_t>> after;  ///< with their blocks

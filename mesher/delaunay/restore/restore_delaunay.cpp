@@ -124,24 +124,24 @@ std::vector<Row> of_block(const std::vector<Row>& rows, std::int32_t block) {
   return found;
 }
 
-/// Puts a block's new triangles at its free places, both in an order that all ranks make together: the places
+/// Puts a block's new triangles at its free slots, both in an order that all ranks make together: the slots
 /// by their numbers, the triangles by that of the one before that they are near to. *Collective.*
 void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle>& freed,
                        std::vector<MadeTriangle> made, Mesh& mesh) {
   const auto size_of = [](const auto& rows) { return std::ssize(rows); };
   QUADLOOP_REQUIRE(comm.sum(size_of(freed)) == comm.sum(size_of(made)), "flips keep the number of triangles");
   const Ranges triangles(comm, mesh.triangles.size());
-  std::vector<FreedTriangle> places =
+  std::vector<FreedTriangle> slots =
       deliver(comm, freed, [&](const FreedTriangle& t) { return triangles.rank_of(t.number); });
   made = deliver(comm, made, [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
-  std::sort(places.begin(), places.end());
+  std::sort(slots.begin(), slots.end());
   std::sort(made.begin(), made.end());
-  const Ranges free_places(comm, places.size());
+  const Ranges free_slots(comm, slots.size());
   std::int64_t next = comm.exclusive_sum(size_of(made));
-  made = deliver(comm, made, [&](const MadeTriangle&) { return free_places.rank_of(next++); });
+  made = deliver(comm, made, [&](const MadeTriangle&) { return free_slots.rank_of(next++); });
   NodeTable nodes(mesh);
   for (std::size_t i = 0; i < made.size(); ++i) {
-    auto& triangle = mesh.triangles[places[i].number - triangles.begin(comm.rank())];
+    auto& triangle = mesh.triangles[slots[i].number - triangles.begin(comm.rank())];
     for (std::size_t k = 0; k < 3; ++k) triangle[k] = nodes.local(made[i].nodes[k], made[i].points[k]);
   }
 }

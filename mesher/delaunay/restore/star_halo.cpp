@@ -48,16 +48,16 @@ void StarHalo::add(const NumberedTriangle& triangle) {
 
 /// The triangles around owned nodes, each once.
 std::vector<NumberedTriangle> StarHalo::around(std::span<const std::int64_t> nodes) const {
-  std::vector<std::size_t> places;
+  std::vector<std::size_t> indices;
   for (const std::int64_t node : nodes) {
     auto spoke = std::lower_bound(spokes_.begin(), spokes_.end(), Spoke{node, 0});
-    for (; spoke != spokes_.end() && spoke->node == node; ++spoke) places.push_back(spoke->triangle);
+    for (; spoke != spokes_.end() && spoke->node == node; ++spoke) indices.push_back(spoke->triangle);
   }
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
   std::vector<NumberedTriangle> found;
-  found.reserve(places.size());
-  for (const std::size_t place : places) found.push_back(triangles_[place]);
+  found.reserve(indices.size());
+  for (const std::size_t i : indices) found.push_back(triangles_[i]);
   return found;
 }
 
