@@ -44,7 +44,8 @@ void require_solver_files(const AdaptArguments& arguments, const CommandSolver& 
   if (!is_for(solver.solution, Content::solution))
     table.refuse("solution", "is '" + solver.solution + "', but solutions are read from " +
                                  suffixes_for({Content::solution}, "and") + "; end the name in one of these");
-  if (solver.solution == solver.mesh || std::filesystem::path(solver.solution).stem() == "mesh")
+  if (solver.solution == solver.mesh ||
+      std::filesystem::path(solver.solution).stem() == CyclePaths::mesh_stem)
     table.refuse(
         "solution",
         "is '" + solver.solution +

@@ -10,11 +10,11 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/summary.hpp"
-#include "io/files/output_file.hpp"
 #include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/input/geom_text.hpp"
 #include "io/mesh_file.hpp"
+#include "io/text/text_output.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -75,14 +75,9 @@ Geometry meshed_geometry(const MeshInput& input) {
 }
 
 void write_geometry(OutputSet& outputs, const Geometry& geometry, const std::string& path) {
-  const StagedFile staged = outputs.stage(path);
-  const Communicator& comm = outputs.communicator();
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    OutputFile file(staged);
-    file.write(geom_text(geometry));
-    file.close();
-  });
+  TextOutput file(outputs, path);
+  file.write(file.communicator().is_root() ? geom_text(geometry) : "");
+  file.close();
 }
 
 void write_outputs(const Communicator& comm, const MeshResult& result, const Prepared& prepared,

@@ -38,7 +38,9 @@ std::vector<std::string> files_beside(const std::string& tree) {
   const std::string ending = ".tree.h5";
   const bool named = tree.size() > ending.size() && tree.ends_with(ending);
   const std::string prefix = named ? tree.substr(0, tree.size() - ending.size()) : tree;
-  return {prefix + ".mesh", prefix + ".cgns"};
+  std::vector<std::string> files;
+  for (const std::string& format : default_formats()) files.push_back(prefix + "." + format);
+  return files;
 }
 
 /// The one that is there, for a solution without cells.
@@ -57,8 +59,8 @@ std::string mesh_beside(const std::string& tree) {
 /// calling rank alone.
 LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
   LoadedSolution solution = read_solution(arguments.solution);
-  LoadedMesh whole = read_mesh(solution.has_cells ? arguments.solution : mesh_beside(arguments.tree));
-  require_same_mesh(solution, whole.mesh);
+  LoadedMesh whole = solution.mesh ? std::move(*solution.mesh) : read_mesh(mesh_beside(arguments.tree));
+  if (!solution.mesh) require_same_mesh(solution, whole.mesh);
   const auto count = [](const auto& rows) { return std::ssize(rows); };
   require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0}, tree,
                  arguments.solution, arguments.tree);

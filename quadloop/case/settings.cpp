@@ -176,6 +176,7 @@ void read_smooth_table(const CaseTable& root, Settings& settings) {
 
 void read_output_table(const CaseTable& root, const std::string& case_path, Settings& settings) {
   settings.output_prefix = std::filesystem::path(case_path).stem().string();
+  settings.formats = default_formats();
   const auto table = root.table("output");
   if (!table) return;
   settings.output_prefix = table->text("prefix").value_or(settings.output_prefix);

@@ -43,7 +43,7 @@ struct Settings {
   SolverSettings solver;
   std::optional<AdaptOptions> adapt;  ///< where the case has a table for it
   std::string output_prefix;
-  std::vector<std::string> formats{"mesh", "cgns"};
+  std::vector<std::string> formats;
 };
 
 /// Reads the case file with the command line's assignments over it. On the calling rank alone. Throws
