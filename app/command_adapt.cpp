@@ -151,9 +151,7 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
 void add_adapt_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<AdaptArguments>();
   CLI::App* command = app.add_subcommand("adapt", "mesh, solve and adapt in turn, as a case file says");
-  command->add_option("case", arguments->case_path, "the case file (TOML)")
-      ->required()
-      ->type_name("CASE.toml");
+  add_case_argument(*command, arguments->case_path);
   command->add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")
       ->type_name("DIR");
   command->add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")
@@ -161,11 +159,7 @@ void add_adapt_command(CLI::App& app, CommandContext& context) {
       ->check(CLI::Range(0, 10000));
   command->add_flag("--resume", arguments->resume, "go on after the last whole cycle in the folder");
   add_max_cells_option(*command, arguments->max_cells);
-  command
-      ->add_option("--set", arguments->assignments,
-                   "set a key of the case file, as in solver.mach=0.7; one or more")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(*command, arguments->assignments, "solver.mach=0.7");
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_adapt(context, *arguments); }; });
 }

@@ -140,9 +140,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
 void add_mesh_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<MeshArguments>();
   CLI::App* command = app.add_subcommand("mesh", "mesh the domain that a case file describes");
-  command->add_option("case", arguments->case_path, "the case file (TOML)")
-      ->required()
-      ->type_name("CASE.toml");
+  add_case_argument(*command, arguments->case_path);
   command
       ->add_option("-o,--output", arguments->prefix,
                    "what the output files begin with, instead of output.prefix")
@@ -159,11 +157,7 @@ void add_mesh_command(CLI::App& app, CommandContext& context) {
                    "write the geometry as it is meshed, without the islands that are dropped")
       ->type_name("OUT.geom");
   add_max_cells_option(*command, arguments->max_cells);
-  command
-      ->add_option("--set", arguments->assignments,
-                   "set a key of the case file, as in spacing.min=0.1; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(*command, arguments->assignments, "spacing.min=0.1");
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_mesh(context, *arguments); }; });
 }

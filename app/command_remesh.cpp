@@ -217,9 +217,7 @@ void add_remesh_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<RemeshArguments>();
   CLI::App* command =
       app.add_subcommand("remesh", "one pass of the loop for a solution that was computed elsewhere");
-  command->add_option("case", arguments->case_path, "the case file (TOML)")
-      ->required()
-      ->type_name("CASE.toml");
+  add_case_argument(*command, arguments->case_path);
   command
       ->add_option("--tree", arguments->tree,
                    "the tree of the mesh that was solved on: quadloop mesh writes it beside the mesh")
@@ -232,11 +230,7 @@ void add_remesh_command(CLI::App& app, CommandContext& context) {
                    "what the output files begin with, instead of output.prefix")
       ->type_name("PREFIX");
   add_max_cells_option(*command, arguments->max_cells);
-  command
-      ->add_option("--set", arguments->assignments,
-                   "set a key of the case file, as in adapt.refine=0.5; one or more")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(*command, arguments->assignments, "adapt.refine=0.5");
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_remesh(context, *arguments); }; });
 }

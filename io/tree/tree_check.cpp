@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "io/files/hdf5_handle.hpp"
+#include "io/tree/tree_layout.hpp"
 
 namespace quadloop {
 
