@@ -58,12 +58,10 @@ void require_solver_files(const AdaptArguments& arguments, const CommandSolver& 
 
 AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, std::string& note) {
   CaseInput input = load_case({arguments.case_path, arguments.assignments, {}, {}});
-  if (!input.settings.adapt)
-    throw InputError(arguments.case_path +
-                     ": has no table [adapt]; it says from what the mesh is to be adapted");
   warnings = std::move(input.warnings);
   const Settings& settings = input.settings;
-  require_known_variables(settings.solver, settings.adapt->variables, arguments.case_path);
+  const AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
+  require_known_variables(settings.solver, adapt.variables, arguments.case_path);
   const EulerOptions& flow = settings.solver.euler;
   if (!settings.solver.given)
     note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach,
@@ -71,8 +69,7 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   ChosenSolver solver =
       chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const auto* command = std::get_if<CommandSolver>(&solver)) require_solver_files(arguments, *command);
-  AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.formats,
-                        settings.values};
+  AdaptiveCase adaptive{std::move(*input.mesh), adapt, std::move(solver), settings.formats, settings.values};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }

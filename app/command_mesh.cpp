@@ -63,7 +63,7 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   for (const std::string& format : settings.formats)
     prepared.files.push_back(settings.output_prefix + "." + format);
   if (!arguments.geometry_out.empty()) prepared.files.push_back(arguments.geometry_out);
-  prepared.files.push_back(settings.output_prefix + ".tree.h5");
+  prepared.files.push_back(settings.output_prefix + tree_suffix);
   for (const std::string& file : prepared.files) require_possible_output(file);
   return prepared;
 }
@@ -88,7 +88,7 @@ void write_outputs(const Communicator& comm, const MeshResult& result, const Pre
     write_mesh(outputs, result.mesh, settings.output_prefix + "." + format);
   }
   if (!geometry_out.empty()) write_geometry(outputs, meshed_geometry(*prepared.input.mesh), geometry_out);
-  write_tree(outputs, result.tree, settings.output_prefix + ".tree.h5");
+  write_tree(outputs, result.tree, settings.output_prefix + tree_suffix);
   outputs.commit();
 }
 

@@ -35,7 +35,7 @@ struct RemeshArguments {
 
 /// Where the mesh of a tree may be: beside it, under the same name.
 std::vector<std::string> files_beside(const std::string& tree) {
-  const std::string ending = ".tree.h5";
+  const std::string ending = tree_suffix;
   const bool named = tree.size() > ending.size() && tree.ends_with(ending);
   const std::string prefix = named ? tree.substr(0, tree.size() - ending.size()) : tree;
   std::vector<std::string> files;
@@ -104,7 +104,7 @@ void write(const Communicator& comm, const CarriedMesh& carried, const std::vect
   OutputSet outputs(comm);
   const MeshResult& result = carried.generated.result;
   for (const std::string& file : files) {
-    if (std::filesystem::path(file).extension() == ".h5")
+    if (file.ends_with(tree_suffix))
       write_tree(outputs, result.tree, file);
     else
       write_mesh(outputs, result.mesh, file, &carried.start, gamma);
@@ -143,7 +143,7 @@ Problem load(const Communicator& comm, const RemeshArguments& arguments) {
     const Settings& settings = problem.input.settings;
     const std::string prefix = arguments.prefix.empty() ? settings.output_prefix : arguments.prefix;
     for (const std::string& format : settings.formats) problem.files.push_back(prefix + "." + format);
-    problem.files.push_back(prefix + ".tree.h5");
+    problem.files.push_back(prefix + tree_suffix);
     for (const std::string& file : problem.files) require_possible_output(file);
     if (comm.is_root()) problem.whole = solved_mesh(arguments, tree);
   });

@@ -23,13 +23,6 @@ namespace {
 
 const MeshInput& mesh_input(const Case& of) { return *of.parts().input.mesh; }
 
-const AdaptOptions& adapt_options(const Case& of) {
-  const auto& adapt = of.parts().input.settings.adapt;
-  if (!adapt)
-    throw InputError(of.parts().path + ": has no table [adapt]; it says from what the mesh is to be adapted");
-  return *adapt;
-}
-
 std::string text_of(const MeshFault& fault) {
   return fmt::format("{}: {} at ({}, {})", name_of(fault.rule), fault.what, fault.place.x, fault.place.y);
 }
@@ -84,8 +77,8 @@ FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
 
 Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved) {
   require_rows(comm, solved.mesh, solved.solution);
-  auto plan = std::make_shared<const AdaptationPlan>(
-      plan_adaptation(comm, mesh_input(of), adapt_options(of), solved));
+  const AdaptOptions& options = adapt_options(of.parts().input.settings, of.parts().path);
+  auto plan = std::make_shared<const AdaptationPlan>(plan_adaptation(comm, mesh_input(of), options, solved));
   return {plan->refined, plan->coarsened, plan->warnings, plan};
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "io/formats.hpp"
+#include "io/tree/tree_file.hpp"
 
 namespace quadloop {
 
@@ -17,7 +18,7 @@ struct CyclePaths {
   std::string mesh(const std::string& format) const { return folder + "/" + mesh_name(format); }
   /// The one that a run goes on from.
   std::string native_mesh() const { return mesh(native_format().name); }
-  std::string tree() const { return mesh("tree.h5"); }
+  std::string tree() const { return folder + "/" + mesh_stem + tree_suffix; }
   std::string record() const { return folder + "/record.json"; }
   std::string log() const { return folder + "/log.txt"; }
 };

@@ -11,8 +11,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "mesher/base/error.hpp"
-
 namespace quadloop {
 
 /// An HDF5 id with the function that releases it.

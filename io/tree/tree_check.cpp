@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/tree/tree_layout.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 

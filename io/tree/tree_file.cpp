@@ -10,6 +10,7 @@
 #include "io/files/output_path.hpp"
 #include "io/files/row_stream.hpp"
 #include "io/tree/tree_layout.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 

@@ -8,6 +8,7 @@
 #include "io/tree/tree_check.hpp"
 #include "io/tree/tree_file.hpp"
 #include "io/tree/tree_layout.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 

@@ -232,6 +232,11 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   return settings;
 }
 
+const AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path) {
+  if (settings.adapt) return *settings.adapt;
+  throw InputError(case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
+}
+
 std::string format_suffix_of(const std::string& prefix) {
   const std::string suffix = std::filesystem::path(prefix).extension();
   return format_of(prefix) != nullptr || suffix == ".h5" ? suffix : std::string();

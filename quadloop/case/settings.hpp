@@ -50,6 +50,9 @@ struct Settings {
 /// InputError that names key and line.
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments);
 
+/// The case's table [adapt]. Throws InputError, which names the case, where it has none.
+const AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path);
+
 /// The suffix of a mesh or tree file that a prefix of output files ends in, if any: a slip, as suffixes are
 /// added to it.
 std::string format_suffix_of(const std::string& prefix);
