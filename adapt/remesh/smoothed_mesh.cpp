@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "io/solution_file.hpp"
+#include "mesher/mesh/check/compare_meshes.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "smoother/objective/condition_number.hpp"
@@ -103,7 +103,7 @@ std::string boundary_fault(const Mesh& before, const Mesh& found, const std::vec
       if (outline != nullptr && !curves) curves.emplace(*outline);
       const double reach =
           curves ? std::max(curves->tolerance(),
-                            solution_tolerance * length(before.point(edge[1]) - before.point(edge[0])))
+                            same_place_tolerance * length(before.point(edge[1]) - before.point(edge[0])))
                  : 0;
       if (curves && curves->has(boundary.name) &&
           std::isfinite(curves->distance(found.points[node], boundary.name, reach)))

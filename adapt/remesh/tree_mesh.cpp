@@ -12,6 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
 #include "mesher/generate/digests.hpp"
+#include "mesher/mesh/check/compare_meshes.hpp"
 #include "mesher/mesh/check/validate.hpp"
 
 namespace quadloop {
@@ -90,11 +91,6 @@ Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
   return whole;
 }
 
-LoadedSolution mesh_as_found(LoadedMesh& loaded, const std::string& path) {
-  const auto nodes = std::ssize(loaded.mesh.points);
-  return {path, {}, nodes, loaded.mesh.points, true, loaded.mesh.triangles, loaded.mesh.quads};
-}
-
 /// Cells alone: whether the file names the boundaries does not matter here.
 void require_valid_cells(const Mesh& mesh, const std::string& path) {
   for (const MeshFault& fault : validate(mesh)) {
@@ -135,7 +131,7 @@ TreeMesh mesh_of_tree(const Communicator& comm, const TreeRecord& tree, const Me
 
 void settle_mesh(const TreeMesh& of_tree, LoadedMesh& loaded, const std::string& path) {
   if (!of_tree.known) return require_valid_cells(loaded.mesh, path);
-  const std::string other = difference(mesh_as_found(loaded, path), of_tree.whole);
+  const std::string other = difference(loaded.mesh, of_tree.whole);
   if (other.empty()) {
     loaded.mesh = of_tree.whole;
     return;

@@ -25,8 +25,8 @@ struct EulerResult {
 /// Solves the two-dimensional Euler equations on a mesh of triangles and quadrilaterals. The flow starts
 /// from `start`, which has a row for each owned node; without variables, as the options say. The result has
 /// the same bits on any number of ranks. Throws InputError for a mesh or options that it cannot use, or a
-/// start in which variable() does not find euler_names,
-/// SolverError, with the place, where the flow cannot be kept physical. *Collective.*
+/// start in which variable() does not find euler_names, SolverError, with the place, where the flow cannot be
+/// kept physical. *Collective.*
 EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
                         const Field& start = {});
 

@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "io/files/hdf5_handle.hpp"
+#include "io/tree/tree_layout.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 

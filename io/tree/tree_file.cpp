@@ -9,6 +9,8 @@
 #include "io/files/hdf5_handle.hpp"
 #include "io/files/output_path.hpp"
 #include "io/files/row_stream.hpp"
+#include "io/tree/tree_layout.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 

@@ -7,6 +7,8 @@
 #include "io/files/separate_reader.hpp"
 #include "io/tree/tree_check.hpp"
 #include "io/tree/tree_file.hpp"
+#include "io/tree/tree_layout.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 

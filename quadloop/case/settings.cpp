@@ -176,6 +176,7 @@ void read_smooth_table(const CaseTable& root, Settings& settings) {
 
 void read_output_table(const CaseTable& root, const std::string& case_path, Settings& settings) {
   settings.output_prefix = std::filesystem::path(case_path).stem().string();
+  settings.formats = default_formats();
   const auto table = root.table("output");
   if (!table) return;
   settings.output_prefix = table->text("prefix").value_or(settings.output_prefix);
@@ -229,6 +230,11 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   root.finish();
   settings.values = root.values({"title", "output.prefix", "adapt.cycles", "solver.timeout", "solver.ranks"});
   return settings;
+}
+
+const AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path) {
+  if (settings.adapt) return *settings.adapt;
+  throw InputError(case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
 }
 
 std::string format_suffix_of(const std::string& prefix) {

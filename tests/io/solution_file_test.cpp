@@ -52,7 +52,7 @@ TEST(Su2Csv, ReadsNamesCoordinatesAndRows) {
   EXPECT_EQ(loaded.solution.names, (std::vector<std::string>{"Density", "Momentum_x"}));
   EXPECT_EQ(loaded.solution.values, (std::vector<double>{1, 0.2, 3, -4, 5, 6}));
   EXPECT_EQ(loaded.points, (std::vector<Point>{{0, 0}, {1, 0.5}, {1, 2}}));
-  EXPECT_FALSE(loaded.has_cells);
+  EXPECT_FALSE(loaded.mesh);
   EXPECT_EQ(read_text(test::with_crlf(table) + "\r\n").solution.values, loaded.solution.values);
   EXPECT_EQ(read_text("rho\n1\n2\n").solution.values, (std::vector<double>{1, 2}));
   EXPECT_TRUE(read_text("rho\n1\n2\n").points.empty());
@@ -147,7 +147,9 @@ TEST_P(Formats, SolutionComesBackAndFitsItsMesh) {
   EXPECT_EQ(loaded.solution.names, solution.names);
   EXPECT_EQ(loaded.solution.values, solution.values);
   EXPECT_EQ(loaded.nodes, mesh.owned_nodes);
-  EXPECT_TRUE(loaded.has_cells);
+  ASSERT_TRUE(loaded.mesh);
+  EXPECT_EQ(loaded.mesh->mesh.boundaries.size(), mesh.boundaries.size());
+  EXPECT_FALSE(loaded.mesh->solution);
   require_same_mesh(loaded, mesh);
 }
 
@@ -184,9 +186,9 @@ INSTANTIATE_TEST_SUITE_P(SolutionFile, Formats, testing::Values(".mesh", ".cgns"
 
 TEST(SolutionFile, OtherNumbersOfCellsAreTold) {
   const Mesh mesh = test::sample_mesh(2);
-  LoadedSolution loaded{
-      "s.vtu", test::sample_solution(mesh), mesh.owned_nodes, mesh.points, true, mesh.triangles, mesh.quads};
-  loaded.quads.pop_back();
+  LoadedSolution loaded{"s.vtu", test::sample_solution(mesh), mesh.owned_nodes, LoadedMesh{}, {}};
+  loaded.mesh->mesh = mesh;
+  loaded.mesh->mesh.quads.pop_back();
   expect_in(refusal_of([&] { require_same_mesh(loaded, mesh); }), "s.vtu: has 1 quads, the mesh 2");
 }
 
