@@ -61,12 +61,12 @@ std::string cell_difference(const std::string& kind, const std::vector<std::arra
 }
 
 /// The shortest edge at each node, squared.
-std::vector<double> shortest_edges(const Mesh& mesh) {
-  std::vector<double> shortest(mesh.points.size(), std::numeric_limits<double>::infinity());
+IdVector<NodeId, double> shortest_edges(const Mesh& mesh) {
+  IdVector<NodeId, double> shortest(mesh.points.size(), std::numeric_limits<double>::infinity());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
     const Point along = mesh.point(to) - mesh.point(from);
     for (const NodeId node : {from, to}) {
-      double& least = shortest[node.value()];
+      double& least = shortest[node];
       least = std::min(least, dot(along, along));
     }
   });
@@ -74,7 +74,7 @@ std::vector<double> shortest_edges(const Mesh& mesh) {
 }
 
 std::string place_difference(const LoadedSolution& solution, const Mesh& mesh) {
-  const std::vector<char> elsewhere = nodes_elsewhere(solution.points, mesh);
+  const NodeFlags elsewhere = nodes_elsewhere(solution.points, mesh);
   const auto first = std::find(elsewhere.begin(), elsewhere.end(), 1);
   if (first == elsewhere.end()) return {};
   const std::size_t i = first - elsewhere.begin();
@@ -115,12 +115,12 @@ void require_solution_suffix(const std::string& path) {
                    suffixes_for({Content::solution}) + " file");
 }
 
-std::vector<char> nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {
-  const std::vector<double> shortest = shortest_edges(mesh);
-  std::vector<char> elsewhere(points.size(), 0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point way = points[i] - mesh.points[i];
-    elsewhere[i] = dot(way, way) <= solution_tolerance * solution_tolerance * shortest[i] ? 0 : 1;
+NodeFlags nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {
+  const IdVector<NodeId, double> shortest = shortest_edges(mesh);
+  NodeFlags elsewhere(points.size(), 0);
+  for (const NodeId node : elsewhere.ids()) {
+    const Point way = points[node.value()] - mesh.point(node);
+    elsewhere[node] = dot(way, way) <= solution_tolerance * solution_tolerance * shortest[node] ? 0 : 1;
   }
   return elsewhere;
 }

@@ -102,7 +102,7 @@ class ForestCutter {
   CutForest take_result() { return std::move(result_); }
 
  private:
-  std::size_t local(std::int32_t leaf) const { return static_cast<std::size_t>(leaf - graph_.local_begin()); }
+  std::size_t local(std::int32_t leaf) const { return leaf - graph_.local_begin(); }
   CutForest::State& state(std::int32_t leaf) { return result_.states[local(leaf)]; }
   std::int32_t& entry_of(std::int32_t leaf) { return result_.entry_of[local(leaf)]; }
   std::int32_t trace_of(std::int32_t leaf) const { return traced_.trace_of[leaf]; }

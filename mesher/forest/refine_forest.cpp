@@ -38,7 +38,7 @@ class SqueezedLeaves {
   const std::vector<char>& marked() const { return marked_; }
 
  private:
-  std::size_t local(std::int32_t leaf) const { return static_cast<std::size_t>(leaf - graph_.local_begin()); }
+  std::size_t local(std::int32_t leaf) const { return leaf - graph_.local_begin(); }
 
   void mark(std::int32_t leaf) {
     if (!finer_[local(leaf)].has_opposites() || marked_[local(leaf)] != 0) return;
