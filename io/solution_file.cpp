@@ -59,7 +59,7 @@ std::string node_difference(std::int64_t nodes, const std::vector<Point>& points
         nodes, mesh.points.size());
   }
   if (points.empty()) return {};
-  const std::vector<char> elsewhere = nodes_elsewhere(points, mesh);
+  const NodeFlags elsewhere = nodes_elsewhere(points, mesh);
   const auto first = std::find(elsewhere.begin(), elsewhere.end(), 1);
   if (first == elsewhere.end()) return {};
   const std::size_t i = first - elsewhere.begin();

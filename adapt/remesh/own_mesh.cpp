@@ -21,7 +21,7 @@ std::vector<double> centres(const Mesh& mesh, double Point::*coordinate) {
     for (const auto& nodes : cells) {
       double sum = 0;
       for (const NodeId node : nodes) sum += mesh.point(node).*coordinate;
-      values.push_back(sum / static_cast<double>(nodes.size()));
+      values.push_back(sum / size32(nodes));
     }
   };
   append(mesh.triangles);

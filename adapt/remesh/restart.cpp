@@ -121,7 +121,7 @@ ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, s
       ++changed.refined;
     }
     const std::uint32_t parent = leaf.level > 0 ? 1U << (leaf.level - 1) : 0U;
-    if (mark == Mark::coarsen && (adapted & parent) != 0 && run.family_goes(static_cast<std::int64_t>(i))) {
+    if (mark == Mark::coarsen && (adapted & parent) != 0 && run.family_goes(i)) {
       levels &= ~parent;
       ++changed.coarsened;
     }

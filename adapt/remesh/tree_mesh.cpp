@@ -80,9 +80,8 @@ Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
   whole.triangles = cells_at_root(comm, mesh, mesh.triangles);
   whole.quads = cells_at_root(comm, mesh, mesh.quads);
   std::vector<NamedEdge> edges;
-  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
-    for (const auto& edge : mesh.boundaries[b].edges)
-      edges.push_back({static_cast<std::int64_t>(b), global_numbers(mesh, edge)});
+  for (std::int64_t b = 0; b < std::ssize(mesh.boundaries); ++b) {
+    for (const auto& edge : mesh.boundaries[b].edges) edges.push_back({b, global_numbers(mesh, edge)});
     whole.boundaries.push_back({mesh.boundaries[b].name, mesh.boundaries[b].condition, {}});
   }
   for (const NamedEdge& edge : gather_at_root(comm, edges))

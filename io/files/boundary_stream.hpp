@@ -62,15 +62,14 @@ class BoundaryStream {
     try {
       std::int64_t boundary = -1, index = -1;
       for (const Share& share : shares_) {
-        if (share.boundary != boundary) begin(static_cast<std::size_t>(++index));
+        if (share.boundary != boundary) begin(++index);
         boundary = share.boundary;
         take_share(share, incoming[share.rank], put);
       }
     } catch (...) {
       failure = std::current_exception();
     }
-    for (std::size_t rank = 0; rank < incoming.size(); ++rank)
-      receive_rest(static_cast<int>(rank), incoming[rank]);
+    for (int rank = 0; rank < comm_.size(); ++rank) receive_rest(rank, incoming[rank]);
     if (failure) std::rethrow_exception(failure);
   }
 
@@ -78,10 +77,10 @@ class BoundaryStream {
   void take_share(const Share& share, Incoming& from, const Put& put) const {
     for (std::int64_t left = share.edges; left > 0;) {
       if (from.taken == from.piece.size()) ask_for_next(static_cast<int>(share.rank), from);
-      const std::size_t count = std::min(static_cast<std::size_t>(left), from.piece.size() - from.taken);
+      const std::size_t count = std::min<std::size_t>(left, from.piece.size() - from.taken);
       put(std::span<const Edge>(from.piece).subspan(from.taken, count));
       from.taken += count;
-      left -= static_cast<std::int64_t>(count);
+      left -= count;
     }
   }
 

@@ -51,7 +51,7 @@ std::int64_t drop(Rows& rows, const std::vector<char>& flags) {
     if (flags[i] == 0) rows[kept++] = rows[i];
   }
   rows.resize(kept);
-  return static_cast<std::int64_t>(flags.size() - kept);
+  return flags.size() - kept;
 }
 
 template <class Cells>
@@ -73,14 +73,14 @@ void drop_empty_blocks(LoadedMesh& loaded) {
   for (const auto* cell_to_block : {&loaded.triangle_to_block, &loaded.quad_to_block}) {
     for (const std::int32_t block : *cell_to_block) new_number[block] = 0;
   }
-  std::size_t kept = 0;
+  std::int32_t kept = 0;
   for (std::size_t block = 0; block < new_number.size(); ++block) {
     if (new_number[block] < 0) continue;
-    new_number[block] = static_cast<std::int32_t>(kept);
+    new_number[block] = kept;
     std::swap(loaded.block_names[kept++], loaded.block_names[block]);
   }
   loaded.block_names.resize(kept);
-  loaded.blocks = static_cast<std::int32_t>(kept);
+  loaded.blocks = kept;
   for (auto* cell_to_block : {&loaded.triangle_to_block, &loaded.quad_to_block}) {
     for (std::int32_t& block : *cell_to_block) block = new_number[block];
   }
@@ -152,20 +152,20 @@ void drop_repeated(ForeignMesh& foreign, const std::string& path) {
 
 void drop_unused_nodes(ForeignMesh& foreign, const std::string& path) {
   Mesh& mesh = foreign.loaded.mesh;
-  std::vector<std::int32_t> new_number(mesh.points.size(), -1);
-  const auto note_used = [&](NodeId& node) { new_number[node.value()] = 0; };
-  const auto renumber = [&](NodeId& node) { node = NodeId{new_number[node.value()]}; };
+  IdVector<NodeId, NodeId> new_id(mesh.points.size());
+  const auto note_used = [&](NodeId& node) { new_id[node] = node; };
+  const auto renumber = [&](NodeId& node) { node = new_id[node]; };
   const auto for_each_node = [&](const auto& visit) {
     for (auto& nodes : mesh.triangles) std::for_each(nodes.begin(), nodes.end(), visit);
     for (auto& nodes : mesh.quads) std::for_each(nodes.begin(), nodes.end(), visit);
     for (ForeignEdge& edge : foreign.edges) std::for_each(edge.nodes.begin(), edge.nodes.end(), visit);
   };
   for_each_node(note_used);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < new_number.size(); ++i) {
-    if (new_number[i] < 0) continue;
-    new_number[i] = static_cast<std::int32_t>(kept);
-    mesh.points[kept++] = mesh.points[i];
+  std::int32_t kept = 0;
+  for (const NodeId node : new_id.ids()) {
+    if (!new_id[node].valid()) continue;
+    new_id[node] = NodeId{kept};
+    mesh.points[kept++] = mesh.point(node);
   }
   const std::size_t dropped = mesh.points.size() - kept;
   if (dropped == 0) return;

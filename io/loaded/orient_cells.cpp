@@ -89,9 +89,7 @@ Pieces pieces_of(const Mesh& mesh) {
   for (auto first = sides.begin(); first != sides.end();) {
     const auto end =
         std::find_if(first, sides.end(), [&](const Side& side) { return !side.same_edge(*first); });
-    if (end - first == 2)
-      pieces.join(static_cast<std::size_t>(first[0].cell), static_cast<std::size_t>(first[1].cell),
-                  first[0].rising == first[1].rising);
+    if (end - first == 2) pieces.join(first[0].cell, first[1].cell, first[0].rising == first[1].rising);
     first = end;
   }
   return pieces;

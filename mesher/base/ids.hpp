@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 #include "mesher/base/error.hpp"
@@ -74,3 +75,8 @@ constexpr std::int32_t size32(const List& list) {
 }
 
 }  // namespace quadloop
+
+template <class Tag, class Rep>
+struct std::hash<quadloop::Id<Tag, Rep>> {
+  std::size_t operator()(quadloop::Id<Tag, Rep> id) const { return std::hash<Rep>{}(id.value()); }
+};

@@ -20,8 +20,7 @@ class Assembler {
   void add(LeafId leaf) {
     const std::size_t local = graph_.local_index(leaf);
     if (cut_.states[local] == CutForest::State::inside) add_inside(leaf);
-    if (cut_.states[local] == CutForest::State::cut)
-      add_cut(leaf, static_cast<std::size_t>(cut_.entry_of[local]));
+    if (cut_.states[local] == CutForest::State::cut) add_cut(leaf, cut_.entry_of[local]);
   }
 
  private:
@@ -87,11 +86,11 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, const Siz
   progress::Stage stage("cells", graph.local_size(), "leaves");
   for (const LeafId leaf : graph.local()) {
     stage.advance(graph.local_index(leaf));
-    const auto triangles = mesh.triangles.size(), quads = mesh.quads.size();
+    const std::int32_t triangles = size32(mesh.triangles), quads = size32(mesh.quads);
     assembler.add(leaf);
     LeafRecord record = record_of(graph.leaf(leaf), cursor.wanted_level(graph.leaf(leaf)));
-    record.triangles = static_cast<std::int32_t>(mesh.triangles.size() - triangles);
-    record.quads = static_cast<std::int32_t>(mesh.quads.size() - quads);
+    record.triangles = size32(mesh.triangles) - triangles;
+    record.quads = size32(mesh.quads) - quads;
     record.adapted = demands.levels_above(graph.leaf(leaf));
     record.block = record.triangles + record.quads > 0 ? 1 : 0;
     leaves.push_back(record);

@@ -27,8 +27,7 @@ void report_tree(const Communicator& comm, const LeafGraph& graph, const CutFore
     finest = std::max<std::int64_t>(finest, graph.leaf(leaf).level);
   }
   const auto leaves = std::ssize(cut.states);
-  const auto cut_leaves =
-      static_cast<std::int64_t>(std::count(cut.states.begin(), cut.states.end(), CutForest::State::cut));
+  const auto cut_leaves = std::count(cut.states.begin(), cut.states.end(), CutForest::State::cut);
   report.leaves = comm.sum(leaves);
   report.cut_leaves = comm.sum(cut_leaves);
   report.coarsest_level = static_cast<int>(comm.minimum(coarsest));

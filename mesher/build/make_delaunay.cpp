@@ -21,19 +21,19 @@ Diagonal diagonal_of(const Quadrant& q) {
   return rising ? Diagonal::first : Diagonal::second;
 }
 
-/// The nodes of the cells of cut leaves and of those with a snapped corner, by their numbers over all ranks:
-/// both ends of any edge between cells that may not be Delaunay, those without squares' diagonals.
-std::vector<std::int64_t> nodes_of_cut_leaves(const CutForest& cut, const Mesh& mesh,
+/// The nodes of the cells of cut leaves and of those with a snapped corner: both ends of any edge between
+/// cells that may not be Delaunay, those without squares' diagonals.
+std::vector<GlobalNodeId> nodes_of_cut_leaves(const CutForest& cut, const Mesh& mesh,
                                               const std::vector<LeafRecord>& leaves) {
-  std::vector<std::int64_t> nodes;
-  std::vector<char> named(mesh.points.size(), 0);
+  std::vector<GlobalNodeId> nodes;
+  NodeFlags named(mesh.points.size(), 0);
   auto triangle = mesh.triangles.cbegin();
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const auto end = triangle + leaves[i].triangles;
     if (cut.entry_of[i] < 0) triangle = end;
     for (; triangle != end; ++triangle) {
       for (const NodeId node : *triangle) {
-        if (std::exchange(named[node.value()], 1) == 0) nodes.push_back(mesh.global(node).value());
+        if (std::exchange(named[node], 1) == 0) nodes.push_back(mesh.global(node));
       }
     }
   }
@@ -43,8 +43,8 @@ std::vector<std::int64_t> nodes_of_cut_leaves(const CutForest& cut, const Mesh& 
 /// Flags the local leaves that are cut or have a snapped corner, and all around such leaves. *Collective.*
 std::vector<char> irregular_leaves(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
   std::vector<char> is_cut(graph.size(), 0);
-  for (std::size_t i = 0; i < cut.entry_of.size(); ++i) {
-    is_cut[graph.from_local(static_cast<std::int32_t>(i)).value()] = cut.entry_of[i] >= 0 ? 1 : 0;
+  for (std::int32_t i = 0; i < std::ssize(cut.entry_of); ++i) {
+    is_cut[graph.from_local(i).value()] = cut.entry_of[i] >= 0 ? 1 : 0;
   }
   GhostExchange(comm, graph).update(is_cut);
   std::vector<char> irregular = is_cut;
@@ -56,19 +56,19 @@ std::vector<char> irregular_leaves(const Communicator& comm, const LeafGraph& gr
   return {first, first + graph.local_size()};
 }
 
-using Numbers = std::array<std::int64_t, 3>;
+using GlobalNodes = std::array<GlobalNodeId, 3>;
 
-/// A triangle on the way to the rank of its leaf, its nodes by their numbers over all ranks.
+/// A triangle on the way to the rank of its leaf.
 struct FreeTriangle {
-  Numbers nodes{};
+  GlobalNodes nodes;
   std::array<Point, 3> points;
 };
 
 /// A triangle that has arrived.
 struct PlacedTriangle {
-  std::int32_t leaf = 0;  ///< its local index
-  Numbers numbers{};      ///< of its nodes over all ranks, the smallest first
-  std::array<NodeId, 3> nodes{};
+  std::int32_t leaf = 0;     ///< its local index
+  GlobalNodes global_nodes;  ///< the smallest first
+  std::array<NodeId, 3> nodes;
   friend auto operator<=>(const PlacedTriangle&, const PlacedTriangle&) = default;
 };
 
@@ -103,14 +103,13 @@ class LeafTriangles {
     mesh_.triangles.reserve(before.size());
     auto stays = before.cbegin();
     auto placed = placed_.cbegin();
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
-      const std::size_t begin = mesh_.triangles.size();
+    for (std::int32_t i = 0; i < std::ssize(leaves); ++i) {
+      const std::int32_t begin = size32(mesh_.triangles);
       const auto end = stays + leaves[i].triangles;
       if (irregular[i] == 0) mesh_.triangles.insert(mesh_.triangles.end(), stays, end);
       stays = end;
-      for (; placed != placed_.end() && placed->leaf == static_cast<std::int32_t>(i); ++placed)
-        mesh_.triangles.push_back(placed->nodes);
-      leaves[i].triangles = static_cast<std::int32_t>(mesh_.triangles.size() - begin);
+      for (; placed != placed_.end() && placed->leaf == i; ++placed) mesh_.triangles.push_back(placed->nodes);
+      leaves[i].triangles = size32(mesh_.triangles) - begin;
       leaves[i].block = leaves[i].triangles > 0 ? 1 : 0;
     }
     QUADLOOP_REQUIRE(placed == placed_.end(), "the centroid of each triangle lies in a leaf");
@@ -122,7 +121,7 @@ class LeafTriangles {
     std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end(), before), nodes.end());
     FreeTriangle t;
     for (std::size_t k = 0; k < 3; ++k) {
-      t.nodes[k] = mesh_.global(nodes[k]).value();
+      t.nodes[k] = mesh_.global(nodes[k]);
       t.points[k] = mesh_.point(nodes[k]);
     }
     const auto [column, row] = square_of(t.points);

@@ -16,7 +16,7 @@ constexpr std::array border_sites{Site::south_west, Site::south_east, Site::nort
 constexpr std::array owned_sites{Site::north_east, Site::right_middle, Site::top_middle};
 
 std::size_t index_in(const std::array<Site, 3>& sites, Site site) {
-  return static_cast<std::size_t>(std::find(sites.begin(), sites.end(), site) - sites.begin());
+  return std::find(sites.begin(), sites.end(), site) - sites.begin();
 }
 
 }  // namespace
@@ -96,18 +96,17 @@ std::int32_t NodeNumbering::listed_node(LeafId leaf, Point position) const {
 }
 
 std::size_t NodeNumbering::listed_slot(std::int32_t node) const {
-  return border_slot(border_leaves_.size()) + static_cast<std::size_t>(node);
+  return border_slot(border_leaves_.size()) + node;
 }
 
 std::size_t NodeNumbering::slot_of(const Home& home) const {
   if (home.site == Site::inside) return listed_slot(listed_node(home.leaf, home.position));
   const std::size_t owned = index_in(owned_sites, home.site);
-  if (owned < owned_sites.size()) return 3 * static_cast<std::size_t>(graph_->local_index(home.leaf)) + owned;
+  if (owned < owned_sites.size()) return std::size_t{3} * graph_->local_index(home.leaf) + owned;
   const auto at = std::lower_bound(border_leaves_.begin(), border_leaves_.end(), home.leaf);
   QUADLOOP_REQUIRE(at != border_leaves_.end() && *at == home.leaf,
                    "a leaf off the root's border owns a lower corner");
-  return border_slot(static_cast<std::size_t>(at - border_leaves_.begin())) +
-         index_in(border_sites, home.site);
+  return border_slot(at - border_leaves_.begin()) + index_in(border_sites, home.site);
 }
 
 void NodeNumbering::use(const Home& home) {

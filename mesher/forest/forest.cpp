@@ -118,7 +118,7 @@ void Forest::refine(const std::function<bool(const Quadrant&)>& split, int deepe
 }
 
 void Forest::split_marked(const std::vector<char>& marked) {
-  QUADLOOP_REQUIRE(marked.size() == static_cast<std::size_t>(local_leaves()), "one mark for each local leaf");
+  QUADLOOP_REQUIRE(std::ssize(marked) == local_leaves(), "one mark for each local leaf");
   Callbacks callbacks{.marked = &marked};
   impl_->forest->user_pointer = &callbacks;
   p4est_refine_ext(impl_->forest.get(), 0, P4EST_QMAXLEVEL, split_by_mark, nullptr, nullptr);

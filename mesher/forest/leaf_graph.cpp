@@ -66,7 +66,7 @@ void LeafGraph::build_trees(const Lattice& lattice) {
         (q.y >> Quadrant::unit_level) * lattice.trees_x() + (q.x >> Quadrant::unit_level);
     int common = 0;  // the level of the deepest inner node on both paths
     if (tree == last_tree) {
-      const auto differing = static_cast<std::uint64_t>((q.x ^ last.x) | (q.y ^ last.y));
+      const std::uint64_t differing = (q.x ^ last.x) | (q.y ^ last.y);
       common = Quadrant::unit_level - static_cast<int>(std::bit_width(differing));
     } else {
       path[0] = roots_[tree] = new_inner();
@@ -74,7 +74,7 @@ void LeafGraph::build_trees(const Lattice& lattice) {
     for (int level = common; level < q.level; ++level) {
       const Ref below = level + 1 == q.level ? i : new_inner();
       child(path[level], quarter_at(q.x, q.y, level)) = below;
-      path[static_cast<std::size_t>(level) + 1] = below;
+      path[level + 1] = below;
     }
     last = q;
     last_tree = tree;

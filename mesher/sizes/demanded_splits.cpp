@@ -93,7 +93,7 @@ void DemandedSplits::append_level(std::span<const Key> all, std::span<const Key>
     masks_.push_back(is_asked ? asked_bit : 0);
     if (above.empty()) continue;
     while (above[parent] != key >> 2) ++parent;
-    masks_[static_cast<std::size_t>(first_above) + parent] |= static_cast<std::uint8_t>(1U << (key & 3));
+    masks_[first_above + parent] |= static_cast<std::uint8_t>(1U << (key & 3));
   }
 }
 
@@ -120,10 +120,10 @@ bool DemandedSplits::asked(std::int32_t number) const { return (masks_[number] &
 
 /// The steps that lead to this leaf too.
 void DemandPath::keep_above(const Quadrant& leaf) {
-  const auto different = static_cast<std::uint64_t>((leaf.x ^ last_.x) | (leaf.y ^ last_.y));
+  const std::uint64_t different = (leaf.x ^ last_.x) | (leaf.y ^ last_.y);
   const int common = Quadrant::unit_level -
                      static_cast<int>(std::bit_width(different));  // negative where even the trees are others
-  const int kept = std::min({static_cast<int>(steps_.size()), common + 1, leaf.level + 1});
+  const int kept = std::min({size32(steps_), common + 1, leaf.level + 1});
   steps_.resize(std::max(kept, 0));
   last_ = leaf;
 }
@@ -134,7 +134,7 @@ std::uint32_t DemandPath::levels_above(const Quadrant& leaf) {
     steps_.push_back({demanded_->root(leaf.x >> Quadrant::unit_level, leaf.y >> Quadrant::unit_level), 0});
   while (true) {
     const auto [number, levels] = steps_.back();
-    const int level = static_cast<int>(steps_.size()) - 1;
+    const int level = size32(steps_) - 1;
     if (number == DemandedSplits::none || level == leaf.level) return levels;
     const Corner quarter = quarter_at(leaf.x, leaf.y, level);
     steps_.push_back(

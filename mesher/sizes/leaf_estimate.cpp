@@ -28,7 +28,7 @@ std::vector<double> chances_of(const std::vector<Sampled>& splits, LeavesAhead& 
   double all_ahead = 0, all_outline = 0, all = 0;
   for (const Sampled& s : splits) {
     ahead.push_back(s.weight * leaves.below(s.quadrant));
-    outline.push_back(s.weight * static_cast<double>(cursor.segments_in(s.quadrant).size()));
+    outline.push_back(s.weight * size32(cursor.segments_in(s.quadrant)));
     all_ahead += ahead.back();
     all_outline += outline.back();
     all += s.weight;
@@ -44,7 +44,7 @@ std::vector<double> chances_of(const std::vector<Sampled>& splits, LeavesAhead& 
 
 /// Evenly along the curve. All where there are few.
 std::vector<Sampled> chosen(std::vector<Sampled> splits, LeavesAhead& leaves, SizeCursor& cursor) {
-  if (static_cast<double>(splits.size()) <= followed) return splits;
+  if (size32(splits) <= followed) return splits;
   const std::vector<double> chances = chances_of(splits, leaves, cursor);
   std::vector<Sampled> kept;
   double sum = 0.5;

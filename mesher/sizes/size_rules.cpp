@@ -41,8 +41,8 @@ SizeRules::SizeRules(const ShiftedOutline& outline, const Lattice& lattice, cons
 
 std::vector<std::int32_t> SizeRules::sized_corners() const {
   std::vector<std::int32_t> vertices;
-  for (std::size_t v = 0; v < corner_spacing_.size(); ++v) {
-    if (corner_spacing_[v] > 0) vertices.push_back(static_cast<std::int32_t>(v));
+  for (std::int32_t v = 0; v < std::ssize(corner_spacing_); ++v) {
+    if (corner_spacing_[v] > 0) vertices.push_back(v);
   }
   return vertices;
 }

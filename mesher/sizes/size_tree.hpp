@@ -55,7 +55,7 @@ class SizeTree {
  private:
   static std::span<const std::int32_t> part(const std::vector<std::int32_t>& all, std::int32_t begin,
                                             std::int32_t end) {
-    return {all.data() + begin, static_cast<std::size_t>(end - begin)};
+    return {all.data() + begin, all.data() + end};
   }
   SizedQuadrant sized(const Node& node) const;
   void grow(std::int32_t node) const;

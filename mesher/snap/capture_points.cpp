@@ -123,8 +123,7 @@ class PointCapture {
   /// The vertices of a piece before one of them, or after it.
   static std::span<const std::int32_t> between(std::span<const std::int32_t> vertices, std::int32_t vertex,
                                                bool before) {
-    const auto at =
-        static_cast<std::size_t>(std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin());
+    const std::size_t at = std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin();
     return before ? vertices.first(at) : vertices.subspan(at + 1);
   }
 
@@ -205,7 +204,7 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
     const std::int32_t trace = traced.trace_of[leaf.value()];
     if (trace < 0) continue;
     const LeafTrace view = traced.traces[trace];
-    for (std::size_t p = 0; p < view.pieces.size(); ++p) {
+    for (std::int32_t p = 0; p < std::ssize(view.pieces); ++p) {
       if (view.pieces[p].entry < 0) continue;
       for (const std::int32_t v : view.vertices_of(view.pieces[p])) {
         if (!geometry.kept(v) && geometry.turn_degrees(v) < pointed_degrees) continue;
@@ -213,7 +212,7 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
         if (auto corner = capture.corner_near(leaf, geometry.point(v))) {
           corner->vertex = v;
           corner->trace = trace;
-          corner->piece = static_cast<std::int32_t>(p);
+          corner->piece = p;
           corners.push_back(*corner);
         } else if (auto edge =
                        !geometry.kept(v) ? std::nullopt : capture.edge_near(leaf, v, view, view.pieces[p])) {

@@ -23,7 +23,7 @@ std::vector<LeafSnap> snaps_of_leaves(const LeafGraph& graph, const std::vector<
     const std::size_t first = result.size();
     for (const Corner direction : corners_along_curve) {
       const LeafId leaf = round[index_of(direction)];
-      const bool seen = std::any_of(result.begin() + static_cast<std::ptrdiff_t>(first), result.end(),
+      const bool seen = std::any_of(result.begin() + first, result.end(),
                                     [&](const LeafSnap& s) { return s.leaf == leaf; });
       if (graph.is_local(leaf) && !seen)
         result.push_back({leaf, site_in(graph.leaf(leaf), direction, snap), &snap});

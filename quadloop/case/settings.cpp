@@ -10,6 +10,7 @@
 #include "io/input/case_file.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
@@ -285,15 +286,15 @@ namespace {
 
 /// A corner spacing that is out of reach, or of a boundary without a sharp corner.
 Warnings corner_warnings(const Geometry& geometry, double min) {
-  std::vector<char> has_corner(geometry.boundaries().size(), 0);
+  IdVector<BoundaryId, char> has_corner(geometry.boundaries().size(), 0);
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
     if (geometry.corner_spacing_of(v) == 0) continue;
     for (const std::int32_t segment : {geometry.previous(v), v})
-      has_corner[geometry.boundary_of(segment).value()] = 1;
+      has_corner[geometry.boundary_of(segment)] = 1;
   }
   Warnings warnings;
-  for (std::size_t b = 0; b < has_corner.size(); ++b) {
-    const Boundary& boundary = geometry.boundaries()[b];
+  for (const BoundaryId b : has_corner.ids()) {
+    const Boundary& boundary = geometry.boundary(b);
     if (boundary.corner_spacing > 0 && has_corner[b] == 0) {
       warnings.push_back(
           fmt::format("boundary '{}' has no corner for its corner_spacing = {}: it turns by more than its "

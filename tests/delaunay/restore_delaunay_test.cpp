@@ -331,7 +331,7 @@ Mesh shuffled_part(const Communicator& comm, const Mesh& whole) {
   NodeTable nodes(part);
   const auto local = [&](NodeId node) {
     const std::int32_t n = number[node.value()];
-    return nodes.local(n, points[n]);
+    return nodes.local(GlobalNodeId{n}, points[n]);
   };
   for (std::size_t t = from(triangles.size()); t < to(triangles.size()); ++t) {
     part.triangles.push_back({local(triangles[t][0]), local(triangles[t][1]), local(triangles[t][2])});

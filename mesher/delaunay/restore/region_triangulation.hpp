@@ -12,7 +12,7 @@ namespace quadloop {
 struct MadeTriangle {
   std::int64_t near = 0;  ///< the number of the nearest triangle, by their centroids, of those with its first
                           ///< node that are gone
-  std::array<std::int64_t, 3> nodes{};  ///< over all ranks, the smallest first
+  std::array<GlobalNodeId, 3> nodes;  ///< the smallest first
   std::array<Point, 3> points;
   std::int32_t block = 0;
   friend auto operator<=>(const MadeTriangle&, const MadeTriangle&) = default;
@@ -37,7 +37,7 @@ class RegionTriangulation {
   const std::vector<FreedTriangle>& freed() const { return freed_; }
   const std::vector<MadeTriangle>& made() const { return made_; }
   /// Nodes of new triangles at the region's border: the triangles beyond it may no longer be Delaunay.
-  const std::vector<std::int64_t>& outgrown() const { return outgrown_; }
+  const std::vector<GlobalNodeId>& outgrown() const { return outgrown_; }
 
  private:
   using Triangle = DelaunayPatch::Triangle;
@@ -56,10 +56,10 @@ class RegionTriangulation {
   void find_outgrown();
   std::vector<Edge> outer_edges() const;
 
-  std::int64_t number_of(std::int32_t node) const { return numbers_[node]; }
+  GlobalNodeId number_of(std::int32_t node) const { return numbers_[node]; }
   bool is_core(std::int32_t node) const { return core_[node] != 0; }
 
-  std::vector<std::int64_t> numbers_;  ///< of the nodes at hand, over all ranks, ascending
+  std::vector<GlobalNodeId> numbers_;  ///< of the nodes at hand, ascending
   std::vector<Point> points_;          ///< of each
   std::vector<char> core_;             ///< of each
   std::vector<Triangle> triangles_;    ///< at hand, before any flip
@@ -68,7 +68,7 @@ class RegionTriangulation {
   std::vector<Triangle> new_triangles_;  ///< this rank's concern
   std::vector<MadeTriangle> made_;
   std::vector<FreedTriangle> freed_;
-  std::vector<std::int64_t> outgrown_;
+  std::vector<GlobalNodeId> outgrown_;
 };
 
 }  // namespace quadloop

@@ -12,7 +12,7 @@ StarHalo::StarHalo(const Communicator& comm, const NodeOwners& owners, std::span
 
 void StarHalo::list_spokes() {
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    for (const std::int64_t node : triangles_[t].nodes) {
+    for (const GlobalNodeId node : triangles_[t].nodes) {
       if (owns(node)) spokes_.push_back({node, t});
     }
   }
@@ -24,7 +24,7 @@ void StarHalo::gather_stars(std::span<const NumberedTriangle> own) {
   Outbox<NumberedTriangle> to_owners;
   for (const NumberedTriangle& triangle : own) {
     std::array<int, 3> ranks{};
-    for (std::size_t k = 0; k < 3; ++k) ranks[k] = owners_.rank_of(GlobalNodeId{triangle.nodes[k]});
+    for (std::size_t k = 0; k < 3; ++k) ranks[k] = owners_.rank_of(triangle.nodes[k]);
     std::sort(ranks.begin(), ranks.end());
     const auto end = std::unique(ranks.begin(), ranks.end());
     for (auto rank = ranks.begin(); rank != end; ++rank) {
@@ -41,15 +41,15 @@ void StarHalo::gather_stars(std::span<const NumberedTriangle> own) {
 void StarHalo::add(const NumberedTriangle& triangle) {
   if (comm_.size() > 1 && !numbers_.insert(triangle.number).second) return;
   triangles_.push_back(triangle);
-  for (const std::int64_t node : triangle.nodes) {
+  for (const GlobalNodeId node : triangle.nodes) {
     if (!known(node)) frontier_.insert(node);
   }
 }
 
 /// The triangles around owned nodes, each once.
-std::vector<NumberedTriangle> StarHalo::around(std::span<const std::int64_t> nodes) const {
+std::vector<NumberedTriangle> StarHalo::around(std::span<const GlobalNodeId> nodes) const {
   std::vector<std::size_t> indices;
-  for (const std::int64_t node : nodes) {
+  for (const GlobalNodeId node : nodes) {
     auto spoke = std::lower_bound(spokes_.begin(), spokes_.end(), Spoke{node, 0});
     for (; spoke != spokes_.end() && spoke->node == node; ++spoke) indices.push_back(spoke->triangle);
   }
@@ -62,11 +62,11 @@ std::vector<NumberedTriangle> StarHalo::around(std::span<const std::int64_t> nod
 }
 
 void StarHalo::grow(bool wanted) {
-  std::vector<std::int64_t> nodes;
+  std::vector<GlobalNodeId> nodes;
   std::vector<int> owners;
   if (wanted) {
     nodes.assign(frontier_.begin(), frontier_.end());
-    for (const std::int64_t node : nodes) owners.push_back(owners_.rank_of(GlobalNodeId{node}));
+    for (const GlobalNodeId node : nodes) owners.push_back(owners_.rank_of(node));
     fetched_.insert(frontier_.begin(), frontier_.end());
     frontier_.clear();
   }
@@ -82,7 +82,7 @@ void StarHalo::grow(bool wanted) {
 
 bool StarHalo::at_rim(const NumberedTriangle& triangle) const {
   return std::count_if(triangle.nodes.begin(), triangle.nodes.end(),
-                       [&](std::int64_t node) { return !known(node); }) > 1;
+                       [&](GlobalNodeId node) { return !known(node); }) > 1;
 }
 
 }  // namespace quadloop

@@ -14,7 +14,7 @@ namespace quadloop {
 /// A triangle by its number over all ranks, with its nodes by theirs.
 struct NumberedTriangle {
   std::int64_t number = 0;
-  std::array<std::int64_t, 3> nodes{};
+  std::array<GlobalNodeId, 3> nodes;
   std::array<Point, 3> points;
   std::int32_t block = 0;
   std::array<char, 3> core{};  ///< a flag for each node: no triangle around it is missing from the region
@@ -39,28 +39,28 @@ class StarHalo {
   /// Whether no triangle around any node at hand is missing.
   bool complete() const { return frontier_.empty(); }
 
-  bool owns(std::int64_t node) const { return owners_.rank_of(GlobalNodeId{node}) == comm_.rank(); }
+  bool owns(GlobalNodeId node) const { return owners_.rank_of(node) == comm_.rank(); }
 
  private:
   /// A triangle around an owned node.
   struct Spoke {
-    std::int64_t node = 0;
+    GlobalNodeId node;
     std::size_t triangle = 0;
     friend auto operator<=>(const Spoke&, const Spoke&) = default;
   };
-  bool known(std::int64_t node) const { return owns(node) || fetched_.contains(node); }
+  bool known(GlobalNodeId node) const { return owns(node) || fetched_.contains(node); }
   void gather_stars(std::span<const NumberedTriangle> own);
   void list_spokes();
   void add(const NumberedTriangle& triangle);
-  std::vector<NumberedTriangle> around(std::span<const std::int64_t> nodes) const;
+  std::vector<NumberedTriangle> around(std::span<const GlobalNodeId> nodes) const;
 
   const Communicator& comm_;
   const NodeOwners& owners_;
   std::vector<NumberedTriangle> triangles_;
   std::vector<Spoke> spokes_;                  ///< sorted; none on a rank that is alone
   std::unordered_set<std::int64_t> numbers_;   ///< of the triangles at hand
-  std::unordered_set<std::int64_t> fetched_;   ///< other ranks' nodes around which all triangles are at hand
-  std::unordered_set<std::int64_t> frontier_;  ///< other nodes of the triangles at hand
+  std::unordered_set<GlobalNodeId> fetched_;   ///< other ranks' nodes around which all triangles are at hand
+  std::unordered_set<GlobalNodeId> frontier_;  ///< other nodes of the triangles at hand
 };
 
 }  // namespace quadloop

@@ -97,7 +97,7 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
         "outline");
   std::size_t size = 0;
   for (const Chain& chain : chains) size += chain.points.size();
-  if (size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max() / 2)) {
+  if (size > std::numeric_limits<std::int32_t>::max() / 2) {
     throw InputError(fmt::format("the geometry has {} points, more than can be numbered; thin it out", size));
   }
   Outline outline = join_chains(chains);

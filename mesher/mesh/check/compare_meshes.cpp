@@ -28,12 +28,12 @@ std::optional<std::array<NodeId, width>> first_other(const Cells<width>& found, 
 }
 
 /// The shortest edge at each node, squared.
-std::vector<double> shortest_edges(const Mesh& mesh) {
-  std::vector<double> shortest(mesh.points.size(), std::numeric_limits<double>::infinity());
+IdVector<NodeId, double> shortest_edges(const Mesh& mesh) {
+  IdVector<NodeId, double> shortest(mesh.points.size(), std::numeric_limits<double>::infinity());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
     const Point along = mesh.point(to) - mesh.point(from);
     for (const NodeId node : {from, to}) {
-      double& least = shortest[node.value()];
+      double& least = shortest[node];
       least = std::min(least, dot(along, along));
     }
   });
@@ -42,12 +42,12 @@ std::vector<double> shortest_edges(const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<char> nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {
-  const std::vector<double> shortest = shortest_edges(mesh);
-  std::vector<char> elsewhere(points.size(), 0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point way = points[i] - mesh.points[i];
-    elsewhere[i] = dot(way, way) <= same_place_tolerance * same_place_tolerance * shortest[i] ? 0 : 1;
+NodeFlags nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {
+  const IdVector<NodeId, double> shortest = shortest_edges(mesh);
+  NodeFlags elsewhere(points.size(), 0);
+  for (const NodeId node : elsewhere.ids()) {
+    const Point way = points[node.value()] - mesh.point(node);
+    elsewhere[node] = dot(way, way) <= same_place_tolerance * same_place_tolerance * shortest[node] ? 0 : 1;
   }
   return elsewhere;
 }

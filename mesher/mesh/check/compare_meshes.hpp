@@ -14,7 +14,7 @@ inline constexpr double same_place_tolerance = 1e-6;
 
 /// A flag for each node of a whole mesh whose place in `points` is farther off than that, of the shortest
 /// cell edge at it. As many points as nodes.
-std::vector<char> nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh);
+NodeFlags nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh);
 
 /// Whether two whole meshes have the same cells, in whatever order, by their nodes.
 bool same_cells_in_any_order(const Mesh& one, const Mesh& other);
