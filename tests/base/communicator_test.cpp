@@ -40,7 +40,8 @@ TEST(Communicator, BroadcastsListsAndWords) {
   std::vector<double> values(world().rank() == last ? 3 : 1, world().rank() + 0.5);
   world().broadcast(values, last);
   EXPECT_EQ(values, std::vector<double>(3, last + 0.5));
-  const std::vector<std::string> words{"", "a b", "", "\n"}, mine = world().is_root() ? words : std::vector<std::string>{"x"};
+  const std::vector<std::string> words{"", "a b", "", "\n"},
+      mine = world().is_root() ? words : std::vector<std::string>{"x"};
   EXPECT_EQ(broadcast_words(world(), mine), words);
   EXPECT_TRUE(broadcast_words(world(), {}).empty());
 }

@@ -20,7 +20,10 @@ namespace {
 using test::world;
 
 Geometry unit_square() {
-  return {{{"side", 0, 30, "wall"}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {0, 4}, std::vector<BoundaryId>(4, BoundaryId{0})};
+  return {{{"side", 0, 30, "wall"}},
+          {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+          {0, 4},
+          std::vector<BoundaryId>(4, BoundaryId{0})};
 }
 
 MeshOptions sized(double min, double max) {
@@ -64,7 +67,8 @@ TEST(BuildMesh, MeshesAreValidFillTheOutlineAndAreTheSameOnAnyNumberOfRanks) {
     MeshOptions options = sized(0.02, 0.2);
     options.type = type;
     options.quads = quads;
-    const MeshResult made = build_mesh(world(), pentagon(), options), alone = build_mesh(self, pentagon(), options);
+    const MeshResult made = build_mesh(world(), pentagon(), options),
+                     alone = build_mesh(self, pentagon(), options);
     const Mesh whole = gather_whole(world(), made.mesh), of_one = gather_whole(self, alone.mesh);
     if (!world().is_root()) continue;
     EXPECT_TRUE(validate(whole).empty());

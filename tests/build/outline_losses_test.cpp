@@ -57,7 +57,8 @@ Mesh square_mesh() {
 }
 
 TEST(Islands, SmallLoopsGoWithTheirArea) {
-  const Geometry given = loops({box({0, 0}, 4, 4), reversed(box({1, 1}, 0.1, 0.2)), reversed(box({2, 1}, 0.1, 0.5))});
+  const Geometry given =
+      loops({box({0, 0}, 4, 4), reversed(box({1, 1}, 0.1, 0.2)), reversed(box({2, 1}, 0.1, 0.5))});
   MeshReport report;
   const Geometry kept = without_small_islands(given, 0.3, report);
   EXPECT_EQ(kept.loop_count(), 2);
@@ -65,7 +66,8 @@ TEST(Islands, SmallLoopsGoWithTheirArea) {
   EXPECT_NEAR(report.area_dropped, -0.02, 1e-15);
   EXPECT_EQ(report.boundaries_vanished, (std::vector<std::string>{"b1"}));
   ASSERT_EQ(report.warnings.size(), 1U);
-  EXPECT_TRUE(report.warnings[0].starts_with("boundary b1: a loop near (1.05, 1.1) is smaller")) << report.warnings[0];
+  EXPECT_TRUE(report.warnings[0].starts_with("boundary b1: a loop near (1.05, 1.1) is smaller"))
+      << report.warnings[0];
   EXPECT_EQ(kept.boundary(kept.boundary_of(4)).name, "b2");
 }
 
@@ -79,7 +81,9 @@ TEST(Islands, ALoopAsLargeAsTheSmallestLeafStays) {
 
 TEST(Islands, WhereNoLoopRemainsThereIsNoDomain) {
   MeshReport report;
-  EXPECT_NE(refusal_of([&] { without_small_islands(loops({box({3, 3}, 1, 1)}), 2, report); }).find("boundary b0 near (3.5, 3.5)"),
+  EXPECT_NE(refusal_of([&] {
+              without_small_islands(loops({box({3, 3}, 1, 1)}), 2, report);
+            }).find("boundary b0 near (3.5, 3.5)"),
             std::string::npos);
 }
 
@@ -90,7 +94,8 @@ TEST(OutlineLosses, BoundariesWithoutEdgesVanish) {
   mesh.boundaries.push_back({"b1", "none", {}});
   MeshReport report;
   const std::string refusal = refusal_of([&] { report_losses(world(), geometry, mesh, false, report); });
-  EXPECT_TRUE(refusal.starts_with("boundary 'b1' near (0.5005, 0.501), 0.001 wide and 0.002 high, ")) << refusal;
+  EXPECT_TRUE(refusal.starts_with("boundary 'b1' near (0.5005, 0.501), 0.001 wide and 0.002 high, "))
+      << refusal;
   report_losses(world(), geometry, mesh, true, report);
   EXPECT_EQ(report.boundaries_vanished, (std::vector<std::string>{"b1"}));
 }
@@ -101,25 +106,32 @@ TEST(OutlineLosses, KeptCornersThatAreNoNodesAreCounted) {
   EXPECT_EQ(none.corners_lost, 0);
   EXPECT_TRUE(none.warnings.empty());
   report.warnings = {"of an island"};
-  report_losses(world(), loops({{{0, 0}, {1, 0}, {1.01, 0.4}, {1.0, 1.02}, {0, 1}}}), square_mesh(), false, report);
+  report_losses(world(), loops({{{0, 0}, {1, 0}, {1.01, 0.4}, {1.0, 1.02}, {0, 1}}}), square_mesh(), false,
+                report);
   EXPECT_EQ(report.corners_lost, 1) << "(1.01, 0.4) is no corner of 30 degrees";
   ASSERT_EQ(report.warnings.size(), 2U);
-  EXPECT_NE(report.warnings[0].find("1 of 4 kept corners of the outline is no node"), std::string::npos) << report.warnings[0];
+  EXPECT_NE(report.warnings[0].find("1 of 4 kept corners of the outline is no node"), std::string::npos)
+      << report.warnings[0];
 }
 
 TEST(RequireArea, TheMeshMayMissAFewHundredths) {
   const Mesh mesh = square_mesh();
   EXPECT_NO_THROW(require_area(world(), loops({box({0, 0}, 1, 1.04)}), 0, mesh));
-  const std::string refusal = refusal_of([&] { require_area(world(), loops({box({0, 0}, 1, 1.2)}), 0, mesh); });
+  const std::string refusal = refusal_of([&] {
+    require_area(world(), loops({box({0, 0}, 1, 1.2)}), 0, mesh);
+  });
   EXPECT_NE(refusal.find("16.7 percent off"), std::string::npos) << refusal;
-  EXPECT_NE(refusal_of([&] { require_area(world(), loops({box({0, 0}, 1, 1.2)}), 0, mesh, true); }).find("while smoothing"),
+  EXPECT_NE(refusal_of([&] {
+              require_area(world(), loops({box({0, 0}, 1, 1.2)}), 0, mesh, true);
+            }).find("while smoothing"),
             std::string::npos);
 }
 
 TEST(RequireArea, CountsWithAndWithoutWhatWasDropped) {
   const Mesh mesh = square_mesh();
   const Geometry with_island = loops({box({0, 0}, 1, 1), reversed(box({0.5, 0.5}, 0.2, 0.2))});
-  EXPECT_NO_THROW(require_area(world(), with_island, -0.04, mesh)) << "4 % are missed, of which all are known";
+  EXPECT_NO_THROW(require_area(world(), with_island, -0.04, mesh))
+      << "4 % are missed, of which all are known";
   EXPECT_THROW(require_area(world(), with_island, 0.06, mesh), InputError);
 }
 
@@ -142,10 +154,12 @@ SizeSettings settings() {
 
 TEST(CellDemands, NameEachSettingOnce) {
   std::vector<std::string> keys;
-  for (const CellDemand& demand : cell_demands(settings(), loops({box({0, 0}, 8, 4)}))) keys.push_back(demand.key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"spacing.max", "spacing.curvature", "spacing.gap", "boundary.b.spacing",
-                                            "boundary.a.spacing (and 1 more)", "spacing of the [[source]]",
-                                            "spacing of the [[source]] at case.toml:5", "spacing.min"}));
+  for (const CellDemand& demand : cell_demands(settings(), loops({box({0, 0}, 8, 4)})))
+    keys.push_back(demand.key);
+  EXPECT_EQ(keys,
+            (std::vector<std::string>{"spacing.max", "spacing.curvature", "spacing.gap", "boundary.b.spacing",
+                                      "boundary.a.spacing (and 1 more)", "spacing of the [[source]]",
+                                      "spacing of the [[source]] at case.toml:5", "spacing.min"}));
 }
 
 TEST(CellDemands, SetAndLiftWhatTheyName) {

@@ -32,7 +32,8 @@ Geometry star_with_hole() {
 
 double area_inside(const Geometry& geometry) {
   double twice = 0;
-  for (std::int32_t v = 0; v < geometry.size(); ++v) twice += cross(geometry.point(v), geometry.point(geometry.next(v)));
+  for (std::int32_t v = 0; v < geometry.size(); ++v)
+    twice += cross(geometry.point(v), geometry.point(geometry.next(v)));
   return twice / 2;
 }
 

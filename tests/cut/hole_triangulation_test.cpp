@@ -26,7 +26,8 @@ struct Triangulated {
 };
 
 TEST(HoleTriangulation, OfARing) {
-  const Triangulated ring({{0, 0}, {8, 0}, {8, 8}, {0, 8}, {2, 2}, {2, 6}, {6, 6}, {6, 2}}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
+  const Triangulated ring({{0, 0}, {8, 0}, {8, 8}, {0, 8}, {2, 2}, {2, 6}, {6, 6}, {6, 2}},
+                          {{0, 1, 2, 3}, {4, 5, 6, 7}});
   EXPECT_EQ(ring.triangles.size(), 8U);
   EXPECT_TRUE(ring.counter_clockwise);
   EXPECT_EQ(ring.area, 48);
@@ -40,10 +41,21 @@ TEST(HoleTriangulation, AHoleMayTouchTheOutlineInANode) {
 }
 
 TEST(HoleTriangulation, OfAnIslandInALakeAndAnOutlineBesideThem) {
-  const Triangulated nested({{0, 0}, {16, 0}, {16, 16}, {0, 16},    //
-                             {2, 2}, {2, 14}, {14, 14}, {14, 2},    //
-                             {6, 6}, {10, 6}, {10, 10}, {6, 10},    //
-                             {20, 0}, {24, 0}, {20, 4}},
+  const Triangulated nested({{0, 0},
+                             {16, 0},
+                             {16, 16},
+                             {0, 16},  //
+                             {2, 2},
+                             {2, 14},
+                             {14, 14},
+                             {14, 2},  //
+                             {6, 6},
+                             {10, 6},
+                             {10, 10},
+                             {6, 10},  //
+                             {20, 0},
+                             {24, 0},
+                             {20, 4}},
                             {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}, {12, 13, 14}});
   EXPECT_EQ(nested.triangles.size(), 8U + 2 + 1);
   EXPECT_TRUE(nested.counter_clockwise);

@@ -1,4 +1,5 @@
-// Which of four nodes on one circle is joined to the others: lattice lines decide, then the distance from the centre.
+// Which of four nodes on one circle is joined to the others: lattice lines decide, then the distance from the
+// centre.
 #include "mesher/cut/lattice_rank.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,8 @@ TEST(LatticeRank, OfEqualLinesTheFartherFromTheCentre) {
 
 TEST(LatticeRank, MirrorImagesDifferInTheirCoordinatesAlone) {
   for (const Point p : {Point{1, 2}, Point{4, 8}, Point{0.3, 5}, Point{0.3, 0.7}}) {
-    for (const Point image : {Point{8 - p.x, p.y}, Point{p.x, 8 - p.y}, Point{p.y, p.x}, Point{8 - p.y, p.x}}) {
+    for (const Point image :
+         {Point{8 - p.x, p.y}, Point{p.x, 8 - p.y}, Point{p.y, p.x}, Point{8 - p.y, p.x}}) {
       TieRank own = tie_rank(lattice, finest, p), other = tie_rank(lattice, finest, image);
       EXPECT_TRUE(own != other || p == image);
       EXPECT_EQ(own.coarser, other.coarser);

@@ -8,7 +8,8 @@
 namespace quadloop {
 namespace {
 
-/// The square from 0 to 2 in four leaves, cut by hand: each of its leaves has the chords that are given for it.
+/// The square from 0 to 2 in four leaves, cut by hand: each of its leaves has the chords that are given for
+/// it.
 class FourLeaves {
  public:
   /// *Collective.*

@@ -50,7 +50,8 @@ TEST(Forest, IsRefinedInTheOrderOfTheCurve) {
       leaves_below(tree, 6, below);
       expected += below.size();
       std::vector<Quadrant> own;
-      std::copy_if(all.begin(), all.end(), std::back_inserter(own), [&](const Quadrant& q) { return tree.contains(q); });
+      std::copy_if(all.begin(), all.end(), std::back_inserter(own),
+                   [&](const Quadrant& q) { return tree.contains(q); });
       EXPECT_EQ(own, below);
     }
   }
@@ -109,7 +110,8 @@ TEST(CurveOwners, KnowWhoseEveryLeafIs) {
     EXPECT_EQ(owners.rank_of(place), rank_of[i]);
     const std::int64_t last = all[i].size() - 1;
     EXPECT_EQ(owners.rank_of(owners.place_of(all[i].x + last, all[i].y + last)), rank_of[i]);
-    for (int rank = 0; rank < test::world().size(); ++rank) EXPECT_EQ(owners.owns(rank, place), rank == rank_of[i]);
+    for (int rank = 0; rank < test::world().size(); ++rank)
+      EXPECT_EQ(owners.owns(rank, place), rank == rank_of[i]);
   }
 }
 
@@ -130,7 +132,8 @@ TEST(GhostLayer, HoldsAllOthersLeavesThatTouchOnesOwn) {
   std::size_t i = 0;
   for (int rank = 0; rank < test::world().size(); ++rank) {
     for (std::int32_t index = 0; index < counts[rank]; ++index, ++i) {
-      const bool touches = std::any_of(own.begin(), own.end(), [&](const Quadrant& q) { return chebyshev_gap(q, all[i]) == 0; });
+      const bool touches = std::any_of(own.begin(), own.end(),
+                                       [&](const Quadrant& q) { return chebyshev_gap(q, all[i]) == 0; });
       if (rank == test::world().rank() || !touches) continue;
       expected.push_back(all[i]);
       places.emplace_back(rank, index);

@@ -28,7 +28,8 @@ MeshInput disc_in_box() {
     points.push_back({0.1 + 0.4 * std::cos(angle), 0.05 + 0.4 * std::sin(angle)});
     boundary.push_back(BoundaryId{1});
   }
-  MeshInput input{{{{"box", 0.25, 30, "none"}, {"disc", 0.06, 30, "wall"}}, points, {0, 4, 64}, boundary}, {}, {}, 0};
+  MeshInput input{
+      {{{"box", 0.25, 30, "none"}, {"disc", 0.06, 30, "wall"}}, points, {0, 4, 64}, boundary}, {}, {}, 0};
   input.mesh.size.min = 0.03;
   input.mesh.size.max = 0.25;
   input.smooth.sweeps = 5;
@@ -63,7 +64,8 @@ TEST(Generate, SmoothsWhatItHasMeshed) {
 TEST(Generate, WithoutSweepsTheMeshIsAsItWasCut) {
   MeshInput input = disc_in_box();
   input.smooth.sweeps = 0;
-  EXPECT_EQ(generate_mesh(world(), input).result.mesh.points, build_mesh(world(), input.geometry, input.mesh).mesh.points);
+  EXPECT_EQ(generate_mesh(world(), input).result.mesh.points,
+            build_mesh(world(), input.geometry, input.mesh).mesh.points);
 }
 
 TEST(Generate, QuadsThatAreSkewAfterSmoothingAreDivided) {

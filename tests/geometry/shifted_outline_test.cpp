@@ -1,4 +1,5 @@
-// The outline moved into the domain by less than any number: what it meets has no special cases left, and turns and mirrors along.
+// The outline moved into the domain by less than any number: what it meets has no special cases left, and
+// turns and mirrors along.
 #include "mesher/geometry/shifted_outline.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,8 @@ std::vector<Point> whole_star(unsigned seed) {
 }
 
 TEST(ShiftedOutline, MovesIntoTheDomain) {
-  const Geometry square = loop_of({{0, 0}, {2, 0}, {2, 2}, {0, 2}}), hole = loop_of({{0, 0}, {0, 2}, {2, 2}, {2, 0}});
+  const Geometry square = loop_of({{0, 0}, {2, 0}, {2, 2}, {0, 2}}),
+                 hole = loop_of({{0, 0}, {0, 2}, {2, 2}, {2, 0}});
   const ShiftedOutline inwards(square), outwards(hole);
   EXPECT_TRUE(inwards.beyond_x(0, 0) && inwards.beyond_y(0, 0));
   EXPECT_FALSE(inwards.beyond_x(2, 2) || inwards.beyond_y(2, 2));
@@ -48,7 +50,8 @@ TEST(ShiftedOutline, ASegmentOnALatticeLineBelongsToTheDomainsSide) {
   const ShiftedOutline outline(square);
   EXPECT_TRUE(outline.meets(0, box_at(0, 0, 1)) && outline.meets(0, box_at(1, 0, 1)));
   EXPECT_FALSE(outline.meets(0, box_at(0, -1, 1))) << "the leaf outside of it";
-  EXPECT_FALSE(outline.meets(0, box_at(-1, 0, 1)) || outline.meets(0, box_at(2, 0, 1))) << "leaves at its ends";
+  EXPECT_FALSE(outline.meets(0, box_at(-1, 0, 1)) || outline.meets(0, box_at(2, 0, 1)))
+      << "leaves at its ends";
   EXPECT_FALSE(outline.meets(0, box_at(0, 1, 1)));
 }
 
@@ -95,10 +98,12 @@ TEST(ShiftedOutline, TurnsAndMirrorsWithTheOutline) {
     const ShiftedOutline outline(given), mirrored_outline(by_mirror), turned_outline(by_turn);
     for (int x = -5; x < 5; ++x) {
       for (int y = -5; y < 5; ++y) {
-        bool any = false, any_mirrored = false;  // which of two segments passes through a peak on a line may change
+        bool any = false,
+             any_mirrored = false;  // which of two segments passes through a peak on a line may change
         for (std::int32_t s = 0; s < given.size(); ++s) {
           const bool meets = outline.meets(s, box_at(x, y, 1));
-          EXPECT_EQ(turned_outline.meets(s, box_at(-y - 1, x, 1)), meets) << "seed " << seed << " segment " << s;
+          EXPECT_EQ(turned_outline.meets(s, box_at(-y - 1, x, 1)), meets)
+              << "seed " << seed << " segment " << s;
           any = any || meets;
           any_mirrored = any_mirrored || mirrored_outline.meets(s, box_at(-x - 1, y, 1));
         }

@@ -15,8 +15,8 @@ namespace {
 
 using test::world;
 
-/// All triangles of a grid, on every rank, and where nodes and triangles are kept: nodes in stretches, triangles
-/// anywhere.
+/// All triangles of a grid, on every rank, and where nodes and triangles are kept: nodes in stretches,
+/// triangles anywhere.
 struct SpreadGrid {
   SpreadGrid() {
     const Mesh whole = test::Grid{7, {1, 1}, false}.mesh();
@@ -75,7 +75,8 @@ TEST(StarHalo, GrowsARingAtATimeUntilAllIsThere) {
     for (const NumberedTriangle& t : halo.triangles()) at_hand.insert(t.nodes.begin(), t.nodes.end());
     EXPECT_EQ(halo.complete(), at_hand == known);
     for (const NumberedTriangle& t : halo.triangles()) {
-      const auto unknown = std::count_if(t.nodes.begin(), t.nodes.end(), [&](std::int64_t n) { return !known.contains(n); });
+      const auto unknown =
+          std::count_if(t.nodes.begin(), t.nodes.end(), [&](std::int64_t n) { return !known.contains(n); });
       EXPECT_EQ(halo.at_rim(t), unknown > 1);
     }
     known.merge(at_hand);

@@ -53,7 +53,8 @@ TEST(Words, HoldNoBlanks) {
   EXPECT_EQ(word_of("\xC3\xA9\x7f"), "\xC3\xA9_");
   EXPECT_EQ(distinct_words(Names{"", "a b", ""}, "s"), (Names{"v1", "a_b", "v3"}));
   EXPECT_THROW(distinct_words(Names{"a b", "a_b"}, "s"), InputError);
-  EXPECT_THROW(distinct_words(Names{"v2", ""}, "s"), InputError) << "a name given takes the place of one made up";
+  EXPECT_THROW(distinct_words(Names{"v2", ""}, "s"), InputError)
+      << "a name given takes the place of one made up";
 }
 
 }  // namespace

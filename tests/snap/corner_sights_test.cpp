@@ -21,7 +21,8 @@ LatticePoint at(std::int64_t x, std::int64_t y) { return {x * TracedLeaves::unit
 
 std::vector<Sight> seen_from(const std::vector<Sight>& sights, LatticePoint corner) {
   std::vector<Sight> own;
-  std::copy_if(sights.begin(), sights.end(), std::back_inserter(own), [&](const Sight& s) { return s.corner == corner; });
+  std::copy_if(sights.begin(), sights.end(), std::back_inserter(own),
+               [&](const Sight& s) { return s.corner == corner; });
   return own;
 }
 

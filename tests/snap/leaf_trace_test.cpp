@@ -93,7 +93,8 @@ std::vector<Point> wave() {
   std::vector<Point> points;
   for (int i = 0; i < 90; ++i) {
     const double angle = 2 * std::numbers::pi * i / 90, r = 1.2 + 0.5 * std::sin(7 * angle);
-    points.push_back({2 + std::round(16 * r * std::cos(angle)) / 16, 2 + std::round(16 * r * std::sin(angle)) / 16});
+    points.push_back(
+        {2 + std::round(16 * r * std::cos(angle)) / 16, 2 + std::round(16 * r * std::sin(angle)) / 16});
   }
   return points;
 }

@@ -73,8 +73,9 @@ TEST(CycleFolders, ResumingCountsWholeCyclesAndDropsTheOneUnderWay) {
   }
   run->begin(2);
   run.emplace(world(), temporary.file("run"));  // the lock goes with the earlier one
-  EXPECT_NE(refusal_of([&] { CycleFolders(world(), temporary.file("run")).open(false); }).find("--resume goes on"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal_of([&] { CycleFolders(world(), temporary.file("run")).open(false); }).find("--resume goes on"),
+      std::string::npos);
   EXPECT_EQ(run->open(true), 2);
   EXPECT_FALSE(fs::exists(run->under_way(2)));
 }
@@ -103,7 +104,9 @@ TEST(CycleFolders, TwoRunsDoNotShareAFolder) {
   const TemporaryFolder temporary;
   CycleFolders run(world(), temporary.file("run"));
   run.open(false);
-  EXPECT_NE(refusal_of([&] { CycleFolders(world(), temporary.file("run")).open(true); }).find("another run is at work"),
+  EXPECT_NE(refusal_of([&] {
+              CycleFolders(world(), temporary.file("run")).open(true);
+            }).find("another run is at work"),
             std::string::npos);
 }
 
@@ -128,12 +131,13 @@ TEST(Resume, SettingsThatMayChangeAreWarnedOfAndOthersRefused) {
   const CaseSettings before{{"adapt.refine", "1"}, {"solver.iterations", "5"}};
   write(temporary.file("record.json"), json_text(record_with(before)));
   EXPECT_TRUE(require_same_run(world(), temporary.path(), record_with(before)).empty());
-  const auto warnings =
-      require_same_run(world(), temporary.path(), record_with({{"adapt.refine", "1"}, {"solver.iterations", "9"}}));
+  const auto warnings = require_same_run(world(), temporary.path(),
+                                         record_with({{"adapt.refine", "1"}, {"solver.iterations", "9"}}));
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_TRUE(warnings[0].starts_with("solver.iterations was 5, is now 9")) << warnings[0];
   const auto refused = refusal_of([&] {
-    require_same_run(world(), temporary.path(), record_with({{"adapt.refine", "2"}, {"solver.iterations", "9"}}));
+    require_same_run(world(), temporary.path(),
+                     record_with({{"adapt.refine", "2"}, {"solver.iterations", "9"}}));
   });
   EXPECT_NE(refused.find("is of another case: adapt.refine was 1, is now 2;"), std::string::npos) << refused;
 }
@@ -145,7 +149,8 @@ TEST(Resume, AnotherOutlineIsRefused) {
   CycleRecord now = record_with(settings);
   now.geometry_digest = 8;
   now.case_digest = run_digest(settings, 8);
-  EXPECT_NE(refusal_of([&] { require_same_run(world(), temporary.path(), now); }).find("the outline"), std::string::npos);
+  EXPECT_NE(refusal_of([&] { require_same_run(world(), temporary.path(), now); }).find("the outline"),
+            std::string::npos);
 }
 
 TEST(Resume, ADamagedOrMissingRecordSaysHowToBeRidOfIt) {
@@ -153,7 +158,8 @@ TEST(Resume, ADamagedOrMissingRecordSaysHowToBeRidOfIt) {
   const auto refusal = [&] {
     return refusal_of([&] { require_same_run(world(), temporary.path(), record_with({})); });
   };
-  EXPECT_NE(refusal().find("is missing or cannot be read; bring the file back"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("is missing or cannot be read; bring the file back"), std::string::npos)
+      << refusal();
   write(temporary.file("record.json"), "{");
   EXPECT_NE(refusal().find("is no whole record of a cycle; bring"), std::string::npos) << refusal();
 }

@@ -1,4 +1,5 @@
-// From a solution to demands: marks in a row from few to many, caps kept, meshes that are not the tree's refused.
+// From a solution to demands: marks in a row from few to many, caps kept, meshes that are not the tree's
+// refused.
 #include "adapt/remesh/plan.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +93,8 @@ TEST(MarkFamily, OfAConstantMarksNothingToRefine) {
 
 TEST(MarkFamily, OfSizesGrowsThemSixteenfold) {
   SolvedMesh solved = solved_front(world(), square_input());
-  std::fill(solved.solution.values.begin(), solved.solution.values.end(), 1.0 / 32);  // leaves are twice as large
+  std::fill(solved.solution.values.begin(), solved.solution.values.end(),
+            1.0 / 32);  // leaves are twice as large
   AdaptOptions options = adapt_options();
   options.source = AdaptOptions::Source::size;
   const MarkFamily family(world(), options, solved);
@@ -103,7 +105,8 @@ TEST(MarkFamily, OfSizesGrowsThemSixteenfold) {
 }
 
 std::int64_t nodes_by(const AdaptationPlan& plan, const MeshInput& input) {
-  return build_mesh(world(), input.geometry, input.mesh, DemandedSplits(world(), plan.demands)).tree.attributes.nodes;
+  return build_mesh(world(), input.geometry, input.mesh, DemandedSplits(world(), plan.demands))
+      .tree.attributes.nodes;
 }
 
 TEST(Plan, RefinesTheFrontAlone) {
@@ -193,7 +196,8 @@ TEST(OwnMesh, CountsNodesAndCells) {
     require_own_mesh(world(), solved, "a.mesh", "a.tree.h5");
     FAIL();
   } catch (const InputError& fault) {
-    EXPECT_TRUE(std::string(fault.what()).starts_with("a.mesh: is of another mesh than a.tree.h5: ")) << fault.what();
+    EXPECT_TRUE(std::string(fault.what()).starts_with("a.mesh: is of another mesh than a.tree.h5: "))
+        << fault.what();
   }
 }
 

@@ -52,7 +52,8 @@ TEST(SmoothedMesh, ItselfAndItsSmoothedPass) {
 
 TEST(SmoothedMesh, WithoutAnOutlineBoundaryNodesMustStay) {
   const Mesh before = jittered();
-  EXPECT_NE(fault_of_smoothed(before, smoothed(before, false), nullptr).find("lies off its outline"), std::string::npos);
+  EXPECT_NE(fault_of_smoothed(before, smoothed(before, false), nullptr).find("lies off its outline"),
+            std::string::npos);
 }
 
 TEST(SmoothedMesh, CellsInAnotherOrderPass) {

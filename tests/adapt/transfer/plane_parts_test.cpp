@@ -67,7 +67,8 @@ TEST(CurveGrid, TheSquareAroundStepsIsTheSmallest) {
     const CurveGrid::Steps steps{{x0, y0}, {x1, y1}};
     const CurveGrid::Square square = CurveGrid::square_around(steps);
     EXPECT_TRUE(square.meets(steps));
-    EXPECT_TRUE(square.begin.x <= x0 && x1 <= square.last().x && square.begin.y <= y0 && y1 <= square.last().y);
+    EXPECT_TRUE(square.begin.x <= x0 && x1 <= square.last().x && square.begin.y <= y0 &&
+                y1 <= square.last().y);
     if (square.bits == 0) continue;
     int met = 0;
     for (int k = 0; k < 4; ++k) met += square.child(k).meets(steps) ? 1 : 0;

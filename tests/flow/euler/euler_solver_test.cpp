@@ -35,7 +35,8 @@ TEST(EulerSolver, SaysWhatTheSolverSays) {
   EXPECT_EQ(flow.cl, result.cl);
   EXPECT_EQ(flow.cd, result.cd);
   EXPECT_EQ(flow.residual, result.residual);
-  EXPECT_EQ(flow.solution.constants, (std::vector<double>{6, result.time, 0.4, 2, result.cl, result.cd, result.residual}));
+  EXPECT_EQ(flow.solution.constants,
+            (std::vector<double>{6, result.time, 0.4, 2, result.cl, result.cd, result.residual}));
   ASSERT_GE(flow.notes.size(), 3U);
   EXPECT_TRUE(flow.notes.back().starts_with("iteration 6: residual ")) << flow.notes.back();
   ASSERT_EQ(flow.warnings.size(), 1U) << "six steps are too few";

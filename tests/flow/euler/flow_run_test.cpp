@@ -1,4 +1,5 @@
-// What marching works with: residuals, the place named in a failure, forces of known pressures, colours, the implicit system.
+// What marching works with: residuals, the place named in a failure, forces of known pressures, colours, the
+// implicit system.
 #include "flow/euler/flow_run.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +45,9 @@ struct RingRun {
     for (std::int32_t node = 0; node < static_cast<std::int32_t>(dual.nodes()); ++node)
       states[node][3] = pressure(dual.point(node));
   }
-  ForceCoefficients forces(double length = 1) const { return wall_forces(run.comm, dual, model, states, length); }
+  ForceCoefficients forces(double length = 1) const {
+    return wall_forces(run.comm, dual, model, states, length);
+  }
 
   Mesh whole, mesh;
   DualMesh dual;
@@ -59,7 +62,8 @@ struct RingRun {
 double body_area() {
   const Mesh mesh = test::ring_mesh(around, outwards, thickness, 8);
   double twice = 0;
-  for (int i = 0; i < around; ++i) twice += cross(mesh.point(NodeId{i}), mesh.point(NodeId{(i + 1) % around}));
+  for (int i = 0; i < around; ++i)
+    twice += cross(mesh.point(NodeId{i}), mesh.point(NodeId{(i + 1) % around}));
   return twice / 2;
 }
 

@@ -15,7 +15,9 @@ double ulps(int count) { return count * std::numeric_limits<double>::epsilon(); 
 Chain chain(bool open, std::vector<Point> points) { return {"wall", open, std::move(points), "file:1"}; }
 
 struct Repaired {
-  explicit Repaired(std::vector<Chain> given) : chains{std::move(given)} { join_rounded_ends(chains, warnings); }
+  explicit Repaired(std::vector<Chain> given) : chains{std::move(given)} {
+    join_rounded_ends(chains, warnings);
+  }
   std::vector<Chain> chains;
   std::vector<std::string> warnings;
 };
@@ -40,7 +42,8 @@ TEST(RoundedEnds, RoundingGrowsWithTheLargestCoordinate) {
   EXPECT_EQ(both.chains[1].points.front(), (Point{1, 0}));
   const Repaired infinite({chain(true, {{0, 0}, {1, 0}}),
                            chain(true, {{1, ulps(1000)}, {std::numeric_limits<double>::infinity(), 0.5}})});
-  EXPECT_EQ(infinite.chains[1].points.front(), (Point{1, ulps(1000)})) << "it is refused later, and is no measure";
+  EXPECT_EQ(infinite.chains[1].points.front(), (Point{1, ulps(1000)}))
+      << "it is refused later, and is no measure";
 }
 
 TEST(RoundedEnds, ThreeEndsAreNotGuessedAt) {
@@ -52,7 +55,8 @@ TEST(RoundedEnds, ThreeEndsAreNotGuessedAt) {
 }
 
 TEST(RoundedEnds, AnEndThatMeetsAnotherExactlyIsNotLoose) {
-  const Repaired met({chain(true, {{0, 0}, {1, 0}}), chain(true, {{1, 0}, {1, 1}}), chain(true, {{1, ulps(2)}, {0, 1}})});
+  const Repaired met(
+      {chain(true, {{0, 0}, {1, 0}}), chain(true, {{1, 0}, {1, 1}}), chain(true, {{1, ulps(2)}, {0, 1}})});
   EXPECT_EQ(met.chains[2].points.front(), (Point{1, ulps(2)}));
 }
 

@@ -19,7 +19,8 @@ Mesh two_triangles(const std::array<Point, 4>& points, bool first_to_third) {
   return mesh;
 }
 
-constexpr std::array<Point, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, kite{{{0, 0}, {1, 0}, {1.5, 1.5}, {0, 1}}};
+constexpr std::array<Point, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}},
+    kite{{{0, 0}, {1, 0}, {1.5, 1.5}, {0, 1}}};
 
 TEST(DelaunayCheck, TakesTheDiagonalThatTheCircleAllows) {
   EXPECT_FALSE(is_delaunay(two_triangles(kite, true)));
