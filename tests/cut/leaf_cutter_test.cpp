@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/cut/cut_leaf.hpp"
 #include "mesher/cut/leaf_cells.hpp"
 
 namespace quadloop {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "mesher/forest/curve_owners.hpp"
 #include "mesher/forest/ghost_exchange.hpp"
 #include "mesher/forest/ghost_layer.hpp"
 #include "tests/support/world.hpp"

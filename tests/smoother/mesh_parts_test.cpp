@@ -1,12 +1,11 @@
 // Units of lengths, stars of nodes, figures of shapes, nodes that slide along boundaries.
-#include "smoother/binary_unit.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <set>
 
+#include "smoother/binary_unit.hpp"
 #include "smoother/node_stars.hpp"
 #include "smoother/shape_histogram.hpp"
 #include "tests/mesh/grid_mesh.hpp"
@@ -26,7 +25,8 @@ Mesh sized(double size) {
 }
 
 TEST(BinaryUnit, IsOneForAllOrdinaryMeshes) {
-  for (const double size : {1e-50, 1e-3, 1.0, 1e50}) EXPECT_TRUE(BinaryUnit(world(), sized(size)).is_one()) << size;
+  for (const double size : {1e-50, 1e-3, 1.0, 1e50})
+    EXPECT_TRUE(BinaryUnit(world(), sized(size)).is_one()) << size;
   EXPECT_TRUE(BinaryUnit(world(), {}).is_one()) << "of no nodes";
   EXPECT_TRUE(BinaryUnit(world(), sized(0)).is_one());
 }
@@ -104,7 +104,8 @@ TEST(NodeStars, NeighboursShareACell) {
   all.halo.for_each_cell([&](const auto& cell) {
     for (const NodeId node : cell) {
       for (const NodeId other : cell) {
-        if (node.value() < all.part.owned_nodes && other != node) expected[node.value()].insert(other.value());
+        if (node.value() < all.part.owned_nodes && other != node)
+          expected[node.value()].insert(other.value());
       }
     }
   });
@@ -125,7 +126,8 @@ TEST(NodeStars, CostTheSameOnAnyNumberOfRanks) {
       const std::size_t number = together.part.global(own).value();
       const Point p = together.part.point(own);
       EXPECT_EQ(together.star(i).worst_cost(p), alone.star(number).worst_cost(p));
-      EXPECT_EQ(together.star(i).cost(p, Objective::power).objective[0], alone.star(number).cost(p, Objective::power).objective[0]);
+      EXPECT_EQ(together.star(i).cost(p, Objective::power).objective[0],
+                alone.star(number).cost(p, Objective::power).objective[0]);
     }
   }
 }
@@ -145,7 +147,8 @@ TEST(NodeStars, OfIdealCellsCostNothing) {
 
 TEST(Histogram, LimitsBelongAbove) {
   Histogram h{"values", {1, 2}, {0, 0, 0}};
-  for (const double value : {-5.0, 0.999, 1.0, 1.5, 2.0, 1e300, std::numeric_limits<double>::infinity()}) h.add(value);
+  for (const double value : {-5.0, 0.999, 1.0, 1.5, 2.0, 1e300, std::numeric_limits<double>::infinity()})
+    h.add(value);
   EXPECT_EQ(h.counts, (std::vector<std::int64_t>{2, 2, 3}));
 }
 
@@ -174,7 +177,8 @@ TEST(ShapeHistograms, OfSquares) {
   whole.quads = {{NodeId{0}, NodeId{1}, NodeId{2}, NodeId{3}}};
   const auto histograms = shape_histograms(world(), scatter_mesh(world(), whole, own_order(whole)));
   const Histogram& angles = named(histograms, "angle");
-  EXPECT_EQ(only_bin(angles), std::upper_bound(angles.limits.begin(), angles.limits.end(), 90.0) - angles.limits.begin());
+  EXPECT_EQ(only_bin(angles),
+            std::upper_bound(angles.limits.begin(), angles.limits.end(), 90.0) - angles.limits.begin());
   EXPECT_EQ(only_bin(named(histograms, "aspect ratio")), 0);
   EXPECT_EQ(only_bin(named(histograms, "skewness")), 0);
   EXPECT_EQ(only_bin(named(histograms, "condition number")), 0);

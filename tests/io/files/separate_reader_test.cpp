@@ -1,4 +1,5 @@
-// Values through a pipe, from a child that may fail; paths of inputs and outputs; staging folders. On one rank alone.
+// Values through a pipe, from a child that may fail; paths of inputs and outputs; staging folders. On one
+// rank alone.
 #include "io/files/separate_reader.hpp"
 
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@
 #include "io/files/input_file.hpp"
 #include "io/files/output_path.hpp"
 #include "io/files/staging_folder.hpp"
+#include "io/files/value_pipe.hpp"
 #include "io/loaded/pass_mesh.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -61,7 +63,8 @@ TEST(ValuePipe, BringsValuesOfAnyShape) {
   EXPECT_EQ(passed(std::string("with \0 zero", 11)), std::string("with \0 zero", 11));
   EXPECT_EQ(passed(std::optional<std::string>()), std::nullopt);
   EXPECT_EQ(passed(std::optional<std::string>("")), "");
-  EXPECT_EQ(passed(std::vector<std::vector<int>>{{}, {1}, {2, 3}}), (std::vector<std::vector<int>>{{}, {1}, {2, 3}}));
+  EXPECT_EQ(passed(std::vector<std::vector<int>>{{}, {1}, {2, 3}}),
+            (std::vector<std::vector<int>>{{}, {1}, {2, 3}}));
   std::vector<std::int64_t> many(300000);  // more than a pipe holds, and than is gathered before a write
   std::iota(many.begin(), many.end(), -5);
   EXPECT_EQ(passed(many), many);
@@ -111,7 +114,9 @@ TEST(ValuePipe, EndsWhereTheValuesDo) {
 
 struct ReadSeparately : testing::Test {
   ReadSeparately() { test::write_bytes(path, "some bytes"); }
-  std::string by(const std::function<std::string()>& read) const { return read_separately<std::string>(path, read); }
+  std::string by(const std::function<std::string()>& read) const {
+    return read_separately<std::string>(path, read);
+  }
   TemporaryFolder folder;
   std::string path = folder.file("a.cgns");
 };
@@ -127,7 +132,8 @@ TEST_F(ReadSeparately, GivesWhatTheChildHasRead) {
 }
 
 TEST_F(ReadSeparately, AnErrorOfTheChildIsThrownHere) {
-  EXPECT_EQ(refusal_of([&] { by([]() -> std::string { throw InputError("line 3 is wrong"); }); }), "line 3 is wrong");
+  EXPECT_EQ(refusal_of([&] { by([]() -> std::string { throw InputError("line 3 is wrong"); }); }),
+            "line 3 is wrong");
   try {
     by([]() -> std::string { throw OutputError("full"); });
     FAIL();
@@ -149,7 +155,8 @@ TEST_F(ReadSeparately, ACrashOrAnEarlyEndIsADamagedFile) {
 }
 
 TEST_F(ReadSeparately, AMissingFileIsRefusedBeforeAnyChild) {
-  EXPECT_TRUE(says(refusal_of([&] { read_separately<int>(folder.file("none"), [] { return 1; }); }), "cannot be opened"));
+  EXPECT_TRUE(says(refusal_of([&] { read_separately<int>(folder.file("none"), [] { return 1; }); }),
+                   "cannot be opened"));
 }
 
 TEST(InputFile, WhatIsNoFileIsRefused) {
@@ -157,7 +164,8 @@ TEST(InputFile, WhatIsNoFileIsRefused) {
   EXPECT_TRUE(says(refusal_of([&] { read_input(folder.path()); }), "is a folder; name a file in it"));
   EXPECT_TRUE(says(refusal_of([&] { read_input(folder.file("none")); }), "cannot be opened"));
   EXPECT_TRUE(says(refusal_of([&] { read_input("/dev/zero"); }), "is a device"));
-  EXPECT_TRUE(says(refusal_of([&] { require_input_file(folder.file(std::string(300, 'a'))); }), "give a shorter name"));
+  EXPECT_TRUE(says(refusal_of([&] { require_input_file(folder.file(std::string(300, 'a'))); }),
+                   "give a shorter name"));
   const std::string pipe = folder.file("pipe");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_TRUE(says(refusal_of([&] { read_input(pipe); }), "is a pipe"));
@@ -190,7 +198,8 @@ TEST(OutputPath, LinksAreFollowedToWhatTheyStandFor) {
   fs::create_symlink("there/file", folder.file("link"));
   fs::create_symlink("link", folder.file("link_to_link"));
   EXPECT_EQ(output_target(folder.file("plain")), folder.file("plain"));
-  EXPECT_EQ(output_target(folder.file("link_to_link")), folder.file("there/file")) << "which is not there yet";
+  EXPECT_EQ(output_target(folder.file("link_to_link")), folder.file("there/file"))
+      << "which is not there yet";
   fs::create_symlink("round", folder.file("round"));
   EXPECT_NE(refusal_of([&] { output_target(folder.file("round")); }), "");
 }
@@ -198,12 +207,16 @@ TEST(OutputPath, LinksAreFollowedToWhatTheyStandFor) {
 TEST(OutputPath, WhatCannotBecomeAFileIsRefused) {
   const TemporaryFolder folder;
   EXPECT_TRUE(says(refusal_of([&] { require_possible_output(folder.path()); }), "is a folder, not a file"));
-  EXPECT_TRUE(says(refusal_of([&] { require_possible_output(folder.file("no/file")); }), "does not exist; create it first"));
+  EXPECT_TRUE(says(refusal_of([&] { require_possible_output(folder.file("no/file")); }),
+                   "does not exist; create it first"));
   EXPECT_TRUE(says(refusal_of([&] { require_possible_output("/dev/null"); }), "is a device"));
-  EXPECT_TRUE(says(refusal_of([&] { require_possible_output("/dev/./stdout"); }), "is a stream of the process"));
-  EXPECT_TRUE(says(refusal_of([&] { require_possible_output(folder.file(std::string(300, 'a'))); }), "give a shorter name"));
+  EXPECT_TRUE(
+      says(refusal_of([&] { require_possible_output("/dev/./stdout"); }), "is a stream of the process"));
+  EXPECT_TRUE(says(refusal_of([&] { require_possible_output(folder.file(std::string(300, 'a'))); }),
+                   "give a shorter name"));
   fs::create_symlink("no/file", folder.file("link"));
-  EXPECT_TRUE(says(refusal_of([&] { require_possible_output(folder.file("link")); }), "link: cannot be written: the folder"));
+  EXPECT_TRUE(says(refusal_of([&] { require_possible_output(folder.file("link")); }),
+                   "link: cannot be written: the folder"));
 }
 
 TEST(OutputPath, FoldersOfPaths) {
@@ -246,7 +259,8 @@ TEST(StagingFolder, RemovesWhatAKilledRunLeftButNotWhatALivingOneNeeds) {
 }
 
 TEST(StagingFolder, InNoFolderIsRefused) {
-  EXPECT_TRUE(says(refusal_of([] { StagingFolder("/nowhere/at/all", "out.mesh"); }), "out.mesh: cannot be written"));
+  EXPECT_TRUE(
+      says(refusal_of([] { StagingFolder("/nowhere/at/all", "out.mesh"); }), "out.mesh: cannot be written"));
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ TEST(LineReader, PassesOverCommentsAndBlankLines) {
   EXPECT_EQ(rows.reader.words(), (std::vector<std::string_view>{"c", "d"})) << "commas part words";
   EXPECT_FALSE(rows.reader.next());
   EXPECT_FALSE(rows.reader.next());
-  EXPECT_NE(rows.refusal([](LineReader& r) { r.require_next("a loop"); }).find("but a loop is missing"), std::string::npos);
+  EXPECT_NE(rows.refusal([](LineReader& r) { r.require_next("a loop"); }).find("but a loop is missing"),
+            std::string::npos);
 }
 
 TEST(LineReader, ALastRowNeedsNoLineEnd) {
@@ -47,9 +48,12 @@ TEST(LineReader, NumbersMayHaveFortransExponent) {
 TEST(LineReader, WhatIsNoFiniteNumberIsRefusedWithItsPlace) {
   Rows rows("\n1.5x 1e999 nan +-1 inf");
   rows.reader.next();
-  EXPECT_NE(rows.refusal([](LineReader& r) { r.real(0); }).find("a.geom:2: '1.5x' is not a number"), std::string::npos);
-  EXPECT_NE(rows.refusal([](LineReader& r) { r.real(1); }).find("'1e999' is not a finite number"), std::string::npos);
-  for (const std::size_t word : {2U, 3U, 4U}) EXPECT_NE(rows.refusal([&](LineReader& r) { r.real(word); }), "");
+  EXPECT_NE(rows.refusal([](LineReader& r) { r.real(0); }).find("a.geom:2: '1.5x' is not a number"),
+            std::string::npos);
+  EXPECT_NE(rows.refusal([](LineReader& r) { r.real(1); }).find("'1e999' is not a finite number"),
+            std::string::npos);
+  for (const std::size_t word : {2U, 3U, 4U})
+    EXPECT_NE(rows.refusal([&](LineReader& r) { r.real(word); }), "");
   EXPECT_FALSE(rows.reader.is_number(0));
   EXPECT_FALSE(rows.reader.is_number(3));
   EXPECT_TRUE(rows.reader.is_number(1) && rows.reader.is_number(2)) << "of any kind";
@@ -60,13 +64,16 @@ TEST(LineReader, CountsAreWholeAndAtLeastOne) {
   rows.reader.next();
   EXPECT_EQ(rows.reader.count(0, "points"), 12);
   for (const std::size_t word : {1U, 2U, 3U, 4U})
-    EXPECT_NE(rows.refusal([&](LineReader& r) { r.count(word, "points"); }).find("is not a number of points"), std::string::npos);
+    EXPECT_NE(rows.refusal([&](LineReader& r) { r.count(word, "points"); }).find("is not a number of points"),
+              std::string::npos);
 }
 
 TEST(LineReader, DecimalCommasAreNotFourWords) {
   for (const char* row : {"0,5 1,5", "0,5\t1", "0,5; 1,5"}) {
     Rows rows(row);
-    EXPECT_NE(rows.refusal([](LineReader& r) { r.next(); }).find("0,5: a decimal comma; write 0.5"), std::string::npos) << row;
+    EXPECT_NE(rows.refusal([](LineReader& r) { r.next(); }).find("0,5: a decimal comma; write 0.5"),
+              std::string::npos)
+        << row;
   }
   for (const char* row : {"1, 2", "1,2", "1, 2, 3", "a,b c", "1,2 3,4 5,6"}) {
     Rows rows(row);

@@ -81,7 +81,8 @@ TEST(ForeignMesh, AnEdgeOfNoCellIsRefusedByItsLine) {
   f.add_squares("a", "a");
   f.add_edge("wall", 0, 5, 4);  // "two" begins there
   const std::string refusal = test::refusal(f.folder, [&] { f.finished(); });
-  EXPECT_NE(refusal.find("a.msh:2: an edge of boundary wall, from (0, 0) to (2, 1), belongs to no cell"), std::string::npos)
+  EXPECT_NE(refusal.find("a.msh:2: an edge of boundary wall, from (0, 0) to (2, 1), belongs to no cell"),
+            std::string::npos)
       << refusal;
 }
 

@@ -65,10 +65,13 @@ NodeTags tagged(const std::vector<std::int64_t>& tags, std::int64_t expected_twi
 }
 
 TEST(NodeTags, MayHaveGapsAndComeInAnyOrder) {
-  for (const auto& tags : {std::vector<std::int64_t>{1, 2, 3}, {9, 4, 7}, {-5, 1000000000000, 2}, {3, 4, 6}}) {
+  for (const auto& tags :
+       {std::vector<std::int64_t>{1, 2, 3}, {9, 4, 7}, {-5, 1000000000000, 2}, {3, 4, 6}}) {
     const NodeTags nodes = tagged(tags);
-    for (std::size_t i = 0; i < tags.size(); ++i) EXPECT_EQ(nodes.node_of(tags[i]).value(), static_cast<std::int32_t>(i));
-    for (const std::int64_t absent : {std::int64_t{0}, std::int64_t{5}, std::numeric_limits<std::int64_t>::max()})
+    for (std::size_t i = 0; i < tags.size(); ++i)
+      EXPECT_EQ(nodes.node_of(tags[i]).value(), static_cast<std::int32_t>(i));
+    for (const std::int64_t absent :
+         {std::int64_t{0}, std::int64_t{5}, std::numeric_limits<std::int64_t>::max()})
       EXPECT_FALSE(nodes.node_of(absent).valid());
   }
 }

@@ -12,7 +12,8 @@ namespace quadloop {
 namespace {
 
 struct Scanned {
-  explicit Scanned(const std::string& text, char comment = '#') : scan{folder.write("a.su2", text), comment} {}
+  explicit Scanned(const std::string& text, char comment = '#')
+      : scan{folder.write("a.su2", text), comment} {}
   template <class Call>
   std::string refusal(const Call& call) {
     return test::refusal(folder, [&] { call(scan); });
@@ -23,12 +24,15 @@ struct Scanned {
 
 TEST(ParseReal, TakesOneWholeNumber) {
   double value = 0;
-  const auto is = [&](std::string_view token, double expected) { return parse_real(token, value) && value == expected; };
+  const auto is = [&](std::string_view token, double expected) {
+    return parse_real(token, value) && value == expected;
+  };
   EXPECT_TRUE(is("1.5", 1.5) && is("+2", 2) && is("-3e-1", -0.3) && is("1.0D-03", 1e-3) && is("2d2", 200));
   EXPECT_TRUE(is("1e-400", 0)) << "what underflows is the nearest number";
   EXPECT_TRUE(is("1e400", HUGE_VAL));
   EXPECT_TRUE(parse_real("nan", value) && std::isnan(value));
-  for (const char* token : {"", "+", "1.5x", "0x10", "1,5", "1 ", "--1", "e5"}) EXPECT_FALSE(parse_real(token, value)) << token;
+  for (const char* token : {"", "+", "1.5x", "0x10", "1,5", "1 ", "--1", "e5"})
+    EXPECT_FALSE(parse_real(token, value)) << token;
 }
 
 TEST(TextScanner, PassesOverCommentsAndBlanks) {
@@ -43,10 +47,14 @@ TEST(TextScanner, RefusalsNameTheLineOfTheTokenReadLast) {
   Scanned s("1\n\n2 x\n0,5\n");
   EXPECT_EQ(s.scan.integer("n"), 1);
   EXPECT_EQ(s.scan.integer("n"), 2);
-  EXPECT_NE(s.refusal([](TextScanner& t) { t.integer("a tag"); }).find("a.su2:3: expected a tag, found \"x\""), std::string::npos);
-  EXPECT_NE(s.refusal([](TextScanner& t) { t.real("x"); }).find("0,5: a decimal comma; write 0.5"), std::string::npos);
-  EXPECT_NE(s.refusal([](TextScanner& t) { t.token("a word"); }).find("the file ends where a word should follow"),
+  EXPECT_NE(
+      s.refusal([](TextScanner& t) { t.integer("a tag"); }).find("a.su2:3: expected a tag, found \"x\""),
+      std::string::npos);
+  EXPECT_NE(s.refusal([](TextScanner& t) { t.real("x"); }).find("0,5: a decimal comma; write 0.5"),
             std::string::npos);
+  EXPECT_NE(
+      s.refusal([](TextScanner& t) { t.token("a word"); }).find("the file ends where a word should follow"),
+      std::string::npos);
   Scanned infinite("inf 99999999999999999999");
   EXPECT_NE(infinite.refusal([](TextScanner& t) { t.real("x"); }).find("x is not finite"), std::string::npos);
   EXPECT_NE(infinite.refusal([](TextScanner& t) { t.integer("a tag"); }), "");

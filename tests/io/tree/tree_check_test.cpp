@@ -31,22 +31,25 @@ LeafRecord leaf(int level, std::int32_t column, std::int32_t row) {
 
 /// Two trees side by side, the first in seven leaves, the second whole; along the curve.
 std::vector<LeafRecord> leaves() {
-  std::vector<LeafRecord> all{leaf(1, 0, 0), leaf(2, 2, 0), leaf(2, 3, 0), leaf(2, 2, 1), leaf(2, 3, 1), leaf(1, 0, 1),
-                              leaf(1, 1, 1)};
+  std::vector<LeafRecord> all{leaf(1, 0, 0), leaf(2, 2, 0), leaf(2, 3, 0), leaf(2, 2, 1),
+                              leaf(2, 3, 1), leaf(1, 0, 1), leaf(1, 1, 1)};
   all.push_back(leaf(0, 0, 0));
   all.back().tree_x = 1;
   return all;
 }
 
 /// What is said of the leaves, shared out over the ranks.
-std::string fault_of(const std::vector<LeafRecord>& all, const std::function<void(TreeAttributes&)>& change = {}) {
+std::string fault_of(const std::vector<LeafRecord>& all,
+                     const std::function<void(TreeAttributes&)>& change = {}) {
   TreeRecord tree;
   tree.attributes.trees_x = 2;
   tree.attributes.tree_edge = 1;
   tree.attributes.quads = 8;
   if (change) change(tree.attributes);
-  const std::size_t begin = all.size() * world().rank() / world().size(), end = all.size() * (world().rank() + 1) / world().size();
-  tree.leaves.assign(all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end));
+  const std::size_t begin = all.size() * world().rank() / world().size(),
+                    end = all.size() * (world().rank() + 1) / world().size();
+  tree.leaves.assign(all.begin() + static_cast<std::ptrdiff_t>(begin),
+                     all.begin() + static_cast<std::ptrdiff_t>(end));
   try {
     require_whole_tree(world(), tree, begin > 0 ? std::optional(all[begin - 1]) : std::nullopt, "a.tree.h5");
     return {};
@@ -59,7 +62,8 @@ void expect_fault(const std::string& says, const std::function<void(std::vector<
   std::vector<LeafRecord> changed = leaves();
   change(changed);
   const std::string fault = fault_of(changed);
-  EXPECT_TRUE(fault.starts_with("a.tree.h5: ") && fault.find(says) != std::string::npos) << says << ": " << fault;
+  EXPECT_TRUE(fault.starts_with("a.tree.h5: ") && fault.find(says) != std::string::npos)
+      << says << ": " << fault;
 }
 
 TEST(WholeTree, IsWhole) { EXPECT_EQ(fault_of(leaves()), ""); }
@@ -89,8 +93,10 @@ TEST(WholeTree, EachLeafIsPossible) {
 }
 
 TEST(WholeTree, CellsAreAsManyAsAreSaid) {
-  EXPECT_NE(fault_of(leaves(), [](TreeAttributes& a) { a.quads = 9; }).find("have 8 quadrilaterals, where 9"), std::string::npos);
-  EXPECT_NE(fault_of(leaves(), [](TreeAttributes& a) { a.triangles = 1; }).find("have 0 triangles, where 1"), std::string::npos);
+  EXPECT_NE(fault_of(leaves(), [](TreeAttributes& a) { a.quads = 9; }).find("have 8 quadrilaterals, where 9"),
+            std::string::npos);
+  EXPECT_NE(fault_of(leaves(), [](TreeAttributes& a) { a.triangles = 1; }).find("have 0 triangles, where 1"),
+            std::string::npos);
 }
 
 TEST(TreeAttributes, ArePossible) {
@@ -114,7 +120,8 @@ TEST(TreeAttributes, ArePossible) {
   EXPECT_NE(fault([](TreeAttributes& a) { a.gradation = 1; }), "");
   EXPECT_NE(fault([](TreeAttributes& a) { a.gradation = 2.01; }), "");
   EXPECT_NE(fault([](TreeAttributes& a) { a.trees_x = 5; }), "") << "each tree has a leaf";
-  EXPECT_NE(fault([](TreeAttributes& a) { a.trees_x = a.trees_y = std::numeric_limits<std::int32_t>::max(); }), "");
+  EXPECT_NE(
+      fault([](TreeAttributes& a) { a.trees_x = a.trees_y = std::numeric_limits<std::int32_t>::max(); }), "");
   EXPECT_NE(fault([](TreeAttributes& a) { a.nodes = -1; }), "");
 }
 

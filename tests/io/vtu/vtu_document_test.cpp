@@ -1,4 +1,5 @@
-// What a VTK XML file says of itself, and the numbers of its arrays however they are written. On one rank alone.
+// What a VTK XML file says of itself, and the numbers of its arrays however they are written. On one rank
+// alone.
 #include "io/vtu/vtu_document.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +53,9 @@ TEST(VtuDocument, KnowsItsArraysBySectionAndName) {
 
 TEST(VtuDocument, HeadersAreRead) {
   const VtuDocument document =
-      Parsed(file_with("", "byte_order=\"BigEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"")).document();
+      Parsed(file_with(
+                 "", "byte_order=\"BigEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\""))
+          .document();
   EXPECT_TRUE(document.big_endian && document.wide_header && document.compressed);
 }
 
@@ -64,20 +67,25 @@ TEST(VtuDocument, RefusesWhatItIsNot) {
   refused("", "is no whole VTK XML file");
   refused("<a/>", "it has no element VTKFile");
   refused("<VTKFile type=\"PolyData\"/>", "a.vtu:1: holds VTK data of type 'PolyData'");
-  refused("<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\"/>", "is compressed by vtkLZ4DataCompressor");
+  refused("<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\"/>",
+          "is compressed by vtkLZ4DataCompressor");
   refused("<VTKFile type=\"UnstructuredGrid\"></VTKFile>", "the grid has no piece");
   refused(file_with("</Piece><Piece>"), "a.vtu:5: the grid has several pieces");
   refused(file_with("<PointData>"), "is no whole VTK XML file");
-  refused("<VTKFile type=\"UnstructuredGrid\"><Piece NumberOfPoints=\"-1\"/></VTKFile>", "NumberOfPoints is '-1', not a count");
+  refused("<VTKFile type=\"UnstructuredGrid\"><Piece NumberOfPoints=\"-1\"/></VTKFile>",
+          "NumberOfPoints is '-1', not a count");
 }
 
 TEST(VtuDocument, RawDataAreNoXml) {
   const Parsed parsed(
-      "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/></UnstructuredGrid>"
+      "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"0\" "
+      "NumberOfCells=\"0\"/></UnstructuredGrid>"
       "<AppendedData encoding=\"raw\">\n _<&\n</AppendedData></VTKFile>");
   const VtuDocument document = parsed.document();
   EXPECT_TRUE(document.appended_raw);
-  EXPECT_EQ(parsed.scan.text().substr(document.appended_begin, document.appended_end - document.appended_begin), "<&\n");
+  EXPECT_EQ(
+      parsed.scan.text().substr(document.appended_begin, document.appended_end - document.appended_begin),
+      "<&\n");
 }
 
 struct Numbers {
@@ -98,7 +106,8 @@ struct Numbers {
 
 TEST(VtuNumbers, OfTexts) {
   EXPECT_EQ(Numbers("type=\"Float64\"", " 1 2.5\n-3e2 ").reals(3), (std::vector<double>{1, 2.5, -300}));
-  EXPECT_EQ(Numbers("type=\"Int64\"", "9007199254740993").integers(), (std::vector<std::int64_t>{9007199254740993}))
+  EXPECT_EQ(Numbers("type=\"Int64\"", "9007199254740993").integers(),
+            (std::vector<std::int64_t>{9007199254740993}))
       << "beyond what a double tells apart";
   EXPECT_TRUE(Numbers("type=\"Float64\"", "").reals(0).empty());
 }
@@ -106,15 +115,22 @@ TEST(VtuNumbers, OfTexts) {
 /// The bytes 4 0 0 0 (how many follow), then 1 0 255 127.
 TEST(VtuNumbers, OfBase64InEachTypeAndByteOrder) {
   const std::string data = "BAAAAAEA/38=";
-  EXPECT_EQ(Numbers("type=\"UInt8\" format=\"binary\"", data).integers(), (std::vector<std::int64_t>{1, 0, 255, 127}));
-  EXPECT_EQ(Numbers("type=\"Int8\" format=\"binary\"", data).integers(), (std::vector<std::int64_t>{1, 0, -1, 127}));
-  EXPECT_EQ(Numbers("type=\"Int16\" format=\"binary\"", data).integers(), (std::vector<std::int64_t>{1, 32767}));
-  EXPECT_EQ(Numbers("type=\"UInt32\" format=\"binary\"", data).integers(), (std::vector<std::int64_t>{0x7fff0001}));
-  EXPECT_EQ(Numbers("type=\"Int16\" format=\"binary\"", "AAAABAABf/8=", "byte_order=\"BigEndian\"").integers(),
+  EXPECT_EQ(Numbers("type=\"UInt8\" format=\"binary\"", data).integers(),
+            (std::vector<std::int64_t>{1, 0, 255, 127}));
+  EXPECT_EQ(Numbers("type=\"Int8\" format=\"binary\"", data).integers(),
+            (std::vector<std::int64_t>{1, 0, -1, 127}));
+  EXPECT_EQ(Numbers("type=\"Int16\" format=\"binary\"", data).integers(),
             (std::vector<std::int64_t>{1, 32767}));
-  EXPECT_EQ(Numbers("type=\"UInt8\" format=\"binary\"", "AgAAAAAAAAABAg==", "header_type=\"UInt64\"").integers(),
-            (std::vector<std::int64_t>{1, 2}));
-  EXPECT_EQ(Numbers("type=\"UInt8\" format=\"binary\"", "AgAAAA==AQI=").integers(), (std::vector<std::int64_t>{1, 2}))
+  EXPECT_EQ(Numbers("type=\"UInt32\" format=\"binary\"", data).integers(),
+            (std::vector<std::int64_t>{0x7fff0001}));
+  EXPECT_EQ(
+      Numbers("type=\"Int16\" format=\"binary\"", "AAAABAABf/8=", "byte_order=\"BigEndian\"").integers(),
+      (std::vector<std::int64_t>{1, 32767}));
+  EXPECT_EQ(
+      Numbers("type=\"UInt8\" format=\"binary\"", "AgAAAAAAAAABAg==", "header_type=\"UInt64\"").integers(),
+      (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(Numbers("type=\"UInt8\" format=\"binary\"", "AgAAAA==AQI=").integers(),
+            (std::vector<std::int64_t>{1, 2}))
       << "padding after the header, then another stream";
 }
 
@@ -125,7 +141,8 @@ TEST(VtuNumbers, EndAsTextsByZeros) {
 }
 
 TEST(VtuNumbers, RefuseWhatIsNotThere) {
-  const auto refused = [](const Numbers& numbers, const std::string& says, std::optional<std::int64_t> count = {}) {
+  const auto refused = [](const Numbers& numbers, const std::string& says,
+                          std::optional<std::int64_t> count = {}) {
     const std::string refusal = numbers.refusal(count);
     EXPECT_NE(refusal.find(says), std::string::npos) << refusal;
   };

@@ -26,7 +26,9 @@ struct Case : testing::Test {
   test::InputFolder folder;
 };
 
-TEST_F(Case, WithoutATableThereIsNoAdaptation) { EXPECT_FALSE(adapt("[mesh]\ntype = \"hybrid\"\n").has_value()); }
+TEST_F(Case, WithoutATableThereIsNoAdaptation) {
+  EXPECT_FALSE(adapt("[mesh]\ntype = \"hybrid\"\n").has_value());
+}
 
 TEST_F(Case, AnEmptyTableHasTheDefaults) {
   const AdaptOptions options = *adapt("[adapt]\n"), expected;
@@ -38,7 +40,8 @@ TEST_F(Case, AnEmptyTableHasTheDefaults) {
 
 TEST_F(Case, ReadsEveryKeyOfAdaptation) {
   const AdaptOptions options = *adapt(
-      "[adapt]\ncycles = 3\nvariable = [\"density\", \"pressure\"]\nindicator = \"hessian\"\nthreshold = \"nodes\"\n"
+      "[adapt]\ncycles = 3\nvariable = [\"density\", \"pressure\"]\nindicator = \"hessian\"\nthreshold = "
+      "\"nodes\"\n"
       "refine = 2\ncoarsen = -1\nmax_nodes = 5000\nmin = 0.01\n");
   EXPECT_EQ(options.cycles, 3);
   EXPECT_EQ(options.source, AdaptOptions::Source::variables);
@@ -52,12 +55,14 @@ TEST_F(Case, ReadsEveryKeyOfAdaptation) {
 }
 
 TEST_F(Case, AVariableMayBeASizeOrAnError) {
-  const AdaptOptions size = *adapt("[adapt]\nvariable = { size = \"h\" }\n"), error = *adapt("[adapt]\nvariable = { error = \"e\" }\n");
+  const AdaptOptions size = *adapt("[adapt]\nvariable = { size = \"h\" }\n"),
+                     error = *adapt("[adapt]\nvariable = { error = \"e\" }\n");
   EXPECT_EQ(size.source, AdaptOptions::Source::size);
   EXPECT_EQ(size.variables, (std::vector<std::string>{"h"}));
   EXPECT_EQ(error.source, AdaptOptions::Source::error);
   EXPECT_EQ(error.variables, (std::vector<std::string>{"e"}));
-  for (const char* wrong : {"variable = { }\n", "variable = { size = \"h\", error = \"e\" }\n", "variable = []\n", "variable = { sise = \"h\" }\n"})
+  for (const char* wrong : {"variable = { }\n", "variable = { size = \"h\", error = \"e\" }\n",
+                            "variable = []\n", "variable = { sise = \"h\" }\n"})
     EXPECT_TRUE(refused(wrong).starts_with("case.toml:2: ")) << wrong << refused(wrong);
 }
 
@@ -66,7 +71,8 @@ TEST_F(Case, SharesHaveDefaultsAndLimitsOfTheirOwn) {
   EXPECT_EQ(shares.refine, 0.2);
   EXPECT_EQ(shares.coarsen, 0.1);
   EXPECT_EQ(adapt("[adapt]\nthreshold = \"fraction\"\nrefine = 0.5\ncoarsen = 0.5\n")->coarsen, 0.5);
-  EXPECT_NE(refused("threshold = \"fraction\"\nrefine = 0.6\ncoarsen = 0.5\n").find("must be 1 at most"), std::string::npos);
+  EXPECT_NE(refused("threshold = \"fraction\"\nrefine = 0.6\ncoarsen = 0.5\n").find("must be 1 at most"),
+            std::string::npos);
   EXPECT_NE(refused("threshold = \"fraction\"\nrefine = 2\n"), "");
 }
 
@@ -88,7 +94,8 @@ Mesh with_boundaries(const std::vector<std::string>& names) {
 TEST_F(Case, OfPressuresExactNamesWinOverPatternsAndLaterOverEarlier) {
   SolverSettings settings;
   settings.pressures = {{"outlet_a", 0.9}, {"outlet_*", 0.5}, {"*", 0.1}};
-  const auto choices = euler_options(settings, {}, with_boundaries({"outlet_a", "outlet_b", "wall"})).boundaries;
+  const auto choices =
+      euler_options(settings, {}, with_boundaries({"outlet_a", "outlet_b", "wall"})).boundaries;
   ASSERT_EQ(choices.size(), 3U);
   EXPECT_EQ(choices[0].pressure, 0.9);
   EXPECT_EQ(choices[1].pressure, 0.1);
@@ -112,10 +119,12 @@ TEST_F(Case, TheBuiltInSolverWritesItsVariablesAlone) {
 }
 
 TEST_F(Case, TheSolverIsTheOneThatIsChosen) {
-  const CaseInput input = load_case({case_file("[boundary.box]\nbc = \"wall\"\n[solver]\nmach = 2\ngamma = 1.3\n"), {}, "", {}});
+  const CaseInput input =
+      load_case({case_file("[boundary.box]\nbc = \"wall\"\n[solver]\nmach = 2\ngamma = 1.3\n"), {}, "", {}});
   SolverSettings settings = input.settings.solver;
   const Geometry& geometry = input.mesh->geometry;
-  const ChosenSolver euler = chosen_solver(settings, input.settings.outline.rules, geometry, "somewhere/case.toml");
+  const ChosenSolver euler =
+      chosen_solver(settings, input.settings.outline.rules, geometry, "somewhere/case.toml");
   EXPECT_EQ(std::get<EulerOptions>(euler).mach, 2);
   EXPECT_EQ(std::get<EulerOptions>(euler).boundaries.at(0).condition, "wall");
   settings.kind = SolverSettings::Kind::command;
@@ -137,12 +146,14 @@ TEST_F(Case, AnotherOutlineTakesThePlaceOfTheCases) {
   EXPECT_EQ(input.mesh->geometry.size(), 3);
   EXPECT_EQ(input.mesh->geometry.box().high.x, 4) << "placed as the case's own";
   EXPECT_EQ(input.mesh->mesh.size.min, 0.125);
-  EXPECT_NE(input.mesh->digest, load_case({case_file("scale = 2\n"), {"spacing.min=0.25"}, other, {}}).mesh->digest);
+  EXPECT_NE(input.mesh->digest,
+            load_case({case_file("scale = 2\n"), {"spacing.min=0.25"}, other, {}}).mesh->digest);
 }
 
 TEST_F(Case, AFarFieldOfTheOutlinesOwnIsTaken) {
   const std::string case_path = case_file("far_field = 10\n");
-  const std::string other = folder.write("other.geom", "2\nfarfield\n4\n-9 -9\n9 -9\n9 9\n-9 9\nwall\n4\n0 0\n1 0\n1 1\n0 1\n");
+  const std::string other =
+      folder.write("other.geom", "2\nfarfield\n4\n-9 -9\n9 -9\n9 9\n-9 9\nwall\n4\n0 0\n1 0\n1 1\n0 1\n");
   EXPECT_EQ(load_case({case_path, {}, other, {}}).mesh->geometry.box().high.x, 9);
   EXPECT_GT(load_case({case_path, {}, "", {}}).mesh->geometry.box().high.x, 9);
 }

@@ -45,9 +45,9 @@ bool at_corner(Point p) { return (p.x == 0 || p.x == 1) && (p.y == 0 || p.y == 1
 TEST(BoundarySlide, StraightSidesSlideAndCornersStay) {
   const Sliding s(grid.mesh());
   for (std::int32_t node = 0; node < s.mesh.owned_nodes; ++node) {
-    const NodeFreedom expected = grid.inner(node)                          ? NodeFreedom::interior
+    const NodeFreedom expected = grid.inner(node)                        ? NodeFreedom::interior
                                  : at_corner(s.mesh.point(NodeId{node})) ? NodeFreedom::fixed
-                                                                           : NodeFreedom::sliding;
+                                                                         : NodeFreedom::sliding;
     EXPECT_EQ(s.slide->freedom(node), expected) << node;
   }
 }
@@ -74,7 +74,8 @@ TEST(BoundarySlide, WhereBoundariesMeetOnAStraightSideTheNodeStays) {
   BoundaryEdges half{"half", "wall", {}};
   auto& edges = mesh.boundaries[0].edges;
   std::erase_if(edges, [&](const auto& edge) {
-    const bool of_half = mesh.point(edge[0]).y == 0 && mesh.point(edge[1]).y == 0 && mesh.point(edge[1]).x < 0.51;
+    const bool of_half =
+        mesh.point(edge[0]).y == 0 && mesh.point(edge[1]).y == 0 && mesh.point(edge[1]).x < 0.51;
     if (of_half) half.edges.push_back(edge);
     return of_half;
   });
