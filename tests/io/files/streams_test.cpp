@@ -1,11 +1,10 @@
 // Rows and boundary edges on their way through rank 0.
-#include "io/files/row_stream.hpp"
-
 #include <gtest/gtest.h>
 
 #include <numeric>
 
 #include "io/files/boundary_stream.hpp"
+#include "io/files/row_stream.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -28,7 +27,9 @@ TEST(RowStream, BringsAllRowsThroughRankZeroInOrder) {
     std::vector<int> seen;
     std::size_t longest = 0;
     RowStream{world(), std::ssize(own), per_piece}.run<int>(
-        [&](std::int64_t begin, std::int64_t end) { return std::vector<int>(own.begin() + begin, own.begin() + end); },
+        [&](std::int64_t begin, std::int64_t end) {
+          return std::vector<int>(own.begin() + begin, own.begin() + end);
+        },
         [&](std::span<const int> piece) {
           longest = std::max(longest, piece.size());
           seen.insert(seen.end(), piece.begin(), piece.end());
@@ -71,16 +72,18 @@ TEST(BoundaryStream, BringsEachBoundarysEdgesTogether) {
   EXPECT_EQ(stream.present()[0]->name, "wall");
   EXPECT_EQ(stream.all_edges(), stream.edges_of(0) + stream.edges_of(1));
   std::vector<std::vector<BoundaryStream::Edge>> seen;
-  stream.run([&](std::size_t place) {
+  stream.run(
+      [&](std::size_t place) {
         EXPECT_EQ(place, seen.size());
         seen.emplace_back();
       },
-             [&](std::span<const BoundaryStream::Edge> edges) {
-               seen.back().insert(seen.back().end(), edges.begin(), edges.end());
-             });
+      [&](std::span<const BoundaryStream::Edge> edges) {
+        seen.back().insert(seen.back().end(), edges.begin(), edges.end());
+      });
   for (std::size_t b = 1; b < part.boundaries.size(); ++b) {
     std::vector<BoundaryStream::Edge> own;
-    for (const auto& [from, to] : part.boundaries[b].edges) own.push_back({part.global(from).value(), part.global(to).value()});
+    for (const auto& [from, to] : part.boundaries[b].edges)
+      own.push_back({part.global(from).value(), part.global(to).value()});
     const auto all = world().all_gather_values(std::span<const BoundaryStream::Edge>(own));
     EXPECT_EQ(stream.edges_of(b - 1), std::ssize(all));
     if (world().is_root()) {
@@ -92,9 +95,11 @@ TEST(BoundaryStream, BringsEachBoundarysEdgesTogether) {
 TEST(BoundaryStream, AFailureEndsOnAllRanks) {
   const Mesh part = spread_mesh();
   const BoundaryStream stream(world(), part);
-  EXPECT_THROW(stream.run([](std::size_t) { throw OutputError("full"); }, [](std::span<const BoundaryStream::Edge>) {}),
+  EXPECT_THROW(stream.run([](std::size_t) { throw OutputError("full"); },
+                          [](std::span<const BoundaryStream::Edge>) {}),
                OutputError);
-  EXPECT_THROW(stream.run([](std::size_t) {}, [](std::span<const BoundaryStream::Edge>) { throw OutputError("full"); }),
+  EXPECT_THROW(stream.run([](std::size_t) {},
+                          [](std::span<const BoundaryStream::Edge>) { throw OutputError("full"); }),
                OutputError);
 }
 
