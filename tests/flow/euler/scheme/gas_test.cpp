@@ -47,9 +47,9 @@ TEST(WaveSpeeds, AreSizesKeptAwayFromZeroWithoutAJump) {
   EXPECT_EQ(fast.slow, 2);
   EXPECT_EQ(fast.middle, 3);
   const WaveSpeeds rest = wave_speeds(0, 1), sonic = wave_speeds(1, 1);
-  EXPECT_EQ(rest.middle, 0.01) << "half a fiftieth of the sound";
+  EXPECT_NEAR(rest.middle, 0.01, 1e-15) << "half a fiftieth of the sound";
   EXPECT_EQ(rest.fast, 1);
-  EXPECT_EQ(sonic.slow, 0.2) << "half a fifth of the largest";
+  EXPECT_NEAR(sonic.slow, 0.2, 1e-15) << "half a fifth of the largest";
   double before = sonic.slow;
   for (double along = 1; along < 3; along += 1e-3) {
     const double slow = wave_speeds(along, 1).slow;
