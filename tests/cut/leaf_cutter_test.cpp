@@ -4,8 +4,10 @@
 
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
+#include "mesher/cut/cut_leaf.hpp"
 #include "mesher/cut/leaf_cells.hpp"
-#include "tests/cut/traced_leaves.hpp"
+#include "tests/snap/traced_leaves.hpp"
 
 namespace quadloop {
 namespace {

@@ -22,7 +22,7 @@ class OgrReader : public ::testing::Test {
     return read_ogr(folder_.write(name, text), warnings_);
   }
 
-  test::TemporaryFolder folder_;
+  test::InputFolder folder_;
   std::vector<std::string> warnings_;
 };
 

@@ -1,5 +1,7 @@
 // The wanted tree's parts, each alone: what the rules say of one quadrant, and that no answer depends on what
 // was asked before.
+#include "mesher/sizes/size_tree.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 
 #include "mesher/sizes/leaves_ahead.hpp"
 #include "mesher/sizes/size_cursor.hpp"
+#include "mesher/sizes/size_rules.hpp"
 
 namespace quadloop {
 namespace {

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "mesher/snap/capture_points.hpp"
-#include "tests/cut/traced_leaves.hpp"
+#include "tests/snap/traced_leaves.hpp"
 
 namespace quadloop {
 namespace {

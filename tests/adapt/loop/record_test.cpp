@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "adapt/loop/case_settings.hpp"
+
 namespace quadloop {
 namespace {
 

@@ -24,7 +24,7 @@ class SettingsTest : public ::testing::Test {
     return test::refusal(folder_, [&] { load(read(text)); });
   }
 
-  test::TemporaryFolder folder_;
+  test::InputFolder folder_;
 };
 
 TEST_F(SettingsTest, ReadsEveryKey) {
