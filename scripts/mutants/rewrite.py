@@ -60,7 +60,7 @@ def operand_bounds(code, operator_begin, operator_end):
             c = code[i - 1]
             if depth == 0 and (c in OPEN or c in ";,?" or code[i - 2:i] in ("&&", "||") or code[max(0, i - 7):i] == " return"
                                or (c == ":" and code[i - 2] != ":" and code[i] != ":")
-                               or (c == "=" and code[i - 2] == " " and code[i] in " \n")):
+                               or (c == "=" and code[i - 2] in " +-*/|&^%" and code[i] in " \n")):
                 break
             depth += (c in CLOSE) - (c in OPEN)
             i -= 1

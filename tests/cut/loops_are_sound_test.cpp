@@ -103,6 +103,39 @@ TEST(WindingOf, CountsCornersThatTurnAndWhereItBeginsDoesNotMatter) {
   }
 }
 
+/// The loops that are traced from the edges of these ones, each from its least node on, in order.
+std::vector<Loop> traced(const std::vector<Point>& places, const Edges& edges) {
+  CutLeaf leaf = leaf_of(places, {});
+  EXPECT_TRUE(trace_loops(edges, leaf));
+  std::vector<Loop> loops;
+  for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
+    Loop loop(leaf.loop(i).begin(), leaf.loop(i).end());
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    loops.push_back(loop);
+  }
+  std::sort(loops.begin(), loops.end());
+  return loops;
+}
+
+TEST(TraceTouchingLoops, OfAllWaysOnTheSharpestTurnLeftIsTaken) {
+  // Three slices one above another that meet at both ends, and a triangle at each end, whose sides go straight
+  // on: a wrong turn would join two slices to an outline with a hole.
+  std::vector<Point> places{{-4, 0}, {4, 0},  {0, 4},  {0, 5},   {0, -1}, {0, 1},
+                            {0, -5}, {0, -4}, {8, -4}, {8, 4}, {-8, 4}, {-8, -4}};
+  const std::vector<Loop> loops{{0, 2, 1, 3}, {0, 4, 1, 5}, {0, 6, 1, 7}, {0, 10, 11}, {1, 8, 9}};
+  Edges edges;
+  for (const Loop& loop : loops) {
+    const Edges more = edges_of(loop);
+    edges.insert(edges.end(), more.begin(), more.end());
+  }
+  for (std::size_t turn = 0; turn < edges.size(); ++turn) {
+    EXPECT_EQ(traced(places, edges), loops) << "turn " << turn;
+    EXPECT_EQ(traced(places, Edges(edges.rbegin(), edges.rend())), loops) << "turn " << turn << ", reversed";
+    for (Point& p : places) p = {-p.y, p.x};
+    std::rotate(edges.begin(), edges.begin() + 1, edges.end());
+  }
+}
+
 /// A leaf of the unit square that a chord across cuts, the domain above: its nodes round the sides.
 struct CutSquare {
   std::vector<Point> places{{0, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0, 1}, {0, 0.5}};
