@@ -28,8 +28,9 @@ Geometry geometry_of(const std::vector<Points>& loops, double spacing) {
   return {{{"outline", spacing, 30, "wall"}}, points, starts, boundaries};
 }
 
-SizeOptions sizes_from(double min, double max) {
+SizeOptions sizes_from(double min, double max, const std::vector<Source>& sources) {
   SizeOptions sizes;
+  sizes.sources = sources;
   sizes.min = min;
   sizes.max = max;
   return sizes;
@@ -46,10 +47,11 @@ double area_of(const std::vector<Points>& loops) {
 /// The square from 0 to 8 in leaves that are no larger than 1 in the domain and about `finest` along the
 /// outline, cut; all lengths times `scale`. *Collective.*
 struct CutSquare {
-  CutSquare(const std::vector<Points>& loops, double finest, double snap, double scale = 1)
+  CutSquare(const std::vector<Points>& loops, double finest, double snap, double scale = 1,
+            const std::vector<Source>& sources = {})
       : lattice{{{0, 0}, {8 * scale, 8 * scale}}, 1, 1},
-        geometry{geometry_of(scaled(loops, scale), finest * scale)},
-        sizes{outline, lattice, sizes_from(finest * scale, scale),
+        geometry{geometry_of(scaled(loops, scale), (sources.empty() ? finest : 1) * scale)},
+        sizes{outline, lattice, sizes_from(finest * scale, scale, sources),
               [](const Quadrant&, std::span<const std::int32_t>) { return false; }, demanded},
         graph{refine_forest(test::world(), sizes)},
         cut{cut_forest(test::world(), graph, sizes, outline, inside, snap)} {}
@@ -132,6 +134,18 @@ TEST(CutForest, CoversTheDomainAndNothingElse) {
   }
 }
 
+TEST(CutForest, TakesStatesFromCoarserAndFinerNeighbours) {
+  // Small leaves beside the outline, which large ones hold: here to one side of it, there to the other.
+  for (int trial = 0; trial < 16; ++trial) {
+    std::vector<Source> sources;
+    for (const double x : {1.0, 3.0, 5.0, 7.0})
+      sources.push_back({Source::Disc{{x + 0.11 * trial, 0.5 * trial}, 0.3}, 0.0625, {}});
+    const CutSquare square(frame(), 0.0625, 0.4, 1, sources);
+    EXPECT_NEAR(square.area(), area_of(frame()), 1e-13 * 64);
+    square.expect_states();
+  }
+}
+
 TEST(CutForest, AlongLatticeLines) {
   for (const double gap : {0.0, 0.5}) {
     const std::vector<Points> loops{{{1, 1}, {7, 1}, {7, 7 - gap}, {1, 7 - gap}},
@@ -209,6 +223,14 @@ TEST(ResolutionTest, LoopsInALeafAndStrayingChordsAskForFinerLeaves) {
   EXPECT_FALSE(unresolved({wide}, corner));
   EXPECT_TRUE(unresolved({wide, {{4, 4}, {4, 5}, {5, 5}}}, root)) << "a whole loop";
   EXPECT_FALSE(unresolved({wide, {{4, 4}, {4, 5}, {5, 5}}}, corner)) << "elsewhere";
+  // A shore that bends down a little, so that its chord passes above it, and a spike from above into the bend.
+  EXPECT_FALSE(unresolved({{{-8, 5.92}, {4, 3.04}, {16, 5.92}, {16, 12}, {-8, 12}}}, root));
+  const Points spike{{-8, 5.92}, {4, 3.04},   {16, 5.92}, {16, 12}, {4.4, 12},
+                     {4, 3.6},   {3.6, 12}, {-8, 12}};
+  EXPECT_TRUE(unresolved({spike}, root)) << "chords that would cross";
+  const Points short_spike{{-8, 5.92}, {4, 3.04}, {16, 5.92}, {16, 12}, {4.4, 12},
+                           {4, 4.4},   {3.6, 12}, {-8, 12}};
+  EXPECT_FALSE(unresolved({short_spike}, root));
 }
 
 }  // namespace

@@ -92,9 +92,9 @@ TEST(LoopsAreSound, NoTwoEdgesMeetButAtTheirEnds) {
   EXPECT_FALSE(sound(places, {{0, 1}})) << "two nodes are no loop";
 }
 
-TEST(WindingOf, CountsCornersThatTurnAndWhereItBeginsDoesNotMatter) {
-  const std::vector<Point> places{{0, 0}, {2, 1}, {4, 0}, {4, 4}, {0, 4}};  // (2, 1) turns the other way
-  Loop loop{0, 1, 2, 3, 4};
+TEST(WindingOf, IsThatOfTheWholeLoopWhereverItBegins) {
+  const std::vector<Point> places{{0, 0}, {4, -4}, {1, 0}, {4, 4}};  // the second from the left turns the other way
+  Loop loop{0, 1, 2, 3};
   for (std::size_t first = 0; first < loop.size(); ++first) {
     std::rotate(loop.begin(), loop.begin() + 1, loop.end());
     const Loop back(loop.rbegin(), loop.rend());
@@ -143,11 +143,18 @@ struct CutSquare {
   Edges outline{{5, 2, 0}}, edges{{5, 2, 0}, {2, 3, -1}, {3, 4, -1}, {4, 5, -1}};
   Edges bare_sides{{5, 0, -1}, {0, 1, -1}, {1, 2, -1}};
 
+  /// It must not depend on the order of the sides.
   bool is_sound() const {
     CutLeaf leaf = leaf_of(places, {});
     leaf.side_nodes = side_nodes;
     leaf.outline = outline;
-    return sides_are_sound(edges, bare_sides, leaf);
+    const bool answer = sides_are_sound(edges, bare_sides, leaf);
+    Edges sides = bare_sides;
+    for (std::size_t turn = 0; turn < sides.size(); ++turn) {
+      std::rotate(sides.begin(), sides.begin() + 1, sides.end());
+      EXPECT_EQ(sides_are_sound(edges, sides, leaf), answer) << "turn " << turn;
+    }
+    return answer;
   }
 };
 
@@ -178,6 +185,16 @@ TEST(SidesAreSound, AChordMayLieOnASideAndNotOutsideOfTheLeaf) {
   square.outline = {{2, 1, 0}, {3, 2, 0}};
   square.edges = {{2, 1, 0}, {3, 2, 0}};
   EXPECT_TRUE(square.is_sound()) << "along it, for a neighbour's cells";
+}
+
+TEST(SidesAreSound, AChordThatLiesOnPartOfABareSideIsNone) {
+  CutSquare square;
+  square.places.push_back({0.5, 0});  // inside, says its number; in fact on the lower side
+  for (const CutLeaf::Edge chord : {CutLeaf::Edge{0, 6, 0}, {6, 0, 0}, {6, 1, 0}, {1, 6, 0}}) {
+    square.edges.push_back(chord);
+    EXPECT_FALSE(square.is_sound());
+    square.edges.pop_back();
+  }
 }
 
 TEST(SidesAreSound, InnerNodesLieInside) {
