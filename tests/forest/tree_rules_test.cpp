@@ -226,13 +226,14 @@ TEST(TreeRules, LeavesThatSplittingSqueezesAreSplitToo) {
     const double x = -0.9 + 0.41 * k;
     options.sources.push_back({Source::Line{{x, -0.8}, {x + 0.3, 0.9}}, 0.03 + 0.02 * k, {}});
   }
-  const Tree tree(circle_in_square(0.5, 0.5), options);
-  const auto smallest = sorted_places(smallest_tree(tree));
-  EXPECT_EQ(sorted_places(tree.leaves), smallest);
+  const Geometry geometry = circle_in_square(0.5, 0.5);
+  const Tree tree(geometry, options);
+  EXPECT_EQ(sorted_places(tree.leaves), sorted_places(smallest_tree(tree)));
 }
 
 TEST(TreeRules, RanksShareTheWorkOfCutting) {
-  const Tree tree(circle_in_square(0.02), options_with(0.005, 0.25, 1.25));  // none of its leaves is squeezed
+  const Geometry geometry = circle_in_square(0.02);
+  const Tree tree(geometry, options_with(0.005, 0.25, 1.25));  // none of its leaves is squeezed
   SizeCursor cursor(tree.sizes);
   std::int64_t own = 0;
   for (std::int32_t leaf = tree.graph.local_begin(); leaf < tree.graph.local_end(); ++leaf)
