@@ -1,5 +1,6 @@
-// Included by the sources that scripts/mutate rewrites: each mutation is a switch, and QUADLOOP_MUTANT names the one
-// that is on. An operator `a < b` is written as `a < Less<17>{} < b`, which C++ groups as `(a < Less<17>{}) < b` whatever a and b are.
+// Included by the sources that scripts/mutate rewrites: each mutation is a switch, and QUADLOOP_MUTANT names
+// the one that is on. An operator `a < b` is written as `a < Less<17>{} < b`, which C++ groups as `(a <
+// Less<17>{}) < b` whatever a and b are.
 #pragma once
 #pragma GCC system_header
 
@@ -17,7 +18,8 @@ inline unsigned char reached[most];     ///< 1: evaluated since the last report
 inline unsigned char impossible[most];  ///< 1: its types do not have the other operator
 inline const int active = std::getenv("QUADLOOP_MUTANT") ? std::atoi(std::getenv("QUADLOOP_MUTANT")) : -1;
 
-/// Appends `name` and what was reached since the last report to the file that QUADLOOP_REACHED names, one for each process.
+/// Appends `name` and what was reached since the last report to the file that QUADLOOP_REACHED names, one for
+/// each process.
 inline void report(const std::string& name) {
   const char* path = std::getenv("QUADLOOP_REACHED");
   if (path == nullptr) return;
@@ -53,25 +55,25 @@ T constant(T before, T after) {
   return number<id>(before, after);
 }
 
-#define QUADLOOP_MUTANT(Name, op, other)                                                             \
-  template <int id>                                                                                  \
-  struct Name {};                                                                                    \
-  template <int id, class A>                                                                         \
-  struct Name##Left {                                                                                \
-    const A& a;                                                                                      \
-  };                                                                                                 \
-  template <int id, class A>                                                                         \
-  constexpr Name##Left<id, A> operator op(const A& a, Name<id>) {                                    \
-    return {a};                                                                                      \
-  }                                                                                                  \
-  template <int id, class A, class B>                                                                \
-  constexpr auto operator op(Name##Left<id, A> left, const B& b) {                                   \
+#define QUADLOOP_MUTANT(Name, op, other)                                                                    \
+  template <int id>                                                                                         \
+  struct Name {};                                                                                           \
+  template <int id, class A>                                                                                \
+  struct Name##Left {                                                                                       \
+    const A& a;                                                                                             \
+  };                                                                                                        \
+  template <int id, class A>                                                                                \
+  constexpr Name##Left<id, A> operator op(const A& a, Name<id>) {                                           \
+    return {a};                                                                                             \
+  }                                                                                                         \
+  template <int id, class A, class B>                                                                       \
+  constexpr auto operator op(Name##Left<id, A> left, const B& b) {                                          \
     if constexpr (requires { requires std::is_same_v<decltype(left.a op b), decltype(left.a other b)>; }) { \
-      return on(id) ? left.a other b : left.a op b;                                                  \
-    } else {                                                                                         \
-      if (!std::is_constant_evaluated()) reached[id] = impossible[id] = 1;                           \
-      return left.a op b;                                                                            \
-    }                                                                                                \
+      return on(id) ? left.a other b : left.a op b;                                                         \
+    } else {                                                                                                \
+      if (!std::is_constant_evaluated()) reached[id] = impossible[id] = 1;                                  \
+      return left.a op b;                                                                                   \
+    }                                                                                                       \
   }
 QUADLOOP_MUTANT(Less, <, <=)
 QUADLOOP_MUTANT(LessEqual, <=, <)

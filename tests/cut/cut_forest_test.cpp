@@ -1,5 +1,5 @@
-// All leaves of a small forest against an outline: what lies in the domain is covered, once, and nothing else,
-// on any number of ranks.
+// All leaves of a small forest against an outline: what lies in the domain is covered, once, and nothing
+// else, on any number of ranks.
 #include "mesher/cut/cut_forest.hpp"
 
 #include <gtest/gtest.h>
@@ -196,8 +196,8 @@ TEST(CutForest, SnapsThatWouldSwallowAThinSpikeAreTakenBack) {
     EXPECT_NEAR(thin.area(), area_of(spike), 1e-13 * 64) << trial;
     thin.expect_states();
     EXPECT_TRUE(OpposedChords(test::world(), thin.graph, thin.cut).ends().empty());
-    const std::vector<Points> slit{{{0.5, y - 3}, {7.5, y - 3}, {7.5, y + 3}, {0.5, y + 3}, {0.5, y + half},
-                                    {tip, y}, {0.5, y - half}}};
+    const std::vector<Points> slit{
+        {{0.5, y - 3}, {7.5, y - 3}, {7.5, y + 3}, {0.5, y + 3}, {0.5, y + half}, {tip, y}, {0.5, y - half}}};
     const CutSquare split(slit, 0.5, 0.4);
     EXPECT_NEAR(split.area(), area_of(slit), 1e-13 * 64) << trial;
     split.expect_states();
@@ -223,13 +223,13 @@ TEST(ResolutionTest, LoopsInALeafAndStrayingChordsAskForFinerLeaves) {
   EXPECT_FALSE(unresolved({wide}, corner));
   EXPECT_TRUE(unresolved({wide, {{4, 4}, {4, 5}, {5, 5}}}, root)) << "a whole loop";
   EXPECT_FALSE(unresolved({wide, {{4, 4}, {4, 5}, {5, 5}}}, corner)) << "elsewhere";
-  // A shore that bends down a little, so that its chord passes above it, and a spike from above into the bend.
+  // A shore that bends down a little, so that its chord passes above it, and a spike from above into the
+  // bend.
   EXPECT_FALSE(unresolved({{{-8, 5.92}, {4, 3.04}, {16, 5.92}, {16, 12}, {-8, 12}}}, root));
-  const Points spike{{-8, 5.92}, {4, 3.04},   {16, 5.92}, {16, 12}, {4.4, 12},
-                     {4, 3.6},   {3.6, 12}, {-8, 12}};
+  const Points spike{{-8, 5.92}, {4, 3.04}, {16, 5.92}, {16, 12}, {4.4, 12}, {4, 3.6}, {3.6, 12}, {-8, 12}};
   EXPECT_TRUE(unresolved({spike}, root)) << "chords that would cross";
-  const Points short_spike{{-8, 5.92}, {4, 3.04}, {16, 5.92}, {16, 12}, {4.4, 12},
-                           {4, 4.4},   {3.6, 12}, {-8, 12}};
+  const Points short_spike{{-8, 5.92}, {4, 3.04}, {16, 5.92}, {16, 12},
+                           {4.4, 12},  {4, 4.4},  {3.6, 12},  {-8, 12}};
   EXPECT_FALSE(unresolved({short_spike}, root));
 }
 

@@ -26,12 +26,13 @@ CutLeaf leaf_of(const std::vector<CutLeaf::Node>& nodes) {
   return leaf;
 }
 
-/// How many quadrilaterals a loop of four nodes gives, of a whole leaf or of a cut one: 1, or 0 for triangles.
-/// It must not depend on its size nor on where it begins.
+/// How many quadrilaterals a loop of four nodes gives, of a whole leaf or of a cut one: 1, or 0 for
+/// triangles. It must not depend on its size nor on where it begins.
 std::size_t quads_of(std::array<Point, 4> places, bool whole) {
   const auto count = [&](double scale) {
     std::vector<CutLeaf::Node> nodes;
-    for (std::size_t i = 0; i < 4; ++i) nodes.push_back({scale * places[i], whole ? corners[i] : Site::inside});
+    for (std::size_t i = 0; i < 4; ++i)
+      nodes.push_back({scale * places[i], whole ? corners[i] : Site::inside});
     LeafCellMaker maker;
     LeafCells cells;
     EXPECT_TRUE(maker.make(quadrant, box, leaf_of(nodes), cells));
@@ -58,10 +59,8 @@ TEST(LeafCells, QuadrilateralsStayWhereNoCornerIsFarFromARightAngle) {
   EXPECT_EQ(quads_of(rhombus(41), true), 1U);
   EXPECT_EQ(quads_of(rhombus(39), true), 0U) << "50 degrees in a whole one";
   const double half = 22.5 * degree;
-  const std::array<Point, 4> kite{Point{0, 0},
-                                  {std::cos(half), -std::sin(half)},
-                                  {1.2, 0},
-                                  {std::cos(half), std::sin(half)}};
+  const std::array<Point, 4> kite{
+      Point{0, 0}, {std::cos(half), -std::sin(half)}, {1.2, 0}, {std::cos(half), std::sin(half)}};
   EXPECT_EQ(quads_of(kite, false), 0U) << "one corner of 45 degrees, the others near 105";
   EXPECT_EQ(quads_of(kite, true), 1U);
 }
@@ -74,7 +73,8 @@ TEST(LeafCells, ADartIsNoQuadrilateral) {
 
 TEST(LeafCells, TheSmallestSineIsThatOfAllLoops) {
   CutLeaf leaf = leaf_of({{{0, 0}, Site::inside}, {{1, 0}, Site::inside}, {{0, 0.1}, Site::inside}});
-  leaf.nodes.insert(leaf.nodes.end(), {{{1, 1}, Site::inside}, {{0, 1}, Site::inside}, {{1, 0.5}, Site::inside}});
+  leaf.nodes.insert(leaf.nodes.end(),
+                    {{{1, 1}, Site::inside}, {{0, 1}, Site::inside}, {{1, 0.5}, Site::inside}});
   leaf.loop_nodes.insert(leaf.loop_nodes.end(), {3, 4, 5});
   leaf.loop_starts.push_back(6);
   LeafCellMaker maker;

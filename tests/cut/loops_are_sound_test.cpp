@@ -29,8 +29,8 @@ Edges edges_of(const Loop& loop) {
   return edges;
 }
 
-/// Whether the loops over these places are sound, which must not depend on the order of edges or loops, nor on
-/// which way the leaf lies.
+/// Whether the loops over these places are sound, which must not depend on the order of edges or loops, nor
+/// on which way the leaf lies.
 bool sound(std::vector<Point> places, std::vector<Loop> loops) {
   Edges edges;
   for (const Loop& loop : loops) {
@@ -50,10 +50,10 @@ bool sound(std::vector<Point> places, std::vector<Loop> loops) {
   return answer;
 }
 
-const std::vector<Point> squares{{0, 0},     {8, 0},     {8, 8},     {0, 8},      // 0 to 3
-                                 {1, 1},     {7, 1},     {7, 7},     {1, 7},      // 4 to 7
-                                 {2, 2},     {6, 2},     {6, 6},     {2, 6},      // 8 to 11
-                                 {9, 2},     {12, 2},    {12, 6},    {9, 6},      // 12 to 15: beside the first
+const std::vector<Point> squares{{0, 0},     {8, 0},     {8, 8},     {0, 8},  // 0 to 3
+                                 {1, 1},     {7, 1},     {7, 7},     {1, 7},  // 4 to 7
+                                 {2, 2},     {6, 2},     {6, 6},     {2, 6},  // 8 to 11
+                                 {9, 2},     {12, 2},    {12, 6},    {9, 6},  // 12 to 15: beside the first
                                  {8.5, 0.5}, {8.5, 1.5}, {9.5, 1.5}, {9.5, 0.5}};  // clockwise
 
 TEST(LoopsAreSound, OutlinesAndHolesLieInTurnInEachOther) {
@@ -93,7 +93,8 @@ TEST(LoopsAreSound, NoTwoEdgesMeetButAtTheirEnds) {
 }
 
 TEST(WindingOf, IsThatOfTheWholeLoopWhereverItBegins) {
-  const std::vector<Point> places{{0, 0}, {4, -4}, {1, 0}, {4, 4}};  // the second from the left turns the other way
+  const std::vector<Point> places{
+      {0, 0}, {4, -4}, {1, 0}, {4, 4}};  // the second from the left turns the other way
   Loop loop{0, 1, 2, 3};
   for (std::size_t first = 0; first < loop.size(); ++first) {
     std::rotate(loop.begin(), loop.begin() + 1, loop.end());
@@ -118,9 +119,9 @@ std::vector<Loop> traced(const std::vector<Point>& places, const Edges& edges) {
 }
 
 TEST(TraceTouchingLoops, OfAllWaysOnTheSharpestTurnLeftIsTaken) {
-  // Three slices one above another that meet at both ends, and a triangle at each end, whose sides go straight
-  // on: a wrong turn would join two slices to an outline with a hole.
-  std::vector<Point> places{{-4, 0}, {4, 0},  {0, 4},  {0, 5},   {0, -1}, {0, 1},
+  // Three slices one above another that meet at both ends, and a triangle at each end, whose sides go
+  // straight on: a wrong turn would join two slices to an outline with a hole.
+  std::vector<Point> places{{-4, 0}, {4, 0},  {0, 4},  {0, 5}, {0, -1}, {0, 1},
                             {0, -5}, {0, -4}, {8, -4}, {8, 4}, {-8, 4}, {-8, -4}};
   const std::vector<Loop> loops{{0, 2, 1, 3}, {0, 4, 1, 5}, {0, 6, 1, 7}, {0, 10, 11}, {1, 8, 9}};
   Edges edges;

@@ -70,7 +70,9 @@ TEST(OpposedChords, AreFoundAcrossEverySide) {
       for (const Side side : all_sides) {
         const auto [dx, dy] = steps[index_of(side)];
         const std::int64_t x = column + dx, y = row + dy;
-        const auto is_one = [](std::int64_t a, std::int64_t b) { return a >= 0 && b >= 0 && a < 4 && b < 4 && (a < 2 || b < 2); };
+        const auto is_one = [](std::int64_t a, std::int64_t b) {
+          return a >= 0 && b >= 0 && a < 4 && b < 4 && (a < 2 || b < 2);
+        };
         if (!is_one(column, row) || !is_one(x, y)) continue;
         const LeafChord chord{column, row, start_of(side), end_site(side)};
         const LeafChord against{x, y, start_of(opposite(side)), end_site(opposite(side))};
@@ -92,8 +94,10 @@ TEST(OpposedChords, AreFoundAcrossEverySide) {
 TEST(OpposedChords, TheirEndsAreToldOnce) {
   const Leaves leaves;
   using enum Site;
-  const std::vector<LeafChord> chords{{0, 0, north_east, north_west}, {0, 1, south_west, south_east},
-                                      {1, 0, north_east, north_west}, {1, 1, south_west, south_east}};
+  const std::vector<LeafChord> chords{{0, 0, north_east, north_west},
+                                      {0, 1, south_west, south_east},
+                                      {1, 0, north_east, north_west},
+                                      {1, 1, south_west, south_east}};
   const auto ends = leaves.ends_with(chords);
   if (leaves.owns(0, 0) && leaves.owns(1, 0)) {
     EXPECT_EQ(ends, (std::vector<Point>{{0, 1}, {1, 1}, {2, 1}}));

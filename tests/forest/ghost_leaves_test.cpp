@@ -45,7 +45,9 @@ TEST(GhostLeaves, AreThoseThatTouchOwnOnes) {
   for (const std::int64_t towards : {5L, 1L << 29, (1L << 30) - 7, (1L << 30) + (1L << 28)}) {
     Forest forest(test::world(), brick);
     forest.refine(
-        [&](const Quadrant& q) { return q.level < 1 || (q.contains({3 * towards / 2, towards, 30}) && q.level < 6); },
+        [&](const Quadrant& q) {
+          return q.level < 1 || (q.contains({3 * towards / 2, towards, 30}) && q.level < 6);
+        },
         6);
     forest.partition();
     expect_ghosts(brick, forest);

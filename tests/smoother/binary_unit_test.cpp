@@ -1,4 +1,5 @@
-// The unit of length: 1 but for meshes so large or so small that products of lengths would overflow or vanish.
+// The unit of length: 1 but for meshes so large or so small that products of lengths would overflow or
+// vanish.
 #include "smoother/binary_unit.hpp"
 
 #include <gtest/gtest.h>
