@@ -58,6 +58,26 @@ TEST(GhostLeaves, AreThoseThatTouchOwnOnes) {
   }
 }
 
+TEST(LeafGraph, NamesTheFinerLeavesAcrossTheNearerHalvesOfSides) {
+  const Lattice brick({{0, 0}, {3, 2}}, 3, 2);
+  Forest forest(test::world(), brick);
+  forest.refine([](const Quadrant& q) { return q.level < 2 || ((q.x ^ q.y) >> 28 & 1) != 0; }, 3);
+  forest.partition();
+  const LeafGraph graph(test::world(), brick, forest);
+  std::int64_t finer = 0;
+  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+    const Quadrant& q = graph.leaf(leaf);
+    const std::int64_t inner = q.size() / 2 - 1;
+    const auto& around = graph.around(leaf);
+    finer += graph.has_hanging(leaf, Side::bottom) ? 1 : 0;
+    EXPECT_EQ(around.south_half,
+              graph.has_hanging(leaf, Side::bottom) ? graph.leaf_at(q.x + inner, q.y - 1) : LeafGraph::none);
+    EXPECT_EQ(around.west_half,
+              graph.has_hanging(leaf, Side::left) ? graph.leaf_at(q.x - 1, q.y + inner) : LeafGraph::none);
+  }
+  EXPECT_GT(test::world().sum(finer), 0);
+}
+
 TEST(GhostLeaves, OfOneLeafEach) {
   const Lattice square({{0, 0}, {1, 1}}, 1, 1);
   Forest forest(test::world(), square);
