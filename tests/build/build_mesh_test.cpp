@@ -89,7 +89,7 @@ TEST(BuildMesh, TheTreeCountsEachLeafsCells) {
     for (const LeafRecord& leaf : made.tree.leaves) {
       triangles += leaf.triangles;
       quads += leaf.quads;
-      EXPECT_EQ(leaf.mark, leaf.triangles + leaf.quads > 0 ? 1 : 0);
+      EXPECT_EQ(leaf.block, leaf.triangles + leaf.quads > 0 ? 1 : 0);
       EXPECT_LE(leaf.wanted, leaf.level);
     }
     EXPECT_EQ(triangles, std::ssize(made.mesh.triangles));

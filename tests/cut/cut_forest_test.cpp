@@ -58,8 +58,8 @@ struct CutSquare {
 
   template <class Visit>
   void for_leaves(const Visit& visit) const {
-    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-      const std::size_t local = static_cast<std::size_t>(leaf - graph.local_begin());
+    for (const LeafId leaf : graph.local()) {
+      const std::size_t local = graph.local_index(leaf);
       visit(lattice.box_of(graph.leaf(leaf)), cut.states[local], cut.entry_of[local]);
     }
   }

@@ -31,7 +31,7 @@ struct Leaves {
   /// The ends that this rank is told where these are all chords.
   std::vector<Point> ends_with(const std::vector<LeafChord>& chords) const {
     CutForest cut;
-    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+    for (const LeafId leaf : graph.local()) {
       const Quadrant& q = graph.leaf(leaf);
       cut.entry_of.push_back(-1);
       for (const LeafChord& chord : chords) {

@@ -103,16 +103,16 @@ TEST(CurveOwners, KnowWhoseEveryLeafIs) {
   std::vector<int> rank_of;
   for (int rank = 0; rank < test::world().size(); ++rank) rank_of.insert(rank_of.end(), counts[rank], rank);
   const auto all = all_leaves(forest);
-  CurvePlace before{-1, 0};
+  CurveKey before{-1, 0};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const CurvePlace place = owners.place_of(all[i].x, all[i].y);
-    EXPECT_LT(before, place) << "the curve goes on";
-    before = place;
-    EXPECT_EQ(owners.rank_of(place), rank_of[i]);
+    const CurveKey key = owners.key_at(all[i].x, all[i].y);
+    EXPECT_LT(before, key) << "the curve goes on";
+    before = key;
+    EXPECT_EQ(owners.rank_of(key), rank_of[i]);
     const std::int64_t last = all[i].size() - 1;
-    EXPECT_EQ(owners.rank_of(owners.place_of(all[i].x + last, all[i].y + last)), rank_of[i]);
+    EXPECT_EQ(owners.rank_of(owners.key_at(all[i].x + last, all[i].y + last)), rank_of[i]);
     for (int rank = 0; rank < test::world().size(); ++rank)
-      EXPECT_EQ(owners.owns(rank, place), rank == rank_of[i]);
+      EXPECT_EQ(owners.owns(rank, key), rank == rank_of[i]);
   }
 }
 
@@ -143,7 +143,7 @@ TEST(GhostLayer, HoldsAllOthersLeavesThatTouchOnesOwn) {
   const auto ghosts = ghost_layer(test::world(), brick, forest.owners(), own);
   ASSERT_EQ(ghosts.size(), expected.size());
   for (std::size_t g = 0; g < ghosts.size(); ++g) {
-    EXPECT_EQ(ghosts[g].place, expected[g]);
+    EXPECT_EQ(ghosts[g].quadrant, expected[g]);
     EXPECT_EQ(std::pair(ghosts[g].owner, ghosts[g].index), places[g]);
   }
 }
@@ -153,26 +153,26 @@ TEST(GhostExchange, BringsWhatTheOwnersKnow) {
   const LeafGraph graph(test::world(), brick, forest);
   const auto truth = [](const Quadrant& q) { return q.x + 3 * q.y + q.level; };
   std::vector<std::int64_t> rows;
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+  for (const LeafId leaf : graph.all()) {
     rows.push_back(graph.is_local(leaf) ? truth(graph.leaf(leaf)) : -1);
     rows.push_back(graph.is_local(leaf) ? graph.leaf(leaf).level : -1);
   }
   GhostExchange(test::world(), graph).update_rows(rows, 2);
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    EXPECT_EQ(rows[2 * leaf], truth(graph.leaf(leaf)));
-    EXPECT_EQ(rows[2 * leaf + 1], graph.leaf(leaf).level);
+  for (const LeafId leaf : graph.all()) {
+    EXPECT_EQ(rows[2 * leaf.value()], truth(graph.leaf(leaf)));
+    EXPECT_EQ(rows[2 * leaf.value() + 1], graph.leaf(leaf).level);
   }
 }
 
 TEST(TouchingLeaves, AreAllThatTouchByAnEdgeOrACorner) {
   const Forest forest = graded_brick();
   const LeafGraph graph(test::world(), brick, forest);
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-    std::vector<std::int32_t> found, expected;
-    for_touching_leaves(graph, leaf, [&](std::int32_t other) { found.push_back(other); });
+  for (const LeafId leaf : graph.local()) {
+    std::vector<LeafId> found, expected;
+    for_touching_leaves(graph, leaf, [&](LeafId other) { found.push_back(other); });
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
-    for (std::int32_t other = 0; other < graph.size(); ++other) {
+    for (const LeafId other : graph.all()) {
       if (other != leaf && chebyshev_gap(graph.leaf(leaf), graph.leaf(other)) == 0) expected.push_back(other);
     }
     EXPECT_EQ(found, expected);

@@ -26,8 +26,8 @@ void expect_ghosts(const Lattice& lattice, const Forest& forest) {
   const LeafGraph graph(test::world(), lattice, forest);
   const auto own = forest.leaves();
   std::vector<Place> known, expected;
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const auto [rank, index] = graph.place_of(leaf);
+  for (const LeafId leaf : graph.all()) {
+    const auto [rank, index] = graph.owner_of(leaf);
     known.push_back(place_of(graph.leaf(leaf), rank, index));
   }
   for (const Place& p : all_places(forest)) {
@@ -37,7 +37,7 @@ void expect_ghosts(const Lattice& lattice, const Forest& forest) {
     if (near) expected.push_back(p);
   }
   EXPECT_EQ(known, expected) << "in the order of the curve";
-  EXPECT_EQ(graph.local_end() - graph.local_begin(), std::ssize(own));
+  EXPECT_EQ(graph.local_size(), std::ssize(own));
 }
 
 TEST(GhostLeaves, AreThoseThatTouchOwnOnes) {
@@ -65,7 +65,7 @@ TEST(LeafGraph, NamesTheFinerLeavesAcrossTheNearerHalvesOfSides) {
   forest.partition();
   const LeafGraph graph(test::world(), brick, forest);
   std::int64_t finer = 0;
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+  for (const LeafId leaf : graph.local()) {
     const Quadrant& q = graph.leaf(leaf);
     const std::int64_t inner = q.size() / 2 - 1;
     const auto& around = graph.around(leaf);

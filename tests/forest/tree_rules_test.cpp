@@ -235,7 +235,7 @@ TEST(TreeRules, RanksShareTheWorkOfCutting) {
   const Tree tree(geometry, options_with(0.005, 0.25, 1.25));  // none of its leaves is squeezed
   SizeCursor cursor(tree.sizes);
   std::int64_t own = 0;
-  for (std::int32_t leaf = tree.graph.local_begin(); leaf < tree.graph.local_end(); ++leaf)
+  for (const LeafId leaf : tree.graph.local())
     own += cursor.segments_in(tree.graph.leaf(leaf)).empty() ? weight_uncut : weight_cut;
   const std::int64_t ranks = test::world().size(), all = test::world().sum(own);
   EXPECT_LE(std::abs(own * ranks - all), ranks * weight_cut) << "but for a leaf at its ends";

@@ -76,7 +76,7 @@ TEST(NodeOwners, PassOverRanksWithoutNodes) {
   for (int rank = 0; rank < world().size(); ++rank) {
     for (std::int32_t i = 0; i < counts[rank]; ++i, ++number) {
       EXPECT_EQ(owners.rank_of(GlobalNodeId{number}), rank);
-      EXPECT_EQ(owners.index_of(GlobalNodeId{number}), i);
+      EXPECT_EQ(owners.local(GlobalNodeId{number}), NodeId{i});
     }
   }
 }

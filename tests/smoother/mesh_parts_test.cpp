@@ -67,10 +67,9 @@ struct Stars {
       : part{scatter_mesh(comm, whole, space_filling_order(whole))},
         halo(comm, part),
         stars(halo, all_owned(), of_whole.empty() ? of_whole : targets(comm)) {}
-  std::vector<std::int32_t> all_owned() const {
-    std::vector<std::int32_t> nodes;
-    for (std::int32_t node = 0; node < part.owned_nodes; ++node) nodes.push_back(node);
-    return nodes;
+  std::vector<NodeId> all_owned() const {
+    const auto owned = ids_below(NodeId{part.owned_nodes});
+    return {owned.begin(), owned.end()};
   }
   /// One for all cells.
   std::vector<CellTarget> targets(const Communicator& comm) const {
@@ -100,18 +99,17 @@ TEST(NodeStars, HaveACornerOfEachTriangleAndThreeOfEachQuad) {
 
 TEST(NodeStars, NeighboursShareACell) {
   const Stars all(world(), jittered_grid());
-  std::vector<std::set<std::int32_t>> expected(all.part.owned_nodes);
+  std::vector<std::set<NodeId>> expected(all.part.owned_nodes);
   all.halo.for_each_cell([&](const auto& cell) {
     for (const NodeId node : cell) {
       for (const NodeId other : cell) {
-        if (node.value() < all.part.owned_nodes && other != node)
-          expected[node.value()].insert(other.value());
+        if (node.value() < all.part.owned_nodes && other != node) expected[node.value()].insert(other);
       }
     }
   });
   for (std::size_t i = 0; i < all.stars.size(); ++i) {
-    std::set<std::int32_t> found;
-    all.stars.for_each_neighbour(i, [&](std::int32_t other) { found.insert(other); });
+    std::set<NodeId> found;
+    all.stars.for_each_neighbour(i, [&](NodeId other) { found.insert(other); });
     EXPECT_EQ(found, expected[i]);
   }
 }
@@ -122,7 +120,7 @@ TEST(NodeStars, CostTheSameOnAnyNumberOfRanks) {
   for (const auto& targets : {std::vector<CellTarget>{}, stretched}) {
     const Stars together(world(), jittered_grid(), targets), alone(self, jittered_grid(), targets);
     for (std::size_t i = 0; i < together.stars.size(); ++i) {
-      const NodeId own{together.stars.nodes()[i]};
+      const NodeId own = together.stars.nodes()[i];
       const std::size_t number = together.part.global(own).value();
       const Point p = together.part.point(own);
       EXPECT_EQ(together.star(i).worst_cost(p), alone.star(number).worst_cost(p));

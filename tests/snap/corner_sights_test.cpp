@@ -64,7 +64,7 @@ TEST(CornerSights, OneOfTheTwoLeavesSeesAnEntryTheOtherAnExit) {
 
 TEST(LeafEdge, ASideWithAHangingNodeIsTwoEdges) {
   const TracedLeaves leaves(above(), {{0, 0}, {2, 4}});  // finer on the left
-  for (std::int32_t leaf = leaves.graph.local_begin(); leaf < leaves.graph.local_end(); ++leaf) {
+  for (const LeafId leaf : leaves.graph.local()) {
     const Quadrant& q = leaves.graph.leaf(leaf);
     for (const Side side : all_sides) {
       const Box box = leaves.lattice.box_of(q);

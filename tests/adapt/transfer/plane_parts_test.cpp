@@ -184,7 +184,7 @@ TEST(TrianglePiece, HasEveryTriangleThatMeetsOnesPieceOfThePlane) {
   for (const CellTriangle& triangle : piece.triangles) {
     EXPECT_EQ(piece.corners(triangle), expected.at(triangle.number));
     for (const NodeId node : triangle.nodes)
-      EXPECT_EQ(piece.field.row(node)[1], 0.25 + dot({3, -5}, piece.points[node.value()]));
+      EXPECT_EQ(piece.field.row(node)[1], 0.25 + dot({3, -5}, piece.points[node]));
   }
 }
 

@@ -25,7 +25,7 @@ struct SpreadGrid {
       NumberedTriangle triangle;
       triangle.number = static_cast<std::int64_t>(t);
       for (std::size_t k = 0; k < 3; ++k) {
-        triangle.nodes[k] = whole.triangles[t][k].value();
+        triangle.nodes[k] = whole.global(whole.triangles[t][k]);
         triangle.points[k] = whole.point(whole.triangles[t][k]);
       }
       all.push_back(triangle);
@@ -50,10 +50,10 @@ std::set<std::int64_t> numbers_of(std::span<const NumberedTriangle> triangles) {
 }
 
 /// Of all triangles those with one of these nodes.
-std::set<std::int64_t> round(const SpreadGrid& grid, const std::set<std::int64_t>& nodes) {
+std::set<std::int64_t> round(const SpreadGrid& grid, const std::set<GlobalNodeId>& nodes) {
   std::set<std::int64_t> found;
   for (const NumberedTriangle& t : grid.all) {
-    if (std::any_of(t.nodes.begin(), t.nodes.end(), [&](std::int64_t n) { return nodes.contains(n); }))
+    if (std::any_of(t.nodes.begin(), t.nodes.end(), [&](GlobalNodeId n) { return nodes.contains(n); }))
       found.insert(t.number);
   }
   return found;
@@ -63,20 +63,20 @@ TEST(StarHalo, GrowsARingAtATimeUntilAllIsThere) {
   const SpreadGrid grid;
   ASSERT_EQ(grid.nodes, 64);
   StarHalo halo(world(), grid.owners, grid.own);
-  std::set<std::int64_t> known;
-  for (std::int64_t n = 0; n < grid.nodes; ++n) {
-    EXPECT_EQ(halo.owns(n), grid.owners.rank_of(GlobalNodeId{n}) == world().rank());
+  std::set<GlobalNodeId> known;
+  for (const GlobalNodeId n : ids_below(GlobalNodeId{grid.nodes})) {
+    EXPECT_EQ(halo.owns(n), grid.owners.rank_of(n) == world().rank());
     if (halo.owns(n)) known.insert(n);
   }
   for (int ring = 0; ring < 8; ++ring) {
     const auto expected = round(grid, known);
     EXPECT_EQ(numbers_of(halo.triangles()), expected) << "ring " << ring;
-    std::set<std::int64_t> at_hand;
+    std::set<GlobalNodeId> at_hand;
     for (const NumberedTriangle& t : halo.triangles()) at_hand.insert(t.nodes.begin(), t.nodes.end());
     EXPECT_EQ(halo.complete(), at_hand == known);
     for (const NumberedTriangle& t : halo.triangles()) {
       const auto unknown =
-          std::count_if(t.nodes.begin(), t.nodes.end(), [&](std::int64_t n) { return !known.contains(n); });
+          std::count_if(t.nodes.begin(), t.nodes.end(), [&](GlobalNodeId n) { return !known.contains(n); });
       EXPECT_EQ(halo.at_rim(t), unknown > 1);
     }
     known.merge(at_hand);

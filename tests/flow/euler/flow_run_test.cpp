@@ -104,7 +104,7 @@ TEST(MassResidual, IsTheRootMeanSquareOverAllRanks) {
   std::vector<Flux> fluxes(ring.dual.nodes(), Flux{-3, 7, 7, 7});
   EXPECT_EQ(mass_residual(ring.run, fluxes), 3);
   for (std::int32_t node = 0; node < ring.dual.owned_nodes(); ++node)
-    fluxes[node][0] = ring.dual.global(node) % 2 == 0 ? 4 : 0;
+    fluxes[node][0] = ring.dual.global(node).value() % 2 == 0 ? 4 : 0;
   EXPECT_NEAR(mass_residual(ring.run, fluxes), std::sqrt(8), 1e-14);
 }
 
@@ -112,7 +112,7 @@ TEST(MassResidual, IsNoNumberWhereAnyIsNone) {
   const RingRun ring;
   std::vector<Flux> fluxes(ring.dual.nodes(), Flux{1, 0, 0, 0});
   for (std::int32_t node = 0; node < ring.dual.owned_nodes(); ++node) {
-    if (ring.dual.global(node) == 5) fluxes[node][0] = std::numeric_limits<double>::quiet_NaN();
+    if (ring.dual.global(node) == GlobalNodeId{5}) fluxes[node][0] = std::numeric_limits<double>::quiet_NaN();
   }
   EXPECT_FALSE(std::isfinite(mass_residual(ring.run, fluxes)));
 }
@@ -122,7 +122,7 @@ TEST(WorstPlace, IsThatOfTheLargestFluxOrTheFirstThatIsNone) {
   std::vector<Flux> fluxes(ring.dual.nodes(), Flux{1, 0, 0, 0});
   const auto set = [&](std::int64_t number, double flux, double density) {
     for (std::int32_t node = 0; node < ring.dual.owned_nodes(); ++node) {
-      if (ring.dual.global(node) != number) continue;
+      if (ring.dual.global(node).value() != number) continue;
       fluxes[node][0] = flux;
       ring.states[node][0] = density;
     }
@@ -138,8 +138,8 @@ TEST(ColourEdges, NoEdgeJoinsTwoOfOneColour) {
   const RingRun ring;
   const Colouring colours = colour_edges(world(), ring.dual);
   for (const DualEdge& edge : ring.dual.edges()) {
-    EXPECT_NE(colours.colour_of[edge.low], colours.colour_of[edge.high]);
-    EXPECT_GE(colours.colour_of[edge.low], 0);
+    EXPECT_NE(colours.colour_of[NodeId{edge.low}], colours.colour_of[NodeId{edge.high}]);
+    EXPECT_GE(colours.colour_of[NodeId{edge.low}], 0);
   }
   EXPECT_LE(colours.count, 5);
 }
@@ -147,7 +147,7 @@ TEST(ColourEdges, NoEdgeJoinsTwoOfOneColour) {
 std::vector<Flux> made_up_residual(const DualMesh& mesh) {
   std::vector<Flux> residual(mesh.nodes());
   for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh.nodes()); ++node) {
-    for (int k = 0; k < 4; ++k) residual[node][k] = 0.01 * test::scattered(11, mesh.global(node), k);
+    for (int k = 0; k < 4; ++k) residual[node][k] = 0.01 * test::scattered(11, mesh.global(node).value(), k);
   }
   return residual;
 }

@@ -96,10 +96,10 @@ TEST(TextScanner, GoesBackAndFindsComments) {
 
 TEST(NameIndex, NumbersNamesAsTheyCome) {
   NameIndex index;
-  EXPECT_EQ(index.place_of("b").number, 0);
-  EXPECT_TRUE(index.place_of("a").is_new);
-  EXPECT_FALSE(index.place_of("b").is_new);
-  EXPECT_EQ(index.place_of("a").number, 1);
+  EXPECT_EQ(index.entry_of("b").number, 0);
+  EXPECT_TRUE(index.entry_of("a").is_new);
+  EXPECT_FALSE(index.entry_of("b").is_new);
+  EXPECT_EQ(index.entry_of("a").number, 1);
 }
 
 TEST(DistinctNames, GiveTheFirstFreeSuffix) {

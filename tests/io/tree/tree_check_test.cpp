@@ -24,7 +24,7 @@ LeafRecord leaf(int level, std::int32_t column, std::int32_t row) {
   record.level = record.wanted = static_cast<std::int8_t>(level);
   record.x = column * (edge >> level);
   record.y = row * (edge >> level);
-  record.mark = 1;
+  record.block = 1;
   record.quads = 1;
   return record;
 }
@@ -89,7 +89,7 @@ TEST(WholeTree, EachLeafIsPossible) {
   expect_fault("is coarser than its wanted level 3", [](auto& all) { all[1].wanted = 3; });
   expect_fault("has splits below itself ('adapted' is 0x4)", [](auto& all) { all[1].adapted = 4; });
   expect_fault("below 0", [](auto& all) { all[1].triangles = -1; });
-  expect_fault("is outside the domain, but has cells", [](auto& all) { all[1].mark = 0; });
+  expect_fault("is outside the domain, but has cells", [](auto& all) { all[1].block = 0; });
 }
 
 TEST(WholeTree, CellsAreAsManyAsAreSaid) {

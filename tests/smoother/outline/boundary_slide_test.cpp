@@ -17,22 +17,21 @@ using test::self;
 
 /// A mesh with the slide along its boundaries, whole on this rank.
 struct Sliding {
-  explicit Sliding(Mesh given, const Geometry* geometry = nullptr, std::vector<char> pinned_nodes = {})
+  explicit Sliding(Mesh given, const Geometry* geometry = nullptr, NodeFlags pinned_nodes = {})
       : mesh{std::move(given)}, halo(self(), mesh), pinned{std::move(pinned_nodes)} {
     if (geometry != nullptr) path.emplace(*geometry);
     slide.emplace(self(), halo, mesh.boundaries, path ? &*path : nullptr, pinned);
-    std::vector<std::int32_t> nodes;
-    for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) nodes.push_back(node);
-    stars.emplace(halo, nodes, std::vector<CellTarget>{});
+    const auto owned = ids_below(NodeId{mesh.owned_nodes});
+    stars.emplace(halo, std::vector<NodeId>(owned.begin(), owned.end()), std::vector<CellTarget>{});
   }
-  std::optional<Point> improved(std::int32_t node) const {
+  std::optional<Point> improved(NodeId node) const {
     Star star;
-    stars->gather(static_cast<std::size_t>(node), star);
+    stars->gather(node.value(), star);
     return slide->improve(node, star, Objective::power);
   }
   Mesh mesh;
   HaloMesh halo;
-  std::vector<char> pinned;
+  NodeFlags pinned;
   std::optional<OutlinePath> path;
   std::optional<BoundarySlide> slide;
   std::optional<NodeStars> stars;
@@ -48,25 +47,25 @@ TEST(BoundarySlide, StraightSidesSlideAndCornersStay) {
     const NodeFreedom expected = grid.inner(node)                        ? NodeFreedom::interior
                                  : at_corner(s.mesh.point(NodeId{node})) ? NodeFreedom::fixed
                                                                          : NodeFreedom::sliding;
-    EXPECT_EQ(s.slide->freedom(node), expected) << node;
+    EXPECT_EQ(s.slide->freedom(NodeId{node}), expected) << node;
   }
 }
 
 TEST(BoundarySlide, PinnedNodesStay) {
-  std::vector<char> pinned(49, 0);
-  pinned[3] = pinned[24] = 1;  // on the lower side, inside
+  NodeFlags pinned(49, 0);
+  pinned[NodeId{3}] = pinned[NodeId{24}] = 1;  // on the lower side, inside
   const Sliding s(grid.mesh(), nullptr, pinned);
-  EXPECT_EQ(s.slide->freedom(3), NodeFreedom::fixed);
-  EXPECT_EQ(s.slide->freedom(24), NodeFreedom::fixed);
-  EXPECT_EQ(s.slide->freedom(2), NodeFreedom::sliding);
+  EXPECT_EQ(s.slide->freedom(NodeId{3}), NodeFreedom::fixed);
+  EXPECT_EQ(s.slide->freedom(NodeId{24}), NodeFreedom::fixed);
+  EXPECT_EQ(s.slide->freedom(NodeId{2}), NodeFreedom::sliding);
 }
 
 TEST(BoundarySlide, ABoundaryThatIsBentWithoutAnOutlineStays) {
   Mesh mesh = grid.mesh();
   mesh.points.begin()[3].y = -1e-6;
   const Sliding s(std::move(mesh));
-  for (const int node : {2, 3, 4}) EXPECT_EQ(s.slide->freedom(node), NodeFreedom::fixed) << node;
-  EXPECT_EQ(s.slide->freedom(1), NodeFreedom::sliding);
+  for (const int node : {2, 3, 4}) EXPECT_EQ(s.slide->freedom(NodeId{node}), NodeFreedom::fixed) << node;
+  EXPECT_EQ(s.slide->freedom(NodeId{1}), NodeFreedom::sliding);
 }
 
 TEST(BoundarySlide, WhereBoundariesMeetOnAStraightSideTheNodeStays) {
@@ -82,15 +81,15 @@ TEST(BoundarySlide, WhereBoundariesMeetOnAStraightSideTheNodeStays) {
   ASSERT_EQ(half.edges.size(), 3U);
   mesh.boundaries.push_back(half);
   const Sliding s(std::move(mesh));
-  EXPECT_EQ(s.slide->freedom(3), NodeFreedom::fixed);
-  EXPECT_EQ(s.slide->freedom(2), NodeFreedom::sliding);
+  EXPECT_EQ(s.slide->freedom(NodeId{3}), NodeFreedom::fixed);
+  EXPECT_EQ(s.slide->freedom(NodeId{2}), NodeFreedom::sliding);
 }
 
 TEST(BoundarySlide, ANodeNearANeighbourMovesAwayAlongTheSide) {
   Mesh mesh = grid.mesh();
   mesh.points.begin()[3].x = 0.36;  // from 0.5, beside that at 0.333
   const Sliding s(std::move(mesh));
-  const auto better = s.improved(3);
+  const auto better = s.improved(NodeId{3});
   ASSERT_TRUE(better.has_value());
   EXPECT_EQ(better->y, 0);
   EXPECT_GT(better->x, 0.36);
@@ -109,7 +108,7 @@ TEST(BoundarySlide, NodesOnACurvedOutlineSlideAlongIt) {
   int sliding = 0, moved = 0;
   for (const BoundaryEdges& boundary : c.mesh.boundaries) {
     for (const auto& edge : boundary.edges) {
-      const std::int32_t node = edge[0].value();
+      const NodeId node = edge[0];
       EXPECT_EQ(without.slide->freedom(node), NodeFreedom::fixed);
       if (with.slide->freedom(node) != NodeFreedom::sliding) continue;
       ++sliding;
@@ -117,7 +116,7 @@ TEST(BoundarySlide, NodesOnACurvedOutlineSlideAlongIt) {
       if (!better) continue;
       ++moved;
       EXPECT_LT(with.path->distance(*better, boundary.name, 0.1), 1e-12);
-      EXPECT_LT(length(*better - c.mesh.point(edge[0])), 0.5);
+      EXPECT_LT(length(*better - c.mesh.point(node)), 0.5);
     }
   }
   EXPECT_GT(sliding, 20);
@@ -129,7 +128,7 @@ TEST(BoundarySlide, AnOutlineOfOtherNamesIsNone) {
   for (BoundaryEdges& boundary : c.mesh.boundaries) boundary.name += " of another";
   const Sliding s(c.mesh, &c.polygon);
   for (const BoundaryEdges& boundary : c.mesh.boundaries) {
-    for (const auto& edge : boundary.edges) EXPECT_EQ(s.slide->freedom(edge[0].value()), NodeFreedom::fixed);
+    for (const auto& edge : boundary.edges) EXPECT_EQ(s.slide->freedom(edge[0]), NodeFreedom::fixed);
   }
 }
 
