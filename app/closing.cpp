@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/base/progress.hpp"
 
 namespace quadloop {
@@ -54,7 +55,7 @@ void send_notes(MPI_Comm comm, int rank, int ranks, std::vector<MPI_Request>& no
 
 void receive_notes(MPI_Comm comm, int rank, const std::vector<int>& statuses) {
   char note = 0;
-  for (int r = 0; r < static_cast<int>(statuses.size()); ++r) {
+  for (int r = 0; r < std::ssize(statuses); ++r) {
     if (r != rank && statuses[r] != 0) MPI_Recv(&note, 1, MPI_CHAR, r, failure_note, comm, MPI_STATUS_IGNORE);
   }
 }
@@ -93,7 +94,7 @@ ExitStatus close_together(MPI_Comm comm, const Outcome& outcome) {
   if (mine != 0 && !completes_within(agreed, patience)) end_all(comm, rank, outcome);
   MPI_Wait(&agreed, MPI_STATUS_IGNORE);
   receive_notes(comm, rank, statuses);
-  MPI_Waitall(static_cast<int>(notes.size()), notes.data(), MPI_STATUSES_IGNORE);
+  MPI_Waitall(size32(notes), notes.data(), MPI_STATUSES_IGNORE);
   const auto first = std::find_if(statuses.begin(), statuses.end(), [](int status) { return status != 0; });
   if (first == statuses.end()) {
     if (rank != 0 || print(outcome.record)) return ExitStatus::done;

@@ -16,8 +16,8 @@ struct Outcome {
 
   ExitStatus status = ExitStatus::done;
   std::string message;  ///< one line, where the status is not `done`
-  std::string
-      record;  ///< for stdout: with `done` the root rank's is printed, else that of the rank that speaks
+  /// For stdout: with `done` the root rank's is printed, else that of the rank that speaks.
+  std::string record;
 };
 
 /// Ends the run on all ranks together. An error that every rank met is said once, by the lowest rank, and all

@@ -44,7 +44,8 @@ void require_solver_files(const AdaptArguments& arguments, const CommandSolver& 
   if (!is_for(solver.solution, Content::solution))
     table.refuse("solution", "is '" + solver.solution + "', but solutions are read from " +
                                  suffixes_for({Content::solution}, "and") + "; end the name in one of these");
-  if (solver.solution == solver.mesh || std::filesystem::path(solver.solution).stem() == "mesh")
+  if (solver.solution == solver.mesh ||
+      std::filesystem::path(solver.solution).stem() == CyclePaths::mesh_stem)
     table.refuse(
         "solution",
         "is '" + solver.solution +
@@ -57,12 +58,10 @@ void require_solver_files(const AdaptArguments& arguments, const CommandSolver& 
 
 AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, std::string& note) {
   CaseInput input = load_case({arguments.case_path, arguments.assignments, {}, {}});
-  if (!input.settings.adapt)
-    throw InputError(arguments.case_path +
-                     ": has no table [adapt]; it says from what the mesh is to be adapted");
   warnings = std::move(input.warnings);
   const Settings& settings = input.settings;
-  require_known_variables(settings.solver, settings.adapt->variables, arguments.case_path);
+  const AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
+  require_known_variables(settings.solver, adapt.variables, arguments.case_path);
   const EulerOptions& flow = settings.solver.euler;
   if (!settings.solver.given)
     note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach,
@@ -70,8 +69,7 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   ChosenSolver solver =
       chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const auto* command = std::get_if<CommandSolver>(&solver)) require_solver_files(arguments, *command);
-  AdaptiveCase adaptive{std::move(*input.mesh), *settings.adapt, std::move(solver), settings.formats,
-                        settings.values};
+  AdaptiveCase adaptive{std::move(*input.mesh), adapt, std::move(solver), settings.formats, settings.values};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }
@@ -150,9 +148,7 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
 void add_adapt_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<AdaptArguments>();
   CLI::App* command = app.add_subcommand("adapt", "mesh, solve and adapt in turn, as a case file says");
-  command->add_option("case", arguments->case_path, "the case file (TOML)")
-      ->required()
-      ->type_name("CASE.toml");
+  add_case_argument(*command, arguments->case_path);
   command->add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")
       ->type_name("DIR");
   command->add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")
@@ -160,11 +156,7 @@ void add_adapt_command(CLI::App& app, CommandContext& context) {
       ->check(CLI::Range(0, 10000));
   command->add_flag("--resume", arguments->resume, "go on after the last whole cycle in the folder");
   add_max_cells_option(*command, arguments->max_cells);
-  command
-      ->add_option("--set", arguments->assignments,
-                   "set a key of the case file, as in solver.mach=0.7; one or more")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(*command, arguments->assignments, "solver.mach=0.7");
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_adapt(context, *arguments); }; });
 }

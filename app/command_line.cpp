@@ -96,6 +96,16 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
       all);
 }
 
+void add_case_argument(CLI::App& command, std::string& case_path) {
+  command.add_option("case", case_path, "the case file (TOML)")->required()->type_name("CASE.toml");
+}
+
+void add_set_option(CLI::App& command, std::vector<std::string>& assignments, const std::string& example) {
+  command.add_option("--set", assignments, "set a key of the case file, as in " + example + "; one or more")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
 void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells) {
   command
       .add_option("--max-cells", max_cells,

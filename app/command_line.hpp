@@ -29,6 +29,11 @@ void answer(CLI::App& app, const CLI::ParseError& request, const Communicator& c
 /// An option's value must be one of these words.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
+/// The argument CASE.toml of the commands that read a case, and the option --set, which comes last of theirs;
+/// `example` is an assignment that suits the command.
+void add_case_argument(CLI::App& command, std::string& case_path);
+void add_set_option(CLI::App& command, std::vector<std::string>& assignments, const std::string& example);
+
 /// The option --max-cells of the commands that mesh.
 void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells);
 

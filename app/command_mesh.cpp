@@ -10,11 +10,11 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/summary.hpp"
-#include "io/files/output_file.hpp"
 #include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/input/geom_text.hpp"
 #include "io/mesh_file.hpp"
+#include "io/text/text_output.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -63,7 +63,7 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   for (const std::string& format : settings.formats)
     prepared.files.push_back(settings.output_prefix + "." + format);
   if (!arguments.geometry_out.empty()) prepared.files.push_back(arguments.geometry_out);
-  prepared.files.push_back(settings.output_prefix + ".tree.h5");
+  prepared.files.push_back(settings.output_prefix + tree_suffix);
   for (const std::string& file : prepared.files) require_possible_output(file);
   return prepared;
 }
@@ -75,14 +75,9 @@ Geometry meshed_geometry(const MeshInput& input) {
 }
 
 void write_geometry(OutputSet& outputs, const Geometry& geometry, const std::string& path) {
-  const StagedFile staged = outputs.stage(path);
-  const Communicator& comm = outputs.communicator();
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    OutputFile file(staged);
-    file.write(geom_text(geometry));
-    file.close();
-  });
+  TextOutput file(outputs, path);
+  file.write(file.communicator().is_root() ? geom_text(geometry) : "");
+  file.close();
 }
 
 void write_outputs(const Communicator& comm, const MeshResult& result, const Prepared& prepared,
@@ -93,7 +88,7 @@ void write_outputs(const Communicator& comm, const MeshResult& result, const Pre
     write_mesh(outputs, result.mesh, settings.output_prefix + "." + format);
   }
   if (!geometry_out.empty()) write_geometry(outputs, meshed_geometry(*prepared.input.mesh), geometry_out);
-  write_tree(outputs, result.tree, settings.output_prefix + ".tree.h5");
+  write_tree(outputs, result.tree, settings.output_prefix + tree_suffix);
   outputs.commit();
 }
 
@@ -145,9 +140,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
 void add_mesh_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<MeshArguments>();
   CLI::App* command = app.add_subcommand("mesh", "mesh the domain that a case file describes");
-  command->add_option("case", arguments->case_path, "the case file (TOML)")
-      ->required()
-      ->type_name("CASE.toml");
+  add_case_argument(*command, arguments->case_path);
   command
       ->add_option("-o,--output", arguments->prefix,
                    "what the output files begin with, instead of output.prefix")
@@ -164,11 +157,7 @@ void add_mesh_command(CLI::App& app, CommandContext& context) {
                    "write the geometry as it is meshed, without the islands that are dropped")
       ->type_name("OUT.geom");
   add_max_cells_option(*command, arguments->max_cells);
-  command
-      ->add_option("--set", arguments->assignments,
-                   "set a key of the case file, as in spacing.min=0.1; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(*command, arguments->assignments, "spacing.min=0.1");
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_mesh(context, *arguments); }; });
 }

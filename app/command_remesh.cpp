@@ -35,10 +35,12 @@ struct RemeshArguments {
 
 /// Where the mesh of a tree may be: beside it, under the same name.
 std::vector<std::string> files_beside(const std::string& tree) {
-  const std::string ending = ".tree.h5";
+  const std::string ending = tree_suffix;
   const bool named = tree.size() > ending.size() && tree.ends_with(ending);
   const std::string prefix = named ? tree.substr(0, tree.size() - ending.size()) : tree;
-  return {prefix + ".mesh", prefix + ".cgns"};
+  std::vector<std::string> files;
+  for (const std::string& format : default_formats()) files.push_back(prefix + "." + format);
+  return files;
 }
 
 /// The one that is there, for a solution without cells.
@@ -57,8 +59,8 @@ std::string mesh_beside(const std::string& tree) {
 /// calling rank alone.
 LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
   LoadedSolution solution = read_solution(arguments.solution);
-  LoadedMesh whole = read_mesh(solution.has_cells ? arguments.solution : mesh_beside(arguments.tree));
-  require_same_mesh(solution, whole.mesh);
+  LoadedMesh whole = solution.mesh ? std::move(*solution.mesh) : read_mesh(mesh_beside(arguments.tree));
+  if (!solution.mesh) require_same_mesh(solution, whole.mesh);
   const auto count = [](const auto& rows) { return std::ssize(rows); };
   require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0}, tree,
                  arguments.solution, arguments.tree);
@@ -102,7 +104,7 @@ void write(const Communicator& comm, const CarriedMesh& carried, const std::vect
   OutputSet outputs(comm);
   const MeshResult& result = carried.generated.result;
   for (const std::string& file : files) {
-    if (std::filesystem::path(file).extension() == ".h5")
+    if (file.ends_with(tree_suffix))
       write_tree(outputs, result.tree, file);
     else
       write_mesh(outputs, result.mesh, file, &carried.start, gamma);
@@ -141,7 +143,7 @@ Problem load(const Communicator& comm, const RemeshArguments& arguments) {
     const Settings& settings = problem.input.settings;
     const std::string prefix = arguments.prefix.empty() ? settings.output_prefix : arguments.prefix;
     for (const std::string& format : settings.formats) problem.files.push_back(prefix + "." + format);
-    problem.files.push_back(prefix + ".tree.h5");
+    problem.files.push_back(prefix + tree_suffix);
     for (const std::string& file : problem.files) require_possible_output(file);
     if (comm.is_root()) problem.whole = solved_mesh(arguments, tree);
   });
@@ -215,9 +217,7 @@ void add_remesh_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<RemeshArguments>();
   CLI::App* command =
       app.add_subcommand("remesh", "one pass of the loop for a solution that was computed elsewhere");
-  command->add_option("case", arguments->case_path, "the case file (TOML)")
-      ->required()
-      ->type_name("CASE.toml");
+  add_case_argument(*command, arguments->case_path);
   command
       ->add_option("--tree", arguments->tree,
                    "the tree of the mesh that was solved on: quadloop mesh writes it beside the mesh")
@@ -230,11 +230,7 @@ void add_remesh_command(CLI::App& app, CommandContext& context) {
                    "what the output files begin with, instead of output.prefix")
       ->type_name("PREFIX");
   add_max_cells_option(*command, arguments->max_cells);
-  command
-      ->add_option("--set", arguments->assignments,
-                   "set a key of the case file, as in adapt.refine=0.5; one or more")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(*command, arguments->assignments, "adapt.refine=0.5");
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_remesh(context, *arguments); }; });
 }

@@ -39,20 +39,20 @@ struct SmoothArguments {
 struct Loaded {
   LoadedMesh whole;
   MeshOrder order;
-  std::vector<char> pinned;  ///< a flag for each node that cells of two blocks share
+  NodeFlags pinned;  ///< those that cells of two blocks share
   std::optional<Geometry> geometry;
   bool delaunay = false;  ///< on every rank
 };
 
-std::vector<char> interface_nodes(const LoadedMesh& loaded) {
+NodeFlags interface_nodes(const LoadedMesh& loaded) {
   const Mesh& mesh = loaded.mesh;
-  std::vector<std::int32_t> block_of(mesh.points.size(), -1);
-  std::vector<char> shared(mesh.points.size(), 0);
+  IdVector<NodeId, std::int32_t> block_of(mesh.points.size(), -1);
+  NodeFlags shared(mesh.points.size(), 0);
   const auto visit = [&](const auto& cells, const std::vector<std::int32_t>& blocks) {
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
       for (const NodeId node : cells[cell]) {
-        std::int32_t& block = block_of[node.value()];
-        if (block >= 0 && block != blocks[cell]) shared[node.value()] = 1;
+        std::int32_t& block = block_of[node];
+        if (block >= 0 && block != blocks[cell]) shared[node] = 1;
         block = blocks[cell];
       }
     }

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/report/summary.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "flow/euler/shortfall.hpp"
@@ -160,9 +161,7 @@ void add_solve_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<SolveArguments>();
   CLI::App* command =
       app.add_subcommand("solve", "run the built-in flow solver (2D Euler equations) on a mesh");
-  command->add_option("case", arguments->case_path, "the case file (TOML)")
-      ->required()
-      ->type_name("CASE.toml");
+  add_case_argument(*command, arguments->case_path);
   command
       ->add_option("input", arguments->input,
                    "the mesh (" + suffixes_for({Content::mesh}) + "); a flow in it is started from")
@@ -173,11 +172,7 @@ void add_solve_command(CLI::App& app, CommandContext& context) {
                    "the mesh with the flow (" + suffixes_for({Content::mesh, Content::solution}) + ")")
       ->required()
       ->type_name("OUT");
-  command
-      ->add_option("--set", arguments->assignments,
-                   "set a key of the case file, as in solver.mach=0.5; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(*command, arguments->assignments, "solver.mach=0.5");
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_solve(context, *arguments); }; });
 }

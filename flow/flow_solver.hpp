@@ -19,8 +19,8 @@ struct SolvedFlow {
 };
 
 /// Any flow solver: `start` is the state to begin with, a row for each of the mesh's owned nodes, or without
-/// variables where there is none yet; `cycle` counts the solver's meshes from 0. Entered by all ranks.
-/// Throws InputError, SolverError, the same on all ranks.
+/// variables where there is none yet; `cycle` counts the solver's meshes from 0. Throws InputError,
+/// SolverError, the same on all ranks. *Collective.*
 using FlowSolver =
     std::function<SolvedFlow(const Communicator& comm, const Mesh& mesh, const Field& start, int cycle)>;
 

@@ -34,11 +34,13 @@ const std::vector<FileFormat>& file_formats() {
   const char* const save = "let the solver save values at points (in ParaView: Cell Data to Point Data)";
   static const std::vector<FileFormat> formats{{.name = "mesh",
                                                 .places = {mesh, solution, constants, blocks},
+                                                .by_default = true,
                                                 .read_mesh = read_native,
                                                 .write_mesh = write_native,
                                                 .write_blocks = write_native},
                                                {.name = "cgns",
                                                 .places = {mesh, solution, conditions},
+                                                .by_default = true,
                                                 .read_mesh = read_cgns,
                                                 .write_mesh = write_cgns,
                                                 .boundary_names = cgns_boundary_names},
@@ -77,6 +79,16 @@ const FileFormat* format_named(const std::string& name) {
 const FileFormat* format_of(const std::string& path) {
   const std::string suffix = std::filesystem::path(path).extension();
   return suffix.empty() ? nullptr : format_named(suffix.substr(1));
+}
+
+const FileFormat& native_format() { return file_formats().front(); }
+
+std::vector<std::string> default_formats() {
+  std::vector<std::string> names;
+  for (const FileFormat& format : file_formats()) {
+    if (format.by_default) names.push_back(format.name);
+  }
+  return names;
 }
 
 std::vector<std::string> formats_for(std::initializer_list<Content> contents) {

@@ -26,6 +26,7 @@ struct FileFormat {
   std::string name;             ///< the suffix without its dot
   std::string program = {};     ///< whose format it is, where the suffix does not tell
   std::vector<Content> places;  ///< what it has a place for
+  bool by_default = false;      ///< written unless a case says otherwise, and in each cycle of a run
   /// What a user is to do where a mesh comes without a solution.
   std::string without_values = "let the solver append its variables, a row of values for each node";
 
@@ -53,6 +54,12 @@ const std::vector<FileFormat>& file_formats();
 /// The format of this name, or the one that the path's suffix tells; null where it is none.
 const FileFormat* format_named(const std::string& name);
 const FileFormat* format_of(const std::string& path);
+
+/// The first row: the program's own, which keeps mesh and solution to the bit.
+const FileFormat& native_format();
+
+/// The names of those that are written by default, in the order of the table: the program's own first.
+std::vector<std::string> default_formats();
 
 /// The names of all formats that have a place for each of these, in the order of the table.
 std::vector<std::string> formats_for(std::initializer_list<Content> contents);

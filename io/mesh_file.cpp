@@ -84,7 +84,7 @@ std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path, c
   if (first.first == names.end()) return {};
   const auto kept = std::inner_product(names.begin(), names.end(), written.begin(), std::ptrdiff_t{0},
                                        std::plus<>(), std::equal_to<>());
-  const std::ptrdiff_t renamed = static_cast<std::ptrdiff_t>(names.size()) - kept;
+  const std::ptrdiff_t renamed = std::ssize(names) - kept;
   return {fmt::format(
       "{}: {} boundar{} renamed, as this format cannot hold every name; the first, '{}', is '{}' there", path,
       renamed, renamed == 1 ? "y is" : "ies are", *first.first, *first.second)};

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
+#include <utility>
 
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/topology.hpp"
+#include "mesher/mesh/check/compare_meshes.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop {
@@ -35,14 +35,6 @@ void require_usable(const Field& solution, const std::string& path) {
   }
 }
 
-/// The cells with the nodes of each in ascending order, and so the cells: the same list for the same cells.
-template <std::size_t width>
-std::vector<std::array<NodeId, width>> in_one_order(std::vector<std::array<NodeId, width>> cells) {
-  for (auto& nodes : cells) std::sort(nodes.begin(), nodes.end());
-  std::sort(cells.begin(), cells.end());
-  return cells;
-}
-
 /// Empty where the cells are the same, in whatever order.
 template <std::size_t width>
 std::string cell_difference(const std::string& kind, const std::vector<std::array<NodeId, width>>& found,
@@ -50,35 +42,28 @@ std::string cell_difference(const std::string& kind, const std::vector<std::arra
   if (found.size() != wanted.size())
     return fmt::format("has {} {}, the mesh {}; it is a solution of another mesh; solve on this one",
                        found.size(), kind, wanted.size());
-  const auto of_file = in_one_order(found), of_mesh = in_one_order(wanted);
-  const auto [at_file, at_mesh] = std::mismatch(of_file.begin(), of_file.end(), of_mesh.begin());
-  if (at_file == of_file.end()) return {};
+  const auto other = other_cell(found, wanted);
+  if (!other) return {};
   std::string nodes;
-  for (const NodeId node : *at_file) nodes += (nodes.empty() ? "" : " ") + std::to_string(node.value() + 1);
+  for (const NodeId node : *other) nodes += (nodes.empty() ? "" : " ") + std::to_string(node.value() + 1);
   return fmt::format(
       "of its {} the one of nodes {} is not the mesh's; it is a solution of another mesh; solve on this one",
       kind, nodes);
 }
 
-/// The shortest edge at each node, squared.
-std::vector<double> shortest_edges(const Mesh& mesh) {
-  std::vector<double> shortest(mesh.points.size(), std::numeric_limits<double>::infinity());
-  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
-    const Point along = mesh.point(to) - mesh.point(from);
-    for (const NodeId node : {from, to}) {
-      double& least = shortest[node.value()];
-      least = std::min(least, dot(along, along));
-    }
-  });
-  return shortest;
-}
-
-std::string place_difference(const LoadedSolution& solution, const Mesh& mesh) {
-  const std::vector<char> elsewhere = nodes_elsewhere(solution.points, mesh);
+/// `points` are as many as `nodes`, or none where they are not known.
+std::string node_difference(std::int64_t nodes, const std::vector<Point>& points, const Mesh& mesh) {
+  if (nodes != std::ssize(mesh.points)) {
+    return fmt::format(
+        "holds values at {} nodes, the mesh has {}; it is a solution of another mesh; solve on this one",
+        nodes, mesh.points.size());
+  }
+  if (points.empty()) return {};
+  const NodeFlags elsewhere = nodes_elsewhere(points, mesh);
   const auto first = std::find(elsewhere.begin(), elsewhere.end(), 1);
   if (first == elsewhere.end()) return {};
   const std::size_t i = first - elsewhere.begin();
-  const Point p = solution.points[i], wanted = mesh.points[i];
+  const Point p = points[i], wanted = mesh.points[i];
   return fmt::format(
       "node {} lies at ({}, {}), in the mesh at ({}, {}); it is a solution of another mesh, or its rows are "
       "in another order; solve on this mesh "
@@ -89,10 +74,8 @@ std::string place_difference(const LoadedSolution& solution, const Mesh& mesh) {
 LoadedSolution read_with_mesh(const std::string& path) {
   LoadedMesh loaded = read_mesh(path);
   require_values(loaded, path);
-  LoadedSolution result{path, std::move(*loaded.solution), std::ssize(loaded.mesh.points), {}, true, {}, {}};
-  result.points = std::move(loaded.mesh.points);
-  result.triangles = std::move(loaded.mesh.triangles);
-  result.quads = std::move(loaded.mesh.quads);
+  LoadedSolution result{path, *std::exchange(loaded.solution, {}), std::ssize(loaded.mesh.points), {}, {}};
+  result.mesh = std::move(loaded);
   return result;
 }
 
@@ -115,36 +98,16 @@ void require_solution_suffix(const std::string& path) {
                    suffixes_for({Content::solution}) + " file");
 }
 
-std::vector<char> nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {
-  const std::vector<double> shortest = shortest_edges(mesh);
-  std::vector<char> elsewhere(points.size(), 0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point way = points[i] - mesh.points[i];
-    elsewhere[i] = dot(way, way) <= solution_tolerance * solution_tolerance * shortest[i] ? 0 : 1;
-  }
-  return elsewhere;
-}
-
-bool same_cells_in_any_order(const Mesh& one, const Mesh& other) {
-  return in_one_order(one.triangles) == in_one_order(other.triangles) &&
-         in_one_order(one.quads) == in_one_order(other.quads);
-}
-
-std::string difference(const LoadedSolution& solution, const Mesh& whole) {
-  if (solution.nodes != std::ssize(whole.points)) {
-    return fmt::format(
-        "holds values at {} nodes, the mesh has {}; it is a solution of another mesh; solve on this one",
-        solution.nodes, whole.points.size());
-  }
-  std::string found = solution.points.empty() ? "" : place_difference(solution, whole);
-  if (!solution.has_cells) return found;
-  if (found.empty()) found = cell_difference("triangles", solution.triangles, whole.triangles);
-  if (found.empty()) found = cell_difference("quads", solution.quads, whole.quads);
-  return found;
+std::string difference(const Mesh& found, const Mesh& whole) {
+  std::string text = node_difference(std::ssize(found.points), found.points, whole);
+  if (text.empty()) text = cell_difference("triangles", found.triangles, whole.triangles);
+  if (text.empty()) text = cell_difference("quads", found.quads, whole.quads);
+  return text;
 }
 
 void require_same_mesh(const LoadedSolution& solution, const Mesh& whole) {
-  const std::string found = difference(solution, whole);
+  const std::string found = solution.mesh ? difference(solution.mesh->mesh, whole)
+                                          : node_difference(solution.nodes, solution.points, whole);
   if (!found.empty()) throw InputError(solution.path + ": " + found);
 }
 

@@ -15,19 +15,9 @@ LoadedSolution read_solution(const std::string& path);
 /// Throws InputError unless the suffix is one that read_solution() knows; it lists them.
 void require_solution_suffix(const std::string& path);
 
-/// Of a local edge: how far a node may lie off and still be the same; solvers write coordinates with few
-/// digits.
-inline constexpr double solution_tolerance = 1e-6;
-
-/// A flag for each node of a whole mesh whose place in `points` is farther off than that, of the shortest
-/// cell edge at it. As many points as nodes.
-std::vector<char> nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh);
-
-/// Whether two whole meshes have the same cells, in whatever order.
-bool same_cells_in_any_order(const Mesh& one, const Mesh& other);
-
-/// What require_same_mesh() would say, without the file's name; empty where it finds nothing.
-std::string difference(const LoadedSolution& solution, const Mesh& whole);
+/// What require_same_mesh() would say of a solution on the mesh `found`, without the file's name; empty where
+/// it finds nothing.
+std::string difference(const Mesh& found, const Mesh& whole);
 
 /// Throws InputError unless the solution's mesh is `whole`, a mesh that the rank holds whole: as many nodes,
 /// each within 1e-6 of the shortest cell edge at it, and the same cells in any order, as far as the file

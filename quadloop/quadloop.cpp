@@ -23,15 +23,16 @@ namespace {
 
 const MeshInput& mesh_input(const Case& of) { return *of.parts().input.mesh; }
 
-const AdaptOptions& adapt_options(const Case& of) {
-  const auto& adapt = of.parts().input.settings.adapt;
-  if (!adapt)
-    throw InputError(of.parts().path + ": has no table [adapt]; it says from what the mesh is to be adapted");
-  return *adapt;
-}
-
 std::string text_of(const MeshFault& fault) {
   return fmt::format("{}: {} at ({}, {})", name_of(fault.rule), fault.what, fault.place.x, fault.place.y);
+}
+
+void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field) {
+  comm.together([&] {
+    if (field.values.size() == field.width() * mesh.owned_nodes) return;
+    throw InputError(fmt::format("the field has {} values on rank {}, but {} variables at {} nodes",
+                                 field.values.size(), comm.rank(), field.width(), mesh.owned_nodes));
+  });
 }
 
 }  // namespace
@@ -75,12 +76,14 @@ FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
 }
 
 Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved) {
-  auto plan = std::make_shared<const AdaptationPlan>(
-      plan_adaptation(comm, mesh_input(of), adapt_options(of), solved));
+  require_rows(comm, solved.mesh, solved.solution);
+  const AdaptOptions& options = adapt_options(of.parts().input.settings, of.parts().path);
+  auto plan = std::make_shared<const AdaptationPlan>(plan_adaptation(comm, mesh_input(of), options, solved));
   return {plan->refined, plan->coarsened, plan->warnings, plan};
 }
 
 NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks, const SolvedMesh& before) {
+  require_rows(comm, before.mesh, before.solution);
   CarriedMesh carried = carry_over(comm, mesh_input(of), *marks.plan, before);
   MeshResult& made = carried.generated.result;
   return {{std::move(made.mesh), std::move(made.tree), std::move(carried.start), {}},
@@ -113,6 +116,8 @@ MeshFile read(const Communicator& comm, const std::string& path) {
 }
 
 void write(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field& field) {
+  require_writable_suffix(path);
+  require_rows(comm, mesh, field);
   OutputSet outputs(comm);
   write_mesh(outputs, mesh, path, field.width() > 0 ? &field : nullptr);
   outputs.commit();

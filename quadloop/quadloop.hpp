@@ -20,8 +20,13 @@
 /// order, with the same case. Meshes and fields are spread over the ranks, and their bits do not depend on
 /// how many there are. Nothing is written to disk but by write().
 ///
+/// Shapes and units: a Mesh is one rank's part, as mesh.hpp says; a Field has a row of values for each node
+/// that the rank owns, in the mesh's order, with the same names on all ranks. Lengths are in the unit of the
+/// case's geometry. Values are the solver's own; sense() and remesh() want them finite.
+///
 /// Errors are exceptions derived from Error, the same on all ranks: InputError for a case, mesh or field that
-/// cannot be used, SolverError, OutputError; their text names the place and the cure.
+/// cannot be used, SolverError, OutputError; their text names the place and the cure. Fault is a mistake of
+/// this library's. What else a function throws stands with it.
 ///
 ///     const Communicator comm(MPI_COMM_WORLD);
 ///     const Case wing(comm, "wing.toml");
@@ -58,15 +63,19 @@ struct NewMesh {
 };
 
 /// The case's first mesh, smoothed as the case says. Throws InputError, naming the boundary, where the
-/// geometry cannot be meshed.
+/// geometry cannot be meshed, or would have more cells than free memory holds.
 NewMesh make_mesh(const Communicator& comm, const Case& of);
 
 /// Moves the nodes of a mesh for better cells, as the case says; boundary nodes slide along its geometry. Any
-/// valid mesh of that geometry will do; its cells stay as they are. Never makes the worst cell worse.
+/// valid mesh of that geometry will do; its cells stay as they are. Never makes the worst cell worse. Of
+/// inverted cells as many are mended as can be: check() tells.
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 
-/// The built-in solver of the two-dimensional Euler equations with the case's settings. Writes density,
-/// x_velocity, y_velocity and pressure. Throws InputError where the case chooses a solver of its own.
+/// The built-in solver of the two-dimensional Euler equations with the case's settings, for any mesh of its
+/// geometry. It starts from and gives density, x_velocity, y_velocity and pressure, in units of the free
+/// stream's density and speed of sound; constants: steps, time, Mach number, angle of attack in degrees, CL,
+/// CD, residual. Throws InputError where the case chooses a solver of its own; the solver throws it for a
+/// start without these variables, and SolverError, with the place, where the flow cannot be kept physical.
 FlowSolver built_in_solver(const Communicator& comm, const Case& of);
 
 /// What a solution asks of the next mesh.
@@ -78,18 +87,22 @@ struct Marks {
   bool change_mesh() const { return refined + coarsened > 0; }
 };
 
-/// Marks leaves by the case's table [adapt], from the solution. Throws InputError where the case has no such
-/// table, or the solution no such variable, or one that is not finite.
+/// Marks leaves by the case's table [adapt], from the solution. `solved` is what make_mesh() or remesh() made
+/// of this case, with a solution. Throws InputError where the case has no such table, or the solution no such
+/// variable, not a row for each owned node, or a value that is not finite.
 Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
 
-/// The next mesh, smoothed, with the solution of the one before carried over to it.
+/// The next mesh, smoothed, with the solution of the one before carried over to it: all its variables, as
+/// transfer() does. `marks` are those of sense() for `before`. Throws InputError as make_mesh() and sense()
+/// do.
 NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks, const SolvedMesh& before);
 
 /// What is wrong with a mesh: one line for each fault, with its place; none where it is valid. Gathers the
 /// mesh on one rank. The same lines on every rank.
 std::vector<std::string> check(const Communicator& comm, const Mesh& mesh);
 
-/// A mesh as a file had it.
+/// A mesh as a file had it, its blocks made one. Spread along a space-filling curve: its nodes and cells
+/// stand in another order than in the file.
 struct MeshFile {
   Mesh mesh;
   Field field;  ///< without variables where the file has none
@@ -97,11 +110,12 @@ struct MeshFile {
 };
 
 /// Reads a mesh, and the field at its nodes, in the format that the suffix tells: .mesh, .cgns, .vtu, .su2,
-/// .msh. Throws InputError with the file and, in text, the line.
+/// .msh. The first rank reads it whole. Throws InputError with the file and, in text, the line.
 MeshFile read(const Communicator& comm, const std::string& path);
 
 /// Writes a mesh, with the field where the format has a place for one, as the suffix tells; the file appears
-/// whole or not at all. The same bytes on any number of ranks. Throws OutputError.
+/// whole or not at all. The same bytes on any number of ranks. Throws InputError for a suffix that read()
+/// does not know, or a field without a row for each owned node; OutputError where the file cannot be written.
 void write(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field& field = {});
 
 }  // namespace quadloop

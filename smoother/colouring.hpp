@@ -7,9 +7,8 @@ namespace quadloop {
 
 /// Colours for the nodes that may move; neighbours are those that share a cell. *Collective.*
 inline Colouring colour_stars(const Communicator& comm, const HaloMesh& mesh, const NodeStars& stars) {
-  return colour_nodes(
-      comm, mesh.exchange(), mesh.points().size(), [&](std::int32_t node) { return mesh.global(node); },
-      stars.nodes(), [&](std::size_t i, const auto& visit) { stars.for_each_neighbour(i, visit); });
+  return colour_nodes(comm, mesh, stars.nodes(),
+                      [&](std::size_t i, const auto& visit) { stars.for_each_neighbour(i, visit); });
 }
 
 }  // namespace quadloop

@@ -13,10 +13,10 @@ namespace quadloop {
 namespace {
 
 constexpr double step = 0.25;  ///< of the smaller square's edge
-constexpr double rounding =
-    1e-6;  ///< of that edge: coordinates that went through a file are on the lattice nearly
-constexpr unsigned unfit =
-    1U << 8;  ///< a flag beside those of the quadrants: the node's cells are not those of a level line
+/// Of that edge: coordinates that went through a file are on the lattice nearly.
+constexpr double rounding = 1e-6;
+/// A flag beside those of the quadrants: the node's cells are not those of a level line.
+constexpr unsigned unfit = 1U << 8;
 
 /// What lies round a node: bit k of `quadrants` stands for a square in quadrant k (0: right and up, then
 /// counter-clockwise).
@@ -69,25 +69,23 @@ class LevelLines {
   }
 
   /// Where an owned node goes; nowhere if it is of no level line.
-  Point move_of(std::int32_t node) const {
+  Point move_of(NodeId node) const {
     const Surroundings& s = round_[node];
     if (s.line_ends != 0b11) return {};
     return -step * s.edge * into_squares(s.quadrants);
   }
 
  private:
-  bool is_owned(NodeId node) const { return node.value() < mesh_.owned_nodes(); }
-  Surroundings& round(NodeId node) { return round_[node.value()]; }
   void exclude(NodeId node) {
-    if (is_owned(node)) round(node).quadrants |= unfit;
+    if (mesh_.owns(node)) round_[node].quadrants |= unfit;
   }
 
   void look_at_squares(const std::array<NodeId, 4>& nodes) {
     for (std::size_t k = 0; k < 4; ++k) {
-      if (!is_owned(nodes[k])) continue;
+      if (!mesh_.owns(nodes[k])) continue;
       const SquareCorner square = square_at(mesh_.point(nodes[k]), mesh_.point(nodes[(k + 1) % 4]),
                                             mesh_.point(nodes[(k + 2) % 4]), mesh_.point(nodes[(k + 3) % 4]));
-      Surroundings& s = round(nodes[k]);
+      Surroundings& s = round_[nodes[k]];
       const bool fits = square.quadrant != unfit && (s.quadrants == 0 || near(s.edge / square.edge, 1));
       s.quadrants |= fits ? 1U << square.quadrant : unfit;
       s.edge = square.edge;
@@ -99,8 +97,8 @@ class LevelLines {
   /// and no others.
   void look_at_triangles(const std::array<NodeId, 3>& nodes) {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!is_owned(nodes[k])) continue;
-      Surroundings& s = round(nodes[k]);
+      if (!mesh_.owns(nodes[k])) continue;
+      Surroundings& s = round_[nodes[k]];
       const Point into = into_squares(s.quadrants);
       if (into == Point{0, 0}) continue;
       for (const NodeId other : {nodes[(k + 1) % 3], nodes[(k + 2) % 3]}) {
@@ -117,48 +115,45 @@ class LevelLines {
   void look_at_triangles(const std::array<NodeId, 4>&) {}
 
   const HaloMesh& mesh_;
-  std::vector<Surroundings> round_;
+  IdVector<NodeId, Surroundings> round_;
 };
 
-double ideal_cost(const auto& nodes, const std::vector<Point>& points) {
+double ideal_cost(const auto& nodes, const auto& point_of) {
   constexpr std::size_t width = std::tuple_size_v<std::remove_cvref_t<decltype(nodes)>>;
   std::array<Point, width> corners;
-  for (std::size_t k = 0; k < width; ++k) corners[k] = points[nodes[k].value()];
+  for (std::size_t k = 0; k < width; ++k) corners[k] = point_of(nodes[k]);
   return cell_cost(corners, ideal_targets<width>());
 }
 
 /// Puts owned nodes of cells that have become too bad back. Returns whether there are any over all ranks.
 /// *Collective.*
-bool take_back(const Communicator& comm, HaloMesh& mesh, const std::vector<Point>& before, double limit) {
-  std::vector<Point>& points = mesh.points();
-  std::vector<std::int32_t> back;
-  const auto has_moved = [&](NodeId n) { return mesh.point(n) != before[n.value()]; };
+bool take_back(const Communicator& comm, HaloMesh& mesh, const IdVector<NodeId, Point>& before,
+               double limit) {
+  std::vector<NodeId> back;
+  const auto now = [&](NodeId n) { return mesh.point(n); };
+  const auto then = [&](NodeId n) { return before[n]; };
+  const auto has_moved = [&](NodeId n) { return now(n) != then(n); };
   mesh.for_each_cell([&](const auto& nodes) {
     if (std::none_of(nodes.begin(), nodes.end(), has_moved)) return;
-    const double cost = ideal_cost(nodes, points);
-    if (cost <= limit || cost <= ideal_cost(nodes, before)) return;
-    for (const NodeId node : nodes) {
-      if (node.value() < mesh.owned_nodes()) back.push_back(node.value());
-    }
+    const double cost = ideal_cost(nodes, now);
+    if (cost <= limit || cost <= ideal_cost(nodes, then)) return;
+    std::ranges::copy_if(nodes, std::back_inserter(back), [&](NodeId n) { return mesh.owns(n); });
   });
-  for (const std::int32_t node : back) points[node] = before[node];
-  mesh.exchange().update(points);
+  for (const NodeId node : back) mesh.points()[node.value()] = before[node];
+  mesh.exchange().update(mesh.points());
   return comm.any(!back.empty());
 }
 
 }  // namespace
 
-bool move_level_lines(const Communicator& comm, HaloMesh& mesh, const std::vector<char>& pinned,
-                      double limit) {
+bool move_level_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& pinned, double limit) {
   const LevelLines lines(mesh);
-  std::vector<Point>& points = mesh.points();
-  const std::vector<Point> before = points;
-  for (std::int32_t node = 0; node < mesh.owned_nodes(); ++node) {
-    const std::size_t n = node;
-    if (pinned.empty() || pinned[n] == 0) points[n] = points[n] + lines.move_of(node);
+  const IdVector<NodeId, Point> before = mesh.points();
+  for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
+    if (pinned.empty() || pinned[node] == 0) mesh.points()[node.value()] = before[node] + lines.move_of(node);
   }
-  if (!comm.any(points != before)) return false;
-  mesh.exchange().update(points);
+  if (!comm.any(!std::ranges::equal(mesh.points(), before))) return false;
+  mesh.exchange().update(mesh.points());
   while (take_back(comm, mesh, before, limit)) {
   }
   return true;

@@ -16,7 +16,6 @@ namespace quadloop {
 /// division on the other, and it is neither pinned (a flag for each owned node, or none at all) nor of a cell
 /// that would come to cost more than it does and than `limit`, Eq. 3.2. The copies move too. Returns whether
 /// any node was moved on any rank. *Collective.*
-bool move_level_lines(const Communicator& comm, HaloMesh& mesh, const std::vector<char>& pinned,
-                      double limit);
+bool move_level_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& pinned, double limit);
 
 }  // namespace quadloop

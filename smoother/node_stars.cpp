@@ -27,26 +27,22 @@ std::vector<CornerTarget> seen_targets(const std::array<CornerTarget, width>& of
 }
 
 template <std::size_t width>
-std::size_t ideal_begin() {
-  return width == 3 ? 0 : 3;
-}
+constexpr std::int32_t ideal_begin = width == 3 ? 0 : 3;
 
 }  // namespace
 
-NodeStars::NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes,
+NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
                      const std::vector<CellTarget>& targets)
     : mesh_{mesh}, nodes_{std::move(free_nodes)}, starts_(nodes_.size() + 1, 0) {
   for (const auto& seen : {seen_targets<3>(ideal_targets<3>()), seen_targets<4>(ideal_targets<4>())}) {
     targets_.insert(targets_.end(), seen.begin(), seen.end());
   }
-  std::vector<std::int32_t> place(mesh.points().size(), -1);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) place[nodes_[i]] = static_cast<std::int32_t>(i);
+  IdVector<NodeId, std::int32_t> star_of(mesh.points().size(), -1);
+  for (std::int32_t i = 0; const NodeId node : nodes_) star_of[node] = i++;
   mesh.for_each_cell([&](const auto& cell) {
     for (const NodeId node : cell) {
-      const std::int32_t i = place[node.value()];
-      if (i >= 0)
-        starts_[static_cast<std::size_t>(i) + 1] +=
-            corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
+      const std::size_t i = star_of[node] + 1;
+      if (i > 0) starts_[i] += corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
     }
   });
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
@@ -54,14 +50,14 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes,
   std::vector<std::size_t> ends(starts_.begin(), starts_.end() - 1);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& cell) {
-    add_cell(cell, targets.empty() ? CellTarget{} : targets[number], place, ends);
+    add_cell(cell, targets.empty() ? CellTarget{} : targets[number], star_of, ends);
     ++number;
   });
 }
 
 template <std::size_t width>
 std::int32_t NodeStars::first_target(const CellTarget& target) {
-  if (target.ideal()) return static_cast<std::int32_t>(ideal_begin<width>());
+  if (target.ideal()) return ideal_begin<width>;
   const auto begin = size32(targets_);
   const auto seen = seen_targets<width>(stretched_targets<width>(target.w1, target.w2));
   targets_.insert(targets_.end(), seen.begin(), seen.end());
@@ -70,15 +66,15 @@ std::int32_t NodeStars::first_target(const CellTarget& target) {
 
 template <std::size_t width>
 void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
-                         std::span<const std::int32_t> place, std::vector<std::size_t>& ends) {
-  constexpr auto per_node = static_cast<std::int32_t>(corners_of_cell<width>);
+                         const IdVector<NodeId, std::int32_t>& star_of, std::vector<std::size_t>& ends) {
+  constexpr std::int32_t nodes{width}, per_node{corners_of_cell<width>};
   std::int32_t targets = -1;
-  for (std::size_t k = 0; k < width; ++k) {
-    const std::int32_t i = place[cell[k].value()];
+  for (std::int32_t k = 0; k < nodes; ++k) {
+    const std::int32_t i = star_of[cell[k]];
     if (i < 0) continue;
     if (targets < 0) targets = first_target<width>(target);
     const NodeId next = cell[(k + 1) % width], previous = cell[(k + width - 1) % width];
-    const std::int32_t own = targets + per_node * static_cast<std::int32_t>(k);
+    const std::int32_t own = targets + per_node * k;
     std::size_t& end = ends[i];
     corners_[end++] = {next, previous, own, width == 3 ? CellAngle::all : CellAngle::at_p};
     if constexpr (width == 4) {

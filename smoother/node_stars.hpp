@@ -20,10 +20,9 @@ struct CellTarget {
 class NodeStars {
  public:
   /// `free_nodes` ascend. `targets` has an entry for each cell of the halo mesh, or none at all.
-  NodeStars(const HaloMesh& mesh, std::vector<std::int32_t> free_nodes,
-            const std::vector<CellTarget>& targets);
+  NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes, const std::vector<CellTarget>& targets);
 
-  const std::vector<std::int32_t>& nodes() const { return nodes_; }
+  const std::vector<NodeId>& nodes() const { return nodes_; }
   std::size_t size() const { return nodes_.size(); }
 
   /// The star of the i-th free node, with the nodes where they are now.
@@ -33,8 +32,8 @@ class NodeStars {
   template <class Visit>
   void for_each_neighbour(std::size_t i, const Visit& visit) const {
     for (const Corner& c : corners_of(i)) {
-      visit(c.q.value());
-      visit(c.r.value());
+      visit(c.q);
+      visit(c.r);
     }
   }
 
@@ -49,12 +48,12 @@ class NodeStars {
   }
   template <std::size_t width>
   void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
-                std::span<const std::int32_t> place, std::vector<std::size_t>& ends);
+                const IdVector<NodeId, std::int32_t>& star_of, std::vector<std::size_t>& ends);
   template <std::size_t width>
   std::int32_t first_target(const CellTarget& target);
 
   const HaloMesh& mesh_;
-  std::vector<std::int32_t> nodes_;
+  std::vector<NodeId> nodes_;
   std::vector<std::size_t> starts_;
   std::vector<Corner> corners_;
   std::vector<CornerTarget> targets_;

@@ -63,18 +63,18 @@ struct WorstCell {
 struct Survey {
   WorstCell worst;
   std::vector<double> costs;  ///< of each cell of the halo mesh
-  std::vector<char> near;  ///< a flag for each node: of a cell above the threshold, or some rings round those
-  std::vector<char> parallel;  ///< a flag for each node: of a parallelogram; right for owned nodes
+  NodeFlags near;             ///< of cells above the threshold, and some rings round those
+  NodeFlags parallel;         ///< of parallelograms; right for owned nodes
 };
 
 template <class Nodes>
-bool any_flagged(const std::vector<char>& flags, const Nodes& nodes) {
-  return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[n.value()] != 0; });
+bool any_flagged(const NodeFlags& flags, const Nodes& nodes) {
+  return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[n] != 0; });
 }
 
 template <class Nodes>
-void flag_all(const Nodes& nodes, std::vector<char>& flags) {
-  for (const NodeId node : nodes) flags[node.value()] = 1;
+void flag_all(const Nodes& nodes, NodeFlags& flags) {
+  for (const NodeId node : nodes) flags[node] = 1;
 }
 
 WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) {
@@ -84,15 +84,15 @@ WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) {
 /// Adds a cell to a rank's worst; those that other ranks have too count where their first node is owned.
 void include(WorstCell& worst, const HaloMesh& mesh, NodeId first, double cost) {
   worst.cost = std::max(worst.cost, cost);
-  worst.inverted += cost >= 1 && first.value() < mesh.owned_nodes() ? 1 : 0;
+  worst.inverted += cost >= 1 && mesh.owns(first) ? 1 : 0;
 }
 
 /// Flags the nodes of cells that have a flagged one, so many times; `flags` count for owned nodes alone and
 /// are right for all. *Collective.*
-void grow(const HaloMesh& mesh, std::vector<char>& flags, int rings) {
+void grow(const HaloMesh& mesh, NodeFlags& flags, int rings) {
   for (int ring = 0; ring < rings; ++ring) {
     mesh.exchange().update(flags);
-    const std::vector<char> before = flags;
+    const NodeFlags before = flags;
     mesh.for_each_cell([&](const auto& nodes) {
       if (any_flagged(before, nodes)) flag_all(nodes, flags);
     });
@@ -103,8 +103,8 @@ void grow(const HaloMesh& mesh, std::vector<char>& flags, int rings) {
 bool is_parallelogram(const std::array<Point, 4>& p) { return is_square(p) || skew_of(p) <= parallel_skew; }
 bool is_parallelogram(const std::array<Point, 3>&) { return false; }
 
-std::vector<char> nodes_of_parallelograms(const HaloMesh& mesh) {
-  std::vector<char> parallel(mesh.points().size(), 0);
+NodeFlags nodes_of_parallelograms(const HaloMesh& mesh) {
+  NodeFlags parallel(mesh.points().size(), 0);
   mesh.for_each_cell([&](const auto& nodes) {
     if (is_parallelogram(corners_of(mesh, nodes))) flag_all(nodes, parallel);
   });
@@ -115,8 +115,8 @@ std::vector<char> nodes_of_parallelograms(const HaloMesh& mesh) {
 Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets,
               double threshold) {
   Survey result;
-  std::vector<char>& near = result.near;
-  near.assign(mesh.points().size(), 0);
+  NodeFlags& near = result.near;
+  near.resize(mesh.points().size(), 0);
   result.costs.reserve(mesh.points().size());
   mesh.for_each_cell([&](const auto& nodes) {
     const double cost = cost_of(mesh, nodes, targets, result.costs.size());
@@ -124,8 +124,7 @@ Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<
     result.costs.push_back(cost);
     if (cost > threshold) flag_all(nodes, near);
   });
-  result.parallel =
-      targets.empty() ? nodes_of_parallelograms(mesh) : std::vector<char>(mesh.points().size(), 0);
+  result.parallel = targets.empty() ? nodes_of_parallelograms(mesh) : NodeFlags(mesh.points().size(), 0);
   grow(mesh, near, free_rings);
   result.worst = over_ranks(comm, result.worst);
   return result;
@@ -133,9 +132,9 @@ Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<
 
 /// Flags the nodes of cells that cost more than `bad` and so many rings round them; only those with a node
 /// near are looked at. Right for all nodes. *Collective.*
-std::vector<char> nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>& targets,
-                                     const Survey& surveyed, double bad, int rings) {
-  std::vector<char> flags(mesh.points().size(), 0);
+NodeFlags nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>& targets,
+                             const Survey& surveyed, double bad, int rings) {
+  NodeFlags flags(mesh.points().size(), 0);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t cell = number++;
@@ -147,12 +146,11 @@ std::vector<char> nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<Cel
 }
 
 /// The nodes near that may move: those of no parallelogram, and the ones flagged in `yielding`.
-std::vector<std::int32_t> free_nodes(const Survey& surveyed, const HaloMesh& mesh, const BoundarySlide& slide,
-                                     const std::vector<char>& yielding) {
-  std::vector<std::int32_t> free;
-  for (std::int32_t node = 0; node < mesh.owned_nodes(); ++node) {
-    const std::size_t n = node;
-    const bool may_move = surveyed.near[n] != 0 && (surveyed.parallel[n] == 0 || yielding[n] != 0);
+std::vector<NodeId> free_nodes(const Survey& surveyed, const HaloMesh& mesh, const BoundarySlide& slide,
+                               const NodeFlags& yielding) {
+  std::vector<NodeId> free;
+  for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
+    const bool may_move = surveyed.near[node] != 0 && (surveyed.parallel[node] == 0 || yielding[node] != 0);
     if (may_move && slide.freedom(node) != NodeFreedom::fixed) free.push_back(node);
   }
   return free;
@@ -173,11 +171,11 @@ WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::
 }
 
 /// Puts the nodes where they are now; flags those that have moved.
-std::vector<char> take_positions(const HaloMesh& from, Mesh& to) {
-  std::vector<char> moved(to.points.size(), 0);
-  for (std::size_t node = 0; node < to.points.size(); ++node) {
-    moved[node] = to.points[node] != from.points()[node] ? 1 : 0;
-    to.points[node] = from.points()[node];
+NodeFlags take_positions(const HaloMesh& from, Mesh& to) {
+  NodeFlags moved(to.points.size(), 0);
+  for (const NodeId node : moved.ids()) {
+    moved[node] = to.point(node) != from.point(node) ? 1 : 0;
+    to.points[node.value()] = from.point(node);
   }
   return moved;
 }
@@ -205,7 +203,7 @@ WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
 void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
                      const std::vector<CellTarget>& targets, const Survey& surveyed,
                      const SmoothOptions& options, SmoothReport& report) {
-  std::vector<char> yielding(halo.points().size(), 0);
+  NodeFlags yielding(halo.points().size(), 0);
   for (int round = 0;; ++round) {
     const NodeStars stars(halo, free_nodes(surveyed, halo, slide, yielding), targets);
     Sweeper sweeper(comm, halo, stars, slide, options.method, options.objective,
@@ -241,11 +239,11 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
     before = survey(comm, halo, targets, options.threshold);
   sweep_in_rounds(comm, halo, slide, targets, before, options, report);
   WorstCell after = worst_cell(comm, halo, targets, before);
-  const std::vector<char> moved = take_positions(halo, mesh);
+  const NodeFlags moved = take_positions(halo, mesh);
   const bool sound = after.inverted == 0 || !comm.any(any_turns_right(mesh));
   if (options.delaunay && sound && report.moves > 0) {
-    if (options.keep_places) restore_delaunay(comm, mesh, moved, options.delaunay, options.triangle_to_block);
-    if (!options.keep_places) report.standing = restore_delaunay_nearby(comm, mesh, moved, options.delaunay);
+    if (options.keep_slots) restore_delaunay(comm, mesh, moved, options.delaunay, options.triangle_to_block);
+    if (!options.keep_slots) report.standing = restore_delaunay_nearby(comm, mesh, moved, options.delaunay);
     after = worst_triangle(comm, mesh);
   }
   report.worst_cost_before = first.cost;
@@ -257,8 +255,8 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
 
 /// Flags owned nodes: those of triangles that cost more than `limit`, and some rings round them in the mesh
 /// as it was before flips. *Collective.*
-std::vector<char> nodes_near_worse(const Communicator& comm, const Mesh& flipped, const Mesh& before,
-                                   double limit, int rings) {
+NodeFlags nodes_near_worse(const Communicator& comm, const Mesh& flipped, const Mesh& before, double limit,
+                           int rings) {
   const NodeOwners owners(comm, before.first_node);
   Outbox<GlobalNodeId> to_owners;
   for (const auto& nodes : flipped.triangles) {
@@ -266,8 +264,8 @@ std::vector<char> nodes_near_worse(const Communicator& comm, const Mesh& flipped
     for (const NodeId node : nodes) to_owners.add(owners.rank_of(flipped.global(node)), flipped.global(node));
   }
   const HaloMesh halo(comm, before);
-  std::vector<char> near(halo.points().size(), 0);
-  for (const GlobalNodeId node : to_owners.deliver(comm)) near[node.value() - before.first_node] = 1;
+  NodeFlags near(halo.points().size(), 0);
+  for (const GlobalNodeId node : to_owners.deliver(comm)) near[owners.local(node)] = 1;
   grow(halo, near, rings);
   near.resize(halo.owned_nodes());
   return near;
@@ -278,8 +276,8 @@ std::vector<char> nodes_near_worse(const Communicator& comm, const Mesh& flipped
 /// end the whole mesh is left as it was. *Collective.*
 SmoothReport smooth_delaunay(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
   QUADLOOP_REQUIRE(!comm.any(!options.targets.empty()), "flips would leave cells without targets");
-  QUADLOOP_REQUIRE(options.keep_places || !comm.any(!options.triangle_to_block.empty()),
-                   "blocks are known by places");
+  QUADLOOP_REQUIRE(options.keep_slots || !comm.any(!options.triangle_to_block.empty()),
+                   "blocks are known by slots");
   const Mesh before = mesh;
   SmoothOptions careful = options;
   careful.pinned.resize(mesh.owned_nodes, 0);
@@ -287,8 +285,8 @@ SmoothReport smooth_delaunay(const Communicator& comm, Mesh& mesh, const SmoothO
     const SmoothReport report = smooth_once(comm, mesh, careful);
     const double limit = (1 + cost_rounding) * report.worst_cost_before;
     if (report.worst_cost_after <= limit) return report;
-    const std::vector<char> worse = nodes_near_worse(comm, mesh, before, limit, pinned_rings * attempt);
-    for (std::size_t node = 0; node < worse.size(); ++node) careful.pinned[node] |= worse[node];
+    const NodeFlags worse = nodes_near_worse(comm, mesh, before, limit, pinned_rings * attempt);
+    for (const NodeId node : worse.ids()) careful.pinned[node] |= worse[node];
     if (attempt == most_attempts) careful.sweeps = 0;
     mesh = before;
   }

@@ -18,21 +18,21 @@ struct SmoothOptions {
   int sweeps = 20;  ///< at most; fewer where nothing moves any more
   Objective objective = Objective::power;
   Method method = Method::perturb;
-  double threshold =
-      0.05;  ///< nodes of cells that cost no more stay, unless they share a cell with a node of one that does
-  bool level_lines =
-      true;  ///< first moves lines where squares of two sizes meet, which lifts 26.6 degrees to 29.7
+  /// Nodes of cells that cost no more stay, unless they share a cell with a node of one that does.
+  double threshold = 0.05;
+  /// First moves lines where squares of two sizes meet, which lifts 26.6 degrees to 29.7.
+  bool level_lines = true;
   double bad = 0.072;  ///< nodes of parallelograms stay unless a cell that costs more is near; one below 28
                        ///< degrees does
   const Geometry* geometry = nullptr;  ///< the outline that boundary nodes slide along; without it they slide
                                        ///< where the mesh's own is straight
-  std::vector<char> pinned;            ///< a flag for each owned node that must stay, or none at all
+  NodeFlags pinned;                    ///< a flag for each owned node that must stay, or none at all
   std::function<TieRank(Point)> delaunay;  ///< if set, the mesh is Delaunay under this order of nodes, and is
                                            ///< made so again by flips in the end
-  std::vector<std::int32_t>
-      triangle_to_block;    ///< of each own triangle, or none: flips keep edges between two blocks
-  bool keep_places = true;  ///< triangles made by flips take the places in the order that become free, else
-                            ///< those beside them; not with blocks
+  /// Of each own triangle, or none: flips keep edges between two blocks.
+  std::vector<std::int32_t> triangle_to_block;
+  bool keep_slots = true;  ///< triangles made by flips take the slots in the order that become free, else
+                           ///< those beside them; not with blocks
   std::vector<CellTarget> targets;  ///< the shape of each own cell, triangles, then quads; or none at all for
                                     ///< ideal ones. Not with `delaunay`
 };
@@ -48,8 +48,8 @@ struct SmoothReport {
   std::int64_t free_nodes = 0, moves = 0;
   double worst_cost_before = 0, worst_cost_after = 0;    ///< Eq. 3.2, over all cells
   std::int64_t inverted_before = 0, inverted_after = 0;  ///< cells
-  std::vector<std::int32_t> standing;  ///< without `keep_places`, after flips: how many triangles stand in
-                                       ///< the place of each of this rank's before
+  std::vector<std::int32_t> standing;  ///< without `keep_slots`, after flips: how many triangles stand in
+                                       ///< the slot of each of this rank's before
 };
 
 /// Moves nodes to better the cells' shapes, T 3.7; connectivity stays but for the flips of a Delaunay mesh.

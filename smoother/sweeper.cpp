@@ -39,9 +39,8 @@ std::int64_t Sweeper::sweep() {
 
 /// Whether the node or one that it shares a cell with has moved since it was last visited.
 bool Sweeper::is_stale(std::size_t i) const {
-  bool stale = moved_at(node(i)) >= visited_at_[i];
-  stars_.for_each_neighbour(i,
-                            [&](std::int32_t other) { stale = stale || moved_at(other) >= visited_at_[i]; });
+  bool stale = moved_at_[node(i)] >= visited_at_[i];
+  stars_.for_each_neighbour(i, [&](NodeId other) { stale = stale || moved_at_[other] >= visited_at_[i]; });
   return stale;
 }
 
@@ -50,22 +49,22 @@ void Sweeper::find_bad() {
   for (std::size_t i = 0; i < stars_.size(); ++i) {
     if (!is_stale(i)) continue;
     stars_.gather(i, star_);
-    bad_[node(i)] = star_.worst_cost(mesh_.points()[node(i)]) > threshold_ ? 1 : 0;
+    bad_[node(i)] = star_.worst_cost(mesh_.point(node(i))) > threshold_ ? 1 : 0;
   }
   mesh_.exchange().update(bad_);
 }
 
 bool Sweeper::is_active(std::size_t i) const {
   bool active = bad_[node(i)] != 0;
-  stars_.for_each_neighbour(i, [&](std::int32_t other) { active = active || bad_[other] != 0; });
+  stars_.for_each_neighbour(i, [&](NodeId other) { active = active || bad_[other] != 0; });
   return active;
 }
 
 bool Sweeper::visit(std::size_t i) {
   stars_.gather(i, star_);
   visited_at_[i] = clock_;
-  const std::int32_t n = node(i);
-  Point& p = mesh_.points()[n];
+  const NodeId n = node(i);
+  Point& p = mesh_.points()[n.value()];
   const auto better = better_place(n, p);
   if (!better) return false;
   p = *better;
@@ -73,14 +72,14 @@ bool Sweeper::visit(std::size_t i) {
   return true;
 }
 
-std::optional<Point> Sweeper::better_place(std::int32_t n, Point p) {
+std::optional<Point> Sweeper::better_place(NodeId n, Point p) {
   if (slide_.freedom(n) == NodeFreedom::sliding) return slide_.improve(n, star_, objective_);
   if (star_.cost(p, objective_).valid[0]) return solver_->improve(star_, p, objective_);
   return untangle(star_, p, objective_);
 }
 
 void Sweeper::share_moves() {
-  const auto just_moved = [&](std::int32_t n) { return moved_at(n) == clock_; };
+  const auto just_moved = [&](std::int32_t n) { return moved_at_[NodeId{n}] == clock_; };
   mesh_.exchange().update(mesh_.points(), just_moved);
   mesh_.exchange().update(moved_at_, just_moved);
 }

@@ -22,13 +22,12 @@ class Sweeper {
   std::int64_t sweep();
 
  private:
-  std::int32_t node(std::size_t i) const { return stars_.nodes()[i]; }
-  std::int32_t moved_at(std::int32_t n) const { return moved_at_[n]; }
+  NodeId node(std::size_t i) const { return stars_.nodes()[i]; }
   bool is_stale(std::size_t i) const;
   void find_bad();
   bool is_active(std::size_t i) const;
   bool visit(std::size_t i);
-  std::optional<Point> better_place(std::int32_t n, Point p);
+  std::optional<Point> better_place(NodeId n, Point p);
   void share_moves();
 
   const Communicator& comm_;
@@ -39,9 +38,9 @@ class Sweeper {
   double threshold_;
   std::unique_ptr<NodeSolver> solver_;
   std::vector<std::vector<std::size_t>> by_colour_;
-  std::vector<std::int32_t> moved_at_;    ///< the clock when each node moved last
-  std::vector<std::int32_t> visited_at_;  ///< the clock when each free node was visited last
-  std::vector<char> bad_;
+  IdVector<NodeId, std::int32_t> moved_at_;  ///< the clock when each node moved last
+  std::vector<std::int32_t> visited_at_;     ///< the clock when each free node was visited last
+  NodeFlags bad_;
   std::int32_t clock_ = 0;
   Star star_;
 };

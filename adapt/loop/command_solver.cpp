@@ -4,9 +4,7 @@
 #include <utility>
 
 #include "io/files/output_file.hpp"
-#include "io/formats.hpp"
 #include "io/mesh_file.hpp"
-#include "io/native/native_file.hpp"
 #include "io/solution_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -14,11 +12,6 @@
 namespace quadloop {
 
 namespace {
-
-/// Where a cycle's mesh stands in any case.
-std::string native_in(const std::string& folder) {
-  return (std::filesystem::path(folder) / "mesh.mesh").string();
-}
 
 SolverFiles files_in(const std::string& folder, const CommandSolver& solver, int ranks, int cycle) {
   const std::filesystem::path cycle_folder = std::filesystem::absolute(folder);
@@ -39,7 +32,7 @@ void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, c
                double gamma) {
   OutputSet outputs(comm);
   const Field* state = start.width() > 0 ? &start : nullptr;
-  if (files.mesh != native_in(files.folder)) write_mesh(outputs, mesh, files.mesh, state);
+  if (files.mesh != CyclePaths{files.folder}.native_mesh()) write_mesh(outputs, mesh, files.mesh, state);
   if (files.state != files.mesh) write_mesh(outputs, mesh, files.state, state, gamma);
   outputs.commit();
 }
@@ -53,7 +46,7 @@ Field read_left(const Communicator& comm, const Mesh& mesh, const SolverCommand&
     if (!comm.is_root()) return;
     try {
       LoadedSolution left = read_solution(files.solution);
-      const LoadedMesh given = read_native(native_in(files.folder));
+      const LoadedMesh given = read_mesh(CyclePaths{files.folder}.native_mesh());
       require_same_mesh(left, given.mesh);
       order = own_order(given.mesh);
       whole = std::move(left.solution);

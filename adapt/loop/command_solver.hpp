@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "adapt/loop/cycle_paths.hpp"
 #include "flow/command/solver_command.hpp"
 #include "flow/flow_solver.hpp"
 
@@ -12,7 +13,8 @@ namespace quadloop {
 /// folder.
 struct CommandSolver {
   SolverCommand command;
-  std::string mesh = "mesh.mesh", solution = "solution.mesh";
+  std::string mesh = CyclePaths::mesh_name(native_format().name),
+              solution = "solution." + native_format().name;
   int ranks = 0;  ///< 0: as many as quadloop runs on
   std::string case_folder;
   double gamma = 1.4;  ///< ratio of specific heats of the starting state, where its format wants it
@@ -22,9 +24,9 @@ struct CommandSolver {
   std::string state() const;
 };
 
-/// The command as any other solver. Where it solves, folder_of(cycle), the mesh must stand in mesh.mesh
-/// already, with the starting state where there is one. Throws SolverError for what the command does or
-/// leaves.
+/// The command as any other solver. Where it solves, folder_of(cycle), the mesh must stand in its
+/// native_mesh() already, with the starting state where there is one. Throws SolverError for what the command
+/// does or leaves.
 FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of);
 
 }  // namespace quadloop

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/cgns/cgns_file.hpp"
-#include "io/files/output_file.hpp"
+#include "adapt/loop/cycle_paths.hpp"
 #include "io/mesh_file.hpp"
-#include "io/native/native_file.hpp"
+#include "io/text/text_output.hpp"
 #include "io/tree/tree_file.hpp"
 
 namespace quadloop {
@@ -18,13 +17,9 @@ namespace {
 /// From the root rank. *Collective.*
 void write_text(const Communicator& comm, const std::string& path, const std::string& text) {
   OutputSet outputs(comm);
-  const StagedFile staged = outputs.stage(path);
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    OutputFile file(staged);
-    file.write(text);
-    file.close();
-  });
+  TextOutput file(outputs, path);
+  file.write(text);
+  file.close();
   outputs.commit();
 }
 
@@ -53,22 +48,18 @@ void CycleFiles::begin(int cycle) {
 
 void CycleFiles::meshed(const MeshResult& mesh, const Field& start) {
   starts_afresh_ = start.width() == 0;
-  const std::string folder = folders_.under_way(cycle_);
+  const CyclePaths paths{folders_.under_way(cycle_)};
   OutputSet outputs(comm_);
-  write_native(outputs, mesh.mesh, folder + "/mesh.mesh", starts_afresh_ ? nullptr : &start);
-  write_tree(outputs, mesh.tree, folder + "/mesh.tree.h5");
+  write_mesh(outputs, mesh.mesh, paths.native_mesh(), starts_afresh_ ? nullptr : &start);
+  write_tree(outputs, mesh.tree, paths.tree());
   outputs.commit();
 }
 
 std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const Field& flow) {
-  const std::string folder = folders_.under_way(cycle_);
+  const CyclePaths paths{folders_.under_way(cycle_)};
   OutputSet outputs(comm_);
-  write_native(outputs, mesh, folder + "/mesh.mesh", &flow);
-  write_cgns(outputs, mesh, folder + "/mesh.cgns", &flow);
-  for (const std::string& format : options_.formats) {
-    if (format != "mesh" && format != "cgns")
-      write_mesh(outputs, mesh, folder + "/mesh." + format, &flow, options_.gamma);
-  }
+  for (const std::string& format : options_.formats)
+    write_mesh(outputs, mesh, paths.mesh(format), &flow, options_.gamma);
   outputs.commit();
   return starts_afresh_ ? renames(mesh) : std::vector<std::string>{};  // said of the first cycle alone
 }
@@ -76,8 +67,7 @@ std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const Field& flow)
 /// Of every file that a cycle's mesh is written to.
 std::vector<std::string> CycleFiles::renames(const Mesh& mesh) const {
   std::vector<std::string> files = options_.read_by_solver;
-  files.emplace_back("mesh.cgns");
-  for (const std::string& format : options_.formats) files.push_back("mesh." + format);
+  for (const std::string& format : options_.formats) files.push_back(CyclePaths::mesh_name(format));
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   std::vector<std::string> lines;
@@ -92,15 +82,15 @@ void CycleFiles::finished(CycleRecord record, const std::vector<std::string>& no
   record.geometry_digest = options_.of_case.geometry_digest;
   record.case_digest = options_.of_case.case_digest;
   record.settings = options_.of_case.settings;
-  const std::string folder = folders_.under_way(record.cycle);
-  write_text(comm_, folder + "/log.txt", log_text(record, notes, warnings));
-  write_text(comm_, folder + "/record.json", json_text(record));
+  const CyclePaths paths{folders_.under_way(record.cycle)};
+  write_text(comm_, paths.log(), log_text(record, notes, warnings));
+  write_text(comm_, paths.record(), json_text(record));
   folders_.finish(record.cycle);
   told_(record, warnings);
 }
 
 std::string CycleFiles::place_of_solution(int cycle) const {
-  return folders_.under_way(cycle) + "/mesh.mesh";
+  return CyclePaths{folders_.under_way(cycle)}.native_mesh();
 }
 
 }  // namespace quadloop

@@ -11,15 +11,15 @@ namespace quadloop {
 
 /// Which files a cycle is to have, and what its record keeps of the case.
 struct CycleFileOptions {
-  std::vector<std::string> formats;         ///< suffixes of mesh files beside .mesh and .cgns
+  std::vector<std::string> formats;         ///< names of those that its mesh is written in
   std::vector<std::string> read_by_solver;  ///< names of further mesh files that are written, for warnings
   double gamma = 1.4;                       ///< ratio of specific heats, where a format wants it
   CycleRecord of_case;                      ///< its digests and settings alone count
 };
 
 /// Writes what the loop does to the run's folder, a folder for each cycle, put in place when it is whole:
-/// mesh.mesh (with the starting state as long as the solver runs), mesh.tree.h5, mesh.cgns, the other
-/// formats, log.txt, record.json.
+/// those of CyclePaths. The mesh in the program's own format is there, with the starting state, while the
+/// solver runs.
 class CycleFiles final : public CycleObserver {
  public:
   using Told = std::function<void(const CycleRecord&, const std::vector<std::string>& warnings)>;

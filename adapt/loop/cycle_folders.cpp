@@ -44,7 +44,9 @@ CycleFolders::CycleFolders(const Communicator& comm, std::string folder)
 std::string CycleFolders::whole(int cycle) const { return fmt::format("{}/cycle_{:02}", folder_, cycle); }
 
 void CycleFolders::lock() {
-  lock_ = open_descriptor(folder_, O_RDONLY | O_DIRECTORY);
+  const int raw = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (raw < 0) refuse_output(folder_, errno);
+  lock_ = Descriptor(raw);
   // Some file systems of networks have no such locks; a run without one is better than none.
   if (::flock(lock_.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   throw InputError(

@@ -14,16 +14,16 @@ namespace quadloop {
 /// What record.json keeps of a cycle.
 struct CycleRecord {
   int cycle = 0;
-  std::uint64_t case_digest = 0,
-                geometry_digest = 0;  ///< of all that the run depends on; of the outline alone
+  std::uint64_t case_digest = 0;      ///< of all that the run depends on
+  std::uint64_t geometry_digest = 0;  ///< of the outline alone
   CaseSettings settings;              ///< those that the cycle was made with
   std::int64_t nodes = 0, triangles = 0, quads = 0, leaves = 0;
   double worst_angle = 0;          ///< the smallest corner, degrees
   double mean = 0, deviation = 0;  ///< of log10 of the indicator
   std::int64_t refined = 0, coarsened = 0;
   std::int64_t outside = 0;  ///< nodes that the transfer found outside the old mesh
-  std::vector<std::pair<std::string, double>>
-      drift;  ///< of each variable's integral in the transfer into this cycle
+  /// How far each variable's integral drifted in the transfer into this cycle.
+  std::vector<std::pair<std::string, double>> drift;
   std::optional<double> cl, cd, residual;
   std::vector<std::pair<std::string, double>> seconds;
 };

@@ -4,11 +4,11 @@
 
 #include <filesystem>
 
+#include "adapt/loop/cycle_paths.hpp"
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
-#include "io/cgns/cgns_file.hpp"
 #include "io/files/input_file.hpp"
-#include "io/native/native_file.hpp"
+#include "io/mesh_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 
@@ -29,7 +29,7 @@ std::string text_of_record(const std::string& path, const std::string& folder) {
 }
 
 RecordedCase record_in(const std::string& folder) {
-  const std::string path = folder + "/record.json";
+  const std::string path = CyclePaths{folder}.record();
   const auto recorded = recorded_case(text_of_record(path, folder));
   if (!recorded) throw InputError(path + ": is no whole record of a cycle" + cure_of(folder));
   return *recorded;
@@ -42,27 +42,27 @@ RecordedCase record_in(const std::string& folder) {
     what = text_of(changes);
   else if (!same_geometry)
     what = "the outline in the files of geometry.file has changed";
-  throw InputError(folder + "/record.json: is of another case: " + what +
+  throw InputError(CyclePaths{folder}.record() + ": is of another case: " + what +
                    "; resume with the same, or take another folder");
 }
 
-/// The file for viewers must hold the same mesh.
-void require_cgns(const std::string& path, const Mesh& whole) {
-  const LoadedMesh loaded = read_cgns(path);
-  if (loaded.mesh.points.size() == whole.points.size() && loaded.solution) return;
+/// A further file of the mesh, for viewers.
+void require_copy(const std::string& path, std::int64_t nodes) {
+  const LoadedMesh loaded = read_mesh(path);
+  if (std::ssize(loaded.mesh.points) == nodes && loaded.solution) return;
   throw InputError(path + ": does not hold the mesh and the solution of the files beside it");
 }
 
 /// Throws InputError where a file is not whole. *Collective.*
-SolvedMesh read_cycle(const Communicator& comm, const std::string& folder) {
-  const std::string path = folder + "/mesh.mesh";
+SolvedMesh read_cycle(const Communicator& comm, const CyclePaths& paths) {
+  const std::string path = paths.native_mesh();
   LoadedMesh whole;
   comm.together([&] {
     if (!comm.is_root()) return;
-    whole = read_native(path);
+    whole = read_mesh(path);
     if (!whole.solution) throw InputError(path + ": holds no solution; a whole cycle has one");
   });
-  SolvedMesh solved = spread_solved(comm, whole, read_tree(comm, folder + "/mesh.tree.h5"));
+  SolvedMesh solved = spread_solved(comm, whole, read_tree(comm, paths.tree()));
   solved.file = path;
   return solved;
 }
@@ -90,10 +90,14 @@ std::vector<std::string> require_same_run(const Communicator& comm, const std::s
 
 SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folder) {
   try {
-    SolvedMesh solved = read_cycle(comm, folder);
-    require_untouched_mesh(comm, solved, folder + "/mesh.mesh", folder + "/mesh.tree.h5");
+    const CyclePaths paths{folder};
+    SolvedMesh solved = read_cycle(comm, paths);
+    require_untouched_mesh(comm, solved, paths.native_mesh(), paths.tree());
     comm.together([&] {
-      if (comm.is_root()) require_cgns(folder + "/mesh.cgns", read_native(folder + "/mesh.mesh").mesh);
+      if (!comm.is_root()) return;
+      for (const std::string& format : default_formats()) {
+        if (format != native_format().name) require_copy(paths.mesh(format), solved.tree.attributes.nodes);
+      }
     });
     return solved;
   } catch (const InputError& fault) {  // the same one on every rank

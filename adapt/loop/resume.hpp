@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adapt/loop/record.hpp"
-#include "adapt/remesh/plan.hpp"
+#include "adapt/remesh/solved_mesh.hpp"
 
 namespace quadloop {
 

@@ -1,11 +1,13 @@
 #include "adapt/loop/run_in_folder.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "adapt/loop/cycle_files.hpp"
 #include "adapt/loop/cycle_folders.hpp"
 #include "adapt/loop/resume.hpp"
 #include "flow/euler/euler_solver.hpp"
+#include "io/formats.hpp"
 
 namespace quadloop {
 
@@ -19,8 +21,17 @@ CycleRecord record_of_case(const AdaptiveCase& adaptive) {
   return record;
 }
 
+/// Those that every cycle has, then the others that the case names.
+std::vector<std::string> all_formats(const std::vector<std::string>& of_case) {
+  std::vector<std::string> formats = default_formats();
+  for (const std::string& format : of_case) {
+    if (std::ranges::find(formats, format) == formats.end()) formats.push_back(format);
+  }
+  return formats;
+}
+
 CycleFileOptions file_options(const AdaptiveCase& adaptive) {
-  CycleFileOptions options{adaptive.formats, {}, 1.4, record_of_case(adaptive)};
+  CycleFileOptions options{all_formats(adaptive.formats), {}, 1.4, record_of_case(adaptive)};
   if (const auto* command = std::get_if<CommandSolver>(&adaptive.solver)) {
     options.read_by_solver = {command->mesh};
     options.gamma = command->gamma;

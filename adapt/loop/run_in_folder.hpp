@@ -20,9 +20,8 @@ struct AdaptiveCase {
   MeshInput mesh;
   AdaptOptions adapt;
   ChosenSolver solver;
-  /// Suffixes of mesh files that each cycle is to have too, beside .mesh and .cgns.
-  std::vector<std::string> formats;
-  CaseSettings settings;  ///< all that the run's files depend on, beside the outline
+  std::vector<std::string> formats;  ///< of each cycle's mesh, beside those written by default
+  CaseSettings settings;             ///< all that the run's files depend on, beside the outline
 };
 
 /// What a run tells its caller, on every rank.

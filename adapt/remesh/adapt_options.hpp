@@ -11,11 +11,8 @@ namespace quadloop {
 
 /// What a case says of adaptation.
 struct AdaptOptions {
-  enum class Source {
-    variables,
-    size,
-    error
-  };  ///< what marks are made from: differences of variables, or a field that the solver wrote for it
+  /// What marks are made from: differences of variables, or a field that the solver wrote for it.
+  enum class Source { variables, size, error };
   enum class Threshold { deviation, fraction, nodes };  ///< how many leaves are marked
 
   int cycles = 5;  ///< adaptations; there is one more solve
@@ -25,8 +22,8 @@ struct AdaptOptions {
   Threshold threshold = Threshold::deviation;
   double refine = 1.0, coarsen = 0.5;     ///< deviations above and below the mean, or shares of the leaves
   std::optional<std::int64_t> max_nodes;  ///< a cap; the target for Threshold::nodes
-  std::optional<double>
-      min;  ///< leaf size that adaptation may reach, in the geometry's unit; none: that of the case
+  /// Leaf size that adaptation may reach, in the geometry's unit; none: that of the case.
+  std::optional<double> min;
 };
 
 }  // namespace quadloop

@@ -3,7 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "adapt/remesh/plan.hpp"
+#include "adapt/remesh/adapt_options.hpp"
+#include "adapt/remesh/solved_mesh.hpp"
 #include "adapt/sensor/ordered_values.hpp"
 #include "adapt/sensor/thresholds.hpp"
 

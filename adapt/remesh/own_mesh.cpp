@@ -21,7 +21,7 @@ std::vector<double> centres(const Mesh& mesh, double Point::*coordinate) {
     for (const auto& nodes : cells) {
       double sum = 0;
       for (const NodeId node : nodes) sum += mesh.point(node).*coordinate;
-      values.push_back(sum / static_cast<double>(nodes.size()));
+      values.push_back(sum / size32(nodes));
     }
   };
   append(mesh.triangles);
@@ -59,7 +59,7 @@ void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const 
   comm.together([&] {
     for (std::size_t i = 0; i < solved.tree.leaves.size(); ++i) {
       if (!has_cells(solved.tree.leaves[i])) continue;
-      const Quadrant q = place_of(solved.tree.leaves[i]);
+      const Quadrant q = quadrant_of(solved.tree.leaves[i]);
       const Box box = lattice.box_of(q);
       const double far = reach * lattice.edge(q.level);
       const bool near = left[i] > box.low.x - far && right[i] < box.high.x + far &&

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "adapt/remesh/plan.hpp"
+#include "adapt/remesh/solved_mesh.hpp"
 
 namespace quadloop {
 

@@ -1,7 +1,7 @@
 #include "adapt/remesh/remesh.hpp"
 
 #include "adapt/remesh/restart.hpp"
-#include "adapt/transfer/transfer.hpp"
+#include "io/loaded/loaded_mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
 namespace quadloop {

@@ -6,9 +6,10 @@
 
 #include "adapt/remesh/plan.hpp"
 #include "adapt/transfer/transfer.hpp"
-#include "io/loaded/loaded_mesh.hpp"
 
 namespace quadloop {
+
+struct LoadedMesh;
 
 /// The whole mesh on the root, its cells in the order of the tree's leaves, and its tree, spread over the
 /// ranks. *Collective.*

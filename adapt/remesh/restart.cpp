@@ -65,14 +65,14 @@ class LeafRun {
   };
   const MarkedLeaf& at(std::int64_t number) const { return leaves_[number - begin_]; }
 
-  std::int64_t first_,
-      begin_ = 0;  ///< numbers over all ranks of this rank's first leaf, and of the first here
+  /// Numbers over all ranks of this rank's first leaf, and of the first here.
+  std::int64_t first_, begin_ = 0;
   std::vector<MarkedLeaf> leaves_;
 };
 
 }  // namespace
 
-Quadrant place_of(const LeafRecord& leaf) {
+Quadrant quadrant_of(const LeafRecord& leaf) {
   return {(std::int64_t{leaf.tree_x} << Quadrant::unit_level) + leaf.x,
           (std::int64_t{leaf.tree_y} << Quadrant::unit_level) + leaf.y, leaf.level};
 }
@@ -80,7 +80,7 @@ Quadrant place_of(const LeafRecord& leaf) {
 std::vector<SplitDemand> adapted_splits(const TreeRecord& tree) {
   std::vector<SplitDemand> demands;
   for (const LeafRecord& leaf : tree.leaves) {
-    if (leaf.adapted != 0) demands.push_back({place_of(leaf), leaf.adapted});
+    if (leaf.adapted != 0) demands.push_back({quadrant_of(leaf), leaf.adapted});
   }
   return demands;
 }
@@ -89,7 +89,7 @@ std::vector<SplitDemand> wanted_splits(const TreeRecord& tree) {
   std::vector<SplitDemand> demands;
   for (const LeafRecord& leaf : tree.leaves) {
     const std::uint32_t above = leaf.wanted > 0 ? 1U << (leaf.wanted - 1) : 0U;
-    if ((leaf.adapted | above) != 0) demands.push_back({place_of(leaf), leaf.adapted | above});
+    if ((leaf.adapted | above) != 0) demands.push_back({quadrant_of(leaf), leaf.adapted | above});
   }
   return demands;
 }
@@ -109,7 +109,7 @@ ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, s
     const LeafRecord& leaf = tree.leaves[i];
     const bool goes_along = coarsens && marks[i] == Mark::keep &&
                             !has_cells(leaf);  // has no values to keep it for: its siblings say
-    own.push_back({place_of(leaf), leaf.adapted, goes_along ? Mark::coarsen : marks[i]});
+    own.push_back({quadrant_of(leaf), leaf.adapted, goes_along ? Mark::coarsen : marks[i]});
   }
   const LeafRun run(comm, own);
   ChangedSplits changed;
@@ -121,7 +121,7 @@ ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, s
       ++changed.refined;
     }
     const std::uint32_t parent = leaf.level > 0 ? 1U << (leaf.level - 1) : 0U;
-    if (mark == Mark::coarsen && (adapted & parent) != 0 && run.family_goes(static_cast<std::int64_t>(i))) {
+    if (mark == Mark::coarsen && (adapted & parent) != 0 && run.family_goes(i)) {
       levels &= ~parent;
       ++changed.coarsened;
     }

@@ -11,8 +11,8 @@
 
 namespace quadloop {
 
-/// A leaf's place among those of all trees.
-Quadrant place_of(const LeafRecord& leaf);
+/// The square of a leaf, among those of all trees.
+Quadrant quadrant_of(const LeafRecord& leaf);
 
 /// What adaptation has asked of this rank's share of a saved tree; with it, the same case and geometry give
 /// the same tree again.

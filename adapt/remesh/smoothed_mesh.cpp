@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "io/solution_file.hpp"
+#include "mesher/mesh/check/compare_meshes.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "smoother/objective/condition_number.hpp"
@@ -37,42 +36,41 @@ double squared_cost(const Mesh& mesh, const std::array<NodeId, width>& cell) {
 /// Nodes of one cell that have moved belong to one patch.
 class Patches {
  public:
-  Patches(const Mesh& mesh, const std::vector<char>& moved) : moved_{moved}, parent_(mesh.points.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+  Patches(const Mesh& mesh, const NodeFlags& moved) : moved_{moved}, parent_(mesh.points.size()) {
+    std::ranges::copy(parent_.ids(), parent_.begin());
     const auto join = [&](const auto& cell) {
-      const std::int32_t first = patch_of(cell);
+      const NodeId first = patch_of(cell);
       for (const NodeId node : cell) {
-        if (first >= 0 && has_moved(node)) parent_[index(root_of(node.value()))] = first;
+        if (first.valid() && has_moved(node)) parent_[root_of(node)] = first;
       }
     };
     std::ranges::for_each(mesh.triangles, join);
     std::ranges::for_each(mesh.quads, join);
   }
 
-  /// The patch that a cell belongs to; -1 where none of its nodes has moved.
-  std::int32_t patch_of(std::span<const NodeId> cell) {
+  /// The patch that a cell belongs to, by one of its nodes; none where none of the cell's has moved.
+  NodeId patch_of(std::span<const NodeId> cell) {
     const auto node = std::ranges::find_if(cell, [&](NodeId n) { return has_moved(n); });
-    return node == cell.end() ? -1 : root_of(node->value());
+    return node == cell.end() ? NodeId{} : root_of(*node);
   }
 
  private:
-  static std::size_t index(std::int32_t node) { return static_cast<std::size_t>(node); }
-  bool has_moved(NodeId node) const { return moved_[index(node.value())] != 0; }
-  std::int32_t root_of(std::int32_t node) {
-    while (parent_[index(node)] != node) node = parent_[index(node)] = parent_[index(parent_[index(node)])];
+  bool has_moved(NodeId node) const { return moved_[node] != 0; }
+  NodeId root_of(NodeId node) {
+    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
     return node;
   }
 
-  const std::vector<char>& moved_;
-  std::vector<std::int32_t> parent_;
+  const NodeFlags& moved_;
+  IdVector<NodeId, NodeId> parent_;
 };
 
-std::string cost_fault(const Mesh& before, const Mesh& found, const std::vector<char>& moved) {
+std::string cost_fault(const Mesh& before, const Mesh& found, const NodeFlags& moved) {
   Patches patches(before, moved);
-  std::vector<double> gain(before.points.size(), 0);
+  IdVector<NodeId, double> gain(before.points.size(), 0);
   const auto add = [&](const auto& cell) {
-    const std::int32_t patch = patches.patch_of(cell);
-    if (patch >= 0) gain[patch] += squared_cost(before, cell) - squared_cost(found, cell);
+    const NodeId patch = patches.patch_of(cell);
+    if (patch.valid()) gain[patch] += squared_cost(before, cell) - squared_cost(found, cell);
   };
   std::ranges::for_each(before.triangles, add);
   std::ranges::for_each(before.quads, add);
@@ -93,22 +91,23 @@ std::string flip_fault(const Mesh& before, const Mesh& found) {
   return largest_after > largest_before ? "its worst cell is worse" : "";
 }
 
-std::string boundary_fault(const Mesh& before, const Mesh& found, const std::vector<char>& moved,
+std::string boundary_fault(const Mesh& before, const Mesh& found, const NodeFlags& moved,
                            const Geometry* outline) {
   std::optional<OutlinePath> curves;
   for (const BoundaryEdges& boundary : before.boundaries) {
     for (const auto& edge : boundary.edges) {
-      const std::size_t node = edge[0].value();
+      const NodeId node = edge[0];
       if (moved[node] == 0) continue;
       if (outline != nullptr && !curves) curves.emplace(*outline);
       const double reach =
           curves ? std::max(curves->tolerance(),
-                            solution_tolerance * length(before.point(edge[1]) - before.point(edge[0])))
+                            same_place_tolerance * length(before.point(edge[1]) - before.point(edge[0])))
                  : 0;
       if (curves && curves->has(boundary.name) &&
-          std::isfinite(curves->distance(found.points[node], boundary.name, reach)))
+          std::isfinite(curves->distance(found.point(node), boundary.name, reach)))
         continue;
-      return fmt::format("node {} of the boundary '{}' lies off its outline", node + 1, boundary.name);
+      return fmt::format("node {} of the boundary '{}' lies off its outline", node.value() + 1,
+                         boundary.name);
     }
   }
   return {};
@@ -126,7 +125,7 @@ std::string fault_of_smoothed(const Mesh& before, const Mesh& found, const Geome
   if (!faults.empty())
     return fmt::format("it is invalid: {} at ({}, {})", faults.front().what, faults.front().place.x,
                        faults.front().place.y);
-  const std::vector<char> moved = nodes_elsewhere(found.points, before);
+  const NodeFlags moved = nodes_elsewhere(found.points, before);
   std::string fault = boundary_fault(before, judged, moved, outline);
   if (fault.empty()) fault = same_cells ? cost_fault(before, judged, moved) : flip_fault(before, judged);
   return fault;

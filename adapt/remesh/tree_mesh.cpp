@@ -12,6 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
 #include "mesher/generate/digests.hpp"
+#include "mesher/mesh/check/compare_meshes.hpp"
 #include "mesher/mesh/check/validate.hpp"
 
 namespace quadloop {
@@ -79,20 +80,14 @@ Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
   whole.triangles = cells_at_root(comm, mesh, mesh.triangles);
   whole.quads = cells_at_root(comm, mesh, mesh.quads);
   std::vector<NamedEdge> edges;
-  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
-    for (const auto& edge : mesh.boundaries[b].edges)
-      edges.push_back({static_cast<std::int64_t>(b), global_numbers(mesh, edge)});
+  for (std::int64_t b = 0; b < std::ssize(mesh.boundaries); ++b) {
+    for (const auto& edge : mesh.boundaries[b].edges) edges.push_back({b, global_numbers(mesh, edge)});
     whole.boundaries.push_back({mesh.boundaries[b].name, mesh.boundaries[b].condition, {}});
   }
   for (const NamedEdge& edge : gather_at_root(comm, edges))
     whole.boundaries[edge.boundary].edges.push_back(node_ids(edge.nodes));
   std::erase_if(whole.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   return whole;
-}
-
-LoadedSolution mesh_as_found(LoadedMesh& loaded, const std::string& path) {
-  const auto nodes = std::ssize(loaded.mesh.points);
-  return {path, {}, nodes, loaded.mesh.points, true, loaded.mesh.triangles, loaded.mesh.quads};
 }
 
 /// Cells alone: whether the file names the boundaries does not matter here.
@@ -135,7 +130,7 @@ TreeMesh mesh_of_tree(const Communicator& comm, const TreeRecord& tree, const Me
 
 void settle_mesh(const TreeMesh& of_tree, LoadedMesh& loaded, const std::string& path) {
   if (!of_tree.known) return require_valid_cells(loaded.mesh, path);
-  const std::string other = difference(mesh_as_found(loaded, path), of_tree.whole);
+  const std::string other = difference(loaded.mesh, of_tree.whole);
   if (other.empty()) {
     loaded.mesh = of_tree.whole;
     return;

@@ -30,7 +30,7 @@ std::vector<double> CellShare::bring(const Communicator& comm, std::span<const d
     const std::size_t r = rank;
     const std::int64_t from = std::clamp(first_wanted_[r], begin, end),
                        to = std::clamp(first_wanted_[r + 1], begin, end);
-    ranks.insert(ranks.end(), static_cast<std::size_t>(to - from), rank);
+    ranks.insert(ranks.end(), to - from, rank);
   }
   return Exchange(comm, ranks).deliver(held);
 }

@@ -37,7 +37,7 @@ double OrderedValues::kth_smallest(std::int64_t k) const {
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;
     const auto last = std::upper_bound(own_.begin(), own_.end(), std::bit_cast<double>(middle));
-    if (comm_->sum(static_cast<std::int64_t>(last - own_.begin())) >= k) {
+    if (comm_->sum(last - own_.begin()) >= k) {
       high = middle;
     } else {
       low = middle + 1;

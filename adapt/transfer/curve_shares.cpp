@@ -19,7 +19,7 @@ CurveShares::CurveShares(const Communicator& comm, std::span<const Point> in_gri
 /// Cuts at the quantiles of a sample: every so many-th point of all ranks.
 void CurveShares::set_splits(const Communicator& comm, std::span<const Point> points,
                              std::span<const Point> more) {
-  const auto own = static_cast<std::int64_t>(points.size() + more.size());
+  const std::int64_t own = points.size() + more.size();
   const std::int64_t before = comm.exclusive_sum(own),
                      step = std::max<std::int64_t>(1, comm.sum(own) / (samples_per_rank * comm.size()));
   std::vector<std::uint64_t> keys;

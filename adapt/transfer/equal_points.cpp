@@ -19,9 +19,9 @@ class PointTable {
  public:
   explicit PointTable(std::span<const Point> points)
       : points_{points}, slots_(std::bit_ceil(2 * points.size() + 1), -1) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::int32_t i = 0; i < std::ssize(points); ++i) {
       std::int32_t& slot = slot_of(points[i]);
-      if (slot < 0) slot = static_cast<std::int32_t>(i);
+      if (slot < 0) slot = i;
     }
   }
 

@@ -19,7 +19,7 @@ PointCells::PointCells(const Communicator& comm, const CurveGrid& grid, std::spa
   std::sort(keys.begin(), keys.end());
   const std::int64_t few = std::max(few_points, 4 * comm.sum(std::ssize(keys)) / most_cells);
   std::vector<Stretch> own;
-  split(keys, whole_grid, static_cast<std::size_t>(few), own);
+  split(keys, whole_grid, few, own);
   own = comm.all_gather_values(std::span<const Stretch>(own));
   std::sort(own.begin(), own.end(), [](const Stretch& a, const Stretch& b) {
     return a.first != b.first ? a.first < b.first : a.last > b.last;

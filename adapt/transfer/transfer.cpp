@@ -151,9 +151,7 @@ void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Fi
   }
   answers = questions.answer(answers, width);
   for (std::size_t i = 0; i < rows.outside.size(); ++i) {
-    std::copy_n(
-        answers.begin() + static_cast<std::ptrdiff_t>(i * width), width,
-        rows.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(rows.outside[i]) * width));
+    std::copy_n(answers.begin() + (i * width), width, rows.values.begin() + (rows.outside[i] * width));
   }
 }
 

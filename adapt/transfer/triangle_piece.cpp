@@ -22,19 +22,19 @@ std::vector<std::vector<CellTriangle>> triangles_by_rank(const Communicator& com
 }
 
 /// Numbers the nodes of some triangles in the order in which they appear; the numbers that they had.
-std::vector<NodeId> renumber(std::vector<CellTriangle>& triangles, std::vector<std::int32_t>& place_of) {
+std::vector<NodeId> renumber(std::vector<CellTriangle>& triangles, IdVector<NodeId, NodeId>& new_id_of) {
   std::vector<NodeId> nodes;
   for (CellTriangle& triangle : triangles) {
     for (NodeId& node : triangle.nodes) {
-      std::int32_t& place = place_of[node.value()];
-      if (place < 0) {
-        place = size32(nodes);
+      NodeId& new_id = new_id_of[node];
+      if (!new_id.valid()) {
+        new_id = NodeId{size32(nodes)};
         nodes.push_back(node);
       }
-      node = NodeId{place};
+      node = new_id;
     }
   }
-  for (const NodeId node : nodes) place_of[node.value()] = -1;
+  for (const NodeId node : nodes) new_id_of[node] = {};
   return nodes;
 }
 
@@ -46,10 +46,10 @@ TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, 
   std::vector<Point> points;
   std::vector<double> values;
   std::vector<int> cell_ranks, node_ranks;
-  std::vector<std::int32_t> place_of(mesh.points.size(), -1);
+  IdVector<NodeId, NodeId> new_id_of(mesh.points.size());
   int rank = 0;
   for (std::vector<CellTriangle>& of_rank : triangles_by_rank(comm, shares, mesh, triangles)) {
-    for (const NodeId node : renumber(of_rank, place_of)) {
+    for (const NodeId node : renumber(of_rank, new_id_of)) {
       points.push_back(mesh.point(node));
       const auto row = field.row(node);
       values.insert(values.end(), row.begin(), row.end());

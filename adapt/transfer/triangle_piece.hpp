@@ -11,12 +11,12 @@ namespace quadloop {
 
 /// Triangles of any ranks, with nodes of their own numbering.
 struct TrianglePiece {
-  std::vector<Point> points;
+  IdVector<NodeId, Point> points;
   Field field;
   std::vector<CellTriangle> triangles;
 
   std::array<Point, 3> corners(const CellTriangle& triangle) const {
-    const auto at = [&](std::size_t k) { return points[triangle.nodes[k].value()]; };
+    const auto at = [&](std::size_t k) { return points[triangle.nodes[k]]; };
     return {at(0), at(1), at(2)};
   }
 };

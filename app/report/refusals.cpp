@@ -33,7 +33,7 @@ Point worst_place(const Mesh& mesh) {
     const double cost = cell_cost(corners, ideal_targets<width>());
     if (cost <= worst) return;
     worst = cost;
-    place = 1.0 / static_cast<double>(width) * sum;
+    place = 1.0 / size32(nodes) * sum;
   };
   for (const auto& nodes : mesh.triangles) look_at(nodes);
   for (const auto& nodes : mesh.quads) look_at(nodes);

@@ -32,9 +32,8 @@ std::string vanished_text(const std::vector<std::string>& boundaries) {
   const std::size_t named = std::min(most_named, boundaries.size());
   const std::string more =
       named < boundaries.size() ? fmt::format(" and {} more", boundaries.size() - named) : "";
-  return fmt::format(
-      "  boundaries that vanished, smaller than spacing.min: {}{}\n",
-      fmt::join(boundaries.begin(), boundaries.begin() + static_cast<std::ptrdiff_t>(named), ", "), more);
+  return fmt::format("  boundaries that vanished, smaller than spacing.min: {}{}\n",
+                     fmt::join(boundaries.begin(), boundaries.begin() + named, ", "), more);
 }
 
 }  // namespace
@@ -51,8 +50,7 @@ std::vector<StageRow> stage_rows(const Communicator& comm, const StageSeconds& s
   }
   std::vector<StageRow> rows;
   for (const auto& [stage, sum] : of_rank) {
-    const auto microseconds =
-        static_cast<std::int64_t>(std::llround(sum * 1e6));  // there is no floating-point sum, on purpose
+    const auto microseconds = std::llround(sum * 1e6);  // there is no floating-point sum, on purpose
     rows.push_back(
         {stage, comm.maximum(sum), static_cast<double>(comm.sum(microseconds)) / 1e6 / comm.size()});
   }

@@ -23,7 +23,7 @@ Values values_of(const SolverFiles& files) {
           {"cycle", std::to_string(files.cycle)}};
 }
 
-bool of_a_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool of_a_name(unsigned char c) { return std::isalnum(c) != 0 || c == '_'; }
 
 /// The name that `text` begins with where it begins with {name}; empty where it does not.
 std::string_view braced_name(std::string_view text) {

@@ -12,50 +12,22 @@ namespace {
 
 // Open MPI 4 (found by comparing the environments inside and outside of mpirun) and 5, then PMI launchers:
 // MPICH, Intel MPI, MVAPICH, Slurm, Cray.
-constexpr std::array launcher_prefixes{
-    std::string_view("OMPI_COMM_WORLD_"),
-    std::string_view("OMPI_APP_CTX_"),
-    std::string_view("OMPI_MCA_orte_"),
-    std::string_view("OMPI_MCA_ess"),
-    std::string_view("OMPI_MCA_shmem_RUNTIME_"),
-    std::string_view("OMPI_MCA_rmaps_ppr_"),
-    std::string_view("OPAL_"),
-    std::string_view("ORTE_"),
-    std::string_view("PMIX_"),
-    std::string_view("PRTE_"),
-    std::string_view("PMI_"),
-    std::string_view("PMI2_"),
-    std::string_view("HYDI_"),
-    std::string_view("MV2_COMM_WORLD_"),
-    std::string_view("PALS_"),
-};
+constexpr auto launcher_prefixes =
+    std::to_array<std::string_view>({"OMPI_COMM_WORLD_", "OMPI_APP_CTX_", "OMPI_MCA_orte_", "OMPI_MCA_ess",
+                                     "OMPI_MCA_shmem_RUNTIME_", "OMPI_MCA_rmaps_ppr_", "OPAL_", "ORTE_",
+                                     "PMIX_", "PRTE_", "PMI_", "PMI2_", "HYDI_", "MV2_COMM_WORLD_", "PALS_"});
 
-constexpr std::array launcher_variables{
-    std::string_view("OMPI_ARGV"),
-    std::string_view("OMPI_COMMAND"),
-    std::string_view("OMPI_FILE_LOCATION"),
-    std::string_view("OMPI_FIRST_RANKS"),
-    std::string_view("OMPI_NUM_APP_CTX"),
-    std::string_view("OMPI_UNIVERSE_SIZE"),
-    std::string_view("OMPI_MCA_initial_wdir"),
-    std::string_view("OMPI_MCA_mpi_oversubscribe"),
-    std::string_view("OMPI_MCA_pmix"),
-    std::string_view("OMPI_MCA_rmaps_base_mapping_policy"),
-    std::string_view("OMPI_MCA_rmaps_base_ranking_policy"),
-    std::string_view("PMIX_MCA_mca_base_component_show_load_errors"),
-    std::string_view("MPI_LOCALRANKID"),
-    std::string_view("MPI_LOCALNRANKS"),
-};
+constexpr auto launcher_variables = std::to_array<std::string_view>(
+    {"OMPI_ARGV", "OMPI_COMMAND", "OMPI_FILE_LOCATION", "OMPI_FIRST_RANKS", "OMPI_NUM_APP_CTX",
+     "OMPI_UNIVERSE_SIZE", "OMPI_MCA_initial_wdir", "OMPI_MCA_mpi_oversubscribe", "OMPI_MCA_pmix",
+     "OMPI_MCA_rmaps_base_mapping_policy", "OMPI_MCA_rmaps_base_ranking_policy",
+     "PMIX_MCA_mca_base_component_show_load_errors", "MPI_LOCALRANKID", "MPI_LOCALNRANKS"});
 
 // What MPI_Init itself sets. A user's value for the same variable is another one.
 constexpr std::string_view set_by_mpi_init = "PMIX_MCA_psec=native";
 
 // Settings of a user among the prefixes above.
-constexpr std::array user_prefixes{
-    std::string_view("PMIX_MCA_"),
-    std::string_view("PRTE_MCA_"),
-    std::string_view("OPAL_PREFIX"),
-};
+constexpr auto user_prefixes = std::to_array<std::string_view>({"PMIX_MCA_", "PRTE_MCA_", "OPAL_PREFIX"});
 
 template <class Prefixes>
 bool starts_with_any(std::string_view variable, const Prefixes& prefixes) {

@@ -15,20 +15,20 @@ std::string end_of_file(const std::string& path) {
   if (!file) return {};
   const std::streamoff size = file.tellg();
   file.seekg(std::max<std::streamoff>(0, size - most_bytes));
-  std::string bytes(static_cast<std::size_t>(std::min(size, most_bytes)), '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::string bytes(std::min(size, most_bytes), '\0');
+  file.read(bytes.data(), bytes.size());
   bytes.resize(file.gcount());
   return bytes;
 }
 
 bool says_something(const std::string& line) {
   return std::any_of(line.begin(), line.end(), [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
+    const unsigned char byte = c;
     return std::isalnum(byte) != 0 || byte >= 0x80U;  // above ASCII: part of a letter in UTF-8
   });
 }
 
-bool inside_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }  // UTF-8
+bool inside_character(char byte) { return (byte & 0xC0U) == 0x80U; }  // UTF-8
 
 std::string shown(std::string line, std::size_t length) {
   const std::string blanks = " \t";
@@ -40,7 +40,7 @@ std::string shown(std::string line, std::size_t length) {
     line = line.substr(0, end) + "...";
   }
   for (char& c : line) {
-    const auto byte = static_cast<unsigned char>(c);
+    const unsigned char byte = c;
     if (c == '\t')
       c = ' ';
     else if (byte < 0x20U || byte == 0x7FU)

@@ -1,22 +1,20 @@
 #include "flow/euler/colouring.hpp"
 
-#include <numeric>
+#include <algorithm>
 
 namespace quadloop::euler {
 
 Colouring colour_edges(const Communicator& comm, const DualMesh& mesh) {
-  std::vector<std::vector<std::int32_t>> neighbours(mesh.owned_nodes());
+  std::vector<std::vector<NodeId>> neighbours(mesh.owned_nodes());
   for (const DualEdge& edge : mesh.edges()) {
-    if (mesh.is_owned(edge.low)) neighbours[edge.low].push_back(edge.high);
-    if (mesh.is_owned(edge.high)) neighbours[edge.high].push_back(edge.low);
+    if (mesh.is_owned(edge.low)) neighbours[edge.low].push_back(NodeId{edge.high});
+    if (mesh.is_owned(edge.high)) neighbours[edge.high].push_back(NodeId{edge.low});
   }
-  std::vector<std::int32_t> owned(neighbours.size());
-  std::iota(owned.begin(), owned.end(), 0);
-  return colour_nodes(
-      comm, mesh.exchange(), mesh.nodes(), [&](std::int32_t node) { return mesh.global(node); }, owned,
-      [&](std::size_t node, const auto& visit) {
-        for (const std::int32_t other : neighbours[node]) visit(other);
-      });
+  std::vector<NodeId> owned;
+  std::ranges::copy(ids_below(NodeId{mesh.owned_nodes()}), std::back_inserter(owned));
+  return colour_nodes(comm, mesh.halo(), owned, [&](std::size_t node, const auto& visit) {
+    std::ranges::for_each(neighbours[node], visit);
+  });
 }
 
 }  // namespace quadloop::euler

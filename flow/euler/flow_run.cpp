@@ -44,20 +44,20 @@ void report(const FlowRun& run, const EulerResult& result, double cfl, bool at_e
 
 std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes) {
   double worst = -1;
-  std::int64_t at = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+  std::int64_t at = none;
   for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
     double size = std::abs(fluxes[node][0]);
     if (!std::isfinite(size)) size = std::numeric_limits<double>::infinity();
     if (size <= worst) continue;
     worst = size;
-    at = run.mesh.global(node);
+    at = run.mesh.global(node).value();
   }
-  if (worst < run.comm.maximum(worst)) at = std::numeric_limits<std::int64_t>::max();
-  at = run.comm.minimum(at);
+  at = run.comm.minimum(worst < run.comm.maximum(worst) ? none : at);
   constexpr double nowhere = -std::numeric_limits<double>::infinity();
   std::array<double, 6> told{nowhere, nowhere, nowhere, nowhere, nowhere, nowhere};
   for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
-    if (run.mesh.global(node) != at) continue;
+    if (run.mesh.global(node) != GlobalNodeId{at}) continue;
     const State& state = run.states[node];
     told = {run.mesh.point(node).x, run.mesh.point(node).y, state[0], state[1], state[2], state[3]};
   }

@@ -54,7 +54,7 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
 }
 
 void ImplicitSystem::lay_out() {
-  const auto colour = [&](std::int32_t node) { return colours_.colour_of[node]; };
+  const auto colour = [&](std::int32_t node) { return colours_.colour_of[NodeId{node}]; };
   row_nodes_.resize(mesh_.owned_nodes());
   std::iota(row_nodes_.begin(), row_nodes_.end(), 0);
   std::stable_sort(row_nodes_.begin(), row_nodes_.end(),
@@ -62,7 +62,7 @@ void ImplicitSystem::lay_out() {
   for (int c = 0; c <= colours_.count; ++c) {
     const auto first = std::partition_point(row_nodes_.begin(), row_nodes_.end(),
                                             [&](std::int32_t node) { return colour(node) < c; });
-    colour_starts_.push_back(static_cast<std::size_t>(first - row_nodes_.begin()));
+    colour_starts_.push_back(first - row_nodes_.begin());
   }
   std::vector<std::size_t> next(
       row_nodes_.size(),
@@ -102,7 +102,7 @@ void ImplicitSystem::add_edges(const std::vector<State>& states) {
   const auto edges = mesh_.edges();
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const DualEdge& edge = edges[e];
-    const auto low = static_cast<std::size_t>(edge.low), high = static_cast<std::size_t>(edge.high);
+    const std::size_t low = edge.low, high = edge.high;
     Matrix4 upwind{};
     const double half = 0.5 * edge.size, speed = add_upwind_matrix(model_.gas, states[low], states[high],
                                                                    edge.normal, half, upwind, skewness_[e]);
@@ -156,9 +156,9 @@ void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::v
     for (int step = sweep == 0 ? 0 : 1; step < colours_.count;
          ++step) {  // the sweep before ended with the colour that this one would begin with
       const int colour = sweep % 2 == 0 ? step : colours_.count - 1 - step;
-      relax_rows(colour_starts_[colour], colour_starts_[static_cast<std::size_t>(colour) + 1], residual,
-                 change);
-      mesh_.exchange().update(change, [&](std::int32_t node) { return colours_.colour_of[node] == colour; });
+      relax_rows(colour_starts_[colour], colour_starts_[colour + 1], residual, change);
+      mesh_.exchange().update(change,
+                              [&](std::int32_t node) { return colours_.colour_of[NodeId{node}] == colour; });
     }
   }
 }

@@ -30,10 +30,9 @@ class ImplicitSystem {
 
  private:
   using Block = std::array<float, 16>;  ///< column by column
+  /// An edge's blocks in the rows of its nodes; -1 where another rank has the row.
   struct Slots {
-    std::int32_t in_low = -1,
-                 in_high =
-                     -1;  ///< the edge's blocks in the rows of its nodes; -1 where another rank has the row
+    std::int32_t in_low = -1, in_high = -1;
   };
   void lay_out();
   void add_edges(const std::vector<State>& states);
@@ -55,8 +54,8 @@ class ImplicitSystem {
   std::vector<Block> inverses_;    ///< of each owned node's diagonal block
   std::vector<double> skewness_;  ///< of each edge: how large what SkewEdge adds to its flux may be, in units
                                   ///< of the flux along the edge
-  std::vector<double>
-      wave_sums_;  ///< of each node: half the sum of largest wave speed times size over its faces
+  /// Of each node: half the sum of largest wave speed times size over its faces.
+  std::vector<double> wave_sums_;
 };
 
 }  // namespace quadloop::euler

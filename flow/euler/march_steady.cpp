@@ -15,16 +15,16 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr int sweeps =
-    40;  ///< of a step's linear system: fewer leave waves in a far field of many cells long under way
+/// Of a step's linear system: fewer leave waves in a far field of many cells long under way.
+constexpr int sweeps = 40;
 constexpr double largest_cfl = 1000;    ///< first-order matrices do not bear out more
 constexpr double growth = 0.75;         ///< the CFL number grows as the residual falls, to this power
 constexpr double largest_share = 0.25;  ///< of its density or pressure that a node may gain or lose in a step
 constexpr double blown_up = 1000;       ///< a relative residual that no sound start reaches
 constexpr double exploding = 20;        ///< one that hardly any sound start reaches
 constexpr int most_retries = 8;         ///< after a flow blew up
-constexpr int most_returns =
-    8;  ///< after the residual rose: a flow that has no steady state may swing as it likes then
+/// After the residual rose: a flow that has no steady state may swing as it likes then.
+constexpr int most_returns = 8;
 
 /// The change, made smaller where it would take too much of a node's density or pressure.
 State updated(const Gas& gas, const State& state, const Change& change) {

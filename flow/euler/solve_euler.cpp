@@ -26,13 +26,13 @@ std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, cons
     const Field given = selected(start, flow_names(), "the starting state");
     QUADLOOP_REQUIRE(given.values.size() == 4 * owned, "a row for each owned node");
     for (std::size_t node = 0; node < owned; ++node)
-      std::copy_n(given.values.begin() + static_cast<std::ptrdiff_t>(4 * node), 4, states[node].begin());
+      std::copy_n(given.values.begin() + 4 * node, 4, states[node].begin());
   } else if (options.initial == EulerOptions::Initial::vortex) {
     const Point centre =
         options.vortex_centre ? *options.vortex_centre : box_over_ranks(comm, mesh.points).centre();
     const Vortex vortex{model.gas, model.free_stream, centre, options.reference_length};
-    for (std::size_t node = 0; node < owned; ++node)
-      states[node] = vortex.state(dual.point(static_cast<std::int32_t>(node)), 0);
+    for (std::int32_t node = 0; node < dual.owned_nodes(); ++node)
+      states[node] = vortex.state(dual.point(node), 0);
   }
   return states;
 }

@@ -14,8 +14,8 @@ struct EulerResult {
   double residual = 0;    ///< root mean square of the nodes' net mass fluxes, relative to the larger of the
                           ///< start's and the uniform free stream's
   double cl = 0, cd = 0;  ///< over all boundaries with the condition "wall", in wind axes
-  int kept_iteration =
-      0;  ///< the step whose flow this is: the last, or that of the best residual where it rose again
+  /// The step whose flow this is: the last, or that of the best residual where it rose again.
+  int kept_iteration = 0;
   double last_residual = 0;  ///< after the last step
   bool stalled = false;      ///< the residual did not halve in the second half of the steps
   bool converged = false;    ///< steady: the tolerance is met; accurate: the end time is reached
@@ -25,8 +25,8 @@ struct EulerResult {
 /// Solves the two-dimensional Euler equations on a mesh of triangles and quadrilaterals. The flow starts
 /// from `start`, which has a row for each owned node; without variables, as the options say. The result has
 /// the same bits on any number of ranks. Throws InputError for a mesh or options that it cannot use, or a
-/// start in which variable() does not find euler_names,
-/// SolverError, with the place, where the flow cannot be kept physical. *Collective.*
+/// start in which variable() does not find euler_names, SolverError, with the place, where the flow cannot be
+/// kept physical. *Collective.*
 EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
                         const Field& start = {});
 

@@ -8,8 +8,8 @@ namespace {
 
 constexpr int patience = 4, longer_patience = 40;  ///< turns in a row before the share falls; where it is
                                                    ///< small already: then the node is slow
-constexpr float turned_back =
-    -0.8F;  ///< a change counts as a turn where it takes back that much of the one before
+/// A change counts as a turn where it takes back that much of the one before.
+constexpr float turned_back = -0.8F;
 constexpr double fall = 0.5, rise = 1.02, small = 0.03, least = 1e-3;
 
 float product(const Change& a, const Change& b) {

@@ -31,7 +31,7 @@ constexpr std::array<std::pair<const char*, int>, 5> conditions{{{"wall", BCWall
 /// Cut at a character, not inside one of several bytes (UTF-8).
 std::string shortened(const std::string& name, std::size_t length) {
   if (name.size() <= length) return name;
-  while (length > 0 && (static_cast<unsigned char>(name[length]) & 0xC0U) == 0x80U) --length;
+  while (length > 0 && (name[length] & 0xC0U) == 0x80U) --length;
   return name.substr(0, length);
 }
 

@@ -4,6 +4,7 @@
 
 #include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
 
 namespace quadloop {
 
@@ -86,7 +87,7 @@ CgnsNodes::Node CgnsNodes::add_integers(const Node& parent, const std::string& n
 
 CgnsNodes::Array CgnsNodes::add_array(const Node& parent, const std::string& name, const char* label,
                                       std::int64_t count) const {
-  const auto size = static_cast<hsize_t>(count);
+  const hsize_t size = count;
   return {*this, dataset(group(parent, name, label, "I4"), file_type<std::int32_t>(), std::span(&size, 1))};
 }
 
@@ -130,8 +131,7 @@ void CgnsNodes::put_text_attribute(const Node& node, const char* name, const Hdf
 Hdf5Handle CgnsNodes::dataset(const Node& node, hid_t file_type, std::span<const hsize_t> size) const {
   hsize_t count = 1;
   for (const hsize_t length : size) count *= length;
-  const Hdf5Handle space =
-      checked(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
+  const Hdf5Handle space = checked(H5Screate_simple(size32(size), size.data(), nullptr), H5Sclose);
   const hid_t creation = count <= largest_small_data ? small_data_.id() : large_data_.id();
   return checked(H5Dcreate2(node.id(), data_name, file_type, space.id(), H5P_DEFAULT, creation, H5P_DEFAULT),
                  H5Dclose);

@@ -27,9 +27,9 @@ using Name = std::array<char, 33>;
 class CgnsBoundaries {
  public:
   BoundaryEdges& named(Mesh& mesh, const std::string& name, const std::string& condition) {
-    const auto [place, is_new] = names_.place_of(name);
+    const auto [number, is_new] = names_.entry_of(name);
     if (is_new) mesh.boundaries.push_back({name, condition, {}});
-    return mesh.boundaries[place];
+    return mesh.boundaries[number];
   }
 
   std::string condition_of_family(const File& file, int base, const std::string& family) {
@@ -55,8 +55,8 @@ class CgnsBoundaries {
   }
 
   NameIndex names_;
-  std::optional<std::unordered_map<std::string, std::string>>
-      families_;  ///< to conditions, once they are asked for
+  /// To conditions, once they are asked for.
+  std::optional<std::unordered_map<std::string, std::string>> families_;
 };
 
 /// Reads one zone into the mesh; nodes are numbered after those that are already there.
@@ -94,7 +94,7 @@ class ZoneReader {
     nodes_ = size[0];
     if (nodes_ < 1) refuse("it is said to have " + std::to_string(nodes_) + " nodes");
     first_node_ = loaded_.mesh.points.size();
-    if (first_node_ + static_cast<std::size_t>(nodes_) > std::numeric_limits<std::int32_t>::max())
+    if (first_node_ + nodes_ > std::numeric_limits<std::int32_t>::max())
       refuse("too many nodes for one rank");
   }
 
@@ -126,7 +126,7 @@ class ZoneReader {
       refuse("an element names node " + std::to_string(number) + ", which is none of 1 to " +
              std::to_string(nodes_));
     }
-    return NodeId{static_cast<std::int32_t>(first_node_ + static_cast<std::size_t>(number) - 1)};
+    return NodeId{static_cast<std::int32_t>(first_node_ + number - 1)};
   }
 
   template <std::size_t width>
@@ -186,7 +186,7 @@ class ZoneReader {
     const std::size_t width = width_of(type);
     for (std::size_t i = 0; i + width <= data.size(); i += width)
       add_element(type, element++, data.data() + i);
-    return static_cast<std::int64_t>(data.size() / width);
+    return data.size() / width;
   }
 
   /// Each element is its type, then its nodes. Where each begins follows from that: the file's own offsets,
@@ -302,7 +302,7 @@ class ZoneReader {
     const std::size_t width = fields;
     if (first_node_ > 0 && result.names.size() != width)
       refuse("its solution has other variables than the first zone's");
-    result.values.resize((first_node_ + static_cast<std::size_t>(nodes_)) * width);
+    result.values.resize((first_node_ + nodes_) * width);
     std::vector<double> column(nodes_);
     for (int f = 1; f <= fields; ++f) {
       Name name{};
@@ -313,7 +313,7 @@ class ZoneReader {
                                 column.data()));
       if (first_node_ == 0) result.names.push_back(variable_name_of_cgns(name.data()));
       for (std::size_t i = 0; i < column.size(); ++i)
-        result.values[(first_node_ + i) * width + static_cast<std::size_t>(f) - 1] = column[i];
+        result.values[(first_node_ + i) * width + f - 1] = column[i];
     }
   }
 

@@ -222,8 +222,7 @@ class CgnsWriter {
     rows.run<double>(
         [&](std::int64_t begin, std::int64_t end) {
           const auto values = solution.values.begin();
-          const auto step = static_cast<std::int64_t>(width);
-          return std::vector<double>(values + begin * step, values + end * step);
+          return std::vector<double>(values + begin * width, values + end * width);
         },
         [&](std::span<const double> values) { sink_->put_solution(values, names); });
   }
@@ -280,7 +279,7 @@ class CgnsWriter {
     const RowStream stream{comm_, std::ssize(rows), rows_per_piece};
     stream.run<cgsize_t>(
         [&](std::int64_t begin, std::int64_t end) {
-          std::vector<cgsize_t> nodes(static_cast<std::size_t>(end - begin) * width);
+          std::vector<cgsize_t> nodes((end - begin) * width);
           auto out = nodes.begin();
           for (const auto& row : rows.subspan(begin, end - begin)) {
             for (const NodeId node : row) *out++ = static_cast<cgsize_t>(mesh_.global(node).value() + 1);

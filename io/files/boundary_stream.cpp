@@ -16,10 +16,10 @@ constexpr std::int64_t edges_per_piece = std::int64_t{1}
 BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh) : comm_{comm}, mesh_{mesh} {
   std::vector<Share> own;
   own_before_.push_back(0);
-  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
-    const auto count = static_cast<std::int64_t>(mesh.boundaries[b].edges.size());
+  for (std::int64_t b = 0; b < std::ssize(mesh.boundaries); ++b) {
+    const std::int64_t count = std::ssize(mesh.boundaries[b].edges);
     own_before_.push_back(own_before_.back() + count);
-    if (count > 0) own.push_back({static_cast<std::int64_t>(b), comm.rank(), count});
+    if (count > 0) own.push_back({b, comm.rank(), count});
   }
   std::vector<Share> all = comm.all_gather_values(std::span<const Share>(own));
   std::stable_sort(all.begin(), all.end(),
@@ -76,9 +76,7 @@ std::vector<BoundaryStream::Edge> BoundaryStream::own_piece(std::int64_t first) 
   const std::int64_t end = std::min(own_before_.back(), first + edges_per_piece);
   std::vector<Edge> piece;
   piece.reserve(end - first);
-  auto b = static_cast<std::size_t>(std::upper_bound(own_before_.begin(), own_before_.end(), first) -
-                                    own_before_.begin()) -
-           1;
+  std::size_t b = std::upper_bound(own_before_.begin(), own_before_.end(), first) - own_before_.begin() - 1;
   for (std::int64_t at = first; at < end; ++b) {
     const std::int64_t stop = std::min(end, own_before_[b + 1]);
     for (; at < stop; ++at) {

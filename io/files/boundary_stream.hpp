@@ -25,9 +25,9 @@ class BoundaryStream {
   std::int64_t all_edges() const { return all_edges_; }
   /// The boundaries that have edges on any rank, in their order; and how many.
   const std::vector<const BoundaryEdges*>& present() const { return present_; }
-  std::int64_t edges_of(std::size_t place) const { return edges_[place]; }
+  std::int64_t edges_of(std::size_t index) const { return edges_[index]; }
 
-  /// On rank 0, for each boundary that has edges, `begin(n)` with its place in present(), then
+  /// On rank 0, for each boundary that has edges, `begin(n)` with its index in present(), then
   /// `put(std::span<const Edge>)` for each piece of it. *Collective*; what either throws ends on every rank,
   /// and nobody hangs.
   template <class Begin, class Put>
@@ -60,17 +60,16 @@ class BoundaryStream {
     std::vector<Incoming> incoming = all_incoming();
     std::exception_ptr failure;
     try {
-      std::int64_t boundary = -1, place = -1;
+      std::int64_t boundary = -1, index = -1;
       for (const Share& share : shares_) {
-        if (share.boundary != boundary) begin(static_cast<std::size_t>(++place));
+        if (share.boundary != boundary) begin(++index);
         boundary = share.boundary;
         take_share(share, incoming[share.rank], put);
       }
     } catch (...) {
       failure = std::current_exception();
     }
-    for (std::size_t rank = 0; rank < incoming.size(); ++rank)
-      receive_rest(static_cast<int>(rank), incoming[rank]);
+    for (int rank = 0; rank < comm_.size(); ++rank) receive_rest(rank, incoming[rank]);
     if (failure) std::rethrow_exception(failure);
   }
 
@@ -78,10 +77,10 @@ class BoundaryStream {
   void take_share(const Share& share, Incoming& from, const Put& put) const {
     for (std::int64_t left = share.edges; left > 0;) {
       if (from.taken == from.piece.size()) ask_for_next(static_cast<int>(share.rank), from);
-      const std::size_t count = std::min(static_cast<std::size_t>(left), from.piece.size() - from.taken);
+      const std::size_t count = std::min<std::size_t>(left, from.piece.size() - from.taken);
       put(std::span<const Edge>(from.piece).subspan(from.taken, count));
       from.taken += count;
-      left -= static_cast<std::int64_t>(count);
+      left -= count;
     }
   }
 
@@ -95,8 +94,8 @@ class BoundaryStream {
   const Mesh& mesh_;
   std::vector<const BoundaryEdges*> present_;
   std::vector<std::int64_t> edges_;  ///< of each of them, over all ranks
-  std::vector<std::int64_t>
-      own_before_;  ///< this rank's edges of the boundaries before each; the last entry is all of them
+  /// This rank's edges of the boundaries before each; the last entry is all of them.
+  std::vector<std::int64_t> own_before_;
   std::vector<Share> shares_;  ///< on rank 0: by boundary, then rank
   std::int64_t all_edges_ = 0;
 };

@@ -4,16 +4,12 @@
 // and of cgns_nodes; libcgns keeps its own.
 #include <hdf5.h>
 
-#include <array>
 #include <charconv>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
-
-#include "mesher/base/error.hpp"
-#include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop {
 
@@ -107,43 +103,6 @@ hid_t file_type() {
   if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_STD_U32LE;
   if constexpr (std::is_same_v<T, std::int64_t>) return H5T_STD_I64LE;
   if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_STD_U64LE;
-}
-
-inline constexpr const char* tree_format_name = "quadloop tree";
-inline constexpr std::int32_t tree_format_version = 1;
-/// Edge of a tree in the integer lattice, and the deepest level that it can express.
-inline constexpr std::int32_t tree_lattice_edge = std::int32_t{1} << 30;
-inline constexpr int deepest_tree_level = 30;
-
-/// Calls `visit(name, member reference)` for each number among the attributes, in the order of the file.
-template <class Attributes, class Visit>
-void for_each_attribute(Attributes& attributes, const Visit& visit) {
-  visit("root_x", attributes.root_x);
-  visit("root_y", attributes.root_y);
-  visit("tree_edge", attributes.tree_edge);
-  visit("trees_x", attributes.trees_x);
-  visit("trees_y", attributes.trees_y);
-  visit("gradation", attributes.gradation);
-  visit("geometry_digest", attributes.geometry_digest);
-  visit("case_digest", attributes.case_digest);
-  visit("nodes", attributes.nodes);
-  visit("triangles", attributes.triangles);
-  visit("quads", attributes.quads);
-  visit("coordinate_digest", attributes.coordinate_digest);
-}
-
-/// Calls `visit(name, pointers to the members that make one row)` for each dataset, in the order of the file.
-template <class Visit>
-void for_each_tree_dataset(const Visit& visit) {
-  visit("tree", std::array{&LeafRecord::tree_x, &LeafRecord::tree_y});
-  visit("x", std::array{&LeafRecord::x});
-  visit("y", std::array{&LeafRecord::y});
-  visit("level", std::array{&LeafRecord::level});
-  visit("wanted", std::array{&LeafRecord::wanted});
-  visit("mark", std::array{&LeafRecord::mark});
-  visit("triangles", std::array{&LeafRecord::triangles});
-  visit("quads", std::array{&LeafRecord::quads});
-  visit("adapted", std::array{&LeafRecord::adapted});
 }
 
 }  // namespace quadloop

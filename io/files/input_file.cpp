@@ -39,7 +39,7 @@ class Descriptor {
   std::size_t read(char* into, std::size_t size, const std::string& path) const {
     for (;;) {
       const ssize_t got = ::read(number_, into, size);
-      if (got >= 0) return static_cast<std::size_t>(got);
+      if (got >= 0) return got;
       if (errno != EINTR)
         throw InputError(path + ": cannot be read to its end (" + std::strerror(errno) + ")");
     }

@@ -42,7 +42,7 @@ rlim_t size_of_file(const std::string& path) {
   require_input_file(path);
   struct stat about {};
   if (::stat(path.c_str(), &about) != 0) throw InputError(path + ": cannot be read: " + std::strerror(errno));
-  return static_cast<rlim_t>(about.st_size);
+  return about.st_size;
 }
 
 /// Bytes of memory that this process may write to, as RLIMIT_DATA counts them.
@@ -50,7 +50,7 @@ rlim_t own_data() {
   std::ifstream file("/proc/self/statm");
   std::array<rlim_t, 6> pages{};
   for (rlim_t& number : pages) file >> number;
-  return file ? pages[5] * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) : 0;
+  return file ? pages[5] * ::sysconf(_SC_PAGESIZE) : 0;
 }
 
 void limit(int what, rlim_t value) {

@@ -35,8 +35,7 @@ std::string beginning() {
 
 std::string random_letters() {
   std::uint64_t number = 0;
-  if (::getrandom(&number, sizeof number, 0) != static_cast<ssize_t>(sizeof number))
-    number = static_cast<std::uint64_t>(::getpid());
+  if (::getrandom(&number, sizeof number, 0) != static_cast<ssize_t>(sizeof number)) number = ::getpid();
   return fmt::format("{:016x}", number);
 }
 

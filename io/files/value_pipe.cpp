@@ -36,7 +36,7 @@ void PipeWriter::write_out(const char* from, std::size_t size) {
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return;
     from += written;
-    size -= static_cast<std::size_t>(written);
+    size -= written;
   }
 }
 
@@ -61,10 +61,10 @@ void PipeReader::bytes(void* to, std::size_t size) {
     if (length <= 0) throw PipeEnded();
     if (direct) {
       out += length;
-      size -= static_cast<std::size_t>(length);
+      size -= length;
     } else {
       begin_ = 0;
-      end_ = static_cast<std::size_t>(length);
+      end_ = length;
     }
   }
 }

@@ -109,4 +109,12 @@ void pass(Pipe& pipe, T& value) {
   }
 }
 
+/// One after another.
+template <class Pipe, class First, class Second, class... More>
+void pass(Pipe& pipe, First& first, Second& second, More&... more) {
+  pass(pipe, first);
+  pass(pipe, second);
+  (pass(pipe, more), ...);
+}
+
 }  // namespace quadloop

@@ -160,7 +160,7 @@ std::vector<Chain> read_ogr(const std::string& path, std::vector<std::string>& w
   CPLErrorReset();
   std::vector<Chain> in_degrees;
   for (OGRLayer* layer : data->GetLayers()) {
-    const auto before = static_cast<std::ptrdiff_t>(chains.size());
+    const auto before = std::ssize(chains);
     read_layer(*layer, path, collector);
     if (is_in_degrees(*layer)) in_degrees.insert(in_degrees.end(), chains.begin() + before, chains.end());
   }

@@ -154,11 +154,11 @@ std::size_t second_surface(const std::vector<Point>& rows) {
 /// From the trailing edge over the upper side to the leading edge and back along the lower one, as Selig has
 /// it.
 std::vector<Point> around(const std::vector<Point>& rows, std::size_t upper) {
-  std::vector<Point> points(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(upper));
+  std::vector<Point> points(rows.begin(), rows.begin() + upper);
   std::reverse(points.begin(), points.end());
   const std::size_t skip =
       upper < rows.size() && rows[upper] == rows.front() ? 1 : 0;  // the leading edge stands in both lists
-  points.insert(points.end(), rows.begin() + static_cast<std::ptrdiff_t>(upper + skip), rows.end());
+  points.insert(points.end(), rows.begin() + (upper + skip), rows.end());
   return points;
 }
 

@@ -84,7 +84,7 @@ toml::node* step_down(toml::node& node, const std::string& part, const std::stri
     if (fault == std::errc{} && stop == part.data() + part.size() && index < list->size())
       return list->get(index);
     throw InputError(fmt::format("{}: '{}' is not a number from 0 to {}, which is what picks one of a list",
-                                 place, part, static_cast<std::int64_t>(list->size()) - 1));
+                                 place, part, std::ssize(*list) - 1));
   }
   toml::table* table = node.as_table();
   if (table == nullptr)

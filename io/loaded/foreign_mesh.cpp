@@ -37,28 +37,28 @@ std::vector<char> repeated(const std::vector<Row>& rows, const NodesOf& nodes_of
     std::sort(keys.back().first.begin(), keys.back().first.end());
   }
   std::sort(keys.begin(), keys.end());
-  std::vector<char> marks(rows.size(), 0);
+  std::vector<char> is_repeated(rows.size(), 0);
   for (std::size_t k = 1; k < keys.size(); ++k)
-    marks[keys[k].second] = keys[k].first == keys[k - 1].first ? 1 : 0;
-  return marks;
+    is_repeated[keys[k].second] = keys[k].first == keys[k - 1].first ? 1 : 0;
+  return is_repeated;
 }
 
-/// Takes the marked rows out; the number of them.
+/// Takes the flagged rows out; the number of them.
 template <class Rows>
-std::int64_t drop(Rows& rows, const std::vector<char>& marks) {
+std::int64_t drop(Rows& rows, const std::vector<char>& flags) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (marks[i] == 0) rows[kept++] = rows[i];
+    if (flags[i] == 0) rows[kept++] = rows[i];
   }
   rows.resize(kept);
-  return static_cast<std::int64_t>(marks.size() - kept);
+  return flags.size() - kept;
 }
 
 template <class Cells>
 std::int64_t drop_repeated_cells(Cells& cells, std::vector<std::int32_t>& cell_to_block) {
-  const std::vector<char> marks = repeated(cells, [](const auto& nodes) { return nodes; });
-  drop(cell_to_block, marks);
-  return drop(cells, marks);
+  const std::vector<char> is_repeated = repeated(cells, [](const auto& nodes) { return nodes; });
+  drop(cell_to_block, is_repeated);
+  return drop(cells, is_repeated);
 }
 
 std::int32_t block_of(const LoadedMesh& loaded, std::int32_t cell) {
@@ -73,14 +73,14 @@ void drop_empty_blocks(LoadedMesh& loaded) {
   for (const auto* cell_to_block : {&loaded.triangle_to_block, &loaded.quad_to_block}) {
     for (const std::int32_t block : *cell_to_block) new_number[block] = 0;
   }
-  std::size_t kept = 0;
+  std::int32_t kept = 0;
   for (std::size_t block = 0; block < new_number.size(); ++block) {
     if (new_number[block] < 0) continue;
-    new_number[block] = static_cast<std::int32_t>(kept);
+    new_number[block] = kept;
     std::swap(loaded.block_names[kept++], loaded.block_names[block]);
   }
   loaded.block_names.resize(kept);
-  loaded.blocks = static_cast<std::int32_t>(kept);
+  loaded.blocks = kept;
   for (auto* cell_to_block : {&loaded.triangle_to_block, &loaded.quad_to_block}) {
     for (std::int32_t& block : *cell_to_block) block = new_number[block];
   }
@@ -128,13 +128,13 @@ void add_outer_boundary(Mesh& mesh) {
 }  // namespace
 
 std::int32_t ForeignMesh::boundary_named(const std::string& name) {
-  const auto [number, is_new] = boundary_names.place_of(name);
+  const auto [number, is_new] = boundary_names.entry_of(name);
   if (is_new) loaded.mesh.boundaries.push_back({name, "none", {}});
   return number;
 }
 
 std::int32_t ForeignMesh::block_named(const std::string& name) {
-  const auto [number, is_new] = block_names.place_of(name);
+  const auto [number, is_new] = block_names.entry_of(name);
   if (is_new) loaded.block_names.push_back(name);
   return number;
 }
@@ -152,20 +152,20 @@ void drop_repeated(ForeignMesh& foreign, const std::string& path) {
 
 void drop_unused_nodes(ForeignMesh& foreign, const std::string& path) {
   Mesh& mesh = foreign.loaded.mesh;
-  std::vector<std::int32_t> new_number(mesh.points.size(), -1);
-  const auto mark = [&](NodeId& node) { new_number[node.value()] = 0; };
-  const auto renumber = [&](NodeId& node) { node = NodeId{new_number[node.value()]}; };
+  IdVector<NodeId, NodeId> new_id(mesh.points.size());
+  const auto note_used = [&](NodeId& node) { new_id[node] = node; };
+  const auto renumber = [&](NodeId& node) { node = new_id[node]; };
   const auto for_each_node = [&](const auto& visit) {
     for (auto& nodes : mesh.triangles) std::for_each(nodes.begin(), nodes.end(), visit);
     for (auto& nodes : mesh.quads) std::for_each(nodes.begin(), nodes.end(), visit);
     for (ForeignEdge& edge : foreign.edges) std::for_each(edge.nodes.begin(), edge.nodes.end(), visit);
   };
-  for_each_node(mark);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < new_number.size(); ++i) {
-    if (new_number[i] < 0) continue;
-    new_number[i] = static_cast<std::int32_t>(kept);
-    mesh.points[kept++] = mesh.points[i];
+  for_each_node(note_used);
+  std::int32_t kept = 0;
+  for (const NodeId node : new_id.ids()) {
+    if (!new_id[node].valid()) continue;
+    new_id[node] = NodeId{kept};
+    mesh.points[kept++] = mesh.point(node);
   }
   const std::size_t dropped = mesh.points.size() - kept;
   if (dropped == 0) return;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +14,9 @@ namespace quadloop {
 struct LoadedSolution {
   std::string path;
   Field solution;
-  std::int64_t nodes = 0;     ///< rows of the solution
-  std::vector<Point> points;  ///< empty where the file has no coordinates
-  bool has_cells = false;
-  std::vector<std::array<NodeId, 3>> triangles;
-  std::vector<std::array<NodeId, 4>> quads;
+  std::int64_t nodes = 0;          ///< rows of the solution
+  std::optional<LoadedMesh> mesh;  ///< the file's, its solution taken out; none in a table of values alone
+  std::vector<Point> points;       ///< of such a table, where it has coordinates
 };
 
 }  // namespace quadloop

@@ -20,12 +20,12 @@ class Pieces {
     std::iota(parents_.begin(), parents_.end(), std::size_t{0});
   }
 
-  struct Place {
+  struct Member {
     std::size_t root;
     bool opposed;  ///< whether the cell has to be turned where the root is not
   };
 
-  Place place_of(std::size_t cell) {
+  Member member_of(std::size_t cell) {
     bool opposed = false;
     while (parents_[cell] != cell) {
       const std::size_t parent = parents_[cell];
@@ -40,7 +40,7 @@ class Pieces {
   /// Says that exactly one of two cells has to be turned (`opposed`), or both or none. Where that contradicts
   /// what was said before, the piece is torn.
   void join(std::size_t first, std::size_t second, bool opposed) {
-    Place a = place_of(first), b = place_of(second);
+    Member a = member_of(first), b = member_of(second);
     const bool roots_opposed = (a.opposed != b.opposed) != opposed;
     if (a.root == b.root) {
       if (roots_opposed) torn_[a.root] = 1;
@@ -89,9 +89,7 @@ Pieces pieces_of(const Mesh& mesh) {
   for (auto first = sides.begin(); first != sides.end();) {
     const auto end =
         std::find_if(first, sides.end(), [&](const Side& side) { return !side.same_edge(*first); });
-    if (end - first == 2)
-      pieces.join(static_cast<std::size_t>(first[0].cell), static_cast<std::size_t>(first[1].cell),
-                  first[0].rising == first[1].rising);
+    if (end - first == 2) pieces.join(first[0].cell, first[1].cell, first[0].rising == first[1].rising);
     first = end;
   }
   return pieces;
@@ -118,7 +116,7 @@ void for_each_cell(AnyMesh& mesh, const Visit& visit) {
 std::vector<double> areas_of(const Mesh& mesh, Pieces& pieces) {
   std::vector<double> areas(mesh.triangles.size() + mesh.quads.size(), 0);
   for_each_cell(mesh, [&](const auto& nodes, std::size_t cell) {
-    const auto [root, opposed] = pieces.place_of(cell);
+    const auto [root, opposed] = pieces.member_of(cell);
     const double area = twice_area(mesh, nodes);
     areas[root] += opposed ? -area : area;
   });
@@ -132,7 +130,7 @@ std::int64_t orient_cells(Mesh& mesh) {
   const std::vector<double> areas = areas_of(mesh, pieces);
   std::int64_t turned = 0;
   for_each_cell(mesh, [&](auto& nodes, std::size_t cell) {
-    const auto [root, opposed] = pieces.place_of(cell);
+    const auto [root, opposed] = pieces.member_of(cell);
     const double area = opposed ? -areas[root] : areas[root];
     if (!(area < 0) || pieces.is_torn(root)) return;  // an area that is no number turns nothing
     std::reverse(nodes.begin() + 1, nodes.end());

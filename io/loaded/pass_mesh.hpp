@@ -7,37 +7,24 @@ namespace quadloop {
 
 template <class Pipe>
 void pass_fields(Pipe& pipe, BoundaryEdges& boundary) {
-  pass(pipe, boundary.name);
-  pass(pipe, boundary.condition);
-  pass(pipe, boundary.edges);
+  pass(pipe, boundary.name, boundary.condition, boundary.edges);
 }
 
 /// A whole mesh: without copies of other ranks' nodes.
 template <class Pipe>
 void pass_fields(Pipe& pipe, Mesh& mesh) {
-  pass(pipe, mesh.points);
-  pass(pipe, mesh.owned_nodes);
-  pass(pipe, mesh.triangles);
-  pass(pipe, mesh.quads);
-  pass(pipe, mesh.boundaries);
+  pass(pipe, mesh.points, mesh.owned_nodes, mesh.triangles, mesh.quads, mesh.boundaries);
 }
 
 template <class Pipe>
 void pass_fields(Pipe& pipe, Field& solution) {
-  pass(pipe, solution.constants);
-  pass(pipe, solution.names);
-  pass(pipe, solution.values);
+  pass(pipe, solution.constants, solution.names, solution.values);
 }
 
 template <class Pipe>
 void pass_fields(Pipe& pipe, LoadedMesh& loaded) {
-  pass(pipe, loaded.mesh);
-  pass(pipe, loaded.blocks);
-  pass(pipe, loaded.triangle_to_block);
-  pass(pipe, loaded.quad_to_block);
-  pass(pipe, loaded.block_names);
-  pass(pipe, loaded.solution);
-  pass(pipe, loaded.warnings);
+  pass(pipe, loaded.mesh, loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block, loaded.block_names,
+       loaded.solution, loaded.warnings);
 }
 
 }  // namespace quadloop

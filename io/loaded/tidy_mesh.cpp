@@ -11,8 +11,6 @@ namespace quadloop {
 
 namespace {
 
-std::size_t index_of(NodeId node) { return static_cast<std::size_t>(node.value()); }
-
 /// Calls `visit(node)` for the nodes of all cells, and of all boundary edges.
 template <class Visit>
 void for_each_named_node(Mesh& mesh, const Visit& visit) {
@@ -26,29 +24,27 @@ void for_each_named_node(Mesh& mesh, const Visit& visit) {
 void move_row(Field& solution, std::size_t from, std::size_t to) {
   const std::size_t width = solution.names.size();
   if (from != to)
-    std::copy_n(solution.values.begin() + static_cast<std::ptrdiff_t>(from * width), width,
-                solution.values.begin() + static_cast<std::ptrdiff_t>(to * width));
+    std::copy_n(solution.values.begin() + from * width, width, solution.values.begin() + to * width);
 }
 
 /// A node that a boundary edge alone names is kept: that edge is a fault, not the node.
 std::size_t drop_unused_nodes(LoadedMesh& loaded) {
   Mesh& mesh = loaded.mesh;
-  std::vector<std::int32_t> new_number(mesh.points.size(), -1);
-  for_each_named_node(mesh, [&](NodeId& node) { new_number[index_of(node)] = 0; });
+  IdVector<NodeId, NodeId> new_id(mesh.points.size());
+  for_each_named_node(mesh, [&](NodeId& node) { new_id[node] = node; });
   std::int32_t kept = 0;
-  for (std::size_t i = 0; i < new_number.size(); ++i) {
-    if (new_number[i] < 0) continue;
-    mesh.points[kept] = mesh.points[i];
-    if (loaded.solution) move_row(*loaded.solution, i, static_cast<std::size_t>(kept));
-    new_number[i] = kept++;
+  for (const NodeId node : new_id.ids()) {
+    if (!new_id[node].valid()) continue;
+    mesh.points[kept] = mesh.point(node);
+    if (loaded.solution) move_row(*loaded.solution, node.value(), kept);
+    new_id[node] = NodeId{kept++};
   }
-  const std::size_t dropped = mesh.points.size() - static_cast<std::size_t>(kept);
+  const std::size_t dropped = mesh.points.size() - kept;
   if (dropped == 0) return 0;
-  for_each_named_node(mesh, [&](NodeId& node) { node = NodeId{new_number[index_of(node)]}; });
+  for_each_named_node(mesh, [&](NodeId& node) { node = new_id[node]; });
   mesh.points.resize(kept);
   mesh.owned_nodes = kept;
-  if (loaded.solution)
-    loaded.solution->values.resize(static_cast<std::size_t>(kept) * loaded.solution->names.size());
+  if (loaded.solution) loaded.solution->values.resize(kept * loaded.solution->names.size());
   return dropped;
 }
 

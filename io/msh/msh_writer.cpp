@@ -34,9 +34,7 @@ class MshWriter {
  private:
   std::int64_t total(const auto& rows) const { return comm_.sum(std::ssize(rows)); }
   std::int32_t blocks() const { return whole_ != nullptr ? whole_->blocks : 1; }
-  std::int64_t surface(std::int32_t block) const {
-    return static_cast<std::int64_t>(boundaries_.present().size()) + 1 + block;
-  }
+  std::int64_t surface(std::int32_t block) const { return std::ssize(boundaries_.present()) + 1 + block; }
   std::string block_name(std::int32_t block) const {
     const std::size_t b = block;
     if (whole_ != nullptr && b < whole_->block_names.size()) return whole_->block_names[b];
@@ -55,8 +53,8 @@ class MshWriter {
 
   void write_nodes() {
     file_.write("$Nodes\n" + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\n");
-    file_.write_rows(mesh_.owned_nodes, 4, [&](TextRows& text, std::size_t i) {
-      text.put(mesh_.first_node + static_cast<std::int64_t>(i) + 1, ' ');
+    file_.write_rows(mesh_.owned_nodes, 4, [&](TextRows& text, std::int64_t i) {
+      text.put(mesh_.first_node + i + 1, ' ');
       text.put(mesh_.points[i].x, ' ');
       text.put(mesh_.points[i].y, ' ');
       text.put(0, '\n');
@@ -88,8 +86,8 @@ class MshWriter {
     std::int64_t number = next_element_;
     file_.write_boundaries(
         boundaries_, 7, [](std::size_t) { return std::string(); },
-        [&](TextRows& text, std::size_t n, const BoundaryStream::Edge& edge) {
-          put_head(text, number++, msh_line, static_cast<std::int64_t>(n) + 1);
+        [&](TextRows& text, std::int64_t n, const BoundaryStream::Edge& edge) {
+          put_head(text, number++, msh_line, n + 1);
           text.put(edge[0] + 1, ' ');
           text.put(edge[1] + 1, '\n');
         });
@@ -110,8 +108,8 @@ class MshWriter {
     const auto own = std::ssize(rows);
     const std::int64_t number = next_element_ + comm_.exclusive_sum(own);
     next_element_ += comm_.sum(own);
-    file_.write_rows(rows.size(), 5 + width, [&](TextRows& text, std::size_t i) {
-      put_head(text, number + static_cast<std::int64_t>(i), type, group);
+    file_.write_rows(rows.size(), 5 + width, [&](TextRows& text, std::int64_t i) {
+      put_head(text, number + i, type, group);
       for (std::size_t k = 0; k < width; ++k)
         text.put(mesh_.global(rows[i][k]).value() + 1, k + 1 < width ? ' ' : '\n');
     });

@@ -84,11 +84,11 @@ class NativeReader {
     if (name.empty()) name = std::string("boundary_").append(std::to_string(number));
     read_rows("edges of boundary " + std::to_string(number) + " (" + name + ")", edges);
     auto& boundaries = loaded_.mesh.boundaries;
-    const auto [place, is_new] = boundary_names_.place_of(name);
+    const auto [index, is_new] = boundary_names_.entry_of(name);
     if (is_new) {
       boundaries.push_back({name, "none", std::move(edges)});
     } else {
-      auto& same = boundaries[place].edges;
+      auto& same = boundaries[index].edges;
       same.insert(same.end(), edges.begin(), edges.end());
     }
   }

@@ -90,7 +90,7 @@ std::size_t column_of(const LoadedMesh& loaded, const std::string& field) {
                      "': the file holds no solution; plot it without --field");
   const std::vector<std::string>& names = loaded.solution->names;
   const auto found = std::find(names.begin(), names.end(), field);
-  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  if (found != names.end()) return found - names.begin();
   std::string there;
   for (const std::string& name : names) there += (there.empty() ? "" : ", ") + name;
   throw InputError("there is no field '" + field + "'; there are: " + there + guess_for(field, names));
@@ -105,9 +105,8 @@ CellPaint paint_field(const LoadedMesh& loaded, const std::vector<std::size_t>& 
   for (const std::size_t cell : cells) {
     double sum = 0;
     const std::span<const NodeId> nodes = cell_nodes(loaded.mesh, cell);
-    for (const NodeId node : nodes)
-      sum += loaded.solution->values[static_cast<std::size_t>(node.value()) * columns + column];
-    values.push_back(sum / static_cast<double>(nodes.size()));
+    for (const NodeId node : nodes) sum += loaded.solution->values[node.value() * columns + column];
+    values.push_back(sum / size32(nodes));
     if (!std::isfinite(values.back())) continue;
     bar.low = std::min(bar.low, values.back());
     bar.high = std::max(bar.high, values.back());

@@ -169,7 +169,7 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, Colour ink
 void MeshPainter::stroke_boundary(const BoundaryEdges& boundary, Colour colour) {
   double along = 0;
   for (const auto& [a, b] : boundary.edges) along += view_.scale() * length(mesh_.point(b) - mesh_.point(a));
-  const double width = std::clamp(1.0 + along / (4 * static_cast<double>(boundary.edges.size())), 1.7, 2.6);
+  const double width = std::clamp(1.0 + along / (4.0 * size32(boundary.edges)), 1.7, 2.6);
   for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
     add_line(boundary.edges[i][0], boundary.edges[i][1]);
     if ((i + 1) % batch == 0 || i + 1 == boundary.edges.size()) canvas_.stroke(colour, 1, width);

@@ -125,7 +125,7 @@ class Su2CsvReader {
 
   /// Each row to the place that its PointID tells.
   void sort_rows() {
-    const auto rows = static_cast<std::size_t>(loaded_.nodes), width = variables_.size();
+    const std::size_t rows = loaded_.nodes, width = variables_.size();
     std::vector<std::size_t> row_of(rows, rows);
     for (std::size_t row = 0; row < rows; ++row) {
       const double id = ids_[row];

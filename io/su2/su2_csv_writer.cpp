@@ -44,8 +44,8 @@ std::string column_name(std::string name) {
 /// Which columns a solution makes: SU2's four conservative variables in front where it has them or what they
 /// follow from, then all others as they are.
 struct CsvTable {
-  std::optional<Columns>
-      made_from;  ///< density, velocity and pressure, of which the first four columns are computed
+  /// Density, velocity and pressure, of which the first four columns are computed.
+  std::optional<Columns> made_from;
   std::vector<std::size_t> as_they_are;
   std::vector<std::string> names;
 
@@ -88,9 +88,9 @@ void write_su2_csv(OutputSet& outputs, const Mesh& mesh, const std::string& path
   TextOutput file(outputs, path);
   file.write(header + "\n");
   const std::size_t width = solution.names.size();
-  file.write_rows(mesh.owned_nodes, 3 + table.names.size(), [&](TextRows& text, std::size_t i) {
+  file.write_rows(mesh.owned_nodes, 3 + table.names.size(), [&](TextRows& text, std::int64_t i) {
     const double* row = solution.values.data() + i * width;
-    text.put(mesh.first_node + static_cast<std::int64_t>(i), ',');
+    text.put(mesh.first_node + i, ',');
     text.put(mesh.points[i].x, ',');
     text.put(mesh.points[i].y, table.names.empty() ? '\n' : ',');
     std::size_t left = table.names.size();

@@ -14,7 +14,7 @@ std::string marker_name(const std::string& name) {
   std::string result = name.empty() ? "_" : name;
   for (char& c : result) {
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'), digit = c >= '0' && c <= '9';
-    const bool above_ascii = (static_cast<unsigned char>(c) & 0x80U) != 0;  // part of a letter in UTF-8
+    const bool above_ascii = (c & 0x80U) != 0;  // part of a letter in UTF-8
     if (!letter && !digit && !above_ascii && std::string_view("_-.+").find(c) == std::string_view::npos)
       c = '_';
   }
@@ -43,19 +43,19 @@ class Su2Writer {
   template <std::size_t width>
   void write_elements(int type, std::span<const std::array<NodeId, width>> rows, std::int64_t first) {
     const std::int64_t number = first + comm_.exclusive_sum(std::ssize(rows));
-    file_.write_rows(rows.size(), width + 2, [&](TextRows& text, std::size_t i) {
+    file_.write_rows(rows.size(), width + 2, [&](TextRows& text, std::int64_t i) {
       text.put(type, ' ');
       for (const NodeId node : rows[i]) text.put(mesh_.global(node).value(), ' ');
-      text.put(number + static_cast<std::int64_t>(i), '\n');
+      text.put(number + i, '\n');
     });
   }
 
   void write_points() {
     file_.write("NPOIN= " + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\n");
-    file_.write_rows(mesh_.owned_nodes, 3, [&](TextRows& text, std::size_t i) {
+    file_.write_rows(mesh_.owned_nodes, 3, [&](TextRows& text, std::int64_t i) {
       text.put(mesh_.points[i].x, ' ');
       text.put(mesh_.points[i].y, ' ');
-      text.put(mesh_.first_node + static_cast<std::int64_t>(i), '\n');
+      text.put(mesh_.first_node + i, '\n');
     });
   }
 

@@ -15,11 +15,11 @@ namespace quadloop {
 class NameIndex {
  public:
   /// The name's number; `is_new` where it is asked for the first time.
-  struct Place {
+  struct Entry {
     std::int32_t number;
     bool is_new;
   };
-  Place place_of(const std::string& name) {
+  Entry entry_of(const std::string& name) {
     const auto [found, added] = numbers_.try_emplace(name, size32(numbers_));
     return {found->second, added};
   }

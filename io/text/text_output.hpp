@@ -20,15 +20,14 @@ class TextRows {
   static constexpr std::size_t longest_number =
       25;  // with the blank or line end after it: -1.7976931348623157e+308
 
-  TextRows(std::int64_t rows, std::size_t width)
-      : text_(static_cast<std::size_t>(rows) * width * longest_number) {}
+  TextRows(std::int64_t rows, std::size_t width) : text_(rows * width * longest_number) {}
 
   template <class Number>
   void put(Number value, char after) {
     char* const begin = text_.data() + used_;
     char* const end = std::to_chars(begin, begin + longest_number, value).ptr;
     *end = after;
-    used_ += static_cast<std::size_t>(end - begin) + 1;
+    used_ += end - begin + 1;
   }
   std::vector<char> take() {
     text_.resize(used_);
@@ -54,12 +53,12 @@ class TextOutput {
   /// The ranks' rows in the order of ranks, in bounded pieces: `put(text, i)` puts at most `width` numbers
   /// for this rank's row i.
   template <class Put>
-  void write_rows(std::size_t rows, std::size_t width, const Put& put) {
-    const RowStream stream{comm_, static_cast<std::int64_t>(rows), rows_per_piece};
+  void write_rows(std::int64_t rows, std::size_t width, const Put& put) {
+    const RowStream stream{comm_, rows, rows_per_piece};
     stream.run<char>(
         [&](std::int64_t begin, std::int64_t end) {
           TextRows text(end - begin, width);
-          for (std::int64_t i = begin; i < end; ++i) put(text, static_cast<std::size_t>(i));
+          for (std::int64_t i = begin; i < end; ++i) put(text, i);
           return text.take();
         },
         [&](std::span<const char> text) {

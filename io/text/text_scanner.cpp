@@ -21,7 +21,7 @@ constexpr std::size_t longest_quote = 40;  // of a wrong token, in a message
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 const char* end_of_line(const char* at, const char* end) {
-  const void* const found = std::memchr(at, '\n', static_cast<std::size_t>(end - at));
+  const void* const found = std::memchr(at, '\n', end - at);
   return found == nullptr ? end : static_cast<const char*>(found);
 }
 
@@ -78,7 +78,7 @@ std::string_view TextScanner::token(std::string_view expected) {
   token_ = at_;
   while (at_ != end_ && !is_blank(*at_)) ++at_;
   if (token_ == at_) refuse("the file ends where " + std::string(expected) + " should follow");
-  return {token_, static_cast<std::size_t>(at_ - token_)};
+  return {token_, at_};
 }
 
 std::int64_t TextScanner::integer(std::string_view expected) {
@@ -132,11 +132,11 @@ std::string_view TextScanner::rest_of_line() {
     if (*at_ == comment_ && is_blank(at_[-1])) break;
     last = at_ + 1;
   }
-  return {token_, static_cast<std::size_t>(last - token_)};
+  return {token_, last};
 }
 
 std::string_view TextScanner::last_comment_with(std::string_view text) const {
-  const std::string_view passed(comments_begin_, static_cast<std::size_t>(at_ - comments_begin_));
+  const std::string_view passed(comments_begin_, at_);
   for (std::size_t hash = passed.rfind(comment_); hash != std::string_view::npos;
        hash = passed.rfind(comment_, hash - 1)) {
     const std::string_view comment = passed.substr(hash, passed.find_first_of("\r\n", hash) - hash);

@@ -28,7 +28,7 @@ class TextScanner {
   /// A number of rows of `width` tokens each, checked against what the file can still hold, so that a wrong
   /// one is not taken as a size of memory. `of` names the rows.
   std::size_t count(const std::string& of, std::size_t width);
-  std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
+  std::size_t bytes_left() const { return end_ - at_; }
 
   /// Whether only blanks and a comment are left on this line; the line is not left.
   bool at_line_end();
@@ -37,7 +37,7 @@ class TextScanner {
 
   /// Places are offsets in the whole text. place() is where the token read last begins.
   std::string_view text() const { return text_; }
-  std::size_t place() const { return static_cast<std::size_t>(token_ - text_.data()); }
+  std::size_t place() const { return token_ - text_.data(); }
   void go_to(std::size_t place) { at_ = token_ = comments_begin_ = text_.data() + place; }
 
   /// The comment passed over last that contains `text`, since the last forget_comments(); empty where there

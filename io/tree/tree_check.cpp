@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "io/files/hdf5_handle.hpp"
+#include "io/tree/tree_layout.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -33,31 +34,30 @@ std::string fault_of(const LeafRecord& leaf, const TreeAttributes& attributes) {
     return fmt::format("is coarser than its wanted level {}", leaf.wanted);
   if ((std::uint64_t{leaf.adapted} >> leaf.level) != 0)
     return fmt::format("has splits below itself ('adapted' is {:#x})", leaf.adapted);
-  if (leaf.mark < 0 || leaf.triangles < 0 || leaf.quads < 0) return "has a mark or a number of cells below 0";
-  if (leaf.mark == 0 && leaf.triangles + std::int64_t{leaf.quads} > 0)
+  if (leaf.block < 0 || leaf.triangles < 0 || leaf.quads < 0)
+    return "has a mark or a number of cells below 0";
+  if (leaf.block == 0 && leaf.triangles + std::int64_t{leaf.quads} > 0)
     return "is outside the domain, but has cells";
   return {};
 }
 
 /// Along the curve within a tree: bits of y and x in turn.
-std::int64_t place_on_curve(const LeafRecord& leaf) {
-  std::int64_t place = 0;
+std::int64_t curve_key(const LeafRecord& leaf) {
+  std::int64_t key = 0;
   for (int bit = deepest_tree_level - 1; bit >= 0; --bit)
-    place = place << 2 | (leaf.y >> bit & 1) << 1 | (leaf.x >> bit & 1);
-  return place;
+    key = key << 2 | (leaf.y >> bit & 1) << 1 | (leaf.x >> bit & 1);
+  return key;
 }
 
-std::int64_t end_on_curve(const LeafRecord& leaf) {
-  return place_on_curve(leaf) + edge_of(leaf) * edge_of(leaf);
-}
+std::int64_t end_on_curve(const LeafRecord& leaf) { return curve_key(leaf) + edge_of(leaf) * edge_of(leaf); }
 
 constexpr std::int64_t end_of_tree = std::int64_t{tree_lattice_edge} * tree_lattice_edge;
 
 bool follows(const std::optional<LeafRecord>& before, const LeafRecord& leaf) {
-  if (!before) return place_on_curve(leaf) == 0;
+  if (!before) return curve_key(leaf) == 0;
   const bool same_tree = before->tree_x == leaf.tree_x && before->tree_y == leaf.tree_y;
-  if (same_tree) return place_on_curve(leaf) == end_on_curve(*before);
-  return end_on_curve(*before) == end_of_tree && place_on_curve(leaf) == 0;
+  if (same_tree) return curve_key(leaf) == end_on_curve(*before);
+  return end_on_curve(*before) == end_of_tree && curve_key(leaf) == 0;
 }
 
 void require_sum(const Communicator& comm, std::int64_t own, std::int64_t wanted, const std::string& what,
@@ -96,7 +96,7 @@ void require_whole_tree(const Communicator& comm, const TreeRecord& tree,
       if (!fault.empty()) throw InputError(path + ": " + text_of(leaf) + " " + fault + cure);
       if (!follows(last, leaf))
         throw InputError(path + ": " + text_of(leaf) + " does not follow the one before it" + cure);
-      begun += place_on_curve(leaf) == 0 ? 1 : 0;
+      begun += curve_key(leaf) == 0 ? 1 : 0;
       ended += end_on_curve(leaf) == end_of_tree ? 1 : 0;
       triangles += leaf.triangles;
       quads += leaf.quads;

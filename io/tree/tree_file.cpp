@@ -9,6 +9,8 @@
 #include "io/files/hdf5_handle.hpp"
 #include "io/files/output_path.hpp"
 #include "io/files/row_stream.hpp"
+#include "io/tree/tree_layout.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -39,11 +41,10 @@ class TreeSink {
 
   void put_leaves(std::span<const LeafRecord> leaves) {
     while (!leaves.empty()) {
-      const std::size_t count =
-          std::min(leaves.size(), static_cast<std::size_t>(rows_per_chunk) - waiting_.size());
-      waiting_.insert(waiting_.end(), leaves.begin(), leaves.begin() + static_cast<std::ptrdiff_t>(count));
+      const std::size_t count = std::min<std::size_t>(leaves.size(), rows_per_chunk - waiting_.size());
+      waiting_.insert(waiting_.end(), leaves.begin(), leaves.begin() + count);
       leaves = leaves.subspan(count);
-      if (waiting_.size() == static_cast<std::size_t>(rows_per_chunk)) write_waiting();
+      if (std::ssize(waiting_) == rows_per_chunk) write_waiting();
     }
   }
 

@@ -8,10 +8,13 @@
 
 namespace quadloop {
 
+/// What the names of such files end in.
+inline constexpr const char* tree_suffix = ".tree.h5";
+
 /// Writes the tree as HDF5 into the set: the attributes of TreeAttributes on the root group, and the leaves
-/// along the curve as the datasets tree (n x 2), x, y, level, wanted, mark, triangles, quads. The bytes
-/// depend on the record alone: not on the number of ranks, not on the time. *Collective.* Throws OutputError
-/// on all ranks.
+/// along the curve as the datasets tree (n x 2), x, y, level, wanted, mark, triangles, quads,
+/// adapted. The bytes depend on the record alone: not on the number of ranks, not on the time. *Collective.*
+/// Throws OutputError on all ranks.
 void write_tree(OutputSet& outputs, const TreeRecord& tree, const std::string& path);
 
 /// The same as an output of its own, in place when the function returns. *Collective.*

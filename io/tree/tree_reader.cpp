@@ -7,6 +7,8 @@
 #include "io/files/separate_reader.hpp"
 #include "io/tree/tree_check.hpp"
 #include "io/tree/tree_file.hpp"
+#include "io/tree/tree_layout.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -42,7 +44,7 @@ class TreeSource {
       const Hdf5Handle dataset = open(name);
       if (rows_of(dataset) != leaves)
         refuse(std::string("its dataset \"") + name + "\" has another length than \"x\"");
-      if (!may_hold(dataset, static_cast<hsize_t>(leaves) * members.size())) {
+      if (!may_hold(dataset, leaves * members.size())) {
         refuse(std::string("its dataset \"") + name + "\" is said to have " + std::to_string(leaves) +
                " rows, more than the file holds; it is cut short or damaged");
       }

@@ -59,7 +59,7 @@ class ByteStream {
       if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
       const int value = c == '=' ? 0 : digit(c);
       if (value < 0 || (padding > 0 && c != '=')) return false;
-      bits = bits << 6 | static_cast<std::uint32_t>(value);
+      bits = bits << 6 | value;
       (c == '=' ? padding : digits) += 1;
     }
     if (digits + padding < 4 || digits < 2) return false;
@@ -128,9 +128,8 @@ std::optional<std::vector<char>> inflate_blocks(ByteStream& stream, const VtuDoc
     const std::size_t before = bytes.size();
     bytes.resize(before + wanted);
     uLongf written = wanted;
-    const int status =
-        uncompress(reinterpret_cast<Bytef*>(bytes.data() + before), &written,
-                   reinterpret_cast<const Bytef*>(packed.data()), static_cast<uLong>(packed.size()));
+    const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data() + before), &written,
+                                  reinterpret_cast<const Bytef*>(packed.data()), packed.size());
     if (status != Z_OK || written != wanted) return {};
   }
   return bytes;
@@ -157,8 +156,7 @@ std::vector<char> VtuNumbers::bytes(const VtuArray& array, std::optional<std::si
     const std::size_t size = document_.appended_end - document_.appended_begin;
     if (!array.offset || static_cast<std::size_t>(*array.offset) > size)
       refuse(array, "stands beyond the end of the file; it is cut short");
-    text =
-        scan_.text().substr(document_.appended_begin, size).substr(static_cast<std::size_t>(*array.offset));
+    text = scan_.text().substr(document_.appended_begin, size).substr(*array.offset);
   }
   ByteStream stream(text, !appended || !document_.appended_raw);
   std::optional<std::vector<char>> bytes;
@@ -194,7 +192,7 @@ std::vector<Number> VtuNumbers::ascii_numbers(const VtuArray& array,
   constexpr std::string_view blanks = " \t\r\n";
   const std::string_view data = scan_.text().substr(array.begin, array.end - array.begin);
   std::vector<Number> result;
-  if (count) result.reserve(std::min(static_cast<std::size_t>(*count), data.size() / 2 + 1));
+  if (count) result.reserve(std::min<std::size_t>(*count, data.size() / 2 + 1));
   for (std::size_t at = data.find_first_not_of(blanks); at != std::string_view::npos;
        at = data.find_first_not_of(blanks, at)) {
     const std::size_t end = std::min(data.find_first_of(blanks, at), data.size());
@@ -220,7 +218,7 @@ std::vector<Number> VtuNumbers::numbers(const VtuArray& array, std::optional<std
     refuse(array, "has the type '" + array.type + "', which is no number's");
   if (array.format == "ascii") return ascii_numbers<Number>(array, count);
   std::optional<std::size_t> byte_count;
-  if (count) byte_count = static_cast<std::size_t>(*count) * size;
+  if (count) byte_count = *count * size;
   return converted<Number>(array, bytes(array, byte_count));
 }
 

@@ -47,8 +47,8 @@ class Builder {
   int pieces() const { return pieces_; }
 
  private:
-  std::size_t here() const { return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_)); }
-  std::size_t after() const { return here() + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_)); }
+  std::size_t here() const { return XML_GetCurrentByteIndex(parser_); }
+  std::size_t after() const { return here() + XML_GetCurrentByteCount(parser_); }
 
   void refuse(const std::string& message) {
     if (!refusal_) refusal_ = Refusal{here(), message};

@@ -71,7 +71,7 @@ class VtuReader {
         std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
     if (bad != values.end()) {
       scan_.refuse_at(array.place, fmt::format("'{}' is not finite at node {}", array.name,
-                                               static_cast<std::size_t>(bad - values.begin()) / width + 1));
+                                               (bad - values.begin()) / width + 1));
     }
     return values;
   }
@@ -180,8 +180,7 @@ class VtuReader {
 
   void add_columns(const VtuArray& array, std::vector<std::string>& names,
                    std::vector<std::vector<double>>& columns) const {
-    const auto width = static_cast<std::size_t>(array.components),
-               count = static_cast<std::size_t>(document_.points);
+    const std::size_t width = array.components, count = document_.points;
     if (array.components > 9)
       scan_.refuse_at(array.place,
                       fmt::format("'{}' has {} components; at most 9 can be read", array.name, width));

@@ -35,7 +35,7 @@ std::string text_array(const std::string& name, const std::vector<std::string>& 
   std::string codes;
   std::size_t count = 0;
   for (const std::string& text : texts) {
-    for (const char c : text) codes += std::to_string(static_cast<unsigned char>(c)) + " ";
+    for (const unsigned char c : text) codes += std::to_string(c) + " ";
     codes += "0\n";
     count += text.size() + 1;
   }
@@ -120,16 +120,14 @@ class VtuWriter {
   void write_offsets() {
     std::int64_t before = 0;
     for_each_kind([&]<class Row>(const std::vector<Row>& rows, int) {
-      constexpr auto width = static_cast<std::int64_t>(std::tuple_size_v<Row>);
+      constexpr std::int64_t width = std::tuple_size_v<Row>;
       const std::int64_t first = before + width * comm_.exclusive_sum(std::ssize(rows));
-      file_.write_rows(rows.size(), 1, [&](TextRows& text, std::size_t i) {
-        text.put(first + width * (static_cast<std::int64_t>(i) + 1), '\n');
-      });
+      file_.write_rows(rows.size(), 1,
+                       [&](TextRows& text, std::int64_t i) { text.put(first + width * (i + 1), '\n'); });
       before += width * total(rows);
     });
-    file_.write_root_rows(boundaries_.all_edges(), 1, [&](TextRows& text, std::size_t i) {
-      text.put(before + 2 * (static_cast<std::int64_t>(i) + 1), '\n');
-    });
+    file_.write_root_rows(boundaries_.all_edges(), 1,
+                          [&](TextRows& text, std::int64_t i) { text.put(before + 2 * (i + 1), '\n'); });
   }
 
   void write_repeated(std::size_t rows, std::int32_t number) {
@@ -156,8 +154,8 @@ class VtuWriter {
     write_repeated(mesh_.quads.size(), 0);
     std::size_t number = 0;  // rows come in their order
     std::int64_t end = 0;
-    file_.write_root_rows(boundaries_.all_edges(), 1, [&](TextRows& text, std::size_t i) {
-      while (static_cast<std::int64_t>(i) >= end) end += boundaries_.edges_of(number++);
+    file_.write_root_rows(boundaries_.all_edges(), 1, [&](TextRows& text, std::int64_t i) {
+      while (i >= end) end += boundaries_.edges_of(number++);
       text.put(number, '\n');
     });
     file_.write("</DataArray>\n");

@@ -9,6 +9,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/free_memory.hpp"
+#include "mesher/base/ids.hpp"
 
 namespace quadloop {
 
@@ -137,7 +138,7 @@ void Communicator::exchange_messages(std::span<const Outgoing> out, std::span<co
                 &requests.emplace_back());
     });
   }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  MPI_Waitall(size32(requests), requests.data(), MPI_STATUSES_IGNORE);
 }
 
 void Communicator::send_bytes(std::span<const std::byte> bytes, int to) const {

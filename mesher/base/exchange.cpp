@@ -14,7 +14,7 @@ std::vector<Exchange::Source> stretches(const std::vector<std::int64_t>& counts)
   std::vector<Exchange::Source> found;
   std::size_t begin = 0;
   for (std::size_t rank = 0; rank < counts.size(); ++rank) {
-    const std::size_t end = begin + static_cast<std::size_t>(counts[rank]);
+    const std::size_t end = begin + counts[rank];
     if (end > begin) found.push_back({static_cast<int>(rank), begin, end});
     begin = end;
   }

@@ -89,7 +89,7 @@ template <std::ranges::contiguous_range Values>
 auto scatter_from_root(const Communicator& comm, const Values& values, std::span<const std::int64_t> counts) {
   std::vector<int> ranks;
   for (int rank = 0; comm.is_root() && rank < comm.size(); ++rank)
-    ranks.insert(ranks.end(), static_cast<std::size_t>(counts[rank]), rank);
+    ranks.insert(ranks.end(), counts[rank], rank);
   return Exchange(comm, ranks).deliver(std::span(values).first(ranks.size()));
 }
 
@@ -106,15 +106,15 @@ class CopyExchange {
   CopyExchange(const Communicator& comm, std::vector<Copy> copies, std::int32_t first_owned = 0);
 
   /// Rows of `width` values: those of copies are replaced by their owners'. *Collective.*
-  template <class T>
-  void update_rows(std::vector<T>& rows, std::size_t width) const;
-  template <class T>
-  void update(std::vector<T>& values) const {
+  template <std::ranges::contiguous_range Rows>
+  void update_rows(Rows& rows, std::size_t width) const;
+  template <std::ranges::contiguous_range Values>
+  void update(Values& values) const {
     update_rows(values, 1);
   }
   /// The same for the owned entries for which `changed` holds, alone. *Collective.*
-  template <class T, class Changed>
-  void update(std::vector<T>& values, const Changed& changed) const;
+  template <std::ranges::contiguous_range Values, class Changed>
+  void update(Values& values, const Changed& changed) const;
 
  private:
   static std::vector<int> owners_of(std::vector<Copy>& copies);  ///< of copies that it sorts by them
@@ -142,34 +142,33 @@ std::vector<std::ranges::range_value_t<Rows>> Exchange::answer(const Rows& rows,
   return answers;
 }
 
-template <class T>
-void CopyExchange::update_rows(std::vector<T>& rows, std::size_t width) const {
-  const auto row_of = [&](std::int32_t entry) {
-    return rows.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(entry) * width);
-  };
-  std::vector<T> out;
+template <std::ranges::contiguous_range Rows>
+void CopyExchange::update_rows(Rows& rows, std::size_t width) const {
+  const auto row_of = [&](std::size_t entry) { return std::ranges::begin(rows) + entry * width; };
+  std::vector<std::ranges::range_value_t<Rows>> out;
   out.reserve(owned_.size() * width);
   for (const std::int32_t entry : owned_) std::copy_n(row_of(entry), width, std::back_inserter(out));
   out = exchange_.answer(out, width);
   auto row = out.cbegin();
   for (const std::int32_t entry : copies_) {
     std::copy_n(row, width, row_of(entry));
-    row += static_cast<std::ptrdiff_t>(width);
+    row += width;
   }
 }
 
-template <class T, class Changed>
-void CopyExchange::update(std::vector<T>& values, const Changed& changed) const {
+template <std::ranges::contiguous_range Values, class Changed>
+void CopyExchange::update(Values& values, const Changed& changed) const {
   struct Item {
-    T value;
+    std::ranges::range_value_t<Values> value;
     bool is_new;
   };
+  const auto at = std::ranges::begin(values);
   std::vector<Item> items;  // all of them: their number is known, and few are at the border
   items.reserve(owned_.size());
-  for (const std::int32_t entry : owned_) items.push_back({values[entry], static_cast<bool>(changed(entry))});
+  for (const std::int32_t entry : owned_) items.push_back({at[entry], changed(entry)});
   items = exchange_.answer(items);
   for (std::size_t i = 0; i < items.size(); ++i) {
-    if (items[i].is_new) values[copies_[i]] = items[i].value;
+    if (items[i].is_new) at[copies_[i]] = items[i].value;
   }
 }
 

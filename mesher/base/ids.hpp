@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 #include "mesher/base/error.hpp"
@@ -27,14 +28,42 @@ class Id {
   Rep value_ = -1;
 };
 
-using NodeId = Id<struct NodeTag, std::int32_t>;  ///< a mesh node, numbered on this rank
-using GlobalNodeId =
-    Id<struct GlobalNodeTag, std::int64_t>;           ///< a mesh node, numbered over all ranks, from 0
-using LeafId = Id<struct LeafTag, std::int32_t>;      ///< a leaf of the forest, numbered on this rank
-using VertexId = Id<struct VertexTag, std::int32_t>;  ///< a point of the geometry (replicated on all ranks)
-using SegmentId =
-    Id<struct SegmentTag, std::int32_t>;  ///< a segment of the geometry (replicated on all ranks)
-using BoundaryId = Id<struct BoundaryTag, std::int32_t>;  ///< a named boundary
+/// A mesh node, numbered on this rank: its own, then copies.
+using NodeId = Id<struct NodeTag, std::int32_t>;
+/// A mesh node, numbered over all ranks, from 0.
+using GlobalNodeId = Id<struct GlobalNodeTag, std::int64_t>;
+/// A leaf of a LeafGraph: this rank's or a ghost.
+using LeafId = Id<struct LeafTag, std::int32_t>;
+/// A named boundary.
+using BoundaryId = Id<struct BoundaryTag, std::int32_t>;
+
+/// Ids that follow each other, for loops.
+template <class AnyId>
+class IdRange {
+ public:
+  using rep = typename AnyId::rep;
+
+  class Iterator {
+   public:
+    constexpr explicit Iterator(rep at) : at_{at} {}
+    constexpr AnyId operator*() const { return AnyId{at_}; }
+    constexpr Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    friend constexpr bool operator==(Iterator, Iterator) = default;
+
+   private:
+    rep at_;
+  };
+
+  constexpr IdRange(rep begin, rep end) : begin_{begin}, end_{end} {}
+  constexpr Iterator begin() const { return Iterator{begin_}; }
+  constexpr Iterator end() const { return Iterator{end_}; }
+
+ private:
+  rep begin_, end_;
+};
 
 /// How many entries a list has, as ids on one rank count them: 32 bits. More are refused before a number
 /// wraps.
@@ -46,3 +75,8 @@ constexpr std::int32_t size32(const List& list) {
 }
 
 }  // namespace quadloop
+
+template <class Tag, class Rep>
+struct std::hash<quadloop::Id<Tag, Rep>> {
+  std::size_t operator()(quadloop::Id<Tag, Rep> id) const { return std::hash<Rep>{}(id.value()); }
+};

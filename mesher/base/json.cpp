@@ -11,7 +11,7 @@ namespace {
 
 /// Bytes of the UTF-8 character that `text` begins with; 0 where it is none.
 std::size_t utf8_length(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text[0]);
+  const unsigned char first = text[0];
   const std::size_t length = first < 0x80                    ? 1
                              : first >= 0xC2 && first < 0xE0 ? 2
                              : first >= 0xE0 && first < 0xF0 ? 3
@@ -19,7 +19,7 @@ std::size_t utf8_length(std::string_view text) {
                                                              : 0;
   if (length > text.size()) return 0;
   for (std::size_t k = 1; k < length; ++k) {
-    if ((static_cast<unsigned char>(text[k]) & 0xC0) != 0x80) return 0;
+    if ((text[k] & 0xC0) != 0x80) return 0;
   }
   return length;
 }
@@ -30,11 +30,11 @@ std::string json_of(std::string_view text) {
   std::string quoted = "\"";
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
-    const auto byte = static_cast<unsigned char>(text[0]);
+    const unsigned char byte = text[0];
     if (byte == '"' || byte == '\\') {
       quoted += fmt::format("\\{}", text[0]);
     } else if (byte < 0x20 || length == 0) {
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(byte));
+      quoted += fmt::format("\\u{:04x}", unsigned{byte});
     } else {
       quoted += text.substr(0, length);
     }

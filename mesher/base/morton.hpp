@@ -14,7 +14,7 @@ constexpr std::uint64_t spread_bits(std::uint32_t number) {
   return (bits | (bits << 1)) & 0x5555555555555555ULL;
 }
 
-/// The place of a square on the Morton curve (Morton 1966).
+/// The key of a square on the Morton curve (Morton 1966).
 constexpr std::uint64_t morton_key(std::uint32_t x, std::uint32_t y) {
   return spread_bits(x) | (spread_bits(y) << 1);
 }

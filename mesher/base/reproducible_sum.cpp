@@ -20,7 +20,7 @@ double reproducible_sum(const Communicator& comm, std::span<const double> values
 
   // Each value is high + low / 2^bits units of 2^(top - bits), and both parts of all of them fit into a
   // 64-bit sum.
-  const auto count = static_cast<std::uint64_t>(comm.sum(std::ssize(values)));
+  const std::uint64_t count = comm.sum(std::ssize(values));
   const int bits = 62 - static_cast<int>(std::bit_width(count)), top = std::ilogb(largest) + 1;
   // 2^(bits - top) may be too large for a number: in two steps.
   const double first_scale = std::ldexp(1, (bits - top) / 2),

@@ -17,15 +17,14 @@ class Assembler {
     for (const Boundary& b : geometry.boundaries()) mesh_.boundaries.push_back({b.name, b.condition, {}});
   }
 
-  void add(std::int32_t leaf) {
-    const std::size_t local = leaf - graph_.local_begin();
+  void add(LeafId leaf) {
+    const std::size_t local = graph_.local_index(leaf);
     if (cut_.states[local] == CutForest::State::inside) add_inside(leaf);
-    if (cut_.states[local] == CutForest::State::cut)
-      add_cut(leaf, static_cast<std::size_t>(cut_.entry_of[local]));
+    if (cut_.states[local] == CutForest::State::cut) add_cut(leaf, cut_.entry_of[local]);
   }
 
  private:
-  void add_inside(std::int32_t leaf) {
+  void add_inside(LeafId leaf) {
     const SideSet hanging = graph_.around(leaf).finer;
     const auto node = [&](Site site) { return numbers_.of_leaf(leaf, site); };
     if (hanging.empty()) {
@@ -37,8 +36,8 @@ class Assembler {
       mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
   }
 
-  void add_cut(std::int32_t leaf, std::size_t entry) {
-    const CutForest::Mark &begin = cut_.entries[entry].begin, &end = cut_.entries[entry].end;
+  void add_cut(LeafId leaf, std::size_t entry) {
+    const CutForest::Offsets &begin = cut_.entries[entry].begin, &end = cut_.entries[entry].end;
     const auto node = [&](std::int32_t n) { return numbers_.of_cut(leaf, begin.nodes + n); };
     for (const auto& t : CutForest::part(cut_.triangles, begin.triangles, end.triangles)) {
       mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
@@ -84,16 +83,16 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, const Siz
   SizeCursor cursor(sizes);
   auto& leaves = result.tree.leaves;
   leaves.reserve(cut.states.size());
-  progress::Stage stage("cells", graph.local_end() - graph.local_begin(), "leaves");
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-    stage.advance(leaf - graph.local_begin());
-    const auto triangles = mesh.triangles.size(), quads = mesh.quads.size();
+  progress::Stage stage("cells", graph.local_size(), "leaves");
+  for (const LeafId leaf : graph.local()) {
+    stage.advance(graph.local_index(leaf));
+    const std::int32_t triangles = size32(mesh.triangles), quads = size32(mesh.quads);
     assembler.add(leaf);
     LeafRecord record = record_of(graph.leaf(leaf), cursor.wanted_level(graph.leaf(leaf)));
-    record.triangles = static_cast<std::int32_t>(mesh.triangles.size() - triangles);
-    record.quads = static_cast<std::int32_t>(mesh.quads.size() - quads);
+    record.triangles = size32(mesh.triangles) - triangles;
+    record.quads = size32(mesh.quads) - quads;
     record.adapted = demands.levels_above(graph.leaf(leaf));
-    record.mark = record.triangles + record.quads > 0 ? 1 : 0;
+    record.block = record.triangles + record.quads > 0 ? 1 : 0;
     leaves.push_back(record);
   }
   std::move(numbers).fill(mesh);

@@ -22,13 +22,12 @@ namespace {
 
 void report_tree(const Communicator& comm, const LeafGraph& graph, const CutForest& cut, MeshReport& report) {
   std::int64_t coarsest = Quadrant::unit_level, finest = 0;
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+  for (const LeafId leaf : graph.local()) {
     coarsest = std::min<std::int64_t>(coarsest, graph.leaf(leaf).level);
     finest = std::max<std::int64_t>(finest, graph.leaf(leaf).level);
   }
   const auto leaves = std::ssize(cut.states);
-  const auto cut_leaves =
-      static_cast<std::int64_t>(std::count(cut.states.begin(), cut.states.end(), CutForest::State::cut));
+  const auto cut_leaves = std::count(cut.states.begin(), cut.states.end(), CutForest::State::cut);
   report.leaves = comm.sum(leaves);
   report.cut_leaves = comm.sum(cut_leaves);
   report.coarsest_level = static_cast<int>(comm.minimum(coarsest));

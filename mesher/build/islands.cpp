@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "mesher/base/error.hpp"
-#include "mesher/base/ids.hpp"
+#include "mesher/base/id_vector.hpp"
 #include "mesher/build/outline_losses.hpp"
 
 namespace quadloop {
@@ -37,11 +37,11 @@ Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
 
 /// In the order of the geometry.
 std::vector<std::string> names_without_segments(const Geometry& g) {
-  std::vector<char> found(g.boundaries().size(), 0);
-  for (std::int32_t s = 0; s < g.size(); ++s) found[g.boundary_of(s).value()] = 1;
+  IdVector<BoundaryId, char> found(g.boundaries().size(), 0);
+  for (std::int32_t s = 0; s < g.size(); ++s) found[g.boundary_of(s)] = 1;
   std::vector<std::string> names;
-  for (std::size_t b = 0; b < found.size(); ++b) {
-    if (found[b] == 0) names.push_back(g.boundaries()[b].name);
+  for (const BoundaryId b : found.ids()) {
+    if (found[b] == 0) names.push_back(g.boundary(b).name);
   }
   return names;
 }

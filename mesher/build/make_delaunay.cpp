@@ -21,19 +21,19 @@ Diagonal diagonal_of(const Quadrant& q) {
   return rising ? Diagonal::first : Diagonal::second;
 }
 
-/// The nodes of the cells of cut leaves and of those with a snapped corner, by their numbers over all ranks:
-/// both ends of any edge between cells that may not be Delaunay, those without squares' diagonals.
-std::vector<std::int64_t> nodes_of_cut_leaves(const CutForest& cut, const Mesh& mesh,
+/// The nodes of the cells of cut leaves and of those with a snapped corner: both ends of any edge between
+/// cells that may not be Delaunay, those without squares' diagonals.
+std::vector<GlobalNodeId> nodes_of_cut_leaves(const CutForest& cut, const Mesh& mesh,
                                               const std::vector<LeafRecord>& leaves) {
-  std::vector<std::int64_t> nodes;
-  std::vector<char> named(mesh.points.size(), 0);
+  std::vector<GlobalNodeId> nodes;
+  NodeFlags named(mesh.points.size(), 0);
   auto triangle = mesh.triangles.cbegin();
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const auto end = triangle + leaves[i].triangles;
     if (cut.entry_of[i] < 0) triangle = end;
     for (; triangle != end; ++triangle) {
       for (const NodeId node : *triangle) {
-        if (std::exchange(named[node.value()], 1) == 0) nodes.push_back(mesh.global(node).value());
+        if (std::exchange(named[node], 1) == 0) nodes.push_back(mesh.global(node));
       }
     }
   }
@@ -43,31 +43,32 @@ std::vector<std::int64_t> nodes_of_cut_leaves(const CutForest& cut, const Mesh& 
 /// Flags the local leaves that are cut or have a snapped corner, and all around such leaves. *Collective.*
 std::vector<char> irregular_leaves(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
   std::vector<char> is_cut(graph.size(), 0);
-  for (std::size_t i = 0; i < cut.entry_of.size(); ++i) {
-    is_cut[graph.from_local(static_cast<std::int32_t>(i))] = cut.entry_of[i] >= 0 ? 1 : 0;
+  for (std::int32_t i = 0; i < std::ssize(cut.entry_of); ++i) {
+    is_cut[graph.from_local(i).value()] = cut.entry_of[i] >= 0 ? 1 : 0;
   }
   GhostExchange(comm, graph).update(is_cut);
   std::vector<char> irregular = is_cut;
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    if (is_cut[leaf] == 0) continue;
-    for_touching_leaves(graph, leaf, [&](std::int32_t other) { irregular[other] = 1; });
+  for (const LeafId leaf : graph.all()) {
+    if (is_cut[leaf.value()] == 0) continue;
+    for_touching_leaves(graph, leaf, [&](LeafId other) { irregular[other.value()] = 1; });
   }
-  return {irregular.begin() + graph.local_begin(), irregular.begin() + graph.local_end()};
+  const auto first = irregular.begin() + graph.local_begin();
+  return {first, first + graph.local_size()};
 }
 
-using Numbers = std::array<std::int64_t, 3>;
+using GlobalNodes = std::array<GlobalNodeId, 3>;
 
-/// A triangle on the way to the rank of its leaf, its nodes by their numbers over all ranks.
+/// A triangle on the way to the rank of its leaf.
 struct FreeTriangle {
-  Numbers nodes{};
+  GlobalNodes nodes;
   std::array<Point, 3> points;
 };
 
 /// A triangle that has arrived.
 struct PlacedTriangle {
-  std::int32_t leaf = 0;  ///< counted from this rank's first
-  Numbers numbers{};      ///< of its nodes over all ranks, the smallest first
-  std::array<NodeId, 3> nodes{};
+  std::int32_t leaf = 0;     ///< its local index
+  GlobalNodes global_nodes;  ///< the smallest first
+  std::array<NodeId, 3> nodes;
   friend auto operator<=>(const PlacedTriangle&, const PlacedTriangle&) = default;
 };
 
@@ -89,7 +90,7 @@ class LeafTriangles {
     NodeTable table(mesh_);
     for (const FreeTriangle& t : on_their_way_.deliver(comm)) {
       const auto [column, row] = square_of(t.points);
-      PlacedTriangle placed{graph_.leaf_at(column, row) - graph_.local_begin(), t.nodes, {}};
+      PlacedTriangle placed{graph_.local_index(graph_.leaf_at(column, row)), t.nodes, {}};
       for (std::size_t k = 0; k < 3; ++k) placed.nodes[k] = table.local(t.nodes[k], t.points[k]);
       placed_.push_back(placed);
     }
@@ -102,15 +103,14 @@ class LeafTriangles {
     mesh_.triangles.reserve(before.size());
     auto stays = before.cbegin();
     auto placed = placed_.cbegin();
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
-      const std::size_t begin = mesh_.triangles.size();
+    for (std::int32_t i = 0; i < std::ssize(leaves); ++i) {
+      const std::int32_t begin = size32(mesh_.triangles);
       const auto end = stays + leaves[i].triangles;
       if (irregular[i] == 0) mesh_.triangles.insert(mesh_.triangles.end(), stays, end);
       stays = end;
-      for (; placed != placed_.end() && placed->leaf == static_cast<std::int32_t>(i); ++placed)
-        mesh_.triangles.push_back(placed->nodes);
-      leaves[i].triangles = static_cast<std::int32_t>(mesh_.triangles.size() - begin);
-      leaves[i].mark = leaves[i].triangles > 0 ? 1 : 0;
+      for (; placed != placed_.end() && placed->leaf == i; ++placed) mesh_.triangles.push_back(placed->nodes);
+      leaves[i].triangles = size32(mesh_.triangles) - begin;
+      leaves[i].block = leaves[i].triangles > 0 ? 1 : 0;
     }
     QUADLOOP_REQUIRE(placed == placed_.end(), "the centroid of each triangle lies in a leaf");
   }
@@ -121,13 +121,13 @@ class LeafTriangles {
     std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end(), before), nodes.end());
     FreeTriangle t;
     for (std::size_t k = 0; k < 3; ++k) {
-      t.nodes[k] = mesh_.global(nodes[k]).value();
+      t.nodes[k] = mesh_.global(nodes[k]);
       t.points[k] = mesh_.point(nodes[k]);
     }
     const auto [column, row] = square_of(t.points);
-    const std::int32_t leaf = graph_.leaf_at(column, row);
+    const LeafId leaf = graph_.leaf_at(column, row);
     if (graph_.is_local(leaf)) {
-      placed_.push_back({leaf - graph_.local_begin(), t.nodes, nodes});
+      placed_.push_back({graph_.local_index(leaf), t.nodes, nodes});
     } else {
       on_their_way_.add(graph_.rank_at(column, row), t);
     }

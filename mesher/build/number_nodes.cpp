@@ -16,7 +16,7 @@ constexpr std::array border_sites{Site::south_west, Site::south_east, Site::nort
 constexpr std::array owned_sites{Site::north_east, Site::right_middle, Site::top_middle};
 
 std::size_t index_in(const std::array<Site, 3>& sites, Site site) {
-  return static_cast<std::size_t>(std::find(sites.begin(), sites.end(), site) - sites.begin());
+  return std::find(sites.begin(), sites.end(), site) - sites.begin();
 }
 
 }  // namespace
@@ -24,11 +24,11 @@ std::size_t index_in(const std::array<Site, 3>& sites, Site site) {
 NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, const LeafGraph& graph,
                              const CutForest& cut)
     : lattice_{&lattice}, graph_{&graph}, cut_{&cut} {
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+  for (const LeafId leaf : graph.local()) {
     if (graph.leaf(leaf).x == 0 || graph.leaf(leaf).y == 0) border_leaves_.push_back(leaf);
   }
   slots_.assign(border_slot(border_leaves_.size()) + cut.nodes.size(), unused);
-  mark_used();
+  use_nodes_of_cells();
   const Exchange exchange(comm, ranks_wanted());
   const auto asked = exchange.deliver(wanted_);
   for (const Request& request : asked) slot_at(home_of(request)) = used;
@@ -38,13 +38,13 @@ NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, c
   fetch_copies(exchange, asked);
 }
 
-NodeNumbering::Home NodeNumbering::corner_home(std::int32_t owner, LatticePoint p) const {
+NodeNumbering::Home NodeNumbering::corner_home(LeafId owner, LatticePoint p) const {
   const Quadrant& o = graph_->leaf(owner);
   const bool at_right = o.x + o.size() == p.x, at_top = o.y + o.size() == p.y;
   return {owner, at_right && at_top ? Site::north_east : at_top ? Site::top_middle : Site::right_middle, {}};
 }
 
-NodeNumbering::Home NodeNumbering::home_of_site(std::int32_t leaf, Site site) const {
+NodeNumbering::Home NodeNumbering::home_of_site(LeafId leaf, Site site) const {
   const LeafGraph::Around& around = graph_->around(leaf);
   const Quadrant& q = graph_->leaf(leaf);
   constexpr auto none = LeafGraph::none;
@@ -68,11 +68,11 @@ NodeNumbering::Home NodeNumbering::home_of_site(std::int32_t leaf, Site site) co
   }
 }
 
-NodeNumbering::Home NodeNumbering::home_of_cut_node(std::int32_t leaf, const CutLeaf::Node& node) const {
+NodeNumbering::Home NodeNumbering::home_of_cut_node(LeafId leaf, const CutLeaf::Node& node) const {
   if (is_on_lattice(node.site)) return home_of_site(leaf, node.site);
   const LeafGraph::Around& around = graph_->around(leaf);
   const Quadrant& q = graph_->leaf(leaf);
-  std::int32_t owner = leaf;
+  LeafId owner = leaf;
   if (node.site == Site::on_bottom) {
     const bool left_half =
         around.south_half != LeafGraph::none && node.position.x < lattice_->x(q.x + q.size() / 2);
@@ -85,8 +85,8 @@ NodeNumbering::Home NodeNumbering::home_of_cut_node(std::int32_t leaf, const Cut
   return {owner != LeafGraph::none ? owner : leaf, Site::inside, node.position};
 }
 
-std::int32_t NodeNumbering::listed_node(std::int32_t leaf, Point position) const {
-  const std::int32_t entry = cut_->entry_of[leaf - graph_->local_begin()];
+std::int32_t NodeNumbering::listed_node(LeafId leaf, Point position) const {
+  const std::int32_t entry = cut_->entry_of[graph_->local_index(leaf)];
   QUADLOOP_REQUIRE(entry >= 0, "a leaf that is not cut owns a node of the outline");
   const CutForest::Entry& e = cut_->entries[entry];
   for (std::int32_t n = e.begin.nodes; n < e.end.nodes; ++n) {
@@ -96,22 +96,20 @@ std::int32_t NodeNumbering::listed_node(std::int32_t leaf, Point position) const
 }
 
 std::size_t NodeNumbering::listed_slot(std::int32_t node) const {
-  return border_slot(border_leaves_.size()) + static_cast<std::size_t>(node);
+  return border_slot(border_leaves_.size()) + node;
 }
 
 std::size_t NodeNumbering::slot_of(const Home& home) const {
   if (home.site == Site::inside) return listed_slot(listed_node(home.leaf, home.position));
   const std::size_t owned = index_in(owned_sites, home.site);
-  if (owned < owned_sites.size())
-    return 3 * static_cast<std::size_t>(home.leaf - graph_->local_begin()) + owned;
+  if (owned < owned_sites.size()) return std::size_t{3} * graph_->local_index(home.leaf) + owned;
   const auto at = std::lower_bound(border_leaves_.begin(), border_leaves_.end(), home.leaf);
   QUADLOOP_REQUIRE(at != border_leaves_.end() && *at == home.leaf,
                    "a leaf off the root's border owns a lower corner");
-  return border_slot(static_cast<std::size_t>(at - border_leaves_.begin())) +
-         index_in(border_sites, home.site);
+  return border_slot(at - border_leaves_.begin()) + index_in(border_sites, home.site);
 }
 
-void NodeNumbering::mark(const Home& home) {
+void NodeNumbering::use(const Home& home) {
   if (graph_->is_local(home.leaf)) {
     slot_at(home) = used;
   } else {
@@ -120,44 +118,42 @@ void NodeNumbering::mark(const Home& home) {
 }
 
 /// Whether the leaf is a local inside one: that uses all nodes that it owns, and sees to them itself.
-bool NodeNumbering::marks_its_own(std::int32_t leaf) const {
-  return graph_->is_local(leaf) && cut_->states[leaf - graph_->local_begin()] == CutForest::State::inside;
+bool NodeNumbering::uses_its_own(LeafId leaf) const {
+  return graph_->is_local(leaf) && cut_->states[graph_->local_index(leaf)] == CutForest::State::inside;
 }
 
-void NodeNumbering::mark_inside(std::int32_t leaf) {
+void NodeNumbering::use_nodes_of_inside(LeafId leaf) {
   const LeafGraph::Around& around = graph_->around(leaf);
   slot_at({leaf, Site::north_east, {}}) = used;
   if (graph_->has_hanging(leaf, Side::right)) slot_at({leaf, Site::right_middle, {}}) = used;
   if (graph_->has_hanging(leaf, Side::top)) slot_at({leaf, Site::top_middle, {}}) = used;
-  if (!marks_its_own(around.south_west)) mark(home_of_site(leaf, Site::south_west));
-  if (!marks_its_own(around.south)) mark(home_of_site(leaf, Site::south_east));
-  if (!marks_its_own(around.west)) mark(home_of_site(leaf, Site::north_west));
-  if (graph_->has_hanging(leaf, Side::bottom) && !marks_its_own(around.south_half))
-    mark(home_of_site(leaf, Site::bottom_middle));
-  if (graph_->has_hanging(leaf, Side::left) && !marks_its_own(around.west_half))
-    mark(home_of_site(leaf, Site::left_middle));
+  if (!uses_its_own(around.south_west)) use(home_of_site(leaf, Site::south_west));
+  if (!uses_its_own(around.south)) use(home_of_site(leaf, Site::south_east));
+  if (!uses_its_own(around.west)) use(home_of_site(leaf, Site::north_west));
+  if (graph_->has_hanging(leaf, Side::bottom) && !uses_its_own(around.south_half))
+    use(home_of_site(leaf, Site::bottom_middle));
+  if (graph_->has_hanging(leaf, Side::left) && !uses_its_own(around.west_half))
+    use(home_of_site(leaf, Site::left_middle));
 }
 
-void NodeNumbering::mark_used() {
-  for (std::int32_t leaf = graph_->local_begin(); leaf < graph_->local_end(); ++leaf) {
-    const std::size_t local = leaf - graph_->local_begin();
+void NodeNumbering::use_nodes_of_cells() {
+  for (const LeafId leaf : graph_->local()) {
+    const std::size_t local = graph_->local_index(leaf);
     if (cut_->states[local] == CutForest::State::outside) continue;
     if (cut_->states[local] == CutForest::State::inside) {
-      mark_inside(leaf);
+      use_nodes_of_inside(leaf);
       continue;
     }
     const std::size_t entry = cut_->entry_of[local];
-    const CutForest::Mark &begin = cut_->entries[entry].begin, &end = cut_->entries[entry].end;
-    const auto mark_node = [&](std::int32_t n) {
-      mark(home_of_cut_node(leaf, cut_->nodes[begin.nodes + n]));
-    };
+    const CutForest::Offsets &begin = cut_->entries[entry].begin, &end = cut_->entries[entry].end;
+    const auto use_node = [&](std::int32_t n) { use(home_of_cut_node(leaf, cut_->nodes[begin.nodes + n])); };
     for (const auto& triangle : CutForest::part(cut_->triangles, begin.triangles, end.triangles))
-      std::for_each(triangle.begin(), triangle.end(), mark_node);
+      std::for_each(triangle.begin(), triangle.end(), use_node);
     for (const auto& quad : CutForest::part(cut_->quads, begin.quads, end.quads))
-      std::for_each(quad.begin(), quad.end(), mark_node);
+      std::for_each(quad.begin(), quad.end(), use_node);
     for (const auto& edge : CutForest::part(cut_->outline, begin.outline, end.outline)) {
-      mark_node(edge.from);
-      mark_node(edge.to);
+      use_node(edge.from);
+      use_node(edge.to);
     }
   }
 }
@@ -178,8 +174,8 @@ void NodeNumbering::number_slot(std::size_t slot, Point position) {
 
 void NodeNumbering::number_owned() {
   points_.reserve(cut_->states.size() + cut_->states.size() / 8 + cut_->nodes.size());
-  std::size_t border = 0, own = 0;
-  for (std::int32_t leaf = graph_->local_begin(); leaf < graph_->local_end(); ++leaf, own += 3) {
+  std::size_t border = 0;
+  for (const LeafId leaf : graph_->local()) {
     const Quadrant& q = graph_->leaf(leaf);
     const auto number = [&](std::size_t first, const std::array<Site, 3>& sites) {
       for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -188,8 +184,8 @@ void NodeNumbering::number_owned() {
     };
     if (border < border_leaves_.size() && border_leaves_[border] == leaf)
       number(border_slot(border++), border_sites);
-    number(own, owned_sites);
-    const std::int32_t entry = cut_->entry_of[leaf - graph_->local_begin()];
+    number(3 * static_cast<std::size_t>(graph_->local_index(leaf)), owned_sites);
+    const std::int32_t entry = cut_->entry_of[graph_->local_index(leaf)];
     if (entry < 0) continue;
     const CutForest::Entry& e = cut_->entries[entry];
     for (std::int32_t n = e.begin.nodes; n < e.end.nodes; ++n)
@@ -238,9 +234,9 @@ NodeId NodeNumbering::find(const Home& home) const {
   return NodeId{owned_ + static_cast<std::int32_t>(at - wanted_.begin())};
 }
 
-NodeId NodeNumbering::of_leaf(std::int32_t leaf, Site site) const { return find(home_of_site(leaf, site)); }
+NodeId NodeNumbering::of_leaf(LeafId leaf, Site site) const { return find(home_of_site(leaf, site)); }
 
-NodeId NodeNumbering::of_cut(std::int32_t leaf, std::int32_t node) const {
+NodeId NodeNumbering::of_cut(LeafId leaf, std::int32_t node) const {
   return find(home_of_cut_node(leaf, cut_->nodes[node]));
 }
 

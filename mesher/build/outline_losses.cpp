@@ -19,8 +19,8 @@ std::string text(Point p) { return fmt::format("({}, {})", p.x, p.y); }
 /// Which of `count` things were seen on any rank. *Collective.*
 std::vector<char> seen_anywhere(const Communicator& comm, const std::vector<char>& here) {
   std::vector<std::int32_t> ids;
-  for (std::size_t i = 0; i < here.size(); ++i) {
-    if (here[i] != 0) ids.push_back(static_cast<std::int32_t>(i));
+  for (std::int32_t i = 0; i < std::ssize(here); ++i) {
+    if (here[i] != 0) ids.push_back(i);
   }
   std::vector<char> seen(here.size(), 0);
   for (const std::int32_t i : comm.all_gather_values<std::int32_t>(ids)) seen[i] = 1;

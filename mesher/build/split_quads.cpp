@@ -33,7 +33,7 @@ void split_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
   auto quad = mesh.quads.cbegin();
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     LeafRecord& leaf = leaves[i];
-    const std::size_t triangles_before = triangles.size(), quads_before = quads.size();
+    const std::int32_t triangles_before = size32(triangles), quads_before = size32(quads);
     triangles.insert(triangles.end(), triangle, triangle + leaf.triangles);
     triangle += leaf.triangles;
     for (const auto end = quad + leaf.quads; quad != end; ++quad) {
@@ -44,8 +44,8 @@ void split_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
         case Diagonal::second: triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}}); break;
       }
     }
-    leaf.triangles = static_cast<std::int32_t>(triangles.size() - triangles_before);
-    leaf.quads = static_cast<std::int32_t>(quads.size() - quads_before);
+    leaf.triangles = size32(triangles) - triangles_before;
+    leaf.quads = size32(quads) - quads_before;
   }
   mesh.triangles = std::move(triangles);
   mesh.quads = std::move(quads);

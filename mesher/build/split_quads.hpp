@@ -14,7 +14,7 @@ namespace quadloop {
 /// Of a quadrilateral: none, the first corner to the third, or the second to the fourth.
 enum class Diagonal : char { none, first, second };
 
-/// Divides the quadrilaterals by the diagonals that `choose` says, which is asked with the place of a leaf in
+/// Divides the quadrilaterals by the diagonals that `choose` says, which is asked with the index of a leaf in
 /// `leaves` and the corners. The triangles stand behind those of their leaf, whose counts in `leaves` follow.
 /// Not collective.
 void split_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,

@@ -25,10 +25,11 @@ TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const S
   TracedForest traced;
   SizeCursor cursor(sizes);
   traced.trace_of.assign(graph.size(), -1);
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+  for (const LeafId leaf : graph.all()) {
     const auto segments = cursor.segments_in(graph.leaf(leaf));
     if (!segments.empty())
-      traced.trace_of[leaf] = traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
+      traced.trace_of[leaf.value()] =
+          traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
   }
   return traced;
 }
@@ -43,7 +44,7 @@ class ForestCutter {
         inside_{inside},
         traced_{traced},
         cutter_{outline, inside} {
-    const std::size_t count = graph.local_end() - graph.local_begin();
+    const std::size_t count = graph.local_size();
     result_.states.resize(count);
     result_.entry_of.assign(count, -1);
   }
@@ -51,9 +52,9 @@ class ForestCutter {
   /// Cuts all local leaves.
   void cut_all(const std::vector<LeafSnap>& snaps) {
     auto next = snaps.begin();
-    progress::Stage stage("cutting", graph_.local_end() - graph_.local_begin(), "leaves");
-    for (std::int32_t leaf = graph_.local_begin(); leaf < graph_.local_end(); ++leaf) {
-      stage.advance(leaf - graph_.local_begin());
+    progress::Stage stage("cutting", graph_.local_size(), "leaves");
+    for (const LeafId leaf : graph_.local()) {
+      stage.advance(graph_.local_index(leaf));
       const auto first = next;
       while (next != snaps.end() && next->leaf == leaf) ++next;
       const std::span<const LeafSnap> own(first, next);
@@ -66,14 +67,14 @@ class ForestCutter {
 
   /// Cuts again the leaves around the corners whose snaps were taken back.
   void cut_again(const std::vector<LeafSnap>& snaps, const std::vector<LatticePoint>& vetoes) {
-    std::vector<std::int32_t> leaves;
+    std::vector<LeafId> leaves;
     for (const LatticePoint corner : vetoes) {
       const auto round = graph_.leaves_round(corner);
       leaves.insert(leaves.end(), round.begin(), round.end());
     }
     std::sort(leaves.begin(), leaves.end());
     leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
-    for (const std::int32_t leaf : leaves) {
+    for (const LeafId leaf : leaves) {
       if (!graph_.is_local(leaf)) continue;
       const auto [first, last] =
           std::equal_range(snaps.begin(), snaps.end(), LeafSnap{leaf, {}, nullptr},
@@ -102,12 +103,11 @@ class ForestCutter {
   CutForest take_result() { return std::move(result_); }
 
  private:
-  std::size_t local(std::int32_t leaf) const { return static_cast<std::size_t>(leaf - graph_.local_begin()); }
-  CutForest::State& state(std::int32_t leaf) { return result_.states[local(leaf)]; }
-  std::int32_t& entry_of(std::int32_t leaf) { return result_.entry_of[local(leaf)]; }
-  std::int32_t trace_of(std::int32_t leaf) const { return traced_.trace_of[leaf]; }
+  CutForest::State& state(LeafId leaf) { return result_.states[graph_.local_index(leaf)]; }
+  std::int32_t& entry_of(LeafId leaf) { return result_.entry_of[graph_.local_index(leaf)]; }
+  std::int32_t trace_of(LeafId leaf) const { return traced_.trace_of[leaf.value()]; }
 
-  void cut(std::int32_t leaf, std::span<const LeafSnap> snaps) {
+  void cut(LeafId leaf, std::span<const LeafSnap> snaps) {
     const Quadrant& q = graph_.leaf(leaf);
     const Box box = lattice_.box_of(q);
     LeafCutter::Input input{{box, {}, {}, {}}, centre_of(lattice_, q), graph_.around(leaf).finer, snaps, {}};
@@ -133,18 +133,18 @@ class ForestCutter {
     if (state(leaf) != CutForest::State::outside || trace_of(leaf) >= 0 || bent) store(leaf);
   }
 
-  CutForest::Mark mark() const {
+  CutForest::Offsets offsets() const {
     return {size32(result_.nodes), size32(result_.triangles), size32(result_.quads), size32(result_.outline)};
   }
 
-  void store(std::int32_t leaf) {
+  void store(LeafId leaf) {
     const CutLeaf& made = cutter_.result();
-    CutForest::Entry entry{mark(), {}, made.inside_halves};
+    CutForest::Entry entry{offsets(), {}, made.inside_halves};
     result_.nodes.insert(result_.nodes.end(), made.nodes.begin(), made.nodes.end());
     result_.triangles.insert(result_.triangles.end(), cells_.triangles.begin(), cells_.triangles.end());
     result_.quads.insert(result_.quads.end(), cells_.quads.begin(), cells_.quads.end());
     result_.outline.insert(result_.outline.end(), made.outline.begin(), made.outline.end());
-    entry.end = mark();
+    entry.end = offsets();
     state(leaf) = CutForest::State::cut;
     entry_of(leaf) = size32(result_.entries);
     result_.entries.push_back(entry);
@@ -152,10 +152,10 @@ class ForestCutter {
 
   /// From the leaf to its left or below, which comes earlier along the curve; from a count of crossings where
   /// neither is at hand.
-  bool lies_inside(std::int32_t leaf) {
+  bool lies_inside(LeafId leaf) {
     const Quadrant& q = graph_.leaf(leaf);
     const LeafGraph::Around& around = graph_.around(leaf);
-    const auto known = [&](std::int32_t other) {
+    const auto known = [&](LeafId other) {
       return graph_.is_local(other) && other < leaf && (trace_of(other) < 0 || entry_of(other) >= 0);
     };
     if (known(around.west)) {
@@ -170,7 +170,7 @@ class ForestCutter {
   }
 
   /// Whether a half of a side, counter-clockwise, of a leaf that was dealt with lies inside.
-  bool side_inside(std::int32_t leaf, Side side, bool second_half) {
+  bool side_inside(LeafId leaf, Side side, bool second_half) {
     if (state(leaf) != CutForest::State::cut) return state(leaf) == CutForest::State::inside;
     const auto& halves = result_.entries[entry_of(leaf)].inside_halves;
     return (second_half ? halves.second : halves.first).contains(side);

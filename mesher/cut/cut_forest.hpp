@@ -12,11 +12,11 @@ struct CutForest {
   enum class State : char { outside, inside, cut };
 
   /// Where the lists below begin for a cut leaf, or end.
-  struct Mark {
+  struct Offsets {
     std::int32_t nodes = 0, triangles = 0, quads = 0, outline = 0;
   };
   struct Entry {
-    Mark begin, end;
+    Offsets begin, end;
     CutLeaf::InsideHalves inside_halves;
   };
 
@@ -49,7 +49,7 @@ struct CutForest {
 CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
                      const ShiftedOutline& outline, const Interior& inside, double snap);
 
-/// Whether a leaf of this place needs to be refined to be cut: a whole loop inside it, chords that would
+/// Whether this quadrant as a leaf needs to be refined to be cut: a whole loop inside it, chords that would
 /// cross, or that would stray too far from the outline.
 class ResolutionTest {
  public:

@@ -21,14 +21,14 @@ struct CutLeaf {
   /// A directed edge with the domain to its left.
   struct Edge {
     std::int32_t from = 0, to = 0;
-    std::int32_t segment =
-        -1;  ///< a segment of the outline that it stands for; -1: part of a side of the leaf
+    /// A segment of the outline that it stands for; -1: part of a side of the leaf.
+    std::int32_t segment = -1;
   };
 
   std::vector<Node> nodes;  ///< round the sides first, counter-clockwise from the lower left corner; then
                             ///< those inside, by position
-  std::vector<Edge>
-      outline;  ///< the chords that stand for the outline, also those that only bound a neighbour's cells
+  /// The chords that stand for the outline, also those that only bound a neighbour's cells.
+  std::vector<Edge> outline;
   std::vector<std::int32_t> loop_nodes;   ///< the loops one after another
   std::vector<std::int32_t> loop_starts;  ///< one more than there are loops
   std::int32_t side_nodes = 0;            ///< how many nodes lie on the sides
@@ -39,10 +39,10 @@ struct CutLeaf {
     bool any() const { return !first.empty() || !second.empty(); }
   };
   InsideHalves inside_halves;
-  bool simple =
-      false;  ///< one piece of outline was merged into one chord: convex loops, nothing can be wrong
-  bool refined =
-      false;  ///< more points of the geometry were kept than its corners, to follow it closely enough
+  /// One piece of outline was merged into one chord: convex loops, nothing can be wrong.
+  bool simple = false;
+  /// More points of the geometry were kept than its corners, to follow it closely enough.
+  bool refined = false;
 
   std::size_t loop_count() const { return loop_starts.size() - 1; }
   std::span<const std::int32_t> loop(std::size_t i) const {

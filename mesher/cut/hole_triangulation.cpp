@@ -25,7 +25,7 @@ using Triangulation =
 using Face = Triangulation::Face_handle;
 
 /// Every loop edge parts inside from outside, and the infinite face is outside.
-void mark_regions(const Triangulation& triangulation) {
+void label_regions(const Triangulation& triangulation) {
   for (const Face f : triangulation.all_face_handles()) f->info() = Region::unknown;
   std::vector<Face> open{triangulation.infinite_face()};
   open.back()->info() = Region::outside;
@@ -63,7 +63,7 @@ void triangulate_region(std::span<const Point> points, std::span<const std::span
       triangulation.insert_constraint(from, to);
     }
   }
-  mark_regions(triangulation);
+  label_regions(triangulation);
   for (const Face f : triangulation.finite_face_handles()) {
     if (f->info() != Region::inside) continue;
     triangles.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});

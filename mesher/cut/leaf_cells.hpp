@@ -8,7 +8,7 @@ namespace quadloop {
 
 using LocalQuad = std::array<std::int32_t, 4>;
 
-/// The cells of one leaf; numbers are places in its list of nodes.
+/// The cells of one leaf; numbers are indices in its list of nodes.
 struct LeafCells {
   std::vector<LocalTriangle> triangles;
   std::vector<LocalQuad> quads;

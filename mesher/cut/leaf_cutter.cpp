@@ -8,8 +8,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double stray_of_leaf =
-    0.15;  ///< how far the outline may lie from its chord, as a share of the leaf's edge
+/// How far the outline may lie from its chord, as a share of the leaf's edge.
+constexpr double stray_of_leaf = 0.15;
 constexpr double stray_of_chord = 0.2;  ///< and as a share of the chord
 
 /// A coordinate that ascends counter-clockwise along a side.
@@ -65,17 +65,16 @@ void LeafCutter::gather_stops() {
     add_stop(side, corner[index_of(start_of(side))], start_of(side), -1);
     if (input_.hanging.contains(side)) add_stop(side, middle[index_of(side)], middle_of(side), -1);
   }
-  for (std::size_t c = 0; c < input_.trace.crossings.size(); ++c) {
+  for (std::int32_t c = 0; c < std::ssize(input_.trace.crossings); ++c) {
     const Crossing& crossing = input_.trace.crossings[c];
-    add_stop(crossing.side, crossing.position, elsewhere_on(crossing.side), static_cast<std::int32_t>(c));
+    add_stop(crossing.side, crossing.position, elsewhere_on(crossing.side), c);
   }
-  for (std::size_t s = 0; s < input_.snaps.size(); ++s) {
+  for (std::int32_t s = 0; s < std::ssize(input_.snaps); ++s) {
     const Site site = input_.snaps[s].site;
     if (is_on_lattice(site)) continue;
     const Side side = side_of(site);
     const Point p = input_.snaps[s].snap->position, from = corner[index_of(start_of(side))];
-    add_stop(side, is_vertical(side) ? Point{from.x, p.y} : Point{p.x, from.y}, site, -1,
-             static_cast<std::int32_t>(s));
+    add_stop(side, is_vertical(side) ? Point{from.x, p.y} : Point{p.x, from.y}, site, -1, s);
   }
   std::sort(stops_.begin(), stops_.end(), [](const Stop& a, const Stop& b) {
     return a.side != b.side     ? a.side < b.side
@@ -180,8 +179,8 @@ bool LeafCutter::status_at_start(bool& inside) const {
 }
 
 std::int32_t LeafCutter::node_at(Point position) {
-  for (std::size_t i = 0; i < leaf_.nodes.size(); ++i) {
-    if (leaf_.nodes[i].position == position) return static_cast<std::int32_t>(i);
+  for (std::int32_t i = 0; i < std::ssize(leaf_.nodes); ++i) {
+    if (leaf_.nodes[i].position == position) return i;
   }
   leaf_.nodes.push_back({position, Site::inside});
   return size32(leaf_.nodes) - 1;
@@ -240,9 +239,8 @@ void LeafCutter::list_points(const Piece& piece, std::span<const std::int32_t> v
   if (!closed) {
     const auto all = input_.trace.vertices_of(piece);
     const auto trimmed = vertices.data() - all.data();  // in front
-    run_.push_back({node_position(piece.entry),
-                    trimmed == 0 ? piece.first_segment : all[static_cast<std::size_t>(trimmed) - 1], true,
-                    true});
+    run_.push_back(
+        {node_position(piece.entry), trimmed == 0 ? piece.first_segment : all[trimmed - 1], true, true});
   }
   for (const std::int32_t v : vertices) {
     if (!run_.empty()) add_hanging_nodes(g.point(v));
@@ -265,13 +263,12 @@ void LeafCutter::add_hanging_nodes(Point segment_end) {
       continue;
     run_.push_back({p, start.segment, true, true});
   }
-  std::sort(run_.begin() + static_cast<std::ptrdiff_t>(first), run_.end(),
-            [&](const RunPoint& a, const RunPoint& b) {
-              return length(a.position - start.position) < length(b.position - start.position);
-            });
+  std::sort(run_.begin() + first, run_.end(), [&](const RunPoint& a, const RunPoint& b) {
+    return length(a.position - start.position) < length(b.position - start.position);
+  });
 }
 
-/// Marks the points of a piece that the chords go through.
+/// Chooses the points of a piece that the chords go through.
 void LeafCutter::choose_points(bool closed, Detail detail) {
   leaf_.refined = leaf_.refined || closed;
   run_.front().chosen = run_.back().chosen = true;
@@ -310,21 +307,21 @@ void LeafCutter::keep_strays(std::size_t from, std::size_t to) {
 
 /// The order of the nodes inside must not depend on the order in which boundaries are listed.
 void LeafCutter::sort_inner_nodes() {
-  const std::size_t first = leaf_.side_nodes;
-  if (leaf_.nodes.size() <= first + 1) return;
+  const std::int32_t first = leaf_.side_nodes;
+  if (std::ssize(leaf_.nodes) <= first + 1) return;
   std::vector<std::int32_t> order;
-  for (std::size_t i = first; i < leaf_.nodes.size(); ++i) order.push_back(static_cast<std::int32_t>(i));
+  for (std::int32_t i = first; i < std::ssize(leaf_.nodes); ++i) order.push_back(i);
   const auto position = [&](std::int32_t i) { return leaf_.nodes[i].position; };
   std::sort(order.begin(), order.end(),
             [&](std::int32_t a, std::int32_t b) { return position(a) < position(b); });
   std::vector<std::int32_t> renamed(leaf_.nodes.size());
-  for (std::size_t i = 0; i < first; ++i) renamed[i] = static_cast<std::int32_t>(i);
+  for (std::int32_t i = 0; i < first; ++i) renamed[i] = i;
   std::vector<CutLeaf::Node> sorted;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    renamed[order[i]] = static_cast<std::int32_t>(first + i);
-    sorted.push_back(leaf_.nodes[order[i]]);
+  for (const std::int32_t node : order) {
+    renamed[node] = first + size32(sorted);
+    sorted.push_back(leaf_.nodes[node]);
   }
-  std::copy(sorted.begin(), sorted.end(), leaf_.nodes.begin() + static_cast<std::ptrdiff_t>(first));
+  std::copy(sorted.begin(), sorted.end(), leaf_.nodes.begin() + first);
   for (auto& edge : leaf_.outline) {
     edge.from = renamed[edge.from];
     edge.to = renamed[edge.to];

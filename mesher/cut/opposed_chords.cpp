@@ -15,7 +15,7 @@ struct SideChord {
 };
 
 /// The leaves across a side.
-std::array<std::int32_t, 2> across(const LeafGraph& graph, std::int32_t leaf, Side side) {
+std::array<LeafId, 2> across(const LeafGraph& graph, LeafId leaf, Side side) {
   const Quadrant& q = graph.leaf(leaf);
   const std::int64_t last = q.size() - 1;
   const std::int64_t beyond = q.line(side) - (side == Side::left || side == Side::bottom ? 1 : 0);
@@ -28,8 +28,8 @@ std::array<std::int32_t, 2> across(const LeafGraph& graph, std::int32_t leaf, Si
 OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
   std::vector<SideChord> chords;
   Outbox<SideChord> out;
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-    const std::int32_t e = cut.entry_of[leaf - graph.local_begin()];
+  for (const LeafId leaf : graph.local()) {
+    const std::int32_t e = cut.entry_of[graph.local_index(leaf)];
     if (e < 0) continue;
     const CutForest::Entry& entry = cut.entries[e];
     for (const CutLeaf::Edge& edge : CutForest::part(cut.outline, entry.begin.outline, entry.end.outline)) {
@@ -44,8 +44,8 @@ OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, c
       if (comm.size() == 1) continue;
       for (const Side side : all_sides) {
         if (!common.contains(side)) continue;
-        for (const std::int32_t other : across(graph, leaf, side)) {
-          if (other != LeafGraph::none && !graph.is_local(other)) out.add(graph.place_of(other).rank, chord);
+        for (const LeafId other : across(graph, leaf, side)) {
+          if (other != LeafGraph::none && !graph.is_local(other)) out.add(graph.owner_of(other).rank, chord);
         }
       }
     }

@@ -8,8 +8,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t most_ears =
-    24;  ///< nodes; beyond, clipping ears in square time loses to a real triangulation
+/// Nodes; beyond, clipping ears in square time loses to a real triangulation.
+constexpr std::size_t most_ears = 24;
 
 }  // namespace
 
@@ -65,7 +65,7 @@ bool Triangulator::clip_ears(std::span<const std::int32_t> loop) {
     if (i == ring_.size()) return false;
     const std::size_t n = ring_.size();
     triangles_.push_back({ring_[(i + n - 1) % n], ring_[i], ring_[(i + 1) % n]});
-    ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(i));
+    ring_.erase(ring_.begin() + i);
   }
   triangles_.push_back({ring_[0], ring_[1], ring_[2]});
   return true;

@@ -35,7 +35,7 @@ void Flipper::list_spokes() {
   across_.assign(3 * triangles_.size(), border);
   spokes_.resize(across_.size());
   spokes_end_.assign(points_.size(), 0);
-  const auto low = [&](Edge e) { return static_cast<std::size_t>(std::min(node(e, 1), node(e, 2))); };
+  const auto low = [&](Edge e) { return std::min(node(e, 1), node(e, 2)); };
   for (Edge e = 0; e < edges(); ++e) ++spokes_end_[low(e)];
   std::exclusive_scan(spokes_end_.begin(), spokes_end_.end(), spokes_end_.begin(), std::size_t{0});
   for (Edge e = 0; e < edges(); ++e) spokes_[spokes_end_[low(e)]++] = {std::max(node(e, 1), node(e, 2)), e};

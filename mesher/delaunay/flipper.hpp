@@ -50,8 +50,8 @@ class Flipper {
 
   /// The same edge of the triangle beyond it, `border` or `open_border`, after the flips.
   Edge across(Edge e) const { return across_[e]; }
-  static std::size_t triangle_of(Edge e) { return static_cast<std::size_t>(e / 3); }
-  static std::size_t corner_of(Edge e, int step) { return static_cast<std::size_t>((e % 3 + step) % 3); }
+  static std::size_t triangle_of(Edge e) { return e / 3; }
+  static std::size_t corner_of(Edge e, int step) { return (e % 3 + step) % 3; }
 
  private:
   /// An edge of a triangle, listed with its lower node.

@@ -15,11 +15,11 @@ namespace quadloop {
 /// coordinates. Over a mesh the order is strict, so that a constrained Delaunay triangulation is unique under
 /// it: nodes on one circle are joined to the highest of them.
 struct TieRank {
-  std::int8_t
-      coarser = -1,
-      finer = -1;  ///< trailing zeros of a lattice node's coordinates, the smaller first; -1 for other nodes
-  double farther = 0, nearer = 0;  ///< distances along the axes, the larger first: from the root's centre, or
-                                   ///< from a leaf's corner of the highest rank
+  /// Trailing zeros of a lattice node's coordinates, the smaller first; -1 for other nodes.
+  std::int8_t coarser = -1, finer = -1;
+  /// Distances along the axes, the larger first: from the root's centre, or from a leaf's corner of the
+  /// highest rank.
+  double farther = 0, nearer = 0;
   double x = 0, y = 0;
   friend auto operator<=>(const TieRank&, const TieRank&) = default;
 };

@@ -10,12 +10,12 @@
 
 namespace quadloop {
 
-/// A unit square by its place on the space-filling curve: first along the trees, then (Morton order) within
+/// A unit square by its key on the space-filling curve: first along the trees, then (Morton order) within
 /// the tree.
-struct CurvePlace {
+struct CurveKey {
   std::int32_t tree = 0;
   std::uint64_t square = 0;
-  friend auto operator<=>(const CurvePlace&, const CurvePlace&) = default;
+  friend auto operator<=>(const CurveKey&, const CurveKey&) = default;
 };
 
 /// Which rank owns which part of the space-filling curve, and so of the root.
@@ -23,26 +23,26 @@ class CurveOwners {
  public:
   /// `begins`: where each rank's part begins, and last the curve's end; `tree_numbers`: along the curve, of
   /// the trees row by row.
-  CurveOwners(std::vector<CurvePlace> begins, std::vector<std::int32_t> tree_numbers, int trees_x)
+  CurveOwners(std::vector<CurveKey> begins, std::vector<std::int32_t> tree_numbers, int trees_x)
       : begins_{std::move(begins)}, tree_numbers_{std::move(tree_numbers)}, trees_x_{trees_x} {}
 
   std::size_t ranks() const { return begins_.size() - 1; }
   /// Of the unit square right above the lattice corner (x, y), in the root.
-  CurvePlace place_of(std::int64_t x, std::int64_t y) const {
+  CurveKey key_at(std::int64_t x, std::int64_t y) const {
     constexpr std::int64_t within = (std::int64_t{1} << Quadrant::unit_level) - 1;
     const std::int64_t tree = (y >> Quadrant::unit_level) * trees_x_ + (x >> Quadrant::unit_level);
     return {tree_numbers_[tree],
             morton_key(static_cast<std::uint32_t>(x & within), static_cast<std::uint32_t>(y & within))};
   }
-  int rank_of(const CurvePlace& place) const {
-    return static_cast<int>(std::upper_bound(begins_.begin(), begins_.end(), place) - begins_.begin()) - 1;
+  int rank_of(const CurveKey& key) const {
+    return static_cast<int>(std::upper_bound(begins_.begin(), begins_.end(), key) - begins_.begin()) - 1;
   }
-  bool owns(std::size_t rank, const CurvePlace& place) const {
-    return begins_[rank] <= place && place < begins_[rank + 1];
+  bool owns(std::size_t rank, const CurveKey& key) const {
+    return begins_[rank] <= key && key < begins_[rank + 1];
   }
 
  private:
-  std::vector<CurvePlace> begins_;
+  std::vector<CurveKey> begins_;
   std::vector<std::int32_t> tree_numbers_;
   int trees_x_;
 };

@@ -59,7 +59,8 @@ struct Callbacks {
   std::size_t next = 0;  ///< leaf that the callback is asked about
 };
 
-Quadrant place_of(const std::vector<Quadrant>& tree_corners, p4est_topidx_t tree, const p4est_quadrant_t& q) {
+Quadrant quadrant_of(const std::vector<Quadrant>& tree_corners, p4est_topidx_t tree,
+                     const p4est_quadrant_t& q) {
   const Quadrant& corner = tree_corners[tree];
   return {corner.x + q.x, corner.y + q.y, q.level};
 }
@@ -68,7 +69,7 @@ Callbacks& callbacks_of(p4est_t* forest) { return *static_cast<Callbacks*>(fores
 
 int split_by_function(p4est_t* forest, p4est_topidx_t tree, p4est_quadrant_t* q) {
   Callbacks& callbacks = callbacks_of(forest);
-  return (*callbacks.split)(place_of(*callbacks.tree_corners, tree, *q)) ? 1 : 0;
+  return (*callbacks.split)(quadrant_of(*callbacks.tree_corners, tree, *q)) ? 1 : 0;
 }
 
 int split_by_mark(p4est_t* forest, p4est_topidx_t, p4est_quadrant_t*) {
@@ -78,7 +79,7 @@ int split_by_mark(p4est_t* forest, p4est_topidx_t, p4est_quadrant_t*) {
 
 int weight_by_function(p4est_t* forest, p4est_topidx_t tree, p4est_quadrant_t* q) {
   const Callbacks& callbacks = callbacks_of(forest);
-  return (*callbacks.weight)(place_of(*callbacks.tree_corners, tree, *q));
+  return (*callbacks.weight)(quadrant_of(*callbacks.tree_corners, tree, *q));
 }
 
 }  // namespace
@@ -117,7 +118,7 @@ void Forest::refine(const std::function<bool(const Quadrant&)>& split, int deepe
 }
 
 void Forest::split_marked(const std::vector<char>& marked) {
-  QUADLOOP_REQUIRE(marked.size() == static_cast<std::size_t>(local_leaves()), "one mark for each local leaf");
+  QUADLOOP_REQUIRE(std::ssize(marked) == local_leaves(), "one mark for each local leaf");
   Callbacks callbacks{.marked = &marked};
   impl_->forest->user_pointer = &callbacks;
   p4est_refine_ext(impl_->forest.get(), 0, P4EST_QMAXLEVEL, split_by_mark, nullptr, nullptr);
@@ -142,13 +143,13 @@ std::vector<Quadrant> Forest::leaves() const {
   for (p4est_topidx_t t = forest.first_local_tree; t <= forest.last_local_tree; ++t) {
     sc_array_t& quadrants = p4est_tree_array_index(forest.trees, t)->quadrants;
     for (std::size_t i = 0; i < quadrants.elem_count; ++i)
-      leaves.push_back(place_of(impl_->tree_corners, t, *p4est_quadrant_array_index(&quadrants, i)));
+      leaves.push_back(quadrant_of(impl_->tree_corners, t, *p4est_quadrant_array_index(&quadrants, i)));
   }
   return leaves;
 }
 
 CurveOwners Forest::owners() const {
-  std::vector<CurvePlace> begins;
+  std::vector<CurveKey> begins;
   for (int rank = 0; rank <= impl_->forest->mpisize; ++rank) {
     const p4est_quadrant_t& first = impl_->forest->global_first_position[rank];
     begins.push_back({first.p.which_tree, p4est_quadrant_linear_id(&first, P4EST_MAXLEVEL)});

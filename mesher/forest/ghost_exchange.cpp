@@ -6,9 +6,9 @@ namespace {
 
 std::vector<CopyExchange::Copy> ghosts_of(const LeafGraph& graph) {
   std::vector<CopyExchange::Copy> ghosts;
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+  for (const LeafId leaf : graph.all()) {
     if (!graph.is_local(leaf))
-      ghosts.push_back({leaf, graph.place_of(leaf).rank, graph.place_of(leaf).index});
+      ghosts.push_back({leaf.value(), graph.owner_of(leaf).rank, graph.owner_of(leaf).index});
   }
   return ghosts;
 }

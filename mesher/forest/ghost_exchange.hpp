@@ -19,23 +19,23 @@ class GhostExchange : public CopyExchange {
 /// Calls `visit` for the leaves of the graph that touch a leaf, by an edge or a corner; for some of them more
 /// than once. Touching leaves must differ by one level at most.
 template <class Visit>
-void for_touching_leaves(const LeafGraph& graph, std::int32_t leaf, const Visit& visit) {
+void for_touching_leaves(const LeafGraph& graph, LeafId leaf, const Visit& visit) {
   const Quadrant& q = graph.leaf(leaf);
   const std::int64_t last = q.size() - 1, x = q.x, y = q.y;
-  const std::array<std::array<std::int64_t, 2>, 12> places{{{x - 1, y - 1},
-                                                            {x, y - 1},
-                                                            {x + last, y - 1},
-                                                            {x + last + 1, y - 1},
-                                                            {x + last + 1, y},
-                                                            {x + last + 1, y + last},
-                                                            {x + last + 1, y + last + 1},
-                                                            {x + last, y + last + 1},
-                                                            {x, y + last + 1},
-                                                            {x - 1, y + last + 1},
-                                                            {x - 1, y + last},
-                                                            {x - 1, y}}};
-  for (const auto& [px, py] : places) {
-    const std::int32_t other = graph.leaf_at(px, py);
+  const std::array<std::array<std::int64_t, 2>, 12> squares{{{x - 1, y - 1},
+                                                             {x, y - 1},
+                                                             {x + last, y - 1},
+                                                             {x + last + 1, y - 1},
+                                                             {x + last + 1, y},
+                                                             {x + last + 1, y + last},
+                                                             {x + last + 1, y + last + 1},
+                                                             {x + last, y + last + 1},
+                                                             {x, y + last + 1},
+                                                             {x - 1, y + last + 1},
+                                                             {x - 1, y + last},
+                                                             {x - 1, y}}};
+  for (const auto& [px, py] : squares) {
+    const LeafId other = graph.leaf_at(px, py);
     if (other != LeafGraph::none) visit(other);
   }
 }

@@ -10,7 +10,7 @@ namespace {
 
 /// A stretch of the curve within one tree: the unit squares of one quadrant.
 struct Stretch {
-  CurvePlace first, last;
+  CurveKey first, last;
 };
 
 /// Who owns which part of the curve, and which of this rank's leaves others must know.
@@ -19,17 +19,17 @@ class GhostFinder {
   GhostFinder(int rank, const Lattice& lattice, const CurveOwners& owners)
       : rank_{rank}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()}, owners_{owners} {}
 
-  /// Visits the leaves below `place`, which are this rank's, as far as a neighbour may be another rank's.
-  void search(const Quadrant& place, std::span<const Quadrant> leaves, std::int32_t first) {
-    if (leaves.empty() || surrounded(place)) return;
-    if (leaves.front() == place) {
-      share(place, first);
+  /// Visits the leaves below a quadrant, which are this rank's, as far as a neighbour may be another rank's.
+  void search(const Quadrant& quadrant, std::span<const Quadrant> leaves, std::int32_t first) {
+    if (leaves.empty() || surrounded(quadrant)) return;
+    if (leaves.front() == quadrant) {
+      share(quadrant, first);
       return;
     }
     for (const Corner quarter : corners_along_curve) {
-      const Quadrant child = place.child(quarter);
+      const Quadrant child = quadrant.child(quarter);
       const auto end = std::partition_point(leaves.begin(), leaves.end(), [&](const Quadrant& q) {
-        return curve_index(quarter_at(q.x, q.y, place.level)) <= curve_index(quarter);
+        return curve_index(quarter_at(q.x, q.y, quadrant.level)) <= curve_index(quarter);
       });
       const std::size_t count = end - leaves.begin();
       search(child, leaves.first(count), first);
@@ -48,7 +48,7 @@ class GhostFinder {
 
   Stretch stretch_of(const Quadrant& q) const {
     const auto squares = std::uint64_t{1} << (2 * (Quadrant::unit_level - q.level));
-    const CurvePlace first = owners_.place_of(q.x, q.y);
+    const CurveKey first = owners_.key_at(q.x, q.y);
     return {first, {first.tree, first.square + squares - 1}};
   }
 
@@ -69,9 +69,9 @@ class GhostFinder {
   }
 
   /// Whether the quadrant and all of its size around it are this rank's.
-  bool surrounded(const Quadrant& place) const {
+  bool surrounded(const Quadrant& quadrant) const {
     bool all_own = true;
-    for_neighbours(place, [&](const Quadrant& q) { all_own = all_own && is_own(stretch_of(q)); });
+    for_neighbours(quadrant, [&](const Quadrant& q) { all_own = all_own && is_own(stretch_of(q)); });
     return all_own;
   }
 

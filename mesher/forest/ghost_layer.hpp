@@ -11,7 +11,7 @@ namespace quadloop {
 
 /// A leaf of another rank that touches one of this rank's, by an edge or a corner.
 struct Ghost {
-  Quadrant place;
+  Quadrant quadrant;
   int owner = 0;
   std::int32_t index = 0;  ///< its number on its owner
 };

@@ -15,18 +15,18 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
   local_count_ = size32(local);
   leaves_.reserve(local.size() + ghosts.size());
   for (const auto& ghost : ghosts) {
-    if (ghost.owner < rank_) leaves_.push_back(ghost.place);
-    ghost_places_.push_back({ghost.owner, ghost.index});
+    if (ghost.owner < rank_) leaves_.push_back(ghost.quadrant);
+    ghost_owners_.push_back({ghost.owner, ghost.index});
   }
   leaves_.insert(leaves_.end(), local.begin(), local.end());
   for (const auto& ghost : ghosts) {
-    if (ghost.owner > rank_) leaves_.push_back(ghost.place);
+    if (ghost.owner > rank_) leaves_.push_back(ghost.quadrant);
   }
   build_trees(lattice);
   around_.resize(leaves_.size());
   const int nx = lattice.trees_x(), ny = lattice.trees_y();
   const auto root = [&](int x, int y) {
-    return x < 0 || y < 0 || x >= nx || y >= ny ? none : roots_[y * nx + x];
+    return x < 0 || y < 0 || x >= nx || y >= ny ? no_ref : roots_[y * nx + x];
   };
   for (int y = 0; y < ny; ++y) {
     for (int x = 0; x < nx; ++x) {
@@ -35,38 +35,38 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
   }
 }
 
-LeafGraph::Place LeafGraph::place_of(std::int32_t leaf) const {
-  if (is_local(leaf)) return {rank_, leaf - local_begin_};
-  return ghost_places_[leaf < local_begin_ ? leaf : leaf - local_count_];
+LeafGraph::Owner LeafGraph::owner_of(LeafId leaf) const {
+  if (is_local(leaf)) return {rank_, local_index(leaf)};
+  return ghost_owners_[leaf.value() - (local_index(leaf) < 0 ? 0 : local_count_)];
 }
 
-std::int32_t LeafGraph::leaf_at(std::int64_t x, std::int64_t y) const {
+LeafId LeafGraph::leaf_at(std::int64_t x, std::int64_t y) const {
   const std::int64_t tx = x >> Quadrant::unit_level, ty = y >> Quadrant::unit_level;
   if (x < 0 || y < 0 || tx >= trees_x_ || ty >= trees_y_) return none;
   Ref ref = roots_[ty * trees_x_ + tx];
   for (int level = 0; is_inner(ref); ++level) ref = down(ref, quarter_at(x, y, level));
-  return ref;
+  return LeafId{ref};
 }
 
 LeafGraph::Ref LeafGraph::new_inner() {
-  inner_.push_back({none, none, none, none});
+  inner_.push_back({no_ref, no_ref, no_ref, no_ref});
   return static_cast<Ref>(-1 - std::ssize(inner_));
 }
 
 /// Hangs each leaf into its tree; the path down to the leaf before it saves the way from the root.
 void LeafGraph::build_trees(const Lattice& lattice) {
-  roots_.assign(lattice.trees_x() * lattice.trees_y(), none);
+  roots_.assign(lattice.trees_x() * lattice.trees_y(), no_ref);
   inner_.reserve(leaves_.size() / 3 + leaves_.size() / 16 + 64);
   std::array<Ref, Quadrant::unit_level + 1> path{};
   std::int64_t last_tree = -1;
   Quadrant last;
   for (std::int32_t i = 0; i < size(); ++i) {
-    const Quadrant& q = leaf(i);
+    const Quadrant& q = leaves_[i];
     const std::int64_t tree =
         (q.y >> Quadrant::unit_level) * lattice.trees_x() + (q.x >> Quadrant::unit_level);
     int common = 0;  // the level of the deepest inner node on both paths
     if (tree == last_tree) {
-      const auto differing = static_cast<std::uint64_t>((q.x ^ last.x) | (q.y ^ last.y));
+      const std::uint64_t differing = (q.x ^ last.x) | (q.y ^ last.y);
       common = Quadrant::unit_level - static_cast<int>(std::bit_width(differing));
     } else {
       path[0] = roots_[tree] = new_inner();
@@ -74,7 +74,7 @@ void LeafGraph::build_trees(const Lattice& lattice) {
     for (int level = common; level < q.level; ++level) {
       const Ref below = level + 1 == q.level ? i : new_inner();
       child(path[level], quarter_at(q.x, q.y, level)) = below;
-      path[static_cast<std::size_t>(level) + 1] = below;
+      path[level + 1] = below;
     }
     last = q;
     last_tree = tree;
@@ -84,9 +84,9 @@ void LeafGraph::build_trees(const Lattice& lattice) {
 /// Hands each child its neighbours: its siblings, and the children of its parent's neighbours (or those
 /// themselves where they are leaves).
 void LeafGraph::visit(Ref ref, const Neighbours& n) {
-  if (ref == none) return;
+  if (ref == no_ref) return;
   if (!is_inner(ref)) {
-    visit_leaf(ref, n);
+    visit_leaf(LeafId{ref}, n);
     return;
   }
   using enum Corner;
@@ -98,13 +98,13 @@ void LeafGraph::visit(Ref ref, const Neighbours& n) {
   visit(ne, {nw, se, down(n.east, north_west), down(n.north, south_east), sw});
 }
 
-void LeafGraph::visit_leaf(std::int32_t leaf, const Neighbours& n) {
+void LeafGraph::visit_leaf(LeafId leaf, const Neighbours& n) {
   using enum Corner;
   const auto deepest = [&](Ref ref, Corner quarter) {
     while (is_inner(ref)) ref = down(ref, quarter);
-    return ref;
+    return LeafId{ref};
   };
-  Around& around = around_[leaf];
+  Around& around = around_[leaf.value()];
   around.south_west = deepest(n.south_west, north_east);
   around.south = deepest(n.south, north_east);
   around.west = deepest(n.west, north_east);

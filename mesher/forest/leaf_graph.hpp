@@ -10,62 +10,67 @@
 
 namespace quadloop {
 
-/// This rank's leaves and the ghost leaves around them, in the order of the curve, and which of them touch. A
-/// leaf is known by its number here; `none` where there is no leaf (outside the root, or out of this rank's
-/// sight).
+/// This rank's leaves and the ghost leaves around them, in the order of the curve, and which of them touch.
+/// An id numbers both kinds; `none` where there is no leaf (outside the root, or out of this rank's sight).
+/// What is kept of local leaves alone goes by their local index, counted from this rank's first leaf.
 class LeafGraph {
  public:
-  static constexpr std::int32_t none = -1;
+  static constexpr LeafId none{};
 
   /// *Collective.*
   LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest);
 
   std::int32_t size() const { return size32(leaves_); }
+  /// How many ghosts come before the local leaves.
   std::int32_t local_begin() const { return local_begin_; }
-  std::int32_t local_end() const { return local_begin_ + local_count_; }
-  bool is_local(std::int32_t leaf) const { return local_begin() <= leaf && leaf < local_end(); }
-  const Quadrant& leaf(std::int32_t leaf) const { return leaves_[leaf]; }
+  std::int32_t local_size() const { return local_count_; }
+  IdRange<LeafId> all() const { return {0, size()}; }
+  IdRange<LeafId> local() const { return {local_begin_, local_begin_ + local_count_}; }
+  bool is_local(LeafId leaf) const { return 0 <= local_index(leaf) && local_index(leaf) < local_count_; }
+  /// From a local leaf to its local index, and back.
+  std::int32_t local_index(LeafId leaf) const { return leaf.value() - local_begin_; }
+  LeafId from_local(std::int32_t index) const { return LeafId{local_begin_ + index}; }
+  const Quadrant& leaf(LeafId leaf) const { return leaves_[leaf.value()]; }
   const std::vector<Quadrant>& leaves() const { return leaves_; }
 
-  /// The rank that a leaf belongs to, and its number there (counted from that rank's first leaf).
-  struct Place {
+  /// The rank that a leaf belongs to, and its local index there.
+  struct Owner {
     int rank = 0;
     std::int32_t index = 0;
   };
-  Place place_of(std::int32_t leaf) const;
-  /// The number here of a local leaf from its number counted from this rank's first leaf.
-  std::int32_t from_local(std::int32_t index) const { return local_begin_ + index; }
+  Owner owner_of(LeafId leaf) const;
 
   /// The leaf that holds the unit square right above the lattice corner (x, y); none where there is none in
   /// sight.
-  std::int32_t leaf_at(std::int64_t x, std::int64_t y) const;
+  LeafId leaf_at(std::int64_t x, std::int64_t y) const;
   /// The rank with the leaf that holds it, in sight or not; it must lie in the root.
-  int rank_at(std::int64_t x, std::int64_t y) const { return owners_.rank_of(owners_.place_of(x, y)); }
+  int rank_at(std::int64_t x, std::int64_t y) const { return owners_.rank_of(owners_.key_at(x, y)); }
   /// The leaves round a lattice point, as Corner counts from it; a leaf that it lies on a side of is there
   /// twice.
-  std::array<std::int32_t, 4> leaves_round(LatticePoint p) const {
+  std::array<LeafId, 4> leaves_round(LatticePoint p) const {
     return {leaf_at(p.x - 1, p.y - 1), leaf_at(p.x, p.y - 1), leaf_at(p.x, p.y), leaf_at(p.x - 1, p.y)};
   }
 
   /// The leaves around the lower left part of a leaf, each named by the point of it that they touch; such a
   /// leaf is the first along the curve of all that touch the point.
   struct Around {
-    std::int32_t south_west = none;  ///< beyond the lower left corner, diagonally
-    std::int32_t south = none;       ///< below the lower right corner (below the bottom side)
-    std::int32_t west = none;        ///< left of the upper left corner (left of the left side)
-    std::int32_t south_half = none;  ///< below the bottom side's left half, where the leaves below are finer
-    std::int32_t west_half = none;   ///< left of the left side's lower half, where the leaves there are finer
-    SideSet finer;  ///< the sides across which the neighbours are finer: each has a hanging node
+    LeafId south_west;  ///< beyond the lower left corner, diagonally
+    LeafId south;       ///< below the lower right corner (below the bottom side)
+    LeafId west;        ///< left of the upper left corner (left of the left side)
+    LeafId south_half;  ///< below the bottom side's left half, where the leaves below are finer
+    LeafId west_half;   ///< left of the left side's lower half, where the leaves there are finer
+    SideSet finer;      ///< the sides across which the neighbours are finer: each has a hanging node
   };
-  const Around& around(std::int32_t leaf) const { return around_[leaf]; }
-  bool has_hanging(std::int32_t leaf, Side side) const { return around(leaf).finer.contains(side); }
+  const Around& around(LeafId leaf) const { return around_[leaf.value()]; }
+  bool has_hanging(LeafId leaf, Side side) const { return around(leaf).finer.contains(side); }
 
  private:
-  using Ref = std::int32_t;  ///< a leaf (>= 0), none, or an inner node of the tree (-2 and below)
+  using Ref = std::int32_t;  ///< a leaf's id (>= 0), no_ref, or an inner node of the tree (-2 and below)
+  static constexpr Ref no_ref = none.value();
   struct Neighbours {
-    Ref west = none, south = none, east = none, north = none, south_west = none;
+    Ref west = no_ref, south = no_ref, east = no_ref, north = no_ref, south_west = no_ref;
   };
-  static constexpr bool is_inner(Ref ref) { return ref < none; }
+  static constexpr bool is_inner(Ref ref) { return ref < no_ref; }
   Ref& child(Ref inner, Corner quarter) { return inner_[-2 - inner][index_of(quarter)]; }
   Ref down(Ref ref, Corner quarter) const {
     return is_inner(ref) ? inner_[-2 - ref][index_of(quarter)] : ref;
@@ -73,13 +78,13 @@ class LeafGraph {
   Ref new_inner();
   void build_trees(const Lattice& lattice);
   void visit(Ref ref, const Neighbours& n);
-  void visit_leaf(std::int32_t leaf, const Neighbours& n);
+  void visit_leaf(LeafId leaf, const Neighbours& n);
 
   CurveOwners owners_;
   std::vector<Quadrant> leaves_;
   std::int32_t local_begin_ = 0, local_count_ = 0;
   int rank_ = 0;
-  std::vector<Place> ghost_places_;
+  std::vector<Owner> ghost_owners_;
   std::vector<Around> around_;
   std::vector<std::array<Ref, 4>> inner_;  ///< by Corner
   std::vector<Ref> roots_;

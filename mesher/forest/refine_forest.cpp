@@ -22,12 +22,11 @@ constexpr int weight_unfinished = 16;  ///< of a leaf that is yet to be split, d
 class SqueezedLeaves {
  public:
   explicit SqueezedLeaves(const LeafGraph& graph) : graph_{graph} {
-    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf)
-      finer_.push_back(graph.around(leaf).finer);
+    for (const LeafId leaf : graph.local()) finer_.push_back(graph.around(leaf).finer);
     marked_.assign(finer_.size(), 0);
-    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) mark(leaf);
+    for (const LeafId leaf : graph.local()) mark(leaf);
     while (!waiting_.empty()) {
-      const std::int32_t leaf = waiting_.back();
+      const LeafId leaf = waiting_.back();
       waiting_.pop_back();
       tell_neighbours(leaf);
     }
@@ -38,9 +37,9 @@ class SqueezedLeaves {
   const std::vector<char>& marked() const { return marked_; }
 
  private:
-  std::size_t local(std::int32_t leaf) const { return static_cast<std::size_t>(leaf - graph_.local_begin()); }
+  std::int32_t local(LeafId leaf) const { return graph_.local_index(leaf); }
 
-  void mark(std::int32_t leaf) {
+  void mark(LeafId leaf) {
     if (!finer_[local(leaf)].has_opposites() || marked_[local(leaf)] != 0) return;
     marked_[local(leaf)] = 1;
     any_ = true;
@@ -48,13 +47,13 @@ class SqueezedLeaves {
   }
 
   /// A leaf as large as the one that splits gets a finer neighbour.
-  void tell_neighbours(std::int32_t leaf) {
+  void tell_neighbours(LeafId leaf) {
     const Quadrant& q = graph_.leaf(leaf);
     const std::int64_t s = q.size();
-    const std::array<std::int32_t, 4> across{graph_.leaf_at(q.x, q.y - 1), graph_.leaf_at(q.x + s, q.y),
-                                             graph_.leaf_at(q.x, q.y + s), graph_.leaf_at(q.x - 1, q.y)};
+    const std::array<LeafId, 4> across{graph_.leaf_at(q.x, q.y - 1), graph_.leaf_at(q.x + s, q.y),
+                                       graph_.leaf_at(q.x, q.y + s), graph_.leaf_at(q.x - 1, q.y)};
     for (const Side side : all_sides) {
-      const std::int32_t neighbour = across[index_of(side)];
+      const LeafId neighbour = across[index_of(side)];
       if (neighbour == LeafGraph::none || !graph_.is_local(neighbour) ||
           graph_.leaf(neighbour).level != q.level)
         continue;
@@ -66,7 +65,7 @@ class SqueezedLeaves {
   const LeafGraph& graph_;
   std::vector<SideSet> finer_;
   std::vector<char> marked_;
-  std::vector<std::int32_t> waiting_;
+  std::vector<LeafId> waiting_;
   bool any_ = false;
 };
 

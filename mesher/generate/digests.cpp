@@ -32,7 +32,7 @@ class WordDigest {
     add(value.value_or(0));
   }
   void add(const Source& source) {
-    add(static_cast<std::uint64_t>(source.shape.index()));
+    add(source.shape.index());
     add(source.spacing);
     if (const auto* box = std::get_if<Box>(&source.shape)) {
       add(box->low);
@@ -63,7 +63,7 @@ std::uint64_t case_digest(const MeshOptions& options) {
   digest.add(size.gradation);
   digest.add(size.curvature);
   digest.add(size.gap);
-  digest.add(static_cast<std::uint64_t>(size.sources.size()));
+  digest.add(size.sources.size());
   for (const Source& source : size.sources) digest.add(source);
   digest.add(std::uint64_t{size.root.has_value()});
   if (size.root) {
@@ -78,8 +78,8 @@ std::uint64_t case_digest(const MeshOptions& options) {
 
 std::uint64_t text_digest(const std::string& text) {
   WordDigest digest;
-  digest.add(static_cast<std::uint64_t>(text.size()));
-  for (const char c : text) digest.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  digest.add(text.size());
+  for (const unsigned char byte : text) digest.add(std::uint64_t{byte});
   return digest.value();
 }
 
@@ -97,8 +97,7 @@ std::uint64_t digest_of_owned(const Mesh& mesh) {
 std::uint64_t coordinate_digest(const Communicator& comm, const Mesh& mesh) {
   const std::uint64_t sum = digest_of_owned(mesh);
   // Modulo 2^64 over all ranks, in two halves: a signed 64-bit sum may not overflow.
-  const auto low = static_cast<std::uint64_t>(comm.sum(static_cast<std::int64_t>(sum & 0xffffffffULL)));
-  const auto high = static_cast<std::uint64_t>(comm.sum(static_cast<std::int64_t>(sum >> 32)));
+  const std::uint64_t low = comm.sum(sum & 0xffffffffULL), high = comm.sum(sum >> 32);
   return low + (high << 32);
 }
 

@@ -14,14 +14,14 @@ namespace quadloop {
 
 namespace {
 
-/// A leaf has the triangles that stand in the places of its own before.
+/// A leaf has the triangles that stand in the slots of its own before.
 void count_triangles(const std::vector<std::int32_t>& standing, std::vector<LeafRecord>& leaves) {
-  auto place = standing.begin();
+  auto slot = standing.begin();
   for (LeafRecord& leaf : leaves) {
-    const auto end = place + leaf.triangles;
-    leaf.triangles = std::accumulate(place, end, std::int32_t{0});
-    leaf.mark = leaf.triangles + leaf.quads > 0 ? 1 : 0;
-    place = end;
+    const auto end = slot + leaf.triangles;
+    leaf.triangles = std::accumulate(slot, end, std::int32_t{0});
+    leaf.block = leaf.triangles + leaf.quads > 0 ? 1 : 0;
+    slot = end;
   }
 }
 
@@ -44,7 +44,7 @@ void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result
   const bool parallel = input.mesh.type == MeshType::hybrid && input.mesh.quads == QuadChoice::parallel;
   if (input.mesh.type == MeshType::delaunay) options.delaunay = rank;
   if (parallel) options = sparing_parallelograms(options);
-  options.keep_places = input.mesh.type != MeshType::delaunay;
+  options.keep_slots = input.mesh.type != MeshType::delaunay;
   const SmoothReport report = smooth_mesh(comm, result.mesh, options);
   if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
   if (parallel) keep_parallelograms(comm, rank, result);

@@ -17,8 +17,8 @@ class Digest {
   }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
   void add(const std::string& text) {
-    add(static_cast<std::uint64_t>(text.size()));
-    for (const char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+    add(text.size());
+    for (const unsigned char byte : text) add(std::uint64_t{byte});
   }
   std::uint64_t value() const { return hash_; }
 
@@ -134,7 +134,7 @@ std::uint64_t Geometry::digest() const {
     digest.add(p.x);
     digest.add(p.y);
   }
-  for (const std::int32_t start : loop_starts_) digest.add(static_cast<std::uint64_t>(start));
+  for (const std::uint64_t start : loop_starts_) digest.add(start);
   for (const BoundaryId b : segment_boundary_) digest.add(static_cast<std::uint64_t>(b.value()));
   return digest.value();
 }

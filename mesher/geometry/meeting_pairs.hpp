@@ -16,7 +16,7 @@ struct FlatOutline {
   std::vector<std::int32_t> loop_of, loop_starts;
 
   std::size_t loop_count() const { return loop_starts.size() - 1; }
-  std::size_t loop(std::int32_t v) const { return static_cast<std::size_t>(loop_of[v]); }
+  std::size_t loop(std::int32_t v) const { return loop_of[v]; }
   Point point(std::int32_t v) const { return points[v]; }
   std::int32_t next(std::int32_t v) const {
     return v + 1 < loop_starts[loop(v) + 1] ? v + 1 : loop_starts[loop(v)];

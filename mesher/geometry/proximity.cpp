@@ -8,10 +8,10 @@ namespace quadloop {
 
 namespace {
 
-constexpr double facing_cosine =
-    0.5;  ///< two pieces face each other where the way across leaves both within 60 degrees of the normal
-constexpr double bend_length =
-    3;  ///< of the gap: a shorter piece of outline between its two sides is a bend, not a gap
+/// Two pieces face each other where the way across leaves both within 60 degrees of the normal.
+constexpr double facing_cosine = 0.5;
+/// Of the gap: a shorter piece of outline between its two sides is a bend, not a gap.
+constexpr double bend_length = 3;
 constexpr double straight_sides_degrees = 30;  ///< what the two sides of a corner may turn by besides
 
 /// The part of a segment inside a box that it meets.

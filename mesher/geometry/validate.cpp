@@ -23,7 +23,7 @@ class Sweep {
   explicit Sweep(const FlatOutline& flat)
       : flat_{flat},
         status_{Below{this}},
-        place_(flat.points.size()),
+        status_at_(flat.points.size()),
         below_(flat.loop_count(), none),
         begun_(flat.loop_count()) {}
 
@@ -40,8 +40,8 @@ class Sweep {
     return !met_;
   }
 
-  /// After a run that found nothing: the place of each loop.
-  std::vector<LoopPlace> places() const;
+  /// After a run that found nothing: how each loop lies among the others.
+  std::vector<LoopNesting> nestings() const;
 
  private:
   static constexpr std::int32_t none = -1;
@@ -82,13 +82,13 @@ class Sweep {
 
   void enter(std::int32_t s) {
     const auto at = status_.insert(s).first;
-    place_[s] = at;
+    status_at_[s] = at;
     if (at != status_.begin()) check(*std::prev(at), s);
     if (std::next(at) != status_.end()) check(s, *std::next(at));
   }
 
   void leave(std::int32_t s) {
-    const auto after = status_.erase(place_[s]);
+    const auto after = status_.erase(status_at_[s]);
     if (after != status_.begin() && after != status_.end()) check(*std::prev(after), *after);
   }
 
@@ -98,32 +98,33 @@ class Sweep {
   void note_below(std::int32_t v, std::int32_t s, std::int32_t t) {
     begun_[flat_.loop(v)] = 1;
     first_points_.push_back(v);
-    const auto lower = place_[is_below(s, t) ? s : t];
+    const auto lower = status_at_[is_below(s, t) ? s : t];
     if (lower != status_.begin()) below_[flat_.loop(v)] = *std::prev(lower);
   }
 
   const FlatOutline& flat_;
   Status status_;
-  std::vector<Status::iterator> place_;
+  std::vector<Status::iterator> status_at_;
   std::vector<std::int32_t> below_;         ///< by loop: the segment below its first point
   std::vector<char> begun_;                 ///< by loop
   std::vector<std::int32_t> first_points_;  ///< of the loops, from left to right
   bool met_ = false;
 };
 
-std::vector<LoopPlace> Sweep::places() const {
-  std::vector<LoopPlace> places(flat_.loop_count());
+std::vector<LoopNesting> Sweep::nestings() const {
+  std::vector<LoopNesting> nestings(flat_.loop_count());
   for (const std::int32_t v : first_points_) {
-    LoopPlace& place = places[flat_.loop(v)];
-    place.counter_clockwise =
+    LoopNesting& loop = nestings[flat_.loop(v)];
+    loop.counter_clockwise =
         orientation(flat_.point(flat_.previous(v)), flat_.point(v), flat_.point(flat_.next(v))) > 0;
     const std::int32_t below = below_[flat_.loop(v)];
     if (below == none) continue;
-    const LoopPlace& other = places[flat_.loop(below)];  // begun before: its first point lies further left
+    const LoopNesting& other =
+        nestings[flat_.loop(below)];  // begun before: its first point lies further left
     const bool rightwards = flat_.point(below) < flat_.point(flat_.next(below));
-    place.depth = other.depth + (rightwards == other.counter_clockwise ? 1 : 0);
+    loop.depth = other.depth + (rightwards == other.counter_clockwise ? 1 : 0);
   }
-  return places;
+  return nestings;
 }
 
 std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::int32_t s) {
@@ -157,11 +158,11 @@ std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::
 
 }  // namespace
 
-std::vector<LoopPlace> validate(const Outline& outline) {
+std::vector<LoopNesting> validate(const Outline& outline) {
   const FlatOutline flat(outline);
   Sweep sweep(flat);
   if (!sweep.run()) refuse(outline, flat);
-  return sweep.places();
+  return sweep.nestings();
 }
 
 }  // namespace quadloop

@@ -8,7 +8,7 @@
 namespace quadloop {
 
 /// How one loop lies among the others.
-struct LoopPlace {
+struct LoopNesting {
   std::int32_t depth = 0;          ///< number of loops around it
   bool counter_clockwise = false;  ///< as it is given
 };
@@ -17,6 +17,6 @@ struct LoopPlace {
 /// touching, no spike of zero width. Exact, O(n log n). Returns how the loops are nested. Throws InputError
 /// that names the first pair that meets, in the order of input, and says how many others there are. Loops
 /// have three points or more, none repeated in a row.
-std::vector<LoopPlace> validate(const Outline& outline);
+std::vector<LoopNesting> validate(const Outline& outline);
 
 }  // namespace quadloop

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int most_trees = 16;     ///< along one side of the brick
 constexpr int deepest_level = 29;  ///< p4est's limit
-constexpr int root_mantissa_bits =
-    16;  ///< of a padded root's tree edge, so that lattice coordinates are exact
+/// Of a padded root's tree edge, so that lattice coordinates are exact.
+constexpr int root_mantissa_bits = 16;
 
 std::string text(Point p) {
   std::ostringstream out;

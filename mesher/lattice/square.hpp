@@ -40,12 +40,12 @@ inline constexpr std::array lattice_sites{Site::south_west, Site::south_east,   
 inline constexpr std::array corners_along_curve{Corner::south_west, Corner::south_east, Corner::north_west,
                                                 Corner::north_east};
 
-/// The place of a part in arrays that have an entry for each.
+/// The index of a part in arrays that have an entry for each.
 template <class Part>
 constexpr std::size_t index_of(Part part) {
   return static_cast<std::size_t>(part);
 }
-/// The place of a quarter in corners_along_curve.
+/// The index of a quarter in corners_along_curve.
 constexpr int curve_index(Corner c) {
   const auto i = static_cast<int>(c);
   return i ^ i >> 1;

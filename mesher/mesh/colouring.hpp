@@ -8,53 +8,52 @@
 
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/node_exchange.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
 
 namespace quadloop {
 
 /// Colours for nodes that are to be visited, no two neighbours the same, so that all of one colour can be
 /// visited at once.
 struct Colouring {
-  std::vector<std::int8_t>
-      colour_of;          ///< of each node, owned and copies; none for those that are not visited
+  /// Of each node, owned and copies; none for those that are not visited.
+  IdVector<NodeId, std::int8_t> colour_of;
   std::int8_t count = 0;  ///< over all ranks
   static constexpr std::int8_t none = -1;
 };
 
 /// Who chooses first. Scatters the numbers, so that no long chain of nodes waits one for the next (the
 /// finaliser of SplitMix64; Steele, Lea and Flood 2014).
-inline std::uint64_t colouring_priority(std::int64_t number) {
-  auto z = static_cast<std::uint64_t>(number) + 0x9e3779b97f4a7c15U;
+inline std::uint64_t colouring_priority(GlobalNodeId node) {
+  std::uint64_t z = node.value() + 0x9e3779b97f4a7c15U;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
   return z ^ (z >> 31);
 }
 
 /// Nodes choose, in an order that their numbers over all ranks alone decide, the first colour that no
-/// neighbour before them has (Jones and Plassmann 1993). There are `all` nodes, owned and copies;
-/// number_of(node) is that over all ranks. `nodes` are the owned ones to be visited; for_each_neighbour(i,
-/// visit) calls visit with the neighbours of the i-th of them, itself and repetitions allowed. *Collective.*
-template <class NumberOf, class ForEachNeighbour>
-Colouring colour_nodes(const Communicator& comm, const NodeExchange& exchange, std::size_t all,
-                       const NumberOf& number_of, std::span<const std::int32_t> nodes,
+/// neighbour before them has (Jones and Plassmann 1993). `nodes` are the owned ones to be visited;
+/// for_each_neighbour(i, visit) calls visit with the neighbours of the i-th of them, itself and repetitions
+/// allowed. *Collective.*
+template <class ForEachNeighbour>
+Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span<const NodeId> nodes,
                        const ForEachNeighbour& for_each_neighbour) {
   constexpr std::int8_t waiting = -2;
   Colouring colouring;
   auto& colours = colouring.colour_of;
-  colours.assign(all, Colouring::none);
+  colours.resize(mesh.points().size(), Colouring::none);
   std::vector<std::size_t> order;  // those that have not chosen yet
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     colours[nodes[i]] = waiting;
     order.push_back(i);
   }
-  const auto priority = [&](std::int32_t node) { return colouring_priority(number_of(node)); };
+  const auto priority = [&](NodeId node) { return colouring_priority(mesh.global(node)); };
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return priority(nodes[a]) > priority(nodes[b]); });
   const auto choose = [&](std::size_t i) {
     const std::uint64_t own = priority(nodes[i]);
     std::uint64_t taken = 0;
     bool must_wait = false;
-    for_each_neighbour(i, [&](std::int32_t other) {
+    for_each_neighbour(i, [&](NodeId other) {
       const std::int8_t colour = colours[other];
       if (colour == Colouring::none || other == nodes[i] || priority(other) < own) return;
       must_wait = must_wait || colour == waiting;
@@ -65,10 +64,10 @@ Colouring colour_nodes(const Communicator& comm, const NodeExchange& exchange, s
     colours[nodes[i]] = static_cast<std::int8_t>(std::countr_one(taken));
     return true;
   };
-  exchange.update(colours);
+  mesh.exchange().update(colours);
   do {
     std::erase_if(order, choose);
-    exchange.update(colours);
+    mesh.exchange().update(colours);
   } while (comm.any(!order.empty()));
   const auto largest = std::max_element(colours.begin(), colours.end());
   colouring.count = static_cast<std::int8_t>(

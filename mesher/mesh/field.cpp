@@ -33,7 +33,7 @@ Field selected(const Field& field, std::span<const std::string> wanted, const st
 
 Field with_copies(const Communicator& comm, const Mesh& mesh, Field field) {
   const std::size_t width = field.width();
-  QUADLOOP_REQUIRE(field.values.size() >= static_cast<std::size_t>(mesh.owned_nodes) * width,
+  QUADLOOP_REQUIRE(field.values.size() >= mesh.owned_nodes * width,
                    "a field must have a row for each owned node");
   field.values.resize(mesh.points.size() * width);
   NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.copies)

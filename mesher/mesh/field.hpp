@@ -20,11 +20,9 @@ struct Field {
 
   std::size_t width() const { return names.size(); }
   std::span<const double> row(NodeId node) const {
-    return std::span(values).subspan(static_cast<std::size_t>(node.value()) * width(), width());
+    return std::span(values).subspan(node.value() * width(), width());
   }
-  std::span<double> row(NodeId node) {
-    return std::span(values).subspan(static_cast<std::size_t>(node.value()) * width(), width());
-  }
+  std::span<double> row(NodeId node) { return std::span(values).subspan(node.value() * width(), width()); }
   /// The values of one variable, at as many nodes as there are rows.
   std::vector<double> column(std::size_t variable) const;
 };

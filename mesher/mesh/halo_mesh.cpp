@@ -7,7 +7,7 @@ namespace quadloop {
 namespace {
 
 struct TravellingNode {
-  std::int64_t number;
+  GlobalNodeId node;
   Point point;
 };
 
@@ -15,7 +15,7 @@ template <std::size_t width>
 using TravellingCell = std::array<TravellingNode, width>;
 
 struct TravellingEdge {
-  std::int64_t from, to;
+  GlobalNodeId from, to;
   std::int32_t boundary;
 };
 
@@ -24,7 +24,7 @@ template <class Nodes>
 std::vector<int> other_owners(const Mesh& mesh, const NodeOwners& owners, const Nodes& nodes) {
   std::vector<int> ranks;
   for (const NodeId node : nodes) {
-    if (node.value() >= mesh.owned_nodes) ranks.push_back(owners.rank_of(mesh.global(node)));
+    if (!mesh.owns(node)) ranks.push_back(owners.rank_of(mesh.global(node)));
   }
   std::sort(ranks.begin(), ranks.end());
   ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
@@ -35,11 +35,6 @@ std::vector<int> other_owners(const Mesh& mesh, const NodeOwners& owners, const 
 
 HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh)
     : mesh_{&mesh}, points_{mesh.points}, copies_{mesh.copies}, exchange_{gather(comm)} {}
-
-std::int64_t HaloMesh::global(std::int32_t node) const {
-  if (node < owned_nodes()) return mesh_->first_node + node;
-  return copies_[node - owned_nodes()].value();
-}
 
 NodeExchange HaloMesh::gather(const Communicator& comm) {
   const NodeOwners owners(comm, mesh_->first_node);
@@ -54,12 +49,12 @@ template <std::size_t width>
 void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own,
                              NodeTable& nodes, Cells<width>& before, Cells<width>& after, Sent& sent) {
   std::vector<TravellingCell<width>> out;
-  for (std::size_t i = 0; i < own.size(); ++i) {
+  const std::int32_t cells = size32(own);
+  for (std::int32_t i = 0; i < cells; ++i) {
     for (const int rank : other_owners(*mesh_, owners, own[i])) {
       TravellingCell<width>& cell = out.emplace_back();
-      for (std::size_t k = 0; k < width; ++k)
-        cell[k] = {mesh_->global(own[i][k]).value(), mesh_->point(own[i][k])};
-      sent.cells.push_back(static_cast<std::int32_t>(i));
+      for (std::size_t k = 0; k < width; ++k) cell[k] = {mesh_->global(own[i][k]), mesh_->point(own[i][k])};
+      sent.cells.push_back(i);
       sent.ranks.push_back(rank);
     }
   }
@@ -67,18 +62,18 @@ void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners,
   const std::size_t from_lower = exchange.arrivals_before(comm.rank());
   for (const TravellingCell<width>& cell : exchange.deliver(out)) {
     auto& to = (before.size() < from_lower ? before : after).emplace_back();
-    for (std::size_t k = 0; k < width; ++k) to[k] = nodes.local(cell[k].number, cell[k].point);
+    for (std::size_t k = 0; k < width; ++k) to[k] = nodes.local(cell[k].node, cell[k].point);
   }
 }
 
 void HaloMesh::receive_edges(const Communicator& comm, const NodeOwners& owners, const NodeTable& nodes) {
   Outbox<TravellingEdge> out;
-  for (std::size_t b = 0; b < mesh_->boundaries.size(); ++b) {
-    for (const auto& ends : mesh_->boundaries[b].edges) {
-      const auto boundary = static_cast<std::int32_t>(b);
+  const std::int32_t boundaries = size32(mesh_->boundaries);
+  for (std::int32_t boundary = 0; boundary < boundaries; ++boundary) {
+    for (const auto& ends : mesh_->boundaries[boundary].edges) {
       edges_.push_back({ends[0], ends[1], boundary});
       for (const int rank : other_owners(*mesh_, owners, ends))
-        out.add(rank, {mesh_->global(ends[0]).value(), mesh_->global(ends[1]).value(), boundary});
+        out.add(rank, {mesh_->global(ends[0]), mesh_->global(ends[1]), boundary});
     }
   }
   for (const TravellingEdge& edge : out.deliver(comm))

@@ -31,7 +31,10 @@ class HaloMesh {
   const std::vector<Point>& points() const { return points_; }
   const Point& point(NodeId node) const { return points_[node.value()]; }
   std::int32_t owned_nodes() const { return mesh_->owned_nodes; }
-  std::int64_t global(std::int32_t node) const;
+  bool owns(NodeId node) const { return mesh_->owns(node); }
+  GlobalNodeId global(NodeId node) const {
+    return owns(node) ? mesh_->global(node) : copies_[node.value() - owned_nodes()];
+  }
   const NodeExchange& exchange() const { return exchange_; }
 
   /// Those that touch an owned node, among others.
@@ -87,7 +90,7 @@ void HaloMesh::append_spread(const Communicator& comm, const Sent& sent, std::si
   std::vector<T> out;
   for (const std::int32_t cell : sent.cells) out.push_back(own[cell]);
   out = Exchange(comm, sent.ranks).deliver(out);
-  const auto middle = out.begin() + static_cast<std::ptrdiff_t>(before);
+  const auto middle = out.begin() + before;
   all.insert(all.end(), out.begin(), middle);
   all.insert(all.end(), own.begin(), own.end());
   all.insert(all.end(), middle, out.end());

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/base/ids.hpp"
+#include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {
@@ -16,6 +16,8 @@ struct BoundaryEdges {
   std::string condition;  ///< as Boundary::condition
   std::vector<std::array<NodeId, 2>> edges;
 };
+
+using NodeFlags = IdVector<NodeId, char>;  ///< for each node 1 or 0
 
 /// One rank's part of a mesh of triangles and quadrilaterals. Cells are counter-clockwise. Nodes are owned by
 /// one rank each and numbered over all ranks in the order of ranks: this rank's owned nodes come first, in
@@ -31,10 +33,10 @@ struct Mesh {
   std::vector<std::array<NodeId, 4>> quads;
   std::vector<BoundaryEdges> boundaries;
 
+  bool owns(NodeId node) const { return node.value() < owned_nodes; }
   const Point& point(NodeId node) const { return points[node.value()]; }
   GlobalNodeId global(NodeId node) const {
-    return node.value() < owned_nodes ? GlobalNodeId{first_node + node.value()}
-                                      : copies[node.value() - owned_nodes];
+    return owns(node) ? GlobalNodeId{first_node + node.value()} : copies[node.value() - owned_nodes];
   }
 };
 

@@ -10,7 +10,7 @@ std::vector<CopyExchange::Copy> listed(const NodeOwners& owners, std::int32_t ow
                                        std::span<const GlobalNodeId> copies) {
   std::vector<CopyExchange::Copy> list;
   for (const GlobalNodeId node : copies)
-    list.push_back({owned_nodes++, owners.rank_of(node), owners.index_of(node)});
+    list.push_back({owned_nodes++, owners.rank_of(node), owners.local(node).value()});
   return list;
 }
 

@@ -16,8 +16,9 @@ class NodeOwners {
   NodeOwners(const Communicator& comm, std::int64_t first_node) : first_{comm.all_gather(first_node)} {}
 
   int rank_of(GlobalNodeId node) const;
-  std::int32_t index_of(GlobalNodeId node) const {
-    return static_cast<std::int32_t>(node.value() - first_[rank_of(node)]);
+  /// On the rank that owns it.
+  NodeId local(GlobalNodeId node) const {
+    return NodeId{static_cast<std::int32_t>(node.value() - first_[rank_of(node)])};
   }
 
  private:

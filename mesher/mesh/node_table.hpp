@@ -16,26 +16,26 @@ class NodeTable {
   NodeTable(std::int64_t first_node, std::int32_t owned_nodes, std::vector<Point>& points,
             std::vector<GlobalNodeId>& copies)
       : first_{first_node}, owned_{owned_nodes}, points_{points}, copies_{copies} {
-    for (const GlobalNodeId node : copies) numbers_.emplace(node.value(), owned_nodes++);
+    for (const GlobalNodeId node : copies) local_of_.emplace(node, owned_nodes++);
   }
   explicit NodeTable(Mesh& mesh) : NodeTable(mesh.first_node, mesh.owned_nodes, mesh.points, mesh.copies) {}
 
-  /// The node of a number over all ranks; no node where it is not known here.
-  NodeId find(std::int64_t number) const {
-    const std::int64_t offset = number - first_;
+  /// No node where it is not known here.
+  NodeId find(GlobalNodeId node) const {
+    const std::int64_t offset = node.value() - first_;
     if (0 <= offset && offset < owned_) return NodeId{static_cast<std::int32_t>(offset)};
-    const auto found = numbers_.find(number);
-    return found == numbers_.end() ? NodeId{} : NodeId{found->second};
+    const auto found = local_of_.find(node);
+    return found == local_of_.end() ? NodeId{} : found->second;
   }
 
   /// The same; where it is not known it becomes a copy at that position.
-  NodeId local(std::int64_t number, Point point) {
-    const NodeId known = find(number);
+  NodeId local(GlobalNodeId node, Point point) {
+    const NodeId known = find(node);
     if (known.valid()) return known;
     const NodeId added{size32(points_)};
-    numbers_.emplace(number, added.value());
+    local_of_.emplace(node, added);
     points_.push_back(point);
-    copies_.push_back(GlobalNodeId{number});
+    copies_.push_back(node);
     return added;
   }
 
@@ -44,7 +44,7 @@ class NodeTable {
   std::int32_t owned_;
   std::vector<Point>& points_;
   std::vector<GlobalNodeId>& copies_;
-  std::unordered_map<std::int64_t, std::int32_t> numbers_;
+  std::unordered_map<GlobalNodeId, NodeId> local_of_;
 };
 
 }  // namespace quadloop

@@ -16,15 +16,15 @@ namespace {
 template <std::size_t width>
 using Cells = std::vector<std::array<NodeId, width>>;
 template <std::size_t width>
-using GlobalCells = std::vector<std::array<std::int64_t, width>>;
+using GlobalCells = std::vector<std::array<GlobalNodeId, width>>;
 
 struct GlobalEdge {
-  std::int64_t from, to;
+  GlobalNodeId from, to;
   std::int32_t boundary;
 };
 
-/// Places along the Morton curve over the box of all nodes.
-std::vector<std::uint64_t> curve_places(const Mesh& mesh) {
+/// Keys along the Morton curve over the box of all nodes.
+std::vector<std::uint64_t> curve_keys(const Mesh& mesh) {
   Box box;
   for (const Point p : mesh.points) box.include(p);
   const double side = std::max(box.width(), box.height());
@@ -32,10 +32,10 @@ std::vector<std::uint64_t> curve_places(const Mesh& mesh) {
   const auto step = [&](double at, double low) {
     return static_cast<std::uint32_t>(side > 0 ? (at - low) / side * steps : 0);
   };
-  std::vector<std::uint64_t> places;
-  places.reserve(mesh.points.size());
-  for (const Point p : mesh.points) places.push_back(morton_key(step(p.x, box.low.x), step(p.y, box.low.y)));
-  return places;
+  std::vector<std::uint64_t> keys;
+  keys.reserve(mesh.points.size());
+  for (const Point p : mesh.points) keys.push_back(morton_key(step(p.x, box.low.x), step(p.y, box.low.y)));
+  return keys;
 }
 
 std::vector<std::int32_t> numbers_to(std::size_t count) {
@@ -54,18 +54,19 @@ std::vector<std::int32_t> ordered_by(const std::vector<Key>& keys) {
 }
 
 /// For each node of the whole mesh its number in the order.
-std::vector<std::int32_t> inverse_of(const std::vector<std::int32_t>& order) {
-  std::vector<std::int32_t> inverse(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) inverse[order[i]] = static_cast<std::int32_t>(i);
+using NodeNumbers = IdVector<NodeId, GlobalNodeId>;
+NodeNumbers inverse_of(const std::vector<std::int32_t>& order) {
+  NodeNumbers inverse(order.size());
+  for (std::int64_t i = 0; const std::int32_t node : order) inverse[NodeId{node}] = GlobalNodeId{i++};
   return inverse;
 }
 
 template <std::size_t width>
-std::vector<std::int32_t> ordered_cells(const Cells<width>& cells, const std::vector<std::int32_t>& numbers) {
-  std::vector<std::int32_t> first;
+std::vector<std::int32_t> ordered_cells(const Cells<width>& cells, const NodeNumbers& numbers) {
+  std::vector<GlobalNodeId> first;
   for (const auto& nodes : cells) {
-    std::int32_t least = numbers[nodes[0].value()];
-    for (const NodeId node : nodes) least = std::min(least, numbers[node.value()]);
+    GlobalNodeId least = numbers[nodes[0]];
+    for (const NodeId node : nodes) least = std::min(least, numbers[node]);
     first.push_back(least);
   }
   return ordered_by(first);
@@ -73,24 +74,22 @@ std::vector<std::int32_t> ordered_cells(const Cells<width>& cells, const std::ve
 
 template <std::size_t width>
 GlobalCells<width> scatter_cells(const Communicator& comm, const Cells<width>& cells,
-                                 const std::vector<std::int32_t>& order,
-                                 const std::vector<std::int32_t>& numbers) {
+                                 const std::vector<std::int32_t>& order, const NodeNumbers& numbers) {
   GlobalCells<width> ordered;
   for (const std::int32_t cell : order) {
-    std::array<std::int64_t, width> nodes;
-    for (std::size_t k = 0; k < width; ++k) nodes[k] = numbers[cells[cell][k].value()];
+    std::array<GlobalNodeId, width> nodes;
+    for (std::size_t k = 0; k < width; ++k) nodes[k] = numbers[cells[cell][k]];
     ordered.push_back(nodes);
   }
-  return scatter_evenly(comm, std::span<const std::array<std::int64_t, width>>(ordered));
+  return scatter_evenly(comm, std::span<const std::array<GlobalNodeId, width>>(ordered));
 }
 
 std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whole,
-                                      const std::vector<std::int32_t>& numbers) {
+                                      const NodeNumbers& numbers) {
   std::vector<GlobalEdge> edges;
-  for (std::size_t b = 0; comm.is_root() && b < whole.boundaries.size(); ++b) {
-    for (const auto& [from, to] : whole.boundaries[b].edges) {
-      edges.push_back({numbers[from.value()], numbers[to.value()], static_cast<std::int32_t>(b)});
-    }
+  const std::int32_t boundaries = comm.is_root() ? size32(whole.boundaries) : 0;
+  for (std::int32_t b = 0; b < boundaries; ++b) {
+    for (const auto& [from, to] : whole.boundaries[b].edges) edges.push_back({numbers[from], numbers[to], b});
   }
   return scatter_evenly(comm, std::span<const GlobalEdge>(edges));
 }
@@ -143,7 +142,7 @@ class PartBuilder {
     part.first_node = comm.exclusive_sum(part.owned_nodes);
     return part;
   }
-  NodeId local(std::int64_t number) { return nodes_.local(number, {}); }
+  NodeId local(GlobalNodeId node) { return nodes_.local(node, {}); }
 
   Mesh part_;
   NodeTable nodes_;
@@ -154,8 +153,8 @@ template <std::size_t width>
 GlobalCells<width> gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>& cells) {
   GlobalCells<width> named;
   for (const auto& nodes : cells) {
-    std::array<std::int64_t, width> numbers;
-    for (std::size_t k = 0; k < width; ++k) numbers[k] = part.global(nodes[k]).value();
+    std::array<GlobalNodeId, width> numbers;
+    for (std::size_t k = 0; k < width; ++k) numbers[k] = part.global(nodes[k]);
     named.push_back(numbers);
   }
   return gather_at_root(comm, named);
@@ -166,7 +165,7 @@ void put_cells(const GlobalCells<width>& cells, const MeshOrder& order,
                const std::vector<std::int32_t>& cell_order, Cells<width>& whole) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (std::size_t k = 0; k < width; ++k) {
-      whole[cell_order[i]][k] = NodeId{order.nodes[cells[i][k]]};
+      whole[cell_order[i]][k] = NodeId{order.nodes[cells[i][k].value()]};
     }
   }
 }
@@ -175,7 +174,8 @@ template <std::size_t width>
 Cells<width> whole_cells(const GlobalCells<width>& cells) {
   Cells<width> whole(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    for (std::size_t k = 0; k < width; ++k) whole[i][k] = NodeId{static_cast<std::int32_t>(cells[i][k])};
+    for (std::size_t k = 0; k < width; ++k)
+      whole[i][k] = NodeId{static_cast<std::int32_t>(cells[i][k].value())};
   }
   return whole;
 }
@@ -188,8 +188,8 @@ std::vector<Point> gather_points(const Communicator& comm, const Mesh& part) {
 
 MeshOrder space_filling_order(const Mesh& whole) {
   MeshOrder order;
-  order.nodes = ordered_by(curve_places(whole));
-  const std::vector<std::int32_t> numbers = inverse_of(order.nodes);
+  order.nodes = ordered_by(curve_keys(whole));
+  const NodeNumbers numbers = inverse_of(order.nodes);
   order.triangles = ordered_cells(whole.triangles, numbers);
   order.quads = ordered_cells(whole.quads, numbers);
   return order;
@@ -201,7 +201,7 @@ MeshOrder own_order(const Mesh& whole) {
 }
 
 Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& order) {
-  const std::vector<std::int32_t> numbers = inverse_of(order.nodes);
+  const NodeNumbers numbers = inverse_of(order.nodes);
   PartBuilder builder(comm, scatter_nodes(comm, whole.points, order));
   builder.add_cells(scatter_cells(comm, whole.triangles, order.triangles, numbers), builder.part().triangles);
   builder.add_cells(scatter_cells(comm, whole.quads, order.quads, numbers), builder.part().quads);
@@ -214,8 +214,8 @@ Field scatter_field(const Communicator& comm, const Field& of_whole, const Mesh&
                     const MeshOrder& order) {
   Field field{broadcast_words(comm, of_whole.names), {}, of_whole.constants};
   comm.broadcast(field.constants);
-  const auto width = static_cast<std::int64_t>(field.width());
-  const std::vector<std::int64_t> counts = comm.all_gather(std::int64_t{part.owned_nodes} * width);
+  const std::int64_t width = std::ssize(field.names);
+  const std::vector<std::int64_t> counts = comm.all_gather(part.owned_nodes * width);
   std::vector<double> rows;
   for (std::size_t i = 0; width > 0 && i < order.nodes.size(); ++i) {
     const auto row = of_whole.row(NodeId{order.nodes[i]});
@@ -232,7 +232,7 @@ Field gather_field(const Communicator& comm, const Field& field, const MeshOrder
   for (std::size_t i = 0; i < order.nodes.size() && comm.is_root(); ++i) {
     const auto row = whole.row(NodeId{order.nodes[i]});
     std::copy_n(from, row.size(), row.begin());
-    from += static_cast<std::ptrdiff_t>(row.size());
+    from += std::ssize(row);
   }
   return whole;
 }

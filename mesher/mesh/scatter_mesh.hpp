@@ -29,9 +29,9 @@ Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& 
 
 /// The values of each rank's owned nodes, from one for each node of the whole mesh on the root, or from none.
 /// *Collective.*
-template <class T>
-std::vector<T> scatter_nodes(const Communicator& comm, const std::vector<T>& of_whole,
-                             const MeshOrder& order);
+template <std::ranges::contiguous_range Values>
+std::vector<std::ranges::range_value_t<Values>> scatter_nodes(const Communicator& comm,
+                                                              const Values& of_whole, const MeshOrder& order);
 
 /// The same for each rank's triangles. *Collective.*
 template <class T>
@@ -57,16 +57,15 @@ Mesh gather_whole(const Communicator& comm, const Mesh& part);
 /// Even shares of the root's values, in the order of ranks. *Collective.*
 template <class T>
 std::vector<T> scatter_evenly(const Communicator& comm, std::span<const T> values) {
-  const std::size_t ranks = static_cast<std::size_t>(comm.size());
+  const std::size_t ranks = comm.size();
   std::vector<std::int64_t> counts;
   for (std::size_t rank = 0; rank < ranks; ++rank)
-    counts.push_back(
-        static_cast<std::int64_t>(values.size() * (rank + 1) / ranks - values.size() * rank / ranks));
+    counts.push_back(values.size() * (rank + 1) / ranks - values.size() * rank / ranks);
   return scatter_from_root(comm, values, counts);
 }
 
 template <class T>
-std::vector<T> scatter_ordered(const Communicator& comm, const std::vector<T>& of_whole,
+std::vector<T> scatter_ordered(const Communicator& comm, std::span<const T> of_whole,
                                const std::vector<std::int32_t>& order) {
   std::vector<T> ordered;
   for (const std::int32_t i : order) {
@@ -75,16 +74,17 @@ std::vector<T> scatter_ordered(const Communicator& comm, const std::vector<T>& o
   return scatter_evenly(comm, std::span<const T>(ordered));
 }
 
-template <class T>
-std::vector<T> scatter_nodes(const Communicator& comm, const std::vector<T>& of_whole,
-                             const MeshOrder& order) {
-  return scatter_ordered(comm, of_whole, order.nodes);
+template <std::ranges::contiguous_range Values>
+std::vector<std::ranges::range_value_t<Values>> scatter_nodes(const Communicator& comm,
+                                                              const Values& of_whole,
+                                                              const MeshOrder& order) {
+  return scatter_ordered(comm, std::span<const std::ranges::range_value_t<Values>>(of_whole), order.nodes);
 }
 
 template <class T>
 std::vector<T> scatter_triangles(const Communicator& comm, const std::vector<T>& of_whole,
                                  const MeshOrder& order) {
-  return scatter_ordered(comm, of_whole, order.triangles);
+  return scatter_ordered(comm, std::span<const T>(of_whole), order.triangles);
 }
 
 }  // namespace quadloop

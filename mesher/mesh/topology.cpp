@@ -6,13 +6,12 @@ namespace quadloop {
 
 EdgeTable::EdgeTable(const Mesh& mesh)
     : starts_(mesh.points.size() + 2, 0), edges_(3 * mesh.triangles.size() + 4 * mesh.quads.size()) {
-  for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t) {
-    ++starts_[static_cast<std::size_t>(from.value()) + 2];
-  });
+  for_each_cell_edge(mesh,
+                     [&](NodeId from, NodeId, std::int32_t) { ++starts_[from.value() + std::size_t{2}]; });
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    auto& next = starts_[static_cast<std::size_t>(from.value()) +
-                         1];  // shifted by one: it moves to where the node's edges end
+    auto& next =
+        starts_[from.value() + std::size_t{1}];  // shifted by one: it moves to where the node's edges end
     edges_[next++] = {to, cell};
   });
 }

@@ -7,12 +7,11 @@ namespace quadloop {
 
 /// One leaf as the tree file keeps it.
 struct LeafRecord {
-  std::int32_t tree_x = 0, tree_y = 0;  ///< its tree's place in the brick
+  std::int32_t tree_x = 0, tree_y = 0;  ///< its tree's column and row in the brick
   std::int32_t x = 0, y = 0;            ///< its lower left corner in its tree, a tree's edge being 2^30
-  std::int8_t level = 0,
-              wanted =
-                  0;  ///< edge = tree edge / 2^level; the level that case, geometry and adaptation ask for
-  std::int16_t mark = 0;  ///< block of its cells from 1 on; 0: outside the domain
+  std::int8_t level = 0;                ///< edge = tree edge / 2^level
+  std::int8_t wanted = 0;               ///< the level that case, geometry and adaptation ask for
+  std::int16_t block = 0;               ///< of its cells, from 1 on; 0: outside the domain
   std::int32_t triangles = 0, quads = 0;
   std::uint32_t adapted = 0;  ///< bit l: adaptation asked to split the quadrant of level l that holds it
 };

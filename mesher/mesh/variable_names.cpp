@@ -31,8 +31,7 @@ std::string plain(std::string_view name) {
   for (const char c : name) {
     if (c >= 'A' && c <= 'Z') {
       result += static_cast<char>(c - 'A' + 'a');
-    } else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
-               (static_cast<unsigned char>(c) & 0x80U) != 0) {
+    } else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || (c & 0x80U) != 0) {
       result += c;
     }
   }

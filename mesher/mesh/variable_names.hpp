@@ -7,13 +7,13 @@
 
 namespace quadloop {
 
-/// The place of a variable among the names of a solution: the name as it is written, else the same name in
+/// The index of a variable among the names of a solution: the name as it is written, else the same name in
 /// other letters (case, blanks and punctuation do not count), else another usual name for it (density: rho;
 /// x_velocity: VelocityX, velocity_x, u; pressure: p; mach: Mach_Number;
 /// ...). Throws an InputError that begins with `where` and lists the names where none is it, or several are.
 std::size_t variable(std::span<const std::string> names, const std::string& wanted, const std::string& where);
 
-/// The places of all names that may be this variable, by the first of these ways that finds any; more than
+/// The indices of all names that may be this variable, by the first of these ways that finds any; more than
 /// one where it cannot be told.
 std::vector<std::size_t> variables_like(std::span<const std::string> names, const std::string& wanted);
 

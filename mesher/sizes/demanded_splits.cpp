@@ -17,12 +17,11 @@ constexpr std::size_t block = 16;
 constexpr std::uint8_t children_bits = 0xf, asked_bit = 0x10;
 constexpr std::uint64_t children_of_word = 0x0f0f0f0f0f0f0f0fULL;
 
-/// Of the quadrant of this level that holds a place. No quadrant deeper than this is split: its coordinates
+/// Of the quadrant of this level that holds q. No quadrant deeper than this is split: its coordinates
 /// in units of its size fit into 32 bits.
-std::uint64_t key_of(const Quadrant& place, int level) {
+std::uint64_t key_of(const Quadrant& q, int level) {
   const int shift = Quadrant::unit_level - level;
-  return morton_key(static_cast<std::uint32_t>(place.x >> shift),
-                    static_cast<std::uint32_t>(place.y >> shift));
+  return morton_key(static_cast<std::uint32_t>(q.x >> shift), static_cast<std::uint32_t>(q.y >> shift));
 }
 
 void make_unique(std::vector<std::uint64_t>& keys) {
@@ -84,7 +83,7 @@ DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDe
   }
 }
 
-/// `first_above` is the number of the first of the level above. Marks the parents.
+/// `first_above` is the number of the first of the level above, which learns of its children.
 void DemandedSplits::append_level(std::span<const Key> all, std::span<const Key> asked,
                                   std::span<const Key> above, std::int32_t first_above) {
   std::size_t next_asked = 0, parent = 0;
@@ -94,7 +93,7 @@ void DemandedSplits::append_level(std::span<const Key> all, std::span<const Key>
     masks_.push_back(is_asked ? asked_bit : 0);
     if (above.empty()) continue;
     while (above[parent] != key >> 2) ++parent;
-    masks_[static_cast<std::size_t>(first_above) + parent] |= static_cast<std::uint8_t>(1U << (key & 3));
+    masks_[first_above + parent] |= static_cast<std::uint8_t>(1U << (key & 3));
   }
 }
 
@@ -121,10 +120,10 @@ bool DemandedSplits::asked(std::int32_t number) const { return (masks_[number] &
 
 /// The steps that lead to this leaf too.
 void DemandPath::keep_above(const Quadrant& leaf) {
-  const auto different = static_cast<std::uint64_t>((leaf.x ^ last_.x) | (leaf.y ^ last_.y));
+  const std::uint64_t different = (leaf.x ^ last_.x) | (leaf.y ^ last_.y);
   const int common = Quadrant::unit_level -
                      static_cast<int>(std::bit_width(different));  // negative where even the trees are others
-  const int kept = std::min({static_cast<int>(steps_.size()), common + 1, leaf.level + 1});
+  const int kept = std::min({size32(steps_), common + 1, leaf.level + 1});
   steps_.resize(std::max(kept, 0));
   last_ = leaf;
 }
@@ -135,7 +134,7 @@ std::uint32_t DemandPath::levels_above(const Quadrant& leaf) {
     steps_.push_back({demanded_->root(leaf.x >> Quadrant::unit_level, leaf.y >> Quadrant::unit_level), 0});
   while (true) {
     const auto [number, levels] = steps_.back();
-    const int level = static_cast<int>(steps_.size()) - 1;
+    const int level = size32(steps_) - 1;
     if (number == DemandedSplits::none || level == leaf.level) return levels;
     const Corner quarter = quarter_at(leaf.x, leaf.y, level);
     steps_.push_back(

@@ -41,8 +41,8 @@ class DemandedSplits {
   bool asked(std::int32_t number) const;
 
  private:
-  using Key =
-      std::uint64_t;  ///< place of a quadrant on the Morton curve over all trees, among those of its level
+  /// Key of a quadrant on the Morton curve over all trees, among those of its level.
+  using Key = std::uint64_t;
   void append_level(std::span<const Key> all, std::span<const Key> asked, std::span<const Key> above,
                     std::int32_t first_above);
 

@@ -29,17 +29,17 @@ bool Gradation::must_split(const Quadrant& q) {
 
 const std::vector<std::int32_t>& Gradation::split_near(const Quadrant& q) { return step_above(q).near; }
 
-/// The path's last step becomes the parent of q, with its list of near nodes. A step depends on its place
+/// The path's last step becomes the parent of q, with its list of near nodes. A step depends on its quadrant
 /// alone, so those that still hold q stay.
 Gradation::Step& Gradation::step_above(const Quadrant& q) {
   const std::size_t depth = q.level;  // steps at levels 0 .. depth-1
   if (path_.size() < depth) path_.resize(depth);
   std::size_t kept = depth;
-  while (kept > 0 && !(path_[kept - 1].has_near && path_[kept - 1].place.contains(q))) --kept;
+  while (kept > 0 && !(path_[kept - 1].has_near && path_[kept - 1].quadrant.contains(q))) --kept;
   for (std::size_t level = kept; level < depth; ++level) {
     Step& step = path_[level];
     const std::int64_t mask = ~((std::int64_t{1} << (Quadrant::unit_level - static_cast<int>(level))) - 1);
-    step.place = {q.x & mask, q.y & mask, static_cast<int>(level)};
+    step.quadrant = {q.x & mask, q.y & mask, static_cast<int>(level)};
     fill_near(step, level == 0 ? tree_.roots() : path_[level - 1].near);
   }
   return path_[depth - 1];
@@ -49,10 +49,10 @@ Gradation::Step& Gradation::step_above(const Quadrant& q) {
 void Gradation::fill_near(Step& step, const std::vector<std::int32_t>& parents) const {
   step.near.clear();
   step.has_near = true;
-  const std::int64_t half = step.place.size() / 2;
+  const std::int64_t half = step.quadrant.size() / 2;
   for (const std::int32_t parent : parents) {
     const SizeTree::Node& whole = tree_.node(parent);
-    if (!forbids(leaf_size(whole.finest), chebyshev_gap(step.place, whole.place), half,
+    if (!forbids(leaf_size(whole.finest), chebyshev_gap(step.quadrant, whole.quadrant), half,
                  tree_.rules().slope()) ||
         !tree_.is_split(parent))
       continue;
@@ -60,7 +60,7 @@ void Gradation::fill_near(Step& step, const std::vector<std::int32_t>& parents) 
     for (std::int32_t child = first; child < first + 4; ++child) {
       const SizeTree::Node& node = tree_.node(child);
       if (node.plain) continue;  // its leaves are as large as any in the domain may be
-      if (forbids(leaf_size(node.finest), chebyshev_gap(step.place, node.place), half,
+      if (forbids(leaf_size(node.finest), chebyshev_gap(step.quadrant, node.quadrant), half,
                   tree_.rules().slope()) &&
           tree_.is_split(child))
         step.near.push_back(child);
@@ -74,8 +74,8 @@ bool Gradation::forced(const Quadrant& q, const std::vector<std::int32_t>& near)
   for (const std::int32_t n : near) {
     const SizeTree::Node& node = tree_.node(n);
     const std::int64_t small = std::int64_t{1} << (Quadrant::unit_level - node.deepest_split - 1);
-    const std::int64_t farthest = chebyshev_gap(q, node.place) + node.place.size() - small;
-    if (node.place == q || forbids(small, farthest, q.size(), tree_.rules().slope())) return true;
+    const std::int64_t farthest = chebyshev_gap(q, node.quadrant) + node.quadrant.size() - small;
+    if (node.quadrant == q || forbids(small, farthest, q.size(), tree_.rules().slope())) return true;
   }
   return std::any_of(near.begin(), near.end(), [&](std::int32_t n) { return forced_by(q, n); });
 }
@@ -84,10 +84,10 @@ bool Gradation::forced(const Quadrant& q, const std::vector<std::int32_t>& near)
 bool Gradation::forced_by(const Quadrant& q, std::int32_t node) const {
   const SizeTree::Node& within = tree_.node(node);
   if (within.plain) return false;
-  const Quadrant place = within.place;
-  const std::int64_t gap = chebyshev_gap(q, place);
+  const Quadrant other = within.quadrant;
+  const std::int64_t gap = chebyshev_gap(q, other);
   if (!forbids(leaf_size(within.finest), gap, q.size(), tree_.rules().slope())) return false;
-  if (!tree_.is_split(node)) return forbids(place.size(), gap, q.size(), tree_.rules().slope());
+  if (!tree_.is_split(node)) return forbids(other.size(), gap, q.size(), tree_.rules().slope());
   const std::int32_t first = tree_.node(node).children;
   for (std::int32_t child = first; child < first + 4; ++child) {
     if (forced_by(q, child)) return true;

@@ -26,7 +26,7 @@ class Gradation {
  private:
   /// One step of the path from the root to the quadrant last asked for.
   struct Step {
-    Quadrant place;
+    Quadrant quadrant;
     std::vector<std::int32_t> near;  ///< split nodes of half this size that may force a child of it to split
     bool has_near = false;
   };

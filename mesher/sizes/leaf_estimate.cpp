@@ -15,13 +15,10 @@ constexpr double followed = 192;  ///< split quadrants of a level, about
 
 /// A quadrant that stands for `weight` of its level.
 struct Sampled {
-  Quadrant place;
+  Quadrant quadrant;
   double weight = 1;
-  enum class Side : std::uint8_t {
-    unknown,
-    inside,
-    outside
-  } side = Side::unknown;  ///< known where it holds no outline
+  enum class Side : std::uint8_t { unknown, inside, outside };
+  Side side = Side::unknown;  ///< known where it holds no outline
 };
 
 /// The chances of being followed: half by the leaves expected, a quarter by the outline inside, a quarter for
@@ -30,8 +27,8 @@ std::vector<double> chances_of(const std::vector<Sampled>& splits, LeavesAhead& 
   std::vector<double> ahead, outline;
   double all_ahead = 0, all_outline = 0, all = 0;
   for (const Sampled& s : splits) {
-    ahead.push_back(s.weight * leaves.below(s.place));
-    outline.push_back(s.weight * static_cast<double>(cursor.segments_in(s.place).size()));
+    ahead.push_back(s.weight * leaves.below(s.quadrant));
+    outline.push_back(s.weight * size32(cursor.segments_in(s.quadrant)));
     all_ahead += ahead.back();
     all_outline += outline.back();
     all += s.weight;
@@ -47,7 +44,7 @@ std::vector<double> chances_of(const std::vector<Sampled>& splits, LeavesAhead& 
 
 /// Evenly along the curve. All where there are few.
 std::vector<Sampled> chosen(std::vector<Sampled> splits, LeavesAhead& leaves, SizeCursor& cursor) {
-  if (static_cast<double>(splits.size()) <= followed) return splits;
+  if (size32(splits) <= followed) return splits;
   const std::vector<double> chances = chances_of(splits, leaves, cursor);
   std::vector<Sampled> kept;
   double sum = 0.5;
@@ -82,7 +79,7 @@ class LeafCount {
     std::vector<Sampled> children;
     for (const Sampled& parent : parents) {
       for (const Corner quarter : corners_along_curve)
-        children.push_back({parent.place.child(quarter), parent.weight, parent.side});
+        children.push_back({parent.quadrant.child(quarter), parent.weight, parent.side});
     }
     return children;
   }
@@ -90,9 +87,9 @@ class LeafCount {
   std::vector<Sampled> splits_among(const std::vector<Sampled>& quadrants) {
     std::vector<Sampled> splits;
     for (Sampled q : quadrants) {
-      const bool cut = q.side == Sampled::Side::unknown && !cursor_.segments_in(q.place).empty();
-      if (!cut && q.side == Sampled::Side::unknown) q.side = side_of(q.place);
-      if (gradation_.must_split(q.place)) {
+      const bool cut = q.side == Sampled::Side::unknown && !cursor_.segments_in(q.quadrant).empty();
+      if (!cut && q.side == Sampled::Side::unknown) q.side = side_of(q.quadrant);
+      if (gradation_.must_split(q.quadrant)) {
         splits.push_back(q);
       } else {
         (cut                               ? counted_.cut

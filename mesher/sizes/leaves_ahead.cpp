@@ -40,7 +40,7 @@ double LeavesAhead::below(const Quadrant& q) {
   double lines = 0;
   for (const std::int32_t n : gradation_.split_near(q)) {
     const double h = std::ldexp(1.0, Quadrant::unit_level - level_ahead(n));
-    const auto gap = static_cast<double>(chebyshev_gap(q, tree_.node(n).place));
+    const auto gap = static_cast<double>(chebyshev_gap(q, tree_.node(n).quadrant));
     lines = std::max(lines, graded_leaves(size, gap, h, slope));
   }
   const int coarsest = rules.coarsest_level();
@@ -67,9 +67,9 @@ int LeavesAhead::level_ahead(std::int32_t node) {
   if (levels_[index] != 0) return levels_[index];
   const SizeRules& rules = tree_.rules();
   const SizeTree::Node& n = tree_.node(node);
-  int level = std::max(n.place.level + 1, rules.level_of_outline(n.place, tree_.segments_of(n)));
+  int level = std::max(n.quadrant.level + 1, rules.level_of_outline(n.quadrant, tree_.segments_of(n)));
   if (n.demanded != DemandedSplits::none) level = std::max(level, rules.demanded().finest_level());
-  const Box box = rules.lattice().box_of(n.place);
+  const Box box = rules.lattice().box_of(n.quadrant);
   for (const Source& source : rules.sources()) {
     if (level < rules.level_for(source.spacing) && meets(source, box))
       level = rules.level_for(source.spacing);

@@ -7,11 +7,11 @@ namespace quadloop {
 /// From the node last found up to one that holds q, and down again, but not into a plain one.
 std::int32_t SizeCursor::deepest_node_at(const Quadrant& q) {
   std::int32_t n = last_;
-  while (n >= 0 && !tree_.node(n).place.contains(q)) n = tree_.node(n).parent;
+  while (n >= 0 && !tree_.node(n).quadrant.contains(q)) n = tree_.node(n).parent;
   if (n < 0) n = tree_.root_of(q);
-  while (tree_.node(n).place.level < q.level && !tree_.node(n).plain && tree_.is_split(n)) {
+  while (tree_.node(n).quadrant.level < q.level && !tree_.node(n).plain && tree_.is_split(n)) {
     const SizeTree::Node& at = tree_.node(n);
-    n = at.children + curve_index(quarter_at(q.x, q.y, at.place.level));
+    n = at.children + curve_index(quarter_at(q.x, q.y, at.quadrant.level));
   }
   return last_ = n;
 }
@@ -19,7 +19,7 @@ std::int32_t SizeCursor::deepest_node_at(const Quadrant& q) {
 std::span<const std::int32_t> SizeCursor::segments_in(const Quadrant& q) {
   const SizeTree::Node& node = tree_.node(deepest_node_at(q));
   const std::span<const std::int32_t> inside = tree_.segments_of(node);
-  if (inside.empty() || node.place == q) return inside;
+  if (inside.empty() || node.quadrant == q) return inside;
   found_.clear();
   const Box box = tree_.lattice().box_of(q);
   for (const std::int32_t s : inside) {
@@ -30,7 +30,7 @@ std::span<const std::int32_t> SizeCursor::segments_in(const Quadrant& q) {
 
 int SizeCursor::wanted_level(const Quadrant& leaf) {
   return std::min(leaf.level,
-                  std::max(tree_.node(deepest_node_at(leaf)).place.level, tree_.coarsest_level()));
+                  std::max(tree_.node(deepest_node_at(leaf)).quadrant.level, tree_.coarsest_level()));
 }
 
 }  // namespace quadloop

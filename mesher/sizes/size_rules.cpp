@@ -41,8 +41,8 @@ SizeRules::SizeRules(const ShiftedOutline& outline, const Lattice& lattice, cons
 
 std::vector<std::int32_t> SizeRules::sized_corners() const {
   std::vector<std::int32_t> vertices;
-  for (std::size_t v = 0; v < corner_spacing_.size(); ++v) {
-    if (corner_spacing_[v] > 0) vertices.push_back(static_cast<std::int32_t>(v));
+  for (std::int32_t v = 0; v < std::ssize(corner_spacing_); ++v) {
+    if (corner_spacing_[v] > 0) vertices.push_back(v);
   }
   return vertices;
 }
@@ -50,7 +50,7 @@ std::vector<std::int32_t> SizeRules::sized_corners() const {
 SizeRules::Judgement SizeRules::judge(const SizedQuadrant& q) const {
   const bool fine_inside = !q.segments.empty() || q.demanded;
   Judgement said{!fine_inside && !q.made_by_demand, fine_inside ? finest_ : coarsest_};
-  if (q.made_by_demand) said.finest = std::max(said.finest, q.place.level);
+  if (q.made_by_demand) said.finest = std::max(said.finest, q.quadrant.level);
   const auto ask_for = [&](double spacing) {
     said.plain = false;
     said.finest = std::max(said.finest, level_for(spacing));
@@ -91,19 +91,19 @@ int SizeRules::level_of_outline(const Quadrant& q, std::span<const std::int32_t>
   return level_for(spacing);
 }
 
-bool SizeRules::wants_split(const SizedQuadrant& quadrant) const {
-  const Quadrant& q = quadrant.place;
-  if (quadrant.demanded) return true;
+bool SizeRules::wants_split(const SizedQuadrant& sized) const {
+  const Quadrant& q = sized.quadrant;
+  if (sized.demanded) return true;
   if (q.level >= finest_of_case_) return false;
-  const Box& box = quadrant.box;
+  const Box& box = sized.box;
   if (q.level < coarsest_ && in_domains_box(q)) return true;
   const double size = lattice_->edge(q.level);
   for (const Source& source : options_.sources) {
     if (size > source.spacing && meets(source, box)) return true;
   }
   const auto too_large_for = [&](std::int32_t vertex) { return size > corner_spacing_[vertex]; };
-  if (std::ranges::any_of(quadrant.corners, too_large_for)) return true;
-  const std::span<const std::int32_t> inside = quadrant.segments;
+  if (std::ranges::any_of(sized.corners, too_large_for)) return true;
+  const std::span<const std::int32_t> inside = sized.segments;
   if (inside.empty()) return false;
   for (const std::int32_t s : inside) {
     if (size > spacing_[s]) return true;

@@ -17,7 +17,7 @@ namespace quadloop {
 
 /// A quadrant as the rules of sizes see it.
 struct SizedQuadrant {
-  Quadrant place;
+  Quadrant quadrant;
   Box box;
   std::span<const std::int32_t> segments;  ///< that meet its inside
   std::span<const std::int32_t> corners;   ///< vertices with a size of their own that it touches
@@ -29,7 +29,7 @@ struct SizedQuadrant {
 /// depend on geometry and options alone, so that every rank can give them for every quadrant.
 class SizeRules {
  public:
-  /// Tells whether a leaf of this place, holding these segments, cannot be cut as it is.
+  /// Tells whether this quadrant as a leaf, holding these segments, cannot be cut as it is.
   using Unresolved = std::function<bool(const Quadrant&, std::span<const std::int32_t>)>;
 
   /// The arguments but the options must outlive the rules.

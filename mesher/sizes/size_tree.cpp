@@ -19,7 +19,7 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
   for (int ty = 0; ty < lattice.trees_y(); ++ty) {
     for (int tx = 0; tx < lattice.trees_x(); ++tx) {
       Node root;
-      root.place = {std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0};
+      root.quadrant = {std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0};
       root.demanded = demanded.root(tx, ty);
       roots_.push_back(size());
       add(root, whole);
@@ -46,20 +46,20 @@ void SizeTree::grow(std::int32_t n) const {
   nodes_[n].children = size();
   for (const Corner quarter : corners_along_curve) {
     Node child;
-    child.place = parent.place.child(quarter);
+    child.quadrant = parent.quadrant.child(quarter);
     child.parent = n;
     if (parent.demanded != DemandedSplits::none) child.demanded = demanded().child(parent.demanded, quarter);
     add(child, parent);
   }
-  for (std::int32_t above = n; above >= 0 && node(above).deepest_split < parent.place.level;
+  for (std::int32_t above = n; above >= 0 && node(above).deepest_split < parent.quadrant.level;
        above = node(above).parent)
-    nodes_[above].deepest_split = parent.place.level;
+    nodes_[above].deepest_split = parent.quadrant.level;
 }
 
 /// Takes over what the node holds of its parent's segments and corners. A corner on a lattice line touches
 /// the leaves on both its sides, so that mirror images agree.
 void SizeTree::add(Node child, const Node& parent) const {
-  const Box box = lattice().box_of(child.place);
+  const Box box = lattice().box_of(child.quadrant);
   const ShiftedOutline& outline = rules_.outline();
   const auto take = [](std::vector<std::int32_t>& all, std::int32_t begin, std::int32_t end,
                        const auto& holds) {
@@ -83,8 +83,8 @@ void SizeTree::add(Node child, const Node& parent) const {
 }
 
 SizedQuadrant SizeTree::sized(const Node& node) const {
-  return {node.place,
-          lattice().box_of(node.place),
+  return {node.quadrant,
+          lattice().box_of(node.quadrant),
           segments_of(node),
           part(corners_, node.corners_begin, node.corners_end),
           node.demanded != DemandedSplits::none,

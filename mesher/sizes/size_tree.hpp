@@ -16,7 +16,7 @@ namespace quadloop {
 class SizeTree {
  public:
   struct Node {
-    Quadrant place;
+    Quadrant quadrant;
     std::int32_t parent = -1;
     std::int32_t children = unknown;  ///< index of the first of four, or one of the two below
     std::int32_t segments_begin = 0, segments_end = 0;
@@ -55,7 +55,7 @@ class SizeTree {
  private:
   static std::span<const std::int32_t> part(const std::vector<std::int32_t>& all, std::int32_t begin,
                                             std::int32_t end) {
-    return {all.data() + begin, static_cast<std::size_t>(end - begin)};
+    return {all.data() + begin, all.data() + end};
   }
   SizedQuadrant sized(const Node& node) const;
   void grow(std::int32_t node) const;

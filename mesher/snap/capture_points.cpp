@@ -14,9 +14,9 @@ namespace quadloop {
 namespace {
 
 // Shares of the local edge, where crossings nearer than usual_snap take a corner.
-constexpr double usual_snap = 0.4, corner_reach = 0.45, edge_reach = 0.34;
-constexpr double pointed_degrees =
-    45;  ///< a point that turns by more takes corners and edges along even where it is not kept
+constexpr double usual_snap = 0.4, edge_reach = 0.34;
+/// A point that turns by more takes corners and edges along even where it is not kept.
+constexpr double pointed_degrees = 45;
 constexpr double crossing_reach = 0.4;  ///< a crossing nearer to the point than this is taken by its edge
 
 /// Looks for what one kept point takes along.
@@ -26,13 +26,13 @@ class PointCapture {
       : graph_{graph}, lattice_{lattice}, geometry_{geometry}, share_{std::min(1.0, snap / usual_snap)} {}
 
   /// Whether a point lies on a side of the leaf: the crossings there have its position already.
-  bool on_lattice(std::int32_t leaf, Point p) const {
+  bool on_lattice(LeafId leaf, Point p) const {
     const Box box = lattice_.box_of(graph_.leaf(leaf));
     return p.x == box.low.x || p.x == box.high.x || p.y == box.low.y || p.y == box.high.y;
   }
 
   /// The corner of the leaf, or hanging node on its sides, that is near enough.
-  std::optional<CornerCapture> corner_near(std::int32_t leaf, Point p) const {
+  std::optional<CornerCapture> corner_near(LeafId leaf, Point p) const {
     std::optional<CornerCapture> nearest;
     bool contested = false;
     for (const Site site : lattice_sites) {
@@ -49,7 +49,7 @@ class PointCapture {
   }
 
   /// The edge of the leaf that is near enough, with the crossings that it loses to the point.
-  std::optional<Snap> edge_near(std::int32_t leaf, std::int32_t vertex, const LeafTrace& view,
+  std::optional<Snap> edge_near(LeafId leaf, std::int32_t vertex, const LeafTrace& view,
                                 const Piece& piece) const {
     const Point p = geometry_.point(vertex);
     LeafEdge nearest;
@@ -79,7 +79,7 @@ class PointCapture {
     return edge.vertical() ? lattice_.x(edge.line) : lattice_.y(edge.line);
   }
 
-  std::int32_t across(const LeafEdge& edge) const {
+  LeafId across(const LeafEdge& edge) const {
     const bool ahead = edge.side == Side::right || edge.side == Side::top;
     const std::int64_t beyond = ahead ? edge.line : edge.line - 1;
     return edge.vertical() ? graph_.leaf_at(beyond, edge.from) : graph_.leaf_at(edge.from, beyond);
@@ -123,8 +123,7 @@ class PointCapture {
   /// The vertices of a piece before one of them, or after it.
   static std::span<const std::int32_t> between(std::span<const std::int32_t> vertices, std::int32_t vertex,
                                                bool before) {
-    const auto at =
-        static_cast<std::size_t>(std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin());
+    const std::size_t at = std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin();
     return before ? vertices.first(at) : vertices.subspan(at + 1);
   }
 
@@ -201,11 +200,11 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
   const PointCapture capture(graph, lattice, geometry, snap);
   std::vector<CornerCapture> corners;
   std::vector<Snap> edges;
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const std::int32_t trace = traced.trace_of[leaf];
+  for (const LeafId leaf : graph.all()) {
+    const std::int32_t trace = traced.trace_of[leaf.value()];
     if (trace < 0) continue;
     const LeafTrace view = traced.traces[trace];
-    for (std::size_t p = 0; p < view.pieces.size(); ++p) {
+    for (std::int32_t p = 0; p < std::ssize(view.pieces); ++p) {
       if (view.pieces[p].entry < 0) continue;
       for (const std::int32_t v : view.vertices_of(view.pieces[p])) {
         if (!geometry.kept(v) && geometry.turn_degrees(v) < pointed_degrees) continue;
@@ -213,7 +212,7 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
         if (auto corner = capture.corner_near(leaf, geometry.point(v))) {
           corner->vertex = v;
           corner->trace = trace;
-          corner->piece = static_cast<std::int32_t>(p);
+          corner->piece = p;
           corners.push_back(*corner);
         } else if (auto edge =
                        !geometry.kept(v) ? std::nullopt : capture.edge_near(leaf, v, view, view.pieces[p])) {
@@ -228,8 +227,8 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
 std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
                                 const TracedForest& traced, double share) {
   std::vector<Snap> snaps;
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const std::int32_t trace = traced.trace_of[leaf];
+  for (const LeafId leaf : graph.all()) {
+    const std::int32_t trace = traced.trace_of[leaf.value()];
     if (trace < 0) continue;
     const Quadrant& q = graph.leaf(leaf);
     for (const Side side : all_sides) {

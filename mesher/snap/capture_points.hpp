@@ -8,6 +8,10 @@
 
 namespace quadloop {
 
+/// How far a corner moves at most, as a share of the shortest edge there. Below one half, so that a point is
+/// within reach of one corner only.
+inline constexpr double corner_reach = 0.45;
+
 /// A kept point of the geometry takes a lattice corner along that lies near it.
 struct CornerCapture {
   LatticePoint corner;
@@ -30,7 +34,7 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
                         const TracedForest& traced, double snap);
 
 /// Hanging nodes that come near the outline in the leaf on whose side they hang, while it crosses no edge
-/// next to them: they move onto its nearest point. In ascending order of their places.
+/// next to them: they move onto its nearest point. In the order of the leaves.
 std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
                                 const TracedForest& traced, double share);
 

@@ -31,11 +31,11 @@ std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
 std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& lattice,
                                     const TracedForest& traced) {
   std::vector<Sight> sights;
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const std::int32_t trace = traced.trace_of[leaf];
+  for (const LeafId leaf : graph.all()) {
+    const std::int32_t trace = traced.trace_of[leaf.value()];
     if (trace < 0) continue;
     const LeafTrace view = traced.traces[trace];
-    for (std::size_t p = 0; p < view.pieces.size(); ++p) {
+    for (std::int32_t p = 0; p < std::ssize(view.pieces); ++p) {
       const Piece& piece = view.pieces[p];
       if (piece.entry < 0) continue;
       for (const std::int32_t c : {piece.entry, piece.exit}) {
@@ -44,7 +44,7 @@ std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& latti
         const auto see = [&](std::int64_t end, Direction direction) {
           const double distance = std::abs(edge.along(crossing.position) - edge.at(lattice, end));
           sights.push_back({edge.point(end), direction, distance, edge.length(lattice), crossing.segment,
-                            trace, static_cast<std::int32_t>(p), c == piece.entry});
+                            trace, p, c == piece.entry});
         };
         see(edge.from, edge.vertical() ? Direction::north : Direction::east);
         see(edge.to, edge.vertical() ? Direction::south : Direction::west);

@@ -4,8 +4,7 @@
 
 namespace quadloop {
 
-LeafEdge leaf_edge_near(const LeafGraph& graph, const Lattice& lattice, std::int32_t leaf, Side side,
-                        Point p) {
+LeafEdge leaf_edge_near(const LeafGraph& graph, const Lattice& lattice, LeafId leaf, Side side, Point p) {
   const Quadrant& q = graph.leaf(leaf);
   LeafEdge edge{side, q.line(side), is_vertical(side) ? q.y : q.x, 0};
   edge.to = edge.from + q.size();
@@ -18,7 +17,7 @@ LeafEdge leaf_edge_near(const LeafGraph& graph, const Lattice& lattice, std::int
 
 double shortest_edge_at(const LeafGraph& graph, const Lattice& lattice, LatticePoint corner) {
   int finest = 0;
-  for (const std::int32_t leaf : graph.leaves_round(corner)) {
+  for (const LeafId leaf : graph.leaves_round(corner)) {
     if (leaf != LeafGraph::none) finest = std::max(finest, graph.leaf(leaf).level);
   }
   return lattice.edge(finest);

@@ -26,8 +26,7 @@ struct LeafEdge {
 };
 
 /// The edge of a leaf's side next to a point; beyond the middle, the half in which it lies.
-LeafEdge leaf_edge_near(const LeafGraph& graph, const Lattice& lattice, std::int32_t leaf, Side side,
-                        Point p);
+LeafEdge leaf_edge_near(const LeafGraph& graph, const Lattice& lattice, LeafId leaf, Side side, Point p);
 
 /// The edge of the smallest leaf at a lattice corner.
 double shortest_edge_at(const LeafGraph& graph, const Lattice& lattice, LatticePoint corner);

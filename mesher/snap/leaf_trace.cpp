@@ -25,13 +25,13 @@ Point crossing_of_horizontal(const Geometry& g, std::int32_t s, double y, double
 }
 
 /// Appends the crossings of one segment.
-Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& box, std::size_t first,
+Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& box, std::int32_t first,
                      std::vector<Crossing>& crossings) {
   const Geometry& g = outline.geometry();
   const std::int32_t end = g.next(s);
   Passage passage;
   const auto add = [&](Side side, bool enters, Point position) {
-    (enters ? passage.entry : passage.exit) = static_cast<std::int32_t>(crossings.size() - first);
+    (enters ? passage.entry : passage.exit) = size32(crossings) - first;
     crossings.push_back({s, side, enters, position});
   };
   const auto crosses = [&](bool a_beyond, bool b_beyond, Point from, Point to) {
@@ -58,12 +58,12 @@ Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& b
 /// Follows the outline from the segment at `start` to where it leaves the leaf or comes back; appends the
 /// vertices on the way.
 Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::span<const Passage> passages,
-             std::vector<char>& seen, std::size_t start, std::size_t first_vertex,
+             std::vector<char>& seen, std::size_t start, std::int32_t first_vertex,
              std::vector<std::int32_t>& vertices) {
   Piece piece;
   piece.first_segment = segments[start];
   piece.entry = passages[start].entry;
-  piece.vertices_begin = static_cast<std::int32_t>(vertices.size() - first_vertex);
+  piece.vertices_begin = size32(vertices) - first_vertex;
   std::size_t at = start;
   while (true) {
     seen[at] = 1;
@@ -73,10 +73,10 @@ Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::spa
     vertices.push_back(vertex);
     const auto found = std::lower_bound(segments.begin(), segments.end(), vertex);
     QUADLOOP_REQUIRE(found != segments.end() && *found == vertex, "the outline ends inside a leaf");
-    at = static_cast<std::size_t>(found - segments.begin());
+    at = found - segments.begin();
     if (at == start) break;
   }
-  piece.vertices_end = static_cast<std::int32_t>(vertices.size() - first_vertex);
+  piece.vertices_end = size32(vertices) - first_vertex;
   return piece;
 }
 
@@ -85,7 +85,7 @@ Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::spa
 std::int32_t LeafTraces::add(const ShiftedOutline& outline, const Box& box,
                              std::span<const std::int32_t> segments) {
   begins_.push_back({box, size32(crossings_), size32(pieces_), size32(vertices_)});
-  const std::size_t first_crossing = crossings_.size(), first_vertex = vertices_.size();
+  const std::int32_t first_crossing = size32(crossings_), first_vertex = size32(vertices_);
   thread_local std::vector<Passage> passages;
   thread_local std::vector<char> seen;
   passages.clear();
@@ -107,16 +107,11 @@ LeafTrace LeafTraces::operator[](std::int32_t trace) const {
   const std::size_t i = trace;
   const Begin& begin = begins_[i];
   const bool last = i + 1 == begins_.size();
-  const auto part = [](const auto& all, std::int32_t from, std::size_t to) {
-    return std::span(all).subspan(from, to - static_cast<std::size_t>(from));
+  const auto part = [&](const auto& all, std::int32_t Begin::*of) {
+    return std::span(all).first(last ? size32(all) : begins_[i + 1].*of).subspan(begin.*of);
   };
-  return {
-      begin.box,
-      part(crossings_, begin.crossings,
-           last ? crossings_.size() : static_cast<std::size_t>(begins_[i + 1].crossings)),
-      part(pieces_, begin.pieces, last ? pieces_.size() : static_cast<std::size_t>(begins_[i + 1].pieces)),
-      part(vertices_, begin.vertices,
-           last ? vertices_.size() : static_cast<std::size_t>(begins_[i + 1].vertices))};
+  return {begin.box, part(crossings_, &Begin::crossings), part(pieces_, &Begin::pieces),
+          part(vertices_, &Begin::vertices)};
 }
 
 void LeafTraces::clear() {

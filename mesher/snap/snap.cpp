@@ -19,11 +19,11 @@ Site site_in(const Quadrant& leaf, Corner direction, const Snap& snap) {
 std::vector<LeafSnap> snaps_of_leaves(const LeafGraph& graph, const std::vector<Snap>& snaps) {
   std::vector<LeafSnap> result;
   for (const Snap& snap : snaps) {
-    const std::array<std::int32_t, 4> round = graph.leaves_round(snap.corner);
+    const std::array<LeafId, 4> round = graph.leaves_round(snap.corner);
     const std::size_t first = result.size();
     for (const Corner direction : corners_along_curve) {
-      const std::int32_t leaf = round[index_of(direction)];
-      const bool seen = std::any_of(result.begin() + static_cast<std::ptrdiff_t>(first), result.end(),
+      const LeafId leaf = round[index_of(direction)];
+      const bool seen = std::any_of(result.begin() + first, result.end(),
                                     [&](const LeafSnap& s) { return s.leaf == leaf; });
       if (graph.is_local(leaf) && !seen)
         result.push_back({leaf, site_in(graph.leaf(leaf), direction, snap), &snap});

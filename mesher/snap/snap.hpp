@@ -29,7 +29,7 @@ struct Snap {
 
 /// A snap as one leaf sees it: at a corner, a hanging node, or elsewhere on a side of it.
 struct LeafSnap {
-  std::int32_t leaf = 0;
+  LeafId leaf;
   Site site = Site::south_west;
   const Snap* snap = nullptr;
 };

@@ -9,8 +9,6 @@ namespace quadloop {
 
 namespace {
 
-constexpr double capture_share =
-    0.45;  ///< of the local edge: a kept point nearer than this takes the corner; two corners cannot claim it
 constexpr double swallow_share = 0.15;  ///< of the local edge: no vertex vanishes that lies farther than this
                                         ///< from the outline as it goes on from the corner
 
@@ -70,7 +68,7 @@ class CornerDecision {
  private:
   bool claims(const Sight& s) const { return s.distance < share_ * corner_.edge; }
   double distance(Point p) const { return length(p - corner_.position); }
-  bool is_near(Point p) const { return distance(p) < capture_share * corner_.edge; }
+  bool is_near(Point p) const { return distance(p) < corner_reach * corner_.edge; }
 
   /// A piece's vertices inside its leaf.
   std::span<const std::int32_t> vertices_of(const Sight& s) const {
@@ -235,7 +233,7 @@ class CornerDecision {
   }
 
   Snap snap_to(Point target, const Run& run) const {
-    Snap snap{corner_.corner, target, corner_.position, capture_share * corner_.edge, {}};
+    Snap snap{corner_.corner, target, corner_.position, corner_reach * corner_.edge, {}};
     for (const std::size_t i : run) {
       const Snap::Absorbed crossing{sights_[i].segment, is_vertical(sights_[i].direction)};
       if (std::find(snap.absorbed.begin(), snap.absorbed.end(), crossing) == snap.absorbed.end())

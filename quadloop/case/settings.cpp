@@ -10,6 +10,7 @@
 #include "io/input/case_file.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
@@ -209,6 +210,7 @@ void read_smooth_table(const CaseTable& root, Settings& settings) {
 
 void read_output_table(const CaseTable& root, const std::string& case_path, Settings& settings) {
   settings.output_prefix = std::filesystem::path(case_path).stem().string();
+  settings.formats = default_formats();
   const auto table = root.table("output");
   if (!table) return;
   settings.output_prefix = table->text("prefix").value_or(settings.output_prefix);
@@ -264,6 +266,11 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   return settings;
 }
 
+const AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path) {
+  if (settings.adapt) return *settings.adapt;
+  throw InputError(case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
+}
+
 std::string format_suffix_of(const std::string& prefix) {
   const std::string suffix = std::filesystem::path(prefix).extension();
   return format_of(prefix) != nullptr || suffix == ".h5" ? suffix : std::string();
@@ -312,15 +319,15 @@ namespace {
 
 /// A corner spacing that is out of reach, or of a boundary without a sharp corner.
 Warnings corner_warnings(const Geometry& geometry, double min) {
-  std::vector<char> has_corner(geometry.boundaries().size(), 0);
+  IdVector<BoundaryId, char> has_corner(geometry.boundaries().size(), 0);
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
     if (geometry.corner_spacing_of(v) == 0) continue;
     for (const std::int32_t segment : {geometry.previous(v), v})
-      has_corner[geometry.boundary_of(segment).value()] = 1;
+      has_corner[geometry.boundary_of(segment)] = 1;
   }
   Warnings warnings;
-  for (std::size_t b = 0; b < has_corner.size(); ++b) {
-    const Boundary& boundary = geometry.boundaries()[b];
+  for (const BoundaryId b : has_corner.ids()) {
+    const Boundary& boundary = geometry.boundary(b);
     if (boundary.corner_spacing > 0 && has_corner[b] == 0) {
       warnings.push_back(
           fmt::format("boundary '{}' has no corner for its corner_spacing = {}: it turns by more than its "

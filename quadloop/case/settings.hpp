@@ -32,8 +32,8 @@ struct FarField {
 /// A case file as each module wants it: the only place that knows the names of keys.
 struct Settings {
   std::string title;
-  std::vector<std::pair<std::string, std::string>>
-      values;  ///< of all keys but those that no file of a cycle depends on: dotted name, JSON
+  /// Of all keys but those that no file of a cycle depends on: dotted name, JSON.
+  std::vector<std::pair<std::string, std::string>> values;
   std::vector<GeometryInput> files;
   std::optional<FarField> far_field;
   AssembleOptions outline;
@@ -43,12 +43,15 @@ struct Settings {
   SolverSettings solver;
   std::optional<AdaptOptions> adapt;  ///< where the case has a table for it
   std::string output_prefix;
-  std::vector<std::string> formats{"mesh", "cgns"};
+  std::vector<std::string> formats;
 };
 
 /// Reads the case file with the command line's assignments over it. On the calling rank alone. Throws
 /// InputError that names key and line.
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments);
+
+/// The case's table [adapt]. Throws InputError, which names the case, where it has none.
+const AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path);
 
 /// The suffix of a mesh or tree file that a prefix of output files ends in, if any: a slip, as suffixes are
 /// added to it.

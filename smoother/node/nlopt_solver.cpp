@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlopt.hpp>
 
+#include "mesher/base/ids.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -28,7 +30,7 @@ double cost_of(unsigned, const double* x, double* slope, void* data) {
   const Point p = problem.centre + problem.edge * Point{x[0], x[1]};
   const StarCost<1> cost = problem.star->cost(p, problem.objective);
   if (!cost.valid[0]) {  // a wall, with the slope back to where the node was
-    const double barrier = static_cast<double>(problem.star->corners().size());
+    const double barrier = size32(problem.star->corners());
     if (slope != nullptr) {
       slope[0] = x[0];
       slope[1] = x[1];

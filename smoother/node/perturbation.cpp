@@ -43,8 +43,8 @@ std::optional<Point> best_step(const Star& star, Point p, Objective objective, c
     const int count = static_cast<int>(std::min<std::size_t>(Star::batch, directions.size() - begin));
     Star::Batch x = Star::Batch::Constant(p.x), y = Star::Batch::Constant(p.y);
     for (int k = 0; k < count; ++k) {
-      x[k] += step * directions[begin + static_cast<std::size_t>(k)].x;
-      y[k] += step * directions[begin + static_cast<std::size_t>(k)].y;
+      x[k] += step * directions[begin + k].x;
+      y[k] += step * directions[begin + k].y;
     }
     const auto cost = star.cost(x, y, objective);
     const int k = acceptance.best(cost, count);

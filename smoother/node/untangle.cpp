@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "mesher/base/ids.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -47,7 +49,7 @@ double least_depth(const std::vector<HalfPlane>& planes, Point p) {
 Point mean_of_neighbours(const Star& star) {
   Point sum;
   for (const StarCorner& c : star.corners()) sum = sum + c.q;
-  return (1 / static_cast<double>(star.corners().size())) * sum;
+  return (1.0 / size32(star.corners())) * sum;
 }
 
 /// The place of largest least depth: a linear program in three unknowns, solved from above by its dual

@@ -15,16 +15,16 @@ namespace {
 /// Shares of the way to the neighbour on that side.
 constexpr std::array<double, 4> shares{0.3, 0.12, 0.04, 0.01};
 constexpr double straight_sine = 1e-10;
-constexpr double stray_share =
-    0.15;  ///< of the shorter chord: so far the outline may stray from the chords, as it may in cutting
-constexpr double longest_way =
-    20;  ///< a chord that stands for a part of the outline longer than so many times itself is left alone
+/// Of the shorter chord: so far the outline may stray from the chords, as it may in cutting.
+constexpr double stray_share = 0.15;
+/// A chord that stands for a part of the outline longer than so many times itself is left alone.
+constexpr double longest_way = 20;
 
 }  // namespace
 
 BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
                              const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline,
-                             const std::vector<char>& pinned)
+                             const NodeFlags& pinned)
     : mesh_{mesh},
       boundaries_{boundaries},
       outline_{outline},
@@ -71,7 +71,8 @@ namespace {
 
 /// A boundary edge as its node at one end sees it.
 struct EdgeEnd {
-  std::int32_t node, other, boundary;
+  NodeId node, other;
+  std::int32_t boundary;
   bool leaves;  ///< the node
   auto key() const { return std::tie(node, leaves, boundary, other); }
 };
@@ -79,9 +80,9 @@ struct EdgeEnd {
 /// Those at owned nodes, sorted.
 std::vector<EdgeEnd> edge_ends(const HaloMesh& mesh) {
   std::vector<EdgeEnd> ends;
-  for (const HaloEdge& e : mesh.boundary_edges()) {
-    if (e.from.value() < mesh.owned_nodes()) ends.push_back({e.from.value(), e.to.value(), e.boundary, true});
-    if (e.to.value() < mesh.owned_nodes()) ends.push_back({e.to.value(), e.from.value(), e.boundary, false});
+  for (const auto& [from, to, boundary] : mesh.boundary_edges()) {
+    if (mesh.owns(from)) ends.push_back({from, to, boundary, true});
+    if (mesh.owns(to)) ends.push_back({to, from, boundary, false});
   }
   std::sort(ends.begin(), ends.end(), [](const EdgeEnd& a, const EdgeEnd& b) { return a.key() < b.key(); });
   return ends;
@@ -98,13 +99,13 @@ void for_each_boundary_node(const std::vector<EdgeEnd>& ends, const Visit& visit
 
 }  // namespace
 
-void BoundarySlide::find_rails(const std::vector<char>& pinned) {
-  for (std::size_t node = 0; node < pinned.size() && node < freedom_.size(); ++node) {
-    if (pinned[node] != 0) freedom_[node] = NodeFreedom::fixed;
+void BoundarySlide::find_rails(const NodeFlags& pinned) {
+  for (const NodeId node : freedom_.ids()) {
+    if (!pinned.empty() && pinned[node] != 0) freedom_[node] = NodeFreedom::fixed;
   }
   const std::vector<EdgeEnd> ends = edge_ends(mesh_);
-  std::vector<char> pinched(mesh_.points().size(),
-                            0);  // the boundary comes back there: its place on the outline is only one of two
+  NodeFlags pinched(mesh_.points().size(),
+                    0);  // the boundary comes back there: its place on the outline is only one of two
   for_each_boundary_node(ends,
                          [&](std::span<const EdgeEnd> at) { pinched[at[0].node] = at.size() > 2 ? 1 : 0; });
   mesh_.exchange().update(pinched);
@@ -144,9 +145,9 @@ bool BoundarySlide::may_slide(const Rail& rail) const {
          !is_tight(places);
 }
 
-const BoundarySlide::Rail& BoundarySlide::rail_of(std::int32_t node) const {
+const BoundarySlide::Rail& BoundarySlide::rail_of(NodeId node) const {
   return *std::lower_bound(rails_.begin(), rails_.end(), node,
-                           [](const Rail& rail, std::int32_t n) { return rail.node < n; });
+                           [](const Rail& rail, NodeId n) { return rail.node < n; });
 }
 
 bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const {
@@ -164,7 +165,7 @@ bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, Outlin
          !outline_->sweeps_over(both, p);
 }
 
-std::optional<Point> BoundarySlide::improve(std::int32_t node, const Star& star, Objective objective) const {
+std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objective objective) const {
   const Rail& rail = rail_of(node);
   const Point p = point(node);
   Places places;
@@ -184,8 +185,8 @@ std::optional<Point> BoundarySlide::improve(std::int32_t node, const Star& star,
     const double step = k < shares.size() ? shares[k] * ahead : -shares[k - shares.size()] * back;
     moved[k] = {places.at.loop, places.at.arc + step};
     const Point to = outlined ? outline_->point_at(moved[k]) : point(rail.before) + (back + step) * direction;
-    x[static_cast<Eigen::Index>(k)] = to.x;
-    y[static_cast<Eigen::Index>(k)] = to.y;
+    x[k] = to.x;
+    y[k] = to.y;
   }
   std::vector<int> order = ranked_places(star, p, objective, x, y);
   for (const int k : order) {

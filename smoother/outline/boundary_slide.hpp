@@ -22,19 +22,19 @@ class BoundarySlide {
   /// `outline` may be null. `pinned` flags owned nodes that stay. All arguments must outlive it.
   /// *Collective.*
   BoundarySlide(const Communicator& comm, const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries,
-                const OutlinePath* outline, const std::vector<char>& pinned);
+                const OutlinePath* outline, const NodeFlags& pinned);
 
   /// Of an owned node.
-  NodeFreedom freedom(std::int32_t node) const { return freedom_[node]; }
+  NodeFreedom freedom(NodeId node) const { return freedom_[node]; }
 
   /// A better place for a sliding node, or none: by Acceptance where the star is valid, else one that
   /// untangles.
-  std::optional<Point> improve(std::int32_t node, const Star& star, Objective objective) const;
+  std::optional<Point> improve(NodeId node, const Star& star, Objective objective) const;
 
  private:
   /// The boundary through a sliding node.
   struct Rail {
-    std::int32_t node = -1, before = -1, after = -1;
+    NodeId node, before, after;
     std::int32_t boundary = -1;
   };
   /// The places of a rail's nodes on the outline, now.
@@ -42,7 +42,7 @@ class BoundarySlide {
     OutlinePlace before, at, after;
   };
 
-  void find_rails(const std::vector<char>& pinned);
+  void find_rails(const NodeFlags& pinned);
   void find_tight_segments(const Communicator& comm);
   bool is_tight(const Places& places) const;
   std::optional<OutlinePath::Chord> chord_of(const HaloEdge& edge) const;
@@ -50,15 +50,15 @@ class BoundarySlide {
   bool is_straight(const Rail& rail) const;
   bool is_outlined(std::int32_t boundary) const { return outlined_[boundary] != 0; }
   Places locate(const Rail& rail) const;
-  const Point& point(std::int32_t node) const { return mesh_.points()[node]; }
-  const Rail& rail_of(std::int32_t node) const;
+  const Point& point(NodeId node) const { return mesh_.point(node); }
+  const Rail& rail_of(NodeId node) const;
   bool keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const;
 
   const HaloMesh& mesh_;
   const std::vector<BoundaryEdges>& boundaries_;
   const OutlinePath* outline_;
   std::vector<char> outlined_;  ///< a flag for each boundary: the outline has it
-  std::vector<NodeFreedom> freedom_;
+  IdVector<NodeId, NodeFreedom> freedom_;
   std::vector<Rail> rails_;  ///< by node
   /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for:
   /// nodes there stay, as chords that keep clear of the other parts of the outline could still meet one

@@ -1,10 +1,8 @@
-// What stands behind messages and records: guesses for mistyped words, decimal commas, JSON. On one rank
-// alone.
+// What stands behind messages and records: guesses for mistyped words, JSON. On one rank alone.
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "io/text/decimal_comma.hpp"
 #include "mesher/base/json.hpp"
 #include "mesher/base/nearest_word.hpp"
 
@@ -23,14 +21,6 @@ TEST(NearestWord, IsOneSlipForEachThirdOfTheWord) {
   EXPECT_EQ(nearest_word("--nonsense", words), "");
   EXPECT_EQ(guess_for("mesg", words), "; do you mean 'mesh'?");
   EXPECT_EQ(guess_for("solver", words), "");
-}
-
-TEST(DecimalComma, IsTheOnlyOneOfANumber) {
-  EXPECT_EQ(decimal_comma_in("0,5"), "0,5: a decimal comma; write 0.5");
-  EXPECT_EQ(decimal_comma_in("-1,25e-3"), "-1,25e-3: a decimal comma; write -1.25e-3");
-  EXPECT_EQ(decimal_comma_in("+1,5D2"), "+1,5D2: a decimal comma; write +1.5D2");
-  for (const char* word : {"", "0.5", "1,", ",5", "1,2,3", "1.5,2", "a,b", "1,2x", "5"})
-    EXPECT_EQ(decimal_comma_in(word), "") << word;
 }
 
 TEST(Json, NumbersAreShortAndFinite) {

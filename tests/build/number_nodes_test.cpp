@@ -117,8 +117,8 @@ TEST(NodeNumbering, LeavesHaveTheirNodesAtTheirCornersAndMiddles) {
   };
   std::vector<Expected> expected;
   std::int64_t hanging = 0;
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-    if (numbered.cut.states[leaf - graph.local_begin()] != CutForest::State::inside) continue;
+  for (const LeafId leaf : graph.local()) {
+    if (numbered.cut.states[graph.local_index(leaf)] != CutForest::State::inside) continue;
     const Quadrant& q = graph.leaf(leaf);
     for (const Site site : lattice_sites) {
       if (is_middle(site) && !graph.has_hanging(leaf, side_of(site))) continue;
@@ -137,8 +137,8 @@ TEST(NodeNumbering, CellsOfCutLeavesHaveTheirNodesWhereTheyWereCut) {
   Numbered numbered(square_with_disc(), sizes_from(0.125, 1));
   const LeafGraph& graph = numbered.graph;
   std::vector<std::pair<NodeId, Point>> expected;
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
-    const std::int32_t e = numbered.cut.entry_of[leaf - graph.local_begin()];
+  for (const LeafId leaf : graph.local()) {
+    const std::int32_t e = numbered.cut.entry_of[graph.local_index(leaf)];
     if (e < 0) continue;
     const CutForest::Entry& entry = numbered.cut.entries[e];
     for (const auto& t :

@@ -1,7 +1,7 @@
 // Mistakes that the types forbid. Without a macro this file compiles; with any one of them it must not.
 
 #include "mesher/base/communicator.hpp"
-#include "mesher/base/ids.hpp"
+#include "mesher/base/id_vector.hpp"
 
 namespace quadloop {
 
@@ -10,6 +10,8 @@ constexpr GlobalNodeId global_node{3};
 
 static_assert(node == NodeId{3});
 static_assert(!NodeId{}.valid());
+
+inline double value_at(const IdVector<NodeId, double>& values) { return values[node]; }
 
 #if defined(LOCAL_FOR_GLOBAL)
 constexpr GlobalNodeId mistake = node;
@@ -23,6 +25,12 @@ constexpr int mistake = node;
 constexpr bool mistake = node == LeafId{3};
 #elif defined(SUM_OF_IDS)
 constexpr auto mistake = node + node;
+#elif defined(GLOBAL_SUBSCRIPT)
+double mistake(const IdVector<NodeId, double>& values) { return values[global_node]; }
+#elif defined(NUMBER_SUBSCRIPT)
+double mistake(const IdVector<NodeId, double>& values) { return values[3]; }
+#elif defined(VECTOR_OF_BITS)
+IdVector<NodeId, bool> mistake;
 #elif defined(COPIED_COMMUNICATOR)
 Communicator mistake(const Communicator& comm) { return comm; }
 #endif

@@ -5,23 +5,16 @@
 #include <numeric>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/cut/cut_leaf.hpp"
 #include "mesher/cut/leaf_cells.hpp"
+#include "tests/snap/traced_leaves.hpp"
 
 namespace quadloop {
 namespace {
 
 const Box unit{{0, 0}, {1, 1}};
 
-Geometry loops_of(const std::vector<std::vector<Point>>& loops, double corner = 30) {
-  std::vector<Point> points;
-  std::vector<std::int32_t> starts{0};
-  for (const auto& loop : loops) {
-    points.insert(points.end(), loop.begin(), loop.end());
-    starts.push_back(size32(points));
-  }
-  std::vector<BoundaryId> boundary(points.size(), BoundaryId{0});
-  return {{{"outline", 0, corner, "wall"}}, std::move(points), std::move(starts), std::move(boundary)};
-}
+using test::loops_of;
 
 struct Cut {
   bool sound = false;

@@ -29,7 +29,7 @@ const Lattice brick_lattice({{0, 0}, {3, 2}}, 3, 2);
 TEST(LeafGraph, PointsFindTheirLeaves) {
   const Forest forest = refined_brick(brick_lattice);
   const LeafGraph graph(test::world(), brick_lattice, forest);
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
+  for (const LeafId leaf : graph.all()) {
     const Quadrant& q = graph.leaf(leaf);
     EXPECT_EQ(graph.leaf_at(q.x, q.y), leaf);
     EXPECT_EQ(graph.leaf_at(q.x + q.size() - 1, q.y + q.size() - 1), leaf);
@@ -41,14 +41,14 @@ TEST(LeafGraph, PointsFindTheirLeaves) {
 TEST(LeafGraph, NeighboursAreTheLeavesThatTouch) {
   const Forest forest = refined_brick(brick_lattice);
   const LeafGraph graph(test::world(), brick_lattice, forest);
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf) {
+  for (const LeafId leaf : graph.local()) {
     const Quadrant& q = graph.leaf(leaf);
     const std::int64_t last = q.size() - 1;
     const auto& around = graph.around(leaf);
     EXPECT_EQ(around.south_west, graph.leaf_at(q.x - 1, q.y - 1));
     EXPECT_EQ(around.south, graph.leaf_at(q.x + last, q.y - 1));
     EXPECT_EQ(around.west, graph.leaf_at(q.x - 1, q.y + last));
-    const auto finer = [&](std::int32_t other) {
+    const auto finer = [&](LeafId other) {
       return other != LeafGraph::none && graph.leaf(other).level > q.level;
     };
     EXPECT_EQ(graph.has_hanging(leaf, Side::right), finer(graph.leaf_at(q.x + q.size(), q.y)));
@@ -61,8 +61,8 @@ TEST(LeafGraph, NeighboursAreTheLeavesThatTouch) {
 TEST(LeafGraph, EarlierNeighboursComeEarlierAlongTheCurve) {
   const Forest forest = refined_brick(brick_lattice);
   const LeafGraph graph(test::world(), brick_lattice, forest);
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    for (const std::int32_t before :
+  for (const LeafId leaf : graph.all()) {
+    for (const LeafId before :
          {graph.around(leaf).south_west, graph.around(leaf).south, graph.around(leaf).west})
       EXPECT_LT(before, leaf);
   }
@@ -85,18 +85,36 @@ TEST(LeafGraph, KnowsTheRankOfLeavesOutOfSight) {
   }
 }
 
-TEST(LeafGraph, PlacesNameTheOwners) {
+TEST(LeafGraph, LocalLeavesHaveAnIndexAndGhostsHaveNone) {
+  const Forest forest = refined_brick(brick_lattice);
+  const LeafGraph graph(test::world(), brick_lattice, forest);
+  std::int32_t leaves = 0, local = 0;
+  for (const LeafId leaf : graph.all()) {
+    EXPECT_EQ(leaf, LeafId{leaves++});
+    const bool in_range = leaf.value() >= graph.local_begin() && local < graph.local_size();
+    EXPECT_EQ(graph.is_local(leaf), in_range);
+    if (!graph.is_local(leaf)) continue;
+    EXPECT_EQ(graph.local_index(leaf), local);
+    EXPECT_EQ(graph.from_local(local++), leaf);
+  }
+  EXPECT_EQ(leaves, graph.size());
+  EXPECT_EQ(local, graph.local_size());
+  for (const LeafId leaf : graph.local()) local -= graph.is_local(leaf) ? 1 : 0;
+  EXPECT_EQ(local, 0);
+  EXPECT_FALSE(graph.is_local(LeafGraph::none));
+}
+
+TEST(LeafGraph, LeavesKnowTheirOwners) {
   const Forest forest = refined_brick(brick_lattice);
   const LeafGraph graph(test::world(), brick_lattice, forest);
   std::vector<Quadrant> local;
-  for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf)
-    local.push_back(graph.leaf(leaf));
+  for (const LeafId leaf : graph.local()) local.push_back(graph.leaf(leaf));
   const auto counts = test::world().all_gather(std::ssize(local));
   const auto all = test::world().all_gather_values(std::span<const Quadrant>(local));
-  for (std::int32_t leaf = 0; leaf < graph.size(); ++leaf) {
-    const LeafGraph::Place place = graph.place_of(leaf);
-    std::int64_t at = place.index;
-    for (int rank = 0; rank < place.rank; ++rank) at += counts[rank];
+  for (const LeafId leaf : graph.all()) {
+    const LeafGraph::Owner owner = graph.owner_of(leaf);
+    std::int64_t at = owner.index;
+    for (int rank = 0; rank < owner.rank; ++rank) at += counts[rank];
     EXPECT_EQ(all[at], graph.leaf(leaf));
   }
 }

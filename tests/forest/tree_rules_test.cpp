@@ -34,8 +34,7 @@ struct Tree {
               demanded},
         graph{refine_forest(test::world(), sizes)} {
     std::vector<Quadrant> local;
-    for (std::int32_t leaf = graph.local_begin(); leaf < graph.local_end(); ++leaf)
-      local.push_back(graph.leaf(leaf));
+    for (const LeafId leaf : graph.local()) local.push_back(graph.leaf(leaf));
     leaves = test::world().all_gather_values(std::span<const Quadrant>(local));
   }
   ShiftedOutline outline;
@@ -219,10 +218,33 @@ TEST_P(TreeRulesAt, TheTreeIsTheSmallest) {
   EXPECT_EQ(squeezed, GetParam() == 1.25 ? 0 : GetParam() == 1.5 ? 11 : 6);
 }
 
+TEST(TreeRules, LeavesThatSplittingSqueezesAreSplitToo) {
+  // Slanting lines of small leaves a few large ones apart: what is split between two squeezes the next.
+  SizeOptions options = options_with(0.02, 0.5, 2.0);
+  for (int k = 0; k < 4; ++k) {
+    const double x = -0.9 + 0.41 * k;
+    options.sources.push_back({Source::Line{{x, -0.8}, {x + 0.3, 0.9}}, 0.03 + 0.02 * k, {}});
+  }
+  const Geometry geometry = circle_in_square(0.5, 0.5);
+  const Tree tree(geometry, options);
+  EXPECT_EQ(sorted_places(tree.leaves), sorted_places(smallest_tree(tree)));
+}
+
+TEST(TreeRules, RanksShareTheWorkOfCutting) {
+  const Geometry geometry = circle_in_square(0.02);
+  const Tree tree(geometry, options_with(0.005, 0.25, 1.25));  // none of its leaves is squeezed
+  SizeCursor cursor(tree.sizes);
+  std::int64_t own = 0;
+  for (const LeafId leaf : tree.graph.local())
+    own += cursor.segments_in(tree.graph.leaf(leaf)).empty() ? weight_uncut : weight_cut;
+  const std::int64_t ranks = test::world().size(), all = test::world().sum(own);
+  EXPECT_LE(std::abs(own * ranks - all), ranks * weight_cut) << "but for a leaf at its ends";
+}
+
 TEST(TreeRules, NoLeafLiesBetweenFinerOnes) {
   const Geometry geometry = circle_in_square(0.05, 0.06);
   const Tree tree(geometry, options_with(0.02, 0.5, 2.0));
-  for (std::int32_t leaf = tree.graph.local_begin(); leaf < tree.graph.local_end(); ++leaf) {
+  for (const LeafId leaf : tree.graph.local()) {
     EXPECT_FALSE(tree.graph.around(leaf).finer.has_opposites());
   }
 }

@@ -172,7 +172,7 @@ TEST(TreeFile, ComesBackInShares) {
     const LeafRecord& a = read.leaves[i];
     const LeafRecord& b = all.leaves[first + i];
     const bool same = a.tree_x == b.tree_x && a.tree_y == b.tree_y && a.x == b.x && a.y == b.y &&
-                      a.level == b.level && a.wanted == b.wanted && a.mark == b.mark &&
+                      a.level == b.level && a.wanted == b.wanted && a.block == b.block &&
                       a.triangles == b.triangles && a.quads == b.quads && a.adapted == b.adapted;
     ASSERT_TRUE(same) << first + i;
   }
@@ -221,7 +221,7 @@ TEST(TreeFile, RefusesImpossibleLeavesAndAttributesByName) {
       {"beside the lattice", [](TreeRecord& t) { t.leaves[2].y += 1; }},
       {"none of the trees", [](TreeRecord& t) { t.leaves[99].tree_x = 97; }},
       {"below 0", [](TreeRecord& t) { t.leaves[7].quads = -1; }},
-      {"outside the domain, but has cells", [](TreeRecord& t) { t.leaves[1].mark = 0; }},
+      {"outside the domain, but has cells", [](TreeRecord& t) { t.leaves[1].block = 0; }},
       {"does not follow", [](TreeRecord& t) { std::swap(t.leaves[1], t.leaves[2]); }},
       {"does not follow", [](TreeRecord& t) { t.leaves.erase(t.leaves.begin() + 2); }},
       {"trees", [](TreeRecord& t) { t.leaves.erase(t.leaves.begin() + 50); }},

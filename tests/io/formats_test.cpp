@@ -34,6 +34,13 @@ TEST(Formats, AreFoundByNameAndSuffix) {
   EXPECT_EQ(format_named(".vtu"), nullptr);
 }
 
+TEST(Formats, NativeOneComesFirstAndKeepsAll) {
+  EXPECT_EQ(native_format().name, "mesh");
+  for (const Content content : {Content::mesh, Content::solution, Content::constants})
+    EXPECT_TRUE(native_format().holds(content));
+  EXPECT_EQ(default_formats(), (Names{"mesh", "cgns"}));
+}
+
 void expect_same_solution(const FileFormat& format, const LoadedMesh& loaded, const Field& solution) {
   ASSERT_EQ(loaded.solution.has_value(), format.holds(Content::solution));
   if (!loaded.solution) return;

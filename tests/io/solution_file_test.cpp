@@ -11,7 +11,6 @@
 #include "io/su2/su2_csv_file.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/variable_names.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -52,7 +51,7 @@ TEST(Su2Csv, ReadsNamesCoordinatesAndRows) {
   EXPECT_EQ(loaded.solution.names, (std::vector<std::string>{"Density", "Momentum_x"}));
   EXPECT_EQ(loaded.solution.values, (std::vector<double>{1, 0.2, 3, -4, 5, 6}));
   EXPECT_EQ(loaded.points, (std::vector<Point>{{0, 0}, {1, 0.5}, {1, 2}}));
-  EXPECT_FALSE(loaded.has_cells);
+  EXPECT_FALSE(loaded.mesh);
   EXPECT_EQ(read_text(test::with_crlf(table) + "\r\n").solution.values, loaded.solution.values);
   EXPECT_EQ(read_text("rho\n1\n2\n").solution.values, (std::vector<double>{1, 2}));
   EXPECT_TRUE(read_text("rho\n1\n2\n").points.empty());
@@ -147,7 +146,9 @@ TEST_P(Formats, SolutionComesBackAndFitsItsMesh) {
   EXPECT_EQ(loaded.solution.names, solution.names);
   EXPECT_EQ(loaded.solution.values, solution.values);
   EXPECT_EQ(loaded.nodes, mesh.owned_nodes);
-  EXPECT_TRUE(loaded.has_cells);
+  ASSERT_TRUE(loaded.mesh);
+  EXPECT_EQ(loaded.mesh->mesh.boundaries.size(), mesh.boundaries.size());
+  EXPECT_FALSE(loaded.mesh->solution);
   require_same_mesh(loaded, mesh);
 }
 
@@ -184,9 +185,9 @@ INSTANTIATE_TEST_SUITE_P(SolutionFile, Formats, testing::Values(".mesh", ".cgns"
 
 TEST(SolutionFile, OtherNumbersOfCellsAreTold) {
   const Mesh mesh = test::sample_mesh(2);
-  LoadedSolution loaded{
-      "s.vtu", test::sample_solution(mesh), mesh.owned_nodes, mesh.points, true, mesh.triangles, mesh.quads};
-  loaded.quads.pop_back();
+  LoadedSolution loaded{"s.vtu", test::sample_solution(mesh), mesh.owned_nodes, LoadedMesh{}, {}};
+  loaded.mesh->mesh = mesh;
+  loaded.mesh->mesh.quads.pop_back();
   expect_in(refusal_of([&] { require_same_mesh(loaded, mesh); }), "s.vtu: has 1 quads, the mesh 2");
 }
 
@@ -195,33 +196,7 @@ TEST(SolutionFile, RefusesFormatsWithoutSolutions) {
   expect_in(refusal_of([] { read_solution("missing.csv"); }), "missing.csv: cannot be opened");
 }
 
-TEST(VariableNames, FindsThemByUsualNames) {
-  const std::vector<std::string> su2{"Density", "Momentum_x", "Momentum_y", "Energy", "Pressure", "Mach"};
-  EXPECT_EQ(variable(su2, "Density", "s"), 0U);
-  EXPECT_EQ(variable(su2, "density", "s"), 0U);
-  EXPECT_EQ(variable(su2, "rho", "s"), 0U);
-  EXPECT_EQ(variable(su2, "y_momentum", "s"), 2U);
-  EXPECT_EQ(variable(su2, "mach_number", "s"), 5U);
-  const std::vector<std::string> ours{"density", "x_velocity", "y_velocity", "pressure"};
-  EXPECT_EQ(variable(ours, "VelocityX", "s"), 1U);
-  EXPECT_EQ(variable(ours, "v", "s"), 2U);
-  EXPECT_EQ(variable(std::vector<std::string>{"Velocity:0", "Velocity:1", "p"}, "y_velocity", "s"), 1U);
-  EXPECT_EQ(variable(std::vector<std::string>{"P", "p"}, "p", "s"), 1U);  // as it is written, first of all
-}
-
-TEST(VariableNames, RefusesWithAList) {
-  const std::vector<std::string> names{"rho", "Density", "p"};
-  expect_in(refusal_of([&] { variable(names, "mach", "s.vtu"); }),
-            "s.vtu: no variable 'mach' in the solution; it has: rho, Density, p");
-  expect_in(refusal_of([&] { variable({}, "mach", "s.vtu"); }), "it has: none");
-  EXPECT_EQ(variable(names, "density", "s"), 1U);
-  expect_in(refusal_of([] {
-              variable(std::vector<std::string>{"u", "Ux"}, "x_velocity", "s");
-            }),
-            "'x_velocity' may be u or Ux");
-}
-
-TEST(VariableNames, BlanksBecomeUnderscoresInEveryFormat) {
+TEST(SolutionNames, BlanksBecomeUnderscoresInEveryFormat) {
   EXPECT_EQ(read_text("wave height,b\n1,2\n2,3\n").solution.names,
             (std::vector<std::string>{"wave_height", "b"}));
   const TemporaryFolder folder;
@@ -235,7 +210,7 @@ TEST(VariableNames, BlanksBecomeUnderscoresInEveryFormat) {
   for (const std::string& name : names) EXPECT_EQ(name.find_first_of(" \t"), std::string::npos) << name;
 }
 
-TEST(VariableNames, CgnsKeepsEachVariable) {
+TEST(SolutionNames, CgnsKeepsEachVariable) {
   const TemporaryFolder folder;
   const Mesh mesh = test::sample_mesh(5);
   Field solution = test::sample_solution(mesh);
@@ -248,7 +223,7 @@ TEST(VariableNames, CgnsKeepsEachVariable) {
   }
 }
 
-TEST(VariableNames, TwoOfOneNameAreRefused) {
+TEST(SolutionNames, TwoOfOneNameAreRefused) {
   expect_in(refusal_of([] { read_text("h,h\n1,2\n"); }), "s.csv: two variables are named 'h'");
   const std::string both = refusal_of([] { read_text("wave height,b,wave_height\n1,2,3\n"); });
   for (const char* part : {"s.csv", "'wave height'", "'wave_height'"}) expect_in(both, part);

@@ -80,7 +80,7 @@ TEST(HaloMesh, HasAllCellsRoundOwnedNodesInGlobalOrder) {
     std::vector<Numbers> rows;
     halo.for_each_cell([&](const auto& nodes) {
       rows.emplace_back();
-      for (const NodeId node : nodes) rows.back().push_back(halo.global(node.value()));
+      for (const NodeId node : nodes) rows.back().push_back(halo.global(node).value());
     });
     EXPECT_TRUE(rows == expected_cells(pieces));
   });
@@ -91,9 +91,9 @@ TEST(HaloMesh, KnowsWhereItsNodesAre) {
     const HaloMesh halo(world(), pieces.part);
     EXPECT_EQ(halo.owned_nodes(), pieces.part.owned_nodes);
     Numbers numbers;
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(halo.points().size()); ++node) {
-      numbers.push_back(halo.global(node));
-      EXPECT_EQ(halo.point(NodeId{node}), pieces.whole.points[halo.global(node)]);
+    for (const NodeId node : ids_below(NodeId{size32(halo.points())})) {
+      numbers.push_back(halo.global(node).value());
+      EXPECT_EQ(halo.point(node), pieces.whole.points[numbers.back()]);
     }
     std::sort(numbers.begin(), numbers.end());
     EXPECT_EQ(std::adjacent_find(numbers.begin(), numbers.end()), numbers.end()) << "a node is there twice";
@@ -106,8 +106,8 @@ TEST(HaloMesh, HasAllBoundaryEdgesAtOwnedNodesOnce) {
     std::vector<Numbers> found, expected;
     for (const HaloEdge& e : halo.boundary_edges()) {
       ASSERT_TRUE(e.from.valid() && e.to.valid());
-      if (std::min(e.from, e.to).value() < halo.owned_nodes())
-        found.push_back({halo.global(e.from.value()), halo.global(e.to.value()), e.boundary});
+      if (halo.owns(e.from) || halo.owns(e.to))
+        found.push_back({halo.global(e.from).value(), halo.global(e.to).value(), e.boundary});
     }
     for (std::size_t b = 0; b < pieces.whole.boundaries.size(); ++b) {
       for (const auto& [from, to] : pieces.whole.boundaries[b].edges) {
@@ -140,26 +140,24 @@ TEST(HaloMesh, SpreadsTheCellsValues) {
 TEST(HaloMesh, ExchangeBringsTheOwnersValues) {
   for_each_distribution([](const Pieces& pieces) {
     const HaloMesh halo(world(), pieces.part);
-    std::vector<double> values;
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(halo.points().size()); ++node) {
-      values.push_back(node < halo.owned_nodes() ? 0.5 * static_cast<double>(halo.global(node)) : -1);
-    }
+    const auto value_of = [&](NodeId node) { return 0.5 * static_cast<double>(halo.global(node).value()); };
+    IdVector<NodeId, double> values(halo.points().size(), -1);
+    for (const NodeId node : ids_below(NodeId{halo.owned_nodes()})) values[node] = value_of(node);
     halo.exchange().update(values);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      EXPECT_EQ(values[i], 0.5 * static_cast<double>(halo.global(static_cast<std::int32_t>(i))));
+    for (const NodeId node : values.ids()) EXPECT_EQ(values[node], value_of(node));
   });
 }
 
 TEST(HaloMesh, ExchangeBringsOnlyWhatHasChanged) {
   for_each_distribution([](const Pieces& pieces) {
     const HaloMesh halo(world(), pieces.part);
-    const auto is_even = [&](std::int32_t node) { return halo.global(node) % 2 == 0; };
-    Numbers values(halo.points().size(), -1);
-    for (std::int32_t node = 0; node < halo.owned_nodes(); ++node) values[node] = halo.global(node);
+    const auto is_even = [&](std::int32_t node) { return halo.global(NodeId{node}).value() % 2 == 0; };
+    IdVector<NodeId, GlobalNodeId> values(halo.points().size());
+    for (const NodeId node : ids_below(NodeId{halo.owned_nodes()})) values[node] = halo.global(node);
     halo.exchange().update(values, is_even);
-    for (std::int32_t node = 0; node < size32(values); ++node) {
-      const bool known = node < halo.owned_nodes() || is_even(node);
-      EXPECT_EQ(values[node], known ? halo.global(node) : -1);
+    for (const NodeId node : values.ids()) {
+      const bool known = halo.owns(node) || is_even(node.value());
+      EXPECT_EQ(values[node], known ? halo.global(node) : GlobalNodeId{});
     }
   });
 }

@@ -174,13 +174,13 @@ TEST(NodeTable, KnowsOwnedNodesAndLearnsCopies) {
   part.points = {{0, 0}, {1, 0}, {2, 0}};
   part.copies = {GlobalNodeId{3}};
   NodeTable nodes(part);
-  EXPECT_EQ(nodes.find(11), NodeId{1});
-  EXPECT_EQ(nodes.find(3), NodeId{2});
-  EXPECT_FALSE(nodes.find(12).valid());
-  EXPECT_FALSE(nodes.find(9).valid());
-  EXPECT_EQ(nodes.local(12, {5, 5}), NodeId{3});
-  EXPECT_EQ(nodes.find(12), NodeId{3});
-  EXPECT_EQ(nodes.local(12, {6, 6}), NodeId{3});
+  EXPECT_EQ(nodes.find(GlobalNodeId{11}), NodeId{1});
+  EXPECT_EQ(nodes.find(GlobalNodeId{3}), NodeId{2});
+  EXPECT_FALSE(nodes.find(GlobalNodeId{12}).valid());
+  EXPECT_FALSE(nodes.find(GlobalNodeId{9}).valid());
+  EXPECT_EQ(nodes.local(GlobalNodeId{12}, {5, 5}), NodeId{3});
+  EXPECT_EQ(nodes.find(GlobalNodeId{12}), NodeId{3});
+  EXPECT_EQ(nodes.local(GlobalNodeId{12}, {6, 6}), NodeId{3});
   EXPECT_EQ(part.copies.back(), GlobalNodeId{12});
   EXPECT_EQ(part.points.back(), (Point{5, 5}));
 }

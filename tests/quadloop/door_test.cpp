@@ -111,6 +111,12 @@ TEST_F(Door, RefusesOnAllRanks) {
   SolvedMesh solved = make_mesh(world(), square).solved;
   EXPECT_THROW(sense(world(), square, solved), InputError);  // no such variable
   EXPECT_THROW(write(world(), solved.mesh, file("none/a.mesh")), OutputError);
+  EXPECT_THROW(write(world(), solved.mesh, file("a.xyz")), InputError);
+  EXPECT_THROW(write(world(), solved.mesh, file("a.csv"), front(solved.mesh)), InputError);
+  solved.solution = front(solved.mesh);
+  if (world().is_root()) solved.solution.values.pop_back();
+  EXPECT_THROW(sense(world(), square, solved), InputError);
+  EXPECT_THROW(write(world(), solved.mesh, file("a.mesh"), solved.solution), InputError);
   const Case by_command(world(), case_path(), {"solver.kind=\"command\"", "solver.command=[\"true\"]"});
   EXPECT_THROW(built_in_solver(world(), by_command), InputError);
 }

@@ -21,14 +21,14 @@ struct Coloured {
         halo(comm, part),
         colouring{colour_stars(comm, halo, NodeStars(halo, free_nodes(order, is_free), {}))} {}
 
-  std::vector<std::int32_t> free_nodes(const MeshOrder& order, const std::vector<char>& is_free) const {
-    std::vector<std::int32_t> nodes;
-    for (std::int32_t i = 0; i < part.owned_nodes; ++i) {
-      if (is_free[order.nodes[part.first_node + i]] != 0) nodes.push_back(i);
+  std::vector<NodeId> free_nodes(const MeshOrder& order, const std::vector<char>& is_free) const {
+    std::vector<NodeId> nodes;
+    for (const NodeId node : ids_below(NodeId{part.owned_nodes})) {
+      if (is_free[order.nodes[part.global(node).value()]] != 0) nodes.push_back(node);
     }
     return nodes;
   }
-  std::int8_t colour(std::int32_t node) const { return colouring.colour_of[node]; }
+  std::int8_t colour(NodeId node) const { return colouring.colour_of[node]; }
 
   Mesh part;
   HaloMesh halo;
@@ -48,11 +48,11 @@ void expect_sound(const Coloured& coloured) {
   coloured.halo.for_each_cell([&](const auto& nodes) {
     for (const NodeId a : nodes) {
       for (const NodeId b : nodes) {
-        const std::int8_t colour = coloured.colour(a.value());
+        const std::int8_t colour = coloured.colour(a);
         EXPECT_LT(colour, coloured.colouring.count);
         if (a != b && colour != Colouring::none) {
-          EXPECT_NE(colour, coloured.colour(b.value()))
-              << coloured.halo.global(a.value()) << " and " << coloured.halo.global(b.value());
+          EXPECT_NE(colour, coloured.colour(b))
+              << coloured.halo.global(a).value() << " and " << coloured.halo.global(b).value();
         }
       }
     }
@@ -67,9 +67,9 @@ void expect_coloured_alike(const test::Grid& grid, const MeshOrder& order, doubl
   expect_sound(together);
   EXPECT_EQ(together.colouring.count, alone.colouring.count);
   ASSERT_EQ(together.colouring.colour_of.size(), together.halo.points().size());
-  for (std::int32_t node = 0; node < static_cast<std::int32_t>(together.halo.points().size()); ++node) {
-    const std::int64_t number = together.halo.global(node);
-    EXPECT_EQ(together.colour(node), alone.colour(static_cast<std::int32_t>(number)));
+  for (const NodeId node : together.colouring.colour_of.ids()) {
+    const std::int64_t number = together.halo.global(node).value();
+    EXPECT_EQ(together.colour(node), alone.colour(NodeId{static_cast<std::int32_t>(number)}));
     const bool is_none = together.colour(node) == Colouring::none;
     EXPECT_EQ(is_none, is_free[order.nodes[number]] == 0);
   }

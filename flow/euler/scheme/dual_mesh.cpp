@@ -13,8 +13,8 @@ namespace {
 
 /// One cell's part of an edge's dual face.
 struct Facet {
-  std::int64_t global_low, global_high;
-  std::int32_t low, high;
+  GlobalNodeId global_low, global_high;
+  NodeId low, high;
   Point normal;          ///< as long as the facet
   Point with_x, with_y;  ///< as of a SkewEdge
 };
@@ -23,7 +23,7 @@ template <class Nodes>
 Point centre_of(const HaloMesh& mesh, const Nodes& nodes) {
   Point sum = mesh.point(nodes[0]);
   for (std::size_t k = 1; k < nodes.size(); ++k) sum = sum + mesh.point(nodes[k]);
-  return (1.0 / static_cast<double>(nodes.size())) * sum;
+  return (1.0 / size32(nodes)) * sum;
 }
 
 Point middle(Point a, Point b) { return 0.5 * (a + b); }
@@ -33,11 +33,11 @@ Point turned(Point v) { return {v.y, -v.x}; }
 
 /// The part of the edge from node a to node b of a counter-clockwise cell.
 Facet facet_of(const HaloMesh& mesh, NodeId a, NodeId b, Point centre, bool is_quad) {
-  const std::int64_t global_a = mesh.global(a.value()), global_b = mesh.global(b.value());
+  const GlobalNodeId global_a = mesh.global(a), global_b = mesh.global(b);
   const double side = global_a < global_b ? 1 : -1;
   const Point along = mesh.point(b) - mesh.point(a), across = centre - middle(mesh.point(a), mesh.point(b)),
               normal = side * turned(across);
-  Facet facet{global_a, global_b, a.value(), b.value(), normal, {}, {}};
+  Facet facet{global_a, global_b, a, b, normal, {}, {}};
   if (is_quad) {  // half from the facet's own middle; the rest is what each triangle leaves over at an edge
                   // for the next one
     facet.with_x = 0.5 * across.x * normal + side * along.x / 24 * turned(along);
@@ -71,16 +71,16 @@ DualMesh::DualMesh(const Communicator& comm, const Mesh& mesh) : halo_(comm, mes
 }
 
 void DualMesh::add_areas() {
-  areas_.assign(owned_nodes(), 0);
+  areas_.resize(owned_nodes(), 0);
   halo_.for_each_cell([&](const auto& nodes) {
     const Point centre = centre_of(halo_, nodes);
     const std::size_t n = nodes.size();
     for (std::size_t k = 0; k < n; ++k) {
       const NodeId node = nodes[k];
-      if (!is_owned(node.value())) continue;
+      if (!halo_.owns(node)) continue;
       const Point p = halo_.point(node), before = halo_.point(nodes[(k + n - 1) % n]),
                   after = halo_.point(nodes[(k + 1) % n]);
-      areas_[node.value()] += 0.5 * twice_area({p, middle(p, after), centre, middle(before, p)});
+      areas_[node] += 0.5 * twice_area({p, middle(p, after), centre, middle(before, p)});
     }
   });
 }
@@ -91,8 +91,7 @@ void DualMesh::collect_edges() {
     const Point centre = centre_of(halo_, nodes);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const NodeId a = nodes[k], b = nodes[(k + 1) % nodes.size()];
-      if (is_owned(a.value()) || is_owned(b.value()))
-        facets.push_back(facet_of(halo_, a, b, centre, nodes.size() == 4));
+      if (halo_.owns(a) || halo_.owns(b)) facets.push_back(facet_of(halo_, a, b, centre, nodes.size() == 4));
     }
   });
   std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) {
@@ -107,10 +106,11 @@ void DualMesh::collect_edges() {
       sum.with_y = sum.with_y + facets[end].with_y;
     }
     const double size = length(sum.normal);
-    const Point half = 0.5 * (point(sum.high) - point(sum.low));
+    const Point half = 0.5 * (halo_.point(sum.high) - halo_.point(sum.low));
     const double skew = std::max(length(sum.with_x), length(sum.with_y));
     if (skew > least_skew * dot(half, half)) skew_edges_.push_back({edges_.size(), sum.with_x, sum.with_y});
-    edges_.push_back({sum.low, sum.high, size > 0 ? (1 / size) * sum.normal : Point{}, size, half});
+    edges_.push_back(
+        {sum.low.value(), sum.high.value(), size > 0 ? (1 / size) * sum.normal : Point{}, size, half});
     open_.push_back(end == i + 1 ? 1 : 0);
     i = end;
   }
@@ -118,19 +118,18 @@ void DualMesh::collect_edges() {
 
 void DualMesh::collect_faces() {
   std::vector<HaloEdge> outline = halo_.boundary_edges();
-  std::erase_if(outline,
-                [&](const HaloEdge& e) { return !is_owned(e.from.value()) && !is_owned(e.to.value()); });
-  const auto key = [&](std::int32_t a, std::int32_t b) { return std::minmax({global(a), global(b)}); };
-  std::sort(outline.begin(), outline.end(), [&](const HaloEdge& a, const HaloEdge& b) {
-    return key(a.from.value(), a.to.value()) < key(b.from.value(), b.to.value());
-  });
+  std::erase_if(outline, [&](const HaloEdge& e) { return !halo_.owns(e.from) && !halo_.owns(e.to); });
+  const auto key = [&](NodeId a, NodeId b) { return std::minmax({halo_.global(a), halo_.global(b)}); };
+  const auto key_of = [&](const DualEdge& edge) { return key(NodeId{edge.low}, NodeId{edge.high}); };
+  std::sort(outline.begin(), outline.end(),
+            [&](const HaloEdge& a, const HaloEdge& b) { return key(a.from, a.to) < key(b.from, b.to); });
   for (const HaloEdge& e : outline) {
-    const auto wanted = key(e.from.value(), e.to.value());
+    const auto wanted = key(e.from, e.to);
     const auto found =
         std::lower_bound(edges_.begin(), edges_.end(), wanted,
-                         [&](const DualEdge& edge, const auto& at) { return key(edge.low, edge.high) < at; });
-    const Point from = point(e.from.value()), to = point(e.to.value());
-    if (found == edges_.end() || key(found->low, found->high) != wanted)
+                         [&](const DualEdge& edge, const auto& at) { return key_of(edge) < at; });
+    const Point from = halo_.point(e.from), to = halo_.point(e.to);
+    if (found == edges_.end() || key_of(*found) != wanted)
       refuse_edge("boundary edge", from, to, "belongs to no cell; mesh it anew");
     char& open = open_[found - edges_.begin()];
     if (open == 0) {

@@ -49,7 +49,8 @@ class DualMesh {
   std::size_t nodes() const { return halo_.points().size(); }
   bool is_owned(std::int32_t node) const { return node < owned_nodes(); }
   Point point(std::int32_t node) const { return halo_.point(NodeId{node}); }
-  std::int64_t global(std::int32_t node) const { return halo_.global(node); }
+  GlobalNodeId global(std::int32_t node) const { return halo_.global(NodeId{node}); }
+  const HaloMesh& halo() const { return halo_; }
   const NodeExchange& exchange() const { return halo_.exchange(); }
 
   std::span<const double> areas() const { return areas_; }  ///< of the owned nodes' dual cells
@@ -63,7 +64,7 @@ class DualMesh {
   void collect_faces();
 
   HaloMesh halo_;
-  std::vector<double> areas_;
+  IdVector<NodeId, double> areas_;
   std::vector<DualEdge> edges_;
   std::vector<SkewEdge> skew_edges_;
   std::vector<char> open_;  ///< while it is built, for each edge: 1 where it has one cell and no boundary yet

@@ -39,18 +39,18 @@ struct EulerOptions {
   double gamma = 1.4;
   Time time = Time::steady;
   double end_time = 1;  ///< of an accurate run
-  double cfl =
-      20;  ///< steady: of the first steps, it grows as the residual falls; accurate: no more than 0.8 is used
+  /// Steady: of the first steps, it grows as the residual falls; accurate: no more than 0.8 is used.
+  double cfl = 20;
   int iterations = 2000;    ///< at most; an accurate run that needs more ends early
   double tolerance = 1e-8;  ///< steady: on the density residual, relative to the first
   Limiter limiter = Limiter::venkatakrishnan;
   Initial initial = Initial::freestream;
   std::optional<Point> vortex_centre;  ///< none: the middle of the mesh's box
-  double reference_length =
-      1;  ///< of the forces, in the geometry's units; also of the vortex and of the limiter's sense of small
+  /// Of the forces, in the geometry's units; also of the vortex and of the limiter's sense of small.
+  double reference_length = 1;
   std::vector<BoundaryChoice> boundaries;
-  std::function<void(const EulerProgress&)>
-      progress;  ///< called on every rank after every `progress_every` steps and at the end
+  /// Called on every rank after every `progress_every` steps and at the end.
+  std::function<void(const EulerProgress&)> progress;
   int progress_every = 50;
 };
 

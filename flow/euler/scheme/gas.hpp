@@ -41,10 +41,4 @@ struct Gas {
   State free_stream(double mach, double degrees) const;
 };
 
-/// A density and a pressure that a gas can have.
-inline bool is_physical(const State& state) {
-  return state[0] > 0 && state[3] > 0 && std::isfinite(state[0]) && std::isfinite(state[1]) &&
-         std::isfinite(state[2]) && std::isfinite(state[3]);
-}
-
 }  // namespace quadloop::euler

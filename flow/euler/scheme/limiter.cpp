@@ -46,7 +46,7 @@ void Limiter::apply(const std::vector<State>& states, std::vector<Gradient>& gra
 void Limiter::find_bounds(const std::vector<State>& states) {
   for (std::size_t node = 0; node < states.size(); ++node) values_[node] = {states[node], states[node]};
   for (const DualEdge& edge : mesh_.edges()) {
-    const auto low = static_cast<std::size_t>(edge.low), high = static_cast<std::size_t>(edge.high);
+    const std::size_t low = edge.low, high = edge.high;
     for (std::size_t k = 0; k < 4; ++k) {
       values_[low].low[k] = std::min(values_[low].low[k], states[high][k]);
       values_[low].high[k] = std::max(values_[low].high[k], states[high][k]);
@@ -59,7 +59,7 @@ void Limiter::find_bounds(const std::vector<State>& states) {
 void Limiter::find_changes(const std::vector<Gradient>& gradients) {
   for (Bounds& bounds : changes_) bounds = {};
   for (const DualEdge& edge : mesh_.edges()) {
-    const auto low = static_cast<std::size_t>(edge.low), high = static_cast<std::size_t>(edge.high);
+    const std::size_t low = edge.low, high = edge.high;
     for (std::size_t k = 0; k < 4; ++k) {
       const double forth = gradients[low].x[k] * edge.half.x + gradients[low].y[k] * edge.half.y;
       const double back = -(gradients[high].x[k] * edge.half.x + gradients[high].y[k] * edge.half.y);

@@ -51,7 +51,7 @@ const std::vector<Flux>& Residual::evaluate(std::vector<State>& states) {
 /// first order.
 void Residual::add_edges(const std::vector<State>& states) {
   for (const DualEdge& edge : mesh_.edges()) {
-    const auto low = static_cast<std::size_t>(edge.low), high = static_cast<std::size_t>(edge.high);
+    const std::size_t low = edge.low, high = edge.high;
     State left = extrapolated(states[low], gradients_[low], edge.half.x, edge.half.y);
     State right = extrapolated(states[high], gradients_[high], -edge.half.x, -edge.half.y);
     if (!keeps_enough(left, states[low]) || !keeps_enough(right, states[high])) {
@@ -70,8 +70,7 @@ void Residual::add_edges(const std::vector<State>& states) {
 void Residual::add_skew(const std::vector<State>& states) {
   const auto edges = mesh_.edges();
   for (const SkewEdge& skew : mesh_.skew_edges()) {
-    const auto low = static_cast<std::size_t>(edges[skew.edge].low),
-               high = static_cast<std::size_t>(edges[skew.edge].high);
+    const std::size_t low = edges[skew.edge].low, high = edges[skew.edge].high;
     State state, along_x, along_y;
     for (std::size_t k = 0; k < 4; ++k) {
       state[k] = 0.5 * (states[low][k] + states[high][k]);

@@ -26,14 +26,14 @@ class GoneTriangles {
   }
   void sort() { std::sort(around_.begin(), around_.end()); }
 
-  /// The number of the one of a block around the node that is nearest to a place; of several as near the
+  /// The number of the one of a block around the node that is nearest to a point; of several as near the
   /// lowest.
-  std::int64_t nearest(std::int32_t node, Point place, std::int32_t block) const {
+  std::int64_t nearest(std::int32_t node, Point p, std::int32_t block) const {
     std::pair best{std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max()};
     for (auto at = std::lower_bound(around_.begin(), around_.end(), std::pair{node, std::size_t{0}});
          at != around_.end() && at->first == node; ++at) {
       const auto& [triangle, centroid] = gone_[at->second];
-      const Point off = centroid - place;
+      const Point off = centroid - p;
       if (triangle.block == block) best = std::min(best, {dot(off, off), triangle.number});
     }
     return best.second;
@@ -111,7 +111,7 @@ Point RegionTriangulation::centroid(const Triangle& nodes) const {
   return 1.0 / 3 * (at(0) + at(1) + at(2));
 }
 
-/// A triangle may come back at another place of the patch.
+/// A triangle may come back in another slot of the patch.
 void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) {
   std::vector<std::pair<Triangle, std::int32_t>> before, made;
   GoneTriangles gone;

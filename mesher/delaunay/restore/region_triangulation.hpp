@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "mesher/delaunay/delaunay_patch.hpp"
-#include "mesher/mesh/star_halo.hpp"
+#include "mesher/delaunay/restore/star_halo.hpp"
 
 namespace quadloop {
 
@@ -12,7 +12,7 @@ namespace quadloop {
 struct MadeTriangle {
   std::int64_t near = 0;  ///< the number of the nearest triangle, by their centroids, of those with its first
                           ///< node that are gone
-  std::array<std::int64_t, 3> nodes{};  ///< over all ranks, the smallest first
+  std::array<GlobalNodeId, 3> nodes;  ///< the smallest first
   std::array<Point, 3> points;
   std::int32_t block = 0;
   friend auto operator<=>(const MadeTriangle&, const MadeTriangle&) = default;
@@ -37,12 +37,12 @@ class RegionTriangulation {
   const std::vector<FreedTriangle>& freed() const { return freed_; }
   const std::vector<MadeTriangle>& made() const { return made_; }
   /// Nodes of new triangles at the region's border: the triangles beyond it may no longer be Delaunay.
-  const std::vector<std::int64_t>& outgrown() const { return outgrown_; }
+  const std::vector<GlobalNodeId>& outgrown() const { return outgrown_; }
 
  private:
   using Triangle = DelaunayPatch::Triangle;
   using Edge = std::array<std::int32_t, 2>;
-  /// What triangles at some places of the patch were, and what they are now; the smallest node first.
+  /// What triangles in some slots of the patch were, and what they are now; the smallest node first.
   struct Changes {
     std::vector<std::pair<Triangle, FreedTriangle>> before;
     std::vector<std::pair<Triangle, std::int32_t>> after;  ///< with their blocks
@@ -56,10 +56,10 @@ class RegionTriangulation {
   void find_outgrown();
   std::vector<Edge> outer_edges() const;
 
-  std::int64_t number_of(std::int32_t node) const { return numbers_[node]; }
+  GlobalNodeId number_of(std::int32_t node) const { return numbers_[node]; }
   bool is_core(std::int32_t node) const { return core_[node] != 0; }
 
-  std::vector<std::int64_t> numbers_;  ///< of the nodes at hand, over all ranks, ascending
+  std::vector<GlobalNodeId> numbers_;  ///< of the nodes at hand, ascending
   std::vector<Point> points_;          ///< of each
   std::vector<char> core_;             ///< of each
   std::vector<Triangle> triangles_;    ///< at hand, before any flip
@@ -68,7 +68,7 @@ class RegionTriangulation {
   std::vector<Triangle> new_triangles_;  ///< this rank's concern
   std::vector<MadeTriangle> made_;
   std::vector<FreedTriangle> freed_;
-  std::vector<std::int64_t> outgrown_;
+  std::vector<GlobalNodeId> outgrown_;
 };
 
 }  // namespace quadloop

@@ -14,17 +14,15 @@ namespace {
 
 constexpr int first_rings = 2;  ///< fetched at once; more where circumcircles reach farther
 
-bool has_flag(const std::vector<char>& flags, NodeId node) { return flags[node.value()] != 0; }
-
-/// The nodes of triangles that have a flagged node, by their numbers over all ranks.
-std::vector<std::int64_t> nodes_around(const Mesh& mesh, const std::vector<char>& flags) {
+/// The nodes of triangles that have a flagged node.
+std::vector<GlobalNodeId> nodes_around(const Mesh& mesh, const NodeFlags& flags) {
   QUADLOOP_REQUIRE(flags.size() == mesh.points.size(), "a flag for each point");
-  std::vector<std::int64_t> nodes;
-  std::vector<char> named(flags.size(), 0);
+  std::vector<GlobalNodeId> nodes;
+  NodeFlags named(flags.size(), 0);
   for (const auto& t : mesh.triangles) {
-    if (std::none_of(t.begin(), t.end(), [&](NodeId node) { return has_flag(flags, node); })) continue;
+    if (std::none_of(t.begin(), t.end(), [&](NodeId node) { return flags[node] != 0; })) continue;
     for (const NodeId node : t) {
-      if (std::exchange(named[node.value()], 1) == 0) nodes.push_back(mesh.global(node).value());
+      if (std::exchange(named[node], 1) == 0) nodes.push_back(mesh.global(node));
     }
   }
   return nodes;
@@ -43,12 +41,12 @@ class Region {
         first_triangle_{comm.exclusive_sum(std::ssize(mesh.triangles))},
         core_(mesh.points.size(), 0) {}
 
-  /// Makes nodes core, by their numbers over all ranks; every rank may name any. *Collective.*
-  void add(const std::vector<std::int64_t>& nodes) {
-    Outbox<std::int64_t> to_owners;
-    for (const std::int64_t node : nodes) to_owners.add(owners_.rank_of(GlobalNodeId{node}), node);
-    for (const std::int64_t node : to_owners.deliver(comm_)) core_[node - mesh_.first_node] = 1;
-    exchange_.update(core_, [&](std::int32_t node) { return has_flag(core_, NodeId{node}); });
+  /// Makes nodes core; every rank may name any. *Collective.*
+  void add(const std::vector<GlobalNodeId>& nodes) {
+    Outbox<GlobalNodeId> to_owners;
+    for (const GlobalNodeId node : nodes) to_owners.add(owners_.rank_of(node), node);
+    for (const GlobalNodeId node : to_owners.deliver(comm_)) core_[owners_.local(node)] = 1;
+    exchange_.update(core_, [&](std::int32_t node) { return core_[NodeId{node}] != 0; });
   }
 
   /// *Collective.*
@@ -67,14 +65,13 @@ class Region {
  private:
   std::vector<NumberedTriangle> own_triangles() const {
     std::vector<NumberedTriangle> triangles;
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    for (std::int64_t i = 0; i < std::ssize(mesh_.triangles); ++i) {
       const auto& nodes = mesh_.triangles[i];
-      NumberedTriangle t{
-          first_triangle_ + static_cast<std::int64_t>(i), {}, {}, blocks_.empty() ? 0 : blocks_[i], {}};
-      for (std::size_t k = 0; k < 3; ++k) t.core[k] = has_flag(core_, nodes[k]) ? 1 : 0;
+      NumberedTriangle t{first_triangle_ + i, {}, {}, blocks_.empty() ? 0 : blocks_[i], {}};
+      for (std::size_t k = 0; k < 3; ++k) t.core[k] = core_[nodes[k]];
       if (t.core == std::array<char, 3>{}) continue;
       for (std::size_t k = 0; k < 3; ++k) {
-        t.nodes[k] = mesh_.global(nodes[k]).value();
+        t.nodes[k] = mesh_.global(nodes[k]);
         t.points[k] = mesh_.point(nodes[k]);
       }
       triangles.push_back(t);
@@ -88,15 +85,14 @@ class Region {
   NodeOwners owners_;
   NodeExchange exchange_;
   std::int64_t first_triangle_;
-  std::vector<char> core_;
+  NodeFlags core_;
 };
 
 /// A range of numbers on each rank, in the order of ranks.
 class Ranges {
  public:
   /// *Collective.*
-  Ranges(const Communicator& comm, std::size_t size)
-      : first_{comm.all_gather(comm.exclusive_sum(static_cast<std::int64_t>(size)))} {}
+  Ranges(const Communicator& comm, std::int64_t size) : first_{comm.all_gather(comm.exclusive_sum(size))} {}
 
   int rank_of(std::int64_t number) const {
     return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), number) - first_.begin()) - 1;
@@ -124,24 +120,24 @@ std::vector<Row> of_block(const std::vector<Row>& rows, std::int32_t block) {
   return found;
 }
 
-/// Puts a block's new triangles at its free places, both in an order that all ranks make together: the places
+/// Puts a block's new triangles at its free slots, both in an order that all ranks make together: the slots
 /// by their numbers, the triangles by that of the one before that they are near to. *Collective.*
 void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle>& freed,
                        std::vector<MadeTriangle> made, Mesh& mesh) {
   const auto size_of = [](const auto& rows) { return std::ssize(rows); };
   QUADLOOP_REQUIRE(comm.sum(size_of(freed)) == comm.sum(size_of(made)), "flips keep the number of triangles");
   const Ranges triangles(comm, mesh.triangles.size());
-  std::vector<FreedTriangle> places =
+  std::vector<FreedTriangle> slots =
       deliver(comm, freed, [&](const FreedTriangle& t) { return triangles.rank_of(t.number); });
   made = deliver(comm, made, [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
-  std::sort(places.begin(), places.end());
+  std::sort(slots.begin(), slots.end());
   std::sort(made.begin(), made.end());
-  const Ranges free_places(comm, places.size());
+  const Ranges free_slots(comm, slots.size());
   std::int64_t next = comm.exclusive_sum(size_of(made));
-  made = deliver(comm, made, [&](const MadeTriangle&) { return free_places.rank_of(next++); });
+  made = deliver(comm, made, [&](const MadeTriangle&) { return free_slots.rank_of(next++); });
   NodeTable nodes(mesh);
   for (std::size_t i = 0; i < made.size(); ++i) {
-    auto& triangle = mesh.triangles[places[i].number - triangles.begin(comm.rank())];
+    auto& triangle = mesh.triangles[slots[i].number - triangles.begin(comm.rank())];
     for (std::size_t k = 0; k < 3; ++k) triangle[k] = nodes.local(made[i].nodes[k], made[i].points[k]);
   }
 }
@@ -160,9 +156,9 @@ std::vector<std::int32_t> insert_triangles(const Communicator& comm, std::vector
   mesh.triangles.reserve(before.size() + made.size() - freed.size());
   NodeTable nodes(mesh);
   auto next = made.begin();
-  for (std::size_t i = 0; i < before.size(); ++i) {
+  for (std::int64_t i = 0; i < std::ssize(before); ++i) {
     if (standing[i] == 1) mesh.triangles.push_back(before[i]);
-    for (; next != made.end() && next->near == first + static_cast<std::int64_t>(i); ++next, ++standing[i]) {
+    for (; next != made.end() && next->near == first + i; ++next, ++standing[i]) {
       auto& triangle = mesh.triangles.emplace_back();
       for (std::size_t k = 0; k < 3; ++k) triangle[k] = nodes.local(next->nodes[k], next->points[k]);
     }
@@ -178,7 +174,7 @@ std::int32_t number_of_blocks(const Communicator& comm, const std::vector<std::i
 
 /// What changes; nothing where no node is named. *Collective.*
 std::optional<RegionTriangulation> changed_region(const Communicator& comm, const Mesh& mesh,
-                                                  std::vector<std::int64_t> nodes,
+                                                  std::vector<GlobalNodeId> nodes,
                                                   const std::function<TieRank(Point)>& rank_of,
                                                   const std::vector<std::int32_t>& triangle_to_block) {
   QUADLOOP_REQUIRE(mesh.quads.empty(), "triangles alone");
@@ -197,7 +193,7 @@ std::optional<RegionTriangulation> changed_region(const Communicator& comm, cons
 
 }  // namespace
 
-void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<std::int64_t> nodes,
+void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<GlobalNodeId> nodes,
                          const std::function<TieRank(Point)>& rank_of,
                          const std::vector<std::int32_t>& triangle_to_block) {
   const std::optional<RegionTriangulation> changed =
@@ -208,14 +204,14 @@ void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<std::
   }
 }
 
-void restore_delaunay(const Communicator& comm, Mesh& mesh, const std::vector<char>& moved,
+void restore_delaunay(const Communicator& comm, Mesh& mesh, const NodeFlags& moved,
                       const std::function<TieRank(Point)>& rank_of,
                       const std::vector<std::int32_t>& triangle_to_block) {
   restore_delaunay_at(comm, mesh, nodes_around(mesh, moved), rank_of, triangle_to_block);
 }
 
 std::vector<std::int32_t> restore_delaunay_nearby(const Communicator& comm, Mesh& mesh,
-                                                  const std::vector<char>& moved,
+                                                  const NodeFlags& moved,
                                                   const std::function<TieRank(Point)>& rank_of) {
   const std::optional<RegionTriangulation> changed =
       changed_region(comm, mesh, nodes_around(mesh, moved), rank_of, {});

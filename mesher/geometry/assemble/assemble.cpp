@@ -21,25 +21,25 @@ void turn_round(OutlineLoop& loop) {
   std::reverse(loop.boundary.begin(), loop.boundary.end());
 }
 
-std::string turned_text(const Outline& outline, const OutlineLoop& loop, const LoopPlace& place) {
+std::string turned_text(const Outline& outline, const OutlineLoop& loop, const LoopNesting& nesting) {
   const std::string& name = outline.names[loop.boundary.front().value()];
   const Point p = loop.points.front();
   std::string text = fmt::format(
       "boundary '{}': the loop from ({}, {}) wound the wrong way round and was turned", name, p.x, p.y);
-  if (place.depth == 0)
+  if (nesting.depth == 0)
     text +=
         "; nothing encloses it, so the domain is its inside (to mesh the outside, set geometry.far_field = "
         "..., or add a boundary around it)";
   return text;
 }
 
-void orient(Outline& outline, const std::vector<LoopPlace>& places, Warnings& warnings) {
+void orient(Outline& outline, const std::vector<LoopNesting>& nestings, Warnings& warnings) {
   constexpr std::int64_t most_named = 5;
   std::int64_t turned = 0;
   for (std::size_t l = 0; l < outline.loops.size(); ++l) {
-    const bool outer = places[l].depth % 2 == 0;
-    if (outer == places[l].counter_clockwise) continue;
-    if (++turned <= most_named) warnings.push_back(turned_text(outline, outline.loops[l], places[l]));
+    const bool outer = nestings[l].depth % 2 == 0;
+    if (outer == nestings[l].counter_clockwise) continue;
+    if (++turned <= most_named) warnings.push_back(turned_text(outline, outline.loops[l], nestings[l]));
     turn_round(outline.loops[l]);
   }
   if (turned > most_named)
@@ -48,10 +48,10 @@ void orient(Outline& outline, const std::vector<LoopPlace>& places, Warnings& wa
 }
 
 /// Several outermost loops are several domains: meant so, or a loop with wrong coordinates.
-void warn_of_domains(const Outline& outline, const std::vector<LoopPlace>& places, Warnings& warnings) {
+void warn_of_domains(const Outline& outline, const std::vector<LoopNesting>& nestings, Warnings& warnings) {
   std::vector<std::size_t> outermost;
-  for (std::size_t l = 0; l < places.size(); ++l) {
-    if (places[l].depth == 0) outermost.push_back(l);
+  for (std::size_t l = 0; l < nestings.size(); ++l) {
+    if (nestings[l].depth == 0) outermost.push_back(l);
   }
   if (outermost.size() < 2) return;
   const OutlineLoop& second = outline.loops[outermost[1]];
@@ -97,14 +97,14 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
         "outline");
   std::size_t size = 0;
   for (const Chain& chain : chains) size += chain.points.size();
-  if (size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max() / 2)) {
+  if (size > std::numeric_limits<std::int32_t>::max() / 2) {
     throw InputError(fmt::format("the geometry has {} points, more than can be numbered; thin it out", size));
   }
   Outline outline = join_chains(chains);
-  const std::vector<LoopPlace> places = validate(outline);
+  const std::vector<LoopNesting> nestings = validate(outline);
   Warnings of_domain;
-  orient(outline, places, of_domain);
-  warn_of_domains(outline, places, of_domain);
+  orient(outline, nestings, of_domain);
+  warn_of_domains(outline, nestings, of_domain);
   if (!options.domain_is_known) warnings.insert(warnings.end(), of_domain.begin(), of_domain.end());
   Geometry geometry = to_geometry(outline, options);
   require_extent(geometry);

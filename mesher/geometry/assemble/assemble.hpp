@@ -14,8 +14,8 @@ using Warnings = std::vector<std::string>;
 struct AssembleOptions {
   std::vector<BoundaryRule> rules;
   double default_corner_degrees = 30;  ///< of boundaries without a rule of their own
-  bool domain_is_known =
-      false;  ///< from a mesh, say: then nobody is told of loops that were turned, nor of several domains
+  /// From a mesh, say: then nobody is told of loops that were turned, nor of several domains.
+  bool domain_is_known = false;
 };
 
 /// Makes the outline of the domain from polylines: open chains are joined end to end (end points

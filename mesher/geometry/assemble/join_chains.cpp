@@ -53,7 +53,7 @@ std::optional<Point> drop_repeated(Chain& chain, std::int64_t& count) {
     if (!first) first = chain.points.back();
     chain.points.pop_back();
   }
-  count += static_cast<std::int64_t>(before - chain.points.size());
+  count += before - chain.points.size();
   return first;
 }
 

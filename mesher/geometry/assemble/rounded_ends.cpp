@@ -39,7 +39,7 @@ std::int64_t drop_near_repeats(Chain& chain, double rounding) {
   if (chain.open && points.size() == 1) points.push_back(last);
   if (chain.open) points.back() = last;
   while (!chain.open && points.size() > 1 && near(points.back(), points.front())) points.pop_back();
-  return static_cast<std::int64_t>(before - points.size());
+  return before - points.size();
 }
 
 /// The ends of open chains at which no other ends exactly, by their places; number 2 * chain, one more for

@@ -17,7 +17,7 @@ bool is_delaunay(const Mesh& whole, std::span<const std::int32_t> triangle_to_bl
     if (orientation(a, b, c) <= 0) return false;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t across = table.cell_left_of(nodes[(k + 1) % 3], nodes[k]);
-      if (across < 0 || !same_block(t, static_cast<std::size_t>(across))) continue;
+      if (across < 0 || !same_block(t, across)) continue;
       for (const NodeId node : whole.triangles[across]) {
         if (node != nodes[k] && node != nodes[(k + 1) % 3] && in_circle(a, b, c, whole.point(node)) > 0)
           return false;

@@ -48,7 +48,8 @@ void add_corner(const HaloMesh& mesh, const Nodes& nodes, std::size_t k, DualSum
   const std::size_t n = nodes.size();
   const Point p = mesh.point(nodes[k]);
   Point centre;
-  for (const NodeId node : nodes) centre = centre + (1.0 / static_cast<double>(n)) * (mesh.point(node) - p);
+  const double weight = 1.0 / size32(nodes);
+  for (const NodeId node : nodes) centre = centre + weight * (mesh.point(node) - p);
   const Point after = 0.5 * (mesh.point(nodes[(k + 1) % n]) - p),
               before = 0.5 * (mesh.point(nodes[(k + n - 1) % n]) - p);
   sum.add_face(after, turned(centre - after));
@@ -57,23 +58,23 @@ void add_corner(const HaloMesh& mesh, const Nodes& nodes, std::size_t k, DualSum
 }
 
 /// A flag for each node of the halo mesh that lies on the boundary; right for all. *Collective.*
-std::vector<char> boundary_nodes(const HaloMesh& mesh) {
-  std::vector<char> flags(mesh.points().size(), 0);
+NodeFlags boundary_nodes(const HaloMesh& mesh) {
+  NodeFlags flags(mesh.points().size(), 0);
   for (const HaloEdge& edge : mesh.boundary_edges()) {
-    for (const NodeId node : {edge.from, edge.to}) flags[node.value()] = 1;
+    for (const NodeId node : {edge.from, edge.to}) flags[node] = 1;
   }
   mesh.exchange().update(flags);
   return flags;
 }
 
-void count_inexact_nodes(const HaloMesh& mesh, const std::vector<char>& on_boundary, ShapeFigures& figures) {
-  std::vector<DualSum> sums(mesh.owned_nodes());
+void count_inexact_nodes(const HaloMesh& mesh, const NodeFlags& on_boundary, ShapeFigures& figures) {
+  IdVector<NodeId, DualSum> sums(mesh.owned_nodes());
   mesh.for_each_cell([&](const auto& nodes) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (nodes[k].value() < mesh.owned_nodes()) add_corner(mesh, nodes, k, sums[nodes[k].value()]);
+      if (mesh.owns(nodes[k])) add_corner(mesh, nodes, k, sums[nodes[k]]);
     }
   });
-  for (std::size_t node = 0; node < sums.size(); ++node) {
+  for (const NodeId node : sums.ids()) {
     if (on_boundary[node] != 0) continue;
     ++figures.inner_nodes;
     figures.inexact_nodes += sums[node].is_exact() ? 0 : 1;
@@ -101,20 +102,20 @@ struct AreaRange {
 };
 
 /// The largest ratio at edges of those owned nodes round which the areas differ by `least` or more.
-double largest_ratio(const HaloMesh& mesh, const std::vector<AreaRange>& ranges, double least) {
+double largest_ratio(const HaloMesh& mesh, const IdVector<NodeId, AreaRange>& ranges, double least) {
   struct Side {
-    std::int32_t node, other;
+    NodeId node, other;
     double area;
   };
   std::vector<Side> sides;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t n = nodes.size();
     for (std::size_t k = 0; k < n; ++k) {
-      const std::int32_t node = nodes[k].value();
-      if (node >= mesh.owned_nodes() || ranges[node].ratio() < least) continue;
+      const NodeId node = nodes[k];
+      if (!mesh.owns(node) || ranges[node].ratio() < least) continue;
       const double area = area_of(mesh, nodes);
-      sides.push_back({node, nodes[(k + 1) % n].value(), area});
-      sides.push_back({node, nodes[(k + n - 1) % n].value(), area});
+      sides.push_back({node, nodes[(k + 1) % n], area});
+      sides.push_back({node, nodes[(k + n - 1) % n], area});
     }
   });
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
@@ -131,12 +132,12 @@ double largest_ratio(const HaloMesh& mesh, const std::vector<AreaRange>& ranges,
 /// An edge's ratio is at most that of all cells round either of its nodes: so only nodes of large ratios are
 /// looked at, and fewer than all as soon as an edge among them reaches the bound. *Collective.*
 double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh) {
-  std::vector<AreaRange> ranges(mesh.owned_nodes());
+  IdVector<NodeId, AreaRange> ranges(mesh.owned_nodes());
   mesh.for_each_cell([&](const auto& nodes) {
     const double area = area_of(mesh, nodes);
     for (const NodeId node : nodes) {
-      if (node.value() >= mesh.owned_nodes()) continue;
-      AreaRange& range = ranges[node.value()];
+      if (!mesh.owns(node)) continue;
+      AreaRange& range = ranges[node];
       range = {std::min(range.smallest, area), std::max(range.largest, area)};
     }
   });
@@ -154,38 +155,35 @@ double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh) {
 /// The nodes that a node shares boundary edges with, by their numbers over all ranks; more than four are not
 /// needed to tell passages.
 struct BoundaryNeighbours {
-  std::array<std::int64_t, 4> nodes{-1, -1, -1, -1};
-  void add(std::int64_t node) {
-    const auto place = std::find(nodes.begin(), nodes.end(), -1);
+  std::array<GlobalNodeId, 4> nodes;
+  void add(GlobalNodeId node) {
+    const auto place = std::find(nodes.begin(), nodes.end(), GlobalNodeId{});
     if (place != nodes.end()) *place = node;
   }
-  bool holds(std::int64_t node) const { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); }
+  bool holds(GlobalNodeId node) const { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); }
 };
 
 /// *Collective.*
-std::vector<BoundaryNeighbours> boundary_neighbours(const HaloMesh& mesh) {
-  std::vector<BoundaryNeighbours> neighbours(mesh.points().size());
-  for (const HaloEdge& edge : mesh.boundary_edges()) {
-    const std::int32_t from = edge.from.value(), to = edge.to.value();
-    if (from < mesh.owned_nodes()) neighbours[from].add(mesh.global(to));
-    if (to < mesh.owned_nodes()) neighbours[to].add(mesh.global(from));
+IdVector<NodeId, BoundaryNeighbours> boundary_neighbours(const HaloMesh& mesh) {
+  IdVector<NodeId, BoundaryNeighbours> neighbours(mesh.points().size());
+  for (const auto& [from, to, boundary] : mesh.boundary_edges()) {
+    if (mesh.owns(from)) neighbours[from].add(mesh.global(to));
+    if (mesh.owns(to)) neighbours[to].add(mesh.global(from));
   }
   mesh.exchange().update(neighbours);
   return neighbours;
 }
 
 /// Each cell counts where its first node is owned. *Collective.*
-std::int64_t count_passage_cells(const HaloMesh& mesh, const std::vector<char>& on_boundary) {
-  const std::vector<BoundaryNeighbours> neighbours = boundary_neighbours(mesh);
-  const auto is_boundary = [&](NodeId a, NodeId b) {
-    return neighbours[a.value()].holds(mesh.global(b.value()));
-  };
+std::int64_t count_passage_cells(const HaloMesh& mesh, const NodeFlags& on_boundary) {
+  const auto neighbours = boundary_neighbours(mesh);
+  const auto is_boundary = [&](NodeId a, NodeId b) { return neighbours[a].holds(mesh.global(b)); };
   std::int64_t count = 0;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t n = nodes.size();
-    if (nodes[0].value() >= mesh.owned_nodes()) return;
+    if (!mesh.owns(nodes[0])) return;
     for (const NodeId node : nodes) {
-      if (on_boundary[node.value()] == 0) return;
+      if (on_boundary[node] == 0) return;
     }
     for (std::size_t k = 0; k < n; ++k) {
       if (is_boundary(nodes[k], nodes[(k + 1) % n]) && is_boundary(nodes[(k + 1) % n], nodes[(k + 2) % n]))
@@ -201,7 +199,7 @@ std::int64_t count_passage_cells(const HaloMesh& mesh, const std::vector<char>& 
 ShapeFigures shape_figures(const Communicator& comm, const Mesh& mesh) {
   ShapeFigures figures;
   const HaloMesh halo(comm, mesh);
-  const std::vector<char> on_boundary = boundary_nodes(halo);
+  const NodeFlags on_boundary = boundary_nodes(halo);
   count_parallelograms(mesh, figures);
   count_inexact_nodes(halo, on_boundary, figures);
   figures.quads = comm.sum(figures.quads);

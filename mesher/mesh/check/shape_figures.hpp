@@ -12,10 +12,10 @@ struct ShapeFigures {
   std::int64_t quads = 0, parallelograms = 0;       ///< those quads whose skew_of is at most parallel_skew
   std::int64_t inner_nodes = 0, inexact_nodes = 0;  ///< nodes off the boundary; those at which median-dual
                                                     ///< cells are not exact for linear fields
-  double area_ratio_max =
-      0;  ///< of the two cells at an inner edge, the larger area by the smaller; 0 without inner edges
-  std::int64_t passage_cells =
-      0;  ///< cells that fill a passage: all nodes on the boundary, but no two boundary edges that meet
+  /// Of the two cells at an inner edge, the larger area by the smaller; 0 without inner edges.
+  double area_ratio_max = 0;
+  /// Cells that fill a passage: all nodes on the boundary, but no two boundary edges that meet.
+  std::int64_t passage_cells = 0;
 
   double parallelogram_share() const {
     return quads == 0 ? 1 : static_cast<double>(parallelograms) / static_cast<double>(quads);

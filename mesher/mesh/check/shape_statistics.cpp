@@ -97,7 +97,7 @@ class PassageTest {
   PassageTest(const Mesh& mesh, const EdgeTable& table) : table_{table}, on_boundary_(mesh.points.size(), 0) {
     for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
       if (is_inner(from, to)) return;
-      for (const NodeId node : {from, to}) on_boundary_[node.value()] = 1;
+      for (const NodeId node : {from, to}) on_boundary_[node] = 1;
     });
   }
 
@@ -107,7 +107,7 @@ class PassageTest {
   template <std::size_t width>
   bool fills(const std::array<NodeId, width>& cell) const {
     for (const NodeId node : cell) {
-      if (on_boundary_[node.value()] == 0) return false;
+      if (on_boundary_[node] == 0) return false;
     }
     for (std::size_t k = 0; k < width; ++k) {
       const NodeId a = cell[k], b = cell[(k + 1) % width], c = cell[(k + 2) % width];
@@ -120,7 +120,7 @@ class PassageTest {
   bool is_inner(NodeId from, NodeId to) const { return table_.cell_left_of(to, from) >= 0; }
 
   const EdgeTable& table_;
-  std::vector<char> on_boundary_;
+  NodeFlags on_boundary_;
 };
 
 template <class Cells>
@@ -200,7 +200,7 @@ std::vector<double> ratios_at_edges(const Mesh& mesh, const EdgeTable& table) {
 /// The smallest value that 99 percent do not exceed. Reorders the values, of which there are some.
 double percentile_99(std::vector<double>& values) {
   const std::size_t rank = (values.size() * 99 + 99) / 100;  // rounded up
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+  const auto at = values.begin() + rank - 1;
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -217,9 +217,9 @@ AreaRatios area_ratios(const Mesh& whole_mesh) { return area_ratios(whole_mesh, 
 
 ShapeStatistics shape_statistics(const Mesh& whole_mesh, std::span<const Chain> geometry) {
   ShapeStatistics shape;
-  const std::size_t cells = whole_mesh.triangles.size() + whole_mesh.quads.size();
-  if (cells == 0) return shape;
-  shape.quad_share = static_cast<double>(whole_mesh.quads.size()) / static_cast<double>(cells);
+  const double triangles = size32(whole_mesh.triangles), quads = size32(whole_mesh.quads);
+  if (triangles + quads == 0) return shape;
+  shape.quad_share = quads / (triangles + quads);
   const EdgeTable table(whole_mesh);
   add_all_corners(whole_mesh, table, geometry, shape);
   const AreaRatios ratios = area_ratios(whole_mesh, table);

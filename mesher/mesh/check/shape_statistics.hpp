@@ -21,15 +21,14 @@ struct SharpPlace {
 /// edges that meet. What there is nothing of is 0.
 struct ShapeStatistics {
   std::int64_t corners = 0;  ///< of all cells
-  std::int64_t corners_below_15 = 0, corners_below_25 = 0,
-               corners_below_26 = 0;                 ///< degrees; inverted ones too; none that is excepted
+  /// Degrees; inverted ones too; none that is excepted.
+  std::int64_t corners_below_15 = 0, corners_below_25 = 0, corners_below_26 = 0;
   std::int64_t corners_above_150 = 0;                ///< degrees
   std::int64_t corners_of_outline = 0;               ///< excepted ones on sharp vertices
   std::int64_t corners_in_passages = 0;              ///< other excepted ones
   double smallest_degrees = 0, largest_degrees = 0;  ///< of the corners that are not excepted
-  double area_ratio_max = 0,
-         area_ratio_p99 =
-             0;  ///< of the two cells at an inner edge, larger by smaller; infinite for cells without area
+  /// Of the two cells at an inner edge, larger by smaller; infinite for cells without area.
+  double area_ratio_max = 0, area_ratio_p99 = 0;
   double quad_share = 0;                 ///< quads by cells
   std::vector<SharpPlace> sharp_places;  ///< sharp vertices with excepted corners, by x, then by y
   std::vector<SharpPlace> passages;      ///< excepted corners in passages, likewise

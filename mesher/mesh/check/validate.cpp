@@ -66,21 +66,20 @@ const char* name_of(MeshRule rule) {
 }
 
 void check_indices(const Mesh& mesh, Faults& faults) {
-  const auto nodes = size32(mesh.points);
   for (const Point p : mesh.points) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y))
       faults.push_back({MeshRule::indices, "a coordinate is not finite", p});
   }
-  std::vector<char> used(mesh.points.size(), 0);
+  NodeFlags used(mesh.points.size(), 0);
   const auto exists = [&](NodeId node) {
-    if (node.valid() && node.value() < nodes) return true;
+    if (node.valid() && node.value() < std::ssize(used)) return true;
     faults.push_back(
         {MeshRule::indices, "node " + std::to_string(node.value() + 1) + " is named but does not exist", {}});
     return false;
   };
   for_each_cell(mesh, [&](std::span<const NodeId> cell) {
     for (const NodeId node : cell) {
-      if (exists(node)) used[node.value()] = 1;
+      if (exists(node)) used[node] = 1;
     }
   });
   for_each_boundary_edge(mesh, [&](const BoundaryEdges&, const std::array<NodeId, 2>& edge) {
@@ -91,10 +90,10 @@ void check_indices(const Mesh& mesh, Faults& faults) {
     if (boundary.edges.empty())
       faults.push_back({MeshRule::indices, "boundary " + boundary.name + " has no edges", {}});
   }
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (used[i] == 0)
-      faults.push_back(
-          {MeshRule::indices, "node " + std::to_string(i + 1) + " belongs to no cell", mesh.points[i]});
+  for (const NodeId node : used.ids()) {
+    if (used[node] == 0)
+      faults.push_back({MeshRule::indices, "node " + std::to_string(node.value() + 1) + " belongs to no cell",
+                        mesh.point(node)});
   }
   if (mesh.triangles.empty() && mesh.quads.empty())
     faults.push_back({MeshRule::indices, "there are no cells", {}});
@@ -168,14 +167,14 @@ void check_closed(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
     if (all[k] == all[k - 1])
       faults.push_back({MeshRule::closed, "a boundary edge is listed twice", mesh.point(all[k][0])});
   }
-  std::vector<std::int32_t> out_minus_in(mesh.points.size(), 0);
+  IdVector<NodeId, std::int32_t> out_minus_in(mesh.points.size(), 0);
   for (const OuterEdge& edge : outer_edges(mesh, table)) {
-    ++out_minus_in[edge.from.value()];
-    --out_minus_in[edge.to.value()];
+    ++out_minus_in[edge.from];
+    --out_minus_in[edge.to];
   }
-  for (std::size_t i = 0; i < out_minus_in.size(); ++i) {
-    if (out_minus_in[i] != 0)
-      faults.push_back({MeshRule::closed, "the boundary does not close", mesh.points[i]});
+  for (const NodeId node : out_minus_in.ids()) {
+    if (out_minus_in[node] != 0)
+      faults.push_back({MeshRule::closed, "the boundary does not close", mesh.point(node)});
   }
 }
 
@@ -212,8 +211,8 @@ std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blo
 }
 
 std::int64_t pinched_nodes(const Mesh& mesh) {
-  std::vector<std::int32_t> passages(mesh.points.size(), 0);
-  for (const OuterEdge& edge : outer_edges(mesh, EdgeTable(mesh))) ++passages[edge.from.value()];
+  IdVector<NodeId, std::int32_t> passages(mesh.points.size(), 0);
+  for (const OuterEdge& edge : outer_edges(mesh, EdgeTable(mesh))) ++passages[edge.from];
   return std::count_if(passages.begin(), passages.end(), [](std::int32_t n) { return n > 1; });
 }
 

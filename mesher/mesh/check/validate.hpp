@@ -54,8 +54,8 @@ struct GeometryFit {
   std::int64_t boundaries_dropped = 0;  ///< of the geometry, that the mesh lacks
   std::int64_t loops_dropped = 0;  ///< loops, or open chains, on which no boundary node lies; a fault where
                                    ///< they are longer than the cells there
-  std::int64_t sharp_corners =
-      0;  ///< points where a closed boundary turns by more than 30 degrees, ends of open ones
+  /// Points where a closed boundary turns by more than 30 degrees, ends of open ones.
+  std::int64_t sharp_corners = 0;
   std::int64_t sharp_corners_lost = 0;  ///< of these, no mesh node
   double boundary_node_distance = 0;    ///< largest distance of a boundary node to its boundary
   double geometry_distance = 0;  ///< largest distance of a point of the geometry to its boundary in the mesh

@@ -32,10 +32,10 @@ class SegmentSet {
   /// Number of the nearest segment, the lowest of equals, and how far it is: infinitely, where there is none.
   std::pair<std::uint32_t, double> nearest(Point p) const {
     if (segments_.empty()) return {0, std::numeric_limits<double>::infinity()};
-    const auto found = static_cast<std::uint32_t>(tree_.nearest(p, [&](std::int32_t number) {
+    const std::uint32_t found = tree_.nearest(p, [&](std::int32_t number) {
       const auto& [a, b] = segments_[number];
       return place_on_segment(p, a, b).squared_distance;
-    }));
+    });
     const auto& [a, b] = segments_[found];
     return {found, distance_to_segment(p, a, b)};
   }

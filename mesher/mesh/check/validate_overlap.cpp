@@ -57,23 +57,18 @@ std::int32_t winding(const std::vector<Segment>& segments, Point p) {
 
 /// One cell of each connected piece of the mesh, as a point inside it.
 std::vector<Point> piece_seeds(const Mesh& mesh) {
-  std::vector<std::int32_t> parent(mesh.points.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t i) {
-    while (parent[i] != i) {
-      auto& above = parent[i];
-      above = parent[above];
-      i = above;
-    }
-    return i;
+  IdVector<NodeId, NodeId> parent(mesh.points.size());
+  std::ranges::copy(parent.ids(), parent.begin());
+  const auto root = [&](NodeId node) {
+    while (parent[node] != node) node = parent[node] = parent[parent[node]];
+    return node;
   };
-  for_each_cell_edge(
-      mesh, [&](NodeId from, NodeId to, std::int32_t) { parent[root(from.value())] = root(to.value()); });
-  std::vector<char> seen(mesh.points.size(), 0);
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) { parent[root(from)] = root(to); });
+  NodeFlags seen(mesh.points.size(), 0);
   std::vector<Point> seeds;
   const auto visit = [&](const auto& cells) {
     for (const auto& cell : cells) {
-      char& known = seen[root(cell[0].value())];
+      char& known = seen[root(cell[0])];
       if (known == 0)
         seeds.push_back(1.0 / 3.0 * (mesh.point(cell[0]) + mesh.point(cell[1]) + mesh.point(cell[2])));
       known = 1;
@@ -85,14 +80,14 @@ std::vector<Point> piece_seeds(const Mesh& mesh) {
 }
 
 /// Sum of the corner angles around each node, in degrees.
-std::vector<double> turns_around_nodes(const Mesh& mesh) {
-  std::vector<double> turns(mesh.points.size(), 0);
+IdVector<NodeId, double> turns_around_nodes(const Mesh& mesh) {
+  IdVector<NodeId, double> turns(mesh.points.size(), 0);
   const auto add = [&](const auto& cells) {
     for (const auto& cell : cells) {
       const std::size_t width = cell.size();
       for (std::size_t k = 0; k < width; ++k) {
-        turns[cell[k].value()] += corner_degrees(mesh.point(cell[(k + width - 1) % width]),
-                                                 mesh.point(cell[k]), mesh.point(cell[(k + 1) % width]));
+        turns[cell[k]] += corner_degrees(mesh.point(cell[(k + width - 1) % width]), mesh.point(cell[k]),
+                                         mesh.point(cell[(k + 1) % width]));
       }
     }
   };
@@ -121,23 +116,24 @@ void check_area(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
 }
 
 void check_overlap(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
-  std::vector<std::int32_t> passages(mesh.points.size(), 0);
+  NodeFlags at_edge(mesh.points.size(), 0);
   std::vector<Segment> segments;
   for (const OuterEdge& edge : outer_edges(mesh, table)) {
-    ++passages[edge.from.value()];
+    at_edge[edge.from] = 1;
     segments.push_back({mesh.point(edge.from), mesh.point(edge.to)});
   }
-  const std::vector<double> turns = turns_around_nodes(mesh);
+  const IdVector<NodeId, double> turns = turns_around_nodes(mesh);
   const bool inverted = std::any_of(faults.begin(), faults.end(),
                                     [](const MeshFault& f) { return f.rule == MeshRule::positive; });
-  for (std::size_t i = 0; i < turns.size() && !inverted;
-       ++i) {  // around an inverted cell the sum says nothing
-    const bool inner = passages[i] == 0;
+  for (const NodeId node : turns.ids()) {
+    if (inverted) break;  // around an inverted cell the sum says nothing
+    const double turn = turns[node];
+    const bool inner = at_edge[node] == 0;
     const bool wrong =
-        inner ? std::abs(turns[i] - full_turn) > turn_tolerance : turns[i] > full_turn + turn_tolerance;
-    if (wrong && turns[i] > 0)
+        inner ? std::abs(turn - full_turn) > turn_tolerance : turn > full_turn + turn_tolerance;
+    if (wrong && turn > 0)
       faults.push_back(
-          {MeshRule::overlap, "the cells around a node do not go round it once", mesh.points[i]});
+          {MeshRule::overlap, "the cells around a node do not go round it once", mesh.point(node)});
   }
   check_boundary_crossings(segments, faults);
   const std::vector<Point> seeds = piece_seeds(mesh);

@@ -53,6 +53,15 @@ TEST(CheckField, NamesTheFirstNodeThatIsNotFinite) {
   }
 }
 
+TEST(CheckField, LooksAtEveryNode) {
+  const Mesh mesh = grid_part();
+  for (std::int64_t bad = 0; bad < 16; ++bad) {
+    const Field field =
+        field_of(mesh, "density", [&](std::int64_t node, Point) { return node == bad ? infinite : 1; });
+    EXPECT_THROW(check_field(world(), mesh, field, FieldSign::any), InputError) << bad;
+  }
+}
+
 TEST(CheckField, ChecksTheSign) {
   EXPECT_EQ(refusal(-1, FieldSign::any), "");
   EXPECT_EQ(refusal(0, FieldSign::not_negative), "");

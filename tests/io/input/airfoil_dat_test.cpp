@@ -36,7 +36,7 @@ class AirfoilDat : public ::testing::Test {
     return test::refusal(folder_, [&] { read(text); });
   }
 
-  test::TemporaryFolder folder_;
+  test::InputFolder folder_;
   std::vector<std::string> warnings_;
 };
 

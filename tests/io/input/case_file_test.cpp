@@ -14,7 +14,7 @@ class CaseFile : public ::testing::Test {
   }
   std::string refused(const std::function<void()>& call) { return test::refusal(folder_, call); }
 
-  test::TemporaryFolder folder_;
+  test::InputFolder folder_;
 };
 
 TEST_F(CaseFile, GivesTypedValues) {

@@ -23,7 +23,7 @@ class GeometryFile : public ::testing::Test {
     return test::refusal(folder_, [&] { read(name, text); });
   }
 
-  test::TemporaryFolder folder_;
+  test::InputFolder folder_;
 };
 
 TEST_F(GeometryFile, ReadsClosedAndOpen) {

@@ -9,23 +9,23 @@
 
 namespace quadloop::test {
 
-TemporaryFolder::TemporaryFolder() {
+InputFolder::InputFolder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "quadloop_test_XXXXXX").string();
   EXPECT_NE(mkdtemp(pattern.data()), nullptr);
   path_ = pattern;
 }
 
-TemporaryFolder::~TemporaryFolder() {
+InputFolder::~InputFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
 }
 
-std::string TemporaryFolder::write(const std::string& name, const std::string& text) const {
+std::string InputFolder::write(const std::string& name, const std::string& text) const {
   std::ofstream(path_ / name, std::ios::binary) << text;
   return (path_ / name).string();
 }
 
-std::string refusal(const TemporaryFolder& folder, const std::function<void()>& call) {
+std::string refusal(const InputFolder& folder, const std::function<void()>& call) {
   try {
     call();
   } catch (const InputError& error) {

@@ -7,12 +7,12 @@
 namespace quadloop::test {
 
 /// A folder of its own for one test, gone when the test ends.
-class TemporaryFolder {
+class InputFolder {
  public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  InputFolder();
+  ~InputFolder();
+  InputFolder(const InputFolder&) = delete;
+  InputFolder& operator=(const InputFolder&) = delete;
 
   /// Writes a file and returns its path.
   std::string write(const std::string& name, const std::string& text) const;
@@ -23,6 +23,6 @@ class TemporaryFolder {
 };
 
 /// The message of the InputError that the call must throw, with `folder` cut out of it.
-std::string refusal(const TemporaryFolder& folder, const std::function<void()>& call);
+std::string refusal(const InputFolder& folder, const std::function<void()>& call);
 
 }  // namespace quadloop::test

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "io/formats.hpp"
+#include "io/tree/tree_file.hpp"
+
+namespace quadloop {
+
+/// Where the files stand that quadloop writes in a cycle's folder.
+struct CyclePaths {
+  static constexpr const char* mesh_stem = "mesh";
+
+  std::string folder;
+
+  /// The mesh with its flow, in the format of this name: in the folder.
+  static std::string mesh_name(const std::string& format) { return mesh_stem + ("." + format); }
+  std::string mesh(const std::string& format) const { return folder + "/" + mesh_name(format); }
+  /// The one that a run goes on from.
+  std::string native_mesh() const { return mesh(native_format().name); }
+  std::string tree() const { return folder + "/" + mesh_stem + tree_suffix; }
+  std::string record() const { return folder + "/record.json"; }
+  std::string log() const { return folder + "/log.txt"; }
+};
+
+}  // namespace quadloop

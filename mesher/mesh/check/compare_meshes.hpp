@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// Of a local edge: how far a node may lie off and still be the same; other programs write coordinates with
+/// few digits.
+inline constexpr double same_place_tolerance = 1e-6;
+
+/// A flag for each node of a whole mesh whose place in `points` is farther off than that, of the shortest
+/// cell edge at it. As many points as nodes.
+NodeFlags nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh);
+
+/// Whether two whole meshes have the same cells, in whatever order, by their nodes.
+bool same_cells_in_any_order(const Mesh& one, const Mesh& other);
+
+/// The nodes of the first cell that only `found` has, in ascending order; none where both lists, of the same
+/// length, have the same cells.
+std::optional<std::array<NodeId, 3>> other_cell(const std::vector<std::array<NodeId, 3>>& found,
+                                                const std::vector<std::array<NodeId, 3>>& wanted);
+std::optional<std::array<NodeId, 4>> other_cell(const std::vector<std::array<NodeId, 4>>& found,
+                                                const std::vector<std::array<NodeId, 4>>& wanted);
+
+}  // namespace quadloop

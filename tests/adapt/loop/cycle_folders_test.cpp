@@ -1,0 +1,168 @@
+// The folder of a run: cycles that are whole, and what is left of others.
+#include "adapt/loop/cycle_folders.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "adapt/loop/resume.hpp"
+#include "mesher/base/error.hpp"
+#include "tests/io/sample_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder, test::world;
+
+/// On the root alone, then seen by all.
+template <class Work>
+void on_root(const Work& work) {
+  world().together([&] {
+    if (world().is_root()) work();
+  });
+}
+
+void write(const std::string& path, const std::string& text = "x") {
+  on_root([&] { std::ofstream(path) << text; });
+}
+
+std::string refusal_of(const std::function<void()>& call) {
+  try {
+    call();
+    return {};
+  } catch (const InputError& fault) {
+    return fault.what();
+  }
+}
+
+TEST(CycleFolders, ACycleIsThereWhenItIsWhole) {
+  const TemporaryFolder temporary;
+  CycleFolders run(world(), temporary.file("run"));
+  EXPECT_EQ(run.open(false), 0);
+  run.begin(0);
+  write(run.under_way(0) + "/mesh.mesh");
+  EXPECT_FALSE(fs::exists(run.whole(0)));
+  world().barrier();
+  run.finish(0);
+  EXPECT_TRUE(fs::exists(run.whole(0) + "/mesh.mesh"));
+  EXPECT_FALSE(fs::exists(run.under_way(0)));
+}
+
+TEST(CycleFolders, BeginningAgainStartsEmpty) {
+  const TemporaryFolder temporary;
+  CycleFolders run(world(), temporary.file("run"));
+  run.open(false);
+  run.begin(0);
+  write(run.under_way(0) + "/left");
+  run.begin(0);
+  EXPECT_TRUE(fs::is_empty(run.under_way(0)));
+  world().barrier();
+}
+
+TEST(CycleFolders, ResumingCountsWholeCyclesAndDropsTheOneUnderWay) {
+  const TemporaryFolder temporary;
+  std::optional<CycleFolders> run(std::in_place, world(), temporary.file("run"));
+  run->open(false);
+  for (const int cycle : {0, 1}) {
+    run->begin(cycle);
+    run->finish(cycle);
+  }
+  run->begin(2);
+  run.emplace(world(), temporary.file("run"));  // the lock goes with the earlier one
+  EXPECT_NE(
+      refusal_of([&] { CycleFolders(world(), temporary.file("run")).open(false); }).find("--resume goes on"),
+      std::string::npos);
+  EXPECT_EQ(run->open(true), 2);
+  EXPECT_FALSE(fs::exists(run->under_way(2)));
+}
+
+TEST(CycleFolders, AFailedFirstCycleIsNoRun) {
+  const TemporaryFolder temporary;
+  std::optional<CycleFolders> run(std::in_place, world(), temporary.file("run"));
+  run->open(false);
+  run->begin(0);
+  run.emplace(world(), temporary.file("run"));
+  EXPECT_EQ(run->open(false), 0);
+}
+
+TEST(CycleFolders, AMissingCycleIsNamed) {
+  const TemporaryFolder temporary;
+  on_root([&] {
+    fs::create_directories(temporary.file("run/cycle_00"));
+    fs::create_directories(temporary.file("run/cycle_02"));
+    fs::create_directories(temporary.file("run/cycle_9x"));  // none of ours
+  });
+  const std::string refusal = refusal_of([&] { CycleFolders(world(), temporary.file("run")).open(true); });
+  EXPECT_NE(refusal.find("cycle_01: is missing, but cycle_02 is there"), std::string::npos) << refusal;
+}
+
+TEST(CycleFolders, TwoRunsDoNotShareAFolder) {
+  const TemporaryFolder temporary;
+  CycleFolders run(world(), temporary.file("run"));
+  run.open(false);
+  EXPECT_NE(refusal_of([&] {
+              CycleFolders(world(), temporary.file("run")).open(true);
+            }).find("another run is at work"),
+            std::string::npos);
+}
+
+TEST(CycleFolders, AFileIsNoFolder) {
+  const TemporaryFolder temporary;
+  write(temporary.file("run"));
+  EXPECT_NE(refusal_of([&] { CycleFolders(world(), temporary.file("run")).open(false); }).find("is a file"),
+            std::string::npos);
+}
+
+/// A cycle whose record is of these settings.
+CycleRecord record_with(const CaseSettings& settings) {
+  CycleRecord record;
+  record.settings = settings;
+  record.geometry_digest = 7;
+  record.case_digest = run_digest(settings, 7);
+  return record;
+}
+
+TEST(Resume, SettingsThatMayChangeAreWarnedOfAndOthersRefused) {
+  const TemporaryFolder temporary;
+  const CaseSettings before{{"adapt.refine", "1"}, {"solver.iterations", "5"}};
+  write(temporary.file("record.json"), json_text(record_with(before)));
+  EXPECT_TRUE(require_same_run(world(), temporary.path(), record_with(before)).empty());
+  const auto warnings = require_same_run(world(), temporary.path(),
+                                         record_with({{"adapt.refine", "1"}, {"solver.iterations", "9"}}));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_TRUE(warnings[0].starts_with("solver.iterations was 5, is now 9")) << warnings[0];
+  const auto refused = refusal_of([&] {
+    require_same_run(world(), temporary.path(),
+                     record_with({{"adapt.refine", "2"}, {"solver.iterations", "9"}}));
+  });
+  EXPECT_NE(refused.find("is of another case: adapt.refine was 1, is now 2;"), std::string::npos) << refused;
+}
+
+TEST(Resume, AnotherOutlineIsRefused) {
+  const TemporaryFolder temporary;
+  const CaseSettings settings{{"adapt.refine", "1"}};
+  write(temporary.file("record.json"), json_text(record_with(settings)));
+  CycleRecord now = record_with(settings);
+  now.geometry_digest = 8;
+  now.case_digest = run_digest(settings, 8);
+  EXPECT_NE(refusal_of([&] { require_same_run(world(), temporary.path(), now); }).find("the outline"),
+            std::string::npos);
+}
+
+TEST(Resume, ADamagedOrMissingRecordSaysHowToBeRidOfIt) {
+  const TemporaryFolder temporary;
+  const auto refusal = [&] {
+    return refusal_of([&] { require_same_run(world(), temporary.path(), record_with({})); });
+  };
+  EXPECT_NE(refusal().find("is missing or cannot be read; bring the file back"), std::string::npos)
+      << refusal();
+  write(temporary.file("record.json"), "{");
+  EXPECT_NE(refusal().find("is no whole record of a cycle; bring"), std::string::npos) << refusal();
+}
+
+}  // namespace
+}  // namespace quadloop

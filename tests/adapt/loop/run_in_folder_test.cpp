@@ -1,0 +1,146 @@
+// Whole runs in a folder: which files they leave, and that a run gone on with ends with the same ones.
+#include "adapt/loop/run_in_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "adapt/loop/command_solver.hpp"
+#include "adapt/loop/cycle_files.hpp"
+#include "io/native/native_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "tests/io/sample_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder, test::world;
+
+/// A vortex in a square, a few steps of it.
+AdaptiveCase vortex_case(int cycles) {
+  EulerOptions euler;
+  euler.mach = 0.5;
+  euler.initial = EulerOptions::Initial::vortex;
+  euler.reference_length = 0.1;
+  euler.iterations = 3;
+  AdaptiveCase adaptive{{{{{"far", 0, 30, "farfield"}},
+                          {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+                          {0, 4},
+                          std::vector<BoundaryId>(4, BoundaryId{0})},
+                         {},
+                         {},
+                         0},
+                        {},
+                        euler,
+                        {"vtu", "mesh"},
+                        {{"solver.iterations", "3"}}};
+  adaptive.mesh.mesh.size.min = adaptive.mesh.mesh.size.max = 0.125;
+  adaptive.adapt.cycles = cycles;
+  adaptive.adapt.min = 1.0 / 64;
+  return adaptive;
+}
+
+struct Heard {
+  LoopEnd run(const AdaptiveCase& adaptive, const std::string& folder, bool resume) {
+    return run_in_folder(
+        world(), adaptive, folder, resume,
+        {[&](const CycleRecord& record, const std::vector<std::string>&) { cycles.push_back(record.cycle); },
+         [&](const std::string& warning) { warnings.push_back(warning); }});
+  }
+  std::vector<int> cycles;
+  std::vector<std::string> warnings;
+};
+
+TEST(RunInFolder, EachCycleHasItsFiles) {
+  const TemporaryFolder folder;
+  Heard heard;
+  const LoopEnd end = heard.run(vortex_case(1), folder.file("run"), false);
+  EXPECT_EQ(end.last, 1);
+  EXPECT_EQ(heard.cycles, (std::vector<int>{0, 1}));
+  world().barrier();
+  EXPECT_EQ(test::files_in(folder.file("run")), 2U) << "two cycles and no lock";
+  for (const char* cycle : {"run/cycle_00", "run/cycle_01"}) {
+    for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.cgns", "mesh.vtu", "log.txt", "record.json"})
+      EXPECT_TRUE(fs::exists(folder.file(cycle) + "/" + name)) << cycle << " " << name;
+    EXPECT_EQ(test::files_in(folder.file(cycle)), 6U);
+    EXPECT_TRUE(read_native(folder.file(cycle) + "/mesh.mesh").solution.has_value());
+  }
+  const std::string log = test::bytes_of(folder.file("run/cycle_01/log.txt"));
+  EXPECT_TRUE(log.starts_with("cycle 1: "));
+  EXPECT_NE(log.find("\nmarks for the next cycle: "), std::string::npos);
+  world().barrier();
+}
+
+TEST(RunInFolder, GoneOnWithItEndsWithTheSameFiles) {
+  const TemporaryFolder folder;
+  Heard whole, begun, resumed;
+  whole.run(vortex_case(2), folder.file("whole"), false);
+  begun.run(vortex_case(1), folder.file("parts"), false);
+  AdaptiveCase more = vortex_case(2);
+  resumed.run(more, folder.file("parts"), true);
+  EXPECT_EQ(resumed.cycles, (std::vector<int>{2}));
+  world().barrier();
+  for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.vtu"})
+    EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) ==
+                test::bytes_of(folder.file("parts/cycle_02/") + name))
+        << name;
+  world().barrier();
+}
+
+TEST(RunInFolder, AnotherCaseIsNotGoneOnWith) {
+  const TemporaryFolder folder;
+  Heard heard;
+  heard.run(vortex_case(0), folder.file("run"), false);
+  AdaptiveCase other = vortex_case(1);
+  other.settings.emplace_back("spacing.min", "0.1");
+  EXPECT_THROW(heard.run(other, folder.file("run"), true), InputError);
+  AdaptiveCase longer = vortex_case(1);
+  longer.settings[0].second = "4";
+  heard.run(longer, folder.file("run"), true);
+  ASSERT_EQ(heard.warnings.size(), 1U);
+  EXPECT_TRUE(heard.warnings[0].starts_with("solver.iterations was 3, is now 4")) << heard.warnings[0];
+  EXPECT_THROW(heard.run(longer, folder.file("run"), false), InputError) << "the folder is not empty";
+}
+
+TEST(CommandSolver, TheStartingStateStandsWhereTheFormatHasAPlaceForIt) {
+  CommandSolver solver;
+  EXPECT_EQ(solver.state(), "mesh.mesh");
+  for (const auto& [mesh, state] :
+       {std::pair{"a.vtu", "a.vtu"}, {"a.cgns", "a.cgns"}, {"a.su2", "a.csv"}, {"a.msh", "a.csv"}}) {
+    solver.mesh = mesh;
+    EXPECT_EQ(solver.state(), state);
+  }
+}
+
+/// Copies the mesh with its state as it is, or leaves what is no solution.
+CommandSolver shell(const std::string& script) {
+  CommandSolver solver;
+  solver.command.arguments = {"sh", "-c", script};
+  solver.solution = "left.mesh";
+  return solver;
+}
+
+TEST(CommandSolver, WhatItLeavesIsTheSolution) {
+  const TemporaryFolder folder;
+  Heard heard;
+  AdaptiveCase adaptive = vortex_case(0);
+  heard.run(adaptive, folder.file("run"), false);
+  const std::string cycle = folder.file("run/cycle_00");
+  const LoadedMesh whole = read_native(cycle + "/mesh.mesh");
+  const MeshOrder order = own_order(whole.mesh);
+  const Mesh part = scatter_mesh(world(), whole.mesh, order);
+  const auto folder_of = [&](int) { return cycle; };
+  const SolvedFlow flow = command_solver(shell("cp mesh.mesh left.mesh"), folder_of)(world(), part, {}, 0);
+  EXPECT_EQ(flow.solution.names, whole.solution->names);
+  EXPECT_EQ(flow.solution.values, scatter_field(world(), *whole.solution, part, order).values);
+  EXPECT_THROW(command_solver(shell("echo no mesh > left.mesh"), folder_of)(world(), part, {}, 0),
+               SolverError);
+  EXPECT_THROW(command_solver(shell("rm left.mesh"), folder_of)(world(), part, {}, 0), SolverError);
+  EXPECT_THROW(command_solver(shell("exit 3"), folder_of)(world(), part, {}, 0), SolverError);
+}
+
+}  // namespace
+}  // namespace quadloop

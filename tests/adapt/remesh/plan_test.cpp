@@ -1,0 +1,205 @@
+// From a solution to demands: marks in a row from few to many, caps kept, meshes that are not the tree's
+// refused.
+#include "adapt/remesh/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapt/remesh/mark_family.hpp"
+#include "adapt/remesh/own_mesh.hpp"
+#include "adapt/remesh/remesh.hpp"
+#include "mesher/base/error.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+MeshInput square_input() {
+  MeshInput input{{{{"side", 0, 30, "wall"}},
+                   {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+                   {0, 4},
+                   std::vector<BoundaryId>(4, BoundaryId{0})},
+                  {},
+                  {},
+                  0};
+  input.mesh.size.min = input.mesh.size.max = 1.0 / 16;
+  return input;
+}
+
+AdaptOptions adapt_options() {
+  AdaptOptions options;
+  options.variables = {"q"};
+  options.min = 1.0 / 128;
+  return options;
+}
+
+/// A front across a quarter circle, on the mesh of `input`.
+SolvedMesh solved_front(const Communicator& comm, const MeshInput& input) {
+  MeshResult made = generate_mesh(comm, input).result;
+  SolvedMesh solved{std::move(made.mesh), std::move(made.tree), {{"q"}, {}, {}}, "front.mesh"};
+  for (std::int32_t i = 0; i < solved.mesh.owned_nodes; ++i) {
+    const Point p = solved.mesh.point(NodeId{i});
+    solved.solution.values.push_back(std::tanh(30 * (std::hypot(p.x, p.y) - 0.6)));
+  }
+  return solved;
+}
+
+struct Counts {
+  std::int64_t refined = 0, coarsened = 0;
+};
+Counts counts_of(const std::vector<Mark>& marks) {
+  return {world().sum(std::int64_t{std::count(marks.begin(), marks.end(), Mark::refine)}),
+          world().sum(std::int64_t{std::count(marks.begin(), marks.end(), Mark::coarsen)})};
+}
+
+TEST(MarkFamily, GoesFromFewLeavesToMany) {
+  const SolvedMesh solved = solved_front(world(), square_input());
+  const MarkFamily family(world(), adapt_options(), solved);
+  EXPECT_FALSE(family.flat());
+  Counts before = counts_of(family.marks(-1));
+  EXPECT_EQ(before.refined, 0);
+  EXPECT_EQ(before.coarsened, world().sum(std::ssize(solved.tree.leaves))) << "in the end all";
+  for (double at = -0.9; at <= 1.01; at += 0.1) {
+    const Counts now = counts_of(family.marks(std::min(at, 1.0)));
+    EXPECT_GE(now.refined, before.refined);
+    EXPECT_LE(now.coarsened, before.coarsened);
+    if (at < 0.05) {
+      EXPECT_EQ(now.refined, 0) << at;
+    }
+    before = now;
+  }
+  EXPECT_GT(before.refined, 10);
+}
+
+TEST(MarkFamily, DropsTheSmallestIndicatorsFirst) {
+  const SolvedMesh solved = solved_front(world(), square_input());
+  const MarkFamily family(world(), adapt_options(), solved);
+  const auto all = family.marks(1), some = family.marks(0.4);
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_TRUE(some[i] != Mark::refine || all[i] == Mark::refine);
+  EXPECT_LT(counts_of(some).refined, counts_of(all).refined);
+}
+
+TEST(MarkFamily, OfAConstantMarksNothingToRefine) {
+  SolvedMesh solved = solved_front(world(), square_input());
+  std::fill(solved.solution.values.begin(), solved.solution.values.end(), 4.0);
+  const MarkFamily family(world(), adapt_options(), solved);
+  EXPECT_TRUE(family.flat());
+  EXPECT_EQ(counts_of(family.marks(1)).refined, 0);
+}
+
+TEST(MarkFamily, OfSizesGrowsThemSixteenfold) {
+  SolvedMesh solved = solved_front(world(), square_input());
+  std::fill(solved.solution.values.begin(), solved.solution.values.end(),
+            1.0 / 32);  // leaves are twice as large
+  AdaptOptions options = adapt_options();
+  options.source = AdaptOptions::Source::size;
+  const MarkFamily family(world(), options, solved);
+  const auto leaves = world().sum(std::ssize(solved.tree.leaves));
+  EXPECT_EQ(counts_of(family.marks(1)).refined, leaves);
+  EXPECT_EQ(counts_of(family.marks(0.4)).refined, 0);
+  EXPECT_EQ(counts_of(family.marks(-1)).coarsened, leaves);
+}
+
+std::int64_t nodes_by(const AdaptationPlan& plan, const MeshInput& input) {
+  return build_mesh(world(), input.geometry, input.mesh, DemandedSplits(world(), plan.demands))
+      .tree.attributes.nodes;
+}
+
+TEST(Plan, RefinesTheFrontAlone) {
+  const MeshInput input = square_input();
+  const SolvedMesh solved = solved_front(world(), input);
+  const AdaptationPlan plan = plan_adaptation(world(), input, adapt_options(), solved);
+  EXPECT_TRUE(plan.changes_mesh());
+  EXPECT_GT(plan.refined, 10);
+  EXPECT_TRUE(plan.warnings.empty());
+  EXPECT_GT(nodes_by(plan, input), solved.tree.attributes.nodes);
+}
+
+TEST(Plan, KeepsToTheCapAndComesNearIt) {
+  const MeshInput input = square_input();
+  const SolvedMesh solved = solved_front(world(), input);
+  AdaptOptions options = adapt_options();
+  const std::int64_t all = nodes_by(plan_adaptation(world(), input, options, solved), input);
+  options.max_nodes = (solved.tree.attributes.nodes + all) / 2;
+  const std::int64_t nodes = nodes_by(plan_adaptation(world(), input, options, solved), input);
+  EXPECT_LE(nodes, *options.max_nodes);
+  EXPECT_GT(nodes, solved.tree.attributes.nodes);
+}
+
+TEST(Plan, SaysWhenCaseAndGeometryPassTheCap) {
+  const MeshInput input = square_input();
+  AdaptOptions options = adapt_options();
+  options.max_nodes = 20;
+  const AdaptationPlan plan = plan_adaptation(world(), input, options, solved_front(world(), input));
+  EXPECT_EQ(plan.refined, 0);
+  ASSERT_FALSE(plan.warnings.empty());
+  EXPECT_NE(plan.warnings[0].find("adapt.max_nodes allows 20"), std::string::npos) << plan.warnings[0];
+}
+
+TEST(Plan, SaysWhyTheMeshStays) {
+  const MeshInput input = square_input();
+  AdaptOptions options = adapt_options();
+  options.min = 1.0 / 16;
+  const auto plan = plan_adaptation(world(), input, options, solved_front(world(), input));
+  EXPECT_FALSE(plan.changes_mesh());
+  ASSERT_EQ(plan.warnings.size(), 1U);
+  EXPECT_NE(plan.warnings[0].find("adapt.min = 0.0625"), std::string::npos) << plan.warnings[0];
+}
+
+TEST(Plan, NamesTheFileOfAMissingVariable) {
+  const MeshInput input = square_input();
+  AdaptOptions options = adapt_options();
+  options.variables = {"entropy"};
+  const SolvedMesh solved = solved_front(world(), input);
+  try {
+    plan_adaptation(world(), input, options, solved);
+    FAIL();
+  } catch (const InputError& fault) {
+    EXPECT_TRUE(std::string(fault.what()).starts_with("front.mesh: ")) << fault.what();
+  }
+}
+
+TEST(Remesh, CarriesTheSolutionOverByThePlan) {
+  const MeshInput input = square_input();
+  const SolvedMesh solved = solved_front(world(), input);
+  const CarriedMesh carried =
+      carry_over(world(), input, plan_adaptation(world(), input, adapt_options(), solved), solved);
+  const Mesh& mesh = carried.generated.result.mesh;
+  ASSERT_EQ(carried.start.values.size(), static_cast<std::size_t>(mesh.owned_nodes));
+  ASSERT_EQ(carried.drifts().size(), 1U);
+  EXPECT_EQ(carried.drifts()[0].first, "q");
+  EXPECT_LT(std::abs(carried.drifts()[0].second), 0.05);
+  const CarriedMesh again = carry_over(world(), input, standing_plan(solved.tree, input), solved);
+  EXPECT_EQ(again.generated.result.mesh.points, solved.mesh.points) << "without marks the mesh stays";
+  EXPECT_EQ(again.start.values, solved.solution.values);
+}
+
+TEST(OwnMesh, IsTheOneThatTheTreeWasMadeWith) {
+  SolvedMesh solved = solved_front(world(), square_input());
+  EXPECT_NO_THROW(require_own_mesh(world(), solved, "mesh", "tree"));
+  EXPECT_NO_THROW(require_untouched_mesh(world(), solved, "mesh", "tree"));
+  for (Point& p : solved.mesh.points) p.x += 1e-9;
+  EXPECT_NO_THROW(require_own_mesh(world(), solved, "mesh", "tree")) << "other formats round";
+  EXPECT_THROW(require_untouched_mesh(world(), solved, "mesh", "tree"), InputError);
+  for (Point& p : solved.mesh.points) p.x += 0.5;
+  EXPECT_THROW(require_own_mesh(world(), solved, "mesh", "tree"), InputError);
+}
+
+TEST(OwnMesh, CountsNodesAndCells) {
+  SolvedMesh solved = solved_front(world(), square_input());
+  ++solved.tree.attributes.quads;
+  try {
+    require_own_mesh(world(), solved, "a.mesh", "a.tree.h5");
+    FAIL();
+  } catch (const InputError& fault) {
+    EXPECT_TRUE(std::string(fault.what()).starts_with("a.mesh: is of another mesh than a.tree.h5: "))
+        << fault.what();
+  }
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,35 @@
+// What is logged, and by whom. On one rank alone.
+#include "mesher/base/log.hpp"
+
+#include <gtest/gtest.h>
+
+namespace quadloop {
+namespace {
+
+/// What stands on stderr after one message of each kind.
+std::string said(const log::Options& options) {
+  log::configure(options);
+  testing::internal::CaptureStderr();
+  log::warning("a {} b");
+  log::information("info");
+  log::detail("detail");
+  const std::string text = testing::internal::GetCapturedStderr();
+  log::configure({});
+  return text;
+}
+
+TEST(Log, BracesAreNoFormat) { EXPECT_EQ(said({}), "quadloop: warning: a {} b\nquadloop: info: info\n"); }
+
+TEST(Log, QuietLeavesWarnings) { EXPECT_EQ(said({0, 1, true, false}), "quadloop: warning: a {} b\n"); }
+
+TEST(Log, TheRootSpeaksForAll) { EXPECT_EQ(said({1, 2, false, false}), ""); }
+
+TEST(Log, VerboseIsEveryRankWithItsNumber) {
+  EXPECT_EQ(said({0, 1, false, true}),
+            "quadloop: warning: a {} b\nquadloop: info: info\nquadloop: debug: detail\n");
+  EXPECT_EQ(said({1, 2, false, true}),
+            "quadloop[1]: warning: a {} b\nquadloop[1]: info: info\nquadloop[1]: debug: detail\n");
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,160 @@
+// Whole meshes whose figures are known; what is refused before the work begins.
+#include "mesher/build/build_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "mesher/build/mesh_estimate.hpp"
+#include "mesher/mesh/check/delaunay_check.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+Geometry unit_square() {
+  return {{{"side", 0, 30, "wall"}},
+          {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+          {0, 4},
+          std::vector<BoundaryId>(4, BoundaryId{0})};
+}
+
+MeshOptions sized(double min, double max) {
+  MeshOptions options;
+  options.size.min = min;
+  options.size.max = max;
+  return options;
+}
+
+/// Five points, all of them kept, so that the mesh has the polygon's own area.
+Geometry pentagon() {
+  std::vector<Point> points;
+  for (int i = 0; i < 5; ++i) {
+    const double angle = 2 * std::numbers::pi * (i / 5.0 + 0.017);
+    points.push_back({std::cos(angle), std::sin(angle)});
+  }
+  return {{{"wall", 0.05, 30, "wall"}}, points, {0, 5}, std::vector<BoundaryId>(5, BoundaryId{0})};
+}
+
+const double pentagon_area = 2.5 * std::sin(2 * std::numbers::pi / 5);
+
+TEST(BuildMesh, ASquareIsSquares) {
+  const MeshResult made = build_mesh(world(), unit_square(), sized(0.125, 0.125));
+  EXPECT_EQ(made.tree.attributes.nodes, 81);
+  EXPECT_EQ(made.tree.attributes.quads, 64);
+  EXPECT_EQ(made.tree.attributes.triangles, 0);
+  EXPECT_EQ(made.report.leaves, 64);
+  EXPECT_EQ(made.report.finest_level, 3);
+  EXPECT_EQ(summarise_quality(world(), made.mesh).worst, 1);
+  EXPECT_TRUE(made.report.warnings.empty());
+  std::int64_t edges = 0;
+  for (const BoundaryEdges& boundary : made.mesh.boundaries) edges += std::ssize(boundary.edges);
+  EXPECT_EQ(world().sum(edges), 32);
+}
+
+TEST(BuildMesh, MeshesAreValidFillTheOutlineAndAreTheSameOnAnyNumberOfRanks) {
+  const Communicator self(MPI_COMM_SELF);
+  for (const auto& [type, quads] : {std::pair{MeshType::hybrid, QuadChoice::all},
+                                    {MeshType::hybrid, QuadChoice::parallel},
+                                    {MeshType::delaunay, QuadChoice::all}}) {
+    MeshOptions options = sized(0.02, 0.2);
+    options.type = type;
+    options.quads = quads;
+    const MeshResult made = build_mesh(world(), pentagon(), options),
+                     alone = build_mesh(self, pentagon(), options);
+    const Mesh whole = gather_whole(world(), made.mesh), of_one = gather_whole(self, alone.mesh);
+    if (!world().is_root()) continue;
+    EXPECT_TRUE(validate(whole).empty());
+    EXPECT_NEAR(area_of(whole), pentagon_area, 1e-12);
+    EXPECT_EQ(whole.points, of_one.points);
+    EXPECT_EQ(whole.triangles, of_one.triangles);
+    EXPECT_EQ(whole.quads, of_one.quads);
+    EXPECT_EQ(is_delaunay(whole), type == MeshType::delaunay);
+  }
+}
+
+TEST(BuildMesh, TheTreeCountsEachLeafsCells) {
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    MeshOptions options = sized(0.02, 0.2);
+    options.type = type;
+    const MeshResult made = build_mesh(world(), pentagon(), options);
+    std::int64_t triangles = 0, quads = 0;
+    for (const LeafRecord& leaf : made.tree.leaves) {
+      triangles += leaf.triangles;
+      quads += leaf.quads;
+      EXPECT_EQ(leaf.block, leaf.triangles + leaf.quads > 0 ? 1 : 0);
+      EXPECT_LE(leaf.wanted, leaf.level);
+    }
+    EXPECT_EQ(triangles, std::ssize(made.mesh.triangles));
+    EXPECT_EQ(quads, std::ssize(made.mesh.quads));
+    EXPECT_EQ(world().sum(std::ssize(made.tree.leaves)), made.report.leaves);
+  }
+}
+
+TEST(BuildMesh, RefusesMoreCellsThanAreAllowed) {
+  MeshOptions options = sized(0.01, 0.2);
+  options.limit.cells = 100;
+  try {
+    build_mesh(world(), pentagon(), options);
+    FAIL();
+  } catch (const TooManyCells& refusal) {
+    const std::string text = refusal.what();
+    EXPECT_NE(text.find("--max-cells allows 100"), std::string::npos) << text;
+    EXPECT_NE(text.find("boundary.wall.spacing"), std::string::npos) << text;
+  }
+  options.limit = {};
+  options.limit.bytes = 1e6;
+  EXPECT_THROW(build_mesh(world(), pentagon(), options), TooManyCells);
+}
+
+TEST(BuildMesh, BlamesAdaptationWhereTheCaseAloneWouldFit) {
+  std::vector<SplitDemand> demands;
+  if (world().is_root()) demands.push_back({{0, 0, 9}, (1U << 9) - 1});
+  const DemandedSplits demanded(world(), demands);
+  MeshOptions options = sized(0.25, 0.25);
+  options.limit.cells = 60;
+  try {
+    build_mesh(world(), unit_square(), options, demanded);
+    FAIL();
+  } catch (const TooManyCells& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("lower adapt.max_nodes"), std::string::npos) << refusal.what();
+  }
+}
+
+TEST(MeshEstimate, IsNearTheMesh) {
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    MeshOptions options = sized(0.005, 0.2);
+    options.type = type;
+    const MeshEstimate estimate = estimate_mesh(pentagon(), options, {});
+    const MeshResult made = build_mesh(world(), pentagon(), options);
+    const auto cells = static_cast<double>(made.tree.attributes.triangles + made.tree.attributes.quads);
+    EXPECT_NEAR(std::log(estimate.cells / cells), 0, std::log(1.5));
+    EXPECT_NEAR(estimate.leaves / static_cast<double>(made.report.leaves), 1, 0.2);
+  }
+}
+
+TEST(MeshEstimate, TheScarcerOfCellsAndMemoryCounts) {
+  const MeshEstimate estimate{100, 120, 5000, 1000};
+  EXPECT_EQ(total_bytes(estimate, 3), 8000);
+  EXPECT_EQ(share_of({}, estimate), 0);
+  EXPECT_EQ(share_of({60, MeshLimit::none, 1}, estimate), 2);
+  EXPECT_EQ(share_of({60, 2000, 3}, estimate), 4);
+}
+
+TEST(MeshEstimate, IsToldInRoundNumbers) {
+  EXPECT_EQ(text_of_bytes(1000 * 0x1p20), "1000 MiB");
+  EXPECT_EQ(text_of_bytes(1.5 * 0x1p30), "1.5 GiB");
+  EXPECT_EQ(text_of_bytes(3 * 0x1p40), "3 TiB");
+  EXPECT_EQ(text_of_cells(12344), "12340");
+  EXPECT_EQ(text_of_cells(1234567), "1.2e+06");
+}
+
+}  // namespace
+}  // namespace quadloop

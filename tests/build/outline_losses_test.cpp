@@ -1,0 +1,215 @@
+// What a mesh may lose of its outline, and what is said of it; islands; what asks for cells.
+#include "mesher/build/outline_losses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesher/base/error.hpp"
+#include "mesher/build/cell_demands.hpp"
+#include "mesher/build/islands.hpp"
+#include "tests/mesh/grid_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+std::string refusal_of(const std::function<void()>& call) {
+  try {
+    call();
+    return {};
+  } catch (const InputError& fault) {
+    return fault.what();
+  }
+}
+
+std::vector<Point> box(Point low, double width, double height) {
+  return {low, low + Point{width, 0}, low + Point{width, height}, low + Point{0, height}};
+}
+
+/// Loops, each a boundary of its own: b0, b1, ...
+Geometry loops(const std::vector<std::vector<Point>>& given) {
+  std::vector<Boundary> boundaries;
+  std::vector<Point> points;
+  std::vector<std::int32_t> starts{0};
+  std::vector<BoundaryId> of_segment;
+  for (const auto& loop : given) {
+    const auto number = size32(boundaries);
+    boundaries.push_back({"b" + std::to_string(number)});
+    points.insert(points.end(), loop.begin(), loop.end());
+    starts.push_back(size32(points));
+    of_segment.resize(points.size(), BoundaryId{number});
+  }
+  return {boundaries, points, starts, of_segment};
+}
+
+std::vector<Point> reversed(std::vector<Point> loop) {
+  std::reverse(loop.begin(), loop.end());
+  return loop;
+}
+
+/// The unit square in cells, on all ranks.
+Mesh square_mesh() {
+  const Mesh whole = test::Grid{8, {1, 1}, true}.mesh();
+  return scatter_mesh(world(), whole, space_filling_order(whole));
+}
+
+TEST(Islands, SmallLoopsGoWithTheirArea) {
+  const Geometry given =
+      loops({box({0, 0}, 4, 4), reversed(box({1, 1}, 0.1, 0.2)), reversed(box({2, 1}, 0.1, 0.5))});
+  MeshReport report;
+  const Geometry kept = without_small_islands(given, 0.3, report);
+  EXPECT_EQ(kept.loop_count(), 2);
+  EXPECT_EQ(report.islands_dropped, 1);
+  EXPECT_NEAR(report.area_dropped, -0.02, 1e-15);
+  EXPECT_EQ(report.boundaries_vanished, (std::vector<std::string>{"b1"}));
+  ASSERT_EQ(report.warnings.size(), 1U);
+  EXPECT_TRUE(report.warnings[0].starts_with("boundary b1: a loop near (1.05, 1.1) is smaller"))
+      << report.warnings[0];
+  EXPECT_EQ(kept.boundary(kept.boundary_of(4)).name, "b2");
+}
+
+TEST(Islands, ALoopAsLargeAsTheSmallestLeafStays) {
+  const Geometry given = loops({box({0, 0}, 4, 4), reversed(box({1, 1}, 0.25, 0.1))});
+  MeshReport report;
+  EXPECT_EQ(without_small_islands(given, 0.25, report).digest(), given.digest());
+  EXPECT_EQ(report.islands_dropped, 0);
+  EXPECT_EQ(without_small_islands(given, 0.26, report).loop_count(), 1);
+}
+
+TEST(Islands, WhereNoLoopRemainsThereIsNoDomain) {
+  MeshReport report;
+  EXPECT_NE(refusal_of([&] {
+              without_small_islands(loops({box({3, 3}, 1, 1)}), 2, report);
+            }).find("boundary b0 near (3.5, 3.5)"),
+            std::string::npos);
+}
+
+TEST(OutlineLosses, BoundariesWithoutEdgesVanish) {
+  Mesh mesh = square_mesh();
+  const Geometry geometry = loops({box({0, 0}, 1, 1), reversed(box({0.5, 0.5}, 0.001, 0.002))});
+  mesh.boundaries.front().name = "b0";
+  mesh.boundaries.push_back({"b1", "none", {}});
+  MeshReport report;
+  const std::string refusal = refusal_of([&] { report_losses(world(), geometry, mesh, false, report); });
+  EXPECT_TRUE(refusal.starts_with("boundary 'b1' near (0.5005, 0.501), 0.001 wide and 0.002 high, "))
+      << refusal;
+  report_losses(world(), geometry, mesh, true, report);
+  EXPECT_EQ(report.boundaries_vanished, (std::vector<std::string>{"b1"}));
+}
+
+TEST(OutlineLosses, KeptCornersThatAreNoNodesAreCounted) {
+  MeshReport none, report;
+  report_losses(world(), loops({box({0, 0}, 1, 1)}), square_mesh(), false, none);
+  EXPECT_EQ(none.corners_lost, 0);
+  EXPECT_TRUE(none.warnings.empty());
+  report.warnings = {"of an island"};
+  report_losses(world(), loops({{{0, 0}, {1, 0}, {1.01, 0.4}, {1.0, 1.02}, {0, 1}}}), square_mesh(), false,
+                report);
+  EXPECT_EQ(report.corners_lost, 1) << "(1.01, 0.4) is no corner of 30 degrees";
+  ASSERT_EQ(report.warnings.size(), 2U);
+  EXPECT_NE(report.warnings[0].find("1 of 4 kept corners of the outline is no node"), std::string::npos)
+      << report.warnings[0];
+}
+
+TEST(RequireArea, TheMeshMayMissAFewHundredths) {
+  const Mesh mesh = square_mesh();
+  EXPECT_NO_THROW(require_area(world(), loops({box({0, 0}, 1, 1.04)}), 0, mesh));
+  const std::string refusal = refusal_of([&] {
+    require_area(world(), loops({box({0, 0}, 1, 1.2)}), 0, mesh);
+  });
+  EXPECT_NE(refusal.find("16.7 percent off"), std::string::npos) << refusal;
+  EXPECT_NE(refusal_of([&] {
+              require_area(world(), loops({box({0, 0}, 1, 1.2)}), 0, mesh, true);
+            }).find("while smoothing"),
+            std::string::npos);
+}
+
+TEST(RequireArea, CountsWithAndWithoutWhatWasDropped) {
+  const Mesh mesh = square_mesh();
+  const Geometry with_island = loops({box({0, 0}, 1, 1), reversed(box({0.5, 0.5}, 0.2, 0.2))});
+  EXPECT_NO_THROW(require_area(world(), with_island, -0.04, mesh))
+      << "4 % are missed, of which all are known";
+  EXPECT_THROW(require_area(world(), with_island, 0.06, mesh), InputError);
+}
+
+TEST(AreaOfLoop, IsSignedAndExactFarFromTheOrigin) {
+  EXPECT_EQ(area_of_loop(loops({box({0, 0}, 3, 2)}), 0), 6);
+  EXPECT_EQ(area_of_loop(loops({reversed(box({0, 0}, 3, 2))}), 0), -6);
+  EXPECT_EQ(area_of_loop(loops({box({0x1p40, -0x1p40}, 3, 2)}), 0), 6);
+}
+
+SizeSettings settings() {
+  SizeSettings all;
+  all.size.min = 0.01;
+  all.size.max = 0.5;
+  all.size.curvature = 10;
+  all.size.gap = 3;
+  all.size.sources = {{Box{{0, 0}, {1, 1}}, 0.3, "case.toml:5"}, {Box{{0, 0}, {1, 1}}, 0.2}};
+  all.boundaries = {{"a", 0.1}, {"b", 0.05}, {"c", 0.1}, {"d", 0}};
+  return all;
+}
+
+TEST(CellDemands, NameEachSettingOnce) {
+  std::vector<std::string> keys;
+  for (const CellDemand& demand : cell_demands(settings(), loops({box({0, 0}, 8, 4)})))
+    keys.push_back(demand.key);
+  EXPECT_EQ(keys,
+            (std::vector<std::string>{"spacing.max", "spacing.curvature", "spacing.gap", "boundary.b.spacing",
+                                      "boundary.a.spacing (and 1 more)", "spacing of the [[source]]",
+                                      "spacing of the [[source]] at case.toml:5", "spacing.min"}));
+}
+
+TEST(CellDemands, SetAndLiftWhatTheyName) {
+  const SizeSettings given = settings();
+  for (const CellDemand& demand : cell_demands(given, loops({box({0, 0}, 8, 4)}))) {
+    SizeSettings set = given, lifted = given;
+    demand.set(set, 0.7);
+    demand.lift(lifted);
+    if (demand.key == "spacing.max") {
+      EXPECT_EQ(set.size.max, 0.7);
+      EXPECT_EQ(lifted.size.max, 8) << "the longer side of the outline";
+    } else if (demand.key == "spacing.gap") {
+      EXPECT_FALSE(demand.is_size);
+      EXPECT_EQ(lifted.size.gap, 0);
+    } else if (demand.key == "boundary.a.spacing (and 1 more)") {
+      EXPECT_EQ(set.boundaries[0].spacing, 0.7);
+      EXPECT_EQ(set.boundaries[2].spacing, 0.7);
+      EXPECT_EQ(set.boundaries[1].spacing, 0.05);
+    } else if (demand.key == "spacing.min") {
+      EXPECT_EQ(set.size.min, 0.7);
+      EXPECT_EQ(set.size.max, 0.7) << "no less than min";
+      EXPECT_EQ(lifted.boundaries[3].spacing, 8) << "that asked for its own points' spacing";
+      EXPECT_EQ(lifted.boundaries[0].spacing, 0.1);
+    } else if (demand.key == "spacing of the [[source]]") {
+      EXPECT_EQ(demand.value, 0.2);
+      EXPECT_EQ(set.size.sources[1].spacing, 0.7);
+      EXPECT_EQ(set.size.sources[0].spacing, 0.3);
+    }
+  }
+}
+
+TEST(CellDemands, OfManyBoundariesTheSmallestCount) {
+  SizeSettings many;
+  many.size.min = many.size.max = 1;
+  for (int i = 0; i < 50; ++i) many.boundaries.push_back({"b" + std::to_string(i), 50.0 - i});
+  const auto demands = cell_demands(many, loops({box({0, 0}, 8, 4)}));
+  EXPECT_EQ(demands.size(), 1U + 16 + 1);
+  EXPECT_EQ(demands[1].value, 1);
+  EXPECT_EQ(demands[16].value, 16);
+}
+
+TEST(WithBoundaries, KeepsTheOutline) {
+  const Geometry given = loops({box({0, 0}, 4, 4), reversed(box({1, 1}, 1, 1))});
+  std::vector<Boundary> boundaries(given.boundaries().begin(), given.boundaries().end());
+  EXPECT_EQ(with_boundaries(given, boundaries).digest(), given.digest());
+  boundaries[1].spacing = 0.125;
+  const Geometry other = with_boundaries(given, boundaries);
+  EXPECT_EQ(other.spacing_of(5), 0.125);
+  EXPECT_EQ(other.spacing_of(0), 4);
+}
+
+}  // namespace
+}  // namespace quadloop

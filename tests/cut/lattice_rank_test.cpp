@@ -1,0 +1,48 @@
+// Which of four nodes on one circle is joined to the others: lattice lines decide, then the distance from the
+// centre.
+#include "mesher/cut/lattice_rank.hpp"
+
+#include <gtest/gtest.h>
+
+namespace quadloop {
+namespace {
+
+const Lattice lattice({{0, 0}, {8, 8}}, 1, 1);
+constexpr int finest = 3;  // leaves of edge 1
+
+TEST(LatticeRank, TheCoarserTheLineTheHigher) {
+  const auto rank = [](double x, double y) { return tie_rank(lattice, finest, {x, y}); };
+  EXPECT_GT(rank(4, 4), rank(2, 2));
+  EXPECT_GT(rank(2, 2), rank(1, 1));
+  EXPECT_GT(rank(2, 2), rank(4, 1)) << "the finer one of a node's two lines counts first";
+  EXPECT_GT(rank(4, 1), rank(2, 1));
+  EXPECT_GT(rank(1, 1), rank(1.5, 0.25)) << "a node off the lattice";
+}
+
+TEST(LatticeRank, OfEqualLinesTheFartherFromTheCentre) {
+  EXPECT_GT(tie_rank(lattice, finest, {1, 1}), tie_rank(lattice, finest, {3, 3}));
+  EXPECT_GT(tie_rank(lattice, finest, {1.1, 1}), tie_rank(lattice, finest, {1.2, 1}));
+}
+
+TEST(LatticeRank, MirrorImagesDifferInTheirCoordinatesAlone) {
+  for (const Point p : {Point{1, 2}, Point{4, 8}, Point{0.3, 5}, Point{0.3, 0.7}}) {
+    for (const Point image :
+         {Point{8 - p.x, p.y}, Point{p.x, 8 - p.y}, Point{p.y, p.x}, Point{8 - p.y, p.x}}) {
+      TieRank own = tie_rank(lattice, finest, p), other = tie_rank(lattice, finest, image);
+      EXPECT_TRUE(own != other || p == image);
+      EXPECT_EQ(own.coarser, other.coarser);
+      EXPECT_EQ(own.finer, other.finer);
+      EXPECT_NEAR(own.farther, other.farther, 1e-15);
+      EXPECT_NEAR(own.nearer, other.nearer, 1e-15);
+    }
+  }
+}
+
+TEST(LatticeRank, LinesCountTrailingZeros) {
+  EXPECT_EQ(line_rank(8, 4).coarser, line_rank(4, 8).coarser);
+  EXPECT_GT(line_rank(8, 8), line_rank(8, 4));
+  EXPECT_GT(line_rank(0, 0), line_rank(1 << 20, 1 << 20)) << "the root's own side is the coarsest";
+}
+
+}  // namespace
+}  // namespace quadloop

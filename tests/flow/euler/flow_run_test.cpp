@@ -1,0 +1,212 @@
+// What marching works with: residuals, the place named in a failure, forces of known pressures, colours, the
+// implicit system.
+#include "flow/euler/flow_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "flow/euler/colouring.hpp"
+#include "flow/euler/forces.hpp"
+#include "flow/euler/implicit_system.hpp"
+#include "tests/flow/euler/flow_meshes.hpp"
+#include "tests/mesh/grid_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop::euler {
+namespace {
+
+using test::world;
+
+constexpr int around = 24, outwards = 6;
+constexpr double thickness = 0.4;
+
+/// The flow of Mach 0.5 round an ellipse, on the ranks of a communicator.
+struct RingRun {
+  explicit RingRun(const Communicator& comm = world(), double alpha = 0)
+      : whole{test::ring_mesh(around, outwards, thickness, 8)},
+        mesh{scatter_mesh(comm, whole, space_filling_order(whole))},
+        dual{comm, mesh},
+        options{options_at(alpha)},
+        model{flow_model(comm, mesh, options)},
+        residual{dual, model, options},
+        states(dual.nodes(), model.free_stream),
+        run{comm, options, dual, model, residual, states} {}
+  static EulerOptions options_at(double alpha) {
+    EulerOptions options;
+    options.mach = 0.5;
+    options.alpha = alpha;
+    return options;
+  }
+  /// Every node's pressure, copies too.
+  template <class Pressure>
+  void set_pressure(const Pressure& pressure) {
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(dual.nodes()); ++node)
+      states[node][3] = pressure(dual.point(node));
+  }
+  ForceCoefficients forces(double length = 1) const {
+    return wall_forces(run.comm, dual, model, states, length);
+  }
+
+  Mesh whole, mesh;
+  DualMesh dual;
+  EulerOptions options;
+  FlowModel model;
+  Residual residual;
+  std::vector<State> states;
+  FlowRun run;
+};
+
+/// Of the polygon whose corners are the body's nodes.
+double body_area() {
+  const Mesh mesh = test::ring_mesh(around, outwards, thickness, 8);
+  double twice = 0;
+  for (int i = 0; i < around; ++i)
+    twice += cross(mesh.point(NodeId{i}), mesh.point(NodeId{(i + 1) % around}));
+  return twice / 2;
+}
+
+TEST(WallForces, OfTheFreeStreamsPressureAreNone) {
+  const ForceCoefficients none = RingRun().forces();
+  EXPECT_NEAR(none.cl, 0, 1e-15);
+  EXPECT_NEAR(none.cd, 0, 1e-15);
+}
+
+TEST(WallForces, OfALinearPressureAreArchimedes) {
+  RingRun ring;
+  const double dynamic = 0.5 * 0.25;
+  ring.set_pressure([](Point p) { return 1 - 0.3 * p.y; });
+  EXPECT_NEAR(ring.forces().cl, 0.3 * body_area() / dynamic, 1e-12);
+  EXPECT_NEAR(ring.forces().cd, 0, 1e-12);
+  ring.set_pressure([](Point p) { return 1 - 0.3 * p.x; });
+  EXPECT_NEAR(ring.forces().cd, 0.3 * body_area() / dynamic, 1e-12);
+  EXPECT_NEAR(ring.forces(2).cd, 0.15 * body_area() / dynamic, 1e-12) << "by the reference length";
+}
+
+TEST(WallForces, AreMeasuredAcrossAndAlongTheFreeStream) {
+  RingRun level, climbing(world(), 90);
+  level.set_pressure([](Point p) { return 1 - 0.3 * p.x; });
+  climbing.set_pressure([](Point p) { return 1 - 0.3 * p.x; });
+  EXPECT_NEAR(climbing.forces().cl, -level.forces().cd, 1e-12);
+  EXPECT_NEAR(climbing.forces().cd, 0, 1e-12);
+}
+
+TEST(WallForces, AreNoneWhereTheFreeStreamRests) {
+  RingRun ring;
+  ring.model.free_stream[1] = ring.model.free_stream[2] = 0;
+  ring.set_pressure([](Point p) { return 1 - p.x; });
+  EXPECT_EQ(ring.forces().cd, 0);
+}
+
+TEST(MassResidual, IsTheRootMeanSquareOverAllRanks) {
+  const RingRun ring;
+  std::vector<Flux> fluxes(ring.dual.nodes(), Flux{-3, 7, 7, 7});
+  EXPECT_EQ(mass_residual(ring.run, fluxes), 3);
+  for (std::int32_t node = 0; node < ring.dual.owned_nodes(); ++node)
+    fluxes[node][0] = ring.dual.global(node).value() % 2 == 0 ? 4 : 0;
+  EXPECT_NEAR(mass_residual(ring.run, fluxes), std::sqrt(8), 1e-14);
+}
+
+TEST(MassResidual, IsNoNumberWhereAnyIsNone) {
+  const RingRun ring;
+  std::vector<Flux> fluxes(ring.dual.nodes(), Flux{1, 0, 0, 0});
+  for (std::int32_t node = 0; node < ring.dual.owned_nodes(); ++node) {
+    if (ring.dual.global(node) == GlobalNodeId{5}) fluxes[node][0] = std::numeric_limits<double>::quiet_NaN();
+  }
+  EXPECT_FALSE(std::isfinite(mass_residual(ring.run, fluxes)));
+}
+
+TEST(WorstPlace, IsThatOfTheLargestFluxOrTheFirstThatIsNone) {
+  RingRun ring;
+  std::vector<Flux> fluxes(ring.dual.nodes(), Flux{1, 0, 0, 0});
+  const auto set = [&](std::int64_t number, double flux, double density) {
+    for (std::int32_t node = 0; node < ring.dual.owned_nodes(); ++node) {
+      if (ring.dual.global(node).value() != number) continue;
+      fluxes[node][0] = flux;
+      ring.states[node][0] = density;
+    }
+  };
+  set(9, -5, 0.125);
+  EXPECT_NE(worst_place(ring.run, fluxes).find("density is 0.125,"), std::string::npos);
+  set(40, std::numeric_limits<double>::quiet_NaN(), 0.25);
+  set(30, std::numeric_limits<double>::infinity(), 0.5);
+  EXPECT_NE(worst_place(ring.run, fluxes).find("density is 0.5,"), std::string::npos) << "the lower number";
+}
+
+TEST(ColourEdges, NoEdgeJoinsTwoOfOneColour) {
+  const RingRun ring;
+  const Colouring colours = colour_edges(world(), ring.dual);
+  for (const DualEdge& edge : ring.dual.edges()) {
+    EXPECT_NE(colours.colour_of[NodeId{edge.low}], colours.colour_of[NodeId{edge.high}]);
+    EXPECT_GE(colours.colour_of[NodeId{edge.low}], 0);
+  }
+  EXPECT_LE(colours.count, 5);
+}
+
+std::vector<Flux> made_up_residual(const DualMesh& mesh) {
+  std::vector<Flux> residual(mesh.nodes());
+  for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh.nodes()); ++node) {
+    for (int k = 0; k < 4; ++k) residual[node][k] = 0.01 * test::scattered(11, mesh.global(node).value(), k);
+  }
+  return residual;
+}
+
+std::vector<Change> relaxed(const RingRun& ring, double cfl, int sweeps, double scale = 1) {
+  ImplicitSystem system(ring.run.comm, ring.dual, ring.model);
+  system.assemble(ring.states, cfl, std::vector<double>(ring.dual.owned_nodes(), 1));
+  std::vector<Flux> residual = made_up_residual(ring.dual);
+  for (Flux& flux : residual) {
+    for (double& part : flux) part *= scale;
+  }
+  std::vector<Change> change(ring.dual.nodes());
+  system.relax(residual, sweeps, change);
+  change.resize(ring.dual.owned_nodes());
+  return change;
+}
+
+TEST(ImplicitSystem, HasTheSameBitsOnAnyNumberOfRanks) {
+  const Communicator self(MPI_COMM_SELF);
+  const RingRun together, alone(self);
+  const auto part = relaxed(together, 20, 5), whole = relaxed(alone, 20, 5);
+  for (std::size_t i = 0; i < part.size(); ++i) EXPECT_EQ(part[i], whole[together.mesh.first_node + i]);
+}
+
+TEST(ImplicitSystem, IsLinear) {
+  const RingRun ring;
+  const auto once = relaxed(ring, 20, 5), twice = relaxed(ring, 20, 5, 2);
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(twice[i][k], 2 * once[i][k]);
+  }
+  for (const Change& change : relaxed(ring, 20, 3, 0)) EXPECT_EQ(change, Change{});
+}
+
+/// Of a tiny time step the change goes against the residual, and every sweep finds it.
+TEST(ImplicitSystem, ASmallStepIsAnExplicitOne) {
+  const RingRun ring;
+  const auto once = relaxed(ring, 1e-6, 1), often = relaxed(ring, 1e-6, 8);
+  const auto residual = made_up_residual(ring.dual);
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_NEAR(once[i][k], often[i][k], 1e-4F * std::abs(often[i][k]) + 1e-12F);
+      EXPECT_LE(often[i][k] * residual[i][k], 0);
+    }
+  }
+}
+
+TEST(ImplicitSystem, SweepsConverge) {
+  const RingRun ring;
+  const auto distance = [](const std::vector<Change>& a, const std::vector<Change>& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      for (std::size_t k = 0; k < 4; ++k) largest = std::max(largest, std::abs(1.0 * a[i][k] - b[i][k]));
+    }
+    return world().maximum(largest);
+  };
+  const auto solved = relaxed(ring, 5, 200);
+  EXPECT_LT(distance(relaxed(ring, 5, 20), solved), 0.1 * distance(relaxed(ring, 5, 2), solved));
+  EXPECT_LT(distance(relaxed(ring, 5, 100), solved), 1e-6);
+}
+
+}  // namespace
+}  // namespace quadloop::euler

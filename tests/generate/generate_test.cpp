@@ -1,0 +1,146 @@
+// Meshing and smoothing in one, and the numbers that tell meshes and cases apart.
+#include "mesher/generate/generate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "mesher/generate/digests.hpp"
+#include "mesher/mesh/check/delaunay_check.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+/// A box round a disc of void.
+MeshInput disc_in_box() {
+  std::vector<Point> points{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  std::vector<BoundaryId> boundary(4, BoundaryId{0});
+  for (int i = 0; i < 60; ++i) {
+    const double angle = -2 * std::numbers::pi * i / 60;
+    points.push_back({0.1 + 0.4 * std::cos(angle), 0.05 + 0.4 * std::sin(angle)});
+    boundary.push_back(BoundaryId{1});
+  }
+  MeshInput input{
+      {{{"box", 0.25, 30, "none"}, {"disc", 0.06, 30, "wall"}}, points, {0, 4, 64}, boundary}, {}, {}, 0};
+  input.mesh.size.min = 0.03;
+  input.mesh.size.max = 0.25;
+  input.smooth.sweeps = 5;
+  input.digest = case_digest(input.mesh);
+  return input;
+}
+
+TEST(Generate, SmoothsWhatItHasMeshed) {
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    MeshInput input = disc_in_box();
+    input.mesh.type = type;
+    const MeshResult unsmoothed = build_mesh(world(), input.geometry, input.mesh);
+    const GeneratedMesh made = generate_mesh(world(), input);
+    const QualitySummary before = summarise_quality(world(), unsmoothed.mesh);
+    const QualitySummary after = summarise_quality(world(), made.result.mesh);
+    EXPECT_GT(after.smallest_degrees, before.smallest_degrees);
+    EXPECT_EQ(after.counts.nodes, before.counts.nodes);
+    EXPECT_EQ(made.times.stages().back().first, "smooth");
+    EXPECT_EQ(made.times.stages().size(), made.result.report.times.stages().size() + 1);
+    EXPECT_EQ(made.result.tree.attributes.coordinate_digest, coordinate_digest(world(), made.result.mesh));
+    EXPECT_EQ(made.result.tree.attributes.case_digest, input.digest);
+    std::int64_t of_leaves = 0;
+    for (const LeafRecord& leaf : made.result.tree.leaves) of_leaves += leaf.triangles;
+    EXPECT_EQ(world().sum(of_leaves), made.result.tree.attributes.triangles) << "flips are counted";
+    const Mesh whole = gather_whole(world(), made.result.mesh);
+    if (!world().is_root()) continue;
+    EXPECT_TRUE(validate(whole).empty());
+    EXPECT_EQ(is_delaunay(whole), type == MeshType::delaunay);
+  }
+}
+
+TEST(Generate, WithoutSweepsTheMeshIsAsItWasCut) {
+  MeshInput input = disc_in_box();
+  input.smooth.sweeps = 0;
+  EXPECT_EQ(generate_mesh(world(), input).result.mesh.points,
+            build_mesh(world(), input.geometry, input.mesh).mesh.points);
+}
+
+TEST(Generate, QuadsThatAreSkewAfterSmoothingAreDivided) {
+  MeshInput input = disc_in_box();
+  input.mesh.quads = QuadChoice::parallel;
+  const MeshResult made = generate_mesh(world(), input).result;
+  for (const auto& quad : made.mesh.quads) {
+    std::array<Point, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = made.mesh.point(quad[k]);
+    EXPECT_LE(skew_of(corners), parallel_skew);
+  }
+  EXPECT_GT(made.tree.attributes.quads, 0);
+  EXPECT_EQ(made.tree.attributes.quads, world().sum(std::ssize(made.mesh.quads)));
+}
+
+TEST(Generate, IsTheSameOnAnyNumberOfRanks) {
+  const Communicator self(MPI_COMM_SELF);
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    MeshInput input = disc_in_box();
+    input.mesh.type = type;
+    EXPECT_EQ(generate_mesh(world(), input).result.tree.attributes.coordinate_digest,
+              generate_mesh(self, input).result.tree.attributes.coordinate_digest);
+  }
+}
+
+TEST(Digests, ChangeWithEverySetting) {
+  std::set<std::uint64_t> seen;
+  const auto see = [&](const std::function<void(MeshOptions&)>& change) {
+    MeshOptions options = disc_in_box().mesh;
+    change(options);
+    EXPECT_TRUE(seen.insert(case_digest(options)).second) << seen.size();
+  };
+  see([](MeshOptions&) {});
+  see([](MeshOptions& o) { o.type = MeshType::delaunay; });
+  see([](MeshOptions& o) { o.quads = QuadChoice::parallel; });
+  see([](MeshOptions& o) { o.size.min *= 2; });
+  see([](MeshOptions& o) { o.size.max *= 2; });
+  see([](MeshOptions& o) { o.size.gradation = 2; });
+  see([](MeshOptions& o) { o.size.curvature = 0; });
+  see([](MeshOptions& o) { o.size.gap = 0; });
+  see([](MeshOptions& o) { o.snap = 0.3; });
+  see([](MeshOptions& o) { o.size.root = RootOptions{{0, 0}, 1, 1, 2}; });
+  see([](MeshOptions& o) { o.size.root = RootOptions{{0, 0}, 1, 2, 1}; });
+  see([](MeshOptions& o) { o.size.sources = {{Box{{0, 0}, {1, 1}}, 1}}; });
+  see([](MeshOptions& o) { o.size.sources = {{Source::Line{{0, 0}, {1, 1}}, 1}}; });
+  see([](MeshOptions& o) { o.size.sources = {{Source::Disc{{0, 0}, 1}, 1}}; });
+  see([](MeshOptions& o) { o.size.sources = {{Box{{0, 0}, {1, 1}}, 1}, {Box{{0, 0}, {1, 1}}, 1}}; });
+}
+
+TEST(Digests, DoNotChangeWithWhatTheMeshDoesNotDependOn) {
+  MeshOptions options = disc_in_box().mesh, other = options;
+  other.limit.cells = 1e9;
+  other.size.sources = options.size.sources = {{Box{{0, 0}, {1, 1}}, 1, "a"}};
+  other.size.sources[0].where = "b";
+  EXPECT_EQ(case_digest(options), case_digest(other));
+}
+
+TEST(Digests, OfCoordinatesTellOrderAndBitsButNotTheSignOfZero) {
+  Mesh mesh;
+  for (const Point p : {Point{0, 1}, Point{2, 3}}) mesh.points.push_back(p);
+  mesh.owned_nodes = 2;
+  Mesh swapped = mesh, signed_zero = mesh, nudged = mesh;
+  std::swap(swapped.points.begin()[0], swapped.points.begin()[1]);
+  signed_zero.points.begin()->x = -0.0;
+  nudged.points.begin()->y = std::nextafter(1.0, 2.0);
+  EXPECT_NE(digest_of_owned(mesh), digest_of_owned(swapped));
+  EXPECT_EQ(digest_of_owned(mesh), digest_of_owned(signed_zero));
+  EXPECT_NE(digest_of_owned(mesh), digest_of_owned(nudged));
+}
+
+TEST(Digests, OfTextsTellLengths) {
+  EXPECT_EQ(text_digest("abc"), text_digest("abc"));
+  EXPECT_NE(text_digest(""), text_digest(std::string(1, '\0')));
+  EXPECT_NE(text_digest("ab"), text_digest("ba"));
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,84 @@
+// Ends that rounding has parted are joined; no others are.
+#include "mesher/geometry/assemble/rounded_ends.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace quadloop {
+namespace {
+
+/// The smallest step up from a coordinate of size 1, so many times.
+double ulps(int count) { return count * std::numeric_limits<double>::epsilon(); }
+
+Chain chain(bool open, std::vector<Point> points) { return {"wall", open, std::move(points), "file:1"}; }
+
+struct Repaired {
+  explicit Repaired(std::vector<Chain> given) : chains{std::move(given)} {
+    join_rounded_ends(chains, warnings);
+  }
+  std::vector<Chain> chains;
+  std::vector<std::string> warnings;
+};
+
+TEST(RoundedEnds, TheLaterEndMovesOntoTheEarlier) {
+  const Repaired both({chain(true, {{0, 0}, {1, 0}}), chain(true, {{1 + ulps(5), ulps(9)}, {0.5, 0.5}})});
+  EXPECT_EQ(both.chains[0].points, (std::vector<Point>{{0, 0}, {1, 0}}));
+  EXPECT_EQ(both.chains[1].points, (std::vector<Point>{{1, 0}, {0.5, 0.5}}));
+  EXPECT_EQ(both.warnings.size(), 1U);
+}
+
+TEST(RoundedEnds, WhatIsFartherApartStays) {
+  for (const double gap : {ulps(17), ulps(1000)}) {
+    const Repaired apart({chain(true, {{0, 0}, {1, 0}}), chain(true, {{1, gap}, {0.5, 0.5}})});
+    EXPECT_EQ(apart.chains[1].points.front(), (Point{1, gap}));
+    EXPECT_TRUE(apart.warnings.empty());
+  }
+}
+
+TEST(RoundedEnds, RoundingGrowsWithTheLargestCoordinate) {
+  const Repaired both({chain(true, {{0, 0}, {1, 0}}), chain(true, {{1, ulps(1000)}, {100, 0.5}})});
+  EXPECT_EQ(both.chains[1].points.front(), (Point{1, 0}));
+  const Repaired infinite({chain(true, {{0, 0}, {1, 0}}),
+                           chain(true, {{1, ulps(1000)}, {std::numeric_limits<double>::infinity(), 0.5}})});
+  EXPECT_EQ(infinite.chains[1].points.front(), (Point{1, ulps(1000)}))
+      << "it is refused later, and is no measure";
+}
+
+TEST(RoundedEnds, ThreeEndsAreNotGuessedAt) {
+  const std::vector<Chain> given{chain(true, {{0, 0}, {1, 0}}), chain(true, {{1, ulps(2)}, {0, 1}}),
+                                 chain(true, {{1, ulps(4)}, {0.5, 1}})};
+  const Repaired three(given);
+  for (std::size_t c = 0; c < given.size(); ++c) EXPECT_EQ(three.chains[c].points, given[c].points);
+  EXPECT_TRUE(three.warnings.empty());
+}
+
+TEST(RoundedEnds, AnEndThatMeetsAnotherExactlyIsNotLoose) {
+  const Repaired met(
+      {chain(true, {{0, 0}, {1, 0}}), chain(true, {{1, 0}, {1, 1}}), chain(true, {{1, ulps(2)}, {0, 1}})});
+  EXPECT_EQ(met.chains[2].points.front(), (Point{1, ulps(2)}));
+}
+
+TEST(RoundedEnds, AChainClosesOnItselfUnlessTwoPointsWouldRemain) {
+  const Repaired loop({chain(true, {{0, 0}, {1, 0}, {0, 1}, {ulps(1), ulps(1)}})});
+  EXPECT_EQ(loop.chains[0].points.back(), (Point{0, 0}));
+  const Repaired flat({chain(true, {{0, 0}, {1, 0}, {ulps(1), ulps(1)}})});
+  EXPECT_EQ(flat.chains[0].points.back(), (Point{ulps(1), ulps(1)}));
+}
+
+TEST(RoundedEnds, PointsTooNearToTheOneBeforeAreDropped) {
+  const Repaired closed({chain(false, {{0, 0}, {1, 0}, {1, ulps(3)}, {0, 1}, {0, ulps(1)}, {ulps(2), 0}})});
+  EXPECT_EQ(closed.chains[0].points, (std::vector<Point>{{0, 0}, {1, 0}, {0, 1}}));
+  EXPECT_EQ(closed.warnings.size(), 1U);
+  const Repaired open({chain(true, {{0, 0}, {0, ulps(2)}, {1, 0}, {1, ulps(3)}})});
+  EXPECT_EQ(open.chains[0].points, (std::vector<Point>{{0, 0}, {1, ulps(3)}})) << "ends stay";
+}
+
+TEST(RoundedEnds, NothingIsWellWithNothing) {
+  EXPECT_TRUE(Repaired({}).warnings.empty());
+  EXPECT_TRUE(Repaired({chain(true, {}), chain(false, {{1, 1}})}).warnings.empty());
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,95 @@
+// Names and elements as CGNS has them. On one rank alone.
+#include "io/cgns/cgns_names.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "io/cgns/cgns_bars.hpp"
+
+namespace quadloop {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(CgnsNames, AreShortDistinctAndWithoutSlashes) {
+  const std::string of_40(40, 'a');
+  const Names names{"wall", "wall", "a/b", "a_b", of_40, of_40 + "x", "", "ZoneBC", "TRI_3", "domain", ".."};
+  const Names found = cgns_boundary_names(names);
+  ASSERT_EQ(found.size(), names.size());
+  std::set<std::string> distinct(found.begin(), found.end());
+  EXPECT_EQ(distinct.size(), names.size());
+  for (const std::string& name : found) {
+    EXPECT_LE(name.size(), 32U);
+    EXPECT_EQ(name.find('/'), std::string::npos);
+    EXPECT_FALSE(name.empty());
+  }
+  EXPECT_EQ(found[0], "wall");
+  EXPECT_EQ(found[1], "wall_2");
+  EXPECT_EQ(found[2], "a_b");
+  EXPECT_EQ(found[3], "a_b_2");
+  EXPECT_EQ(found[5], std::string(30, 'a') + "_2");
+  EXPECT_NE(found[7], "ZoneBC");
+  EXPECT_EQ(cgns_boundary_names(names), found);
+}
+
+TEST(CgnsNames, AreNotCutInsideACharacter) {
+  const std::string name = std::string(31, 'a') + "\xC3\xA9";
+  EXPECT_EQ(cgns_boundary_names({name})[0], std::string(31, 'a'));
+  EXPECT_EQ(cgns_boundary_names({std::string(30, 'a') + "\xC3\xA9"})[0], std::string(30, 'a') + "\xC3\xA9");
+}
+
+TEST(CgnsNames, ManyOfOneNameStayDistinct) {
+  const Names found = cgns_boundary_names(Names(1200, std::string(40, 'b')));
+  EXPECT_EQ(std::set<std::string>(found.begin(), found.end()).size(), 1200U);
+  EXPECT_EQ(found.back(), std::string(27, 'b') + "_1200");
+}
+
+TEST(CgnsNames, VariablesHaveTheirNamesInTheStandard) {
+  const Names ours{"density", "x_velocity", "entropy", "Density"};
+  const Names found = cgns_variable_names(ours);
+  EXPECT_EQ(found, (Names{"Density", "VelocityX", "entropy", "Density_2"}));
+  EXPECT_EQ(variable_name_of_cgns("VelocityX"), "x_velocity");
+  EXPECT_EQ(variable_name_of_cgns("Entropy"), "Entropy");
+}
+
+TEST(CgnsNames, ConditionsComeBack) {
+  for (const char* condition : {"wall", "farfield", "inflow", "outflow", "symmetry"})
+    EXPECT_EQ(condition_of_cgns(cgns_condition(condition)), condition);
+  EXPECT_EQ(condition_of_cgns(cgns_condition("interface")), "none");
+  EXPECT_EQ(condition_of_cgns(-3), "none");
+}
+
+using Edge = CgnsBars::Edge;
+constexpr Edge edge(std::int32_t number) { return {NodeId{number}, NodeId{number + 1}}; }
+
+TEST(CgnsBars, AreTakenOnceEach) {
+  CgnsBars bars;
+  bars.begin_section("one");
+  bars.add(7, edge(7));
+  bars.add(5, edge(5));
+  bars.begin_section("empty");
+  bars.begin_section("two");
+  bars.add(5, edge(50));  // a number that stands twice
+  bars.add(9, edge(9));
+  bars.sort();
+  EXPECT_EQ(bars.size(), 4U);
+  EXPECT_EQ(bars.take(5), edge(5));
+  EXPECT_EQ(bars.take(5), edge(50));
+  EXPECT_EQ(bars.take(5), std::nullopt);
+  EXPECT_EQ(bars.take(6), std::nullopt);
+  EXPECT_EQ(bars.take(10), std::nullopt);
+  std::vector<std::pair<std::string, Edge>> left;
+  bars.for_each_left([&](const std::string& section, const Edge& e) { left.emplace_back(section, e); });
+  EXPECT_EQ(left, (std::vector<std::pair<std::string, Edge>>{{"one", edge(7)}, {"two", edge(9)}}));
+}
+
+TEST(CgnsBars, MayBeNone) {
+  CgnsBars bars;
+  bars.sort();
+  EXPECT_EQ(bars.take(1), std::nullopt);
+  bars.for_each_left([](const std::string&, const Edge&) { FAIL(); });
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,159 @@
+#include "io/gis/ogr_reader.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/gis/gis_formats.hpp"
+#include "io/input/geometry_file.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
+#include "tests/io/input/temporary_file.hpp"
+
+namespace quadloop {
+namespace {
+
+class OgrReader : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { add_gis_formats(); }
+  std::vector<Chain> read(const std::string& name, const std::string& text) {
+    return read_ogr(folder_.write(name, text), warnings_);
+  }
+
+  test::InputFolder folder_;
+  std::vector<std::string> warnings_;
+};
+
+std::string feature(const std::string& properties, const std::string& type, const std::string& coordinates) {
+  return fmt::format(
+      R"({{"type":"Feature","properties":{{{}}},"geometry":{{"type":"{}","coordinates":{}}}}})", properties,
+      type, coordinates);
+}
+
+std::string collection(const std::string& features) {
+  return R"({"type":"FeatureCollection","features":[)" + features + "]}";
+}
+
+TEST_F(OgrReader, ReadsLinesAndPolygonsOfGeojson) {
+  const std::string line = feature(R"("name":"coast line")", "LineString", "[[0,0],[1,0],[1,1]]");
+  const std::string loop = feature(R"("boundary":"island")", "LineString", "[[5,5],[6,5],[6,6],[5,5]]");
+  const std::string polygon =
+      feature(R"("name":"lake")", "Polygon", "[[[0,0],[9,0],[9,9],[0,0]],[[2,1],[3,1],[3,2],[2,1]]]");
+  const std::string many =
+      feature("", "MultiPolygon", "[[[[0,0],[9,0],[9,9],[0,0]]],[[[20,0],[29,0],[29,9],[20,0]]]]");
+  const std::string dot = feature(R"("name":"buoy")", "Point", "[1,1]");
+  const auto chains =
+      read("a.geojson", collection(line + "," + loop + "," + polygon + "," + many + "," + dot));
+  ASSERT_EQ(chains.size(), 6u);
+  EXPECT_EQ(chains[0].name, "coast_line");
+  EXPECT_TRUE(chains[0].open);
+  EXPECT_EQ(chains[1].name, "island");
+  EXPECT_FALSE(chains[1].open);
+  EXPECT_EQ(chains[1].points.size(), 3u) << "the first point is not repeated";
+  EXPECT_EQ(chains[2].name, "lake");
+  EXPECT_EQ(chains[3].name, "lake");
+  EXPECT_EQ(chains[4].name, "a") << "named by the layer";
+  ASSERT_EQ(warnings_.size(), 2u);
+  EXPECT_NE(warnings_[1].find("left out 1"), std::string::npos);
+}
+
+TEST_F(OgrReader, WarnsOfDegrees) {
+  const std::string isle = feature("", "Polygon", "[[[10,59],[11,59],[11,61],[10,59]]]");
+  read("fjord.geojson", collection(isle));
+  ASSERT_EQ(warnings_.size(), 1u);
+  for (const char* piece :
+       {"fjord.geojson: its coordinates are degrees", "at latitude 60.0", "0.50 of one along y",
+        "ogr2ogr -t_srs EPSG:32632 projected.gpkg fjord.geojson"}) {
+    EXPECT_NE(warnings_[0].find(piece), std::string::npos) << piece << " in " << warnings_[0];
+  }
+  warnings_.clear();
+  const std::string projected = R"("crs":{"type":"name","properties":{"name":"EPSG:32632"}},)";
+  read("fjord.geojson", R"({"type":"FeatureCollection",)" + projected + R"("features":[)" + isle + "]}");
+  EXPECT_TRUE(warnings_.empty()) << warnings_.front();
+  read("metres.geojson", collection(feature("", "Polygon", "[[[0,0],[900,0],[900,900],[0,0]]]")));
+  EXPECT_TRUE(warnings_.empty()) << warnings_.front();
+}
+
+std::string dxf_line(const std::string& layer, double x0, double y0, double x1, double y1) {
+  return fmt::format("  0\nLINE\n  8\n{}\n 10\n{}\n 20\n{}\n 30\n0.0\n 11\n{}\n 21\n{}\n 31\n0.0\n", layer,
+                     x0, y0, x1, y1);
+}
+
+TEST_F(OgrReader, ReadsDxfLinesByLayer) {
+  const std::string text = "  0\nSECTION\n  2\nENTITIES\n" + dxf_line("wall", 0, 0, 1, 0) +
+                           dxf_line("wall", 1, 1, 1, 0) + dxf_line("inlet", 0, 0, 1, 1) +
+                           "  0\nENDSEC\n  0\nEOF\n";
+  const auto chains = read("a.dxf", text);
+  ASSERT_EQ(chains.size(), 3u);
+  EXPECT_EQ(chains[0].name, "wall");
+  EXPECT_EQ(chains[2].name, "inlet");
+  Warnings warnings;
+  const Geometry geometry = assemble(chains, {}, warnings);
+  EXPECT_EQ(geometry.size(), 3);
+  EXPECT_EQ(geometry.boundaries().size(), 2u);
+}
+
+std::string dxf_arc(const std::string& layer, double x, double y, double radius, double from, double to) {
+  return fmt::format("  0\nARC\n  8\n{}\n 10\n{}\n 20\n{}\n 40\n{}\n 50\n{}\n 51\n{}\n", layer, x, y, radius,
+                     from, to);
+}
+
+std::string dxf_of(const std::string& entities) {
+  return "  0\nSECTION\n  2\nENTITIES\n" + entities + "  0\nENDSEC\n  0\nEOF\n";
+}
+
+void expect_joined(const std::vector<Chain>& chains, std::size_t boundaries) {
+  Warnings warnings;
+  const Geometry geometry = assemble(chains, {}, warnings);
+  ASSERT_EQ(geometry.loop_count(), 1);
+  EXPECT_EQ(geometry.boundaries().size(), boundaries);
+  for (std::int32_t v = 0; v < geometry.size(); ++v)
+    EXPECT_GT(length(geometry.point(geometry.next(v)) - geometry.point(v)), 1e-3);
+  const bool told = std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) {
+    return w.find("differed by rounding") < w.size();
+  });
+  EXPECT_TRUE(told) << fmt::format("{}", fmt::join(warnings, "; "));
+}
+
+TEST_F(OgrReader, JoinsDxfArcsWhoseEndsDifferByRounding) {
+  const std::string slot = dxf_line("wall", 0.1, 0.3, 2.1, 0.3) + dxf_arc("end", 2.1, 0.8, 0.5, 270, 90) +
+                           dxf_line("wall", 2.1, 1.3, 0.1, 1.3) + dxf_arc("end", 0.1, 0.8, 0.5, 90, 270);
+  expect_joined(read("a.dxf", dxf_of(slot)), 2);
+  expect_joined(
+      read("b.dxf", dxf_of(dxf_arc("a", 0.3, 0.7, 1.1, 10, 200) + dxf_arc("b", 0.3, 0.7, 1.1, 200, 10))), 2);
+}
+
+TEST_F(OgrReader, ClosesADxfPolylineOfArcs) {  // bulges of 1: half circles
+  const std::string slot =
+      "  0\nLWPOLYLINE\n  8\nslot\n 90\n4\n 70\n1\n 10\n0.1\n 20\n0.3\n 10\n2.1\n 20\n0.3\n 42\n1\n "
+      "10\n2.1\n 20\n1.3\n 10\n0.1\n 20\n1.3\n 42\n1\n";
+  expect_joined(read("a.dxf", dxf_of(slot)), 1);
+}
+
+TEST_F(OgrReader, RefusesWhatItCannotRead) {
+  EXPECT_EQ(
+      test::refusal(folder_, [&] { read("a.geojson", "{ nonsense"); }).find("a.geojson: cannot be read"), 0u);
+  EXPECT_EQ(
+      test::refusal(folder_, [&] { read("a.geojson", collection("")); }).find("a.geojson: holds no lines"),
+      0u);
+  EXPECT_EQ(test::refusal(folder_, [&] { read("a.shp", "x"); }).find("a.shp: cannot be read"), 0u);
+  EXPECT_EQ(test::refusal(folder_, [&] { read("a.gpkg", ""); }).find("a.gpkg: cannot be read"), 0u);
+}
+
+TEST_F(OgrReader, ReadsTheGulfAsItsGeomTwin) {
+  const std::string stem = QUADLOOP_SOURCE_DIR "/../shared/data/gulf_of_mexico_coarse";
+  if (!std::filesystem::exists(stem + ".geojson")) GTEST_SKIP() << "the data folder is not here";
+  const auto twin = read_geometry(stem + ".geom", warnings_),
+             chains = read_geometry(stem + ".geojson", warnings_);
+  ASSERT_EQ(chains.size(), twin.size());
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    EXPECT_EQ(chains[i].name, twin[i].name);
+    EXPECT_EQ(chains[i].open, twin[i].open);
+    EXPECT_EQ(chains[i].points.size(), twin[i].points.size());
+  }
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,149 @@
+// Which records are trees that a mesh can have.
+#include "io/tree/tree_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "io/tree/tree_file.hpp"
+#include "mesher/base/error.hpp"
+#include "tests/io/sample_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+constexpr std::int32_t edge = std::int32_t{1} << 30;
+
+/// A leaf of the unit tree by its column and row on its level.
+LeafRecord leaf(int level, std::int32_t column, std::int32_t row) {
+  LeafRecord record;
+  record.level = record.wanted = static_cast<std::int8_t>(level);
+  record.x = column * (edge >> level);
+  record.y = row * (edge >> level);
+  record.block = 1;
+  record.quads = 1;
+  return record;
+}
+
+/// Two trees side by side, the first in seven leaves, the second whole; along the curve.
+std::vector<LeafRecord> leaves() {
+  std::vector<LeafRecord> all{leaf(1, 0, 0), leaf(2, 2, 0), leaf(2, 3, 0), leaf(2, 2, 1),
+                              leaf(2, 3, 1), leaf(1, 0, 1), leaf(1, 1, 1)};
+  all.push_back(leaf(0, 0, 0));
+  all.back().tree_x = 1;
+  return all;
+}
+
+/// What is said of the leaves, shared out over the ranks.
+std::string fault_of(const std::vector<LeafRecord>& all,
+                     const std::function<void(TreeAttributes&)>& change = {}) {
+  TreeRecord tree;
+  tree.attributes.trees_x = 2;
+  tree.attributes.tree_edge = 1;
+  tree.attributes.quads = 8;
+  if (change) change(tree.attributes);
+  const std::size_t begin = all.size() * world().rank() / world().size(),
+                    end = all.size() * (world().rank() + 1) / world().size();
+  tree.leaves.assign(all.begin() + static_cast<std::ptrdiff_t>(begin),
+                     all.begin() + static_cast<std::ptrdiff_t>(end));
+  try {
+    require_whole_tree(world(), tree, begin > 0 ? std::optional(all[begin - 1]) : std::nullopt, "a.tree.h5");
+    return {};
+  } catch (const InputError& fault) {
+    return fault.what();
+  }
+}
+
+void expect_fault(const std::string& says, const std::function<void(std::vector<LeafRecord>&)>& change) {
+  std::vector<LeafRecord> changed = leaves();
+  change(changed);
+  const std::string fault = fault_of(changed);
+  EXPECT_TRUE(fault.starts_with("a.tree.h5: ") && fault.find(says) != std::string::npos)
+      << says << ": " << fault;
+}
+
+TEST(WholeTree, IsWhole) { EXPECT_EQ(fault_of(leaves()), ""); }
+
+TEST(WholeTree, LeavesFollowEachOtherAlongTheCurve) {
+  expect_fault("does not follow", [](auto& all) { all.erase(all.begin() + 2); });
+  expect_fault("does not follow", [](auto& all) { std::swap(all[1], all[3]); });
+  expect_fault("does not follow", [](auto& all) { all.insert(all.begin() + 5, all[5]); });
+  expect_fault("does not follow", [](auto& all) { all.erase(all.begin() + 6); });  // the tree ends early
+  expect_fault("does not follow", [](auto& all) { all.erase(all.begin()); });
+  expect_fault("have 1 trees, where 2", [](auto& all) { all.pop_back(); });
+  expect_fault("have 1 whole trees, where 2", [](auto& all) {
+    all.back() = leaf(1, 0, 0);
+    all.back().tree_x = 1;
+  });
+}
+
+TEST(WholeTree, EachLeafIsPossible) {
+  expect_fault("is in none of the trees", [](auto& all) { all[7].tree_x = 2; });
+  expect_fault("is in none of the trees", [](auto& all) { all[0].tree_y = -1; });
+  expect_fault("has an impossible level", [](auto& all) { all[1].level = -1; });
+  expect_fault("lies beside the lattice", [](auto& all) { all[1].x += 1; });
+  expect_fault("is coarser than its wanted level 3", [](auto& all) { all[1].wanted = 3; });
+  expect_fault("has splits below itself ('adapted' is 0x4)", [](auto& all) { all[1].adapted = 4; });
+  expect_fault("below 0", [](auto& all) { all[1].triangles = -1; });
+  expect_fault("is outside the domain, but has cells", [](auto& all) { all[1].block = 0; });
+}
+
+TEST(WholeTree, CellsAreAsManyAsAreSaid) {
+  EXPECT_NE(fault_of(leaves(), [](TreeAttributes& a) { a.quads = 9; }).find("have 8 quadrilaterals, where 9"),
+            std::string::npos);
+  EXPECT_NE(fault_of(leaves(), [](TreeAttributes& a) { a.triangles = 1; }).find("have 0 triangles, where 1"),
+            std::string::npos);
+}
+
+TEST(TreeAttributes, ArePossible) {
+  const auto fault = [](const std::function<void(TreeAttributes&)>& change) -> std::string {
+    TreeAttributes attributes;
+    attributes.tree_edge = 1;
+    change(attributes);
+    try {
+      require_possible_attributes(attributes, 4, "a.tree.h5");
+      return {};
+    } catch (const InputError& refusal) {
+      return refusal.what();
+    }
+  };
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(fault([](TreeAttributes&) {}), "");
+  EXPECT_EQ(fault([](TreeAttributes& a) { a.gradation = 2, a.trees_x = a.trees_y = 2; }), "");
+  EXPECT_NE(fault([&](TreeAttributes& a) { a.root_x = none; }), "");
+  EXPECT_NE(fault([&](TreeAttributes& a) { a.tree_edge = none; }), "");
+  EXPECT_NE(fault([](TreeAttributes& a) { a.tree_edge = 0; }), "");
+  EXPECT_NE(fault([](TreeAttributes& a) { a.gradation = 1; }), "");
+  EXPECT_NE(fault([](TreeAttributes& a) { a.gradation = 2.01; }), "");
+  EXPECT_NE(fault([](TreeAttributes& a) { a.trees_x = 5; }), "") << "each tree has a leaf";
+  EXPECT_NE(
+      fault([](TreeAttributes& a) { a.trees_x = a.trees_y = std::numeric_limits<std::int32_t>::max(); }), "");
+  EXPECT_NE(fault([](TreeAttributes& a) { a.nodes = -1; }), "");
+}
+
+TEST(TreeFile, AHandMadeTreeComesBackWhole) {
+  const test::TemporaryFolder folder;
+  TreeRecord tree;
+  tree.attributes.trees_x = 2;
+  tree.attributes.tree_edge = 0.5;
+  tree.attributes.quads = 8;
+  if (world().is_root()) tree.leaves = leaves();
+  write_tree(world(), tree, folder.file("a.tree.h5"));
+  const TreeRecord read = read_tree(world(), folder.file("a.tree.h5"));
+  EXPECT_EQ(read.attributes.tree_edge, 0.5);
+  EXPECT_EQ(world().sum(std::ssize(read.leaves)), 8) << "though most ranks wrote none";
+  const std::int64_t first = world().exclusive_sum(std::ssize(read.leaves));
+  for (std::size_t i = 0; i < read.leaves.size(); ++i) {
+    const LeafRecord expected = leaves()[static_cast<std::size_t>(first) + i];
+    EXPECT_EQ(read.leaves[i].x, expected.x);
+    EXPECT_EQ(read.leaves[i].level, expected.level);
+    EXPECT_EQ(read.leaves[i].tree_x, expected.tree_x);
+  }
+}
+
+}  // namespace
+}  // namespace quadloop

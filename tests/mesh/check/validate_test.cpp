@@ -1,0 +1,177 @@
+// Each kind of fault is found where it is, by its own name, and a valid mesh has none.
+#include "mesher/mesh/check/validate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include "tests/mesh/mixed_square.hpp"
+
+namespace quadloop {
+namespace {
+
+NodeId node(std::int32_t number) { return NodeId{number}; }
+
+Mesh square() { return test::mixed_square(); }
+
+/// The outline of square(), as two chains.
+std::vector<Chain> outline() {
+  return {{"wall", true, {{0, 0}, {2, 0}, {2, 2}}, ""}, {"far", true, {{2, 2}, {0, 2}, {0, 0}}, ""}};
+}
+
+bool has(const std::vector<MeshFault>& faults, MeshRule rule) {
+  return std::any_of(faults.begin(), faults.end(),
+                     [&](const MeshFault& fault) { return fault.rule == rule; });
+}
+
+void expect_fault(MeshRule rule, const std::function<void(Mesh&)>& spoil) {
+  Mesh mesh = square();
+  spoil(mesh);
+  const std::vector<MeshFault> faults = validate(mesh);
+  EXPECT_TRUE(has(faults, rule)) << name_of(rule) << " is missing among " << faults.size() << " faults";
+}
+
+TEST(Validate, ValidMeshHasNoFault) {
+  for (const MeshFault& fault : validate(square()))
+    ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what;
+  EXPECT_EQ(pinched_nodes(square()), 0);
+}
+
+TEST(Validate, Indices) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_fault(MeshRule::indices, [](Mesh& m) { m.triangles[0][1] = node(9); });
+  expect_fault(MeshRule::indices, [](Mesh& m) { m.quads[0][1] = NodeId{}; });
+  expect_fault(MeshRule::indices, [](Mesh& m) { m.boundaries[0].edges[0][0] = node(77); });
+  expect_fault(MeshRule::indices, [](Mesh& m) { m.points[4].x = nan; });
+  expect_fault(MeshRule::indices, [](Mesh& m) { m.points.push_back({1, 7}); });
+  expect_fault(MeshRule::indices, [](Mesh& m) { m.boundaries.push_back({"none", "none", {}}); });
+  EXPECT_TRUE(has(validate(Mesh{}), MeshRule::indices));
+}
+
+TEST(Validate, Coincident) {
+  expect_fault(MeshRule::coincident,
+               [](Mesh& m) {  // a doubled node: the left half keeps node 4, the right half gets its own
+                 m.points.push_back(m.points[4]);
+                 m.triangles[2][0] = m.triangles[3][0] = m.quads[1][3] = node(9);
+               });
+}
+
+TEST(Validate, Positive) {
+  expect_fault(MeshRule::positive, [](Mesh& m) { std::swap(m.triangles[0][0], m.triangles[0][1]); });
+  expect_fault(MeshRule::positive, [](Mesh& m) { m.points[4] = {1, 0}; });
+  expect_fault(MeshRule::positive, [](Mesh& m) { m.points[1] = {1, 1}; });
+  expect_fault(MeshRule::positive, [](Mesh& m) { m.points[4] = {0.2, 0.2}; });  // a quad that is not convex
+}
+
+TEST(Validate, Conforming) {
+  expect_fault(MeshRule::conforming, [](Mesh& m) { m.boundaries[0].edges.pop_back(); });
+  expect_fault(MeshRule::conforming, [](Mesh& m) { m.triangles.pop_back(); });
+  expect_fault(MeshRule::conforming, [](Mesh& m) { m.triangles.push_back(m.triangles[0]); });
+  expect_fault(MeshRule::conforming, [](Mesh& m) { m.boundaries[0].edges.push_back({node(3), node(4)}); });
+  expect_fault(MeshRule::conforming,
+               [](Mesh& m) { std::swap(m.boundaries[0].edges[0][0], m.boundaries[0].edges[0][1]); });
+}
+
+TEST(Validate, TopologyIsWhatMovingNodesCannotCure) {
+  Mesh mesh = square();
+  mesh.points[4] = {5, 5};  // inverted cells, which overlap
+  mesh.points[7] = mesh.points[8];
+  EXPECT_FALSE(validate(mesh).empty());
+  EXPECT_TRUE(validate_topology(mesh).empty());
+  mesh.triangles.push_back(mesh.triangles[0]);
+  EXPECT_TRUE(has(validate_topology(mesh), MeshRule::conforming));
+  mesh = square();
+  mesh.quads[0][2] = node(1);
+  const std::vector<MeshFault> faults = validate_topology(mesh);
+  ASSERT_TRUE(has(faults, MeshRule::conforming));
+  EXPECT_EQ(faults[0].what, "a cell has node 2 twice");
+  EXPECT_EQ(faults[0].place, (Point{1, 0}));
+}
+
+TEST(Validate, Closed) {
+  expect_fault(MeshRule::closed, [](Mesh& m) { m.boundaries[0].edges.push_back(m.boundaries[0].edges[0]); });
+}
+
+TEST(Validate, AreaAndOverlap) {
+  expect_fault(MeshRule::overlap, [](Mesh& m) {  // the corner folded over the opposite boundary
+    m.points[8] = {-1, 1.5};
+  });
+  expect_fault(MeshRule::area, [](Mesh& m) { m.triangles.push_back(m.triangles[0]); });
+}
+
+TEST(Validate, InterfaceNeedsTwoBlocks) {
+  Mesh mesh = square();
+  mesh.boundaries.push_back({"interface", "interface", {{node(3), node(4)}, {node(4), node(5)}}});
+  EXPECT_TRUE(has(validate(mesh), MeshRule::conforming));
+  const std::vector<std::int32_t> of_triangle(4, 1), of_quad(2, 0);
+  EXPECT_TRUE(validate(mesh, {2, of_triangle, of_quad}).empty());
+}
+
+TEST(Validate, FaultHasItsPlace) {
+  Mesh mesh = square();
+  std::swap(mesh.triangles[1][0], mesh.triangles[1][1]);
+  const std::vector<MeshFault> faults = validate(mesh);
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults[0].rule, MeshRule::positive);
+  EXPECT_EQ(faults[0].place, (Point{1, 2}));
+}
+
+TEST(Validate, PinchedNodesAreCountedButAllowed) {
+  Mesh mesh;  // two triangles that touch at a node
+  mesh.points = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  mesh.owned_nodes = 5;
+  mesh.triangles = {{node(0), node(1), node(2)}, {node(0), node(3), node(4)}};
+  mesh.boundaries = {{"b",
+                      "wall",
+                      {{node(0), node(1)},
+                       {node(1), node(2)},
+                       {node(2), node(0)},
+                       {node(0), node(3)},
+                       {node(3), node(4)},
+                       {node(4), node(0)}}}};
+  EXPECT_TRUE(validate(mesh).empty());
+  EXPECT_EQ(pinched_nodes(mesh), 1);
+}
+
+TEST(ValidateGeometry, FollowsItsOutline) {
+  const GeometryFit fit = validate_geometry(square(), outline());
+  EXPECT_TRUE(fit.faults.empty());
+  EXPECT_EQ(fit.boundaries_dropped, 0);
+  EXPECT_EQ(fit.sharp_corners, 4);  // the ends of the open chains
+  EXPECT_EQ(fit.sharp_corners_lost, 0);
+  EXPECT_EQ(fit.boundary_node_distance, 0);
+  EXPECT_EQ(fit.geometry_distance, 0);
+  EXPECT_NEAR(fit.area_error, 0, 1e-15);
+}
+
+TEST(ValidateGeometry, FindsWhatIsOff) {
+  Mesh moved = square();
+  moved.points[1].y = 0.01;
+  const GeometryFit fit = validate_geometry(moved, outline());
+  EXPECT_TRUE(has(fit.faults, MeshRule::geometry));
+  EXPECT_NEAR(fit.boundary_node_distance, 0.01, 1e-12);
+  Mesh renamed = square();
+  renamed.boundaries[0].name = "hull";
+  const GeometryFit other = validate_geometry(renamed, outline());
+  EXPECT_TRUE(has(other.faults, MeshRule::geometry));
+  EXPECT_EQ(other.boundaries_dropped, 1);
+}
+
+TEST(ValidateGeometry, CountsLostCornersAndMissingArea) {
+  const std::vector<Chain> spiked{{"wall", true, {{0, 0}, {2, 0}, {2, 2}}, ""},
+                                  {"far", true, {{2, 2}, {0, 2}, {0, 0}}, ""},
+                                  {"hole", false, {{0.4, 0.4}, {0.4, 1.6}, {1.6, 1.6}, {1.6, 0.4}}, ""}};
+  const GeometryFit fit = validate_geometry(square(), spiked);
+  EXPECT_EQ(fit.boundaries_dropped, 1);
+  EXPECT_EQ(fit.sharp_corners, 8);
+  EXPECT_EQ(fit.sharp_corners_lost, 4);
+  EXPECT_NEAR(fit.area_error, 1.44 / 2.56, 1e-12);
+  EXPECT_TRUE(has(fit.faults, MeshRule::geometry));
+  const std::vector<Chain> empty{{"wall", true, {{0, 0}}, ""}, {"far", false, {}, ""}};
+  EXPECT_TRUE(has(validate_geometry(square(), empty).faults, MeshRule::geometry));
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,259 @@
+#include "quadloop/case/settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mesher/generate/digests.hpp"
+#include "tests/io/input/temporary_file.hpp"
+
+namespace quadloop {
+namespace {
+
+class SettingsTest : public ::testing::Test {
+ protected:
+  SettingsTest() { folder_.write("box.geom", "1\nbox\n4\n0 0\n4 0\n4 4\n0 4\n"); }
+
+  Settings read(const std::string& text, const std::vector<std::string>& assignments = {}) {
+    return read_settings(folder_.write("case.toml", "[geometry]\nfile = \"box.geom\"\n" + text), assignments);
+  }
+  Geometry load(const Settings& settings) {
+    Warnings warnings;
+    return load_geometry(settings, warnings);
+  }
+  /// The refusal of case text that follows two lines of [geometry].
+  std::string refused(const std::string& text) {
+    return test::refusal(folder_, [&] { load(read(text)); });
+  }
+
+  test::InputFolder folder_;
+};
+
+TEST_F(SettingsTest, ReadsEveryKey) {
+  const Settings s = read(R"(far_field = 10
+scale = 2
+rotate = 90
+translate = [1, 2]
+[spacing]
+min = 0.5
+max = 1
+gradation = 1.25
+curvature = 10
+gap = 2
+corner = 20
+[boundary.box]
+spacing = 0.25
+corner = 180
+bc = "wall"
+[[source]]
+box = [0, 1, 2, 3]
+spacing = 0.1
+[[source]]
+disc = [0, 1, 2]
+spacing = 0.2
+[[source]]
+line = [0, 1, 2, 3]
+spacing = 0.3
+[mesh]
+type = "hybrid"
+root = [-10, -10, 20, 1, 1]
+snap = 0.001
+[output]
+prefix = "out"
+formats = ["cgns"]
+)");
+  EXPECT_EQ(s.files[0].transform.scale, 2);
+  EXPECT_EQ(s.files[0].transform.rotate_degrees, 90);
+  EXPECT_EQ(s.files[0].transform.translate, (Point{1, 2}));
+  EXPECT_EQ(s.far_field->half_width, 10);
+  EXPECT_EQ(s.mesh.size.gradation, 1.25);
+  EXPECT_EQ(s.mesh.size.curvature, 10);
+  EXPECT_EQ(s.mesh.size.gap, 2);
+  ASSERT_EQ(s.mesh.size.sources.size(), 3u);
+  EXPECT_EQ(std::get<Box>(s.mesh.size.sources[0].shape).high, (Point{1, 3}));
+  EXPECT_EQ(std::get<Source::Disc>(s.mesh.size.sources[1].shape).radius, 2);
+  EXPECT_EQ(std::get<Source::Line>(s.mesh.size.sources[2].shape).to, (Point{2, 3}));
+  EXPECT_EQ(s.mesh.size.root->tree_edge, 20);
+  EXPECT_EQ(s.mesh.snap, 0.001);
+  EXPECT_EQ(s.output_prefix, "out");
+  EXPECT_EQ(s.formats, std::vector<std::string>{"cgns"});
+  const Geometry g = load(s);
+  EXPECT_EQ(g.boundary(BoundaryId{0}).spacing, 0.25);
+  EXPECT_EQ(g.boundary(BoundaryId{0}).condition, "wall");
+  EXPECT_EQ(g.boundary(BoundaryId{1}).name, "farfield");
+  EXPECT_EQ(g.boundary(BoundaryId{1}).condition, "farfield");
+  EXPECT_EQ(g.boundary(BoundaryId{1}).corner_degrees, 20);
+}
+
+TEST_F(SettingsTest, SizesFollowTheGeometryWhereTheyAreNotGiven) {
+  const Settings open = read("far_field = 16\n[boundary.box]\nspacing = 0.125\n");
+  const MeshOptions options = mesh_options(open, load(open));
+  EXPECT_EQ(options.size.max, 2);
+  EXPECT_EQ(options.size.min, 0.0625);
+  const Settings coarse = read("far_field = 16\n[spacing]\nmin = 5\n");
+  EXPECT_EQ(mesh_options(coarse, load(coarse)).size.max, 5);
+  const Settings fine = read("far_field = 16\n[spacing]\nmax = 0.5\n");
+  EXPECT_EQ(mesh_options(fine, load(fine)).size.min,
+            0.25);  // sizes halve: so there is a leaf no larger than max
+}
+
+TEST_F(SettingsTest, EachFileHasItsOwnPlace) {
+  folder_.write("two.geom", "1\ntwo\n4\n0 0\n4 0\n4 4\n0 4\n");
+  const std::string path = folder_.write("two.toml",
+                                         "[geometry]\nfile = [\"box.geom\", \"two.geom\"]\ntranslate = [[0, "
+                                         "0], [10, 0]]\nscale = [1, 0.5]\nrotate = 90\n");
+  const Geometry g = load(read_settings(path, {}));
+  EXPECT_EQ(g.loop_count(), 2);
+  EXPECT_EQ(g.point(g.loop_start(1)), (Point{10, 0}));
+  EXPECT_EQ(g.box().high, (Point{10, 4}));
+  EXPECT_NE(test::refusal(folder_, [&] { read_settings(path, {"geometry.scale=[1,2,3]"}); }).find("2 files"),
+            std::string::npos);
+}
+
+TEST_F(SettingsTest, RefusesEveryBadKey) {
+  EXPECT_EQ(refused("[spacing]\nfoo = 1\n").find("case.toml:4: unknown key 'spacing.foo'"), 0u);
+  EXPECT_EQ(refused("[spacings]\n").find("case.toml:3: unknown key 'spacings'"), 0u);
+  EXPECT_EQ(refused("[[block]]\nname = \"gas\"\n").find("case.toml:3: unknown key 'block'"), 0u);
+  EXPECT_EQ(refused("[solver]\nmachs = 1\n").find("case.toml:4: unknown key 'solver.machs'"), 0u);
+  EXPECT_EQ(
+      refused("[solver]\niterations = 1.5\n").find("case.toml:4: 'solver.iterations' must be a whole number"),
+      0u);
+  EXPECT_EQ(refused("[solver]\ntime = \"accurate\"\n").find("case.toml:3: 'solver.end_time' is missing"), 0u);
+  EXPECT_EQ(refused("[solver]\nkind = \"command\"\n").find("case.toml:3: 'solver.command' is missing"), 0u);
+  EXPECT_EQ(refused("[boundary.box]\nbc = \"wall\"\npressure = 1\n")
+                .find("case.toml:5: 'boundary.box.pressure' needs bc"),
+            0u);
+  EXPECT_EQ(refused("[boundary.box]\nlayers = { first = 1, growth = 1.2, count = 3 }\n")
+                .find("case.toml:4: unknown key 'boundary.box.layers'"),
+            0u);
+  EXPECT_EQ(refused("[output]\npartitions = 0\n").find("case.toml:4: unknown key 'output.partitions'"), 0u);
+  EXPECT_EQ(refused("[spacing]\nmin = 0\n").find("case.toml:4: 'spacing.min' is 0"), 0u);
+  EXPECT_EQ(refused("[spacing]\nmin = 2\nmax = 1\n")
+                .find("case.toml:4: 'spacing.min' is 2, but must not be above spacing.max"),
+            0u);
+  EXPECT_EQ(refused("[spacing]\ngradation = 1\n").find("case.toml:4: 'spacing.gradation' is 1"), 0u);
+  EXPECT_EQ(refused("[spacing]\ncorner = 190\n").find("case.toml:4: 'spacing.corner' is 190"), 0u);
+  EXPECT_EQ(refused("[mesh]\nsnap = 0.5\n").find("case.toml:4: 'mesh.snap' is 0.5"), 0u);
+  EXPECT_EQ(refused("[mesh]\ntype = \"voronoi\"\n").find("case.toml:4: 'mesh.type' "), 0u);
+  EXPECT_EQ(refused("[mesh]\nroot = [0, 0, 1, 1.5, 1]\n").find("case.toml:4: 'mesh.root' must be"), 0u);
+  EXPECT_EQ(refused("[boundary.hull]\nbc = \"wall\"\n")
+                .find("case.toml:3: [boundary.hull]: no boundary of the geometry matches 'hull'"),
+            0u);
+  EXPECT_EQ(refused("[boundary.box]\nbc = \"wal\"\n").find("case.toml:4: 'boundary.box.bc' is 'wal'"), 0u);
+  EXPECT_EQ(refused("[output]\nformats = [\"ugrid\"]\n").find("case.toml:4: 'output.formats' holds 'ugrid'"),
+            0u);
+  EXPECT_EQ(refused("[[source]]\nspacing = 1\n").find("case.toml:3: a [[source]] needs exactly one"), 0u);
+  EXPECT_EQ(refused("[[source]]\ndisc = [0, 0, 1]\n").find("case.toml:3: 'source.0.spacing' is missing"), 0u);
+  EXPECT_EQ(refused("far_field = 1\n").find("case.toml:3: 'geometry.far_field': a far field of half width 1"),
+            0u);
+}
+
+TEST_F(SettingsTest, NamesTheKeyOfAMissingGeometry) {
+  const std::string path =
+      folder_.write("lost.toml", "title = \"x\"\n[geometry]\nfile = [\"box.geom\", \"none.geom\"]\n");
+  const std::string said = test::refusal(folder_, [&] { load(read_settings(path, {})); });
+  EXPECT_EQ(said.find("lost.toml:3: 'geometry.file': there is no file '"), 0u) << said;
+  EXPECT_NE(said.find("none.geom"), std::string::npos) << said;
+}
+
+TEST_F(SettingsTest, RefusesAPrefixWithASuffix) {
+  EXPECT_EQ(refused("[output]\nprefix = \"a.mesh\"\n")
+                .find("case.toml:4: 'output.prefix' is 'a.mesh'; give it without .mesh"),
+            0u);
+  EXPECT_EQ(read("[output]\nprefix = \"out/v1.2\"\n").output_prefix, "out/v1.2");
+  EXPECT_EQ(format_suffix_of("a.tree.h5"), ".h5");
+  EXPECT_EQ(format_suffix_of("a.mesh/b"), "");
+}
+
+TEST_F(SettingsTest, WarnsOfSourcesThatDoNothing) {
+  const Settings settings = read(
+      "[spacing]\nmin = 0.5\nmax = 1\n[[source]]\nbox = [3, 9, 3, 9]\nspacing = 1\n[[source]]\ndisc = [9, 2, "
+      "4.5]\nspacing = 1\n"
+      "[[source]]\nline = [5, 0, 5, 4]\nspacing = 0.25\n");  // the root is the box, 0 to 4
+  const Geometry geometry = load(settings);
+  const Warnings warnings = spacing_warnings(mesh_options(settings, geometry), geometry);
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_NE(warnings[0].find(
+                "case.toml:9: this [[source]] lies outside the root, which reaches from (0, 0) to (4, 4)"),
+            std::string::npos);
+  EXPECT_NE(warnings[1].find("case.toml:12: this [[source]] asks for a spacing of 0.25"), std::string::npos);
+  EXPECT_NE(warnings[2].find("case.toml:12: this [[source]] lies outside the root"), std::string::npos);
+}
+
+TEST_F(SettingsTest, ReadsTheSolver) {
+  const Settings s = read(R"([solver]
+kind = "command"
+mach = 0.5
+alpha = 2
+gamma = 1.3
+time = "accurate"
+end_time = 3
+cfl = 5
+iterations = 7
+tolerance = 1e-4
+limiter = "none"
+initial = "vortex"
+reference_length = 2
+ranks = 3
+command = ["flow", "{mesh}"]
+mesh = "m.mesh"
+solution = "s.cgns"
+timeout = 60
+)");
+  const EulerOptions& euler = s.solver.euler;
+  EXPECT_EQ(euler.mach, 0.5);
+  EXPECT_EQ(euler.alpha, 2);
+  EXPECT_EQ(euler.gamma, 1.3);
+  EXPECT_EQ(euler.time, EulerOptions::Time::accurate);
+  EXPECT_EQ(euler.end_time, 3);
+  EXPECT_EQ(euler.cfl, 5);
+  EXPECT_EQ(euler.iterations, 7);
+  EXPECT_EQ(euler.tolerance, 1e-4);
+  EXPECT_EQ(euler.limiter, EulerOptions::Limiter::none);
+  EXPECT_EQ(euler.initial, EulerOptions::Initial::vortex);
+  EXPECT_EQ(euler.reference_length, 2);
+  EXPECT_EQ(s.solver.kind, SolverSettings::Kind::command);
+  EXPECT_EQ(s.solver.command.ranks, 3);
+  EXPECT_EQ(s.solver.command.command.arguments, (std::vector<std::string>{"flow", "{mesh}"}));
+  EXPECT_EQ(s.solver.command.mesh, "m.mesh");
+  EXPECT_EQ(s.solver.command.solution, "s.cgns");
+  EXPECT_EQ(s.solver.command.command.timeout, 60);
+}
+
+TEST_F(SettingsTest, BoundaryTablesGiveTheMeshItsConditions) {
+  const Settings s = read(
+      "far_field = 10\n[boundary.\"b*\"]\nbc = \"outflow\"\npressure = 2\n[boundary.box]\nbc = "
+      "\"outflow\"\npressure = 0.5\n");
+  Mesh mesh;
+  mesh.boundaries = {
+      {"box", "none", {}}, {"bottom", "wall", {}}, {"farfield", "none", {}}, {"other", "symmetry", {}}};
+  const std::vector<BoundaryChoice> choices = euler_options(s.solver, s.outline.rules, mesh).boundaries;
+  ASSERT_EQ(choices.size(), 4u);
+  EXPECT_EQ(choices[0].condition, "outflow");
+  EXPECT_EQ(choices[0].pressure, 0.5);
+  EXPECT_EQ(choices[1].condition, "outflow");
+  EXPECT_EQ(choices[1].pressure, 2);
+  EXPECT_EQ(choices[2].condition, "farfield");
+  EXPECT_EQ(choices[3].condition, "");  // the mesh's own stands
+  EXPECT_FALSE(choices[3].pressure);
+}
+
+TEST_F(SettingsTest, NeedsAGeometry) {
+  const std::string path = folder_.write("none.toml", "title = \"x\"\n");
+  EXPECT_EQ(test::refusal(folder_, [&] { read_settings(path, {}); }).find("none.toml"), 0u);
+}
+
+TEST_F(SettingsTest, TheDigestFollowsTheSettingsOfTheMesh) {
+  const auto digest = [&](const std::vector<std::string>& assignments) {
+    const Settings settings = read("[spacing]\nmin = 0.5\nmax = 1\n", assignments);
+    return case_digest(mesh_options(settings, load(settings)));
+  };
+  const auto base = digest({});
+  EXPECT_EQ(base, digest({"title=other", "output.prefix=other"}));
+  EXPECT_NE(base, digest({"spacing.min=0.25"}));
+  EXPECT_NE(base, digest({"spacing.gradation=1.25"}));
+  EXPECT_NE(base, digest({"spacing.gap=2"}));
+  EXPECT_NE(base, digest({"mesh.snap=0.001"}));
+  EXPECT_NE(base, digest({"source=[{disc=[0,0,1],spacing=1}]"}));
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,136 @@
+// Which boundary nodes may move, and that they keep to the boundary.
+#include "smoother/outline/boundary_slide.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "smoother/node_stars.hpp"
+#include "tests/mesh/grid_mesh.hpp"
+#include "tests/smoother/whole_meshes.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::self;
+
+/// A mesh with the slide along its boundaries, whole on this rank.
+struct Sliding {
+  explicit Sliding(Mesh given, const Geometry* geometry = nullptr, NodeFlags pinned_nodes = {})
+      : mesh{std::move(given)}, halo(self(), mesh), pinned{std::move(pinned_nodes)} {
+    if (geometry != nullptr) path.emplace(*geometry);
+    slide.emplace(self(), halo, mesh.boundaries, path ? &*path : nullptr, pinned);
+    const auto owned = ids_below(NodeId{mesh.owned_nodes});
+    stars.emplace(halo, std::vector<NodeId>(owned.begin(), owned.end()), std::vector<CellTarget>{});
+  }
+  std::optional<Point> improved(NodeId node) const {
+    Star star;
+    stars->gather(node.value(), star);
+    return slide->improve(node, star, Objective::power);
+  }
+  Mesh mesh;
+  HaloMesh halo;
+  NodeFlags pinned;
+  std::optional<OutlinePath> path;
+  std::optional<BoundarySlide> slide;
+  std::optional<NodeStars> stars;
+};
+
+constexpr test::Grid grid{6, {1, 1}, true};
+
+bool at_corner(Point p) { return (p.x == 0 || p.x == 1) && (p.y == 0 || p.y == 1); }
+
+TEST(BoundarySlide, StraightSidesSlideAndCornersStay) {
+  const Sliding s(grid.mesh());
+  for (std::int32_t node = 0; node < s.mesh.owned_nodes; ++node) {
+    const NodeFreedom expected = grid.inner(node)                        ? NodeFreedom::interior
+                                 : at_corner(s.mesh.point(NodeId{node})) ? NodeFreedom::fixed
+                                                                         : NodeFreedom::sliding;
+    EXPECT_EQ(s.slide->freedom(NodeId{node}), expected) << node;
+  }
+}
+
+TEST(BoundarySlide, PinnedNodesStay) {
+  NodeFlags pinned(49, 0);
+  pinned[NodeId{3}] = pinned[NodeId{24}] = 1;  // on the lower side, inside
+  const Sliding s(grid.mesh(), nullptr, pinned);
+  EXPECT_EQ(s.slide->freedom(NodeId{3}), NodeFreedom::fixed);
+  EXPECT_EQ(s.slide->freedom(NodeId{24}), NodeFreedom::fixed);
+  EXPECT_EQ(s.slide->freedom(NodeId{2}), NodeFreedom::sliding);
+}
+
+TEST(BoundarySlide, ABoundaryThatIsBentWithoutAnOutlineStays) {
+  Mesh mesh = grid.mesh();
+  mesh.points.begin()[3].y = -1e-6;
+  const Sliding s(std::move(mesh));
+  for (const int node : {2, 3, 4}) EXPECT_EQ(s.slide->freedom(NodeId{node}), NodeFreedom::fixed) << node;
+  EXPECT_EQ(s.slide->freedom(NodeId{1}), NodeFreedom::sliding);
+}
+
+TEST(BoundarySlide, WhereBoundariesMeetOnAStraightSideTheNodeStays) {
+  Mesh mesh = grid.mesh();
+  BoundaryEdges half{"half", "wall", {}};
+  auto& edges = mesh.boundaries[0].edges;
+  std::erase_if(edges, [&](const auto& edge) {
+    const bool of_half =
+        mesh.point(edge[0]).y == 0 && mesh.point(edge[1]).y == 0 && mesh.point(edge[1]).x < 0.51;
+    if (of_half) half.edges.push_back(edge);
+    return of_half;
+  });
+  ASSERT_EQ(half.edges.size(), 3U);
+  mesh.boundaries.push_back(half);
+  const Sliding s(std::move(mesh));
+  EXPECT_EQ(s.slide->freedom(NodeId{3}), NodeFreedom::fixed);
+  EXPECT_EQ(s.slide->freedom(NodeId{2}), NodeFreedom::sliding);
+}
+
+TEST(BoundarySlide, ANodeNearANeighbourMovesAwayAlongTheSide) {
+  Mesh mesh = grid.mesh();
+  mesh.points.begin()[3].x = 0.36;  // from 0.5, beside that at 0.333
+  const Sliding s(std::move(mesh));
+  const auto better = s.improved(NodeId{3});
+  ASSERT_TRUE(better.has_value());
+  EXPECT_EQ(better->y, 0);
+  EXPECT_GT(better->x, 0.36);
+  EXPECT_LT(better->x, 2.0 / 3) << "it never passes a neighbour";
+}
+
+/// A grid bent to a disc of 64 sides.
+struct OnTheCircle {
+  Geometry polygon = test::circle(64);
+  Mesh mesh = test::disc(test::Grid{8, {1, 1}, true}, polygon);
+};
+
+TEST(BoundarySlide, NodesOnACurvedOutlineSlideAlongIt) {
+  const OnTheCircle c;
+  const Sliding without(c.mesh), with(c.mesh, &c.polygon);
+  int sliding = 0, moved = 0;
+  for (const BoundaryEdges& boundary : c.mesh.boundaries) {
+    for (const auto& edge : boundary.edges) {
+      const NodeId node = edge[0];
+      EXPECT_EQ(without.slide->freedom(node), NodeFreedom::fixed);
+      if (with.slide->freedom(node) != NodeFreedom::sliding) continue;
+      ++sliding;
+      const auto better = with.improved(node);
+      if (!better) continue;
+      ++moved;
+      EXPECT_LT(with.path->distance(*better, boundary.name, 0.1), 1e-12);
+      EXPECT_LT(length(*better - c.mesh.point(node)), 0.5);
+    }
+  }
+  EXPECT_GT(sliding, 20);
+  EXPECT_GT(moved, 0);
+}
+
+TEST(BoundarySlide, AnOutlineOfOtherNamesIsNone) {
+  OnTheCircle c;
+  for (BoundaryEdges& boundary : c.mesh.boundaries) boundary.name += " of another";
+  const Sliding s(c.mesh, &c.polygon);
+  for (const BoundaryEdges& boundary : c.mesh.boundaries) {
+    for (const auto& edge : boundary.edges) EXPECT_EQ(s.slide->freedom(edge[0]), NodeFreedom::fixed);
+  }
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,151 @@
+// Edges of leaves, what lattice corners see along them, and which leaves see a snap.
+#include "mesher/snap/corner_sights.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesher/snap/leaf_edge.hpp"
+#include "mesher/snap/snap.hpp"
+#include "tests/snap/traced_leaves.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::TracedLeaves;
+
+/// The domain above y = 1.125, in leaves of edge 1.
+Geometry above() { return test::loops_of({{{-1, 1.125}, {5, 1.125}, {5, 9}, {-1, 9}}}); }
+
+LatticePoint at(std::int64_t x, std::int64_t y) { return {x * TracedLeaves::unit, y * TracedLeaves::unit}; }
+
+std::vector<Sight> seen_from(const std::vector<Sight>& sights, LatticePoint corner) {
+  std::vector<Sight> own;
+  std::copy_if(sights.begin(), sights.end(), std::back_inserter(own),
+               [&](const Sight& s) { return s.corner == corner; });
+  return own;
+}
+
+TEST(CornerSights, BothEndsOfAnEdgeSeeItsCrossingThroughBothLeaves) {
+  const TracedLeaves leaves(above());
+  const auto sights = sights_by_corner(leaves.graph, leaves.lattice, leaves.traced);
+  EXPECT_TRUE(std::is_sorted(sights.begin(), sights.end(),
+                             [](const Sight& a, const Sight& b) { return a.corner < b.corner; }));
+  for (std::int64_t x = 0; x <= 4; ++x) {
+    if (!leaves.at_local_leaf(at(x, 1))) continue;
+    const auto below = seen_from(sights, at(x, 1));
+    EXPECT_EQ(below.size(), x == 0 || x == 4 ? 1U : 2U);
+    for (const Sight& s : below) {
+      EXPECT_EQ(s.direction, Direction::north);
+      EXPECT_EQ(s.distance, 0.125);
+      EXPECT_EQ(s.edge, 1);
+      EXPECT_EQ(s.segment, 0);
+    }
+  }
+  for (std::int64_t x = 0; x <= 4; ++x) {
+    for (const Sight& s : seen_from(sights, at(x, 2))) {
+      EXPECT_EQ(s.direction, Direction::south);
+      EXPECT_EQ(s.distance, 0.875);
+    }
+    EXPECT_TRUE(seen_from(sights, at(x, 3)).empty());
+  }
+}
+
+TEST(CornerSights, OneOfTheTwoLeavesSeesAnEntryTheOtherAnExit) {
+  const TracedLeaves leaves(above());
+  const auto sights = sights_by_corner(leaves.graph, leaves.lattice, leaves.traced);
+  for (std::int64_t x = 1; x <= 3; ++x) {
+    if (!leaves.at_local_leaf(at(x, 1))) continue;
+    const auto own = seen_from(sights, at(x, 1));
+    ASSERT_EQ(own.size(), 2U);
+    EXPECT_NE(own[0].at_entry, own[1].at_entry);
+  }
+}
+
+TEST(LeafEdge, ASideWithAHangingNodeIsTwoEdges) {
+  const TracedLeaves leaves(above(), {{0, 0}, {2, 4}});  // finer on the left
+  for (const LeafId leaf : leaves.graph.local()) {
+    const Quadrant& q = leaves.graph.leaf(leaf);
+    for (const Side side : all_sides) {
+      const Box box = leaves.lattice.box_of(q);
+      const bool hangs = leaves.graph.has_hanging(leaf, side);
+      for (const double share : {0.25, 0.75}) {
+        const Point p = box.low + Point{share * box.width(), share * box.height()};
+        const LeafEdge edge = leaf_edge_near(leaves.graph, leaves.lattice, leaf, side, p);
+        EXPECT_EQ(edge.line, q.line(side));
+        EXPECT_EQ(edge.to - edge.from, hangs ? q.size() / 2 : q.size());
+        EXPECT_LE(edge.at(leaves.lattice, edge.from), edge.along(p));
+        EXPECT_GE(edge.at(leaves.lattice, edge.to), edge.along(p));
+        EXPECT_EQ(edge.length(leaves.lattice), hangs ? 1 : leaves.lattice.edge(q.level));
+        EXPECT_EQ(edge.vertical() ? edge.point(edge.from).x : edge.point(edge.from).y, edge.line);
+      }
+    }
+  }
+}
+
+TEST(LeafEdge, TheSmallestLeafAtACornerCounts) {
+  const TracedLeaves leaves(above(), {{0, 0}, {2, 4}});
+  const auto shortest = [&](std::int64_t x, std::int64_t y) {
+    return shortest_edge_at(leaves.graph, leaves.lattice, at(x, y));
+  };
+  if (leaves.at_local_leaf(at(2, 2))) {
+    EXPECT_EQ(shortest(2, 2), 1);
+  }
+  if (leaves.at_local_leaf(at(4, 2))) {
+    EXPECT_EQ(shortest(4, 2), 2);
+  }
+}
+
+TEST(SnapsOfLeaves, EachLeafRoundACornerSeesItFromItsOwnSide) {
+  const TracedLeaves leaves(above());
+  Snap snap;
+  snap.corner = at(2, 1);
+  const std::vector<Snap> snaps{snap};
+  for (const LeafSnap& seen : snaps_of_leaves(leaves.graph, snaps)) {
+    EXPECT_TRUE(leaves.graph.is_local(seen.leaf));
+    EXPECT_EQ(leaves.graph.leaf(seen.leaf).at(seen.site), snap.corner);
+    EXPECT_EQ(seen.snap, snaps.data());
+  }
+  EXPECT_EQ(test::world().sum(std::ssize(snaps_of_leaves(leaves.graph, snaps))), 4);
+}
+
+TEST(SnapsOfLeaves, AHangingNodeIsSeenOnceByTheCoarseLeaf) {
+  const TracedLeaves leaves(above(), {{0, 0}, {2, 4}});
+  Snap snap;
+  snap.corner = at(2, 1);  // in the middle of the left side of the coarse leaf at (2, 0)
+  const std::vector<Snap> snaps{snap};
+  std::vector<Site> own;
+  for (const LeafSnap& seen : snaps_of_leaves(leaves.graph, snaps)) own.push_back(seen.site);
+  auto all = test::world().all_gather_values(std::span<const Site>(own));
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(all, (std::vector{Site::south_east, Site::north_east, Site::left_middle}));
+}
+
+TEST(SnapsOfLeaves, ABentEdgeIsSeenFromItsTwoSides) {
+  const TracedLeaves leaves(above());
+  Snap snap;
+  snap.corner = {at(2, 1).x, at(2, 1).y + TracedLeaves::unit / 2};
+  snap.on_edge = snap.vertical = true;
+  const std::vector<Snap> snaps{snap};
+  std::vector<Site> own;
+  for (const LeafSnap& seen : snaps_of_leaves(leaves.graph, snaps)) own.push_back(seen.site);
+  auto all = test::world().all_gather_values(std::span<const Site>(own));
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(all, (std::vector{Site::on_right, Site::on_left}));
+}
+
+TEST(SnapsOfLeaves, AreSortedByLeafAndNoneAtAllIsWell) {
+  const TracedLeaves leaves(above());
+  EXPECT_TRUE(snaps_of_leaves(leaves.graph, {}).empty());
+  std::vector<Snap> snaps(3);
+  snaps[0].corner = at(3, 3);
+  snaps[1].corner = at(1, 1);
+  snaps[2].corner = at(0, 0);
+  const auto seen = snaps_of_leaves(leaves.graph, snaps);
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end(),
+                             [](const LeafSnap& a, const LeafSnap& b) { return a.leaf < b.leaf; }));
+  EXPECT_EQ(test::world().sum(std::ssize(seen)), 9);
+}
+
+}  // namespace
+}  // namespace quadloop
