@@ -12,8 +12,14 @@ namespace {
 class Assembler {
  public:
   Assembler(const Geometry& geometry, const LeafGraph& graph, const CutForest& cut,
-            const NodeNumbering& numbers, Mesh& mesh)
-      : geometry_{geometry}, graph_{graph}, cut_{cut}, numbers_{numbers}, mesh_{mesh} {
+            const NodeNumbering& numbers, MeshResult& result)
+      : geometry_{geometry},
+        graph_{graph},
+        cut_{cut},
+        numbers_{numbers},
+        mesh_{result.mesh},
+        edge_leaves_{result.edge_leaves} {
+    edge_leaves_.resize(geometry.boundaries().size());
     for (const Boundary& b : geometry.boundaries()) mesh_.boundaries.push_back({b.name, b.condition, {}});
   }
 
@@ -48,6 +54,7 @@ class Assembler {
     for (const auto& e : CutForest::part(cut_.outline, begin.outline, end.outline)) {
       const BoundaryId boundary = geometry_.boundary_of(e.segment);
       mesh_.boundaries[boundary.value()].edges.push_back({node(e.from), node(e.to)});
+      edge_leaves_[boundary.value()].push_back(graph_.local_index(leaf));
     }
   }
 
@@ -56,6 +63,7 @@ class Assembler {
   const CutForest& cut_;
   const NodeNumbering& numbers_;
   Mesh& mesh_;
+  std::vector<std::vector<std::int32_t>>& edge_leaves_;
 };
 
 LeafRecord record_of(const Quadrant& q, int wanted) {
@@ -78,7 +86,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, const Siz
   Mesh& mesh = result.mesh;
   mesh.quads.reserve(cut.states.size());
   mesh.triangles.reserve(cut.states.size() / 2 + cut.triangles.size());
-  Assembler assembler(geometry, graph, cut, numbers, mesh);
+  Assembler assembler(geometry, graph, cut, numbers, result);
   DemandPath demands(sizes.demanded());
   SizeCursor cursor(sizes);
   auto& leaves = result.tree.leaves;

@@ -73,6 +73,9 @@ struct MeshReport {
 struct MeshResult {
   Mesh mesh;
   TreeRecord tree;  ///< its digests of case and coordinates are left to the caller
+  /// Of each boundary's edges on this rank: the leaf that it belongs to, by its index in tree.leaves;
+  /// ascending.
+  std::vector<std::vector<std::int32_t>> edge_leaves;
   MeshReport report;
 };
 

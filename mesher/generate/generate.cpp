@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "mesher/base/log.hpp"
@@ -9,6 +10,7 @@
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/lattice_rank.hpp"
 #include "mesher/generate/digests.hpp"
+#include "mesher/layers/add_layers.hpp"
 
 namespace quadloop {
 
@@ -53,10 +55,41 @@ void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result
                           report.worst_cost_before));
 }
 
-}  // namespace
+/// The same input for the domain outside the layers, in the same root.
+MeshInput outside(const MeshInput& input, const LayerFront& front) {
+  MeshInput outer = input;
+  outer.geometry = front.outer;
+  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
+  outer.mesh.size.root =
+      RootOptions{lattice.box().low, lattice.tree_edge(), lattice.trees_x(), lattice.trees_y()};
+  return outer;
+}
 
-GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
-                            const DemandedSplits& demanded) {
+/// Layers on all walls that ask for them. *Collective.*
+void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFront& front,
+                 MeshResult& result) {
+  std::function<TieRank(Point)> divide;
+  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
+  if (input.mesh.type == MeshType::delaunay) {
+    divide = [&lattice, finest = result.report.finest_allowed](Point p) {
+      return tie_rank(lattice, finest, p);
+    };
+  }
+  add_layers(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
+  TreeAttributes& a = result.tree.attributes;
+  a.geometry_digest = input.geometry.digest();
+  a.nodes = comm.sum(result.mesh.owned_nodes);
+  a.triangles = comm.sum(std::ssize(result.mesh.triangles));
+  a.quads = comm.sum(std::ssize(result.mesh.quads));
+}
+
+bool has_layers(const Geometry& geometry) {
+  return std::ranges::any_of(geometry.boundaries(), [](const Boundary& b) { return b.layers.has_value(); });
+}
+
+/// The mesh outside of layers, or the whole where there are none, complete but for its digests. *Collective.*
+GeneratedMesh generate_outer(const Communicator& comm, const MeshInput& input,
+                             const DemandedSplits& demanded) {
   GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}};
   MeshResult& result = generated.result;
   generated.times.append(result.report.times);
@@ -65,6 +98,31 @@ GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
   smooth(comm, input, result);
   generated.times.end();
   require_area(comm, input.geometry, result.report.area_dropped, result.mesh, true);
+  return generated;
+}
+
+GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
+                               const DemandedSplits& demanded) {
+  StageTimes times;
+  times.begin("front");
+  const LayerFront front = layer_front(input.geometry);
+  times.end();
+  GeneratedMesh generated = generate_outer(comm, outside(input, front), demanded);
+  times.append(generated.times);
+  times.begin("layers");
+  fill_layers(comm, input, front, generated.result);
+  times.end();
+  generated.times = times;
+  return generated;
+}
+
+}  // namespace
+
+GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
+                            const DemandedSplits& demanded) {
+  GeneratedMesh generated = has_layers(input.geometry) ? generate_layered(comm, input, demanded)
+                                                       : generate_outer(comm, input, demanded);
+  MeshResult& result = generated.result;
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);
   return generated;

@@ -5,13 +5,15 @@
 
 namespace quadloop {
 
-/// The thin layers of cells that a boundary asks for. Heights are normal to it, in the geometry's unit of length.
+/// The thin layers of cells that a boundary asks for. Heights are normal to it, in the geometry's unit of
+/// length.
 struct LayerSpec {
-  double first = 0;      ///< height of the layer at the boundary; above 0
-  double growth = 1.2;   ///< of each layer over the one below it; at least 1
-  double growth_to = 1.2;  ///< what it rises to, by a twentieth a layer after the first five; at least `growth`
-  int count = 0;         ///< of layers; above 0
-  int equal = 1;         ///< so many layers have the first height
+  double first = 0;     ///< height of the layer at the boundary; above 0
+  double growth = 1.2;  ///< of each layer over the one below it; at least 1
+  double growth_to =
+      1.2;        ///< what it rises to, by a twentieth a layer after the first five; at least `growth`
+  int count = 0;  ///< of layers; above 0
+  int equal = 1;  ///< so many layers have the first height
 
   friend bool operator==(const LayerSpec&, const LayerSpec&) = default;
 };
@@ -28,7 +30,8 @@ int layers_within(const LayerSpec& spec, double thickness, int most);
 /// One column of layers.
 struct ColumnHeights {
   std::vector<double> reached;  ///< distance from the wall to each node, the first one 0
-  double first = 0, growth = 0;  ///< of the layer at the wall, and the least of the layers above the equal ones
+  double first = 0,
+         growth = 0;  ///< of the layer at the wall, and the least of the layers above the equal ones
 };
 
 /// A column of spec.count layers that is `length` long and begins with a layer of height `first`: the excess

@@ -9,10 +9,10 @@ namespace quadloop {
 
 namespace {
 
-constexpr double least_visible = 0.2;                    // cosine of a column's tilt
-constexpr double least_ratio = 0.3, largest_ratio = 6;   // of the front's width over the wall's
-constexpr double convergent = 1.1, spreading = 1.5;      // the same
-constexpr int most_averagings = 100;
+constexpr double least_visible = 0.2;                   // cosine of a column's tilt
+constexpr double least_ratio = 0.3, largest_ratio = 6;  // of the front's width over the wall's
+constexpr double convergent = 1.1, spreading = 1.5;     // the same
+constexpr int most_averagings = 40;
 
 class Columns {
  public:
@@ -32,10 +32,12 @@ class Columns {
     set_lengths(all);
     std::vector<std::int32_t> crowded = crowded_among(all);
     for (int round = 0; round < most_averagings && !crowded.empty(); ++round) {
-      const std::vector<std::int32_t> turned = around(crowded, [&](std::int32_t i) { return h_[i]; }, true);
+      const std::vector<std::int32_t> turned = around(
+          crowded, [&](std::int32_t i) { return h_[i]; }, true);
       if (turned.empty()) break;
       average(turned);
-      const auto touched = around(turned, [&](std::int32_t i) { return 0.75 * h_[i]; }, false);
+      const auto touched = around(
+          turned, [&](std::int32_t i) { return 0.75 * h_[i]; }, false);
       set_lengths(touched);
       crowded = crowded_among(touched);
     }
@@ -48,8 +50,8 @@ class Columns {
     return {n.y, -n.x};
   }
 
-  /// Columns lean by tan(tilt) = slope (1 - distance / reach), reach = 2 h slope: their feet on the front keep
-  /// half the distances of the wall.
+  /// Columns lean by tan(tilt) = slope (1 - distance / reach), reach = 2 h slope: their feet on the front
+  /// keep half the distances of the wall.
   void lean_from_corners() {
     std::vector<double> onwards(h_.size()), backwards(h_.size());
     for (std::int32_t i = 0; i < line_.size(); ++i) {
@@ -59,7 +61,8 @@ class Columns {
       const auto take = [&](std::vector<double>& leans) {
         return [&, reach](std::int32_t j, double distance) {
           const double lean = corner.slope * (1 - distance / reach);
-          if (line_[j].shape == Station::Shape::smooth && std::abs(lean) > std::abs(leans[j])) leans[j] = lean;
+          if (line_[j].shape == Station::Shape::smooth && std::abs(lean) > std::abs(leans[j]))
+            leans[j] = lean;
         };
       };
       line_.walk_on(i, reach, take(onwards));
@@ -74,8 +77,8 @@ class Columns {
   /// The width of the front over that of the wall, between i and the next station.
   double ratio(std::int32_t i, const std::vector<double>& lengths) const {
     const std::int32_t j = line_.next(i);
-    const Point front = (line_[j].wall - line_[i].wall) + (lengths[j] * columns_.direction[j] -
-                                                            lengths[i] * columns_.direction[i]);
+    const Point front = (line_[j].wall - line_[i].wall) +
+                        (lengths[j] * columns_.direction[j] - lengths[i] * columns_.direction[i]);
     return dot(front, line_[i].after) / line_.width(i);
   }
   bool has_width(std::int32_t i) const { return line_.width(i) > 0; }
@@ -91,8 +94,8 @@ class Columns {
       convergence_[i] = std::clamp((spreading - ratio(i, h_)) / (spreading - convergent), 0.0, 1.0);
   }
 
-  /// L = h (1 + p (1/c - 1)): where columns converge they keep the layers' thickness over the wall, where they
-  /// spread their own length.
+  /// L = h (1 + p (1/c - 1)): where columns converge they keep the layers' thickness over the wall, where
+  /// they spread their own length.
   void set_lengths(const std::vector<std::int32_t>& stations) {
     for (const std::int32_t i : stations) {
       set_convergence(i);
@@ -136,7 +139,8 @@ class Columns {
 
   /// The stations within reach of places, once each.
   template <class Reach>
-  std::vector<std::int32_t> around(const std::vector<std::int32_t>& places, const Reach& reach, bool free_only) {
+  std::vector<std::int32_t> around(const std::vector<std::int32_t>& places, const Reach& reach,
+                                   bool free_only) {
     std::vector<std::int32_t> found;
     begin_set();
     const auto take = [&](std::int32_t j, double) {
@@ -175,7 +179,8 @@ class Columns {
     constexpr int most_turns = 32;
     const Station& station = line_[i];
     const auto seen = [&](Point d) {
-      return dot(d, left_of(station.before)) >= least_visible && dot(d, left_of(station.after)) >= least_visible;
+      return dot(d, left_of(station.before)) >= least_visible &&
+             dot(d, left_of(station.after)) >= least_visible;
     };
     for (int turn = 0; turn < most_turns && !seen(direction); ++turn)
       direction = unit(direction + 0.25 * station.direction);

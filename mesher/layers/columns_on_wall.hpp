@@ -14,11 +14,11 @@ struct WallColumns {
   Point front(const WallLine& line, std::int32_t i) const { return line[i].wall + length[i] * direction[i]; }
 };
 
-/// Columns for layers of these thicknesses (normal to the wall, one for each station). Each stands normal to the
-/// wall where it can. Beside a concave corner, columns lean away from it, less with the distance, so that the
-/// front is the wall's offset line and nothing crosses; where columns would come too close to each other, or
-/// spread too far, directions are averaged along the wall, but a column always rises visibly from both sides of
-/// its station.
+/// Columns for layers of these thicknesses (normal to the wall, one for each station). Each stands normal to
+/// the wall where it can. Beside a concave corner, columns lean away from it, less with the distance, so that
+/// the front is the wall's offset line and nothing crosses; where columns would come too close to each other,
+/// or spread too far, directions are averaged along the wall, but a column always rises visibly from both
+/// sides of its station.
 WallColumns columns_on_wall(const WallLine& line, const std::vector<double>& thickness);
 
 }  // namespace quadloop

@@ -15,7 +15,10 @@ constexpr double sine_of_sector = 0.3;  // columns of a fan are at least some 18
 class OuterOutline {
  public:
   OuterOutline(const WallLine& line, const FittingColumns& fitting)
-      : line_{line}, g_{line.geometry()}, fitting_{fitting}, first_of_segment_(g_.points().size(), WallLine::none) {
+      : line_{line},
+        g_{line.geometry()},
+        fitting_{fitting},
+        first_of_segment_(g_.points().size(), WallLine::none) {
     for (std::int32_t i = line_.size() - 1; i >= 0; --i) {
       if (begins(i)) first_of_segment_[line_[i].segment] = i;
     }
@@ -26,8 +29,8 @@ class OuterOutline {
       for (std::int32_t v = g_.loop_start(loop); v < g_.loop_start(loop + 1); ++v) add_segment(v);
       starts_.push_back(size32(points_));
     }
-    into.outer = Geometry({g_.boundaries().begin(), g_.boundaries().end()}, std::move(points_), std::move(starts_),
-                          std::move(boundary_))
+    into.outer = Geometry({g_.boundaries().begin(), g_.boundaries().end()}, std::move(points_),
+                          std::move(starts_), std::move(boundary_))
                      .with({std::move(spacing_), std::move(kept_)});
     into.station_of = std::move(station_of_);
   }
@@ -68,7 +71,8 @@ class OuterOutline {
   std::vector<char> kept_;
 };
 
-/// The stations of segment s from the first one on; where the run ends, the rest of the boundary that it ends on.
+/// The stations of segment s from the first one on; where the run ends, the rest of the boundary that it ends
+/// on.
 void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
   std::int32_t i = first;
   for (; i != WallLine::none && begins(i) && line_[i].segment == s; i = line_.next(i))

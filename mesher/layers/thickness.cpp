@@ -14,17 +14,17 @@ namespace quadloop {
 namespace {
 
 constexpr double shrink = 0.85, steepest = 0.35;
-constexpr double clearance = 0.75;        // of a column's length, kept free beyond its end
+constexpr double clearance = 0.75;         // of a column's length, kept free beyond its end
 constexpr double share_of_gap = 1 / 2.75;  // two walls then have 0.36 of their distance each
-constexpr double own_reach = 4;           // thicknesses of wall on which a column's own wall is no obstacle
+constexpr double own_reach = 4;            // thicknesses of wall on which a column's own wall is no obstacle
 constexpr int most_passes = 200, passes_alone = 12;
 
 struct Segment {
   Point from, to;
 };
 
-/// The stations, and the segments of other boundaries, from which a station's column needs to keep no distance:
-/// those near it along the outline.
+/// The stations, and the segments of other boundaries, from which a station's column needs to keep no
+/// distance: those near it along the outline.
 class Vicinity {
  public:
   explicit Vicinity(const WallLine& line)
@@ -69,7 +69,8 @@ class Vicinity {
 
 class Fitting {
  public:
-  explicit Fitting(const WallLine& line) : line_{line}, vicinity_{line}, h_(line.size()), meets_(line.size()) {
+  explicit Fitting(const WallLine& line)
+      : line_{line}, vicinity_{line}, h_(line.size()), meets_(line.size()) {
     for (std::int32_t i = 0; i < line_.size(); ++i) h_[i] = line_.asked(i);
     gather_walls();
   }
@@ -220,11 +221,13 @@ class Fitting {
     }
   }
 
-  bool any_marked() const { return std::ranges::any_of(meets_, [](char m) { return m != 0; }); }
+  bool any_marked() const {
+    return std::ranges::any_of(meets_, [](char m) { return m != 0; });
+  }
 
   /// The strip between two columns has four corners that turn left, and no segment of a front meets another
-  /// one or a boundary: then no two columns meet at all, as a map of a ring that is one-to-one nearby and on its rims is
-  /// one-to-one.
+  /// one or a boundary: then no two columns meet at all, as a map of a ring that is one-to-one nearby and on
+  /// its rims is one-to-one.
   void mark_unproved() {
     for (std::int32_t i = 0; i < line_.size(); ++i) {
       if (!place_exists(i) || is_positive(i)) continue;
@@ -246,11 +249,12 @@ class Fitting {
   [[noreturn]] void refuse() const {
     const auto at = std::ranges::find(meets_, 1) - meets_.begin();
     const Station& station = line_[size32(std::vector<char>(at))];
-    throw InputError(fmt::format(
-        "boundary {} near ({}, {}): its layers meet others however thin they are made; ask for thinner layers there "
-        "or give the place a boundary of its own without layers",
-        line_.geometry().boundary(line_.geometry().boundary_of(station.segment)).name, station.wall.x,
-        station.wall.y));
+    throw InputError(
+        fmt::format("boundary {} near ({}, {}): its layers meet others however thin they are made; ask for "
+                    "thinner layers there "
+                    "or give the place a boundary of its own without layers",
+                    line_.geometry().boundary(line_.geometry().boundary_of(station.segment)).name,
+                    station.wall.x, station.wall.y));
   }
 
   const WallLine& line_;
@@ -280,7 +284,8 @@ void Fitting::mark_crossing_fronts() {
       if (other && (is_end(i) || is_end(j))) return;
       if (!other && (line_.next(k) == i || j == k)) {
         const Point far_k = line_.next(k) == i ? all[k].from : all[k].to;
-        const Point far_i = line_.next(k) == i ? front(j) : front(i), common = line_.next(k) == i ? front(i) : front(j);
+        const Point far_i = line_.next(k) == i ? front(j) : front(i),
+                    common = line_.next(k) == i ? front(i) : front(j);
         if (!on_segment(far_k, far_i, common) && !on_segment(far_i, far_k, common)) return;
       } else if (!segments_meet(front(i), front(j), all[k].from, all[k].to)) {
         return;

@@ -14,8 +14,8 @@ struct FittingColumns {
 };
 
 /// The thickest layers, none thicker than asked, whose columns keep away from other walls, from their fronts
-/// and from each other. Thickness changes by at most 0.35 of the distance along the wall. Throws InputError, naming
-/// the place, where none fit.
+/// and from each other. Thickness changes by at most 0.35 of the distance along the wall. Throws InputError,
+/// naming the place, where none fit.
 FittingColumns fit_thickness(const WallLine& line);
 
 }  // namespace quadloop

@@ -7,12 +7,12 @@ namespace quadloop {
 namespace {
 
 constexpr double stations_per_thickness = 8;
-constexpr double cosine_of_fan = -0.5;                   // a fan where the wall turns by more than 120 degrees
+constexpr double cosine_of_fan = -0.5;  // a fan where the wall turns by more than 120 degrees
 constexpr double cosine_of_concave = 0.96592582628906831;  // a corner where it turns in by more than 15
 constexpr int fan_halvings = 4;
 
-/// Half way from one normal of the wall to the next. Where the wall almost turns back their sum vanishes, but the
-/// difference of the wall's own directions tells the way.
+/// Half way from one normal of the wall to the next. Where the wall almost turns back their sum vanishes, but
+/// the difference of the wall's own directions tells the way.
 Point between(Point a, Point b) {
   if (dot(a, b) > cosine_of_fan) return unit(a + b);
   const Point back{a.y - b.y, b.x - a.x};
@@ -103,7 +103,8 @@ void WallLine::add_between(const WallRun& run, std::size_t k) {
   const std::int32_t s = run.segments[k];
   const Point from = g.point(s), to = g.point(g.next(s));
   const double thickness = layers_thickness(*g.boundary(run.layers[k]).layers);
-  const int parts = std::max(1, static_cast<int>(std::ceil(stations_per_thickness * length(to - from) / thickness)));
+  const int parts =
+      std::max(1, static_cast<int>(std::ceil(stations_per_thickness * length(to - from) / thickness)));
   Station station;
   station.before = station.after = direction_of(from, to);
   station.segment = s;
@@ -134,11 +135,20 @@ void WallLine::add_end(const WallRun& run, bool first) {
   stations_.push_back(station);
 }
 
+std::int32_t WallLine::steps(std::int32_t i, std::int32_t j) const {
+  if (run_of_[i] != run_of_[j]) return none;
+  const Run& run = runs_[run_of_[i]];
+  if (j >= i) return j - i;
+  return run.closed ? j - i + (run.end - run.begin) : none;
+}
+
 void WallLine::link(std::int32_t begin, bool closed) {
   for (std::int32_t i = begin; i < size(); ++i) {
     next_.push_back(i + 1 < size() ? i + 1 : closed ? begin : none);
     previous_.push_back(i > begin ? i - 1 : closed ? size() - 1 : none);
+    run_of_.push_back(size32(runs_));
   }
+  runs_.push_back({begin, size(), closed});
 }
 
 }  // namespace quadloop

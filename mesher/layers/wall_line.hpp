@@ -23,15 +23,15 @@ struct Station {
   std::int32_t segment = 0;  ///< of the geometry: that after it, or before it where a run ends
   BoundaryId layers;         ///< whose layers it carries
   Shape shape = Shape::smooth;
-  bool kept = false;    ///< must be a node, on the wall and on the front
-  double slope = 0;     ///< of a concave corner's or an end's column, over the normal, away from the corner
-  Point direction;      ///< of its column: given in fans and at ends, elsewhere the middle of the two normals
+  bool kept = false;  ///< must be a node, on the wall and on the front
+  double slope = 0;   ///< of a concave corner's or an end's column, over the normal, away from the corner
+  Point direction;    ///< of its column: given in fans and at ends, elsewhere the middle of the two normals
 
   bool fixed() const { return shape != Shape::smooth; }
 };
 
-/// The walls that carry layers, as stations no farther apart than an eighth of the layers' thickness. Flat: the
-/// stations of all runs one after another, a place between two stations has the number of the first one.
+/// The walls that carry layers, as stations no farther apart than an eighth of the layers' thickness. Flat:
+/// the stations of all runs one after another, a place between two stations has the number of the first one.
 class WallLine {
  public:
   static constexpr std::int32_t none = -1;
@@ -42,6 +42,8 @@ class WallLine {
   const Station& operator[](std::int32_t i) const { return stations_[i]; }
   std::int32_t next(std::int32_t i) const { return next_[i]; }          ///< or `none`
   std::int32_t previous(std::int32_t i) const { return previous_[i]; }  ///< or `none`
+  /// How many stations on from i the station j is, on the same line of wall; `none` where it is not.
+  std::int32_t steps(std::int32_t i, std::int32_t j) const;
   /// The length of the wall to the next station; 0 within a fan, and where there is none.
   double width(std::int32_t i) const { return width_[i]; }
   /// The thickness asked for there.
@@ -81,6 +83,12 @@ class WallLine {
   const Geometry* geometry_;
   std::vector<Station> stations_;
   std::vector<std::int32_t> next_, previous_;
+  struct Run {
+    std::int32_t begin = 0, end = 0;
+    bool closed = false;
+  };
+  std::vector<Run> runs_;
+  std::vector<std::int32_t> run_of_;
   std::vector<double> width_, asked_;
 };
 

@@ -39,11 +39,12 @@ class Runs {
 
   /// Onto the segments that follow and those that lead there, as far as no column can lie on them.
   void extend(std::int32_t s) {
-    for (std::int32_t from = s, to = g_.next(s); !carries(to) && !can_hold_column(direction(from), direction(to));
-         from = to, to = g_.next(to))
+    for (std::int32_t from = s, to = g_.next(s);
+         !carries(to) && !can_hold_column(direction(from), direction(to)); from = to, to = g_.next(to))
       layers_[to] = layers_[s];
     for (std::int32_t to = s, from = g_.previous(s);
-         !carries(from) && !can_hold_column(direction(from), direction(to)); to = from, from = g_.previous(from))
+         !carries(from) && !can_hold_column(direction(from), direction(to));
+         to = from, from = g_.previous(from))
       layers_[from] = layers_[s];
   }
 

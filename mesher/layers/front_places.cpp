@@ -1,0 +1,45 @@
+#include "mesher/layers/front_places.hpp"
+
+#include <limits>
+
+#include "mesher/geometry/nearest_on_segment.hpp"
+
+namespace quadloop {
+
+FrontPlaces::FrontPlaces(const LayerFront& front) : front_{&front} {
+  std::vector<Box> boxes;
+  for (std::int32_t s = 0; s < front.outer.size(); ++s) {
+    if (front.station_of[s] == WallLine::none) continue;
+    segments_.push_back(s);
+    boxes.push_back(box_of(front.outer.point(s), front.outer.point(front.outer.next(s))));
+  }
+  tree_ = BoxTree(boxes);
+}
+
+FrontPlace FrontPlaces::locate(Point node, BoundaryId boundary) const {
+  const Geometry& outer = front_->outer;
+  const auto distance = [&](std::int32_t k) {
+    const std::int32_t s = segments_[k];
+    if (outer.boundary_of(s) != boundary) return std::numeric_limits<double>::infinity();
+    return place_on_segment(node, outer.point(s), outer.point(outer.next(s))).squared_distance;
+  };
+  const std::int32_t nearest = tree_.nearest(node, distance);
+  if (nearest == BoxTree::none || outer.boundary_of(segments_[nearest]) != boundary) return {};
+  const std::int32_t i = front_->station_of[segments_[nearest]], j = front_->line.next(i);
+  const Point from = front_->points[i], to = front_->points[j];
+  const double share = place_on_segment(node, from, to).parameter;
+  if (share == 1) return {j};
+  return {i, share, share == 0 ? 1 : place_on_segment(node, to, from).parameter};
+}
+
+bool FrontPlaces::follows(const FrontPlace& first, const FrontPlace& second) const {
+  if (!first.valid() || !second.valid()) return false;
+  const WallLine& line = front_->line;
+  if (first.station == second.station && first.share < second.share) return true;
+  const std::int32_t distance_on = line.steps(first.station, second.station);
+  const std::int32_t distance_back = line.steps(second.station, first.station);
+  return distance_on != WallLine::none && distance_on != 0 &&
+         (distance_back == WallLine::none || distance_on <= distance_back);
+}
+
+}  // namespace quadloop

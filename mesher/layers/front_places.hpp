@@ -1,0 +1,36 @@
+#pragma once
+
+#include "mesher/geometry/box_tree.hpp"
+#include "mesher/layers/layer_front.hpp"
+
+namespace quadloop {
+
+/// A place on the front: a station, or between it and the next one.
+struct FrontPlace {
+  std::int32_t station = WallLine::none;
+  /// Of the way to the next station, from this one and from the next one; 0 and 1 at the station.
+  double share = 0, rest = 1;
+
+  bool valid() const { return station != WallLine::none; }
+  bool at_station() const { return share == 0; }
+};
+
+/// Finds nodes of the mesh outside on the front.
+class FrontPlaces {
+ public:
+  /// `front` must outlive it.
+  explicit FrontPlaces(const LayerFront& front);
+
+  /// The place nearest to a node of the boundary; none where the boundary has no front. O(log n).
+  FrontPlace locate(Point node, BoundaryId boundary) const;
+
+  /// Whether the second place follows the first one on the same line of wall, by the shorter way.
+  bool follows(const FrontPlace& first, const FrontPlace& second) const;
+
+ private:
+  const LayerFront* front_;
+  std::vector<std::int32_t> segments_;  ///< of outer, that are front
+  BoxTree tree_;
+};
+
+}  // namespace quadloop

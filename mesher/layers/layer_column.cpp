@@ -1,0 +1,42 @@
+#include "mesher/layers/layer_column.hpp"
+
+#include <algorithm>
+
+namespace quadloop {
+
+namespace {
+
+/// Where the column stands: at the share of the wall that its node has of the front. The same for the wall
+/// walked the other way.
+Point foot_of(const WallLine& line, const FrontPlace& place) {
+  const Point a = line[place.station].wall;
+  if (place.at_station()) return a;
+  const Point b = line[line.next(place.station)].wall;
+  if (a == b) return a;
+  return 0.5 * ((a + place.share * (b - a)) + (b + place.rest * (a - b)));
+}
+
+/// The cosine of the angle between the column and the wall's normal, the larger angle of two; in a fan the
+/// column is normal to the wall.
+double cosine_of_tilt(const WallLine& line, const FrontPlace& place, Point direction) {
+  const Station& station = line[place.station];
+  if (station.shape == Station::Shape::fan && (place.at_station() || line.width(place.station) == 0)) return 1;
+  const double after = dot(direction, left_of(station.after));
+  return place.at_station() ? std::min(after, dot(direction, left_of(station.before))) : after;
+}
+
+}  // namespace
+
+std::vector<Point> layer_column(const LayerFront& front, const FrontPlace& place, Point node) {
+  const WallLine& line = front.line;
+  const Point foot = foot_of(line, place), way = node - foot;
+  const double whole = length(way);
+  const LayerSpec& spec = line.spec(place.station);
+  const double cosine = std::clamp(cosine_of_tilt(line, place, (1 / whole) * way), 0.2, 1.0);
+  const ColumnHeights heights = column_heights(spec, spec.first / cosine, whole);
+  std::vector<Point> nodes;
+  for (int layer = 0; layer < spec.count; ++layer) nodes.push_back(foot + (heights.reached[layer] / whole) * way);
+  return nodes;
+}
+
+}  // namespace quadloop
