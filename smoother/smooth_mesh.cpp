@@ -10,6 +10,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 #include "smoother/binary_unit.hpp"
+#include "smoother/even_widths.hpp"
 #include "smoother/level_lines.hpp"
 #include "smoother/sweeper.hpp"
 
@@ -21,6 +22,7 @@ constexpr int free_rings = 3;  ///< of nodes round those of cells above the thre
 constexpr double cost_rounding = 1e-12;  ///< relative: by so much a cost seen from another corner may differ
 constexpr int pinned_rings = 2;  ///< round triangles that flips have made too bad; so many more each time
 constexpr int most_attempts = 5;
+constexpr int most_even_sweeps = 40;
 
 template <std::size_t width>
 std::array<Point, width> corners_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes) {
@@ -238,6 +240,8 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
   if (may_move_lines && move_level_lines(comm, halo, options.pinned, options.bad))
     before = survey(comm, halo, targets, options.threshold);
   sweep_in_rounds(comm, halo, slide, targets, before, options, report);
+  if (comm.any(!options.even_segments.empty()) && options.sweeps > 0)
+    even_widths(comm, halo, slide, options.even_segments, most_even_sweeps);
   WorstCell after = worst_cell(comm, halo, targets, before);
   const NodeFlags moved = take_positions(halo, mesh);
   const bool sound = after.inverted == 0 || !comm.any(any_turns_right(mesh));

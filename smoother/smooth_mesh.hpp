@@ -26,6 +26,8 @@ struct SmoothOptions {
                        ///< degrees does
   const Geometry* geometry = nullptr;  ///< the outline that boundary nodes slide along; without it they slide
                                        ///< where the mesh's own is straight
+  std::vector<char> even_segments;     ///< a flag for each segment of the geometry along which the nodes are to
+                                       ///< be spread evenly, or none at all
   NodeFlags pinned;                    ///< a flag for each owned node that must stay, or none at all
   std::function<TieRank(Point)> delaunay;  ///< if set, the mesh is Delaunay under this order of nodes, and is
                                            ///< made so again by flips in the end

@@ -17,6 +17,9 @@ constexpr std::array<double, 4> shares{0.3, 0.12, 0.04, 0.01};
 constexpr double straight_sine = 1e-10;
 /// Of the shorter chord: so far the outline may stray from the chords, as it may in cutting.
 constexpr double stray_share = 0.15;
+/// Of the difference of both ways, a visit; and of their sum, what is no more worth a step.
+constexpr double step_to_middle = 0.125, even_enough = 1e-3;
+constexpr double cotangent_of_28 = 1.8807264653463318;
 /// A chord that stands for a part of the outline longer than so many times itself is left alone.
 constexpr double longest_way = 20;
 
@@ -194,6 +197,31 @@ std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objec
     if (!outlined || keeps_outline(rail, places, moved[k], to)) return to;
   }
   return std::nullopt;
+}
+
+bool BoundarySlide::lies_on(NodeId node, std::span<const char> segments) const {
+  const Rail& rail = rail_of(node);
+  if (!is_outlined(rail.boundary)) return false;
+  const Places places = locate(rail);
+  if (!places.before.valid() || !places.at.valid() || !places.after.valid()) return false;
+  const auto between = outline_->segments_between(places.before, places.after);
+  return !between.empty() && std::ranges::all_of(between, [&](std::int32_t s) { return segments[s] != 0; });
+}
+
+std::optional<Point> BoundarySlide::towards_middle(NodeId node, const Star& star) const {
+  const Rail& rail = rail_of(node);
+  const Places places = locate(rail);
+  if (!places.before.valid() || !places.at.valid() || !places.after.valid()) return std::nullopt;
+  const double back = outline_->way(places.before, places.at), ahead = outline_->way(places.at, places.after);
+  const double step = step_to_middle * (ahead - back);
+  if (std::abs(step) <= even_enough * (ahead + back)) return std::nullopt;
+  const OutlinePlace moved{places.at.loop, places.at.arc + step};
+  const Point to = outline_->point_at(moved);
+  const StarCost<1> now = star.cost(point(node), Objective::power), then = star.cost(to, Objective::power);
+  const double flattest = std::max(cotangent_of_28, now.largest_cotangent[0]);
+  if (!then.valid[0] || then.largest_cotangent[0] > flattest) return std::nullopt;
+  if (!keeps_outline(rail, places, moved, to)) return std::nullopt;
+  return to;
 }
 
 }  // namespace quadloop

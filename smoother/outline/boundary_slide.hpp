@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mesher/mesh/halo_mesh.hpp"
@@ -30,6 +31,13 @@ class BoundarySlide {
   /// A better place for a sliding node, or none: by Acceptance where the star is valid, else one that
   /// untangles.
   std::optional<Point> improve(NodeId node, const Star& star, Objective objective) const;
+
+  /// Whether a sliding node and both its neighbours lie on flagged segments of the outline.
+  bool lies_on(NodeId node, std::span<const char> segments) const;
+
+  /// A place nearer to the middle between a sliding node's neighbours along the outline, or none: no cell's angle
+  /// may fall under 28 degrees, or under the smallest one now.
+  std::optional<Point> towards_middle(NodeId node, const Star& star) const;
 
  private:
   /// The boundary through a sliding node.
