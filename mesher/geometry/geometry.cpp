@@ -81,11 +81,13 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
   for (const Point p : points_) box_.include(p);
   kept_.resize(points_.size());
   straight_.resize(points_.size());
+  bend_.resize(points_.size());
   for (std::int32_t v = 0; v < size(); ++v) {
     const BoundaryId before = boundary_of(previous(v)), after = boundary_of(v);
     const double turn = turn_degrees(v);
     kept_[v] = before != after || turn > boundary(after).corner_degrees;
     straight_[v] = before == after && turn < straight_degrees;
+    bend_[v] = kept_[v] ? 0 : turn;
   }
 }
 
@@ -95,11 +97,13 @@ double Geometry::turn_degrees(std::int32_t v) const {
 }
 
 Geometry Geometry::with(LocalDemands demands) const {
-  QUADLOOP_REQUIRE(demands.spacing.size() == points_.size() && demands.kept.size() == points_.size(),
+  QUADLOOP_REQUIRE(demands.spacing.size() == points_.size() && demands.kept.size() == points_.size() &&
+                       demands.bend_degrees.size() == points_.size(),
                    "one demand for each vertex and each segment");
   Geometry other = *this;
   other.spacing_ = std::move(demands.spacing);
   other.kept_ = std::move(demands.kept);
+  other.bend_ = std::move(demands.bend_degrees);
   return other;
 }
 

@@ -35,6 +35,8 @@ struct Boundary {
 struct LocalDemands {
   std::vector<double> spacing;  ///< of each segment; above 0
   std::vector<char> kept;       ///< of each vertex: whether it must become a mesh node
+  std::vector<double> bend_degrees;  ///< of each vertex: by how much the outline is taken to turn there, for a
+                                     ///< rule of curvature
 };
 
 /// The outline of the domain: simple closed loops that do not meet, each walked with the domain to its left,
@@ -73,6 +75,8 @@ class Geometry {
   static constexpr double straight_degrees = 1e-6;
   /// By how much the outline turns at the vertex, in degrees, 0 to 180.
   double turn_degrees(std::int32_t v) const;
+  /// By how much a smooth outline turns at the vertex, in degrees; 0 at kept ones.
+  double bend_degrees(std::int32_t v) const { return bend_[v]; }
   /// The length that the segment asks of the leaves which hold it: its boundary's spacing, else its own
   /// length.
   double spacing_of(std::int32_t segment) const;
@@ -92,6 +96,7 @@ class Geometry {
   std::vector<BoundaryId> segment_boundary_;
   std::vector<double> spacing_;  ///< of each segment, where LocalDemands say so
   std::vector<char> kept_, straight_;
+  std::vector<double> bend_;
   Box box_;
 };
 

@@ -31,7 +31,7 @@ class OuterOutline {
     }
     into.outer = Geometry({g_.boundaries().begin(), g_.boundaries().end()}, std::move(points_),
                           std::move(starts_), std::move(boundary_))
-                     .with({std::move(spacing_), std::move(kept_)});
+                     .with({std::move(spacing_), std::move(kept_), std::move(bend_)});
     into.station_of = std::move(station_of_);
   }
 
@@ -44,19 +44,25 @@ class OuterOutline {
     if (const std::int32_t first = first_of_segment_[s]; first != WallLine::none) {
       add_front(first, s);
     } else if (!begins_below(s)) {
-      add_vertex(g_.point(s), s, WallLine::none, g_.spacing_of(s), g_.kept(s));
+      add_vertex(g_.point(s), s, WallLine::none, g_.spacing_of(s), g_.kept(s), g_.bend_degrees(s));
     }
   }
   void add_front(std::int32_t first, std::int32_t s);
-  void add_vertex(Point p, std::int32_t segment, std::int32_t station, double spacing, bool kept) {
+  void add_vertex(Point p, std::int32_t segment, std::int32_t station, double spacing, bool kept, double bend) {
     points_.push_back(p);
     boundary_.push_back(g_.boundary_of(segment));
     station_of_.push_back(station);
     spacing_.push_back(spacing);
     kept_.push_back(kept ? 1 : 0);
+    bend_.push_back(bend);
   }
   bool begins_below(std::int32_t s) const;
   double spacing_after(std::int32_t i) const;
+  /// That of the wall: the front's own is that of columns which spread or converge too.
+  double bend_of(std::int32_t i) const {
+    const std::int32_t s = line_[i].segment;
+    return line_[i].wall == g_.point(s) && line_[i].shape == Station::Shape::smooth ? g_.bend_degrees(s) : 0;
+  }
   double last_layer(std::int32_t i) const;
 
   const WallLine& line_;
@@ -69,6 +75,7 @@ class OuterOutline {
   std::vector<std::int32_t> station_of_;
   std::vector<double> spacing_;
   std::vector<char> kept_;
+  std::vector<double> bend_;
 };
 
 /// The stations of segment s from the first one on; where the run ends, the rest of the boundary that it ends
@@ -76,10 +83,10 @@ class OuterOutline {
 void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
   std::int32_t i = first;
   for (; i != WallLine::none && begins(i) && line_[i].segment == s; i = line_.next(i))
-    add_vertex(fitting_.front[i], s, i, spacing_after(i), line_[i].kept);
+    add_vertex(fitting_.front[i], s, i, spacing_after(i), line_[i].kept, bend_of(i));
   if (i == WallLine::none || line_[i].segment != s) return;
   std::int32_t on = g_.next(s);  // the segment on which the run's last column ends
-  add_vertex(fitting_.front[i], on, WallLine::none, g_.spacing_of(on), true);
+  add_vertex(fitting_.front[i], on, WallLine::none, g_.spacing_of(on), true, 0);
 }
 
 /// Whether the segment of a boundary without layers begins at a wall, behind its last column.

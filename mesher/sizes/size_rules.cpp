@@ -35,7 +35,7 @@ SizeRules::SizeRules(const ShiftedOutline& outline, const Lattice& lattice, cons
   for (std::int32_t s = 0; s < g.size(); ++s) {
     spacing_.push_back(g.spacing_of(s));
     corner_spacing_.push_back(g.corner_spacing_of(s));
-    turning_.push_back(g.kept(s) ? 0 : std::llround(g.turn_degrees(s) / turning_unit));
+    turning_.push_back(std::llround(g.bend_degrees(s) / turning_unit));
   }
 }
 
