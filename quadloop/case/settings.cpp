@@ -12,6 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 #include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
 
@@ -91,8 +92,7 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
     rule.spacing = table.number("spacing", Range::positive());
     rule.corner_degrees = table.number("corner", {0, 180});
     rule.corner_spacing = table.number("corner_spacing", Range::positive());
-    rule.condition =
-        table.choice("bc", {"wall", "farfield", "inflow", "outflow", "symmetry", "interface", "none"});
+    rule.condition = table.choice("bc", condition_words());
     if (const auto pressure = table.number("pressure", Range::positive())) {
       if (rule.condition != "outflow")
         table.refuse("pressure", "needs bc = \"outflow\" in the same table; elsewhere there is none to set");
