@@ -23,17 +23,6 @@ void add(const Matrix4& matrix, double factor, Matrix4& sum) {
   for (std::size_t k = 0; k < 16; ++k) sum[k] += factor * matrix[k];
 }
 
-/// How a wall's push answers to the pressure.
-void add_wall_matrix(const Gas& gas, const State& state, Point normal, double factor, Matrix4& sum) {
-  const auto& [rho, u, v, p] = state;
-  const double g = gas.gamma - 1;
-  const std::array<double, 4> pressure{0.5 * g * (u * u + v * v), -g * u, -g * v, g};
-  for (std::size_t k = 0; k < 4; ++k) {
-    sum[4 + k] += factor * normal.x * pressure[k];
-    sum[8 + k] += factor * normal.y * pressure[k];
-  }
-}
-
 }  // namespace
 
 ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model)
@@ -122,17 +111,11 @@ void ImplicitSystem::add_edges(const std::vector<State>& states) {
 /// Only the part that a node's own state has in its half of a face.
 void ImplicitSystem::add_faces(const std::vector<State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
-    const Condition condition = model_.boundaries[face.boundary].condition;
+    const BoundaryModel& boundary = model_.boundaries[face.boundary];
     for (const std::int32_t node : {face.from, face.to}) {
       const std::size_t at = node;
       const State& state = states[at];
-      if (condition == Condition::wall) {
-        add_wall_matrix(model_.gas, state, face.normal, face.half_size, diagonal_[at]);
-      } else {
-        const State& outside = condition == Condition::outflow ? state : model_.free_stream;
-        add_flux_matrix(model_.gas, state, face.normal, 0.5 * face.half_size, diagonal_[at]);
-        add_upwind_matrix(model_.gas, state, outside, face.normal, 0.5 * face.half_size, diagonal_[at]);
-      }
+      add_boundary_matrix(model_, boundary, state, face.normal, face.half_size, diagonal_[at]);
       const double along = std::abs(state[1] * face.normal.x + state[2] * face.normal.y);
       wave_sums_[at] += 0.5 * face.half_size * (along + model_.gas.sound_speed(state));
     }
