@@ -50,7 +50,9 @@ class SizeRules {
 
   bool wants_split(const SizedQuadrant& q) const;
 
-  /// What can be said of a quadrant's leaves without splitting it.
+  /// What can be said of a quadrant's leaves without splitting it. It may promise more than wants_split()
+  /// then asks for, never less: wherever that holds, for the quadrant itself or one inside it, the level
+  /// there is less than `finest` and, if the quadrant is plain, less than coarsest_level().
   struct Judgement {
     bool plain = false;  ///< nothing inside asks for leaves finer than `max` does; no leaf made by a demand
     int finest = 0;      ///< no leaf inside is deeper than this level; it may be reached or not
