@@ -168,10 +168,10 @@ void read_smooth_table(const CaseTable& root, Settings& settings) {
       table->refuse("sweeps", "must be a whole number, 0 or more; 0 leaves the mesh as it is cut");
     settings.smooth.sweeps = static_cast<int>(*sweeps);
   }
-  const auto objective = table->choice("objective", {"power", "thesis"});
-  if (objective) settings.smooth.objective = *objective == "thesis" ? Objective::thesis : Objective::power;
-  const auto method = table->choice("method", {"perturb", "nlopt"});
-  if (method) settings.smooth.method = *method == "nlopt" ? Method::nlopt : Method::perturb;
+  if (const auto word = table->choice("objective", words_of(objective_words)))
+    settings.smooth.objective = *value_of(objective_words, *word);
+  if (const auto word = table->choice("method", words_of(method_words)))
+    settings.smooth.method = *value_of(method_words, *word);
   table->finish();
 }
 

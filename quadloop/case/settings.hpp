@@ -12,7 +12,7 @@
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/tree_record.hpp"
 #include "quadloop/case/solver_settings.hpp"
-#include "smoother/smooth_mesh.hpp"
+#include "smoother/smooth_options.hpp"
 
 namespace quadloop {
 
