@@ -28,7 +28,7 @@ void add(const Matrix4& matrix, double factor, Matrix4& sum) {
 ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model)
     : mesh_{mesh},
       model_{model},
-      colours_{colour_edges(comm, mesh)},
+      colours_{colour_dual_nodes(comm, mesh)},
       diagonal_(mesh.nodes()),
       inverses_(mesh.owned_nodes()),
       skewness_(mesh.edges().size(), 0.0),
