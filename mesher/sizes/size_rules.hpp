@@ -39,7 +39,7 @@ class SizeRules {
   const ShiftedOutline& outline() const { return *outline_; }
   const Lattice& lattice() const { return *lattice_; }
   const DemandedSplits& demanded() const { return *demanded_; }
-  std::span<const Source> sources() const { return options_.sources; }
+  std::span<const SizeSource> sources() const { return options_.sources; }
   int finest_level() const { return finest_; }      ///< of case and demands
   int coarsest_level() const { return coarsest_; }  ///< at which leaves are no larger than `max`
   /// (g - 1) / 2 for the gradation g, in units of 2^-slope_bits.

@@ -105,8 +105,8 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
 
 constexpr double largest_coordinate = 1e100;
 
-Source read_source(const CaseTable& table) {
-  Source source;
+SizeSource read_source(const CaseTable& table) {
+  SizeSource source;
   source.where = table.place();
   const auto box = table.numbers("box", 4);
   const auto disc = table.numbers("disc", 3);
@@ -123,9 +123,9 @@ Source read_source(const CaseTable& table) {
     source.shape = Box{{b[0], b[2]}, {b[1], b[3]}};
   } else if (disc) {
     if (!((*disc)[2] > 0)) table.refuse("disc", "must be [x, y, radius] with a radius above 0");
-    source.shape = Source::Disc{{(*disc)[0], (*disc)[1]}, (*disc)[2]};
+    source.shape = SizeSource::Disc{{(*disc)[0], (*disc)[1]}, (*disc)[2]};
   } else {
-    source.shape = Source::Line{{(*line)[0], (*line)[1]}, {(*line)[2], (*line)[3]}};
+    source.shape = SizeSource::Line{{(*line)[0], (*line)[1]}, {(*line)[2], (*line)[3]}};
   }
   for (const auto& [key, numbers] : {std::pair{"box", box}, {"line", line}, {"disc", disc}}) {
     const bool huge = numbers && std::any_of(numbers->begin(), numbers->end(),
@@ -274,7 +274,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
     if (const double at_corner = geometry.corner_spacing_of(s); at_corner > 0)
       smallest = std::min(smallest, at_corner);
   }
-  for (const Source& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
+  for (const SizeSource& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
   options.size.max = max;
   // Leaf sizes halve: so there is one at most as large as asked for.
@@ -331,7 +331,7 @@ Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) 
     }
   }
   for (std::string& warning : corner_warnings(geometry, min)) warnings.push_back(std::move(warning));
-  for (const Source& source : options.size.sources) {
+  for (const SizeSource& source : options.size.sources) {
     if (source.spacing < min) {
       warnings.push_back(fmt::format(
           "{}: this [[source]] asks for a spacing of {}, but spacing.min = {} ends the refinement before",

@@ -17,14 +17,14 @@ class Random {
   Point place() { return {between(-1.4, 1.4), between(-1.4, 1.4)}; }
   bool toss() { return share_(engine_) < 0.5; }
 
-  Source source() {
+  SizeSource source() {
     const Point from = place();
     const Point to = from + Point{between(0.001, 0.5), between(0.001, 0.5)};
     const double spacing = std::exp(between(std::log(0.02), std::log(1.0)));
     switch (static_cast<int>(between(0, 3))) {
       case 0: return {Box{from, to}, spacing};
-      case 1: return {Source::Disc{from, between(0.001, 0.5)}, spacing};
-      default: return {Source::Line{from, to}, spacing};
+      case 1: return {SizeSource::Disc{from, between(0.001, 0.5)}, spacing};
+      default: return {SizeSource::Line{from, to}, spacing};
     }
   }
 
