@@ -33,7 +33,8 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
       inverses_(mesh.owned_nodes()),
       skewness_(mesh.edges().size(), 0.0),
       wave_sums_(mesh.nodes()) {
-  lay_out();
+  order_rows();
+  place_edges(lay_out_rows());
   for (const SkewEdge& skew : mesh.skew_edges()) {
     const DualEdge& edge = mesh.edges()[skew.edge];
     const double crosswise =
@@ -42,7 +43,8 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
   }
 }
 
-void ImplicitSystem::lay_out() {
+/// The rows colour by colour, within a colour in the order of nodes.
+void ImplicitSystem::order_rows() {
   const auto colour = [&](std::int32_t node) { return colours_.colour_of[NodeId{node}]; };
   row_nodes_.resize(mesh_.owned_nodes());
   std::iota(row_nodes_.begin(), row_nodes_.end(), 0);
@@ -53,19 +55,29 @@ void ImplicitSystem::lay_out() {
                                             [&](std::int32_t node) { return colour(node) < c; });
     colour_starts_.push_back(first - row_nodes_.begin());
   }
-  std::vector<std::size_t> next(
-      row_nodes_.size(),
-      0);  // of each owned node: first its number of neighbours, then the next slot in its row
+}
+
+/// Room in each row for a block of each neighbour. Returns where the row of each owned node starts.
+std::vector<std::size_t> ImplicitSystem::lay_out_rows() {
+  std::vector<std::size_t> neighbours(row_nodes_.size(), 0), starts(row_nodes_.size());
   for (const DualEdge& edge : mesh_.edges()) {
     for (const std::int32_t node : {edge.low, edge.high}) {
-      if (mesh_.is_owned(node)) ++next[node];
+      if (mesh_.is_owned(node)) ++neighbours[node];
     }
   }
   row_starts_.push_back(0);
-  for (const std::int32_t node : row_nodes_)
-    row_starts_.push_back(row_starts_.back() + std::exchange(next[node], row_starts_.back()));
+  for (const std::int32_t node : row_nodes_) {
+    starts[node] = row_starts_.back();
+    row_starts_.push_back(row_starts_.back() + neighbours[node]);
+  }
   columns_.resize(row_starts_.back());
   blocks_.resize(row_starts_.back());
+  return starts;
+}
+
+/// Each edge's places in the rows of its nodes, in the order of edges from `next` on, the start of each owned
+/// node's row.
+void ImplicitSystem::place_edges(std::vector<std::size_t> next) {
   const auto take = [&](std::int32_t node, std::int32_t column) {
     if (!mesh_.is_owned(node)) return -1;
     const std::size_t slot = next[node]++;
