@@ -29,8 +29,8 @@ const FileFormat* mesh_format(const std::string& path, const std::string& name =
 void require_readable_suffix(const std::string& path) {
   if (mesh_format(path) != nullptr) return;
   std::error_code no_such_file;
-  if (std::filesystem::exists(path + ".mesh", no_such_file))
-    throw InputError(path + ": is no mesh file; do you mean '" + path + ".mesh'?");
+  if (const std::string ours = path + "." + native_format().name; std::filesystem::exists(ours, no_such_file))
+    throw InputError(path + ": is no mesh file; do you mean '" + ours + "'?");
   throw InputError(path + ": no mesh is read from the format '" + suffix_of(path) + "'; give a " +
                    suffixes_for({Content::mesh}) + " file");
 }
@@ -49,7 +49,7 @@ void require_writable_suffix(const std::string& path) {
 void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path,
                 const std::string& format) {
   const FileFormat* row = mesh_format(path, format);
-  if (row == nullptr) return;
+  QUADLOOP_REQUIRE(row != nullptr, "a mesh is written in a format that holds none");
   if (row->write_blocks != nullptr) return row->write_blocks(outputs, whole, path);
   row->write_mesh(outputs, whole.mesh, path, whole.solution ? &*whole.solution : nullptr);
 }
@@ -68,7 +68,7 @@ void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const
 void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution,
                 double gamma) {
   const FileFormat* format = format_of(path);
-  if (format == nullptr) return;
+  QUADLOOP_REQUIRE(format != nullptr, "a mesh is written in a format that there is none of");
   if (format->write_mesh != nullptr) format->write_mesh(outputs, mesh, path, solution);
   if (format->write_solution != nullptr && solution != nullptr)
     format->write_solution(outputs, mesh, path, *solution, gamma);

@@ -11,6 +11,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "quadloop/case/case_input.hpp"
+#include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
 

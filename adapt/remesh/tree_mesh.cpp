@@ -10,6 +10,7 @@
 #include "io/mesh_file.hpp"
 #include "io/solution_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/exchange.hpp"
 #include "mesher/base/ids.hpp"
 #include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/compare_meshes.hpp"

@@ -31,18 +31,18 @@ class WordDigest {
     add(std::uint64_t{value.has_value()});
     add(value.value_or(0));
   }
-  void add(const Source& source) {
+  void add(const SizeSource& source) {
     add(source.shape.index());
     add(source.spacing);
     if (const auto* box = std::get_if<Box>(&source.shape)) {
       add(box->low);
       add(box->high);
-    } else if (const auto* disc = std::get_if<Source::Disc>(&source.shape)) {
+    } else if (const auto* disc = std::get_if<SizeSource::Disc>(&source.shape)) {
       add(disc->centre);
       add(disc->radius);
     } else {
-      add(std::get<Source::Line>(source.shape).from);
-      add(std::get<Source::Line>(source.shape).to);
+      add(std::get<SizeSource::Line>(source.shape).from);
+      add(std::get<SizeSource::Line>(source.shape).to);
     }
   }
   std::uint64_t value() const { return mixed(state_); }
@@ -64,7 +64,7 @@ std::uint64_t case_digest(const MeshOptions& options) {
   digest.add(size.curvature);
   digest.add(size.gap);
   digest.add(size.sources.size());
-  for (const Source& source : size.sources) digest.add(source);
+  for (const SizeSource& source : size.sources) digest.add(source);
   digest.add(std::uint64_t{size.root.has_value()});
   if (size.root) {
     digest.add(size.root->corner);

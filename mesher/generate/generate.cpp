@@ -9,6 +9,7 @@
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/lattice_rank.hpp"
 #include "mesher/generate/digests.hpp"
+#include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
 

@@ -9,7 +9,7 @@
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
-#include "smoother/smooth_mesh.hpp"
+#include "smoother/smooth_options.hpp"
 
 namespace quadloop {
 

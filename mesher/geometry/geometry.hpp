@@ -24,7 +24,7 @@ struct Boundary {
   std::string name;
   double spacing = 0;              ///< length wanted along it; 0: the geometry's own point spacing
   double corner_degrees = 30;      ///< a point that turns by more is kept as a node; 180 keeps none
-  std::string condition = "none";  ///< wall | farfield | inflow | outflow | symmetry | interface | none
+  std::string condition = "none";  ///< a word of boundary_conditions
   double corner_spacing = 0;  ///< size wanted of the leaves at its sharp corners; 0: that of any other place
 };
 

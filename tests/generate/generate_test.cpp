@@ -110,8 +110,8 @@ TEST(Digests, ChangeWithEverySetting) {
   see([](MeshOptions& o) { o.size.root = RootOptions{{0, 0}, 1, 1, 2}; });
   see([](MeshOptions& o) { o.size.root = RootOptions{{0, 0}, 1, 2, 1}; });
   see([](MeshOptions& o) { o.size.sources = {{Box{{0, 0}, {1, 1}}, 1}}; });
-  see([](MeshOptions& o) { o.size.sources = {{Source::Line{{0, 0}, {1, 1}}, 1}}; });
-  see([](MeshOptions& o) { o.size.sources = {{Source::Disc{{0, 0}, 1}, 1}}; });
+  see([](MeshOptions& o) { o.size.sources = {{SizeSource::Line{{0, 0}, {1, 1}}, 1}}; });
+  see([](MeshOptions& o) { o.size.sources = {{SizeSource::Disc{{0, 0}, 1}, 1}}; });
   see([](MeshOptions& o) { o.size.sources = {{Box{{0, 0}, {1, 1}}, 1}, {Box{{0, 0}, {1, 1}}, 1}}; });
 }
 

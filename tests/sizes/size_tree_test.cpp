@@ -25,7 +25,7 @@ Geometry diamond_in_square() {
 }
 
 struct Sizes {
-  explicit Sizes(const std::vector<Source>& sources = {}) {
+  explicit Sizes(const std::vector<SizeSource>& sources = {}) {
     options.min = 0.01;
     options.max = 0.3;
     options.sources = sources;
