@@ -26,8 +26,8 @@ void adapt(const quadloop::Communicator& comm, const std::string& case_file, con
   now.solution = solve(now.mesh);
   for (int cycle = 0; cycle < ring.cycles(); ++cycle) {
     const quadloop::Marks marks = quadloop::sense(comm, ring, now);
-    if (comm.is_root()) std::printf("%lld leaves to be split\n", static_cast<long long>(marks.refined));
-    if (!marks.change_mesh()) break;
+    if (comm.is_root()) std::printf("%lld leaves to be split\n", static_cast<long long>(marks.refined()));
+    if (!marks.changes_mesh()) break;
     now = quadloop::remesh(comm, ring, marks, now).solved;  // with the old solution on the new mesh
     now.solution = solve(now.mesh);
   }

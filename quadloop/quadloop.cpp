@@ -75,16 +75,30 @@ FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
   return euler_solver(std::get<EulerOptions>(*chosen));
 }
 
+Marks::Marks(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan)
+    : case_digest_{of.tree.attributes.case_digest},
+      coordinate_digest_{of.tree.attributes.coordinate_digest},
+      plan_{std::move(plan)} {}
+
+std::int64_t Marks::refined() const { return plan_->refined; }
+std::int64_t Marks::coarsened() const { return plan_->coarsened; }
+const std::vector<std::string>& Marks::warnings() const { return plan_->warnings; }
+
 Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved) {
   require_rows(comm, solved.mesh, solved.solution);
   const AdaptOptions& options = adapt_options(of.parts().input.settings, of.parts().path);
   auto plan = std::make_shared<const AdaptationPlan>(plan_adaptation(comm, mesh_input(of), options, solved));
-  return {plan->refined, plan->coarsened, plan->warnings, plan};
+  return {solved, std::move(plan)};
 }
 
 NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks, const SolvedMesh& before) {
   require_rows(comm, before.mesh, before.solution);
-  CarriedMesh carried = carry_over(comm, mesh_input(of), *marks.plan, before);
+  const TreeAttributes& tree = before.tree.attributes;
+  comm.together([&] {
+    if (marks.case_digest_ != tree.case_digest || marks.coordinate_digest_ != tree.coordinate_digest)
+      throw InputError("the marks are of another mesh than the one that is to be changed; sense() it anew");
+  });
+  CarriedMesh carried = carry_over(comm, mesh_input(of), *marks.plan_, before);
   MeshResult& made = carried.generated.result;
   return {{std::move(made.mesh), std::move(made.tree), std::move(carried.start), {}},
           std::move(carried.report),

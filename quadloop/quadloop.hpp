@@ -36,6 +36,7 @@
 namespace quadloop {
 
 struct CaseParts;
+struct AdaptationPlan;
 
 /// A case file with its geometry in place: sizes, smoothing, what to adapt to, the solver. Copies share it.
 class Case {
@@ -78,13 +79,22 @@ void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 /// start without these variables, and SolverError, with the place, where the flow cannot be kept physical.
 FlowSolver built_in_solver(const Communicator& comm, const Case& of);
 
-/// What a solution asks of the next mesh.
-struct Marks {
-  std::int64_t refined = 0, coarsened = 0;  ///< leaves of all ranks
-  std::vector<std::string> warnings;        ///< why nothing is marked, what was not reached
-  std::shared_ptr<const struct AdaptationPlan> plan;
+/// What a solution asks of the next mesh: sense() makes it, for one mesh alone. Copies share it.
+class Marks {
+ public:
+  std::int64_t refined() const;  ///< leaves, of all ranks
+  std::int64_t coarsened() const;
+  const std::vector<std::string>& warnings() const;  ///< why nothing is marked, what was not reached
+  bool changes_mesh() const { return refined() + coarsened() > 0; }
 
-  bool change_mesh() const { return refined + coarsened > 0; }
+ private:
+  Marks(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan);
+  friend Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
+  friend NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks,
+                        const SolvedMesh& before);
+
+  std::uint64_t case_digest_, coordinate_digest_;  ///< of the tree of the mesh that it is for
+  std::shared_ptr<const AdaptationPlan> plan_;
 };
 
 /// Marks leaves by the case's table [adapt], from the solution. `solved` is what make_mesh() or remesh() made
@@ -93,8 +103,8 @@ struct Marks {
 Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
 
 /// The next mesh, smoothed, with the solution of the one before carried over to it: all its variables, as
-/// transfer() does. `marks` are those of sense() for `before`. Throws InputError as make_mesh() and sense()
-/// do.
+/// transfer() does. `marks` are those of sense() for `before`, whose nodes may have moved since. Throws
+/// InputError as make_mesh() and sense() do, and for marks of another mesh.
 NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks, const SolvedMesh& before);
 
 /// What is wrong with a mesh: one line for each fault, with its place; none where it is valid. Gathers the

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <type_traits>
 
 #include "quadloop/quadloop.hpp"
 #include "tests/support/world.hpp"
@@ -47,6 +48,8 @@ Field front(const Mesh& mesh) {
 
 std::int64_t nodes(const Mesh& mesh) { return world().sum(mesh.owned_nodes); }
 
+static_assert(!std::is_default_constructible_v<Marks>, "marks come from sense() alone");
+
 TEST_F(Door, MeshesAdaptsAndChecks) {
   const Case square(world(), case_path(), {"adapt.min=0.005"});
   EXPECT_EQ(square.title(), "square");
@@ -56,8 +59,9 @@ TEST_F(Door, MeshesAdaptsAndChecks) {
   EXPECT_EQ(made.solved.solution.width(), 0U);
   made.solved.solution = front(made.solved.mesh);
   const Marks marks = sense(world(), square, made.solved);
-  ASSERT_TRUE(marks.change_mesh());
+  ASSERT_TRUE(marks.changes_mesh());
   const NewMesh next = remesh(world(), square, marks, made.solved);
+  EXPECT_THROW(remesh(world(), square, marks, next.solved), InputError);  // they are for the one before
   EXPECT_GT(nodes(next.solved.mesh), nodes(made.solved.mesh));
   EXPECT_TRUE(check(world(), next.solved.mesh).empty());
   EXPECT_EQ(next.solved.solution.names, made.solved.solution.names);
