@@ -8,6 +8,7 @@
 #include "adapt/remesh/remesh.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "io/mesh_file.hpp"
+#include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "quadloop/case/case_input.hpp"
@@ -25,6 +26,12 @@ const MeshInput& mesh_input(const Case& of) { return *of.parts().input.mesh; }
 
 std::string text_of(const MeshFault& fault) {
   return fmt::format("{}: {} at ({}, {})", name_of(fault.rule), fault.what, fault.place.x, fault.place.y);
+}
+
+/// *Collective.*
+bool all_delaunay(const Communicator& comm, const Mesh& mesh) {
+  const Mesh whole = gather_whole(comm, mesh);
+  return comm.any(comm.is_root() && is_delaunay(whole));
 }
 
 void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field) {
@@ -59,8 +66,10 @@ NewMesh make_mesh(const Communicator& comm, const Case& of) {
 }
 
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh) {
-  SmoothOptions options = mesh_input(of).smooth;
-  options.geometry = &mesh_input(of).geometry;
+  const MeshInput& input = mesh_input(of);
+  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
+  SmoothOptions options = smooth_options_for(input, lattice.finest_level(input.mesh.size.min));
+  if (options.delaunay && !all_delaunay(comm, mesh)) options.delaunay = nullptr;
   smooth_mesh(comm, mesh, options);
 }
 

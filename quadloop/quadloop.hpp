@@ -68,8 +68,10 @@ struct NewMesh {
 NewMesh make_mesh(const Communicator& comm, const Case& of);
 
 /// Moves the nodes of a mesh for better cells, as the case says; boundary nodes slide along its geometry. Any
-/// valid mesh of that geometry will do; its cells stay as they are. Never makes the worst cell worse. Of
-/// inverted cells as many are mended as can be: check() tells.
+/// valid mesh of that geometry will do. Its cells stay as they are, but where the case is of the Delaunay
+/// type and the mesh too: flips then make it so again (and one rank holds the whole for a while, to tell).
+/// With quads = "parallel" parallelograms are spared; those that become skew are not divided, as make_mesh()
+/// does. Never makes the worst cell worse. Of inverted cells as many are mended as can be: check() tells.
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 
 /// The built-in solver of the two-dimensional Euler equations with the case's settings, for any mesh of its
