@@ -138,12 +138,15 @@ MeshFile read(const Communicator& comm, const std::string& path) {
   return file;
 }
 
-void write(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field& field) {
+std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const std::string& path,
+                               const Field& field) {
   require_writable_suffix(path);
   require_rows(comm, mesh, field);
   OutputSet outputs(comm);
-  write_mesh(outputs, mesh, path, field.width() > 0 ? &field : nullptr);
+  const Field* solution = field.width() > 0 ? &field : nullptr;
+  write_mesh(outputs, mesh, path, solution);
   outputs.commit();
+  return losses_in(mesh, solution, path);
 }
 
 }  // namespace quadloop

@@ -126,8 +126,11 @@ struct MeshFile {
 MeshFile read(const Communicator& comm, const std::string& path);
 
 /// Writes a mesh, with the field where the format has a place for one, as the suffix tells; the file appears
-/// whole or not at all. The same bytes on any number of ranks. Throws InputError for a suffix that read()
-/// does not know, or a field without a row for each owned node; OutputError where the file cannot be written.
-void write(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field& field = {});
+/// whole or not at all. The same bytes on any number of ranks. Returns warnings, the same on all ranks: what
+/// the format has no place for (solution, constants, boundary conditions), and names that it cannot hold.
+/// Throws InputError for a suffix that read() does not know, or a field without a row for each owned node;
+/// OutputError where the file cannot be written.
+std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const std::string& path,
+                               const Field& field = {});
 
 }  // namespace quadloop

@@ -82,6 +82,16 @@ TEST_F(Door, WritesAndReadsTheSameMeshAndField) {
   }
 }
 
+TEST_F(Door, SaysWhatAFormatHasNoPlaceFor) {
+  const Case square(world(), case_path());
+  const Mesh mesh = make_mesh(world(), square).solved.mesh;
+  EXPECT_TRUE(write(world(), mesh, file("a.cgns"), front(mesh)).empty());
+  const std::vector<std::string> losses = write(world(), mesh, file("a.su2"), front(mesh));
+  ASSERT_EQ(losses.size(), 2U);
+  EXPECT_NE(losses[0].find("solution"), std::string::npos) << losses[0];
+  EXPECT_NE(losses[1].find("boundary conditions"), std::string::npos) << losses[1];
+}
+
 TEST_F(Door, SmoothsAMeshThatWasRead) {
   const Case square(world(), case_path(), {"smooth.sweeps=5"});
   Mesh mesh = make_mesh(world(), square).solved.mesh;
