@@ -10,6 +10,7 @@
 #include "flow/flow_solver.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
@@ -26,7 +27,10 @@
 ///
 /// Errors are exceptions derived from Error, the same on all ranks: InputError for a case, mesh or field that
 /// cannot be used, SolverError, OutputError; their text names the place and the cure. Fault is a mistake of
-/// this library's. What else a function throws stands with it.
+/// this library's. What else a function throws stands with it. Code of a user's own that may fail on one rank
+/// alone runs inside comm.together(), so that its error too is the same on all.
+///
+/// Warnings are returned, the same on all ranks. Nothing is printed unless log::configure() asks for it.
 ///
 ///     const Communicator comm(MPI_COMM_WORLD);
 ///     const Case wing(comm, "wing.toml");
@@ -122,7 +126,8 @@ struct MeshFile {
 };
 
 /// Reads a mesh, and the field at its nodes, in the format that the suffix tells: .mesh, .cgns, .vtu, .su2,
-/// .msh. The first rank reads it whole. Throws InputError with the file and, in text, the line.
+/// .msh. The first rank reads it whole; .cgns in a child process, which calls nothing of MPI: fork() must be
+/// allowed there (some InfiniBand drivers forbid it). Throws InputError with the file and, in text, the line.
 MeshFile read(const Communicator& comm, const std::string& path);
 
 /// Writes a mesh, with the field where the format has a place for one, as the suffix tells; the file appears
