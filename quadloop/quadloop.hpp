@@ -11,7 +11,9 @@
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/base/reproducible_sum.hpp"
 #include "mesher/mesh/field.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 /// quadloop as a library: this header and those that it names are its whole interface.
@@ -24,6 +26,11 @@
 /// Shapes and units: a Mesh is one rank's part, as mesh.hpp says; a Field has a row of values for each node
 /// that the rank owns, in the mesh's order, with the same names on all ranks. Lengths are in the unit of the
 /// case's geometry. Values are the solver's own; sense() and remesh() want them finite.
+///
+/// A parallel solver of one's own has in HaloMesh all cells round its nodes, and in halo.exchange() what
+/// brings owners' values to copies. There is no way that adds up copies at their owners: floating-point sums
+/// would depend on the ranks. A rank adds up, for its owned nodes alone, over halo.for_each_cell(), which
+/// goes by the global order of cells; reproducible_sum() adds up over all ranks.
 ///
 /// Errors are exceptions derived from Error, the same on all ranks: InputError for a case, mesh or field that
 /// cannot be used, SolverError, OutputError; their text names the place and the cure. Fault is a mistake of
