@@ -2,6 +2,7 @@
 #include "mesher/base/free_memory.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -25,10 +26,30 @@ struct Folder {
   fs::path path = fs::temp_directory_path() / ("quadloop_groups_" + std::to_string(getpid()));
 };
 
-TEST(FreeMemory, IsKnownAndShared) {
-  EXPECT_GT(free_memory(), 0);
-  EXPECT_LT(free_memory(), 1e18);
-  EXPECT_GT(free_memory_of_all(test::world()), 0);
+constexpr double mib = 1 << 20;
+
+/// What this process has of what its limit RLIMIT_DATA counts.
+double bytes_of_data() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word && word != "VmData:") {
+  }
+  double kib = 0;
+  status >> kib;
+  return 1024 * kib;
+}
+
+TEST(FreeMemory, ALimitOfTheProcessLeavesWhatItHasNotTaken) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_DATA, &before), 0);
+  rlimit limit = before;
+  limit.rlim_cur = static_cast<rlim_t>(bytes_of_data() + 64 * mib);
+  ASSERT_EQ(setrlimit(RLIMIT_DATA, &limit), 0);
+  const double own = free_memory(), of_all = free_memory_of_all(test::world());
+  setrlimit(RLIMIT_DATA, &before);
+  EXPECT_NEAR(own, 64 * mib, 4 * mib);  // the process goes on living
+  EXPECT_NEAR(of_all, own, 4 * mib);
+  EXPECT_GT(free_memory(), own);
 }
 
 TEST(FreeMemory, AGroupLeavesItsLimitLessWhatItMustKeep) {
