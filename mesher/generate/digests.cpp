@@ -4,24 +4,18 @@
 #include <optional>
 #include <variant>
 
+#include "mesher/base/mixed_bits.hpp"
+
 namespace quadloop {
 
 namespace {
-
-/// Mixes the bits of a word so that each of them moves about half of the result's (the finisher of
-/// SplitMix64).
-std::uint64_t mixed(std::uint64_t word) {
-  word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  word = (word ^ (word >> 27)) * 0x94d049bb133111ebULL;
-  return word ^ (word >> 31);
-}
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }  // -0 becomes 0
 
 /// A digest of words in their order.
 class WordDigest {
  public:
-  void add(std::uint64_t word) { state_ = mixed(state_ ^ word) + 0x9e3779b97f4a7c15ULL; }
+  void add(std::uint64_t word) { state_ = mixed_bits(state_ ^ word) + golden_step; }
   void add(double value) { add(bits(value)); }
   void add(Point p) {
     add(p.x);
@@ -45,7 +39,7 @@ class WordDigest {
       add(std::get<Source::Line>(source.shape).to);
     }
   }
-  std::uint64_t value() const { return mixed(state_); }
+  std::uint64_t value() const { return mixed_bits(state_); }
 
  private:
   std::uint64_t state_ = 0x6a09e667f3bcc908ULL;
