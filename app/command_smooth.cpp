@@ -112,7 +112,7 @@ SmoothOptions options_of(const Communicator& comm, const SmoothArguments& argume
   options.sweeps = arguments.sweeps;
   options.method = arguments.method == "nlopt" ? Method::nlopt : Method::perturb;
   options.objective = arguments.objective == "thesis" ? Objective::thesis : Objective::power;
-  options.pinned = scatter_nodes(comm, loaded.pinned, loaded.order);
+  options.pinned = NodeFlags(scatter_nodes(comm, loaded.pinned, loaded.order));
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
   if (!loaded.delaunay) return options;
   options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);
