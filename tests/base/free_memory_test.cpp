@@ -3,28 +3,17 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Folder {
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  void write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path / name).parent_path());
-    std::ofstream(path / name) << text;
-  }
-  fs::path path = fs::temp_directory_path() / ("quadloop_groups_" + std::to_string(getpid()));
-};
+using test::TemporaryFolder;
 
 constexpr double mib = 1 << 20;
 
@@ -53,27 +42,27 @@ TEST(FreeMemory, ALimitOfTheProcessLeavesWhatItHasNotTaken) {
 }
 
 TEST(FreeMemory, AGroupLeavesItsLimitLessWhatItMustKeep) {
-  const Folder root;
+  const TemporaryFolder root;
   root.write("job/memory.max", "1000\n");
   root.write("job/memory.current", "700\n");
   root.write("job/memory.stat", "anon 500\ninactive_file 150\n");
-  EXPECT_EQ(free_in_control_groups("0::/job\n", root.path), 450);
+  EXPECT_EQ(free_in_control_groups("0::/job\n", root.path()), 450);
 }
 
 TEST(FreeMemory, TheGroupsAboveLimitItToo) {
-  const Folder root;
+  const TemporaryFolder root;
   root.write("job/memory.max", "100\n");
   root.write("job/memory.current", "70\n");
   root.write("job/step/memory.max", "max\n");
   root.write("job/step/memory.current", "10\n");
-  EXPECT_EQ(free_in_control_groups("0::/job/step\n", root.path), 30);
+  EXPECT_EQ(free_in_control_groups("0::/job/step\n", root.path()), 30);
 }
 
 TEST(FreeMemory, TheOlderKindOfGroupsIsReadToo) {
-  const Folder root;
+  const TemporaryFolder root;
   root.write("memory/job/memory.limit_in_bytes", "1000\n");
   root.write("memory/job/memory.usage_in_bytes", "400\n");
-  EXPECT_EQ(free_in_control_groups("5:cpu,cpuacct:/other\n4:memory:/job\n0::/\n", root.path), 600);
+  EXPECT_EQ(free_in_control_groups("5:cpu,cpuacct:/other\n4:memory:/job\n0::/\n", root.path()), 600);
 }
 
 TEST(FreeMemory, WithoutGroupsThereIsNoLimit) {

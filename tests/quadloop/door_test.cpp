@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <type_traits>
 
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "quadloop/quadloop.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -20,26 +19,18 @@ using test::world;
 /// A square and its case in a folder of the test's own.
 class Door : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / ("door_test." + std::to_string(world().size()));
-    world().together([&] {
-      if (!world().is_root()) return;
-      std::filesystem::create_directories(folder_);
-      std::ofstream(folder_ / "square.geom") << "1\nside\n4\n0 0\n1 0\n1 1\n0 1\n";
-      std::ofstream(case_path()) << "title = \"square\"\n[geometry]\nfile = \"square.geom\"\n"
-                                    "[spacing]\nmin = 0.02\nmax = 0.1\n[boundary.side]\nbc = \"wall\"\n"
-                                    "[adapt]\nvariable = \"q\"\ncycles = 2\n";
-    });
-  }
-  void TearDown() override {
-    world().barrier();
-    if (world().is_root()) std::filesystem::remove_all(folder_);
+  Door() {
+    folder_.write("square.geom", "1\nside\n4\n0 0\n1 0\n1 1\n0 1\n");
+    folder_.write("case.toml",
+                  "title = \"square\"\n[geometry]\nfile = \"square.geom\"\n"
+                  "[spacing]\nmin = 0.02\nmax = 0.1\n[boundary.side]\nbc = \"wall\"\n"
+                  "[adapt]\nvariable = \"q\"\ncycles = 2\n");
   }
 
-  std::string case_path() const { return (folder_ / "case.toml").string(); }
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string case_path() const { return file("case.toml"); }
+  std::string file(const std::string& name) const { return folder_.file(name); }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 Field front(const Mesh& mesh) {
