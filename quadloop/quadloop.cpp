@@ -5,9 +5,11 @@
 #include <optional>
 #include <utility>
 
+#include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "io/mesh_file.hpp"
+#include "io/tree/tree_file.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -147,6 +149,31 @@ std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const
   write_mesh(outputs, mesh, path, solution);
   outputs.commit();
   return losses_in(mesh, solution, path);
+}
+
+void write_solved(const Communicator& comm, const SolvedMesh& solved, const std::string& stem) {
+  require_rows(comm, solved.mesh, solved.solution);
+  OutputSet outputs(comm);
+  write_mesh(outputs, solved.mesh, stem + ".mesh", solved.solution.width() > 0 ? &solved.solution : nullptr);
+  write_tree(outputs, solved.tree, stem + tree_suffix);
+  outputs.commit();
+}
+
+SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::string& stem) {
+  const std::string mesh = stem + ".mesh", tree = stem + tree_suffix;
+  LoadedMesh whole;
+  comm.together([&] {
+    if (comm.is_root()) whole = read_mesh(mesh);
+  });
+  SolvedMesh solved = spread_solved(comm, whole, read_tree(comm, tree));
+  solved.file = mesh;
+  const TreeAttributes& made = solved.tree.attributes;
+  comm.together([&] {
+    if (made.case_digest != mesh_input(of).digest || made.geometry_digest != mesh_input(of).geometry.digest())
+      throw InputError(tree + ": is of another case than " + of.parts().path + ", or of another outline");
+  });
+  require_own_mesh(comm, solved, mesh, tree);
+  return solved;
 }
 
 }  // namespace quadloop

@@ -21,7 +21,7 @@
 /// Life cycle: MPI is begun before the first Communicator and ended after the last one is gone. Every
 /// function here is *collective* over the communicator that it is given: all its ranks call it, in the same
 /// order, with the same case. Meshes and fields are spread over the ranks, and their bits do not depend on
-/// how many there are. Nothing is written to disk but by write().
+/// how many there are. Nothing is written to disk but by write() and write_solved().
 ///
 /// Shapes and units: a Mesh is one rank's part, as mesh.hpp says; a Field has a row of values for each node
 /// that the rank owns, in the mesh's order, with the same names on all ranks. Lengths are in the unit of the
@@ -144,5 +144,14 @@ MeshFile read(const Communicator& comm, const std::string& path);
 /// OutputError where the file cannot be written.
 std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const std::string& path,
                                const Field& field = {});
+
+/// Keeps a mesh that make_mesh() or remesh() made, with its tree and solution, as `stem`.mesh and
+/// `stem`.tree.h5: both appear or none. Throws as write() does.
+void write_solved(const Communicator& comm, const SolvedMesh& solved, const std::string& stem);
+
+/// The way back, to the last bit, on any number of ranks, so that an adaptation goes on as if it had not been
+/// interrupted. The tree is read in a child process, as read() reads .cgns. Throws InputError where they do
+/// not belong to each other, or are not of this case.
+SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::string& stem);
 
 }  // namespace quadloop

@@ -76,6 +76,21 @@ TEST_F(Door, WritesAndReadsTheSameMeshAndField) {
   }
 }
 
+TEST_F(Door, GoesOnFromWhatWasKept) {
+  const Case square(world(), case_path(), {"adapt.min=0.005"});
+  SolvedMesh made = make_mesh(world(), square).solved;
+  made.solution = front(made.mesh);
+  write_solved(world(), made, file("kept"));
+  const SolvedMesh kept = read_solved(world(), square, file("kept"));
+  const NewMesh next = remesh(world(), square, sense(world(), square, made), made),
+                again = remesh(world(), square, sense(world(), square, kept), kept);
+  EXPECT_EQ(again.solved.mesh.points, next.solved.mesh.points);
+  EXPECT_EQ(again.solved.solution.values, next.solved.solution.values);
+  const Case finer(world(), case_path(), {"spacing.max=0.05"});
+  EXPECT_THROW(read_solved(world(), finer, file("kept")), InputError);
+  EXPECT_THROW(read_solved(world(), square, file("none")), InputError);
+}
+
 TEST_F(Door, SaysWhatAFormatHasNoPlaceFor) {
   const Case square(world(), case_path());
   const Mesh mesh = make_mesh(world(), square).solved.mesh;
