@@ -2,8 +2,8 @@
 // stand twice. Whatever comes is read as a mesh or refused with a place; nothing else is thrown, and no
 // memory is taken that the file does not explain. Seeded; QUADLOOP_DAMAGES sets how many.
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -115,8 +115,9 @@ void expect_read_or_refused(const std::string& path, const std::function<void(co
     } catch (const InputError&) {
       ++refused;
     } catch (const std::exception& other) {
-      const std::string kept = std::filesystem::temp_directory_path() /
-                               ("quadloop_damaged_" + std::to_string(getpid()) + path.substr(path.rfind('.')));
+      const std::string kept =
+          std::filesystem::temp_directory_path() /
+          ("quadloop_damaged_" + std::to_string(getpid()) + path.substr(path.rfind('.')));
       test::write_bytes(kept, text);
       FAIL() << "damage " << n << ": " << other.what() << "; the file is kept as " << kept;
     }

@@ -15,8 +15,8 @@
 namespace quadloop {
 namespace {
 
-using test::CycleFolder;
 using test::bytes_of;
+using test::CycleFolder;
 
 Launch launch_in(const CycleFolder& folder, std::vector<std::string> arguments) {
   const std::string program = arguments.front();

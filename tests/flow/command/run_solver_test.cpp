@@ -11,10 +11,10 @@
 namespace quadloop {
 namespace {
 
+using test::bytes_of;
 using test::CycleFolder;
 using test::holds;
 using test::Refusal;
-using test::bytes_of;
 using test::world;
 
 Refusal refusal(const SolverCommand& command, const CycleFolder& folder) {
