@@ -112,7 +112,7 @@ SmoothOptions options_of(const Communicator& comm, const SmoothArguments& argume
   options.sweeps = arguments.sweeps;
   options.method = *value_of(method_words, arguments.method);
   options.objective = *value_of(objective_words, arguments.objective);
-  options.pinned = scatter_nodes(comm, loaded.pinned, loaded.order);
+  options.pinned = NodeFlags(scatter_nodes(comm, loaded.pinned, loaded.order));
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
   if (!loaded.delaunay) return options;
   options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);

@@ -39,8 +39,9 @@ std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path,
                                     const std::string& format = {});
 
 /// What the format, or else that of the suffix, has no place for and the mesh has: one line each, with the
-/// file's name; renames among them.
+/// file's name; renames among them. Of a distributed mesh the same on every rank; `solution` may be null.
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path,
                                    const std::string& format = {});
+std::vector<std::string> losses_in(const Mesh& mesh, const Field* solution, const std::string& path);
 
 }  // namespace quadloop

@@ -304,7 +304,8 @@ void LeafCutter::choose_points(bool closed, Detail detail) {
 }
 
 /// Keeps the points between two kept ones from which the chord would stray too far (the rule of Douglas and
-/// Peucker 1973).
+/// Peucker 1973). Of points that are equally far the first along the outline is kept; a mirror image is
+/// walked the other way, and keeps the other one.
 void LeafCutter::keep_strays(std::size_t from, std::size_t to) {
   if (to - from < 2) return;
   const Point a = run_[from].position, b = run_[to].position;

@@ -27,6 +27,11 @@ struct GeneratedMesh {
   StageTimes times;  ///< those of the report, and "smooth"
 };
 
+/// How the meshes of this input are smoothed: along its geometry, which must outlive the options, sparing
+/// parallelograms where no other quadrilaterals are kept. A mesh of the Delaunay type ends with flips, under
+/// the order of nodes that it has with leaves down to `finest_level`.
+SmoothOptions smooth_options_for(const MeshInput& input, int finest_level);
+
 /// Meshes and smooths; smoothing always begins with the mesh as it is cut, and a mesh of the Delaunay type
 /// ends with flips, under the order of nodes that it was made with. *Collective.* Throws InputError as
 /// build_mesh does.

@@ -68,6 +68,18 @@ TEST(Generate, WithoutSweepsTheMeshIsAsItWasCut) {
             build_mesh(world(), input.geometry, input.mesh).mesh.points);
 }
 
+TEST(Generate, WhatSmoothingKeepsFollowsFromTheCase) {
+  MeshInput input = disc_in_box();
+  EXPECT_EQ(smooth_options_for(input, 6).geometry, &input.geometry);
+  EXPECT_TRUE(smooth_options_for(input, 6).level_lines);
+  EXPECT_FALSE(smooth_options_for(input, 6).delaunay);
+  input.mesh.quads = QuadChoice::parallel;
+  EXPECT_FALSE(smooth_options_for(input, 6).level_lines);
+  input.mesh.type = MeshType::delaunay;  // it has no quads to spare
+  EXPECT_TRUE(smooth_options_for(input, 6).level_lines);
+  EXPECT_TRUE(smooth_options_for(input, 6).delaunay);
+}
+
 TEST(Generate, QuadsThatAreSkewAfterSmoothingAreDivided) {
   MeshInput input = disc_in_box();
   input.mesh.quads = QuadChoice::parallel;

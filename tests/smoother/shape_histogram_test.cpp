@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -77,6 +78,18 @@ TEST(ShapeHistograms, AnInvertedCellHasTheWorstConditionAndAFlatTriangleTheWorst
   EXPECT_EQ(found(histograms[3], 1e300), Found(2, 2));
   EXPECT_EQ(found(histograms[2], 0.999999), Found(1, 2));
   EXPECT_EQ(found(histograms[0], 179.99), Found(1, 7));
+}
+
+TEST(ShapeHistograms, CountEveryCellOfAllRanksOnce) {
+  const test::Grid grid{7, {1, 1}, true};
+  Mesh whole = grid.mesh();
+  jitter(grid, 0.2, 11, whole);
+  const Communicator self(MPI_COMM_SELF);
+  const auto together =
+      shape_histograms(test::world(), scatter_mesh(test::world(), whole, space_filling_order(whole)));
+  const auto alone = shape_histograms(self, whole);
+  ASSERT_EQ(together.size(), alone.size());
+  for (std::size_t i = 0; i < together.size(); ++i) EXPECT_EQ(together[i].counts, alone[i].counts);
 }
 
 }  // namespace
