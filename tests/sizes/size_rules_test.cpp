@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/sizes/diamond_sizes.hpp"
+
 namespace quadloop {
 namespace {
 
@@ -33,25 +35,13 @@ class Random {
   std::uniform_real_distribution<double> share_{0, 1};
 };
 
-/// A square of edge 2 with a diamond of void, both of which may ask for leaves of a size at their corners.
+/// Both boundaries may ask for leaves of a size at their corners.
 Geometry random_geometry(Random& random) {
   const auto corner_spacing = [&] { return random.toss() ? random.between(0.02, 0.6) : 0; };
   const double at_frame = corner_spacing(), at_diamond = corner_spacing();
-  const Point c{random.between(-0.8, 0.8), random.between(-0.8, 0.8)};
-  std::vector<BoundaryId> boundary(4, BoundaryId{0});
-  boundary.resize(8, BoundaryId{1});
-  return {{{"frame", random.between(0.1, 2), 30, "none", at_frame},
-           {"diamond", random.between(0.03, 0.5), 30, "wall", at_diamond}},
-          {{-1, -1},
-           {1, -1},
-           {1, 1},
-           {-1, 1},
-           c - Point{0.1, 0},
-           c + Point{0, 0.1},
-           c + Point{0.1, 0},
-           c - Point{0, 0.1}},
-          {0, 4, 8},
-          boundary};
+  const Point centre{random.between(-0.8, 0.8), random.between(-0.8, 0.8)};
+  return test::diamond_in_square({centre, 0.1}, {"frame", random.between(0.1, 2), 30, "none", at_frame},
+                                 {"diamond", random.between(0.03, 0.5), 30, "wall", at_diamond});
 }
 
 SizeOptions random_options(Random& random) {
