@@ -103,12 +103,12 @@ TEST_F(Door, SaysWhatAFormatHasNoPlaceFor) {
 
 /// The same on all ranks that have the node; those on the unit square's sides stay.
 Point shaken(Point p) {
-  const double reach = 0.2 * p.x * (1 - p.x) * p.y * (1 - p.y);
+  const double reach = 2 * p.x * (1 - p.x) * p.y * (1 - p.y);
   return {p.x + reach * std::sin(1000 * p.x + 700 * p.y), p.y + reach * std::cos(900 * p.y - 500 * p.x)};
 }
 
 TEST_F(Door, SmoothsAMeshThatWasRead) {
-  const Case square(world(), case_path(), {"smooth.sweeps=5"});
+  const Case square(world(), case_path(), {"smooth.sweeps=5", "mesh.quads=\"all\""});
   Mesh mesh = make_mesh(world(), square).solved.mesh;
   for (Point& p : mesh.points) p = shaken(p);
   write(world(), mesh, file("b.mesh"));
@@ -122,10 +122,12 @@ TEST_F(Door, SmoothsAMeshThatWasRead) {
 }
 
 TEST_F(Door, SmoothingLeavesADelaunayMeshDelaunay) {
-  const Case square(world(), case_path(), {"mesh.type=\"delaunay\"", "smooth.sweeps=0"});
-  Mesh mesh = make_mesh(world(), square).solved.mesh;
+  const std::vector<std::string> graded{"mesh.type=\"delaunay\"", "boundary.side.spacing=0.03"};
+  std::vector<std::string> as_cut = graded;
+  as_cut.push_back("smooth.sweeps=0");
+  Mesh mesh = make_mesh(world(), Case(world(), case_path(), as_cut)).solved.mesh;
   const std::vector<Point> points = mesh.points;
-  smooth(world(), Case(world(), case_path(), {"mesh.type=\"delaunay\""}), mesh);
+  smooth(world(), Case(world(), case_path(), graded), mesh);
   EXPECT_TRUE(world().any(mesh.points != points));
   const Mesh whole = gather_whole(world(), mesh);
   if (world().is_root()) {

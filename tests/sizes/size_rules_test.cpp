@@ -39,8 +39,12 @@ class Random {
 Geometry random_geometry(Random& random) {
   const auto corner_spacing = [&] { return random.toss() ? random.between(0.02, 0.6) : 0; };
   const double at_frame = corner_spacing(), at_diamond = corner_spacing();
-  const Point centre{random.between(-0.8, 0.8), random.between(-0.8, 0.8)};
-  return test::diamond_in_square({centre, 0.1}, {"frame", random.between(0.1, 2), 30, "none", at_frame},
+  constexpr double reach = 0.125;
+  const auto middle = [&] {  // of a diamond that touches a lattice line from either side, or of none
+    return random.toss() ? random.between(-0.8, 0.8) : random.toss() ? reach : -reach;
+  };
+  return test::diamond_in_square({{middle(), middle()}, reach},
+                                 {"frame", random.between(0.1, 2), 30, "none", at_frame},
                                  {"diamond", random.between(0.03, 0.5), 30, "wall", at_diamond});
 }
 
