@@ -25,7 +25,7 @@ struct PlotArguments {
   int size = 1600;
 };
 
-PlotFormat format_of(const std::string& path) {
+PlotFormat picture_format_of(const std::string& path) {
   const std::string suffix = std::filesystem::path(path).extension();
   if (suffix == ".png") return PlotFormat::png;
   if (suffix == ".svg") return PlotFormat::svg;
@@ -77,7 +77,7 @@ void run_plot(const CommandContext& context, const PlotArguments& arguments) {
   PlotFormat format = PlotFormat::png;
   comm.together([&] {
     require_readable_suffix(arguments.input);
-    format = format_of(arguments.output);
+    format = picture_format_of(arguments.output);
     options = options_of(arguments);
   });
   OutputSet outputs(comm);

@@ -110,9 +110,9 @@ SmoothOptions options_of(const Communicator& comm, const SmoothArguments& argume
                          const Mesh& part) {
   SmoothOptions options;
   options.sweeps = arguments.sweeps;
-  options.method = arguments.method == "nlopt" ? Method::nlopt : Method::perturb;
-  options.objective = arguments.objective == "thesis" ? Objective::thesis : Objective::power;
-  options.pinned = scatter_nodes(comm, loaded.pinned, loaded.order);
+  options.method = *value_of(method_words, arguments.method);
+  options.objective = *value_of(objective_words, arguments.objective);
+  options.pinned = NodeFlags(scatter_nodes(comm, loaded.pinned, loaded.order));
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
   if (!loaded.delaunay) return options;
   options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);
@@ -212,12 +212,12 @@ void add_smooth_command(CLI::App& app, CommandContext& context) {
       ->add_option("--method", arguments->method,
                    "how a node's place is looked for: perturb (the default) or nlopt")
       ->type_name("METHOD")
-      ->check(one_of({"perturb", "nlopt"}));
+      ->check(one_of(words_of(method_words)));
   command
       ->add_option("--objective", arguments->objective,
                    "what is lowered: power (the default) or thesis (Eq. 3.4)")
       ->type_name("COST")
-      ->check(one_of({"power", "thesis"}));
+      ->check(one_of(words_of(objective_words)));
   command
       ->add_option("--geometry", arguments->geometry,
                    "the outline that boundary nodes may slide along, as `mesh --geometry-out` wrote it")

@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "quadloop/quadloop.hpp"
 
@@ -20,19 +23,31 @@ quadloop::Field solve(const quadloop::Mesh& mesh) {
   return field;
 }
 
+/// They are the same on all ranks.
+void show(const quadloop::Communicator& comm, const std::vector<std::string>& warnings) {
+  if (!comm.is_root()) return;
+  for (const std::string& warning : warnings) std::fprintf(stderr, "adapt_in_memory: %s\n", warning.c_str());
+}
+
 void adapt(const quadloop::Communicator& comm, const std::string& case_file, const std::string& output) {
   const quadloop::Case ring(comm, case_file);
-  quadloop::SolvedMesh now = quadloop::make_mesh(comm, ring).solved;
+  show(comm, ring.warnings());
+  quadloop::NewMesh made = quadloop::make_mesh(comm, ring);
+  show(comm, made.warnings);
+  quadloop::SolvedMesh now = std::move(made.solved);
   now.solution = solve(now.mesh);
   for (int cycle = 0; cycle < ring.cycles(); ++cycle) {
     const quadloop::Marks marks = quadloop::sense(comm, ring, now);
-    if (comm.is_root()) std::printf("%lld leaves to be split\n", static_cast<long long>(marks.refined));
-    if (!marks.change_mesh()) break;
-    now = quadloop::remesh(comm, ring, marks, now).solved;  // with the old solution on the new mesh
+    if (comm.is_root()) std::printf("%lld leaves to be split\n", static_cast<long long>(marks.refined()));
+    show(comm, marks.warnings());
+    if (!marks.changes_mesh()) break;
+    made = quadloop::remesh(comm, ring, marks, now);  // with the old solution on the new mesh
+    show(comm, made.warnings);
+    now = std::move(made.solved);
     now.solution = solve(now.mesh);
   }
   if (!quadloop::check(comm, now.mesh).empty()) throw quadloop::Fault("the mesh is not valid");
-  quadloop::write(comm, now.mesh, output, now.solution);
+  show(comm, quadloop::write(comm, now.mesh, output, now.solution));
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ struct SolvedFlow {
 
 /// Any flow solver: `start` is the state to begin with, a row for each of the mesh's owned nodes, or without
 /// variables where there is none yet; `cycle` counts the solver's meshes from 0. Throws InputError,
-/// SolverError, the same on all ranks. *Collective.*
+/// SolverError, the same on all ranks: what may fail on one of them alone runs inside comm.together(), which
+/// throws the error of the lowest such rank on all; else the others wait for ever. *Collective.*
 using FlowSolver =
     std::function<SolvedFlow(const Communicator& comm, const Mesh& mesh, const Field& start, int cycle)>;
 

@@ -17,7 +17,7 @@ namespace {
 
 /// The writer of a format that has no place for a solution.
 template <void (*write)(OutputSet&, const Mesh&, const std::string&)>
-void write_alone(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field*) {
+void write_mesh_alone(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field*) {
   write(outputs, mesh, path);
 }
 
@@ -53,12 +53,12 @@ const std::vector<FileFormat>& file_formats() {
                                                {.name = "su2",
                                                 .places = {mesh},
                                                 .read_mesh = read_su2,
-                                                .write_mesh = write_alone<write_su2>,
+                                                .write_mesh = write_mesh_alone<write_su2>,
                                                 .boundary_names = su2_marker_names},
                                                {.name = "msh",
                                                 .places = {mesh, blocks},
                                                 .read_mesh = read_msh,
-                                                .write_mesh = write_alone<write_msh>,
+                                                .write_mesh = write_mesh_alone<write_msh>,
                                                 .write_blocks = write_msh,
                                                 .boundary_names = msh_group_names},
                                                {.name = "csv",

@@ -24,13 +24,29 @@ const FileFormat* mesh_format(const std::string& path, const std::string& name =
   return format != nullptr && format->holds(Content::mesh) ? format : nullptr;
 }
 
+void append_losses(const FileFormat& format, const Mesh& mesh, const Field* solution, std::int32_t blocks,
+                   const std::string& path, std::vector<std::string>& losses) {
+  const auto& boundaries = mesh.boundaries;
+  if (solution != nullptr && !format.holds(Content::solution)) {
+    losses.push_back(path + ": this format has no place for the solution, which is left out");
+  } else if (solution != nullptr && !solution->constants.empty() && !format.holds(Content::constants)) {
+    losses.push_back(path + ": this format has no place for the solution's constants, which are left out");
+  }
+  if (blocks > 1 && !format.holds(Content::blocks))
+    losses.push_back(path + ": the blocks are written as one");
+  if (!format.holds(Content::conditions) &&
+      std::any_of(boundaries.begin(), boundaries.end(),
+                  [](const BoundaryEdges& b) { return b.condition != "none"; }))
+    losses.push_back(path + ": this format has no place for boundary conditions, which are left out");
+}
+
 }  // namespace
 
 void require_readable_suffix(const std::string& path) {
   if (mesh_format(path) != nullptr) return;
   std::error_code no_such_file;
-  if (std::filesystem::exists(path + ".mesh", no_such_file))
-    throw InputError(path + ": is no mesh file; do you mean '" + path + ".mesh'?");
+  if (const std::string ours = path + "." + native_format().name; std::filesystem::exists(ours, no_such_file))
+    throw InputError(path + ": is no mesh file; do you mean '" + ours + "'?");
   throw InputError(path + ": no mesh is read from the format '" + suffix_of(path) + "'; give a " +
                    suffixes_for({Content::mesh}) + " file");
 }
@@ -49,7 +65,7 @@ void require_writable_suffix(const std::string& path) {
 void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path,
                 const std::string& format) {
   const FileFormat* row = mesh_format(path, format);
-  if (row == nullptr) return;
+  QUADLOOP_REQUIRE(row != nullptr, "a mesh is written in a format that holds none");
   if (row->write_blocks != nullptr) return row->write_blocks(outputs, whole, path);
   row->write_mesh(outputs, whole.mesh, path, whole.solution ? &*whole.solution : nullptr);
 }
@@ -68,7 +84,7 @@ void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const
 void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution,
                 double gamma) {
   const FileFormat* format = format_of(path);
-  if (format == nullptr) return;
+  QUADLOOP_REQUIRE(format != nullptr, "a mesh is written in a format that there is none of");
   if (format->write_mesh != nullptr) format->write_mesh(outputs, mesh, path, solution);
   if (format->write_solution != nullptr && solution != nullptr)
     format->write_solution(outputs, mesh, path, *solution, gamma);
@@ -93,20 +109,15 @@ std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path, c
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path,
                                    const std::string& format) {
   std::vector<std::string> losses = renames_in(whole.mesh, path, format);
-  const FileFormat* row = mesh_format(path, format);
-  if (row == nullptr) return losses;
-  const auto& boundaries = whole.mesh.boundaries;
-  if (whole.solution && !row->holds(Content::solution)) {
-    losses.push_back(path + ": this format has no place for the solution, which is left out");
-  } else if (whole.solution && !whole.solution->constants.empty() && !row->holds(Content::constants)) {
-    losses.push_back(path + ": this format has no place for the solution's constants, which are left out");
+  if (const FileFormat* row = mesh_format(path, format)) {
+    append_losses(*row, whole.mesh, whole.solution ? &*whole.solution : nullptr, whole.blocks, path, losses);
   }
-  if (whole.blocks > 1 && !row->holds(Content::blocks))
-    losses.push_back(path + ": the blocks are written as one");
-  if (!row->holds(Content::conditions) &&
-      std::any_of(boundaries.begin(), boundaries.end(),
-                  [](const BoundaryEdges& b) { return b.condition != "none"; }))
-    losses.push_back(path + ": this format has no place for boundary conditions, which are left out");
+  return losses;
+}
+
+std::vector<std::string> losses_in(const Mesh& mesh, const Field* solution, const std::string& path) {
+  std::vector<std::string> losses = renames_in(mesh, path);
+  if (const FileFormat* row = mesh_format(path)) append_losses(*row, mesh, solution, 1, path, losses);
   return losses;
 }
 

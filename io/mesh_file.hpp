@@ -17,8 +17,8 @@ void require_readable_suffix(const std::string& path);
 void require_writable_suffix(const std::string& path);
 
 /// Writes a mesh that the set's only rank holds whole, with its solution and blocks as far as the format has
-/// a place for them. The format is one that has a place for a mesh, where none is named that of the suffix.
-/// Throws OutputError.
+/// a place for them. The format must be one that has a place for a mesh; where none is named it is that of
+/// the suffix. Throws OutputError.
 void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path,
                 const std::string& format = {});
 
@@ -27,9 +27,9 @@ void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& 
 void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path,
                         const std::string& format = {});
 
-/// Writes a distributed mesh in the format that the suffix tells, with a solution where the format has a
-/// place for one. A file that holds the solution alone (.csv; write_su2_csv() wants `gamma`) is not written
-/// without one. *Collective.* Throws OutputError on all ranks.
+/// Writes a distributed mesh in the format that the suffix tells, which must be one, with a solution where
+/// the format has a place for one. A file that holds the solution alone (.csv; write_su2_csv() wants `gamma`)
+/// is not written without one. *Collective.* Throws OutputError on all ranks.
 void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path,
                 const Field* solution = nullptr, double gamma = 1.4);
 
@@ -39,8 +39,9 @@ std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path,
                                     const std::string& format = {});
 
 /// What the format, or else that of the suffix, has no place for and the mesh has: one line each, with the
-/// file's name; renames among them.
+/// file's name; renames among them. Of a distributed mesh the same on every rank; `solution` may be null.
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path,
                                    const std::string& format = {});
+std::vector<std::string> losses_in(const Mesh& mesh, const Field* solution, const std::string& path);
 
 }  // namespace quadloop

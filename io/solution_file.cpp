@@ -83,8 +83,8 @@ LoadedSolution read_with_mesh(const std::string& path) {
 
 LoadedSolution read_solution(const std::string& path) {
   require_solution_suffix(path);
-  const auto read_alone = format_of(path)->read_solution;
-  LoadedSolution result = read_alone != nullptr ? read_alone(path) : read_with_mesh(path);
+  const auto read_solution_alone = format_of(path)->read_solution;
+  LoadedSolution result = read_solution_alone != nullptr ? read_solution_alone(path) : read_with_mesh(path);
   result.solution.names = distinct_words(result.solution.names, path);
   require_usable(result.solution, path);
   return result;

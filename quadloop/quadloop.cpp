@@ -5,12 +5,16 @@
 #include <optional>
 #include <utility>
 
+#include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "io/mesh_file.hpp"
+#include "io/tree/tree_file.hpp"
+#include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "quadloop/case/case_input.hpp"
+#include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
 
@@ -25,6 +29,12 @@ const MeshInput& mesh_input(const Case& of) { return *of.parts().input.mesh; }
 
 std::string text_of(const MeshFault& fault) {
   return fmt::format("{}: {} at ({}, {})", name_of(fault.rule), fault.what, fault.place.x, fault.place.y);
+}
+
+/// *Collective.*
+bool all_delaunay(const Communicator& comm, const Mesh& mesh) {
+  const Mesh whole = gather_whole(comm, mesh);
+  return comm.any(comm.is_root() && is_delaunay(whole));
 }
 
 void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field) {
@@ -59,8 +69,10 @@ NewMesh make_mesh(const Communicator& comm, const Case& of) {
 }
 
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh) {
-  SmoothOptions options = mesh_input(of).smooth;
-  options.geometry = &mesh_input(of).geometry;
+  const MeshInput& input = mesh_input(of);
+  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
+  SmoothOptions options = smooth_options_for(input, lattice.finest_level(input.mesh.size.min));
+  if (options.delaunay && !all_delaunay(comm, mesh)) options.delaunay = nullptr;
   smooth_mesh(comm, mesh, options);
 }
 
@@ -75,16 +87,30 @@ FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
   return euler_solver(std::get<EulerOptions>(*chosen));
 }
 
+Marks::Marks(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan)
+    : case_digest_{of.tree.attributes.case_digest},
+      coordinate_digest_{of.tree.attributes.coordinate_digest},
+      plan_{std::move(plan)} {}
+
+std::int64_t Marks::refined() const { return plan_->refined; }
+std::int64_t Marks::coarsened() const { return plan_->coarsened; }
+const std::vector<std::string>& Marks::warnings() const { return plan_->warnings; }
+
 Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved) {
   require_rows(comm, solved.mesh, solved.solution);
   const AdaptOptions& options = adapt_options(of.parts().input.settings, of.parts().path);
   auto plan = std::make_shared<const AdaptationPlan>(plan_adaptation(comm, mesh_input(of), options, solved));
-  return {plan->refined, plan->coarsened, plan->warnings, plan};
+  return {solved, std::move(plan)};
 }
 
 NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks, const SolvedMesh& before) {
   require_rows(comm, before.mesh, before.solution);
-  CarriedMesh carried = carry_over(comm, mesh_input(of), *marks.plan, before);
+  const TreeAttributes& tree = before.tree.attributes;
+  comm.together([&] {
+    if (marks.case_digest_ != tree.case_digest || marks.coordinate_digest_ != tree.coordinate_digest)
+      throw InputError("the marks are of another mesh than the one that is to be changed; sense() it anew");
+  });
+  CarriedMesh carried = carry_over(comm, mesh_input(of), *marks.plan_, before);
   MeshResult& made = carried.generated.result;
   return {{std::move(made.mesh), std::move(made.tree), std::move(carried.start), {}},
           std::move(carried.report),
@@ -115,12 +141,40 @@ MeshFile read(const Communicator& comm, const std::string& path) {
   return file;
 }
 
-void write(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field& field) {
+std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const std::string& path,
+                               const Field& field) {
   require_writable_suffix(path);
   require_rows(comm, mesh, field);
   OutputSet outputs(comm);
-  write_mesh(outputs, mesh, path, field.width() > 0 ? &field : nullptr);
+  const Field* solution = field.width() > 0 ? &field : nullptr;
+  write_mesh(outputs, mesh, path, solution);
   outputs.commit();
+  return losses_in(mesh, solution, path);
+}
+
+void write_solved(const Communicator& comm, const SolvedMesh& solved, const std::string& stem) {
+  require_rows(comm, solved.mesh, solved.solution);
+  OutputSet outputs(comm);
+  write_mesh(outputs, solved.mesh, stem + ".mesh", solved.solution.width() > 0 ? &solved.solution : nullptr);
+  write_tree(outputs, solved.tree, stem + tree_suffix);
+  outputs.commit();
+}
+
+SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::string& stem) {
+  const std::string mesh = stem + ".mesh", tree = stem + tree_suffix;
+  LoadedMesh whole;
+  comm.together([&] {
+    if (comm.is_root()) whole = read_mesh(mesh);
+  });
+  SolvedMesh solved = spread_solved(comm, whole, read_tree(comm, tree));
+  solved.file = mesh;
+  const TreeAttributes& made = solved.tree.attributes;
+  comm.together([&] {
+    if (made.case_digest != mesh_input(of).digest || made.geometry_digest != mesh_input(of).geometry.digest())
+      throw InputError(tree + ": is of another case than " + of.parts().path + ", or of another outline");
+  });
+  require_own_mesh(comm, solved, mesh, tree);
+  return solved;
 }
 
 }  // namespace quadloop

@@ -148,7 +148,7 @@ bool take_back(const Communicator& comm, HaloMesh& mesh, const IdVector<NodeId, 
 
 bool move_level_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& pinned, double limit) {
   const LevelLines lines(mesh);
-  const IdVector<NodeId, Point> before = mesh.points();
+  const IdVector<NodeId, Point> before(mesh.points());
   for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
     if (pinned.empty() || pinned[node] == 0) mesh.points()[node.value()] = before[node] + lines.move_of(node);
   }

@@ -9,13 +9,6 @@
 
 namespace quadloop {
 
-/// The shape that a cell should have: its edges from its first node, to the second and to the last. A
-/// default-constructed one asks for the ideal cell, equilateral or square.
-struct CellTarget {
-  Point w1, w2;
-  bool ideal() const { return w1 == Point{} && w2 == Point{}; }
-};
-
 /// The stars of those owned nodes that may move.
 class NodeStars {
  public:

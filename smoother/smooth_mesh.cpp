@@ -261,15 +261,14 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
 /// as it was before flips. *Collective.*
 NodeFlags nodes_near_worse(const Communicator& comm, const Mesh& flipped, const Mesh& before, double limit,
                            int rings) {
-  const NodeOwners owners(comm, before.first_node);
-  Outbox<GlobalNodeId> to_owners;
+  std::vector<GlobalNodeId> of_worse;
   for (const auto& nodes : flipped.triangles) {
     if (ideal_cost(flipped, nodes) <= limit) continue;
-    for (const NodeId node : nodes) to_owners.add(owners.rank_of(flipped.global(node)), flipped.global(node));
+    for (const NodeId node : nodes) of_worse.push_back(flipped.global(node));
   }
   const HaloMesh halo(comm, before);
   NodeFlags near(halo.points().size(), 0);
-  for (const GlobalNodeId node : to_owners.deliver(comm)) near[owners.local(node)] = 1;
+  flag_at_owners(comm, NodeOwners(comm, before.first_node), of_worse, near);
   grow(halo, near, rings);
   near.resize(halo.owned_nodes());
   return near;

@@ -23,7 +23,10 @@ std::vector<ChangedSetting> changed_settings(const CaseSettings& before, const C
 /// more steps; the cycles that are whole stay as they are.
 bool may_change_in_a_run(const std::string& key);
 
-/// A number that changes with the outline and with every setting that may not change in a run.
+/// A number that changes with the outline and with every setting that may not change in a run. Settings are
+/// compared as the text of their values: a file that a key names counts by its name alone. The outline, which
+/// geometry.file names, is in it by `geometry_digest`, that of Geometry; a case that comes to name another
+/// file needs the digest of what stands in that one here too.
 std::uint64_t run_digest(const CaseSettings& settings, std::uint64_t geometry_digest);
 
 /// "was a, is now b" of each change, one after another.

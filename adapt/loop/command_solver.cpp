@@ -1,9 +1,11 @@
 #include "adapt/loop/command_solver.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "io/files/output_file.hpp"
+#include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/solution_file.hpp"
 #include "mesher/base/error.hpp"
@@ -63,7 +65,10 @@ Field read_left(const Communicator& comm, const Mesh& mesh, const SolverCommand&
 std::string CommandSolver::state() const {
   const FileFormat* format = format_of(mesh);
   const bool holds_state = format != nullptr && format->holds(Content::solution);
-  return holds_state ? mesh : std::filesystem::path(mesh).replace_extension(".csv").string();
+  if (holds_state) return mesh;
+  const auto& alone = *std::ranges::find_if(
+      file_formats(), [](const FileFormat& row) { return row.write_solution != nullptr; });
+  return std::filesystem::path(mesh).replace_extension(alone.name).string();
 }
 
 FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of) {

@@ -2,18 +2,13 @@
 
 #include <functional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "adapt/loop/case_settings.hpp"
-#include "adapt/loop/command_solver.hpp"
+#include "adapt/loop/chosen_solver.hpp"
 #include "adapt/loop/loop.hpp"
-#include "flow/euler/scheme/euler_options.hpp"
 
 namespace quadloop {
-
-/// The built-in solver or a command, as a case chooses.
-using ChosenSolver = std::variant<EulerOptions, CommandSolver>;
 
 /// A case that is meshed, solved and adapted in turn.
 struct AdaptiveCase {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "adapt/sensor/indicator.hpp"
+#include "adapt/sensor/thresholds.hpp"
+#include "mesher/base/word_table.hpp"
 
 namespace quadloop {
 
@@ -14,13 +16,16 @@ struct AdaptOptions {
   /// What marks are made from: differences of variables, or a field that the solver wrote for it.
   enum class Source { variables, size, error };
   enum class Threshold { deviation, fraction, nodes };  ///< how many leaves are marked
+  static constexpr WordTable<Threshold, 3> threshold_words{
+      {{"deviation", Threshold::deviation}, {"fraction", Threshold::fraction}, {"nodes", Threshold::nodes}}};
 
   int cycles = 5;  ///< adaptations; there is one more solve
   Source source = Source::variables;
   std::vector<std::string> variables{"density"};  ///< or the one size or error field
   Indicator indicator = Indicator::difference;
   Threshold threshold = Threshold::deviation;
-  double refine = 1.0, coarsen = 0.5;     ///< deviations above and below the mean, or shares of the leaves
+  /// Deviations above and below the mean, or shares of the leaves.
+  double refine = DeviationRule{}.refine, coarsen = DeviationRule{}.coarsen;
   std::optional<std::int64_t> max_nodes;  ///< a cap; the target for Threshold::nodes
   /// Leaf size that adaptation may reach, in the geometry's unit; none: that of the case.
   std::optional<double> min;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "adapt/sensor/wanted_size.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -13,36 +14,42 @@ std::vector<double> leaf_values(const Communicator& comm, const AdaptOptions& op
                                 const SolvedMesh& solved) {
   const Field field = selected(solved.solution, options.variables, "adapt.variable");
   const auto& leaves = solved.tree.leaves;
-  if (options.source == AdaptOptions::Source::size) return leaf_sizes(comm, solved.mesh, leaves, field);
-  if (options.source == AdaptOptions::Source::error) return leaf_errors(comm, solved.mesh, leaves, field);
-  return leaf_indicator(comm, solved.mesh, leaves, field, options.indicator);
+  switch (options.source) {
+    case AdaptOptions::Source::variables:
+      return leaf_indicator(comm, solved.mesh, leaves, field, options.indicator);
+    case AdaptOptions::Source::size: return leaf_sizes(comm, solved.mesh, leaves, field);
+    case AdaptOptions::Source::error: return leaf_errors(comm, solved.mesh, leaves, field);
+  }
+  QUADLOOP_REQUIRE(false, "a source without values for leaves");
+  return {};
 }
 
 ThresholdRule rule_of(const AdaptOptions& options) {
-  if (options.threshold == AdaptOptions::Threshold::fraction)
-    return FractionRule{options.refine, options.coarsen};
-  if (options.threshold == AdaptOptions::Threshold::nodes) return NodesRule{options.coarsen};
-  return DeviationRule{options.refine, options.coarsen};
+  switch (options.threshold) {
+    case AdaptOptions::Threshold::deviation: return DeviationRule{options.refine, options.coarsen};
+    case AdaptOptions::Threshold::fraction: return FractionRule{options.refine, options.coarsen};
+    case AdaptOptions::Threshold::nodes: return NodesRule{options.coarsen};
+  }
+  QUADLOOP_REQUIRE(false, "a threshold without a rule");
+  return {};
 }
 
 }  // namespace
 
 MarkFamily::MarkFamily(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved)
-    : comm_{comm},
-      solved_{solved},
+    : solved_{solved},
       by_size_{options.source == AdaptOptions::Source::size},
       values_{leaf_values(comm, options, solved)} {
   if (by_size_) return;
   order_.emplace(comm, solved.tree.leaves, values_);
   statistics_ = statistics_of(comm, *order_);
   rule_ = thresholds_by(rule_of(options), *order_, statistics_);
-  MarkedLeaves marked{marks_above(solved.tree.leaves, values_, rule_), {}};
-  count_marks(comm, marked);
+  const std::vector<Mark> marks = marks_above(solved.tree.leaves, values_, rule_);
   const auto all = static_cast<double>(std::max<std::int64_t>(order_->count(), 1));
-  if (options.threshold != AdaptOptions::Threshold::nodes)
-    refined_share_ = static_cast<double>(marked.report.refined) / all;
+  const auto share_of = [&](Mark mark) { return static_cast<double>(count_of(comm, marks, mark)) / all; };
+  if (options.threshold != AdaptOptions::Threshold::nodes) refined_share_ = share_of(Mark::refine);
   if (statistics_.flat) refined_share_ = 0;
-  coarsened_share_ = static_cast<double>(marked.report.coarsened) / all;
+  coarsened_share_ = share_of(Mark::coarsen);
 }
 
 std::vector<Mark> MarkFamily::marks(double at) const {
@@ -58,7 +65,7 @@ std::vector<Mark> MarkFamily::size_marks(double at) const {
   constexpr double most = 16;
   std::vector<double> sizes = values_;
   for (double& size : sizes) size *= std::pow(most, (1 - at) / 2);
-  return mark_by_size(comm_, solved_.tree, sizes).marks;
+  return mark_by_size(solved_.tree, sizes);
 }
 
 }  // namespace quadloop

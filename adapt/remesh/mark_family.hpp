@@ -15,7 +15,7 @@ namespace quadloop {
 /// to sixteenfold); towards -1 ever more leaves are coarsened, in the end all.
 class MarkFamily {
  public:
-  /// All arguments but the options must outlive the family. *Collective.* Throws InputError as
+  /// The communicator and what is solved must outlive the family. *Collective.* Throws InputError as
   /// plan_adaptation does.
   MarkFamily(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved);
 
@@ -30,7 +30,6 @@ class MarkFamily {
  private:
   std::vector<Mark> size_marks(double at) const;
 
-  const Communicator& comm_;
   const SolvedMesh& solved_;
   bool by_size_;
   std::vector<double> values_;          ///< of each leaf: its indicator, or the size wanted in it

@@ -97,7 +97,7 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
                                                 ? fmt::format("adapt.max_nodes = {}", *options.max_nodes)
                                                 : "--max-cells or free memory");
   const std::vector<Mark> marks = family.marks(1);
-  const std::int64_t wanted = comm.sum(std::int64_t{std::count(marks.begin(), marks.end(), Mark::refine)});
+  const std::int64_t wanted = count_of(comm, marks, Mark::refine);
   if (wanted == 0 && options.source == AdaptOptions::Source::size)
     return "no leaf is larger than " + options.variables.front() + " asks for there";
   if (wanted == 0)

@@ -10,10 +10,10 @@
 #include "io/mesh_file.hpp"
 #include "io/solution_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/ids.hpp"
 #include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/compare_meshes.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
 
 namespace quadloop {
 
@@ -40,52 +40,10 @@ std::optional<Mesh> mesh_in_files(const TreeAttributes& tree, std::span<const st
   return {};
 }
 
-/// An edge of boundary number `boundary`, by the global numbers of its nodes.
-struct NamedEdge {
-  std::int64_t boundary = 0;
-  std::array<std::int64_t, 2> nodes{};
-};
-
-template <std::size_t width>
-std::array<std::int64_t, width> global_numbers(const Mesh& mesh, const std::array<NodeId, width>& nodes) {
-  std::array<std::int64_t, width> numbers{};
-  std::ranges::transform(nodes, numbers.begin(), [&](NodeId node) { return mesh.global(node).value(); });
-  return numbers;
-}
-
-template <std::size_t width>
-std::array<NodeId, width> node_ids(const std::array<std::int64_t, width>& numbers) {
-  std::array<NodeId, width> nodes;
-  std::ranges::transform(numbers, nodes.begin(),
-                         [](std::int64_t number) { return NodeId{static_cast<std::int32_t>(number)}; });
-  return nodes;
-}
-
-template <std::size_t width>
-std::vector<std::array<NodeId, width>> cells_at_root(const Communicator& comm, const Mesh& mesh,
-                                                     const std::vector<std::array<NodeId, width>>& own) {
-  std::vector<std::array<std::int64_t, width>> numbers;
-  for (const auto& cell : own) numbers.push_back(global_numbers(mesh, cell));
-  std::vector<std::array<NodeId, width>> cells;
-  for (const auto& cell : gather_at_root(comm, numbers)) cells.push_back(node_ids(cell));
-  return cells;
-}
-
 /// All ranks' parts as one mesh on the root, as it would be read from its file; an empty one elsewhere.
 /// *Collective.*
 Mesh whole_at_root(const Communicator& comm, const Mesh& mesh) {
-  Mesh whole;
-  whole.points = gather_at_root(comm, std::span(mesh.points).first(mesh.owned_nodes));
-  whole.owned_nodes = size32(whole.points);
-  whole.triangles = cells_at_root(comm, mesh, mesh.triangles);
-  whole.quads = cells_at_root(comm, mesh, mesh.quads);
-  std::vector<NamedEdge> edges;
-  for (std::int64_t b = 0; b < std::ssize(mesh.boundaries); ++b) {
-    for (const auto& edge : mesh.boundaries[b].edges) edges.push_back({b, global_numbers(mesh, edge)});
-    whole.boundaries.push_back({mesh.boundaries[b].name, mesh.boundaries[b].condition, {}});
-  }
-  for (const NamedEdge& edge : gather_at_root(comm, edges))
-    whole.boundaries[edge.boundary].edges.push_back(node_ids(edge.nodes));
+  Mesh whole = gather_whole(comm, mesh);
   std::erase_if(whole.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   return whole;
 }

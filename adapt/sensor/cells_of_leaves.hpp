@@ -11,9 +11,6 @@
 
 namespace quadloop {
 
-/// Whether a leaf has cells; sensors say nothing of the others (outside the domain).
-inline bool has_cells(const LeafRecord& leaf) { return leaf.triangles + leaf.quads > 0; }
-
 /// Which cells are whose leaf's: along the curve each leaf has the next of the mesh's triangles and the next
 /// of its quads, as many as its record says. The shares of leaves and of cells that a rank holds need not
 /// meet.

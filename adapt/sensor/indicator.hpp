@@ -5,6 +5,7 @@
 
 #include "adapt/sensor/scaled_field.hpp"
 #include "mesher/base/communicator.hpp"
+#include "mesher/base/word_table.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
@@ -17,6 +18,10 @@ enum class Indicator {
   gradient,    ///< |dq| / |dx|, in 1 / length
   hessian      ///< |dg . dx|: 0 where q is linear
 };
+
+inline constexpr WordTable<Indicator, 3> indicator_words{{{"difference", Indicator::difference},
+                                                          {"gradient", Indicator::gradient},
+                                                          {"hessian", Indicator::hessian}}};
 
 /// For each leaf of this rank's share the largest indicator of any variable of the field on any edge of the
 /// leaf's cells; 0 for leaves without cells. An edge counts for the leaves of both its cells. A constant

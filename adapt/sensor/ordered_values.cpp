@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "adapt/sensor/cells_of_leaves.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "adapt/sensor/cells_of_leaves.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/reproducible_sum.hpp"
 
@@ -79,25 +78,8 @@ std::vector<Mark> marks_above(std::span<const LeafRecord> leaves, std::span<cons
   return marks;
 }
 
-void count_marks(const Communicator& comm, MarkedLeaves& marked) {
-  const auto count_of = [&](Mark mark) {
-    return comm.sum(std::int64_t{std::count(marked.marks.begin(), marked.marks.end(), mark)});
-  };
-  marked.report.refined = count_of(Mark::refine);
-  marked.report.coarsened = count_of(Mark::coarsen);
-}
-
-MarkedLeaves mark_leaves(const Communicator& comm, std::span<const LeafRecord> leaves,
-                         std::span<const double> values, const ThresholdRule& rule) {
-  const OrderedValues ordered(comm, leaves, values);
-  const IndicatorStatistics statistics = statistics_of(comm, ordered);
-  MarkedLeaves marked;
-  marked.report.mean = statistics.mean;
-  marked.report.deviation = statistics.deviation;
-  marked.report.thresholds = thresholds_by(rule, ordered, statistics);
-  marked.marks = marks_above(leaves, values, marked.report.thresholds);
-  count_marks(comm, marked);
-  return marked;
+std::int64_t count_of(const Communicator& comm, std::span<const Mark> marks, Mark mark) {
+  return comm.sum(std::int64_t{std::count(marks.begin(), marks.end(), mark)});
 }
 
 }  // namespace quadloop

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <variant>
 #include <vector>
@@ -20,11 +21,11 @@ struct DeviationRule {
 /// Refine the share `refine` of the leaves with cells that have the largest indicators, coarsen the share
 /// `coarsen` that have the smallest.
 struct FractionRule {
-  double refine = 0.1, coarsen = 0.1;
+  double refine = 0.2, coarsen = 0.1;
 };
 
 /// The mesh is to have a number of nodes: refine nothing yet, coarsen as DeviationRule does. Who can count
-/// nodes then looks for the refine threshold with OrderedValues::refine_threshold and mark_leaves.
+/// nodes then looks for the refine threshold with OrderedValues::refine_threshold and marks_above.
 struct NodesRule {
   double coarsen = 0.5;
 };
@@ -47,16 +48,12 @@ IndicatorStatistics statistics_of(const Communicator& comm, const OrderedValues&
 Thresholds thresholds_by(const ThresholdRule& rule, const OrderedValues& values,
                          const IndicatorStatistics& statistics);
 
-/// The marks by given thresholds; leaves without cells are kept. Local.
+/// The marks by given thresholds, one for each leaf of this rank's share, from its indicator; leaves without
+/// cells are kept. Local.
 std::vector<Mark> marks_above(std::span<const LeafRecord> leaves, std::span<const double> values,
                               const Thresholds& thresholds);
 
-/// Fills the report's counts from the marks. *Collective.*
-void count_marks(const Communicator& comm, MarkedLeaves& marked);
-
-/// From an indicator (finite, not negative) for each leaf of this rank's share to its mark, by a rule.
-/// *Collective.*
-MarkedLeaves mark_leaves(const Communicator& comm, std::span<const LeafRecord> leaves,
-                         std::span<const double> values, const ThresholdRule& rule);
+/// How many of all ranks' leaves have the mark. *Collective.*
+std::int64_t count_of(const Communicator& comm, std::span<const Mark> marks, Mark mark);
 
 }  // namespace quadloop

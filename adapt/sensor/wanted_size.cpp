@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "adapt/sensor/cells_of_leaves.hpp"
-#include "adapt/sensor/thresholds.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/lattice/lattice.hpp"
 #include "mesher/mesh/topology.hpp"
@@ -31,18 +30,15 @@ int level_for_size(double tree_edge, double size) {
   return level;
 }
 
-MarkedLeaves mark_by_size(const Communicator& comm, const TreeRecord& tree, std::span<const double> sizes) {
+std::vector<Mark> mark_by_size(const TreeRecord& tree, std::span<const double> sizes) {
   QUADLOOP_REQUIRE(sizes.size() == tree.leaves.size(), "there must be one size for each leaf");
-  MarkedLeaves marked;
+  std::vector<Mark> marks;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const LeafRecord& leaf = tree.leaves[i];
     const int wanted = has_cells(leaf) ? level_for_size(tree.attributes.tree_edge, sizes[i]) : leaf.level;
-    marked.marks.push_back(wanted > leaf.level   ? Mark::refine
-                           : wanted < leaf.level ? Mark::coarsen
-                                                 : Mark::keep);
+    marks.push_back(wanted > leaf.level ? Mark::refine : wanted < leaf.level ? Mark::coarsen : Mark::keep);
   }
-  count_marks(comm, marked);
-  return marked;
+  return marks;
 }
 
 }  // namespace quadloop

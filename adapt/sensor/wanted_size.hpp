@@ -20,8 +20,8 @@ std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::
 /// The level of the largest leaves whose edge is not over `size` (> 0), at most Quadrant::unit_level. Exact.
 int level_for_size(double tree_edge, double size);
 
-/// Refine where the leaf's edge is over its size, coarsen where twice the edge is not; leaves without cells
-/// are kept. Of the report only the counts are filled. *Collective.*
-MarkedLeaves mark_by_size(const Communicator& comm, const TreeRecord& tree, std::span<const double> sizes);
+/// The mark of each leaf of this rank's share: refine where its edge is over its size, coarsen where twice
+/// the edge is not; leaves without cells are kept. Local.
+std::vector<Mark> mark_by_size(const TreeRecord& tree, std::span<const double> sizes);
 
 }  // namespace quadloop

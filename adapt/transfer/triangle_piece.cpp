@@ -59,7 +59,7 @@ TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, 
     node_ranks.resize(points.size(), rank++);
   }
   const Exchange of_cells(comm, cell_ranks), of_nodes(comm, node_ranks);
-  TrianglePiece piece{of_nodes.deliver(points),
+  TrianglePiece piece{IdVector<NodeId, Point>(of_nodes.deliver(points)),
                       {field.names, of_nodes.deliver(values, field.width()), {}},
                       of_cells.deliver(cells)};
   for (const Exchange::Source& source : of_cells.sources()) {

@@ -6,46 +6,34 @@
 #include <limits>
 #include <map>
 
+#include "app/report/figures.hpp"
+
 namespace quadloop {
 
 namespace {
 
 constexpr std::size_t most_listed = 20;
 
-void add_fit(JsonObject& json, const GeometryFit& fit) {
-  json.add("boundaries_dropped", fit.boundaries_dropped);
-  json.add("loops_dropped", fit.loops_dropped);
-  json.add("sharp_corners", fit.sharp_corners);
-  json.add("sharp_corners_lost", fit.sharp_corners_lost);
-  json.add("boundary_node_distance", fit.boundary_node_distance);
-  json.add("geometry_distance", fit.geometry_distance);
-  json.add("geometry_area_error", fit.area_error);
+constexpr const char* number = "{:.6g}";
+
+void add_count(Figures& figures, const char* name, std::int64_t count, const char* key) {
+  figures.add_raw(name, std::to_string(count), json_of(count), key);
+}
+
+void add_fit(Figures& figures, const GeometryFit& fit) {
+  figures.add("boundaries dropped", fit.boundaries_dropped);
+  figures.add("loops dropped", fit.loops_dropped);
+  figures.add("sharp corners", fit.sharp_corners);
+  figures.add("sharp corners lost", fit.sharp_corners_lost);
+  figures.add("boundary node distance", fit.boundary_node_distance, number);
+  figures.add("geometry distance", fit.geometry_distance, number);
+  figures.add("geometry area error", fit.area_error, number);
 }
 
 std::string places_json(const std::vector<SharpPlace>& places) {
   std::vector<std::string> rows;
   for (const auto& [place, degrees] : places) rows.push_back(json_of(std::vector{place.x, place.y, degrees}));
   return json_list(rows);
-}
-
-void add_shape(JsonObject& json, const ShapeStatistics& shape, const ShapeFigures& figures) {
-  json.add("corners", shape.corners);
-  json.add("corners_below_15", shape.corners_below_15);
-  json.add("corners_below_25", shape.corners_below_25);
-  json.add("corners_below_26", shape.corners_below_26);
-  json.add("corners_above_150", shape.corners_above_150);
-  json.add("corners_of_outline", shape.corners_of_outline);
-  json.add("corners_in_passages", shape.corners_in_passages);
-  json.add("min_angle_made", shape.smallest_degrees);
-  json.add("max_angle_made", shape.largest_degrees);
-  json.add("area_ratio_max", shape.area_ratio_max);
-  json.add("area_ratio_p99", shape.area_ratio_p99);
-  json.add("quad_share", shape.quad_share);
-  json.add("parallelogram_share", figures.parallelogram_share());
-  json.add("inexact_node_share", figures.inexact_share());
-  json.add("passage_cells", figures.passage_cells);
-  json.add_raw("sharp_places", places_json(shape.sharp_places));
-  json.add_raw("passages", places_json(shape.passages));
 }
 
 std::vector<JsonObject> faults_json(const std::vector<MeshFault>& faults) {
@@ -58,12 +46,6 @@ std::vector<JsonObject> faults_json(const std::vector<MeshFault>& faults) {
   }
   return rows;
 }
-
-template <class Value>
-std::string row(const char* name, const Value& value) {
-  return fmt::format("  {:<24}{:>16}\n", name, value);
-}
-std::string row(const char* name, double value) { return row(name, fmt::format("{:.6g}", value)); }
 
 template <class Value>
 std::string inner_row(std::string_view name, const Value& value) {
@@ -87,27 +69,65 @@ std::string places_text(const std::vector<SharpPlace>& places) {
   return text;
 }
 
-std::string outline_corners_text(const ShapeStatistics& shape, bool verbose) {
-  return row("corners of the outline", shape.corners_of_outline) +
-         (verbose ? places_text(shape.sharp_places) : "") +
-         row("corners in passages", shape.corners_in_passages) + (verbose ? places_text(shape.passages) : "");
+/// They mean something only where the geometry is known.
+void add_outline_corners(Figures& figures, const ShapeStatistics& shape, bool with_geometry, bool verbose) {
+  if (!with_geometry) {
+    figures.add_member("corners_of_outline", json_of(shape.corners_of_outline));
+    figures.add_member("corners_in_passages", json_of(shape.corners_in_passages));
+    return;
+  }
+  add_count(figures, "corners of the outline", shape.corners_of_outline, "corners_of_outline");
+  if (verbose) figures.add_lines(places_text(shape.sharp_places));
+  figures.add("corners in passages", shape.corners_in_passages);
+  if (verbose) figures.add_lines(places_text(shape.passages));
 }
 
-std::string shape_text(const ShapeStatistics& shape, const ShapeFigures& figures, bool with_geometry,
-                       bool verbose) {
-  return row("corners below 15 degrees", shape.corners_below_15) +
-         row("corners below 26", shape.corners_below_26) + row("corners above 150", shape.corners_above_150) +
-         (with_geometry ? outline_corners_text(shape, verbose) : "") +
-         row("largest area ratio", shape.area_ratio_max) + row("area ratio, 99 %", shape.area_ratio_p99) +
-         row("share of quads", shape.quad_share) + row("parallelograms", figures.parallelogram_share()) +
-         row("inexact nodes", figures.inexact_share()) + row("passage cells", figures.passage_cells);
+void add_shape(Figures& figures, const ShapeStatistics& shape, const ShapeFigures& shares, bool with_geometry,
+               bool verbose) {
+  figures.add_member("corners", json_of(shape.corners));
+  add_count(figures, "corners below 15 degrees", shape.corners_below_15, "corners_below_15");
+  figures.add_member("corners_below_25", json_of(shape.corners_below_25));
+  figures.add("corners below 26", shape.corners_below_26);
+  figures.add("corners above 150", shape.corners_above_150);
+  add_outline_corners(figures, shape, with_geometry, verbose);
+  figures.add_member("min_angle_made", json_of(shape.smallest_degrees));
+  figures.add_member("max_angle_made", json_of(shape.largest_degrees));
+  figures.add("largest area ratio", shape.area_ratio_max, number, "area_ratio_max");
+  figures.add("area ratio, 99 %", shape.area_ratio_p99, number, "area_ratio_p99");
+  figures.add("share of quads", shape.quad_share, number, "quad_share");
+  figures.add("parallelograms", shares.parallelogram_share(), number, "parallelogram_share");
+  figures.add("inexact nodes", shares.inexact_share(), number, "inexact_node_share");
+  figures.add("passage cells", shares.passage_cells);
+  figures.add_member("sharp_places", places_json(shape.sharp_places));
+  figures.add_member("passages", places_json(shape.passages));
 }
 
-std::string fit_text(const GeometryFit& fit) {
-  return row("boundaries dropped", fit.boundaries_dropped) + row("loops dropped", fit.loops_dropped) +
-         row("sharp corners", fit.sharp_corners) + row("sharp corners lost", fit.sharp_corners_lost) +
-         row("boundary node distance", fit.boundary_node_distance) +
-         row("geometry distance", fit.geometry_distance) + row("geometry area error", fit.area_error);
+std::string boundaries_json(const CheckReport& report) {
+  JsonObject boundaries;
+  for (const auto& [name, edges] : report.boundaries) boundaries.add(name, edges);
+  return boundaries.text();
+}
+
+/// All but the faults.
+Figures figures_of(const CheckReport& report, bool verbose, std::size_t most) {
+  const QualitySummary& quality = report.quality;
+  Figures figures;
+  figures.add("nodes", quality.counts.nodes);
+  figures.add("triangles", quality.counts.triangles);
+  figures.add("quads", quality.counts.quads);
+  figures.add("blocks", report.blocks);
+  figures.add("boundary edges", quality.counts.boundary_edges);
+  figures.add_member("boundaries", boundaries_json(report));
+  figures.add_lines(boundaries_text(report.boundaries, most));
+  figures.add("area", report.area, number);
+  figures.add("smallest angle", quality.smallest_degrees, number, "min_angle");
+  figures.add("largest angle", quality.largest_degrees, number, "max_angle");
+  add_shape(figures, report.shape, report.figures, report.fit.has_value(), verbose);
+  figures.add("worst quality", quality.worst, number);
+  figures.add("mean quality", quality.mean, number);
+  figures.add("pinched nodes", report.pinched_nodes);
+  if (report.fit) add_fit(figures, *report.fit);
+  return figures;
 }
 
 std::string faults_text(const std::vector<MeshFault>& faults, std::size_t most) {
@@ -130,41 +150,16 @@ std::string faults_text(const std::vector<MeshFault>& faults, std::size_t most) 
 
 std::string report_text(const CheckReport& report, bool verbose) {
   const std::size_t most = verbose ? std::numeric_limits<std::size_t>::max() : most_listed;
-  const QualitySummary& quality = report.quality;
-  std::string text = row("nodes", quality.counts.nodes) + row("triangles", quality.counts.triangles) +
-                     row("quads", quality.counts.quads);
-  text += row("blocks", report.blocks) + row("boundary edges", quality.counts.boundary_edges);
-  text += boundaries_text(report.boundaries, most);
-  text += row("area", report.area) + row("smallest angle", quality.smallest_degrees) +
-          row("largest angle", quality.largest_degrees);
-  text += shape_text(report.shape, report.figures, report.fit.has_value(), verbose);
-  text += row("worst quality", quality.worst) + row("mean quality", quality.mean) +
-          row("pinched nodes", report.pinched_nodes);
-  if (report.fit) text += fit_text(*report.fit);
-  return text + faults_text(report.faults, most) + (report.faults.empty() ? "  valid\n" : "  INVALID\n");
+  return figures_of(report, verbose, most).table(24, 16) + faults_text(report.faults, most) +
+         (report.faults.empty() ? "  valid\n" : "  INVALID\n");
 }
 
 JsonObject report_record(const CheckReport& report) {
-  JsonObject boundaries, json;
-  for (const auto& [name, edges] : report.boundaries) boundaries.add(name, edges);
-  const QualitySummary& quality = report.quality;
+  JsonObject json;
   json.add("valid", report.faults.empty());
   json.add("file", report.file);
   json.add("faults", faults_json(report.faults));
-  json.add("nodes", quality.counts.nodes);
-  json.add("triangles", quality.counts.triangles);
-  json.add("quads", quality.counts.quads);
-  json.add("blocks", report.blocks);
-  json.add("boundary_edges", quality.counts.boundary_edges);
-  json.add("boundaries", boundaries);
-  json.add("area", report.area);
-  json.add("min_angle", quality.smallest_degrees);
-  json.add("max_angle", quality.largest_degrees);
-  add_shape(json, report.shape, report.figures);
-  json.add("worst_quality", quality.worst);
-  json.add("mean_quality", quality.mean);
-  json.add("pinched_nodes", report.pinched_nodes);
-  if (report.fit) add_fit(json, *report.fit);
+  json.append(figures_of(report, false, most_listed).record());
   return json;
 }
 

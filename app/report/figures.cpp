@@ -24,13 +24,17 @@ void Figures::add_raw(const std::string& name, const std::string& text, const st
 std::string Figures::table(int width, int value_width) const {
   std::string text;
   for (const Figure& figure : figures_)
-    text += fmt::format("  {:<{}}{:>{}}\n", figure.name, width, figure.text, value_width);
+    text += figure.name.empty()
+                ? figure.text
+                : fmt::format("  {:<{}}{:>{}}\n", figure.name, width, figure.text, value_width);
   return text;
 }
 
 JsonObject Figures::record() const {
   JsonObject json;
-  for (const Figure& figure : figures_) json.add_raw(figure.key, figure.json);
+  for (const Figure& figure : figures_) {
+    if (!figure.key.empty()) json.add_raw(figure.key, figure.json);
+  }
   return json;
 }
 

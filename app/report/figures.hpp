@@ -20,6 +20,11 @@ class Figures {
   /// `text` for the table; `json` for the record, JSON already.
   void add_raw(const std::string& name, const std::string& text, const std::string& json,
                const std::string& key = {});
+  /// A member of the record alone; lines of the table alone.
+  void add_member(const std::string& key, const std::string& json) {
+    figures_.push_back({{}, key, {}, json});
+  }
+  void add_lines(const std::string& lines) { figures_.push_back({{}, {}, lines, {}}); }
 
   /// The names in a column of `width`, the values in one of `value_width`, to the right.
   std::string table(int width = 16, int value_width = 14) const;

@@ -4,7 +4,7 @@
 
 namespace quadloop::euler {
 
-Colouring colour_edges(const Communicator& comm, const DualMesh& mesh) {
+Colouring colour_dual_nodes(const Communicator& comm, const DualMesh& mesh) {
   std::vector<std::vector<NodeId>> neighbours(mesh.owned_nodes());
   for (const DualEdge& edge : mesh.edges()) {
     if (mesh.is_owned(edge.low)) neighbours[edge.low].push_back(NodeId{edge.high});

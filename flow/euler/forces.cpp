@@ -9,7 +9,7 @@ ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, co
                               const std::vector<State>& states, double reference_length) {
   std::vector<double> along_x, along_y;  // of each half of a wall face that belongs to an owned node
   for (const BoundaryFace& face : mesh.faces()) {
-    if (!model.boundaries[face.boundary].feels_force) continue;
+    if (!feels_force(model.boundaries[face.boundary].condition)) continue;
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
       if (!mesh.is_owned(own)) continue;
       const State state = state_at_half(states[own], states[other]);

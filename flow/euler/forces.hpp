@@ -12,8 +12,8 @@ struct ForceCoefficients {
   double cl = 0, cd = 0;
 };
 
-/// What the pressure, less the free stream's, does to all boundaries whose condition is "wall" (not to planes
-/// of symmetry); 0 where the free stream rests. The states' copies must be up to date. *Collective.*
+/// What the pressure, less the free stream's, does to all boundaries that feels_force() counts; 0 where the
+/// free stream rests. The states' copies must be up to date. *Collective.*
 ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
                               const std::vector<State>& states, double reference_length);
 

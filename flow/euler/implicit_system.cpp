@@ -23,28 +23,18 @@ void add(const Matrix4& matrix, double factor, Matrix4& sum) {
   for (std::size_t k = 0; k < 16; ++k) sum[k] += factor * matrix[k];
 }
 
-/// How a wall's push answers to the pressure.
-void add_wall_matrix(const Gas& gas, const State& state, Point normal, double factor, Matrix4& sum) {
-  const auto& [rho, u, v, p] = state;
-  const double g = gas.gamma - 1;
-  const std::array<double, 4> pressure{0.5 * g * (u * u + v * v), -g * u, -g * v, g};
-  for (std::size_t k = 0; k < 4; ++k) {
-    sum[4 + k] += factor * normal.x * pressure[k];
-    sum[8 + k] += factor * normal.y * pressure[k];
-  }
-}
-
 }  // namespace
 
 ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model)
     : mesh_{mesh},
       model_{model},
-      colours_{colour_edges(comm, mesh)},
+      colours_{colour_dual_nodes(comm, mesh)},
       diagonal_(mesh.nodes()),
       inverses_(mesh.owned_nodes()),
       skewness_(mesh.edges().size(), 0.0),
       wave_sums_(mesh.nodes()) {
-  lay_out();
+  order_rows();
+  place_edges(lay_out_rows());
   for (const SkewEdge& skew : mesh.skew_edges()) {
     const DualEdge& edge = mesh.edges()[skew.edge];
     const double crosswise =
@@ -53,7 +43,8 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
   }
 }
 
-void ImplicitSystem::lay_out() {
+/// The rows colour by colour, within a colour in the order of nodes.
+void ImplicitSystem::order_rows() {
   const auto colour = [&](std::int32_t node) { return colours_.colour_of[NodeId{node}]; };
   row_nodes_.resize(mesh_.owned_nodes());
   std::iota(row_nodes_.begin(), row_nodes_.end(), 0);
@@ -64,19 +55,29 @@ void ImplicitSystem::lay_out() {
                                             [&](std::int32_t node) { return colour(node) < c; });
     colour_starts_.push_back(first - row_nodes_.begin());
   }
-  std::vector<std::size_t> next(
-      row_nodes_.size(),
-      0);  // of each owned node: first its number of neighbours, then the next slot in its row
+}
+
+/// Room in each row for a block of each neighbour. Returns where the row of each owned node starts.
+std::vector<std::size_t> ImplicitSystem::lay_out_rows() {
+  std::vector<std::size_t> neighbours(row_nodes_.size(), 0), starts(row_nodes_.size());
   for (const DualEdge& edge : mesh_.edges()) {
     for (const std::int32_t node : {edge.low, edge.high}) {
-      if (mesh_.is_owned(node)) ++next[node];
+      if (mesh_.is_owned(node)) ++neighbours[node];
     }
   }
   row_starts_.push_back(0);
-  for (const std::int32_t node : row_nodes_)
-    row_starts_.push_back(row_starts_.back() + std::exchange(next[node], row_starts_.back()));
+  for (const std::int32_t node : row_nodes_) {
+    starts[node] = row_starts_.back();
+    row_starts_.push_back(row_starts_.back() + neighbours[node]);
+  }
   columns_.resize(row_starts_.back());
   blocks_.resize(row_starts_.back());
+  return starts;
+}
+
+/// Each edge's places in the rows of its nodes, in the order of edges from `next` on, the start of each owned
+/// node's row.
+void ImplicitSystem::place_edges(std::vector<std::size_t> next) {
   const auto take = [&](std::int32_t node, std::int32_t column) {
     if (!mesh_.is_owned(node)) return -1;
     const std::size_t slot = next[node]++;
@@ -122,17 +123,11 @@ void ImplicitSystem::add_edges(const std::vector<State>& states) {
 /// Only the part that a node's own state has in its half of a face.
 void ImplicitSystem::add_faces(const std::vector<State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
-    const Condition condition = model_.boundaries[face.boundary].condition;
+    const BoundaryModel& boundary = model_.boundaries[face.boundary];
     for (const std::int32_t node : {face.from, face.to}) {
       const std::size_t at = node;
       const State& state = states[at];
-      if (condition == Condition::wall) {
-        add_wall_matrix(model_.gas, state, face.normal, face.half_size, diagonal_[at]);
-      } else {
-        const State& outside = condition == Condition::outflow ? state : model_.free_stream;
-        add_flux_matrix(model_.gas, state, face.normal, 0.5 * face.half_size, diagonal_[at]);
-        add_upwind_matrix(model_.gas, state, outside, face.normal, 0.5 * face.half_size, diagonal_[at]);
-      }
+      add_boundary_matrix(model_, boundary, state, face.normal, face.half_size, diagonal_[at]);
       const double along = std::abs(state[1] * face.normal.x + state[2] * face.normal.y);
       wave_sums_[at] += 0.5 * face.half_size * (along + model_.gas.sound_speed(state));
     }

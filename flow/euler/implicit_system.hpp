@@ -34,7 +34,9 @@ class ImplicitSystem {
   struct Slots {
     std::int32_t in_low = -1, in_high = -1;
   };
-  void lay_out();
+  void order_rows();
+  std::vector<std::size_t> lay_out_rows();
+  void place_edges(std::vector<std::size_t> next);
   void add_edges(const std::vector<State>& states);
   void add_faces(const std::vector<State>& states);
   void invert_diagonal(double cfl, const std::vector<double>& shares);

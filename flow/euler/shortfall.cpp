@@ -17,9 +17,10 @@ std::string shortfall(const EulerResult& result, const EulerOptions& options) {
         "edges, try a smaller solver.cfl, or set solver.tolerance to what was reached",
         result.residual, result.kept_iteration, result.last_residual, result.kept_iteration);
   }
-  const std::string fell =
-      fmt::format("the residual fell to {:.2e} of the first in {} steps, not to the tolerance {:.2e}",
-                  result.residual, result.iterations, options.tolerance);
+  const std::string fell = fmt::format(
+      "the residual fell to {:.2e} of the larger of the start's and the free stream's in {} steps, not to "
+      "the tolerance {:.2e}",
+      result.residual, result.iterations, options.tolerance);
   if (!result.stalled) return fell + "; raise solver.iterations";
   return fell +
          ", and hardly at all in the second half of them; more steps do not help: raise solver.tolerance or "

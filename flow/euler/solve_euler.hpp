@@ -13,7 +13,7 @@ struct EulerResult {
   int iterations = 0;     ///< steps done
   double residual = 0;    ///< root mean square of the nodes' net mass fluxes, relative to the larger of the
                           ///< start's and the uniform free stream's
-  double cl = 0, cd = 0;  ///< over all boundaries with the condition "wall", in wind axes
+  double cl = 0, cd = 0;  ///< over all boundaries that feels_force() counts, in wind axes
   /// The step whose flow this is: the last, or that of the best residual where it rose again.
   int kept_iteration = 0;
   double last_residual = 0;  ///< after the last step

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "io/cgns/cgns_handle.hpp"
 #include "io/text/name_index.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 
 namespace quadloop {
 
@@ -22,11 +24,11 @@ constexpr std::array<std::pair<const char*, const char*>, 8> variables{{{"densit
                                                                         {"x_momentum", "MomentumX"},
                                                                         {"y_momentum", "MomentumY"}}};
 
-constexpr std::array<std::pair<const char*, int>, 5> conditions{{{"wall", BCWall},
-                                                                 {"farfield", BCFarfield},
-                                                                 {"inflow", BCInflow},
-                                                                 {"outflow", BCOutflow},
-                                                                 {"symmetry", BCSymmetryPlane}}};
+/// The number of a BCType_t by its name.
+int type_named(std::string_view name) {
+  const auto* const found = std::find(std::begin(BCTypeName), std::end(BCTypeName), name);
+  return found == std::end(BCTypeName) ? BCTypeUserDefined : static_cast<int>(found - std::begin(BCTypeName));
+}
 
 /// Cut at a character, not inside one of several bytes (UTF-8).
 std::string shortened(const std::string& name, std::size_t length) {
@@ -73,13 +75,18 @@ std::string variable_name_of_cgns(const std::string& name) {
 }
 
 int cgns_condition(const std::string& condition) {
-  for (const auto& [ours, theirs] : conditions) {
-    if (condition == ours) return theirs;
+  for (const auto& [word, cgns_type] : boundary_conditions) {
+    if (condition == word) return type_named(cgns_type);
   }
   return BCTypeUserDefined;
 }
 
+/// Types that a word of ours names come before those that it merely comprises.
 std::string condition_of_cgns(int type) {
+  if (type == BCTypeUserDefined) return "none";
+  for (const auto& [word, cgns_type] : boundary_conditions) {
+    if (type == type_named(cgns_type)) return word;
+  }
   switch (type) {
     case BCWallInviscid:
     case BCWallViscous:
@@ -91,12 +98,8 @@ std::string condition_of_cgns(int type) {
     case BCOutflowSubsonic:
     case BCOutflowSupersonic:
     case BCTunnelOutflow: return "outflow";
-    default: break;
+    default: return "none";
   }
-  for (const auto& [ours, theirs] : conditions) {
-    if (type == theirs) return ours;
-  }
-  return "none";
 }
 
 }  // namespace quadloop

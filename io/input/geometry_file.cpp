@@ -24,6 +24,12 @@ std::map<std::string, GeometryReader>& readers() {
 
 }  // namespace
 
+std::vector<std::string> geometry_suffixes() {
+  std::vector<std::string> all{".geom", ".dat"};
+  all.insert(all.end(), gis_suffixes.begin(), gis_suffixes.end());
+  return all;
+}
+
 void add_geometry_reader(const std::string& suffix, GeometryReader reader) { readers()[suffix] = reader; }
 
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings) {
@@ -35,8 +41,8 @@ std::vector<Chain> read_geometry(const std::string& path, std::vector<std::strin
   if (std::find(gis_suffixes.begin(), gis_suffixes.end(), suffix) != gis_suffixes.end())
     throw InputError(
         fmt::format("{}: this program was linked without GDAL, which reads {} files", path, suffix));
-  throw InputError(fmt::format("{}: '{}' is not the suffix of a geometry file; known: .geom, .dat, {}", path,
-                               suffix, fmt::join(gis_suffixes, ", ")));
+  throw InputError(fmt::format("{}: '{}' is not the suffix of a geometry file; known: {}", path, suffix,
+                               fmt::join(geometry_suffixes(), ", ")));
 }
 
 }  // namespace quadloop

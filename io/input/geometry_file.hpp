@@ -18,6 +18,9 @@ std::vector<Chain> read_geometry(const std::string& path, std::vector<std::strin
 /// Drawings and maps, read by a library of their own (io/gis).
 inline const std::array<std::string, 4> gis_suffixes{".dxf", ".geojson", ".shp", ".gpkg"};
 
+/// Those of all geometry files, whether or not this program reads drawings and maps.
+std::vector<std::string> geometry_suffixes();
+
 using GeometryReader = std::vector<Chain> (*)(const std::string& path, std::vector<std::string>& warnings);
 
 /// From here on files of this suffix are read by `reader`, in the whole process.

@@ -4,11 +4,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "io/files/input_file.hpp"
 #include "io/text/decimal_comma.hpp"
+#include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -25,17 +25,8 @@ constexpr std::string_view between_numbers = " \t\r\f\v;";  // of a row whose co
 /// The number that is the whole word; infinite where it is too large for a double; nothing where it is no
 /// number.
 std::optional<double> number_of(std::string_view word) {
-  std::string text(word);
-  for (char& c : text) c = c == 'd' || c == 'D' ? 'e' : c;
-  const char* begin = text.data();
-  const char* end = begin + text.size();
-  if (begin != end && *begin == '+') ++begin;
-  if (begin != end && *begin == '-' && text.front() == '+') return std::nullopt;
   double value = 0;
-  const auto [stop, fault] = std::from_chars(begin, end, value);
-  if (stop != end || fault == std::errc::invalid_argument) return std::nullopt;
-  if (fault != std::errc::result_out_of_range) return value;
-  return text.find("e-") != std::string::npos ? 0.0 : std::numeric_limits<double>::infinity();
+  return parse_real(word, value) ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "io/text/text_scanner.hpp"
 
+#include <locale.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -34,13 +36,20 @@ std::string with_c_exponent(std::string_view token) {
   return copy;
 }
 
+/// What strtod() makes of a number that no double holds, whatever the locale.
+double nearest_double(const std::string& number) {
+  static const locale_t c_locale = newlocale(LC_ALL_MASK, "C", nullptr);
+  return strtod_l(number.c_str(), nullptr, c_locale);
+}
+
 /// from_chars, but values that underflow are taken as the nearest number, as other programs do.
 bool parse_c_real(std::string_view token, double& value) {
-  if (!token.empty() && token.front() == '+') token.remove_prefix(1);
+  if (token.starts_with("+-")) return false;
+  if (token.starts_with('+')) token.remove_prefix(1);
   const char* const end = token.data() + token.size();
   const auto [stopped, error] = std::from_chars(token.data(), end, value);
   if (stopped != end) return false;
-  if (error == std::errc::result_out_of_range) value = std::strtod(std::string(token).c_str(), nullptr);
+  if (error == std::errc::result_out_of_range) value = nearest_double(std::string(token));
   return error != std::errc::invalid_argument;
 }
 

@@ -6,7 +6,8 @@
 
 namespace quadloop {
 
-/// Whether a token is one number from end to end, also with a Fortran exponent (1.0D-3); "nan" and "inf" are.
+/// Whether a token is one number from end to end, also with a Fortran exponent (1.0D-3), the same in every
+/// locale; "nan" and "inf" are. What a double cannot hold becomes the nearest: 0 or infinity.
 bool parse_real(std::string_view token, double& value);
 
 /// Reads blank-separated tokens of a text that is held whole, and passes over comments (from a `comment` that

@@ -93,6 +93,22 @@ auto scatter_from_root(const Communicator& comm, const Values& values, std::span
   return Exchange(comm, ranks).deliver(std::span(values).first(ranks.size()));
 }
 
+/// A row of numbers, from 0, of which each rank has one range, in the order of ranks.
+class RankRanges {
+ public:
+  /// `begin` is the first number of this rank's range. *Collective.*
+  RankRanges(const Communicator& comm, std::int64_t begin) : begins_{comm.all_gather(begin)} {}
+
+  /// The rank that has the number.
+  int rank_of(std::int64_t number) const {
+    return static_cast<int>(std::upper_bound(begins_.begin(), begins_.end(), number) - begins_.begin()) - 1;
+  }
+  std::int64_t begin(int rank) const { return begins_[rank]; }
+
+ private:
+  std::vector<std::int64_t> begins_;
+};
+
 /// Entries of a rank's row that stand for entries of other ranks' rows, their owners', and are brought up to
 /// date from them.
 class CopyExchange {

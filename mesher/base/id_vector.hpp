@@ -9,11 +9,15 @@
 
 namespace quadloop {
 
-/// The ids from 0 to before `end`, ascending.
+/// The ids from `begin` to before `end`, ascending; from 0.
+template <class Tag, class Rep>
+constexpr auto ids_between(Id<Tag, Rep> begin, Id<Tag, Rep> end) {
+  return std::views::iota(begin.value(), end.value()) |
+         std::views::transform([](Rep number) { return Id<Tag, Rep>{number}; });
+}
 template <class Tag, class Rep>
 constexpr auto ids_below(Id<Tag, Rep> end) {
-  return std::views::iota(Rep{0}, end.value()) |
-         std::views::transform([](Rep number) { return Id<Tag, Rep>{number}; });
+  return ids_between(Id<Tag, Rep>{0}, end);
 }
 
 /// A value for each entity of one kind: a vector whose subscripts are ids of that kind alone. Those below
@@ -26,7 +30,7 @@ class IdVector {
  public:
   IdVector() = default;
   explicit IdVector(std::size_t size, const T& value = T{}) : values_(size, value) {}
-  IdVector(std::vector<T> values) : values_{std::move(values)} {}  ///< in the order of the ids
+  explicit IdVector(std::vector<T> values) : values_{std::move(values)} {}  ///< in the order of the ids
 
   T& operator[](Id id) { return values_[id.value()]; }
   const T& operator[](Id id) const { return values_[id.value()]; }

@@ -37,34 +37,6 @@ using LeafId = Id<struct LeafTag, std::int32_t>;
 /// A named boundary.
 using BoundaryId = Id<struct BoundaryTag, std::int32_t>;
 
-/// Ids that follow each other, for loops.
-template <class AnyId>
-class IdRange {
- public:
-  using rep = typename AnyId::rep;
-
-  class Iterator {
-   public:
-    constexpr explicit Iterator(rep at) : at_{at} {}
-    constexpr AnyId operator*() const { return AnyId{at_}; }
-    constexpr Iterator& operator++() {
-      ++at_;
-      return *this;
-    }
-    friend constexpr bool operator==(Iterator, Iterator) = default;
-
-   private:
-    rep at_;
-  };
-
-  constexpr IdRange(rep begin, rep end) : begin_{begin}, end_{end} {}
-  constexpr Iterator begin() const { return Iterator{begin_}; }
-  constexpr Iterator end() const { return Iterator{end_}; }
-
- private:
-  rep begin_, end_;
-};
-
 /// How many entries a list has, as ids on one rank count them: 32 bits. More are refused before a number
 /// wraps.
 template <class List>

@@ -18,6 +18,7 @@ spdlog::logger& logger() {
     auto made =
         std::make_shared<spdlog::logger>("quadloop", std::make_shared<spdlog::sinks::stderr_sink_st>());
     made->set_pattern("quadloop: %l: %v");
+    made->set_level(spdlog::level::warn);
     return made;
   }();
   return *instance;

@@ -12,7 +12,8 @@ struct Options {
   bool verbose = false;  ///< details too
 };
 
-/// Sets what is shown; before it is called, everything of level information and above is. Logs go to stderr.
+/// Sets what is shown; before it is called, warnings alone are, on any rank: a program that uses the library
+/// hears of the rest only where it asks. Logs go to stderr.
 void configure(const Options& options);
 
 void warning(const std::string& message);

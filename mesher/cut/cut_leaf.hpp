@@ -91,6 +91,10 @@ class LeafCutter {
   void gather_stops();
   void add_stop(Side side, Point position, Site site, std::int32_t crossing, std::int32_t snap = -1);
   void name_stops();
+  using SiteNodes = std::array<std::int32_t, lattice_sites.size()>;  ///< of each lattice site
+  SiteNodes add_side_nodes();
+  void name_snaps(const SiteNodes& site_nodes);
+  void name_absorbed_stops();
   const LeafSnap* absorbing_snap(const Crossing& crossing) const;
   std::span<const std::int32_t> trimmed_vertices(const Piece& piece) const;
   bool walk_sides();

@@ -96,12 +96,24 @@ const LeafSnap* LeafCutter::absorbing_snap(const Crossing& crossing) const {
   return nullptr;
 }
 
-/// One node for all stops at one position, and for a snapped corner with the crossings that it absorbs.
+/// One node for all stops at one position, and for a snapped corner with the crossings that it absorbs. In
+/// this order: a node is moved by its snap once all who share it have found it.
 void LeafCutter::name_stops() {
   stop_node_.assign(stops_.size(), -1);
+  name_snaps(add_side_nodes());
+  name_absorbed_stops();
   crossing_node_.assign(input_.trace.crossings.size(), -1);
-  snap_node_.assign(input_.snaps.size(), -1);
-  std::array<std::int32_t, 8> site_node{};
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    if (stops_[i].crossing >= 0) crossing_node_[stops_[i].crossing] = stop_node_[i];
+  }
+  for (std::size_t s = 0; s < input_.snaps.size(); ++s)
+    leaf_.nodes[snap_node_[s]].position = input_.snaps[s].snap->position;
+  leaf_.side_nodes = size32(leaf_.nodes);
+}
+
+/// A node for each position that has a stop which no snap absorbs; these nodes by their lattice sites.
+LeafCutter::SiteNodes LeafCutter::add_side_nodes() {
+  SiteNodes site_nodes{};
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const Stop& stop = stops_[i];
     const bool absorbed =
@@ -110,24 +122,30 @@ void LeafCutter::name_stops() {
     const bool at_last = i > 0 && stops_[i - 1].position == stop.position && stop_node_[i - 1] >= 0;
     if (!at_last) leaf_.nodes.push_back({stop.position, stop.site});
     stop_node_[i] = size32(leaf_.nodes) - 1;
-    if (is_on_lattice(stop.site)) site_node[index_of(stop.site)] = stop_node_[i];
-    if (stop.snap >= 0) snap_node_[stop.snap] = stop_node_[i];
+    if (is_on_lattice(stop.site)) site_nodes[index_of(stop.site)] = stop_node_[i];
+  }
+  return site_nodes;
+}
+
+/// The node that each snap moves: that of its lattice site, or of its stop on a side.
+void LeafCutter::name_snaps(const SiteNodes& site_nodes) {
+  snap_node_.assign(input_.snaps.size(), -1);
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    if (stops_[i].snap >= 0) snap_node_[stops_[i].snap] = stop_node_[i];
   }
   for (std::size_t s = 0; s < input_.snaps.size(); ++s) {
-    if (is_on_lattice(input_.snaps[s].site)) snap_node_[s] = site_node[index_of(input_.snaps[s].site)];
+    if (is_on_lattice(input_.snaps[s].site)) snap_node_[s] = site_nodes[index_of(input_.snaps[s].site)];
   }
+}
+
+/// Crossings that a snap absorbs have its node.
+void LeafCutter::name_absorbed_stops() {
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const std::int32_t c = stops_[i].crossing;
-    if (c < 0) continue;
-    if (stop_node_[i] < 0) {
-      const auto snap = absorbing_snap(input_.trace.crossing(c)) - input_.snaps.data();
-      stop_node_[i] = snap_node_[snap];
-    }
-    crossing_node_[c] = stop_node_[i];
+    if (c < 0 || stop_node_[i] >= 0) continue;
+    const auto snap = absorbing_snap(input_.trace.crossing(c)) - input_.snaps.data();
+    stop_node_[i] = snap_node_[snap];
   }
-  for (std::size_t s = 0; s < input_.snaps.size(); ++s)
-    leaf_.nodes[snap_node_[s]].position = input_.snaps[s].snap->position;
-  leaf_.side_nodes = size32(leaf_.nodes);
 }
 
 /// Adds the parts of the sides that lie in the domain. Walking round the leaf, an outline that leaves it has
@@ -286,7 +304,8 @@ void LeafCutter::choose_points(bool closed, Detail detail) {
 }
 
 /// Keeps the points between two kept ones from which the chord would stray too far (the rule of Douglas and
-/// Peucker 1973).
+/// Peucker 1973). Of points that are equally far the first along the outline is kept; a mirror image is
+/// walked the other way, and keeps the other one.
 void LeafCutter::keep_strays(std::size_t from, std::size_t to) {
   if (to - from < 2) return;
   const Point a = run_[from].position, b = run_[to].position;

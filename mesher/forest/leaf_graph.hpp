@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
-#include "mesher/base/ids.hpp"
+#include "mesher/base/id_vector.hpp"
 #include "mesher/forest/forest.hpp"
 
 namespace quadloop {
@@ -24,8 +24,8 @@ class LeafGraph {
   /// How many ghosts come before the local leaves.
   std::int32_t local_begin() const { return local_begin_; }
   std::int32_t local_size() const { return local_count_; }
-  IdRange<LeafId> all() const { return {0, size()}; }
-  IdRange<LeafId> local() const { return {local_begin_, local_begin_ + local_count_}; }
+  auto all() const { return ids_below(LeafId{size()}); }
+  auto local() const { return ids_between(from_local(0), from_local(local_count_)); }
   bool is_local(LeafId leaf) const { return 0 <= local_index(leaf) && local_index(leaf) < local_count_; }
   /// From a local leaf to its local index, and back.
   std::int32_t local_index(LeafId leaf) const { return leaf.value() - local_begin_; }

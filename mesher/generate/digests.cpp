@@ -4,24 +4,18 @@
 #include <optional>
 #include <variant>
 
+#include "mesher/base/mixed_bits.hpp"
+
 namespace quadloop {
 
 namespace {
-
-/// Mixes the bits of a word so that each of them moves about half of the result's (the finisher of
-/// SplitMix64).
-std::uint64_t mixed(std::uint64_t word) {
-  word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  word = (word ^ (word >> 27)) * 0x94d049bb133111ebULL;
-  return word ^ (word >> 31);
-}
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }  // -0 becomes 0
 
 /// A digest of words in their order.
 class WordDigest {
  public:
-  void add(std::uint64_t word) { state_ = mixed(state_ ^ word) + 0x9e3779b97f4a7c15ULL; }
+  void add(std::uint64_t word) { state_ = mixed_bits(state_ ^ word) + golden_step; }
   void add(double value) { add(bits(value)); }
   void add(Point p) {
     add(p.x);
@@ -31,21 +25,22 @@ class WordDigest {
     add(std::uint64_t{value.has_value()});
     add(value.value_or(0));
   }
-  void add(const Source& source) {
-    add(source.shape.index());
-    add(source.spacing);
-    if (const auto* box = std::get_if<Box>(&source.shape)) {
+  void add(const SizeSource& source) {
+    const auto& [shape, spacing, where] = source;
+    add(shape.index());
+    add(spacing);
+    if (const auto* box = std::get_if<Box>(&shape)) {
       add(box->low);
       add(box->high);
-    } else if (const auto* disc = std::get_if<Source::Disc>(&source.shape)) {
+    } else if (const auto* disc = std::get_if<SizeSource::Disc>(&shape)) {
       add(disc->centre);
       add(disc->radius);
     } else {
-      add(std::get<Source::Line>(source.shape).from);
-      add(std::get<Source::Line>(source.shape).to);
+      add(std::get<SizeSource::Line>(shape).from);
+      add(std::get<SizeSource::Line>(shape).to);
     }
   }
-  std::uint64_t value() const { return mixed(state_); }
+  std::uint64_t value() const { return mixed_bits(state_); }
 
  private:
   std::uint64_t state_ = 0x6a09e667f3bcc908ULL;
@@ -53,26 +48,29 @@ class WordDigest {
 
 }  // namespace
 
+// By name, so that an option more does not compile before it is thought of here.
 std::uint64_t case_digest(const MeshOptions& options) {
+  const auto& [type, quads, size, snap, may_vanish, limit] = options;  // the last two make no other mesh
+  const auto& [min, max, gradation, curvature, gap, sources, root] = size;
   WordDigest digest;
-  const SizeOptions& size = options.size;
-  digest.add(static_cast<std::uint64_t>(options.type));
-  digest.add(static_cast<std::uint64_t>(options.quads));
-  digest.add(size.min);
-  digest.add(size.max);
-  digest.add(size.gradation);
-  digest.add(size.curvature);
-  digest.add(size.gap);
-  digest.add(size.sources.size());
-  for (const Source& source : size.sources) digest.add(source);
-  digest.add(std::uint64_t{size.root.has_value()});
-  if (size.root) {
-    digest.add(size.root->corner);
-    digest.add(size.root->tree_edge);
-    digest.add(static_cast<std::uint64_t>(size.root->trees_x));
-    digest.add(static_cast<std::uint64_t>(size.root->trees_y));
+  digest.add(static_cast<std::uint64_t>(type));
+  digest.add(static_cast<std::uint64_t>(quads));
+  digest.add(min);
+  digest.add(max);
+  digest.add(gradation);
+  digest.add(curvature);
+  digest.add(gap);
+  digest.add(sources.size());
+  for (const SizeSource& source : sources) digest.add(source);
+  digest.add(std::uint64_t{root.has_value()});
+  if (root) {
+    const auto& [corner, tree_edge, trees_x, trees_y] = *root;
+    digest.add(corner);
+    digest.add(tree_edge);
+    digest.add(static_cast<std::uint64_t>(trees_x));
+    digest.add(static_cast<std::uint64_t>(trees_y));
   }
-  digest.add(options.snap);
+  digest.add(snap);
   return digest.value();
 }
 

@@ -11,10 +11,21 @@
 #include "mesher/cut/lattice_rank.hpp"
 #include "mesher/generate/digests.hpp"
 #include "mesher/layers/add_layers.hpp"
+#include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
 
 namespace {
+
+bool keeps_parallelograms(const MeshOptions& mesh) {
+  return mesh.type == MeshType::hybrid && mesh.quads == QuadChoice::parallel;
+}
+
+std::function<TieRank(Point)> order_of_nodes(const MeshInput& input, int finest_level) {
+  return [lattice = choose_root(input.geometry, input.mesh.size.root), finest_level](Point p) {
+    return tie_rank(lattice, finest_level, p);
+  };
+}
 
 /// A leaf has the triangles that stand in the slots of its own before.
 void count_triangles(const std::vector<std::int32_t>& standing, std::vector<LeafRecord>& leaves) {
@@ -36,20 +47,13 @@ void keep_parallelograms(const Communicator& comm, const std::function<TieRank(P
 }
 
 void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result) {
-  SmoothOptions options = input.smooth;
-  if (options.sweeps == 0) return;
-  options.geometry = &input.geometry;
-  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
-  const auto rank = [&lattice, finest = result.report.finest_allowed](Point p) {
-    return tie_rank(lattice, finest, p);
-  };
-  const bool parallel = input.mesh.type == MeshType::hybrid && input.mesh.quads == QuadChoice::parallel;
-  if (input.mesh.type == MeshType::delaunay) options.delaunay = rank;
-  if (parallel) options = sparing_parallelograms(options);
+  if (input.smooth.sweeps == 0) return;
+  const int finest = result.report.finest_allowed;
+  SmoothOptions options = smooth_options_for(input, finest);
   options.keep_slots = input.mesh.type != MeshType::delaunay;
   const SmoothReport report = smooth_mesh(comm, result.mesh, options);
   if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
-  if (parallel) keep_parallelograms(comm, rank, result);
+  if (keeps_parallelograms(input.mesh)) keep_parallelograms(comm, order_of_nodes(input, finest), result);
   log::detail(fmt::format("smoothed: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}",
                           report.moves, report.free_nodes, report.sweeps, report.worst_cost_after,
                           report.worst_cost_before));
@@ -59,7 +63,8 @@ void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result
 MeshInput outside(const MeshInput& input, const LayerFront& front) {
   MeshInput outer = input;
   outer.geometry = front.outer;
-  for (const std::int32_t station : front.station_of) outer.smooth.even_segments.push_back(station != WallLine::none);
+  for (const std::int32_t station : front.station_of)
+    outer.smooth.even_segments.push_back(station != WallLine::none);
   const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
   outer.mesh.size.root =
       RootOptions{lattice.box().low, lattice.tree_edge(), lattice.trees_x(), lattice.trees_y()};
@@ -70,12 +75,7 @@ MeshInput outside(const MeshInput& input, const LayerFront& front) {
 void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFront& front,
                  MeshResult& result) {
   std::function<TieRank(Point)> divide;
-  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
-  if (input.mesh.type == MeshType::delaunay) {
-    divide = [&lattice, finest = result.report.finest_allowed](Point p) {
-      return tie_rank(lattice, finest, p);
-    };
-  }
+  if (input.mesh.type == MeshType::delaunay) divide = order_of_nodes(input, result.report.finest_allowed);
   add_layers(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
   TreeAttributes& a = result.tree.attributes;
   a.geometry_digest = input.geometry.digest();
@@ -118,6 +118,14 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
 }
 
 }  // namespace
+
+SmoothOptions smooth_options_for(const MeshInput& input, int finest_level) {
+  SmoothOptions options = input.smooth;
+  options.geometry = &input.geometry;
+  if (keeps_parallelograms(input.mesh)) options = sparing_parallelograms(options);
+  if (input.mesh.type == MeshType::delaunay) options.delaunay = order_of_nodes(input, finest_level);
+  return options;
+}
 
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
                             const DemandedSplits& demanded) {

@@ -9,7 +9,7 @@
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
-#include "smoother/smooth_mesh.hpp"
+#include "smoother/smooth_options.hpp"
 
 namespace quadloop {
 
@@ -26,6 +26,11 @@ struct GeneratedMesh {
   MeshResult result;
   StageTimes times;  ///< those of the report, and "smooth"
 };
+
+/// How the meshes of this input are smoothed: along its geometry, which must outlive the options, sparing
+/// parallelograms where no other quadrilaterals are kept. A mesh of the Delaunay type ends with flips, under
+/// the order of nodes that it has with leaves down to `finest_level`.
+SmoothOptions smooth_options_for(const MeshInput& input, int finest_level);
 
 /// Meshes and smooths; smoothing always begins with the mesh as it is cut, and a mesh of the Delaunay type
 /// ends with flips, under the order of nodes that it was made with. *Collective.* Throws InputError as

@@ -26,17 +26,17 @@ struct Boundary {
   std::string name;
   double spacing = 0;              ///< length wanted along it; 0: the geometry's own point spacing
   double corner_degrees = 30;      ///< a point that turns by more is kept as a node; 180 keeps none
-  std::string condition = "none";  ///< wall | farfield | inflow | outflow | symmetry | interface | none
+  std::string condition = "none";  ///< a word of boundary_conditions
   double corner_spacing = 0;  ///< size wanted of the leaves at its sharp corners; 0: that of any other place
   std::optional<LayerSpec> layers = {};
 };
 
 /// What single places of an outline ask for, in the place of what their boundary does.
 struct LocalDemands {
-  std::vector<double> spacing;  ///< of each segment; above 0
-  std::vector<char> kept;       ///< of each vertex: whether it must become a mesh node
-  std::vector<double> bend_degrees;  ///< of each vertex: by how much the outline is taken to turn there, for a
-                                     ///< rule of curvature
+  std::vector<double> spacing;       ///< of each segment; above 0
+  std::vector<char> kept;            ///< of each vertex: whether it must become a mesh node
+  std::vector<double> bend_degrees;  ///< of each vertex: by how much the outline is taken to turn there, for
+                                     ///< a rule of curvature
 };
 
 /// The outline of the domain: simple closed loops that do not meet, each walked with the domain to its left,

@@ -4,14 +4,14 @@
 
 namespace quadloop {
 
-bool meets(const Source& source, const Box& box) {
+bool meets(const SizeSource& source, const Box& box) {
   if (const auto* area = std::get_if<Box>(&source.shape)) return area->meets(box);
-  if (const auto* disc = std::get_if<Source::Disc>(&source.shape)) {
+  if (const auto* disc = std::get_if<SizeSource::Disc>(&source.shape)) {
     const Point nearest{std::clamp(disc->centre.x, box.low.x, box.high.x),
                         std::clamp(disc->centre.y, box.low.y, box.high.y)};
     return length(nearest - disc->centre) <= disc->radius;
   }
-  const auto& line = std::get<Source::Line>(source.shape);
+  const auto& line = std::get<SizeSource::Line>(source.shape);
   Box extent;
   extent.include(line.from);
   extent.include(line.to);

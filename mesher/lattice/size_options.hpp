@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -11,7 +10,7 @@
 namespace quadloop {
 
 /// Leaves that meet the shape are no larger than `spacing`.
-struct Source {
+struct SizeSource {
   struct Disc {
     Point centre;
     double radius = 0;
@@ -25,7 +24,7 @@ struct Source {
 };
 
 /// Whether the closed shape and the closed box have a point in common.
-bool meets(const Source& source, const Box& box);
+bool meets(const SizeSource& source, const Box& box);
 
 /// The root as the user may fix it: trees_x by trees_y square trees, the first one's lower left corner at
 /// `corner`.
@@ -42,7 +41,7 @@ struct SizeOptions {
   double gradation = 1.5;           ///< 1 < g <= 2: h <= h' + (g-1)/2 d
   std::optional<double> curvature;  ///< degrees that a boundary may turn within one leaf
   std::optional<double> gap;        ///< leaves across the gap between two boundaries
-  std::vector<Source> sources;
+  std::vector<SizeSource> sources;
   std::optional<RootOptions> root;
 };
 

@@ -48,7 +48,8 @@ class Fans {
     for (std::int32_t i = 0; i < line.size(); ++i) {
       if (line[i].shape != Station::Shape::fan) continue;
       const std::int32_t before = line.previous(i);
-      const bool goes_on = before != WallLine::none && line[before].shape == Station::Shape::fan && line.width(before) == 0;
+      const bool goes_on =
+          before != WallLine::none && line[before].shape == Station::Shape::fan && line.width(before) == 0;
       first_of_[i] = goes_on && before < i ? first_of_[before] : i;
     }
   }
@@ -146,7 +147,8 @@ class LayerBuilder {
   }
 
   /// All nodes of a column, by ring; those below its lowest ring are not to be asked for.
-  std::vector<NewNode> column(const FrontPlace& place, GlobalNodeId before, GlobalNodeId after, Point node) const {
+  std::vector<NewNode> column(const FrontPlace& place, GlobalNodeId before, GlobalNodeId after,
+                              Point node) const {
     std::vector<NewNode> nodes;
     const int lowest = lowest_ring(before, place);
     for (const Point p : layer_column(front_, place, node)) {
@@ -164,7 +166,9 @@ class LayerBuilder {
   void use(const NewNode& node) {
     if (!owns(node.id)) copies_.emplace(node.id, node.point);
   }
-  bool owns(GlobalNodeId id) const { return first_new_ <= id.value() && id.value() < first_new_ + owned_new_; }
+  bool owns(GlobalNodeId id) const {
+    return first_new_ <= id.value() && id.value() < first_new_ + owned_new_;
+  }
 
   const Communicator& comm_;
   const LayerFront& front_;
@@ -225,12 +229,15 @@ void LayerBuilder::gather_rays() {
     if (fan != WallLine::none) own.push_back({fan, place_[node], mesh_.global(node), {}, mesh_.point(node)});
   }
   rays_ = comm_.all_gather_values(std::span<const Ray>(own));
-  std::ranges::sort(rays_, {}, [](const Ray& r) { return std::tuple(r.fan, r.place.station, r.place.share); });
+  std::ranges::sort(rays_, {},
+                    [](const Ray& r) { return std::tuple(r.fan, r.place.station, r.place.share); });
   for (std::size_t i = 0; i < rays_.size();) {
     const std::int32_t fan = rays_[i].fan;
     const auto rays = rays_of(fan);
     const Station& edge = line_[fan];
-    const double turn = 180 - 57.29577951308232 * std::acos(std::clamp(-dot(edge.before, line_[rays.back().place.station].after), -1.0, 1.0));
+    const double turn =
+        180 - 57.29577951308232 *
+                  std::acos(std::clamp(-dot(edge.before, line_[rays.back().place.station].after), -1.0, 1.0));
     fan_rows_.emplace(fan, FanRows(size32(rays), line_.spec(fan).count, turn));
     i += rays.size();
   }
@@ -256,10 +263,12 @@ void LayerBuilder::number_nodes() {
   std::vector<Ray> own;
   for (const NodeId node : owned) {
     if (place_[node].valid() && fan_of(place_[node]) != WallLine::none)
-      own.push_back({fan_of(place_[node]), place_[node], mesh_.global(node), after_[node], mesh_.point(node)});
+      own.push_back(
+          {fan_of(place_[node]), place_[node], mesh_.global(node), after_[node], mesh_.point(node)});
   }
   rays_ = comm_.all_gather_values(std::span<const Ray>(own));
-  std::ranges::sort(rays_, {}, [](const Ray& r) { return std::tuple(r.fan, r.place.station, r.place.share); });
+  std::ranges::sort(rays_, {},
+                    [](const Ray& r) { return std::tuple(r.fan, r.place.station, r.place.share); });
 }
 
 void LayerBuilder::add_boundary(std::size_t b) {
@@ -282,14 +291,16 @@ void LayerBuilder::add_edge(std::size_t b, const std::array<NodeId, 2>& edge, st
   add_strip(from, to, leaf);
   const auto wall_node = [&](NodeId node) {
     const std::int32_t in = fan_of(place_[node]);
-    return in == WallLine::none ? column(node).front()
-                                : NewNode{GlobalNodeId{rays_of(in).front().after.value() + 1}, line_[in].wall};
+    return in == WallLine::none
+               ? column(node).front()
+               : NewNode{GlobalNodeId{rays_of(in).front().after.value() + 1}, line_[in].wall};
   };
   const NewNode a = wall_node(from), b_node = wall_node(to);
   use(a);
   use(b_node);
   edges_[b].push_back({leaf, {a.id, b_node.id}});
-  if (line_.previous(place_[from].station) == WallLine::none && place_[from].at_station()) add_ends(from, true, leaf);
+  if (line_.previous(place_[from].station) == WallLine::none && place_[from].at_station())
+    add_ends(from, true, leaf);
   if (line_.next(place_[to].station) == WallLine::none) add_ends(to, false, leaf);
 }
 
@@ -298,7 +309,8 @@ void LayerBuilder::add_strip(NodeId from, NodeId to, std::int32_t leaf) {
   std::vector<NewNode> a = column(from), b = column(to);
   const auto mend_foot = [&](NodeId node, std::vector<NewNode>& nodes) {
     const std::int32_t fan = fan_of(place_[node]);
-    if (fan != WallLine::none) nodes.front() = {GlobalNodeId{rays_of(fan).front().after.value() + 1}, line_[fan].wall};
+    if (fan != WallLine::none)
+      nodes.front() = {GlobalNodeId{rays_of(fan).front().after.value() + 1}, line_[fan].wall};
   };
   mend_foot(from, a);
   mend_foot(to, b);
@@ -365,8 +377,9 @@ void LayerBuilder::add_cell(const std::vector<NewNode>& corners, Point of_front,
 void LayerBuilder::refuse_bad_cells() const {
   comm_.together([&] {
     if (bad_)
-      throw InputError(fmt::format("near ({}, {}): a cell of the layers would be inverted; ask for a smaller spacing there",
-                                   bad_->x, bad_->y));
+      throw InputError(fmt::format(
+          "near ({}, {}): a cell of the layers would be inverted; ask for a smaller spacing there", bad_->x,
+          bad_->y));
   });
 }
 
@@ -393,7 +406,8 @@ void LayerBuilder::put_together() {
   merge_boundaries();
   merge_cells(mesh_.triangles, triangles_, &LeafRecord::triangles);
   merge_cells(mesh_.quads, quads_, &LeafRecord::quads);
-  for (std::size_t i = 0; i < leaves_.size(); ++i) leaves_[i].block = leaves_[i].triangles + leaves_[i].quads > 0 ? 1 : 0;
+  for (std::size_t i = 0; i < leaves_.size(); ++i)
+    leaves_[i].block = leaves_[i].triangles + leaves_[i].quads > 0 ? 1 : 0;
   mesh_.points = std::move(points);
   mesh_.first_node = first_new_;
   mesh_.owned_nodes = owned_new_;
@@ -401,15 +415,16 @@ void LayerBuilder::put_together() {
 
 /// Behind each leaf's own cells those that were added to it.
 template <std::size_t width>
-void LayerBuilder::merge_cells(std::vector<std::array<NodeId, width>>& cells, std::vector<OfLeaf<width>>& added,
-                               std::int32_t LeafRecord::*count) const {
+void LayerBuilder::merge_cells(std::vector<std::array<NodeId, width>>& cells,
+                               std::vector<OfLeaf<width>>& added, std::int32_t LeafRecord::*count) const {
   std::ranges::stable_sort(added, {}, &OfLeaf<width>::leaf);
   std::vector<std::array<NodeId, width>> merged;
   merged.reserve(cells.size() + added.size());
   auto own = cells.cbegin();
   auto next = added.cbegin();
   for (std::int32_t leaf = 0; leaf < std::ssize(leaves_); ++leaf) {
-    for (const auto end = own + leaves_[leaf].*count; own != end; ++own) merged.push_back(numbered(ids_of(*own)));
+    for (const auto end = own + leaves_[leaf].*count; own != end; ++own)
+      merged.push_back(numbered(ids_of(*own)));
     for (; next != added.end() && next->leaf == leaf; ++next, ++(leaves_[leaf].*count))
       merged.push_back(numbered(next->nodes));
   }

@@ -9,8 +9,8 @@ namespace {
 constexpr double least_sector = 22;  // degrees, on the mean
 constexpr int rows_between_merges = 3;
 
-/// Of rays those that stay when sectors are merged in pairs, from both ends, so that a mirror image merges the
-/// same; an odd sector stays in the middle.
+/// Of rays those that stay when sectors are merged in pairs, from both ends, so that a mirror image merges
+/// the same; an odd sector stays in the middle.
 std::vector<std::int32_t> merged(const std::vector<std::int32_t>& rays) {
   const auto sectors = static_cast<std::int32_t>(rays.size()) - 1;
   std::int32_t from_each_end = sectors / 4;  // pairs

@@ -5,8 +5,8 @@
 
 namespace quadloop {
 
-/// The cells between the columns of a fan, row by row. Towards the edge neighbouring columns merge, so that sectors
-/// do not get too sharp.
+/// The cells between the columns of a fan, row by row. Towards the edge neighbouring columns merge, so that
+/// sectors do not get too sharp.
 class FanRows {
  public:
   /// So many rays in a fan that opens so wide, and so many rows from the edge to the front.
@@ -21,8 +21,8 @@ class FanRows {
     std::int32_t ray = 0;
     int ring = 0;
   };
-  /// Counter-clockwise where the rays turn clockwise, as those of a wall with the domain to its left; of three
-  /// corners or four.
+  /// Counter-clockwise where the rays turn clockwise, as those of a wall with the domain to its left; of
+  /// three corners or four.
   using Cell = std::vector<Corner>;
   /// The cells that begin at the sector after a ray, from the edge on.
   std::vector<Cell> cells_after(std::int32_t ray) const;

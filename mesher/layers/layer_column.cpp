@@ -20,7 +20,8 @@ Point foot_of(const WallLine& line, const FrontPlace& place) {
 /// column is normal to the wall.
 double cosine_of_tilt(const WallLine& line, const FrontPlace& place, Point direction) {
   const Station& station = line[place.station];
-  if (station.shape == Station::Shape::fan && (place.at_station() || line.width(place.station) == 0)) return 1;
+  if (station.shape == Station::Shape::fan && (place.at_station() || line.width(place.station) == 0))
+    return 1;
   const double after = dot(direction, left_of(station.after));
   return place.at_station() ? std::min(after, dot(direction, left_of(station.before))) : after;
 }
@@ -35,7 +36,8 @@ std::vector<Point> layer_column(const LayerFront& front, const FrontPlace& place
   const double cosine = std::clamp(cosine_of_tilt(line, place, (1 / whole) * way), 0.2, 1.0);
   const ColumnHeights heights = column_heights(spec, spec.first / cosine, whole);
   std::vector<Point> nodes;
-  for (int layer = 0; layer < spec.count; ++layer) nodes.push_back(foot + (heights.reached[layer] / whole) * way);
+  for (int layer = 0; layer < spec.count; ++layer)
+    nodes.push_back(foot + (heights.reached[layer] / whole) * way);
   return nodes;
 }
 

@@ -48,7 +48,8 @@ class OuterOutline {
     }
   }
   void add_front(std::int32_t first, std::int32_t s);
-  void add_vertex(Point p, std::int32_t segment, std::int32_t station, double spacing, bool kept, double bend) {
+  void add_vertex(Point p, std::int32_t segment, std::int32_t station, double spacing, bool kept,
+                  double bend) {
     points_.push_back(p);
     boundary_.push_back(g_.boundary_of(segment));
     station_of_.push_back(station);

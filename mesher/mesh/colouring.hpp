@@ -8,6 +8,7 @@
 
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/mixed_bits.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 
 namespace quadloop {
@@ -21,14 +22,8 @@ struct Colouring {
   static constexpr std::int8_t none = -1;
 };
 
-/// Who chooses first. Scatters the numbers, so that no long chain of nodes waits one for the next (the
-/// finaliser of SplitMix64; Steele, Lea and Flood 2014).
-inline std::uint64_t colouring_priority(GlobalNodeId node) {
-  std::uint64_t z = node.value() + 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31);
-}
+/// Who chooses first. Scatters the numbers, so that no long chain of nodes waits one for the next.
+inline std::uint64_t colouring_priority(GlobalNodeId node) { return mixed_bits(node.value() + golden_step); }
 
 /// Nodes choose, in an order that their numbers over all ranks alone decide, the first colour that no
 /// neighbour before them has (Jones and Plassmann 1993). `nodes` are the owned ones to be visited;

@@ -37,7 +37,7 @@ class HaloMesh {
   }
   const NodeExchange& exchange() const { return exchange_; }
 
-  /// Those that touch an owned node, among others.
+  /// Those that touch an owned node, among others; this rank's first, not in their global order.
   const std::vector<HaloEdge>& boundary_edges() const { return edges_; }
 
   /// A value for each of the mesh's own cells, triangles, then quads, becomes one for each cell here, in the

@@ -21,9 +21,11 @@ using NodeFlags = IdVector<NodeId, char>;  ///< for each node 1 or 0
 
 /// One rank's part of a mesh of triangles and quadrilaterals. Cells are counter-clockwise. Nodes are owned by
 /// one rank each and numbered over all ranks in the order of ranks: this rank's owned nodes come first, in
-/// global order, then copies of other ranks' nodes that its cells touch. The global order of cells is the
-/// order of ranks, then the order here. `boundaries` has the same entries in the same order on every rank
-/// (also where this rank has no edge of it).
+/// global order, then copies of other ranks' nodes that its cells touch. Each cell, and each boundary edge,
+/// is on one rank alone, which need not own any of its nodes: of the cells round an owned node some may be
+/// other ranks' (HaloMesh has them all). The global order of cells is the order of ranks, then the order
+/// here. `boundaries` has the same entries in the same order on every rank (also where this rank has no edge
+/// of it).
 struct Mesh {
   std::vector<Point> points;    ///< owned nodes, then copies
   std::int64_t first_node = 0;  ///< global number of points[0]

@@ -1,7 +1,5 @@
 #include "mesher/mesh/node_exchange.hpp"
 
-#include <algorithm>
-
 namespace quadloop {
 
 namespace {
@@ -16,8 +14,11 @@ std::vector<CopyExchange::Copy> listed(const NodeOwners& owners, std::int32_t ow
 
 }  // namespace
 
-int NodeOwners::rank_of(GlobalNodeId node) const {
-  return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), node.value()) - first_.begin()) - 1;
+void flag_at_owners(const Communicator& comm, const NodeOwners& owners, std::span<const GlobalNodeId> nodes,
+                    IdVector<NodeId, char>& flags) {
+  Outbox<GlobalNodeId> to_owners;
+  for (const GlobalNodeId node : nodes) to_owners.add(owners.rank_of(node), node);
+  for (const GlobalNodeId node : to_owners.deliver(comm)) flags[owners.local(node)] = 1;
 }
 
 NodeExchange::NodeExchange(const Communicator& comm, const NodeOwners& owners, std::int32_t owned_nodes,

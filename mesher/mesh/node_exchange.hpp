@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/base/exchange.hpp"
-#include "mesher/base/ids.hpp"
+#include "mesher/base/id_vector.hpp"
 
 namespace quadloop {
 
@@ -13,17 +13,21 @@ namespace quadloop {
 class NodeOwners {
  public:
   /// `first_node` is the number of this rank's first owned node. *Collective.*
-  NodeOwners(const Communicator& comm, std::int64_t first_node) : first_{comm.all_gather(first_node)} {}
+  NodeOwners(const Communicator& comm, std::int64_t first_node) : nodes_(comm, first_node) {}
 
-  int rank_of(GlobalNodeId node) const;
+  int rank_of(GlobalNodeId node) const { return nodes_.rank_of(node.value()); }
   /// On the rank that owns it.
   NodeId local(GlobalNodeId node) const {
-    return NodeId{static_cast<std::int32_t>(node.value() - first_[rank_of(node)])};
+    return NodeId{static_cast<std::int32_t>(node.value() - nodes_.begin(rank_of(node)))};
   }
 
  private:
-  std::vector<std::int64_t> first_;
+  RankRanges nodes_;
 };
+
+/// Sets the flags of nodes on the ranks that own them; every rank may name any. *Collective.*
+void flag_at_owners(const Communicator& comm, const NodeOwners& owners, std::span<const GlobalNodeId> nodes,
+                    IdVector<NodeId, char>& flags);
 
 /// Brings to each rank what the owners know of the nodes that it holds copies of: rows have one entry for
 /// each owned node and each copy.

@@ -16,6 +16,9 @@ struct LeafRecord {
   std::uint32_t adapted = 0;  ///< bit l: adaptation asked to split the quadrant of level l that holds it
 };
 
+/// Whether a leaf has cells; those outside the domain have none, and sensors say nothing of them.
+inline bool has_cells(const LeafRecord& leaf) { return leaf.triangles + leaf.quads > 0; }
+
 /// What the tree file says of the whole tree and of the mesh made from it.
 struct TreeAttributes {
   double root_x = 0, root_y = 0, tree_edge = 0;

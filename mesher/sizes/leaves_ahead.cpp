@@ -16,11 +16,11 @@ double graded_leaves(double size, double gap, double h, double slope) {
 }
 
 /// The share of the square that the source's box covers.
-double covered_share(const Source& source, const Box& square) {
+double covered_share(const SizeSource& source, const Box& square) {
   Box box;
   if (const auto* area = std::get_if<Box>(&source.shape)) {
     box = *area;
-  } else if (const auto* disc = std::get_if<Source::Disc>(&source.shape)) {
+  } else if (const auto* disc = std::get_if<SizeSource::Disc>(&source.shape)) {
     box = {disc->centre - Point{disc->radius, disc->radius},
            disc->centre + Point{disc->radius, disc->radius}};
   } else {
@@ -53,7 +53,7 @@ double LeavesAhead::source_leaves(const Quadrant& q) const {
   const SizeRules& rules = tree_.rules();
   const Box box = rules.lattice().box_of(q);
   double leaves = 0;
-  for (const Source& source : rules.sources()) {
+  for (const SizeSource& source : rules.sources()) {
     const int deeper = rules.level_for(source.spacing) - q.level;
     if (deeper > 0 && meets(source, box)) leaves += covered_share(source, box) * std::ldexp(1.0, 2 * deeper);
   }
@@ -70,7 +70,7 @@ int LeavesAhead::level_ahead(std::int32_t node) {
   int level = std::max(n.quadrant.level + 1, rules.level_of_outline(n.quadrant, tree_.segments_of(n)));
   if (n.demanded != DemandedSplits::none) level = std::max(level, rules.demanded().finest_level());
   const Box box = rules.lattice().box_of(n.quadrant);
-  for (const Source& source : rules.sources()) {
+  for (const SizeSource& source : rules.sources()) {
     if (level < rules.level_for(source.spacing) && meets(source, box))
       level = rules.level_for(source.spacing);
   }

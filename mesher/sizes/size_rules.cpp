@@ -55,7 +55,7 @@ SizeRules::Judgement SizeRules::judge(const SizedQuadrant& q) const {
     said.plain = false;
     said.finest = std::max(said.finest, level_for(spacing));
   };
-  for (const Source& source : options_.sources) {
+  for (const SizeSource& source : options_.sources) {
     if (meets(source, q.box)) ask_for(source.spacing);
   }
   for (const std::int32_t vertex : q.corners) ask_for(corner_spacing_[vertex]);
@@ -98,7 +98,7 @@ bool SizeRules::wants_split(const SizedQuadrant& sized) const {
   const Box& box = sized.box;
   if (q.level < coarsest_ && in_domains_box(q)) return true;
   const double size = lattice_->edge(q.level);
-  for (const Source& source : options_.sources) {
+  for (const SizeSource& source : options_.sources) {
     if (size > source.spacing && meets(source, box)) return true;
   }
   const auto too_large_for = [&](std::int32_t vertex) { return size > corner_spacing_[vertex]; };

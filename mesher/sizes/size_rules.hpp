@@ -39,7 +39,7 @@ class SizeRules {
   const ShiftedOutline& outline() const { return *outline_; }
   const Lattice& lattice() const { return *lattice_; }
   const DemandedSplits& demanded() const { return *demanded_; }
-  std::span<const Source> sources() const { return options_.sources; }
+  std::span<const SizeSource> sources() const { return options_.sources; }
   int finest_level() const { return finest_; }      ///< of case and demands
   int coarsest_level() const { return coarsest_; }  ///< at which leaves are no larger than `max`
   /// (g - 1) / 2 for the gradation g, in units of 2^-slope_bits.
@@ -50,7 +50,9 @@ class SizeRules {
 
   bool wants_split(const SizedQuadrant& q) const;
 
-  /// What can be said of a quadrant's leaves without splitting it.
+  /// What can be said of a quadrant's leaves without splitting it. It may promise more than wants_split()
+  /// then asks for, never less: wherever that holds, for the quadrant itself or one inside it, the level
+  /// there is less than `finest` and, if the quadrant is plain, less than coarsest_level().
   struct Judgement {
     bool plain = false;  ///< nothing inside asks for leaves finer than `max` does; no leaf made by a demand
     int finest = 0;      ///< no leaf inside is deeper than this level; it may be reached or not

@@ -25,13 +25,12 @@ void read_variable(const CaseTable& table, AdaptOptions& options) {
 }
 
 void read_thresholds(const CaseTable& table, AdaptOptions& options) {
-  const auto threshold = table.choice("threshold", {"deviation", "fraction", "nodes"});
-  if (threshold == "fraction") options.threshold = AdaptOptions::Threshold::fraction;
-  if (threshold == "nodes") options.threshold = AdaptOptions::Threshold::nodes;
+  if (const auto word = table.choice("threshold", words_of(AdaptOptions::threshold_words)))
+    options.threshold = *value_of(AdaptOptions::threshold_words, *word);
   const bool shares = options.threshold == AdaptOptions::Threshold::fraction;
   if (shares) {
-    options.refine = 0.2;
-    options.coarsen = 0.1;
+    options.refine = FractionRule{}.refine;
+    options.coarsen = FractionRule{}.coarsen;
   }
   const Range range = shares ? Range{0, 1} : Range{-100, 100};
   options.refine = table.number("refine", range).value_or(options.refine);
@@ -55,9 +54,8 @@ std::optional<AdaptOptions> read_adapt_table(const CaseTable& root) {
     options.cycles = static_cast<int>(*cycles);
   }
   read_variable(*table, options);
-  const auto indicator = table->choice("indicator", {"difference", "gradient", "hessian"});
-  if (indicator == "gradient") options.indicator = Indicator::gradient;
-  if (indicator == "hessian") options.indicator = Indicator::hessian;
+  if (const auto word = table->choice("indicator", words_of(indicator_words)))
+    options.indicator = *value_of(indicator_words, *word);
   read_thresholds(*table, options);
   if (const auto nodes = table->number("max_nodes", {1, 1e12})) {
     if (*nodes != std::floor(*nodes)) table->refuse("max_nodes", "must be a whole number of nodes");

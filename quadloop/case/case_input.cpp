@@ -16,8 +16,7 @@ namespace {
 /// An outline in the place of a case file is a likely slip.
 void require_case_file(const std::string& path) {
   const std::string suffix = std::filesystem::path(path).extension();
-  for (const char* outline : {".geom", ".dat", ".dxf", ".geojson", ".shp", ".gpkg"}) {
-    if (suffix != outline) continue;
+  if (std::ranges::count(geometry_suffixes(), suffix) > 0) {
     throw InputError(path + ": is an outline, not a case file; write a case file with file = \"" + path +
                      "\" in its table [geometry]");
   }

@@ -12,6 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 #include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
 
@@ -124,8 +125,7 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
     rule.corner_degrees = table.number("corner", {0, 180});
     rule.corner_spacing = table.number("corner_spacing", Range::positive());
     if (const auto layers = table.table("layers")) rule.layers = read_layers(*layers);
-    rule.condition =
-        table.choice("bc", {"wall", "farfield", "inflow", "outflow", "symmetry", "interface", "none"});
+    rule.condition = table.choice("bc", condition_words());
     if (const auto pressure = table.number("pressure", Range::positive())) {
       if (rule.condition != "outflow")
         table.refuse("pressure", "needs bc = \"outflow\" in the same table; elsewhere there is none to set");
@@ -138,8 +138,8 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
 
 constexpr double largest_coordinate = 1e100;
 
-Source read_source(const CaseTable& table) {
-  Source source;
+SizeSource read_source(const CaseTable& table) {
+  SizeSource source;
   source.where = table.place();
   const auto box = table.numbers("box", 4);
   const auto disc = table.numbers("disc", 3);
@@ -156,9 +156,9 @@ Source read_source(const CaseTable& table) {
     source.shape = Box{{b[0], b[2]}, {b[1], b[3]}};
   } else if (disc) {
     if (!((*disc)[2] > 0)) table.refuse("disc", "must be [x, y, radius] with a radius above 0");
-    source.shape = Source::Disc{{(*disc)[0], (*disc)[1]}, (*disc)[2]};
+    source.shape = SizeSource::Disc{{(*disc)[0], (*disc)[1]}, (*disc)[2]};
   } else {
-    source.shape = Source::Line{{(*line)[0], (*line)[1]}, {(*line)[2], (*line)[3]}};
+    source.shape = SizeSource::Line{{(*line)[0], (*line)[1]}, {(*line)[2], (*line)[3]}};
   }
   for (const auto& [key, numbers] : {std::pair{"box", box}, {"line", line}, {"disc", disc}}) {
     const bool huge = numbers && std::any_of(numbers->begin(), numbers->end(),
@@ -201,10 +201,10 @@ void read_smooth_table(const CaseTable& root, Settings& settings) {
       table->refuse("sweeps", "must be a whole number, 0 or more; 0 leaves the mesh as it is cut");
     settings.smooth.sweeps = static_cast<int>(*sweeps);
   }
-  const auto objective = table->choice("objective", {"power", "thesis"});
-  if (objective) settings.smooth.objective = *objective == "thesis" ? Objective::thesis : Objective::power;
-  const auto method = table->choice("method", {"perturb", "nlopt"});
-  if (method) settings.smooth.method = *method == "nlopt" ? Method::nlopt : Method::perturb;
+  if (const auto word = table->choice("objective", words_of(objective_words)))
+    settings.smooth.objective = *value_of(objective_words, *word);
+  if (const auto word = table->choice("method", words_of(method_words)))
+    settings.smooth.method = *value_of(method_words, *word);
   table->finish();
 }
 
@@ -307,7 +307,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
     if (const double at_corner = geometry.corner_spacing_of(s); at_corner > 0)
       smallest = std::min(smallest, at_corner);
   }
-  for (const Source& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
+  for (const SizeSource& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
   options.size.max = max;
   // Leaf sizes halve: so there is one at most as large as asked for.
@@ -364,7 +364,7 @@ Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) 
     }
   }
   for (std::string& warning : corner_warnings(geometry, min)) warnings.push_back(std::move(warning));
-  for (const Source& source : options.size.sources) {
+  for (const SizeSource& source : options.size.sources) {
     if (source.spacing < min) {
       warnings.push_back(fmt::format(
           "{}: this [[source]] asks for a spacing of {}, but spacing.min = {} ends the refinement before",

@@ -12,7 +12,7 @@
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/tree_record.hpp"
 #include "quadloop/case/solver_settings.hpp"
-#include "smoother/smooth_mesh.hpp"
+#include "smoother/smooth_options.hpp"
 
 namespace quadloop {
 
@@ -29,7 +29,7 @@ struct FarField {
   std::string where;
 };
 
-/// A case file as each module wants it: the only place that knows the names of keys.
+/// A case file as each module wants it.
 struct Settings {
   std::string title;
   /// Of all keys but those that no file of a cycle depends on: dotted name, JSON.
@@ -64,8 +64,8 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
                        const std::optional<TreeAttributes>& saved = {});
 
 /// The options with the sizes that the case leaves open taken from the geometry: max is 1/16 of the longer
-/// side of its box (or min if that is larger), min the smallest spacing that it asks for, but no less than
-/// 2^-20 of that side.
+/// side of its box (or min if that is larger), min half the smallest spacing that its points, boundaries,
+/// corners or the case's sources ask for, or 2^-20 of that side if that is larger, but at most half of max.
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
 
 /// One line for each boundary, sharp corner's boundary and source whose spacing is smaller than leaves may

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "adapt/loop/run_in_folder.hpp"
+#include "adapt/loop/chosen_solver.hpp"
 #include "io/input/case_file.hpp"
 #include "mesher/geometry/assemble/boundary_rules.hpp"
 #include "mesher/geometry/geometry.hpp"

@@ -9,7 +9,7 @@ namespace quadloop {
 
 namespace {
 
-/// Rowan's subplex, measured against eleven others of the library (docs/performance.md): none gives better
+/// Rowan's subplex, measured against eleven others of the library (docs/smoothing.md): none gives better
 /// cells, and it is the fastest.
 constexpr nlopt::algorithm algorithm = nlopt::LN_SBPLX;
 
@@ -29,7 +29,8 @@ double cost_of(unsigned, const double* x, double* slope, void* data) {
   const Problem& problem = *static_cast<const Problem*>(data);
   const Point p = problem.centre + problem.edge * Point{x[0], x[1]};
   const StarCost<1> cost = problem.star->cost(p, problem.objective);
-  if (!cost.valid[0]) {  // a wall, with the slope back to where the node was
+  if (!cost.valid[0]) {  // a wall as high as any cost (see Objective), with the slope back to where the node
+                         // was
     const double barrier = size32(problem.star->corners());
     if (slope != nullptr) {
       slope[0] = x[0];

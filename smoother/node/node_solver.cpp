@@ -1,13 +1,18 @@
 #include "smoother/node/node_solver.hpp"
 
+#include "mesher/base/error.hpp"
 #include "smoother/node/nlopt_solver.hpp"
 #include "smoother/node/perturbation.hpp"
 
 namespace quadloop {
 
 std::unique_ptr<NodeSolver> make_node_solver(Method method) {
-  if (method == Method::nlopt) return std::make_unique<NloptSolver>();
-  return std::make_unique<Perturbation>();
+  switch (method) {
+    case Method::perturb: return std::make_unique<Perturbation>();
+    case Method::nlopt: return std::make_unique<NloptSolver>();
+  }
+  QUADLOOP_REQUIRE(false, "a method without a solver");
+  return nullptr;
 }
 
 }  // namespace quadloop

@@ -3,13 +3,10 @@
 #include <memory>
 #include <optional>
 
+#include "smoother/node/method.hpp"
 #include "smoother/objective/star.hpp"
 
 namespace quadloop {
-
-/// How a node's best place is looked for. perturb: the thesis's steps along normals, edges and axes. nlopt: a
-/// library's minimiser.
-enum class Method { perturb, nlopt };
 
 /// The cost of a star as it is, which a new place must better: the largest corner cost and the smallest angle
 /// no worse, the cost of the node lower.

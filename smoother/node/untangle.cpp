@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
 
 namespace quadloop {
@@ -159,9 +160,12 @@ bool UntanglingRule::accepts(Point to) const {
 }
 
 bool UntanglingRule::prefers(Point a, Point b) const {
-  if (objective_ == Objective::thesis)
-    return star_.nodal_cost(a, reference_) < star_.nodal_cost(b, reference_);
-  return tangle(a) < tangle(b);
+  switch (objective_) {
+    case Objective::thesis: return star_.nodal_cost(a, reference_) < star_.nodal_cost(b, reference_);
+    case Objective::power: return tangle(a) < tangle(b);
+  }
+  QUADLOOP_REQUIRE(false, "an objective that prefers no place to another");
+  return false;
 }
 
 std::optional<Point> untangle(const Star& star, Point p, Objective objective) {

@@ -20,6 +20,13 @@ struct CornerTarget {
   double g11 = 0, g12 = 0, g22 = 0;
 };
 
+/// The shape that a cell should have: its edges from its first node, to the second and to the last. A
+/// default-constructed one asks for the ideal cell, equilateral or square.
+struct CellTarget {
+  Point w1, w2;
+  bool ideal() const { return w1 == Point{} && w2 == Point{}; }
+};
+
 /// The edges of an ideal cell at its first corner: to the next node, to the previous one. `w1` x `w2` must be
 /// positive.
 CornerTarget corner_target(Point w1, Point w2);

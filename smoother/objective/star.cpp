@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mesher/base/error.hpp"
+
 namespace quadloop {
 
 double nodal_cost(double largest, double mean) {
@@ -13,6 +15,8 @@ double nodal_cost(double largest, double mean) {
 }
 
 namespace {
+
+constexpr const char* no_cost = "an objective without a cost";
 
 /// The largest cotangent of a triangle's angles that count, times J.
 template <class Values>
@@ -52,12 +56,15 @@ StarCost<places> Star::evaluate(const Eigen::Array<double, places, 1>& x,
   cost.valid = soundness > 0;
   cost.largest_defect = defects;
   cost.largest_cotangent = cotangents;
-  cost.objective = squares;
-  if (objective == Objective::thesis) {
-    for (int k = 0; k < places; ++k)
-      cost.objective[k] =
-          quadloop::nodal_cost(defects[k] * defects[k], costs[k] / static_cast<double>(corners_.size()));
+  switch (objective) {
+    case Objective::power: cost.objective = squares; return cost;
+    case Objective::thesis:
+      for (int k = 0; k < places; ++k)
+        cost.objective[k] =
+            quadloop::nodal_cost(defects[k] * defects[k], costs[k] / static_cast<double>(corners_.size()));
+      return cost;
   }
+  QUADLOOP_REQUIRE(false, no_cost);
   return cost;
 }
 
@@ -70,34 +77,63 @@ StarCost<1> Star::cost(Point p, Objective objective) const {
   return evaluate<1>(One(p.x), One(p.y), objective);
 }
 
-double Star::cost_and_gradient(Point p, Objective objective, Point& gradient) const {
-  double sum = 0, largest = 0, value = 0;
-  Point sum_gradient, largest_gradient, power_gradient;
+namespace {
+
+struct CostSlope {
+  double cost = 0;
+  Point gradient;
+};
+
+/// The cost of a corner that is not inverted, and how it changes with p.
+CostSlope cost_slope(const StarCorner& c, Point p) {
+  const CornerForm f = corner_form(p, c.q, c.r);
+  const Point u = c.q - p, v = c.r - p;
+  const double form = c.target.g11 * f.uu + 2 * c.target.g12 * f.uv + c.target.g22 * f.vv;
+  const Point form_gradient = -2.0 * ((c.target.g11 + c.target.g12) * u + (c.target.g12 + c.target.g22) * v);
+  const Point jacobian_gradient{c.q.y - c.r.y, c.r.x - c.q.x};
+  const double ratio = f.jacobian / form, defect = 1 - ratio;
+  return {defect * defect, (-2 * defect / form) * (jacobian_gradient - ratio * form_gradient)};
+}
+
+}  // namespace
+
+double Star::power_and_gradient(Point p, Point& gradient) const {
+  double value = 0;
+  gradient = {};
   for (const StarCorner& c : corners_) {
-    const CornerForm f = corner_form(p, c.q, c.r);
-    const Point u = c.q - p, v = c.r - p;
-    const double form = c.target.g11 * f.uu + 2 * c.target.g12 * f.uv + c.target.g22 * f.vv;
-    const Point form_gradient =
-        -2.0 * ((c.target.g11 + c.target.g12) * u + (c.target.g12 + c.target.g22) * v);
-    const Point jacobian_gradient{c.q.y - c.r.y, c.r.x - c.q.x};
-    const double ratio = f.jacobian / form, defect = 1 - ratio, cost = defect * defect;
-    const Point cost_gradient = (-2 * defect / form) * (jacobian_gradient - ratio * form_gradient);
-    sum += cost;
-    sum_gradient = sum_gradient + cost_gradient;
+    const auto [cost, slope] = cost_slope(c, p);
     value += cost * cost;
-    power_gradient = power_gradient + 2 * cost * cost_gradient;
+    gradient = gradient + 2 * cost * slope;
+  }
+  return value;
+}
+
+double Star::thesis_and_gradient(Point p, Point& gradient) const {
+  double sum = 0, largest = 0;
+  Point sum_gradient, largest_gradient;
+  for (const StarCorner& c : corners_) {
+    const auto [cost, slope] = cost_slope(c, p);
+    sum += cost;
+    sum_gradient = sum_gradient + slope;
     if (cost <= largest) continue;
     largest = cost;
-    largest_gradient = cost_gradient;
+    largest_gradient = slope;
   }
-  gradient = power_gradient;
-  if (objective == Objective::power) return value;
   const double count = static_cast<double>(corners_.size()), t = std::tanh(5 * (largest - 1)),
                blend = (t + 1) / 2;
   const double blend_slope = 2.5 * (1 - t * t);
   gradient = (blend_slope * (largest - sum / count) + blend) * largest_gradient +
              ((1 - blend) / count) * sum_gradient;
   return quadloop::nodal_cost(largest, sum / count);
+}
+
+double Star::cost_and_gradient(Point p, Objective objective, Point& gradient) const {
+  switch (objective) {
+    case Objective::power: return power_and_gradient(p, gradient);
+    case Objective::thesis: return thesis_and_gradient(p, gradient);
+  }
+  QUADLOOP_REQUIRE(false, no_cost);
+  return 0;
 }
 
 double Star::worst_cost(Point p) const {

@@ -7,6 +7,7 @@
 
 #include "mesher/geometry/point.hpp"
 #include "smoother/objective/condition_number.hpp"
+#include "smoother/objective/objective.hpp"
 
 namespace quadloop {
 
@@ -21,10 +22,6 @@ struct StarCorner {
   CornerTarget target;
   CellAngle angle = CellAngle::all;
 };
-
-/// How the corners' costs become the cost of their node. thesis: Eq. 3.4, see nodal_cost. power: the sum of
-/// the squared costs, where no corner is inverted; the sum of -J counts where some are.
-enum class Objective { thesis, power };
 
 /// What a node's star would be worth with the node at each of several places, evaluated together.
 template <int places>
@@ -50,7 +47,8 @@ class Star {
   StarCost<batch> cost(const Batch& x, const Batch& y, Objective objective) const;
   StarCost<1> cost(Point p, Objective objective) const;
 
-  /// The cost of the node by the objective and its gradient; the star must be valid at p.
+  /// The cost of the node by the objective, at most the number of corners, and its gradient; the star must be
+  /// valid at p.
   double cost_and_gradient(Point p, Objective objective, Point& gradient) const;
 
   /// The largest corner cost with the node at p, Eq. 3.2; 1 or more where a corner is inverted.
@@ -71,6 +69,8 @@ class Star {
   template <int places>
   StarCost<places> evaluate(const Eigen::Array<double, places, 1>& x,
                             const Eigen::Array<double, places, 1>& y, Objective objective) const;
+  double power_and_gradient(Point p, Point& gradient) const;
+  double thesis_and_gradient(Point p, Point& gradient) const;
 
   std::vector<StarCorner> corners_;
 };

@@ -35,8 +35,8 @@ class BoundarySlide {
   /// Whether a sliding node and both its neighbours lie on flagged segments of the outline.
   bool lies_on(NodeId node, std::span<const char> segments) const;
 
-  /// A place nearer to the middle between a sliding node's neighbours along the outline, or none: no cell's angle
-  /// may fall under 28 degrees, or under the smallest one now.
+  /// A place nearer to the middle between a sliding node's neighbours along the outline, or none: no cell's
+  /// angle may fall under 28 degrees, or under the smallest one now.
   std::optional<Point> towards_middle(NodeId node, const Star& star) const;
 
  private:

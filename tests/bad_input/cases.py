@@ -58,6 +58,8 @@ CASES = [
     case_file("unknown table", CASE + "[spacings]\n", "case.toml:6:", "spacings"),
     case_file("later key", CASE + "[[block]]\nname = \"gas\"\n", "case.toml:6:", "block"),
     case_file("unknown threshold", CASE + "[adapt]\nthreshold = \"best\"\n", "case.toml:7:", "threshold", "deviation"),
+    case_file("unknown indicator", CASE + "[adapt]\nindicator = \"gradients\"\n", "case.toml:7:", "indicator", "difference, gradient, hessian", "'gradient'?"),
+    case_file("unknown condition", CASE + "[boundary.box]\nbc = \"walls\"\n", "case.toml:7:", "bc", "symmetry, interface, none", "'wall'?"),
     case_file("nodes without a number", CASE + "[adapt]\nthreshold = \"nodes\"\n", "case.toml:7:", "max_nodes"),
     case_file("two kinds of field", CASE + "[adapt]\nvariable = { size = \"h\", error = \"e\" }\n", "case.toml:7:", "variable"),
     case_file("command without a program", CASE + "[solver]\nkind = \"command\"\n", "case.toml:6:", "command"),

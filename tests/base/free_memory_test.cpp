@@ -2,57 +2,67 @@
 #include "mesher/base/free_memory.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
+#include <sys/resource.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
-namespace fs = std::filesystem;
+using test::TemporaryFolder;
 
-struct Folder {
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  void write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path / name).parent_path());
-    std::ofstream(path / name) << text;
+constexpr double mib = 1 << 20;
+
+/// What this process has of what its limit RLIMIT_DATA counts.
+double bytes_of_data() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word && word != "VmData:") {
   }
-  fs::path path = fs::temp_directory_path() / ("quadloop_groups_" + std::to_string(getpid()));
-};
+  double kib = 0;
+  status >> kib;
+  return 1024 * kib;
+}
 
-TEST(FreeMemory, IsKnownAndShared) {
-  EXPECT_GT(free_memory(), 0);
-  EXPECT_LT(free_memory(), 1e18);
-  EXPECT_GT(free_memory_of_all(test::world()), 0);
+TEST(FreeMemory, ALimitOfTheProcessLeavesWhatItHasNotTaken) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_DATA, &before), 0);
+  rlimit limit = before;
+  limit.rlim_cur = static_cast<rlim_t>(bytes_of_data() + 64 * mib);
+  ASSERT_EQ(setrlimit(RLIMIT_DATA, &limit), 0);
+  const double own = free_memory(), of_all = free_memory_of_all(test::world());
+  setrlimit(RLIMIT_DATA, &before);
+  EXPECT_NEAR(own, 64 * mib, 4 * mib);  // the process goes on living
+  EXPECT_NEAR(of_all, own, 4 * mib);
+  EXPECT_GT(free_memory(), own);
 }
 
 TEST(FreeMemory, AGroupLeavesItsLimitLessWhatItMustKeep) {
-  const Folder root;
+  const TemporaryFolder root;
   root.write("job/memory.max", "1000\n");
   root.write("job/memory.current", "700\n");
   root.write("job/memory.stat", "anon 500\ninactive_file 150\n");
-  EXPECT_EQ(free_in_control_groups("0::/job\n", root.path), 450);
+  EXPECT_EQ(free_in_control_groups("0::/job\n", root.path()), 450);
 }
 
 TEST(FreeMemory, TheGroupsAboveLimitItToo) {
-  const Folder root;
+  const TemporaryFolder root;
   root.write("job/memory.max", "100\n");
   root.write("job/memory.current", "70\n");
   root.write("job/step/memory.max", "max\n");
   root.write("job/step/memory.current", "10\n");
-  EXPECT_EQ(free_in_control_groups("0::/job/step\n", root.path), 30);
+  EXPECT_EQ(free_in_control_groups("0::/job/step\n", root.path()), 30);
 }
 
 TEST(FreeMemory, TheOlderKindOfGroupsIsReadToo) {
-  const Folder root;
+  const TemporaryFolder root;
   root.write("memory/job/memory.limit_in_bytes", "1000\n");
   root.write("memory/job/memory.usage_in_bytes", "400\n");
-  EXPECT_EQ(free_in_control_groups("5:cpu,cpuacct:/other\n4:memory:/job\n0::/\n", root.path), 600);
+  EXPECT_EQ(free_in_control_groups("5:cpu,cpuacct:/other\n4:memory:/job\n0::/\n", root.path()), 600);
 }
 
 TEST(FreeMemory, WithoutGroupsThereIsNoLimit) {

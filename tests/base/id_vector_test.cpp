@@ -59,6 +59,8 @@ TEST(IdVector, IdsBelowAnyOfAnyWidth) {
   for (const GlobalNodeId node : ids_below(GlobalNodeId{4})) sum += node.value();
   EXPECT_EQ(sum, 6);
   EXPECT_TRUE(ids_below(GlobalNodeId{0}).empty());
+  EXPECT_EQ(*ids_between(LeafId{3}, LeafId{5}).begin(), LeafId{3});
+  EXPECT_EQ(ids_between(LeafId{3}, LeafId{5}).size(), 2U);
 }
 
 }  // namespace

@@ -7,16 +7,23 @@ namespace quadloop {
 namespace {
 
 /// What stands on stderr after one message of each kind.
-std::string said(const log::Options& options) {
-  log::configure(options);
+std::string said() {
   testing::internal::CaptureStderr();
   log::warning("a {} b");
   log::information("info");
   log::detail("detail");
-  const std::string text = testing::internal::GetCapturedStderr();
+  return testing::internal::GetCapturedStderr();
+}
+
+std::string said(const log::Options& options) {
+  log::configure(options);
+  const std::string text = said();
   log::configure({});
   return text;
 }
+
+// The first of this program that logs: nothing is configured yet.
+TEST(Log, UnconfiguredIsWarningsAlone) { EXPECT_EQ(said(), "quadloop: warning: a {} b\n"); }
 
 TEST(Log, BracesAreNoFormat) { EXPECT_EQ(said({}), "quadloop: warning: a {} b\nquadloop: info: info\n"); }
 

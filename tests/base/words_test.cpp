@@ -1,13 +1,25 @@
-// What stands behind messages and records: guesses for mistyped words, JSON. On one rank alone.
+// What stands behind messages and records: tables of words, guesses for mistyped words, JSON. On one rank
+// alone.
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "mesher/base/json.hpp"
 #include "mesher/base/nearest_word.hpp"
+#include "mesher/base/word_table.hpp"
 
 namespace quadloop {
 namespace {
+
+TEST(WordTable, GivesWordsInTheirOrderAndTheirValues) {
+  enum class Colour { red, blue };
+  constexpr WordTable<Colour, 2> table{{{"blue", Colour::blue}, {"red", Colour::red}}};
+  EXPECT_EQ(words_of(table), (std::vector<std::string>{"blue", "red"}));
+  EXPECT_EQ(value_of(table, "red"), Colour::red);
+  EXPECT_EQ(value_of(table, "blue"), Colour::blue);
+  EXPECT_EQ(value_of(table, "Red"), std::nullopt);
+  EXPECT_EQ(value_of(table, ""), std::nullopt);
+}
 
 TEST(NearestWord, IsOneSlipForEachThirdOfTheWord) {
   const std::vector<std::string> words{"--window", "--output", "mesh", "min", "max"};

@@ -98,6 +98,28 @@ TEST(BuildMesh, TheTreeCountsEachLeafsCells) {
   }
 }
 
+/// The square of a leaf and half an edge round it: corners that snap move less.
+Box surroundings(const TreeAttributes& tree, const LeafRecord& leaf) {
+  const double unit = std::ldexp(tree.tree_edge, -30), edge = std::ldexp(tree.tree_edge, -leaf.level);
+  const Point low{tree.root_x + tree.tree_edge * leaf.tree_x + unit * leaf.x,
+                  tree.root_y + tree.tree_edge * leaf.tree_y + unit * leaf.y};
+  return {low - Point{edge / 2, edge / 2}, low + Point{1.5 * edge, 1.5 * edge}};
+}
+
+TEST(BuildMesh, CellsLieInTheLeavesThatCountThem) {
+  const auto [mesh, tree, report] = build_mesh(world(), pentagon(), sized(0.02, 0.2));
+  auto triangle = mesh.triangles.begin();
+  auto quad = mesh.quads.begin();
+  const auto expect_within = [&mesh](const Box& box, const auto& cell) {
+    for (const NodeId node : cell) EXPECT_TRUE(box.contains(mesh.point(node)));
+  };
+  for (const LeafRecord& leaf : tree.leaves) {
+    const Box box = surroundings(tree.attributes, leaf);
+    for (std::int32_t i = 0; i < leaf.triangles; ++i) expect_within(box, *triangle++);
+    for (std::int32_t i = 0; i < leaf.quads; ++i) expect_within(box, *quad++);
+  }
+}
+
 TEST(BuildMesh, RefusesMoreCellsThanAreAllowed) {
   MeshOptions options = sized(0.01, 0.2);
   options.limit.cells = 100;

@@ -9,21 +9,13 @@
 #include "mesher/build/cell_demands.hpp"
 #include "mesher/build/islands.hpp"
 #include "tests/mesh/grid_mesh.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
 using test::world;
-
-std::string refusal_of(const std::function<void()>& call) {
-  try {
-    call();
-    return {};
-  } catch (const InputError& fault) {
-    return fault.what();
-  }
-}
 
 std::vector<Point> box(Point low, double width, double height) {
   return {low, low + Point{width, 0}, low + Point{width, height}, low + Point{0, height}};
@@ -81,7 +73,7 @@ TEST(Islands, ALoopAsLargeAsTheSmallestLeafStays) {
 
 TEST(Islands, WhereNoLoopRemainsThereIsNoDomain) {
   MeshReport report;
-  EXPECT_NE(refusal_of([&] {
+  EXPECT_NE(test::refusal_text([&] {
               without_small_islands(loops({box({3, 3}, 1, 1)}), 2, report);
             }).find("boundary b0 near (3.5, 3.5)"),
             std::string::npos);
@@ -93,7 +85,8 @@ TEST(OutlineLosses, BoundariesWithoutEdgesVanish) {
   mesh.boundaries.front().name = "b0";
   mesh.boundaries.push_back({"b1", "none", {}});
   MeshReport report;
-  const std::string refusal = refusal_of([&] { report_losses(world(), geometry, mesh, false, report); });
+  const std::string refusal =
+      test::refusal_text([&] { report_losses(world(), geometry, mesh, false, report); });
   EXPECT_TRUE(refusal.starts_with("boundary 'b1' near (0.5005, 0.501), 0.001 wide and 0.002 high, "))
       << refusal;
   report_losses(world(), geometry, mesh, true, report);
@@ -117,11 +110,11 @@ TEST(OutlineLosses, KeptCornersThatAreNoNodesAreCounted) {
 TEST(RequireArea, TheMeshMayMissAFewHundredths) {
   const Mesh mesh = square_mesh();
   EXPECT_NO_THROW(require_area(world(), loops({box({0, 0}, 1, 1.04)}), 0, mesh));
-  const std::string refusal = refusal_of([&] {
+  const std::string refusal = test::refusal_text([&] {
     require_area(world(), loops({box({0, 0}, 1, 1.2)}), 0, mesh);
   });
   EXPECT_NE(refusal.find("16.7 percent off"), std::string::npos) << refusal;
-  EXPECT_NE(refusal_of([&] {
+  EXPECT_NE(test::refusal_text([&] {
               require_area(world(), loops({box({0, 0}, 1, 1.2)}), 0, mesh, true);
             }).find("while smoothing"),
             std::string::npos);

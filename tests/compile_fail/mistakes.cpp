@@ -29,6 +29,8 @@ constexpr auto mistake = node + node;
 double mistake(const IdVector<NodeId, double>& values) { return values[global_node]; }
 #elif defined(NUMBER_SUBSCRIPT)
 double mistake(const IdVector<NodeId, double>& values) { return values[3]; }
+#elif defined(VECTOR_FOR_ID_VECTOR)
+double mistake() { return value_at(std::vector<double>{3}); }
 #elif defined(VECTOR_OF_BITS)
 IdVector<NodeId, bool> mistake;
 #elif defined(COPIED_COMMUNICATOR)

@@ -28,7 +28,7 @@ Geometry geometry_of(const std::vector<Points>& loops, double spacing) {
   return {{{"outline", spacing, 30, "wall"}}, points, starts, boundaries};
 }
 
-SizeOptions sizes_from(double min, double max, const std::vector<Source>& sources) {
+SizeOptions sizes_from(double min, double max, const std::vector<SizeSource>& sources) {
   SizeOptions sizes;
   sizes.sources = sources;
   sizes.min = min;
@@ -48,7 +48,7 @@ double area_of(const std::vector<Points>& loops) {
 /// outline, cut; all lengths times `scale`. *Collective.*
 struct CutSquare {
   CutSquare(const std::vector<Points>& loops, double finest, double snap, double scale = 1,
-            const std::vector<Source>& sources = {})
+            const std::vector<SizeSource>& sources = {})
       : lattice{{{0, 0}, {8 * scale, 8 * scale}}, 1, 1},
         geometry{geometry_of(scaled(loops, scale), (sources.empty() ? finest : 1) * scale)},
         sizes{outline, lattice, sizes_from(finest * scale, scale, sources),
@@ -137,9 +137,9 @@ TEST(CutForest, CoversTheDomainAndNothingElse) {
 TEST(CutForest, TakesStatesFromCoarserAndFinerNeighbours) {
   // Small leaves beside the outline, which large ones hold: here to one side of it, there to the other.
   for (int trial = 0; trial < 16; ++trial) {
-    std::vector<Source> sources;
+    std::vector<SizeSource> sources;
     for (const double x : {1.0, 3.0, 5.0, 7.0})
-      sources.push_back({Source::Disc{{x + 0.11 * trial, 0.5 * trial}, 0.3}, 0.0625, {}});
+      sources.push_back({SizeSource::Disc{{x + 0.11 * trial, 0.5 * trial}, 0.3}, 0.0625, {}});
     const CutSquare square(frame(), 0.0625, 0.4, 1, sources);
     EXPECT_NEAR(square.area(), area_of(frame()), 1e-13 * 64);
     square.expect_states();

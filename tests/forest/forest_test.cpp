@@ -7,7 +7,6 @@
 
 #include "mesher/forest/curve_owners.hpp"
 #include "mesher/forest/ghost_exchange.hpp"
-#include "mesher/forest/ghost_layer.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -122,30 +121,6 @@ TEST(CurveOwners, ARankWithoutLeavesOwnsNothing) {
   EXPECT_EQ(owners.rank_of({0, 8}), 2);
   EXPECT_FALSE(owners.owns(1, {0, 8}));
   EXPECT_TRUE(owners.owns(2, {0, 8}));
-}
-
-TEST(GhostLayer, HoldsAllOthersLeavesThatTouchOnesOwn) {
-  const Forest forest = graded_brick();
-  const auto own = forest.leaves(), all = all_leaves(forest);
-  const auto counts = test::world().all_gather(forest.local_leaves());
-  std::vector<Quadrant> expected;
-  std::vector<std::pair<int, std::int32_t>> places;
-  std::size_t i = 0;
-  for (int rank = 0; rank < test::world().size(); ++rank) {
-    for (std::int32_t index = 0; index < counts[rank]; ++index, ++i) {
-      const bool touches = std::any_of(own.begin(), own.end(),
-                                       [&](const Quadrant& q) { return chebyshev_gap(q, all[i]) == 0; });
-      if (rank == test::world().rank() || !touches) continue;
-      expected.push_back(all[i]);
-      places.emplace_back(rank, index);
-    }
-  }
-  const auto ghosts = ghost_layer(test::world(), brick, forest.owners(), own);
-  ASSERT_EQ(ghosts.size(), expected.size());
-  for (std::size_t g = 0; g < ghosts.size(); ++g) {
-    EXPECT_EQ(ghosts[g].quadrant, expected[g]);
-    EXPECT_EQ(std::pair(ghosts[g].owner, ghosts[g].index), places[g]);
-  }
 }
 
 TEST(GhostExchange, BringsWhatTheOwnersKnow) {

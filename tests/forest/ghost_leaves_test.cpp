@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "mesher/forest/ghost_layer.hpp"
 #include "mesher/forest/leaf_graph.hpp"
 #include "tests/support/world.hpp"
 

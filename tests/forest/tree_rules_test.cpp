@@ -223,7 +223,7 @@ TEST(TreeRules, LeavesThatSplittingSqueezesAreSplitToo) {
   SizeOptions options = options_with(0.02, 0.5, 2.0);
   for (int k = 0; k < 4; ++k) {
     const double x = -0.9 + 0.41 * k;
-    options.sources.push_back({Source::Line{{x, -0.8}, {x + 0.3, 0.9}}, 0.03 + 0.02 * k, {}});
+    options.sources.push_back({SizeSource::Line{{x, -0.8}, {x + 0.3, 0.9}}, 0.03 + 0.02 * k, {}});
   }
   const Geometry geometry = circle_in_square(0.5, 0.5);
   const Tree tree(geometry, options);
@@ -255,8 +255,9 @@ TEST(TreeRules, SourcesRefineWithoutGeometry) {
   Box box;
   box.include({-0.9, -0.9});
   box.include({-0.7, -0.8});
-  options.sources = {
-      {box, 0.01}, {Source::Disc{{-0.5, 0.5}, 0.1}, 0.02}, {Source::Line{{0.5, 0.6}, {0.9, 0.9}}, 0.02}};
+  options.sources = {{box, 0.01},
+                     {SizeSource::Disc{{-0.5, 0.5}, 0.1}, 0.02},
+                     {SizeSource::Line{{0.5, 0.6}, {0.9, 0.9}}, 0.02}};
   const Tree tree(geometry, options);
   const auto size_at = [&](Point p) {
     for (const Quadrant& q : tree.leaves) {

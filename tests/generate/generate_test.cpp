@@ -68,6 +68,18 @@ TEST(Generate, WithoutSweepsTheMeshIsAsItWasCut) {
             build_mesh(world(), input.geometry, input.mesh).mesh.points);
 }
 
+TEST(Generate, WhatSmoothingKeepsFollowsFromTheCase) {
+  MeshInput input = disc_in_box();
+  EXPECT_EQ(smooth_options_for(input, 6).geometry, &input.geometry);
+  EXPECT_TRUE(smooth_options_for(input, 6).level_lines);
+  EXPECT_FALSE(smooth_options_for(input, 6).delaunay);
+  input.mesh.quads = QuadChoice::parallel;
+  EXPECT_FALSE(smooth_options_for(input, 6).level_lines);
+  input.mesh.type = MeshType::delaunay;  // it has no quads to spare
+  EXPECT_TRUE(smooth_options_for(input, 6).level_lines);
+  EXPECT_TRUE(smooth_options_for(input, 6).delaunay);
+}
+
 TEST(Generate, QuadsThatAreSkewAfterSmoothingAreDivided) {
   MeshInput input = disc_in_box();
   input.mesh.quads = QuadChoice::parallel;
@@ -110,8 +122,8 @@ TEST(Digests, ChangeWithEverySetting) {
   see([](MeshOptions& o) { o.size.root = RootOptions{{0, 0}, 1, 1, 2}; });
   see([](MeshOptions& o) { o.size.root = RootOptions{{0, 0}, 1, 2, 1}; });
   see([](MeshOptions& o) { o.size.sources = {{Box{{0, 0}, {1, 1}}, 1}}; });
-  see([](MeshOptions& o) { o.size.sources = {{Source::Line{{0, 0}, {1, 1}}, 1}}; });
-  see([](MeshOptions& o) { o.size.sources = {{Source::Disc{{0, 0}, 1}, 1}}; });
+  see([](MeshOptions& o) { o.size.sources = {{SizeSource::Line{{0, 0}, {1, 1}}, 1}}; });
+  see([](MeshOptions& o) { o.size.sources = {{SizeSource::Disc{{0, 0}, 1}, 1}}; });
   see([](MeshOptions& o) { o.size.sources = {{Box{{0, 0}, {1, 1}}, 1}, {Box{{0, 0}, {1, 1}}, 1}}; });
 }
 

@@ -1,5 +1,6 @@
 """scripts/mutants/rewrite.py on a small source: the mutations that it finds, and that each of them, switched on in the program compiled
-from the rewritten source, does what it says."""
+from the rewritten source, does what it says. And that each line of accepted.txt takes mutants of the sources as they are: how many, it
+prints."""
 import subprocess
 import sys
 import tempfile
@@ -8,6 +9,7 @@ from pathlib import Path
 ROOT = Path(sys.argv[1])
 sys.path.insert(0, str(ROOT / "scripts/mutants"))
 sys.dont_write_bytecode = True
+from accepted import accepted_patterns, sources  # noqa: E402
 from rewrite import find_mutants, rewritten  # noqa: E402
 
 SAMPLE = """\
@@ -44,6 +46,13 @@ EXPECTED = {
 }
 
 
+def accepted_in_vain():
+    keys = [mutant.key for source in sources(ROOT) for mutant in find_mutants(source.relative_to(ROOT).as_posix(), source.read_text(), 0)]
+    taken = {key: sum(pattern.fullmatch(found) is not None for found in keys) for key, pattern in accepted_patterns().items()}
+    print("".join(f"{number:5} of {len(keys)}: {key}\n" for key, number in taken.items()))
+    return [f"scripts/mutants/accepted.txt: no such mutant: {key}" for key, number in taken.items() if number == 0]
+
+
 def main():
     mutants = find_mutants("sample.cpp", SAMPLE, 0)
     found = [mutant.key.removeprefix("sample.cpp: ") for mutant in mutants]
@@ -56,6 +65,7 @@ def main():
             printed = subprocess.run([program], env={"QUADLOOP_MUTANT": str(number)}, capture_output=True, text=True).stdout
             if printed != EXPECTED.get(key, "x-1 4"):
                 failed.append(f"{key}: prints {printed}")
+    failed += accepted_in_vain()
     print("\n".join(failed) if failed else f"{len(found)} mutants, each as it says")
     return 1 if failed else 0
 

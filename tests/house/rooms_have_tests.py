@@ -4,7 +4,8 @@
     rooms_have_tests.py REPOSITORY
 
 A room's own test stands in the folder of tests/ that mirrors its own, or below, and includes its header. The file
-covered_by_neighbours beside this names each other room, one a line: `room: test: reason`.
+covered_by_neighbours beside this names each other room, one a line: `room: test: reason`. And each test is built: its
+source stands in a CMakeLists.txt, each folder with one of these in that of tests/.
 """
 import re
 import sys
@@ -45,6 +46,17 @@ def excused(lines, rooms, root):
     return named, faults
 
 
+def unbuilt(root):
+    """What CMake does not know of: folders of tests/, and sources of tests."""
+    tests = root / "tests"
+    lists = {path.parent: re.sub(r"#.*", "", path.read_text()) for path in sorted(tests.rglob("CMakeLists.txt"))}
+    entered = {tests} | {folder / word for folder, text in lists.items()
+                         for call in re.findall(r"\b(?:add_subdirectory|foreach)\s*\(([^)]*)\)", text) for word in call.split()}
+    yield from (f"{folder.relative_to(root)}: its CMakeLists.txt is entered by none" for folder in lists if folder not in entered)
+    built = {(folder / word).resolve() for folder, text in lists.items() for word in re.findall(r"[^\s()\"]+_test\.cpp\b", text)}
+    yield from (f"{path.relative_to(root)}: no CMakeLists.txt builds it" for path in sorted(tests.rglob("*_test.cpp")) if path not in built)
+
+
 def main():
     root = Path(sys.argv[1]).resolve()
     rooms = [path.relative_to(root) for top in TOPS for path in sources_below(root / top, (".hpp",))]
@@ -55,6 +67,7 @@ def main():
     mirrors = {mirror_of(room.parent) for room in rooms} | {Path("tests") / kind for kind in OTHER_KINDS}
     faults += [f"{test}: its folder mirrors none" for path in (root / "tests").rglob("*_test.cpp")
                if (test := path.relative_to(root)).parent not in mirrors]
+    faults += unbuilt(root)
     print("\n".join(faults) if faults else f"{len(rooms)} rooms, {len(named)} of them covered by a neighbour's test")
     return 1 if faults or not rooms else 0
 

@@ -3,6 +3,7 @@
 // memory is taken that the file does not explain. Seeded; QUADLOOP_DAMAGES sets how many.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -114,9 +115,11 @@ void expect_read_or_refused(const std::string& path, const std::function<void(co
     } catch (const InputError&) {
       ++refused;
     } catch (const std::exception& other) {
-      test::write_bytes("/tmp/quadloop_damaged" + path.substr(path.rfind('.')), text);
-      FAIL() << "damage " << n << ": " << other.what() << "; the file is kept as /tmp/quadloop_damaged"
-             << path.substr(path.rfind('.'));
+      const std::string kept =
+          std::filesystem::temp_directory_path() /
+          ("quadloop_damaged_" + std::to_string(getpid()) + path.substr(path.rfind('.')));
+      test::write_bytes(kept, text);
+      FAIL() << "damage " << n << ": " << other.what() << "; the file is kept as " << kept;
     }
   }
   EXPECT_GT(refused, damages() / 4);

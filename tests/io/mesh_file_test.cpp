@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "io/formats.hpp"
+#include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 
 namespace quadloop {
@@ -101,6 +102,17 @@ TEST(MeshFile, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {
     EXPECT_EQ(test::bytes_of(folder.file(name)), test::bytes_of(folder.file("a.su2")));
   }
   EXPECT_EQ(losses_in(sample(Kind::hybrid, true), folder.file("b.mesh"), "su2").size(), 2U);
+}
+
+TEST(MeshFile, AFormatThatHoldsNoMeshIsOurOwnMistake) {
+  const test::TemporaryFolder folder;
+  const LoadedMesh loaded = sample(Kind::hybrid, true);
+  const Communicator alone(MPI_COMM_SELF);
+  OutputSet outputs(alone);
+  for (const char* name : {"a", "a.xyz", "a.csv"})
+    EXPECT_THROW(write_mesh(outputs, loaded, folder.file(name)), Fault) << name;
+  EXPECT_THROW(write_mesh(outputs, loaded, folder.file("a.mesh"), "csv"), Fault);
+  EXPECT_THROW(write_mesh(outputs, loaded.mesh, folder.file("a.xyz")), Fault);
 }
 
 }  // namespace

@@ -144,24 +144,6 @@ TreeRecord sample_tree(std::int32_t leaves, int rank, int ranks) {
   return tree;
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::vector<char> name;
-  if (world().is_root()) {
-    const std::string pattern = std::filesystem::temp_directory_path() / "quadloop_io_XXXXXX";
-    name.assign(pattern.begin(), pattern.end());
-    name.push_back('\0');
-    if (mkdtemp(name.data()) == nullptr) name.clear();
-  }
-  world().broadcast(name);
-  if (!name.empty()) path_ = name.data();
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  world().barrier();
-  std::error_code ignored;
-  if (world().is_root() && !path_.empty()) std::filesystem::remove_all(path_, ignored);
-}
-
 ExitStatus status_of(const std::function<void()>& call) {
   try {
     call();
@@ -169,11 +151,6 @@ ExitStatus status_of(const std::function<void()>& call) {
     return error.status();
   }
   return ExitStatus::done;
-}
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 void write_bytes(const std::string& path, const std::string& bytes) {

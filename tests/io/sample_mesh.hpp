@@ -7,6 +7,7 @@
 #include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/tree_record.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace quadloop::test {
 
@@ -25,24 +26,9 @@ Field share_of(const Field& whole, const Mesh& mesh, const Mesh& share);
 /// This rank's share of `leaves` leaves with made-up numbers.
 TreeRecord sample_tree(std::int32_t leaves, int rank, int ranks);
 
-/// A folder of this test alone, the same on all ranks, removed with everything in it. *Collective.*
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 /// How an Error that `call` throws would end the program; `done` where it throws none.
 ExitStatus status_of(const std::function<void()>& call);
 
-std::string bytes_of(const std::string& path);
 void write_bytes(const std::string& path, const std::string& bytes);
 std::size_t files_in(const std::string& folder);
 

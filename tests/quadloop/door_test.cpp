@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
+#include <type_traits>
 
+#include "mesher/mesh/check/delaunay_check.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
 #include "quadloop/quadloop.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -16,26 +19,18 @@ using test::world;
 /// A square and its case in a folder of the test's own.
 class Door : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / ("door_test." + std::to_string(world().size()));
-    world().together([&] {
-      if (!world().is_root()) return;
-      std::filesystem::create_directories(folder_);
-      std::ofstream(folder_ / "square.geom") << "1\nside\n4\n0 0\n1 0\n1 1\n0 1\n";
-      std::ofstream(case_path()) << "title = \"square\"\n[geometry]\nfile = \"square.geom\"\n"
-                                    "[spacing]\nmin = 0.02\nmax = 0.1\n[boundary.side]\nbc = \"wall\"\n"
-                                    "[adapt]\nvariable = \"q\"\ncycles = 2\n";
-    });
-  }
-  void TearDown() override {
-    world().barrier();
-    if (world().is_root()) std::filesystem::remove_all(folder_);
+  Door() {
+    folder_.write("square.geom", "1\nside\n4\n0 0\n1 0\n1 1\n0 1\n");
+    folder_.write("case.toml",
+                  "title = \"square\"\n[geometry]\nfile = \"square.geom\"\n"
+                  "[spacing]\nmin = 0.02\nmax = 0.1\n[boundary.side]\nbc = \"wall\"\n"
+                  "[adapt]\nvariable = \"q\"\ncycles = 2\n");
   }
 
-  std::string case_path() const { return (folder_ / "case.toml").string(); }
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string case_path() const { return file("case.toml"); }
+  std::string file(const std::string& name) const { return folder_.file(name); }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 Field front(const Mesh& mesh) {
@@ -47,6 +42,8 @@ Field front(const Mesh& mesh) {
 
 std::int64_t nodes(const Mesh& mesh) { return world().sum(mesh.owned_nodes); }
 
+static_assert(!std::is_default_constructible_v<Marks>, "marks come from sense() alone");
+
 TEST_F(Door, MeshesAdaptsAndChecks) {
   const Case square(world(), case_path(), {"adapt.min=0.005"});
   EXPECT_EQ(square.title(), "square");
@@ -56,8 +53,9 @@ TEST_F(Door, MeshesAdaptsAndChecks) {
   EXPECT_EQ(made.solved.solution.width(), 0U);
   made.solved.solution = front(made.solved.mesh);
   const Marks marks = sense(world(), square, made.solved);
-  ASSERT_TRUE(marks.change_mesh());
+  ASSERT_TRUE(marks.changes_mesh());
   const NewMesh next = remesh(world(), square, marks, made.solved);
+  EXPECT_THROW(remesh(world(), square, marks, next.solved), InputError);  // they are for the one before
   EXPECT_GT(nodes(next.solved.mesh), nodes(made.solved.mesh));
   EXPECT_TRUE(check(world(), next.solved.mesh).empty());
   EXPECT_EQ(next.solved.solution.names, made.solved.solution.names);
@@ -78,21 +76,79 @@ TEST_F(Door, WritesAndReadsTheSameMeshAndField) {
   }
 }
 
+TEST_F(Door, GoesOnFromWhatWasKept) {
+  const Case square(world(), case_path(), {"adapt.min=0.005"});
+  SolvedMesh made = make_mesh(world(), square).solved;
+  made.solution = front(made.mesh);
+  write_solved(world(), made, file("kept"));
+  const SolvedMesh kept = read_solved(world(), square, file("kept"));
+  const NewMesh next = remesh(world(), square, sense(world(), square, made), made),
+                again = remesh(world(), square, sense(world(), square, kept), kept);
+  EXPECT_EQ(again.solved.mesh.points, next.solved.mesh.points);
+  EXPECT_EQ(again.solved.solution.values, next.solved.solution.values);
+  const Case finer(world(), case_path(), {"spacing.max=0.05"});
+  EXPECT_THROW(read_solved(world(), finer, file("kept")), InputError);
+  EXPECT_THROW(read_solved(world(), square, file("none")), InputError);
+}
+
+TEST_F(Door, SaysWhatAFormatHasNoPlaceFor) {
+  const Case square(world(), case_path());
+  const Mesh mesh = make_mesh(world(), square).solved.mesh;
+  EXPECT_TRUE(write(world(), mesh, file("a.cgns"), front(mesh)).empty());
+  const std::vector<std::string> losses = write(world(), mesh, file("a.su2"), front(mesh));
+  ASSERT_EQ(losses.size(), 2U);
+  EXPECT_NE(losses[0].find("solution"), std::string::npos) << losses[0];
+  EXPECT_NE(losses[1].find("boundary conditions"), std::string::npos) << losses[1];
+}
+
+/// The same on all ranks that have the node; those on the unit square's sides stay.
+Point shaken(Point p) {
+  const double reach = 2 * p.x * (1 - p.x) * p.y * (1 - p.y);
+  return {p.x + reach * std::sin(1000 * p.x + 700 * p.y), p.y + reach * std::cos(900 * p.y - 500 * p.x)};
+}
+
 TEST_F(Door, SmoothsAMeshThatWasRead) {
-  const Case square(world(), case_path(), {"smooth.sweeps=5"});
+  const Case square(world(), case_path(), {"smooth.sweeps=5", "mesh.quads=\"all\""});
   Mesh mesh = make_mesh(world(), square).solved.mesh;
+  for (Point& p : mesh.points) p = shaken(p);
   write(world(), mesh, file("b.mesh"));
   MeshFile back = read(world(), file("b.mesh"));
+  const QualitySummary before = summarise_quality(world(), back.mesh);
   smooth(world(), square, back.mesh);
+  const QualitySummary after = summarise_quality(world(), back.mesh);
   EXPECT_TRUE(check(world(), back.mesh).empty());
+  EXPECT_GT(after.worst, before.worst);
+  EXPECT_GT(after.mean, before.mean);
+}
+
+TEST_F(Door, SmoothingLeavesADelaunayMeshDelaunay) {
+  const std::vector<std::string> graded{"mesh.type=\"delaunay\"", "boundary.side.spacing=0.03"};
+  std::vector<std::string> as_cut = graded;
+  as_cut.push_back("smooth.sweeps=0");
+  Mesh mesh = make_mesh(world(), Case(world(), case_path(), as_cut)).solved.mesh;
+  const std::vector<Point> points = mesh.points;
+  smooth(world(), Case(world(), case_path(), graded), mesh);
+  EXPECT_TRUE(world().any(mesh.points != points));
+  const Mesh whole = gather_whole(world(), mesh);
+  if (world().is_root()) {
+    EXPECT_TRUE(is_delaunay(whole));
+  }
 }
 
 TEST_F(Door, SolvesWithTheBuiltInSolver) {
-  const Case square(world(), case_path(), {"solver.iterations=2", "boundary.side.bc=\"farfield\""});
+  const Case square(world(), case_path(),
+                    {"solver.iterations=2", "solver.mach=0.5", "boundary.side.bc=\"farfield\""});
   const Mesh mesh = make_mesh(world(), square).solved.mesh;
   const SolvedFlow flow = built_in_solver(world(), square)(world(), mesh, {}, 0);
-  EXPECT_EQ(flow.solution.width(), 4U);
-  EXPECT_EQ(flow.solution.values.size(), 4 * static_cast<std::size_t>(mesh.owned_nodes));
+  ASSERT_EQ(flow.solution.names,
+            (std::vector<std::string>{"density", "x_velocity", "y_velocity", "pressure"}));
+  ASSERT_EQ(flow.solution.values.size(), 4 * static_cast<std::size_t>(mesh.owned_nodes));
+  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {  // nothing disturbs the free stream
+    const auto state = flow.solution.row(NodeId{i});
+    EXPECT_NEAR(state[0], 1, 1e-9);
+    EXPECT_NEAR(std::hypot(state[1], state[2]), 0.5, 1e-9);
+    EXPECT_NEAR(state[3], 1 / 1.4, 1e-9);
+  }
 }
 
 TEST_F(Door, NamesWhatIsWrongWithAMesh) {

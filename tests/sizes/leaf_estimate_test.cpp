@@ -5,35 +5,13 @@
 
 #include "mesher/sizes/gradation.hpp"
 #include "mesher/sizes/size_cursor.hpp"
+#include "tests/sizes/diamond_sizes.hpp"
 
 namespace quadloop {
 namespace {
 
-/// A square of edge 2 with a diamond of void.
-Geometry diamond_in_square(double spacing) {
-  std::vector<BoundaryId> boundary(4, BoundaryId{0});
-  boundary.resize(8, BoundaryId{1});
-  return {{{"frame", 0.5, 30, "none"}, {"diamond", spacing, 30, "wall"}},
-          {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0.6, 0.23}, {0.23, 0.6}, {0.6, 0.97}, {0.97, 0.6}},
-          {0, 4, 8},
-          boundary};
-}
-
-struct Sizes {
-  explicit Sizes(double spacing) : geometry{diamond_in_square(spacing)} {
-    options.min = spacing;
-    options.max = 0.5;
-  }
-  Geometry geometry;
-  ShiftedOutline outline{geometry};
-  Interior inside{outline};
-  Lattice lattice{Box{{-1.5, -1.5}, {1.5, 1.5}}, 1, 1};
-  DemandedSplits demanded;
-  SizeOptions options;
-  SizeTree tree() const {
-    return {outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
-            demanded};
-  }
+struct Sizes : test::DiamondSizes {
+  explicit Sizes(double spacing) : DiamondSizes({{0.6, 0.6}, 0.37}, spacing, spacing, 0.5) {}
 };
 
 /// All of them, one by one.

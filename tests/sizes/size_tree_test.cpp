@@ -11,36 +11,16 @@
 #include "mesher/sizes/leaves_ahead.hpp"
 #include "mesher/sizes/size_cursor.hpp"
 #include "mesher/sizes/size_rules.hpp"
+#include "tests/sizes/diamond_sizes.hpp"
 
 namespace quadloop {
 namespace {
 
-/// A square of edge 2 with a small diamond, whose sides ask for leaves of 0.02, in its upper right quarter.
-Geometry diamond_in_square() {
-  return {{{"frame", 0.5, 30, "none"}, {"diamond", 0.02, 30, "wall"}},
-          {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0.6, 0.53}, {0.53, 0.6}, {0.6, 0.67}, {0.67, 0.6}},
-          {0, 4, 8},
-          {BoundaryId{0}, BoundaryId{0}, BoundaryId{0}, BoundaryId{0}, BoundaryId{1}, BoundaryId{1},
-           BoundaryId{1}, BoundaryId{1}}};
-}
-
-struct Sizes {
-  explicit Sizes(const std::vector<Source>& sources = {}) {
-    options.min = 0.01;
-    options.max = 0.3;
+/// Of a small diamond, whose sides ask for leaves of 0.02, in the square's upper right quarter.
+struct Sizes : test::DiamondSizes {
+  explicit Sizes(const std::vector<SizeSource>& sources = {})
+      : DiamondSizes({{0.6, 0.6}, 0.07}, 0.02, 0.01, 0.3) {
     options.sources = sources;
-  }
-  Geometry geometry = diamond_in_square();
-  ShiftedOutline outline{geometry};
-  Lattice lattice{Box{{-1.5, -1.5}, {1.5, 1.5}}, 1, 1};
-  DemandedSplits demanded;
-  SizeOptions options;
-  SizeTree tree() const {
-    return {outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
-            demanded};
-  }
-  SizedQuadrant at(const Quadrant& q, std::span<const std::int32_t> segments = {}) const {
-    return {q, lattice.box_of(q), segments, {}, false, false};
   }
 };
 

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -36,6 +39,25 @@ TEST(BinaryUnit, BeyondThemTheLargerExtentIsBetweenTwoAndFourUnits) {
       EXPECT_LT(std::max(d.x, d.y), 4) << extent;
       EXPECT_EQ(unit.out_of(unit.into(top)), top);
     }
+  }
+}
+
+/// A triangle of this size, each node on a rank of its own as far as there are ranks.
+Mesh sized(double size) {
+  Mesh mesh;
+  for (const Point p : {Point{0, 0}, Point{size, 0}, Point{0, size / 2}}) mesh.points.push_back(p);
+  mesh.owned_nodes = 3;
+  return scatter_mesh(test::world(), mesh, own_order(mesh));
+}
+
+TEST(BinaryUnit, IsThatOfAllRanksAndLosesNoBit) {
+  for (const double size : {3e-120, 7e-300, 5e99, 1.7e308}) {
+    const BinaryUnit unit(test::world(), sized(size));
+    EXPECT_FALSE(unit.is_one());
+    const Point p{size / 3, -size / 7};
+    EXPECT_GT(std::abs(unit.into(p).x), 0.05);
+    EXPECT_LT(std::abs(unit.into(p).x), 4);
+    EXPECT_EQ(unit.out_of(unit.into(p)), p);
   }
 }
 

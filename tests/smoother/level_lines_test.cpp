@@ -66,7 +66,7 @@ Mesh with_lines_moved(const Mesh& whole, const MeshOrder& order, const std::vect
                       double limit = no_limit) {
   Mesh part = scatter_mesh(world(), whole, order);
   HaloMesh halo(world(), part);
-  move_level_lines(world(), halo, scatter_nodes(world(), pinned, order), limit);
+  move_level_lines(world(), halo, NodeFlags{scatter_nodes(world(), pinned, order)}, limit);
   std::copy_n(halo.points().begin(), part.points.size(), part.points.begin());
   return part;
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -15,6 +16,12 @@ Mesh mesh_of(const std::vector<Point>& points) {
   mesh.points = points;
   mesh.owned_nodes = static_cast<std::int32_t>(points.size());
   return mesh;
+}
+
+/// Of this rank's mesh alone.
+std::vector<Histogram> histograms_of(const Mesh& mesh) {
+  const Communicator self(MPI_COMM_SELF);
+  return shape_histograms(self, mesh);
 }
 
 /// How many values lie at `value`, and in all.
@@ -43,7 +50,7 @@ TEST(ShapeHistograms, OfARhombus) {
   const Point up{3 * std::cos(angle), 3 * std::sin(angle)};
   Mesh mesh = mesh_of({{0, 0}, {3, 0}, Point{3, 0} + up, up});
   mesh.quads = {{NodeId{0}, NodeId{1}, NodeId{2}, NodeId{3}}};
-  const auto histograms = shape_histograms(test::world(), mesh);
+  const auto histograms = histograms_of(mesh);
   ASSERT_EQ(histograms.size(), 4U);
   EXPECT_EQ(found(histograms[0], 70), Found(2, 4));
   EXPECT_EQ(found(histograms[0], 110), Found(2, 4));
@@ -56,7 +63,7 @@ TEST(ShapeHistograms, OfATriangleWithSidesOf5And6And7) {
   const double x = 38.0 / 14, y = std::sqrt(25 - x * x);
   Mesh mesh = mesh_of({{10, 20}, {17, 20}, {10 + x, 20 + y}});
   mesh.triangles = {{NodeId{0}, NodeId{1}, NodeId{2}}};
-  const auto histograms = shape_histograms(test::world(), mesh);
+  const auto histograms = histograms_of(mesh);
   for (const double degrees : {57.1, 44.4, 78.5}) EXPECT_EQ(found(histograms[0], degrees), Found(1, 3));
   EXPECT_EQ(found(histograms[1], 7.0 / 5), Found(1, 1));
   EXPECT_EQ(found(histograms[2], (60 - 44.4) / 60), Found(1, 1));
@@ -67,10 +74,22 @@ TEST(ShapeHistograms, AnInvertedCellHasTheWorstConditionAndAFlatTriangleTheWorst
   Mesh mesh = mesh_of({{0, 0}, {0, 1}, {1, 1}, {1, 0}, {1, 1e-9}, {2, 0}});
   mesh.quads = {{NodeId{0}, NodeId{1}, NodeId{2}, NodeId{3}}};
   mesh.triangles = {{NodeId{0}, NodeId{5}, NodeId{4}}};
-  const auto histograms = shape_histograms(test::world(), mesh);
+  const auto histograms = histograms_of(mesh);
   EXPECT_EQ(found(histograms[3], 1e300), Found(2, 2));
   EXPECT_EQ(found(histograms[2], 0.999999), Found(1, 2));
   EXPECT_EQ(found(histograms[0], 179.99), Found(1, 7));
+}
+
+TEST(ShapeHistograms, CountEveryCellOfAllRanksOnce) {
+  const test::Grid grid{7, {1, 1}, true};
+  Mesh whole = grid.mesh();
+  jitter(grid, 0.2, 11, whole);
+  const Communicator self(MPI_COMM_SELF);
+  const auto together =
+      shape_histograms(test::world(), scatter_mesh(test::world(), whole, space_filling_order(whole)));
+  const auto alone = shape_histograms(self, whole);
+  ASSERT_EQ(together.size(), alone.size());
+  for (std::size_t i = 0; i < together.size(); ++i) EXPECT_EQ(together[i].counts, alone[i].counts);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ TieRank rank_of(Point p) { return {-1, -1, std::abs(p.x) + std::abs(p.y), std::a
 
 TEST(SmoothDelaunay, IsTheSameDelaunayMeshOnAnyNumberOfRanks) {
   Mesh mesh = jittered(Grid{12, {2, 1}, false}, 0.24);
-  restore_delaunay(self(), mesh, std::vector<char>(mesh.points.size(), 1), rank_of);
+  restore_delaunay(self(), mesh, NodeFlags(mesh.points.size(), 1), rank_of);
   SmoothOptions options;
   options.delaunay = rank_of;
   expect_same_positions(mesh, [&](const Mesh&) { return options; });
@@ -70,7 +70,7 @@ std::vector<std::array<NodeId, 2>> interface_of(const Mesh& whole, const std::ve
 TEST(SmoothDelaunay, KeepsEdgesBetweenBlocksOfADelaunayMesh) {
   Mesh mesh = jittered(Grid{12, {2, 1}, false}, 0.24, 6);
   const std::vector<std::int32_t> blocks = halves(mesh);
-  restore_delaunay(self(), mesh, std::vector<char>(mesh.points.size(), 1), rank_of, blocks);
+  restore_delaunay(self(), mesh, NodeFlags(mesh.points.size(), 1), rank_of, blocks);
   const auto interface = interface_of(mesh, blocks);
   EXPECT_GE(interface.size(), 12U);
   ASSERT_TRUE(is_delaunay(mesh, blocks));
@@ -84,7 +84,7 @@ TEST(SmoothDelaunay, KeepsEdgesBetweenBlocksOfADelaunayMesh) {
       Mesh part = scatter_mesh(comm, mesh, order);
       SmoothOptions options;
       options.delaunay = rank_of;
-      options.pinned = scatter_nodes(comm, pinned, order);
+      options.pinned = NodeFlags{scatter_nodes(comm, pinned, order)};
       options.triangle_to_block = scatter_triangles(comm, blocks, order);
       EXPECT_GT(smooth_mesh(comm, part, options).moves, 0);
       gather_mesh(comm, part, order, smoothed[all]);
@@ -144,7 +144,7 @@ double worst_triangle(const Mesh& mesh) {
 
 TEST(SmoothDelaunay, NeverGetsWorseByFlips) {
   Mesh grid = jittered(Grid{6, {1, 1}, false}, 0.24);
-  restore_delaunay(self(), grid, std::vector<char>(grid.points.size(), 1), rank_of);
+  restore_delaunay(self(), grid, NodeFlags(grid.points.size(), 1), rank_of);
   for (int pieces = 1; pieces <= 5; ++pieces) {
     const Mesh mesh = with_touchy_pieces(grid, pieces);
     ASSERT_TRUE(is_delaunay(mesh));

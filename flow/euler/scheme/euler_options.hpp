@@ -42,7 +42,7 @@ struct EulerOptions {
   /// Steady: of the first steps, it grows as the residual falls; accurate: no more than 0.8 is used.
   double cfl = 20;
   int iterations = 2000;    ///< at most; an accurate run that needs more ends early
-  double tolerance = 1e-8;  ///< steady: on the density residual, relative to the first
+  double tolerance = 1e-8;  ///< steady: on the density residual, as EulerResult::residual is relative
   Limiter limiter = Limiter::venkatakrishnan;
   Initial initial = Initial::freestream;
   std::optional<Point> vortex_centre;  ///< none: the middle of the mesh's box

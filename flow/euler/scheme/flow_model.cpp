@@ -1,25 +1,40 @@
 #include "flow/euler/scheme/flow_model.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "flow/euler/scheme/flux.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 
 namespace quadloop::euler {
 
 namespace {
 
-Condition condition_of(const std::string& name, const std::string& word) {
-  if (word == "wall" || word == "symmetry") return Condition::wall;
+/// What the solver makes of a word of boundary_conditions; none where it cannot use it.
+Condition condition_named(std::string_view word) {
+  if (word == "wall") return Condition::wall;
   if (word == "farfield") return Condition::farfield;
   if (word == "inflow") return Condition::inflow;
   if (word == "outflow") return Condition::outflow;
-  throw InputError(
-      fmt::format("boundary '{0}' has {1}, which the flow solver cannot use; set [boundary.{0}] bc to wall, "
-                  "farfield, inflow, outflow or symmetry",
-                  name, word.empty() || word == "none" ? "no condition" : "the condition '" + word + "'"));
+  if (word == "symmetry") return Condition::symmetry;
+  return Condition::none;
+}
+
+/// Throws InputError that names the boundary and the words that can be used.
+Condition condition_of(const std::string& name, const std::string& word) {
+  if (const Condition condition = condition_named(word); condition != Condition::none) return condition;
+  std::vector<std::string> usable = condition_words();
+  std::erase_if(usable, [](const std::string& known) { return condition_named(known) == Condition::none; });
+  const std::string last = usable.back();
+  usable.pop_back();
+  throw InputError(fmt::format(
+      "boundary '{0}' has {1}, which the flow solver cannot use; set [boundary.{0}] bc to {2} or {3}", name,
+      word.empty() || word == "none" ? "no condition" : "the condition '" + word + "'",
+      fmt::join(usable, ", "), last));
 }
 
 BoundaryModel boundary_model(const BoundaryEdges& boundary, const EulerOptions& options) {
@@ -30,7 +45,7 @@ BoundaryModel boundary_model(const BoundaryEdges& boundary, const EulerOptions& 
     if (!choice.condition.empty()) word = choice.condition;
     if (choice.pressure) pressure = *choice.pressure / options.gamma;
   }
-  return {condition_of(boundary.name, word), pressure, word == "wall"};
+  return {condition_of(boundary.name, word), pressure};
 }
 
 Flux farfield_flux(const FlowModel& model, const State& state, Point normal) {
@@ -54,7 +69,40 @@ Flux outflow_flux(const FlowModel& model, const BoundaryModel& boundary, const S
                        normal);
 }
 
+/// How a wall's push answers to the pressure.
+void add_wall_matrix(const Gas& gas, const State& state, Point normal, double factor, Matrix4& sum) {
+  const auto& [rho, u, v, p] = state;
+  const double g = gas.gamma - 1;
+  const std::array<double, 4> pressure{0.5 * g * (u * u + v * v), -g * u, -g * v, g};
+  for (std::size_t k = 0; k < 4; ++k) {
+    sum[4 + k] += factor * normal.x * pressure[k];
+    sum[8 + k] += factor * normal.y * pressure[k];
+  }
+}
+
+/// Upwind between the state inside and one outside.
+void add_open_matrix(const Gas& gas, const State& state, const State& outside, Point normal, double factor,
+                     Matrix4& sum) {
+  add_flux_matrix(gas, state, normal, 0.5 * factor, sum);
+  add_upwind_matrix(gas, state, outside, normal, 0.5 * factor, sum);
+}
+
+constexpr const char* no_face = "a boundary without edges has a face";
+
 }  // namespace
+
+bool feels_force(Condition condition) {
+  switch (condition) {
+    case Condition::wall: return true;
+    case Condition::farfield:
+    case Condition::inflow:
+    case Condition::outflow:
+    case Condition::symmetry: return false;
+    case Condition::none: break;
+  }
+  QUADLOOP_REQUIRE(false, no_face);
+  return false;
+}
 
 FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOptions& options) {
   FlowModel model{{options.gamma}, {}, {}};
@@ -68,11 +116,28 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
 
 Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state, Point normal) {
   switch (boundary.condition) {
+    case Condition::wall:
+    case Condition::symmetry: return {0, state[3] * normal.x, state[3] * normal.y, 0};
     case Condition::farfield: return farfield_flux(model, state, normal);
     case Condition::inflow: return inflow_flux(model, state, normal);
     case Condition::outflow: return outflow_flux(model, boundary, state, normal);
-    default: return {0, state[3] * normal.x, state[3] * normal.y, 0};
+    case Condition::none: break;
   }
+  QUADLOOP_REQUIRE(false, no_face);
+  return {};
+}
+
+void add_boundary_matrix(const FlowModel& model, const BoundaryModel& boundary, const State& state,
+                         Point normal, double factor, Matrix4& sum) {
+  switch (boundary.condition) {
+    case Condition::wall:
+    case Condition::symmetry: return add_wall_matrix(model.gas, state, normal, factor, sum);
+    case Condition::farfield:
+    case Condition::inflow: return add_open_matrix(model.gas, state, model.free_stream, normal, factor, sum);
+    case Condition::outflow: return add_open_matrix(model.gas, state, state, normal, factor, sum);
+    case Condition::none: break;
+  }
+  QUADLOOP_REQUIRE(false, no_face);
 }
 
 }  // namespace quadloop::euler

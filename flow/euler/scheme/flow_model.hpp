@@ -4,20 +4,22 @@
 #include <vector>
 
 #include "flow/euler/scheme/euler_options.hpp"
+#include "flow/euler/scheme/flux_jacobian.hpp"
 #include "flow/euler/scheme/gas.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop::euler {
 
-/// What happens at a boundary. A plane of symmetry is a wall here: nothing flows through it. `none` stands
-/// for a boundary without edges.
-enum class Condition { none, wall, farfield, inflow, outflow };
+/// What happens at a boundary. `none` stands for a boundary without edges.
+enum class Condition { none, wall, farfield, inflow, outflow, symmetry };
+
+/// Whether the forces count what the flow does there: a body does, a plane of symmetry does not.
+bool feels_force(Condition condition);
 
 struct BoundaryModel {
   Condition condition = Condition::none;
   std::optional<double> pressure;  ///< behind an outflow; else it is supersonic
-  bool feels_force = false;        ///< a wall of a body, no plane of symmetry
 };
 
 /// The gas, the free stream and what happens at each boundary of a mesh, in the mesh's order.
@@ -33,7 +35,8 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
 /// What leaves the domain through a boundary of length 1 with this outward unit normal, the flow inside being
 /// `state`.
 ///
-///   wall      the pressure alone
+///   wall, symmetry
+///             the pressure alone
 ///   farfield  the upwind flux against the free stream, which lets waves out; there is no correction for the
 ///   circulation, so lift errs by the order of
 ///             chord over far-field distance
@@ -42,5 +45,10 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
 ///   pressure and the density and speed that
 ///             the outgoing waves then carry
 Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state, Point normal);
+
+/// Adds `factor` times how that flux answers to the state inside, as an implicit step takes it: at a wall or
+/// a plane of symmetry its derivative, elsewhere first-order upwind against what is outside.
+void add_boundary_matrix(const FlowModel& model, const BoundaryModel& boundary, const State& state,
+                         Point normal, double factor, Matrix4& sum);
 
 }  // namespace quadloop::euler

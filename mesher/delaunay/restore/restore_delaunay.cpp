@@ -43,9 +43,7 @@ class Region {
 
   /// Makes nodes core; every rank may name any. *Collective.*
   void add(const std::vector<GlobalNodeId>& nodes) {
-    Outbox<GlobalNodeId> to_owners;
-    for (const GlobalNodeId node : nodes) to_owners.add(owners_.rank_of(node), node);
-    for (const GlobalNodeId node : to_owners.deliver(comm_)) core_[owners_.local(node)] = 1;
+    flag_at_owners(comm_, owners_, nodes, core_);
     exchange_.update(core_, [&](std::int32_t node) { return core_[NodeId{node}] != 0; });
   }
 
@@ -88,20 +86,11 @@ class Region {
   NodeFlags core_;
 };
 
-/// A range of numbers on each rank, in the order of ranks.
-class Ranges {
- public:
-  /// *Collective.*
-  Ranges(const Communicator& comm, std::int64_t size) : first_{comm.all_gather(comm.exclusive_sum(size))} {}
-
-  int rank_of(std::int64_t number) const {
-    return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), number) - first_.begin()) - 1;
-  }
-  std::int64_t begin(int rank) const { return first_[rank]; }
-
- private:
-  std::vector<std::int64_t> first_;
-};
+/// All ranks' rows as one, in the order of ranks. *Collective.*
+template <class Row>
+RankRanges ranges_of(const Communicator& comm, const std::vector<Row>& rows) {
+  return {comm, comm.exclusive_sum(std::ssize(rows))};
+}
 
 /// Each row goes to the rank that `rank_of` tells; returns those for this rank, in the order of ranks.
 /// *Collective.*
@@ -126,13 +115,13 @@ void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle
                        std::vector<MadeTriangle> made, Mesh& mesh) {
   const auto size_of = [](const auto& rows) { return std::ssize(rows); };
   QUADLOOP_REQUIRE(comm.sum(size_of(freed)) == comm.sum(size_of(made)), "flips keep the number of triangles");
-  const Ranges triangles(comm, mesh.triangles.size());
+  const RankRanges triangles = ranges_of(comm, mesh.triangles);
   std::vector<FreedTriangle> slots =
       deliver(comm, freed, [&](const FreedTriangle& t) { return triangles.rank_of(t.number); });
   made = deliver(comm, made, [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
   std::sort(slots.begin(), slots.end());
   std::sort(made.begin(), made.end());
-  const Ranges free_slots(comm, slots.size());
+  const RankRanges free_slots = ranges_of(comm, slots);
   std::int64_t next = comm.exclusive_sum(size_of(made));
   made = deliver(comm, made, [&](const MadeTriangle&) { return free_slots.rank_of(next++); });
   NodeTable nodes(mesh);
@@ -145,7 +134,7 @@ void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle
 /// Puts new triangles where those were that they are near to. *Collective.*
 std::vector<std::int32_t> insert_triangles(const Communicator& comm, std::vector<FreedTriangle> freed,
                                            std::vector<MadeTriangle> made, Mesh& mesh) {
-  const Ranges triangles(comm, mesh.triangles.size());
+  const RankRanges triangles = ranges_of(comm, mesh.triangles);
   const std::int64_t first = triangles.begin(comm.rank());
   freed = deliver(comm, freed, [&](const FreedTriangle& t) { return triangles.rank_of(t.number); });
   made = deliver(comm, made, [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });

@@ -30,15 +30,6 @@ void write(const std::string& path, const std::string& text = "x") {
   on_root([&] { std::ofstream(path) << text; });
 }
 
-std::string refusal_of(const std::function<void()>& call) {
-  try {
-    call();
-    return {};
-  } catch (const InputError& fault) {
-    return fault.what();
-  }
-}
-
 TEST(CycleFolders, ACycleIsThereWhenItIsWhole) {
   const TemporaryFolder temporary;
   CycleFolders run(world(), temporary.file("run"));
@@ -73,9 +64,10 @@ TEST(CycleFolders, ResumingCountsWholeCyclesAndDropsTheOneUnderWay) {
   }
   run->begin(2);
   run.emplace(world(), temporary.file("run"));  // the lock goes with the earlier one
-  EXPECT_NE(
-      refusal_of([&] { CycleFolders(world(), temporary.file("run")).open(false); }).find("--resume goes on"),
-      std::string::npos);
+  EXPECT_NE(test::refusal_text([&] {
+              CycleFolders(world(), temporary.file("run")).open(false);
+            }).find("--resume goes on"),
+            std::string::npos);
   EXPECT_EQ(run->open(true), 2);
   EXPECT_FALSE(fs::exists(run->under_way(2)));
 }
@@ -96,7 +88,8 @@ TEST(CycleFolders, AMissingCycleIsNamed) {
     fs::create_directories(temporary.file("run/cycle_02"));
     fs::create_directories(temporary.file("run/cycle_9x"));  // none of ours
   });
-  const std::string refusal = refusal_of([&] { CycleFolders(world(), temporary.file("run")).open(true); });
+  const std::string refusal =
+      test::refusal_text([&] { CycleFolders(world(), temporary.file("run")).open(true); });
   EXPECT_NE(refusal.find("cycle_01: is missing, but cycle_02 is there"), std::string::npos) << refusal;
 }
 
@@ -104,7 +97,7 @@ TEST(CycleFolders, TwoRunsDoNotShareAFolder) {
   const TemporaryFolder temporary;
   CycleFolders run(world(), temporary.file("run"));
   run.open(false);
-  EXPECT_NE(refusal_of([&] {
+  EXPECT_NE(test::refusal_text([&] {
               CycleFolders(world(), temporary.file("run")).open(true);
             }).find("another run is at work"),
             std::string::npos);
@@ -113,8 +106,9 @@ TEST(CycleFolders, TwoRunsDoNotShareAFolder) {
 TEST(CycleFolders, AFileIsNoFolder) {
   const TemporaryFolder temporary;
   write(temporary.file("run"));
-  EXPECT_NE(refusal_of([&] { CycleFolders(world(), temporary.file("run")).open(false); }).find("is a file"),
-            std::string::npos);
+  EXPECT_NE(
+      test::refusal_text([&] { CycleFolders(world(), temporary.file("run")).open(false); }).find("is a file"),
+      std::string::npos);
 }
 
 /// A cycle whose record is of these settings.
@@ -135,7 +129,7 @@ TEST(Resume, SettingsThatMayChangeAreWarnedOfAndOthersRefused) {
                                          record_with({{"adapt.refine", "1"}, {"solver.iterations", "9"}}));
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_TRUE(warnings[0].starts_with("solver.iterations was 5, is now 9")) << warnings[0];
-  const auto refused = refusal_of([&] {
+  const auto refused = test::refusal_text([&] {
     require_same_run(world(), temporary.path(),
                      record_with({{"adapt.refine", "2"}, {"solver.iterations", "9"}}));
   });
@@ -149,14 +143,14 @@ TEST(Resume, AnotherOutlineIsRefused) {
   CycleRecord now = record_with(settings);
   now.geometry_digest = 8;
   now.case_digest = run_digest(settings, 8);
-  EXPECT_NE(refusal_of([&] { require_same_run(world(), temporary.path(), now); }).find("the outline"),
+  EXPECT_NE(test::refusal_text([&] { require_same_run(world(), temporary.path(), now); }).find("the outline"),
             std::string::npos);
 }
 
 TEST(Resume, ADamagedOrMissingRecordSaysHowToBeRidOfIt) {
   const TemporaryFolder temporary;
   const auto refusal = [&] {
-    return refusal_of([&] { require_same_run(world(), temporary.path(), record_with({})); });
+    return test::refusal_text([&] { require_same_run(world(), temporary.path(), record_with({})); });
   };
   EXPECT_NE(refusal().find("is missing or cannot be read; bring the file back"), std::string::npos)
       << refusal();

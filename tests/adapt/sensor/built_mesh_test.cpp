@@ -74,9 +74,9 @@ TEST(BuiltMesh, LeavesAtAShockAreRefined) {
     const Field fields = field_of(result.mesh, "density", step);
     const auto values =
         leaf_indicator(world(), result.mesh, result.tree.leaves, fields, Indicator::difference);
-    const MarkedLeaves marked = mark_leaves(world(), result.tree.leaves, values, DeviationRule{});
-    EXPECT_GT(marked.report.refined, 0);
-    EXPECT_GT(marked.report.coarsened, 0);
+    const test::RuledMarks marked = test::marks_by(DeviationRule{}, world(), result.tree.leaves, values);
+    EXPECT_GT(marked.refined, 0);
+    EXPECT_GT(marked.coarsened, 0);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const LeafRecord& leaf = result.tree.leaves[i];
       const double edge = std::ldexp(tree.tree_edge, -leaf.level);
@@ -103,10 +103,11 @@ TEST(BuiltMesh, MarksAreTheSameOnAnyNumberOfRanks) {
       };
       const std::vector<double> of_one = values_of(alone, one), of_all = values_of(world(), all);
       EXPECT_EQ(test::joined(world(), of_all), of_one);
-      const MarkedLeaves expected = mark_leaves(alone, one.tree.leaves, of_one, DeviationRule{});
-      EXPECT_EQ(test::joined(world(), mark_leaves(world(), all.tree.leaves, of_all, DeviationRule{}).marks),
-                expected.marks);
-      EXPECT_GT(expected.report.refined, 0);
+      const test::RuledMarks expected = test::marks_by(DeviationRule{}, alone, one.tree.leaves, of_one);
+      EXPECT_EQ(
+          test::joined(world(), test::marks_by(DeviationRule{}, world(), all.tree.leaves, of_all).marks),
+          expected.marks);
+      EXPECT_GT(expected.refined, 0);
     }
   }
 }

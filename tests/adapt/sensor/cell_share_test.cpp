@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "mesher/base/error.hpp"
 #include "tests/adapt/sensor/shared_leaves.hpp"
 #include "tests/support/world.hpp"
 
@@ -35,10 +36,12 @@ TEST(CellShare, OfFewerCellsThanRanksAndOfNone) {
   }
 }
 
-TEST(CellShare, CountsRowsThatDoNotFit) {
+TEST(CellShare, RowsThatDoNotFitAreRefused) {
+  const std::vector<double> held(3);
   const CellShare share(world(), 3, world().is_root() ? 5 : 0);
-  EXPECT_EQ(share.all_held(), 3 * world().size());
-  EXPECT_EQ(share.all_wanted(), 5);
+  EXPECT_NE(share.all_held(), share.all_wanted());
+  EXPECT_THROW(share.bring(world(), held), Fault);
+  EXPECT_THROW(CellShare(world(), 4, 4).bring(world(), held), Fault);
 }
 
 }  // namespace

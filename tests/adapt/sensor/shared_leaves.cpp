@@ -70,6 +70,18 @@ Field field_of(const Mesh& mesh, const std::string& name,
   return field;
 }
 
+RuledMarks marks_by(const ThresholdRule& rule, const Communicator& comm, std::span<const LeafRecord> leaves,
+                    std::span<const double> values) {
+  const OrderedValues ordered(comm, leaves, values);
+  RuledMarks ruled;
+  ruled.statistics = statistics_of(comm, ordered);
+  ruled.thresholds = thresholds_by(rule, ordered, ruled.statistics);
+  ruled.marks = marks_above(leaves, values, ruled.thresholds);
+  ruled.refined = count_of(comm, ruled.marks, Mark::refine);
+  ruled.coarsened = count_of(comm, ruled.marks, Mark::coarsen);
+  return ruled;
+}
+
 Field joined_fields(const Field& one, const Field& other) {
   Field both{one.names, {}, {}};
   both.names.insert(both.names.end(), other.names.begin(), other.names.end());

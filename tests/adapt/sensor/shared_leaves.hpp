@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adapt/sensor/scaled_field.hpp"
+#include "adapt/sensor/thresholds.hpp"
 #include "mesher/base/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -56,6 +57,16 @@ void for_each_distribution(const std::function<void(const Pieces&)>& check);
 /// must notice.
 Field field_of(const Mesh& mesh, const std::string& name,
                const std::function<double(std::int64_t, Point)>& value);
+
+/// Marks by a rule, as MarkFamily comes to them, and what they follow from.
+struct RuledMarks {
+  std::vector<Mark> marks;  ///< of this rank's share
+  IndicatorStatistics statistics;
+  Thresholds thresholds;
+  std::int64_t refined = 0, coarsened = 0;  ///< of all ranks' leaves
+};
+RuledMarks marks_by(const ThresholdRule& rule, const Communicator& comm, std::span<const LeafRecord> leaves,
+                    std::span<const double> values);
 
 /// The variables of both at the same nodes.
 Field joined_fields(const Field& one, const Field& other);

@@ -21,32 +21,29 @@ using Marks = std::vector<Mark>;
 constexpr Mark down = Mark::coarsen, keep = Mark::keep, up = Mark::refine;
 
 /// The marks of all leaves; the values of leaves without cells are below 0 here.
-struct All {
-  Marks marks;
-  MarkReport report;
-};
-
-All mark_all(const Values& values, const ThresholdRule& rule, test::Sharing sharing = test::Sharing::uneven) {
+test::RuledMarks mark_all(const Values& values, const ThresholdRule& rule,
+                          test::Sharing sharing = test::Sharing::uneven) {
   Values own = test::share_of(values, sharing);
   std::vector<LeafRecord> leaves;
   for (double& value : own) {
     leaves.push_back(value < 0 ? LeafRecord{} : test::leaf_with(2, 0));
     value = std::max(value, 0.0);
   }
-  const MarkedLeaves marked = mark_leaves(world(), leaves, own, rule);
-  return {test::joined(world(), marked.marks), marked.report};
+  test::RuledMarks ruled = test::marks_by(rule, world(), leaves, own);
+  ruled.marks = test::joined(world(), ruled.marks);
+  return ruled;
 }
 
 TEST(Thresholds, DeviationIsThatOfTheLogarithms) {
   // log10 0, 1, 2, 3: mean 1.5, deviation sqrt(5/4) = 1.118.
-  const All all = mark_all({1000, 1, 10, -1, 100}, DeviationRule{1, 0.5});
-  EXPECT_NEAR(all.report.mean, 1.5, 1e-15);
-  EXPECT_NEAR(all.report.deviation, std::sqrt(1.25), 1e-15);
-  EXPECT_NEAR(all.report.thresholds.refine, std::pow(10, 1.5 + std::sqrt(1.25)), 1e-10);
-  EXPECT_NEAR(all.report.thresholds.coarsen, std::pow(10, 1.5 - 0.5 * std::sqrt(1.25)), 1e-12);
+  const test::RuledMarks all = mark_all({1000, 1, 10, -1, 100}, DeviationRule{1, 0.5});
+  EXPECT_NEAR(all.statistics.mean, 1.5, 1e-15);
+  EXPECT_NEAR(all.statistics.deviation, std::sqrt(1.25), 1e-15);
+  EXPECT_NEAR(all.thresholds.refine, std::pow(10, 1.5 + std::sqrt(1.25)), 1e-10);
+  EXPECT_NEAR(all.thresholds.coarsen, std::pow(10, 1.5 - 0.5 * std::sqrt(1.25)), 1e-12);
   EXPECT_EQ(all.marks, (Marks{up, down, keep, keep, keep}));
-  EXPECT_EQ(all.report.refined, 1);
-  EXPECT_EQ(all.report.coarsened, 1);
+  EXPECT_EQ(all.refined, 1);
+  EXPECT_EQ(all.coarsened, 1);
   EXPECT_EQ(mark_all({1000, 1, 10, -1, 100}, DeviationRule{0.4, 1.4}).marks,
             (Marks{up, keep, keep, keep, up}));
 }
@@ -54,9 +51,9 @@ TEST(Thresholds, DeviationIsThatOfTheLogarithms) {
 TEST(Thresholds, SmallIndicatorsCountAsAMillionthOfTheLargest) {
   // log10 -6, -6, 0, -3 of the largest, which is 8: mean -3.75, deviation 2.487.
   const double log_largest = std::log10(8.0);
-  const All all = mark_all({0, 1e-12, 8, 8e-3}, DeviationRule{1, 0.5});
-  EXPECT_NEAR(all.report.mean, log_largest - 3.75, 1e-14);
-  EXPECT_NEAR(all.report.deviation, std::sqrt((2 * 2.25 * 2.25 + 3.75 * 3.75 + 0.75 * 0.75) / 4), 1e-14);
+  const test::RuledMarks all = mark_all({0, 1e-12, 8, 8e-3}, DeviationRule{1, 0.5});
+  EXPECT_NEAR(all.statistics.mean, log_largest - 3.75, 1e-14);
+  EXPECT_NEAR(all.statistics.deviation, std::sqrt((2 * 2.25 * 2.25 + 3.75 * 3.75 + 0.75 * 0.75) / 4), 1e-14);
   EXPECT_EQ(all.marks, (Marks{down, down, up, keep}));
   // Where the threshold lies below the millionth no leaf lies below it, one of indicator 0 neither.
   EXPECT_EQ(mark_all({0, 1e-12, 8, 8e-3}, DeviationRule{1, 1}).marks, (Marks{keep, keep, up, keep}));
@@ -68,10 +65,10 @@ TEST(Thresholds, WhatIsEqualIsNotMarked) {
   const ThresholdRule rules[] = {DeviationRule{0, 0}, DeviationRule{}, FractionRule{0.5, 0.5}, NodesRule{0}};
   for (const ThresholdRule& rule : rules) {
     for (const double value : {0.0, 0.1, 1e-300, 1e300}) {
-      const All all = mark_all(Values(7, value), rule);
+      const test::RuledMarks all = mark_all(Values(7, value), rule);
       EXPECT_EQ(all.marks, Marks(7, keep)) << value;
-      EXPECT_EQ(all.report.refined + all.report.coarsened, 0);
-      EXPECT_TRUE(std::isfinite(all.report.mean) && std::isfinite(all.report.deviation));
+      EXPECT_EQ(all.refined + all.coarsened, 0);
+      EXPECT_TRUE(std::isfinite(all.statistics.mean) && std::isfinite(all.statistics.deviation));
     }
     EXPECT_EQ(mark_all({0.1, 0.1 * (1 + 1e-12), 0.1 * (1 - 1e-12)}, rule).marks, Marks(3, keep))
         << "rounding is no difference";
@@ -85,11 +82,11 @@ TEST(Thresholds, FractionCountsLeavesWithCells) {
   const Values values{5, -1, 3, 9, 1, 7, -1, 2, 8, 4, 6, 10};
   EXPECT_EQ(mark_all(values, FractionRule{0.2, 0.3}).marks,
             (Marks{keep, keep, down, up, down, keep, keep, down, keep, keep, keep, up}));
-  const All none = mark_all(values, FractionRule{0, 0});
-  EXPECT_EQ(none.report.refined + none.report.coarsened, 0);
-  const All all = mark_all(values, FractionRule{1, 1});  // refining comes first
-  EXPECT_EQ(all.report.refined, 10);
-  EXPECT_EQ(all.report.coarsened, 0);
+  const test::RuledMarks none = mark_all(values, FractionRule{0, 0});
+  EXPECT_EQ(none.refined + none.coarsened, 0);
+  const test::RuledMarks all = mark_all(values, FractionRule{1, 1});  // refining comes first
+  EXPECT_EQ(all.refined, 10);
+  EXPECT_EQ(all.coarsened, 0);
 }
 
 TEST(Thresholds, FractionTreatsEqualLeavesAlike) {
@@ -99,10 +96,9 @@ TEST(Thresholds, FractionTreatsEqualLeavesAlike) {
 }
 
 TEST(Thresholds, NodesRuleCoarsensAlone) {
-  const All all = mark_all({1, 10, 100, 1000}, NodesRule{0.5});
+  const test::RuledMarks all = mark_all({1, 10, 100, 1000}, NodesRule{0.5});
   EXPECT_EQ(all.marks, (Marks{down, keep, keep, keep}));
-  EXPECT_EQ(all.report.thresholds.coarsen,
-            mark_all({1, 10, 100, 1000}, DeviationRule{}).report.thresholds.coarsen);
+  EXPECT_EQ(all.thresholds.coarsen, mark_all({1, 10, 100, 1000}, DeviationRule{}).thresholds.coarsen);
 }
 
 /// As a caller does who wants a number of nodes: more leaves by a larger share.
@@ -114,10 +110,9 @@ TEST(Thresholds, AShareCanBeBisected) {
   const OrderedValues ordered(world(), leaves, own);
   for (const std::int64_t wanted : {1, 137, 499}) {
     const double share = static_cast<double>(wanted) / 500;
-    MarkedLeaves marked{marks_above(leaves, own, {ordered.refine_threshold(share), 0}), {}};
-    count_marks(world(), marked);
-    EXPECT_EQ(marked.report.refined, wanted);
-    EXPECT_EQ(marked.report.coarsened, 0);
+    const Marks marks = marks_above(leaves, own, {ordered.refine_threshold(share), 0});
+    EXPECT_EQ(count_of(world(), marks, up), wanted);
+    EXPECT_EQ(count_of(world(), marks, down), 0);
   }
 }
 
@@ -133,16 +128,16 @@ TEST(Thresholds, AreTheSameOnAnyNumberOfRanks) {
   }
   for (const ThresholdRule& rule : {ThresholdRule{DeviationRule{}}, ThresholdRule{FractionRule{0.15, 0.25}},
                                     ThresholdRule{NodesRule{}}}) {
-    const MarkedLeaves expected = mark_leaves(Communicator(MPI_COMM_SELF), leaves, whole, rule);
-    EXPECT_GT(expected.report.coarsened, 0);
+    const test::RuledMarks expected = test::marks_by(rule, Communicator(MPI_COMM_SELF), leaves, whole);
+    EXPECT_GT(expected.coarsened, 0);
     for (const test::Sharing sharing : test::all_sharings) {
-      const All found = mark_all(values, rule, sharing);
+      const test::RuledMarks found = mark_all(values, rule, sharing);
       EXPECT_EQ(found.marks, expected.marks);
-      EXPECT_EQ(found.report.mean, expected.report.mean);
-      EXPECT_EQ(found.report.deviation, expected.report.deviation);
-      EXPECT_EQ(found.report.thresholds.refine, expected.report.thresholds.refine);
-      EXPECT_EQ(found.report.thresholds.coarsen, expected.report.thresholds.coarsen);
-      EXPECT_EQ(found.report.refined, expected.report.refined);
+      EXPECT_EQ(found.statistics.mean, expected.statistics.mean);
+      EXPECT_EQ(found.statistics.deviation, expected.statistics.deviation);
+      EXPECT_EQ(found.thresholds.refine, expected.thresholds.refine);
+      EXPECT_EQ(found.thresholds.coarsen, expected.thresholds.coarsen);
+      EXPECT_EQ(found.refined, expected.refined);
     }
   }
 }

@@ -202,7 +202,7 @@ TEST(CurveShares, TakesABoxWithoutExtentOrWithoutPoints) {
 /// A fan of triangles round the origin, under numbers that do not follow its order.
 TEST(LocatePoints, OfSeveralTrianglesTheLowestNumberWins) {
   TrianglePiece piece;
-  piece.points = std::vector<Point>{{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  piece.points = IdVector<NodeId, Point>(std::vector<Point>{{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}});
   const std::array<std::int64_t, 4> numbers{5, 1LL << 40, 2, 7};
   for (std::int32_t k = 0; k < 4; ++k)
     piece.triangles.push_back({{NodeId{0}, NodeId{1 + k}, NodeId{1 + (k + 1) % 4}}, numbers[k]});

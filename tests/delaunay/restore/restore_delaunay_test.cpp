@@ -62,7 +62,7 @@ TieRank rank_of(Point p) { return {-1, -1, std::abs(p.x) + std::abs(p.y), std::a
 /// As it is before any move: constrained Delaunay under rank_of().
 Mesh delaunay_mesh(const Communicator& comm, double spacing = 0.05) {
   Mesh mesh = two_holes(comm, MeshType::delaunay, spacing).mesh;
-  restore_delaunay(comm, mesh, std::vector<char>(mesh.points.size(), 1), rank_of);
+  restore_delaunay(comm, mesh, NodeFlags(mesh.points.size(), 1), rank_of);
   return mesh;
 }
 
@@ -72,58 +72,57 @@ class Moves {
  public:
   Moves(const Mesh& whole, std::int64_t every, unsigned seed)
       : points_{whole.points}, flags_(points_.size(), 0), around_(points_.size()) {
-    std::vector<char> outer(points_.size(), 0);
+    NodeFlags outer(points_.size(), 0);
     for (const BoundaryEdges& b : whole.boundaries) {
-      for (const auto& edge : b.edges) outer[index(edge[0])] = outer[index(edge[1])] = 1;
+      for (const auto& edge : b.edges) outer[edge[0]] = outer[edge[1]] = 1;
     }
     for (const auto& t : whole.triangles) {
-      for (const NodeId node : t) around_[index(node)].push_back(t);
+      for (const NodeId node : t) around_[node].push_back(t);
     }
     std::mt19937_64 random(seed);
     for (int sweep = 0; sweep < 3; ++sweep) {
-      for (std::size_t i = 0; i < points_.size(); ++i) {
+      for (const NodeId node : points_.ids()) {
         const double x = step(random), y = step(random);
-        if (outer[i] == 0 && static_cast<std::int64_t>(i) % every == 0) move(i, {x, y});
+        if (outer[node] == 0 && node.value() % every == 0) move(node, {x, y});
       }
     }
   }
 
   /// To one rank's part; returns the flags of what has moved.
-  std::vector<char> apply(Mesh& part) const {
-    std::vector<char> flags(part.points.size(), 0);
-    for (std::size_t i = 0; i < part.points.size(); ++i) {
-      const std::size_t number = part.global(NodeId{static_cast<std::int32_t>(i)}).value();
-      part.points[i] = points_[number];
-      flags[i] = flags_[number];
+  NodeFlags apply(Mesh& part) const {
+    NodeFlags flags(part.points.size(), 0);
+    for (const NodeId node : flags.ids()) {
+      const NodeId of_whole{static_cast<std::int32_t>(part.global(node).value())};
+      part.points[node.value()] = points_[of_whole];
+      flags[node] = flags_[of_whole];
     }
     return flags;
   }
 
  private:
-  static std::size_t index(NodeId node) { return static_cast<std::size_t>(node.value()); }
   static double step(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; }
 
-  void move(std::size_t i, Point by) {
-    const Point before = points_[i];
+  void move(NodeId node, Point by) {
+    const Point before = points_[node];
     double size = 0;
-    for (const auto& t : around_[i])
-      size = std::max(size, length(points_[index(t[0])] - before) + length(points_[index(t[1])] - before));
-    points_[i] = before + 0.4 * size * by;
-    const bool sound = std::all_of(around_[i].begin(), around_[i].end(), [&](const auto& t) {
-      const Point a = points_[index(t[0])], b = points_[index(t[1])], c = points_[index(t[2])];
+    for (const auto& t : around_[node])
+      size = std::max(size, length(points_[t[0]] - before) + length(points_[t[1]] - before));
+    points_[node] = before + 0.4 * size * by;
+    const bool sound = std::all_of(around_[node].begin(), around_[node].end(), [&](const auto& t) {
+      const Point a = points_[t[0]], b = points_[t[1]], c = points_[t[2]];
       const double edge = std::max({length(b - a), length(c - b), length(a - c)});
       return cross(b - a, c - a) > 0.02 * edge * edge;
     });
     if (sound) {
-      flags_[i] = 1;
+      flags_[node] = 1;
     } else {
-      points_[i] = before;
+      points_[node] = before;
     }
   }
 
-  std::vector<Point> points_;
-  std::vector<char> flags_;
-  std::vector<std::vector<std::array<NodeId, 3>>> around_;
+  IdVector<NodeId, Point> points_;
+  NodeFlags flags_;
+  IdVector<NodeId, std::vector<std::array<NodeId, 3>>> around_;
 };
 
 /// Nodes, triangles and boundary edges of all ranks, in the global order, on every rank.
@@ -192,7 +191,7 @@ Mesh move_and_restore(Mesh whole, Mesh part, std::int64_t every, unsigned seed) 
   const Communicator self(MPI_COMM_SELF);
   const Moves moves(whole, every, seed);
   const auto triangles_before = whole.triangles;
-  const std::vector<char> moved = moves.apply(part);
+  const NodeFlags moved = moves.apply(part);
   restore_delaunay(self, whole, moves.apply(whole), rank_of);
   restore_delaunay(world(), part, moved, rank_of);
   EXPECT_FALSE(whole.triangles == triangles_before);
@@ -248,7 +247,7 @@ TEST(RestoreDelaunayNearby, PutsTrianglesWhereOldOnesWere) {
   for (const std::int64_t every : {1, 30, 200}) {
     Mesh whole = start, part = start_part, elsewhere = start;
     const Moves moves(start, every, 5);
-    const std::vector<char> moved = moves.apply(part);
+    const NodeFlags moved = moves.apply(part);
     const auto standing = restore_delaunay_nearby(self, whole, moves.apply(whole), rank_of);
     const auto of_part = restore_delaunay_nearby(world(), part, moved, rank_of);
     expect_same(gather(world(), part), whole);
@@ -268,7 +267,7 @@ TEST(RestoreDelaunay, LooksNoFartherThanItMust) {
     const Moves moves(start, 1 + 7 * seed, seed);
     restore_delaunay(self, mesh, moves.apply(mesh), rank_of);
     moves.apply(thorough);
-    restore_delaunay(self, thorough, std::vector<char>(thorough.points.size(), 1), rank_of);
+    restore_delaunay(self, thorough, NodeFlags(thorough.points.size(), 1), rank_of);
     EXPECT_TRUE(mesh.triangles == thorough.triangles);
   }
 }
@@ -277,7 +276,7 @@ TEST(RestoreDelaunay, NothingMovedNothingChanges) {
   Mesh mesh = delaunay_mesh(world());
   const Mesh before = mesh;
   for (const char flag : {'\0', '\1'}) {
-    restore_delaunay(world(), mesh, std::vector<char>(mesh.points.size(), flag), rank_of);
+    restore_delaunay(world(), mesh, NodeFlags(mesh.points.size(), flag), rank_of);
     EXPECT_TRUE(mesh.triangles == before.triangles);
     EXPECT_TRUE(mesh.points == before.points);
     EXPECT_TRUE(mesh.copies == before.copies);
@@ -301,7 +300,7 @@ TEST(RestoreDelaunay, ForgetsTheDiagonalsThatItBeganWith) {
   std::vector<Mesh> results;
   for (const std::size_t corner : {0U, 1U}) {
     Mesh mesh = split(hybrid, corner);
-    restore_delaunay(world(), mesh, std::vector<char>(mesh.points.size(), 1), rank_of);
+    restore_delaunay(world(), mesh, NodeFlags(mesh.points.size(), 1), rank_of);
     results.push_back(gather(world(), mesh));
     expect_delaunay(results.back());
   }
@@ -380,11 +379,13 @@ TEST(RestoreDelaunay, FollowsAsFarAsOneMoveReaches) {
   Mesh whole = shuffled_part(self, outside), part = shuffled_part(world(), outside);
   const Point before = outside.points.back(), after{0.95, 0};  // into the circle
   const auto restore = [&](const Communicator& comm, Mesh& mesh) {
-    restore_delaunay(comm, mesh, std::vector<char>(mesh.points.size(), 1), rank_of);
-    std::vector<char> moved;
-    for (Point& p : mesh.points) {
-      moved.push_back(p == before ? 1 : 0);
-      if (p == before) p = after;
+    restore_delaunay(comm, mesh, NodeFlags(mesh.points.size(), 1), rank_of);
+    NodeFlags moved(mesh.points.size(), 0);
+    for (const NodeId node : moved.ids()) {
+      Point& p = mesh.points[node.value()];
+      if (p != before) continue;
+      p = after;
+      moved[node] = 1;
     }
     restore_delaunay(comm, mesh, moved, rank_of);
   };

@@ -15,8 +15,8 @@
 namespace quadloop {
 namespace {
 
+using test::bytes_of;
 using test::CycleFolder;
-using test::text_of;
 
 Launch launch_in(const CycleFolder& folder, std::vector<std::string> arguments) {
   const std::string program = arguments.front();
@@ -31,7 +31,7 @@ Ending run(const CycleFolder& folder, const std::vector<std::string>& arguments)
 TEST(GuardedRun, GivesFolderEnvironmentAndEmptyInput) {
   const CycleFolder folder;
   run(folder, {"/bin/sh", "-c", "cat; pwd -P; echo \"$A\"; echo wrong >&2; env | wc -l"});
-  EXPECT_EQ(text_of(folder.file("log")), folder.path() + "\nb c\nwrong\n3\n");  // sh adds PWD
+  EXPECT_EQ(bytes_of(folder.file("log")), folder.path() + "\nb c\nwrong\n3\n");  // sh adds PWD
 }
 
 TEST(GuardedRun, PassesOnNoDescriptorAndNoSignalState) {
@@ -42,9 +42,9 @@ TEST(GuardedRun, PassesOnNoDescriptorAndNoSignalState) {
   sigaddset(&blocked, SIGTERM);
   sigprocmask(SIG_BLOCK, &blocked, &before);
   run(folder, {"/bin/ls", "/proc/self/fd"});
-  EXPECT_EQ(text_of(folder.file("log")), "0\n1\n2\n3\n");  // 3: the folder that ls reads
+  EXPECT_EQ(bytes_of(folder.file("log")), "0\n1\n2\n3\n");  // 3: the folder that ls reads
   run(folder, {"/bin/grep", "-E", "^Sig(Blk|Ign)", "/proc/self/status"});
-  EXPECT_EQ(text_of(folder.file("log")), "SigBlk:\t0000000000000000\nSigIgn:\t0000000000000000\n");
+  EXPECT_EQ(bytes_of(folder.file("log")), "SigBlk:\t0000000000000000\nSigIgn:\t0000000000000000\n");
   std::signal(SIGUSR1, SIG_DFL);
   sigprocmask(SIG_SETMASK, &before, nullptr);
 }
@@ -109,7 +109,7 @@ TEST(GuardedRun, ProgramMayTidyUpWhenItsTimeIsOver) {
       launch_in(folder, {"/bin/sh", "-c", "trap 'echo tidy; exit 0' TERM; while :; do sleep 0.05; done"});
   launch.timeout = 0.3;
   EXPECT_EQ(run_to_its_end(launch).kind, Ending::Kind::timed_out);
-  EXPECT_TRUE(test::holds(text_of(folder.file("log")), "tidy"));
+  EXPECT_TRUE(test::holds(bytes_of(folder.file("log")), "tidy"));
 }
 
 /// As mpirun binds a rank to a core.
@@ -125,10 +125,10 @@ TEST(GuardedRun, ProgramRunsWhereTheLauncherMayRun) {
   ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
   const CycleFolder folder;
   run(folder, {"/usr/bin/nproc"});
-  EXPECT_EQ(text_of(folder.file("log")), "1\n");
+  EXPECT_EQ(bytes_of(folder.file("log")), "1\n");
   setenv("OMPI_COMM_WORLD_RANK", "0", 1);
   run(folder, {"/usr/bin/nproc"});
-  EXPECT_EQ(text_of(folder.file("log")), std::to_string(CPU_COUNT(&all)) + "\n");
+  EXPECT_EQ(bytes_of(folder.file("log")), std::to_string(CPU_COUNT(&all)) + "\n");
   unsetenv("OMPI_COMM_WORLD_RANK");
   sched_setaffinity(0, sizeof before, &before);
 }

@@ -11,10 +11,10 @@
 namespace quadloop {
 namespace {
 
+using test::bytes_of;
 using test::CycleFolder;
 using test::holds;
 using test::Refusal;
-using test::text_of;
 using test::world;
 
 Refusal refusal(const SolverCommand& command, const CycleFolder& folder) {
@@ -37,9 +37,9 @@ TEST(RunSolver, RunsOnceWithItsArgumentsAndKeepsItsLog) {
       folder.script("echo run >> runs; echo out; echo err >&2; shift; printf '%s\\n' \"$@\" > solution.mesh");
   command.arguments.insert(command.arguments.end(), {"$(touch x); *", "", "{cycle} {ranks}"});
   run_solver(world(), command, folder.files());
-  EXPECT_EQ(text_of(folder.file("runs")), "run\n");
-  EXPECT_EQ(text_of(folder.file("solution.mesh")), "$(touch x); *\n\n4 6\n");
-  EXPECT_EQ(text_of(folder.file("solver.log")), "out\nerr\n");
+  EXPECT_EQ(bytes_of(folder.file("runs")), "run\n");
+  EXPECT_EQ(bytes_of(folder.file("solution.mesh")), "$(touch x); *\n\n4 6\n");
+  EXPECT_EQ(bytes_of(folder.file("solver.log")), "out\nerr\n");
   EXPECT_FALSE(std::filesystem::exists(folder.file("x")));
 }
 
@@ -91,7 +91,7 @@ TEST(RunSolver, MissingProgramIsRefusedBeforeAnythingIsTouched) {
   folder.write("solution.mesh", "old");
   EXPECT_EQ(refusal({{"no_such_solver"}, 5}, folder).status, ExitStatus::bad_input);
   EXPECT_EQ(refusal({{"sh", "{meshes}"}, 5}, folder).status, ExitStatus::bad_input);
-  EXPECT_EQ(text_of(folder.file("solution.mesh")), "old");
+  EXPECT_EQ(bytes_of(folder.file("solution.mesh")), "old");
 }
 
 TEST(RunSolver, ScriptWithoutInterpreterIsToldWithTheCure) {
@@ -127,7 +127,7 @@ TEST(RunSolver, SolutionMayBeALink) {
   const CycleFolder folder;
   run_solver(world(), folder.script("echo 1 > latest; ln -s latest $1"), folder.files());
   run_solver(world(), folder.script("echo 2 > $1"), folder.files());  // the link goes, not what it points to
-  EXPECT_EQ(text_of(folder.file("latest")), "1\n");
+  EXPECT_EQ(bytes_of(folder.file("latest")), "1\n");
 }
 
 TEST(RunSolver, MeshIsNotTakenForAnOldSolution) {
@@ -137,7 +137,7 @@ TEST(RunSolver, MeshIsNotTakenForAnOldSolution) {
   files.solution = folder.file("./mesh.mesh");
   const SolverCommand command = folder.script("echo > $1");
   EXPECT_EQ(test::refusal_of([&] { run_solver(world(), command, files); }).status, ExitStatus::bad_input);
-  EXPECT_EQ(text_of(folder.file("mesh.mesh")), "mesh");
+  EXPECT_EQ(bytes_of(folder.file("mesh.mesh")), "mesh");
 }
 
 TEST(RunSolver, LauncherVariablesAreGone) {
@@ -146,7 +146,7 @@ TEST(RunSolver, LauncherVariablesAreGone) {
              folder.script("env | grep -cE '^(OMPI_COMM_WORLD|OMPI_MCA_orte|OMPI_MCA_ess|PMIX|PMI_)' > $1; "
                            "pwd -P >> $1; echo $PWD >> $1"),
              folder.files());
-  EXPECT_EQ(text_of(folder.file("solution.mesh")), "0\n" + folder.path() + "\n" + folder.path() + "\n");
+  EXPECT_EQ(bytes_of(folder.file("solution.mesh")), "0\n" + folder.path() + "\n" + folder.path() + "\n");
 }
 
 TEST(RunSolver, SolverMayBeAnMpirunOfItsOwn) {
@@ -155,7 +155,7 @@ TEST(RunSolver, SolverMayBeAnMpirunOfItsOwn) {
   const SolverCommand command{{"mpirun", "-n", "2", "--oversubscribe", "{case}/solver.sh", "{solution}"}, 30};
   const Refusal found = refusal(command, folder);
   EXPECT_EQ(found.status, ExitStatus::done) << found.message;
-  EXPECT_EQ(text_of(folder.file("solver.log")), "of 2\nof 2\n");
+  EXPECT_EQ(bytes_of(folder.file("solver.log")), "of 2\nof 2\n");
 }
 
 TEST(RunSolver, MessageCanBeMadeForWhatItWrote) {

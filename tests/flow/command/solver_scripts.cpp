@@ -22,7 +22,7 @@ bool comes_true(const std::function<bool()>& condition) {
 }
 
 bool runs(pid_t process) {
-  const std::string state = text_of("/proc/" + std::to_string(process) + "/stat");
+  const std::string state = bytes_of("/proc/" + std::to_string(process) + "/stat");
   const std::size_t name_end = state.rfind(") ");
   return name_end != std::string::npos && state[name_end + 2] != 'Z';
 }
@@ -37,31 +37,8 @@ const std::string start_stubborn_processes =
     "while ! test -s orphan; do sleep 0.01; done\n";
 const std::vector<std::string> stubborn_processes{"child", "leader", "orphan"};
 
-CycleFolder::CycleFolder() {
-  std::vector<char> name;
-  if (world().is_root()) {
-    const std::string pattern = std::filesystem::temp_directory_path() / "quadloop_solver_XXXXXX";
-    name.assign(pattern.begin(), pattern.end());
-    name.push_back('\0');
-    if (mkdtemp(name.data()) == nullptr) name.assign(1, '\0');
-  }
-  world().broadcast(name);
-  path_ = name.data();
-}
-
-CycleFolder::~CycleFolder() {
-  world().barrier();
-  std::error_code ignored;
-  if (world().is_root() && !path_.empty()) std::filesystem::remove_all(path_, ignored);
-}
-
 SolverFiles CycleFolder::files() const {
-  return {path_, file("mesh.mesh"), file("solution.mesh"), path_, 6, 4};
-}
-
-void CycleFolder::write(const std::string& name, const std::string& text) const {
-  if (world().is_root()) std::ofstream(file(name), std::ios::binary) << text;
-  world().barrier();
+  return {path(), file("mesh.mesh"), file("solution.mesh"), path(), 6, 4};
 }
 
 SolverCommand CycleFolder::script(const std::string& lines) const {
@@ -69,11 +46,6 @@ SolverCommand CycleFolder::script(const std::string& lines) const {
   if (world().is_root()) std::filesystem::permissions(file("solver.sh"), std::filesystem::perms::owner_all);
   world().barrier();
   return {{"{case}/solver.sh", "{solution}"}, 30};
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 Refusal refusal_of(const std::function<void()>& call) {
@@ -90,7 +62,7 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 pid_t written_process(const std::string& path) {
   std::string text;
   const bool whole = comes_true([&] {
-    text = text_of(path);
+    text = bytes_of(path);
     return text.ends_with('\n');
   });
   return whole ? std::stoi(text) : 0;

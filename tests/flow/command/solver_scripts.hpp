@@ -8,31 +8,18 @@
 
 #include "flow/command/solver_command.hpp"
 #include "mesher/base/error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace quadloop::test {
 
-/// A cycle's folder of this test alone, the same on all ranks, removed with everything in it. *Collective.*
-class CycleFolder {
+/// A cycle's folder. *Collective.*
+class CycleFolder : public TemporaryFolder {
  public:
-  CycleFolder();
-  ~CycleFolder();
-  CycleFolder(const CycleFolder&) = delete;
-  CycleFolder& operator=(const CycleFolder&) = delete;
-
-  const std::string& path() const { return path_; }
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
   /// mesh.mesh and solution.mesh in the folder, which is the case's too; cycle 4, 6 ranks.
   SolverFiles files() const;
-  /// Writes `text` to a file, on the root, and lets all ranks wait for it. *Collective.*
-  void write(const std::string& name, const std::string& text) const;
   /// A command that runs a shell script of these lines with the solution as its $1. *Collective.*
   SolverCommand script(const std::string& lines) const;
-
- private:
-  std::string path_;
 };
-
-std::string text_of(const std::string& path);
 
 /// The Error that `call` throws.
 struct Refusal {

@@ -1,6 +1,8 @@
 // Ranks that wait for a long time leave the processors alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <chrono>
 #include <ctime>
 #include <thread>
@@ -24,11 +26,18 @@ TEST(PatientBarrier, HoldsAllRanksAndCostsNoTime) {
   EXPECT_LT(used, 0.3);
 }
 
-TEST(PatientBarrier, ComesThroughSoon) {
+/// Seconds that some barriers take.
+double seconds_of(int barriers) {
   const auto begin = std::chrono::steady_clock::now();
-  for (int i = 0; i < 20; ++i) world().patient_barrier();
-  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
-  EXPECT_LT(waited.count(), 5);
+  for (int i = 0; i < barriers; ++i) world().patient_barrier();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+TEST(PatientBarrier, ComesThroughSoon) {
+  const int doublings = std::bit_width(static_cast<unsigned>(world().size()) - 1);
+  double least = 1e9;  // of some attempts: the machine may be busy
+  for (int attempt = 0; attempt < 5; ++attempt) least = std::min(least, seconds_of(20));
+  EXPECT_LT(least, 20 * 0.01 * doublings + 0.05);
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST(WorstPlace, IsThatOfTheLargestFluxOrTheFirstThatIsNone) {
 
 TEST(ColourEdges, NoEdgeJoinsTwoOfOneColour) {
   const RingRun ring;
-  const Colouring colours = colour_edges(world(), ring.dual);
+  const Colouring colours = colour_dual_nodes(world(), ring.dual);
   for (const DualEdge& edge : ring.dual.edges()) {
     EXPECT_NE(colours.colour_of[NodeId{edge.low}], colours.colour_of[NodeId{edge.high}]);
     EXPECT_GE(colours.colour_of[NodeId{edge.low}], 0);

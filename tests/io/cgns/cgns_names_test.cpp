@@ -1,11 +1,13 @@
 // Names and elements as CGNS has them. On one rank alone.
 #include "io/cgns/cgns_names.hpp"
 
+#include <cgnslib.h>
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "io/cgns/cgns_bars.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 
 namespace quadloop {
 namespace {
@@ -54,9 +56,13 @@ TEST(CgnsNames, VariablesHaveTheirNamesInTheStandard) {
 }
 
 TEST(CgnsNames, ConditionsComeBack) {
-  for (const char* condition : {"wall", "farfield", "inflow", "outflow", "symmetry"})
-    EXPECT_EQ(condition_of_cgns(cgns_condition(condition)), condition);
-  EXPECT_EQ(condition_of_cgns(cgns_condition("interface")), "none");
+  for (const auto& [word, cgns_type] : boundary_conditions) {
+    const int type = cgns_condition(word);
+    EXPECT_STREQ(cg_BCTypeName(static_cast<BCType_t>(type)), cgns_type);
+    EXPECT_EQ(condition_of_cgns(type), type == BCTypeUserDefined ? "none" : word);
+  }
+  EXPECT_EQ(condition_of_cgns(BCWallViscousIsothermal), "wall");
+  EXPECT_EQ(condition_of_cgns(BCTunnelOutflow), "outflow");
   EXPECT_EQ(condition_of_cgns(-3), "none");
 }
 

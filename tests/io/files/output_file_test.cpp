@@ -48,15 +48,6 @@ class SmallFiles {
   rlimit before_ = {};
 };
 
-std::string refusal_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
-
 TEST(OutputSet, MissingFolderIsRefusedOnAllRanks) {
   const TemporaryFolder folder;
   const Mesh own = test::share_of(test::sample_mesh(5), world().rank(), world().size());
@@ -80,7 +71,7 @@ TEST(OutputSet, FullDiskLeavesNothingBehindWhereverItIsMet) {
     const std::string path = folder.file(name);
     for (const rlim_t bytes : {0, 1, 100, 500, 800, 1500, 2100}) {
       const SmallFiles full(bytes);
-      const std::string said = refusal_of([&] {
+      const std::string said = test::refusal_text<Error>([&] {
         OutputSet outputs(world());
         if (path.ends_with(".h5"))
           write_tree(outputs, tree, path);

@@ -28,15 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 using test::TemporaryFolder;
 
-std::string refusal_of(const std::function<void()>& call) {
-  try {
-    call();
-    return {};
-  } catch (const Error& fault) {
-    return fault.what();
-  }
-}
-
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// What comes out of a pipe into which a value was put, but for `lost` of its bytes.
@@ -132,8 +123,9 @@ TEST_F(ReadSeparately, GivesWhatTheChildHasRead) {
 }
 
 TEST_F(ReadSeparately, AnErrorOfTheChildIsThrownHere) {
-  EXPECT_EQ(refusal_of([&] { by([]() -> std::string { throw InputError("line 3 is wrong"); }); }),
-            "line 3 is wrong");
+  EXPECT_EQ(
+      test::refusal_text<Error>([&] { by([]() -> std::string { throw InputError("line 3 is wrong"); }); }),
+      "line 3 is wrong");
   try {
     by([]() -> std::string { throw OutputError("full"); });
     FAIL();
@@ -143,32 +135,34 @@ TEST_F(ReadSeparately, AnErrorOfTheChildIsThrownHere) {
 }
 
 TEST_F(ReadSeparately, ACrashOrAnEarlyEndIsADamagedFile) {
-  const auto crashed = refusal_of([&] {
+  const auto crashed = test::refusal_text<Error>([&] {
     by([]() -> std::string {
       ::raise(SIGSEGV);
       return {};
     });
   });
   EXPECT_TRUE(says(crashed, "a.cgns: is damaged: the library that reads it crashed (")) << crashed;
-  const auto ended = refusal_of([&] { by([]() -> std::string { std::exit(0); }); });
+  const auto ended = test::refusal_text<Error>([&] { by([]() -> std::string { std::exit(0); }); });
   EXPECT_TRUE(says(ended, "a.cgns: is damaged: the library that reads it gave up")) << ended;
 }
 
 TEST_F(ReadSeparately, AMissingFileIsRefusedBeforeAnyChild) {
-  EXPECT_TRUE(says(refusal_of([&] { read_separately<int>(folder.file("none"), [] { return 1; }); }),
-                   "cannot be opened"));
+  EXPECT_TRUE(
+      says(test::refusal_text<Error>([&] { read_separately<int>(folder.file("none"), [] { return 1; }); }),
+           "cannot be opened"));
 }
 
 TEST(InputFile, WhatIsNoFileIsRefused) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(says(refusal_of([&] { read_input(folder.path()); }), "is a folder; name a file in it"));
-  EXPECT_TRUE(says(refusal_of([&] { read_input(folder.file("none")); }), "cannot be opened"));
-  EXPECT_TRUE(says(refusal_of([&] { read_input("/dev/zero"); }), "is a device"));
-  EXPECT_TRUE(says(refusal_of([&] { require_input_file(folder.file(std::string(300, 'a'))); }),
+  EXPECT_TRUE(
+      says(test::refusal_text<Error>([&] { read_input(folder.path()); }), "is a folder; name a file in it"));
+  EXPECT_TRUE(says(test::refusal_text<Error>([&] { read_input(folder.file("none")); }), "cannot be opened"));
+  EXPECT_TRUE(says(test::refusal_text<Error>([&] { read_input("/dev/zero"); }), "is a device"));
+  EXPECT_TRUE(says(test::refusal_text<Error>([&] { require_input_file(folder.file(std::string(300, 'a'))); }),
                    "give a shorter name"));
   const std::string pipe = folder.file("pipe");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_TRUE(says(refusal_of([&] { read_input(pipe); }), "is a pipe"));
+  EXPECT_TRUE(says(test::refusal_text<Error>([&] { read_input(pipe); }), "is a pipe"));
 }
 
 TEST(InputFile, PipesAreReadWhereTheyAreAllowed) {
@@ -179,7 +173,7 @@ TEST(InputFile, PipesAreReadWhereTheyAreAllowed) {
   std::thread writer([&] { std::ofstream(pipe) << "through the pipe"; });
   EXPECT_EQ(read_input(pipe), "through the pipe");
   writer.join();
-  EXPECT_TRUE(says(refusal_of([&] { require_input_file(pipe); }), "is a pipe"));
+  EXPECT_TRUE(says(test::refusal_text<Error>([&] { require_input_file(pipe); }), "is a pipe"));
   allow_piped_input(false);
 }
 
@@ -201,21 +195,23 @@ TEST(OutputPath, LinksAreFollowedToWhatTheyStandFor) {
   EXPECT_EQ(output_target(folder.file("link_to_link")), folder.file("there/file"))
       << "which is not there yet";
   fs::create_symlink("round", folder.file("round"));
-  EXPECT_NE(refusal_of([&] { output_target(folder.file("round")); }), "");
+  EXPECT_NE(test::refusal_text<Error>([&] { output_target(folder.file("round")); }), "");
 }
 
 TEST(OutputPath, WhatCannotBecomeAFileIsRefused) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(says(refusal_of([&] { require_possible_output(folder.path()); }), "is a folder, not a file"));
-  EXPECT_TRUE(says(refusal_of([&] { require_possible_output(folder.file("no/file")); }),
+  EXPECT_TRUE(says(test::refusal_text<Error>([&] { require_possible_output(folder.path()); }),
+                   "is a folder, not a file"));
+  EXPECT_TRUE(says(test::refusal_text<Error>([&] { require_possible_output(folder.file("no/file")); }),
                    "does not exist; create it first"));
-  EXPECT_TRUE(says(refusal_of([&] { require_possible_output("/dev/null"); }), "is a device"));
+  EXPECT_TRUE(says(test::refusal_text<Error>([&] { require_possible_output("/dev/null"); }), "is a device"));
+  EXPECT_TRUE(says(test::refusal_text<Error>([&] { require_possible_output("/dev/./stdout"); }),
+                   "is a stream of the process"));
   EXPECT_TRUE(
-      says(refusal_of([&] { require_possible_output("/dev/./stdout"); }), "is a stream of the process"));
-  EXPECT_TRUE(says(refusal_of([&] { require_possible_output(folder.file(std::string(300, 'a'))); }),
-                   "give a shorter name"));
+      says(test::refusal_text<Error>([&] { require_possible_output(folder.file(std::string(300, 'a'))); }),
+           "give a shorter name"));
   fs::create_symlink("no/file", folder.file("link"));
-  EXPECT_TRUE(says(refusal_of([&] { require_possible_output(folder.file("link")); }),
+  EXPECT_TRUE(says(test::refusal_text<Error>([&] { require_possible_output(folder.file("link")); }),
                    "link: cannot be written: the folder"));
 }
 
@@ -259,8 +255,8 @@ TEST(StagingFolder, RemovesWhatAKilledRunLeftButNotWhatALivingOneNeeds) {
 }
 
 TEST(StagingFolder, InNoFolderIsRefused) {
-  EXPECT_TRUE(
-      says(refusal_of([] { StagingFolder("/nowhere/at/all", "out.mesh"); }), "out.mesh: cannot be written"));
+  EXPECT_TRUE(says(test::refusal_text<Error>([] { StagingFolder("/nowhere/at/all", "out.mesh"); }),
+                   "out.mesh: cannot be written"));
 }
 
 }  // namespace

@@ -39,9 +39,9 @@ TEST(LineReader, ALastRowNeedsNoLineEnd) {
 }
 
 TEST(LineReader, NumbersMayHaveFortransExponent) {
-  Rows rows("1.5 +2 1.0D-3 -1d2 1e-999 .5 5.");
+  Rows rows("1.5 +2 1.0D-3 -1d2 1e-999 1E-400 1D-400 .5 5.");
   rows.reader.next();
-  const std::vector<double> expected{1.5, 2, 1e-3, -100, 0, 0.5, 5};
+  const std::vector<double> expected{1.5, 2, 1e-3, -100, 0, 0, 0, 0.5, 5};
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(rows.reader.real(i), expected[i]);
 }
 

@@ -4,22 +4,14 @@
 #include <functional>
 #include <string>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace quadloop::test {
 
-/// A folder of its own for one test, gone when the test ends.
-class InputFolder {
+/// The folder of one test on one rank.
+class InputFolder : public TemporaryFolder {
  public:
-  InputFolder();
-  ~InputFolder();
-  InputFolder(const InputFolder&) = delete;
-  InputFolder& operator=(const InputFolder&) = delete;
-
-  /// Writes a file and returns its path.
-  std::string write(const std::string& name, const std::string& text) const;
-  std::filesystem::path path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
+  std::filesystem::path path() const { return TemporaryFolder::path(); }
 };
 
 /// The message of the InputError that the call must throw, with `folder` cut out of it.

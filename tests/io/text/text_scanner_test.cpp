@@ -29,9 +29,10 @@ TEST(ParseReal, TakesOneWholeNumber) {
   };
   EXPECT_TRUE(is("1.5", 1.5) && is("+2", 2) && is("-3e-1", -0.3) && is("1.0D-03", 1e-3) && is("2d2", 200));
   EXPECT_TRUE(is("1e-400", 0)) << "what underflows is the nearest number";
+  EXPECT_TRUE(is("1E-400", 0) && is("0." + std::string(400, '0') + "1", 0));
   EXPECT_TRUE(is("1e400", HUGE_VAL));
   EXPECT_TRUE(parse_real("nan", value) && std::isnan(value));
-  for (const char* token : {"", "+", "1.5x", "0x10", "1,5", "1 ", "--1", "e5"})
+  for (const char* token : {"", "+", "1.5x", "0x10", "1,5", "1 ", "--1", "+-1", "e5"})
     EXPECT_FALSE(parse_real(token, value)) << token;
 }
 

@@ -15,7 +15,7 @@ TEST(CompareMeshes, NodesMayLieOffByAMillionthOfTheShortestEdge) {
   std::vector<Point> points = mesh.points;
   points[4].x += 0.9e-6;
   points[8].y -= 1.1e-6;
-  EXPECT_EQ(nodes_elsewhere(points, mesh), (std::vector<char>{0, 0, 0, 0, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(nodes_elsewhere(points, mesh), NodeFlags({0, 0, 0, 0, 0, 0, 0, 0, 1}));
 }
 
 TEST(CompareMeshes, CellsAreTheSameInAnyOrderAndFromAnyNode) {

@@ -31,10 +31,14 @@ TEST_F(Case, WithoutATableThereIsNoAdaptation) {
 }
 
 TEST_F(Case, AnEmptyTableHasTheDefaults) {
-  const AdaptOptions options = *adapt("[adapt]\n"), expected;
-  EXPECT_EQ(options.cycles, expected.cycles);
-  EXPECT_EQ(options.variables, expected.variables);
-  EXPECT_EQ(options.refine, expected.refine);
+  const AdaptOptions options = *adapt("[adapt]\n");  // as docs/case-file.md has them
+  EXPECT_EQ(options.cycles, 5);
+  EXPECT_EQ(options.source, AdaptOptions::Source::variables);
+  EXPECT_EQ(options.variables, std::vector<std::string>{"density"});
+  EXPECT_EQ(options.indicator, Indicator::difference);
+  EXPECT_EQ(options.threshold, AdaptOptions::Threshold::deviation);
+  EXPECT_EQ(options.refine, 1.0);
+  EXPECT_EQ(options.coarsen, 0.5);
   EXPECT_FALSE(options.max_nodes || options.min);
 }
 

@@ -69,8 +69,8 @@ formats = ["cgns"]
   EXPECT_EQ(s.mesh.size.gap, 2);
   ASSERT_EQ(s.mesh.size.sources.size(), 3u);
   EXPECT_EQ(std::get<Box>(s.mesh.size.sources[0].shape).high, (Point{1, 3}));
-  EXPECT_EQ(std::get<Source::Disc>(s.mesh.size.sources[1].shape).radius, 2);
-  EXPECT_EQ(std::get<Source::Line>(s.mesh.size.sources[2].shape).to, (Point{2, 3}));
+  EXPECT_EQ(std::get<SizeSource::Disc>(s.mesh.size.sources[1].shape).radius, 2);
+  EXPECT_EQ(std::get<SizeSource::Line>(s.mesh.size.sources[2].shape).to, (Point{2, 3}));
   EXPECT_EQ(s.mesh.size.root->tree_edge, 20);
   EXPECT_EQ(s.mesh.snap, 0.001);
   EXPECT_EQ(s.output_prefix, "out");

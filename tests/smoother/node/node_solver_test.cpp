@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "smoother/node/method.hpp"
 #include "tests/smoother/stars.hpp"
 
 namespace quadloop {
@@ -43,6 +44,10 @@ class EachSolver : public testing::TestWithParam<std::tuple<Method, Objective>> 
 INSTANTIATE_TEST_SUITE_P(Solvers, EachSolver,
                          testing::Combine(testing::Values(Method::perturb, Method::nlopt),
                                           testing::Values(Objective::power, Objective::thesis)));
+
+TEST(Method, OfEachWordHasASolver) {
+  for (const auto& [word, method] : method_words) EXPECT_NE(make_node_solver(method), nullptr) << word;
+}
 
 TEST_P(EachSolver, OnlyBettersAStar) {
   Random random(21);

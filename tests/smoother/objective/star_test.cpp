@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "smoother/objective/objective.hpp"
 #include "tests/smoother/stars.hpp"
 
 namespace quadloop {
@@ -37,6 +38,16 @@ Point near_centre(Random& random, double reach) {
 }
 
 bool is_valid(const Star& star, Point p) { return star.cost(p, Objective::power).valid[0]; }
+
+/// What the wall of NloptSolver is built on.
+TEST(Star, InAValidOneNoObjectiveExceedsTheNumberOfCorners) {
+  for_each_star([](const Star& star, Random& random) {
+    const Point p = near_centre(random, 0.6);
+    if (!is_valid(star, p)) return;
+    for (const auto& [word, objective] : objective_words)
+      EXPECT_LE(star.cost(p, objective).objective[0], static_cast<double>(star.corners().size())) << word;
+  });
+}
 
 TEST(Star, ABatchIsItsPlacesOneByOne) {
   for_each_star([](const Star& star, Random& random) {

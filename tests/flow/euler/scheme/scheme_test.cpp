@@ -2,6 +2,9 @@
 // matrices are their derivatives.
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
+
 #include "flow/euler/scheme/dual_mesh.hpp"
 #include "flow/euler/scheme/euler_options.hpp"
 #include "flow/euler/scheme/flow_model.hpp"
@@ -12,6 +15,7 @@
 #include "flow/euler/scheme/residual.hpp"
 #include "flow/euler/vortex.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -224,6 +228,54 @@ TEST(FlowModel, RefusesAConditionThatItCannotUse) {
   EXPECT_EQ(flow_model(world(), mesh, options).boundaries[2].condition, Condition::none);
 }
 
+/// The conditions of all words that a case may say, but those that the solver refuses.
+std::map<std::string, Condition> usable_conditions() {
+  Mesh mesh = test::irregular_grid(2, {1, 1}, 0);
+  std::map<std::string, Condition> usable;
+  for (const std::string& word : condition_words()) {
+    for (BoundaryEdges& boundary : mesh.boundaries) boundary.condition = word;
+    try {
+      usable[word] = flow_model(world(), mesh, {}).boundaries[0].condition;
+    } catch (const InputError&) {
+      EXPECT_TRUE(word == "interface" || word == "none") << word;
+    }
+  }
+  return usable;
+}
+
+TEST(FlowModel, HasAConditionForEachUsableWord) {
+  const auto usable = usable_conditions();
+  std::set<Condition> distinct;
+  for (const auto& [word, condition] : usable) {
+    distinct.insert(condition);
+    EXPECT_EQ(feels_force(condition), word == "wall") << word;
+  }
+  EXPECT_EQ(distinct.size(), usable.size());
+  EXPECT_EQ(usable.size(), 5U);
+}
+
+TEST(FlowModel, NothingFlowsThroughWallsAndPlanesOfSymmetry) {
+  FlowModel model;
+  model.free_stream = model.gas.free_stream(0.5, 0);
+  for (const Condition condition : {Condition::wall, Condition::symmetry}) {
+    const State state = made_up_state(1);
+    const Flux flux = boundary_flux(model, {condition, {}}, state, {0.6, 0.8});
+    EXPECT_EQ(flux, (Flux{0, 0.6 * state[3], 0.8 * state[3], 0}));
+    Matrix4 matrix{};
+    add_boundary_matrix(model, {condition, {}}, state, {0.6, 0.8}, 2, matrix);
+    EXPECT_DOUBLE_EQ(matrix[7], 2 * 0.6 * (model.gas.gamma - 1));  // x momentum by energy
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(std::pair(matrix[k], matrix[12 + k]), std::pair(0.0, 0.0));
+  }
+}
+
+TEST(FlowModel, RefusesAFaceOfABoundaryWithoutEdges) {
+  const FlowModel model;
+  Matrix4 matrix{};
+  EXPECT_THROW(boundary_flux(model, {}, made_up_state(1), {1, 0}), Fault);
+  EXPECT_THROW(add_boundary_matrix(model, {}, made_up_state(1), {1, 0}, 1, matrix), Fault);
+  EXPECT_THROW(feels_force(Condition::none), Fault);
+}
+
 TEST(BoundaryFlux, OfTheFreeStreamIsPhysical) {
   FlowModel model;
   for (const double mach : {0.0, 0.5, 2.0}) {
@@ -231,8 +283,7 @@ TEST(BoundaryFlux, OfTheFreeStreamIsPhysical) {
     for (const Condition condition : {Condition::farfield, Condition::inflow, Condition::outflow}) {
       for (int i = 0; i < 20; ++i) {
         const Point normal = made_up_normal(i);
-        const Flux flux =
-            boundary_flux(model, {condition, 1 / model.gas.gamma, false}, model.free_stream, normal);
+        const Flux flux = boundary_flux(model, {condition, 1 / model.gas.gamma}, model.free_stream, normal);
         const Flux physical = physical_flux(model.gas, model.free_stream, normal);
         for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(flux[k], physical[k], 1e-14);
       }

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "mesher/base/word_table.hpp"
+
+namespace quadloop {
+
+/// How a node's best place is looked for. perturb: the thesis's steps along normals, edges and axes. nlopt: a
+/// library's minimiser.
+enum class Method { perturb, nlopt };
+
+inline constexpr WordTable<Method, 2> method_words{{{"perturb", Method::perturb}, {"nlopt", Method::nlopt}}};
+
+}  // namespace quadloop

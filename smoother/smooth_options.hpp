@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "mesher/delaunay/tie_order.hpp"
+#include "mesher/geometry/geometry.hpp"
+#include "mesher/mesh/mesh.hpp"
+#include "smoother/node/method.hpp"
+#include "smoother/objective/condition_number.hpp"
+#include "smoother/objective/objective.hpp"
+
+namespace quadloop {
+
+/// How a mesh is smoothed.
+struct SmoothOptions {
+  int sweeps = 20;  ///< at most; fewer where nothing moves any more
+  Objective objective = Objective::power;
+  Method method = Method::perturb;
+  /// Nodes of cells that cost no more stay, unless they share a cell with a node of one that does.
+  double threshold = 0.05;
+  /// First moves lines where squares of two sizes meet, which lifts 26.6 degrees to 29.7.
+  bool level_lines = true;
+  double bad = 0.072;  ///< nodes of parallelograms stay unless a cell that costs more is near; one below 28
+                       ///< degrees does
+  const Geometry* geometry = nullptr;  ///< the outline that boundary nodes slide along; without it they slide
+                                       ///< where the mesh's own is straight
+  std::vector<char> even_segments;  ///< a flag for each segment of the geometry along which the nodes are to
+                                    ///< be spread evenly, or none at all
+  NodeFlags pinned;                 ///< a flag for each owned node that must stay, or none at all
+  std::function<TieRank(Point)> delaunay;  ///< if set, the mesh is Delaunay under this order of nodes, and is
+                                           ///< made so again by flips in the end
+  /// Of each own triangle, or none: flips keep edges between two blocks.
+  std::vector<std::int32_t> triangle_to_block;
+  bool keep_slots = true;  ///< triangles made by flips take the slots in the order that become free, else
+                           ///< those beside them; not with blocks
+  std::vector<CellTarget> targets;  ///< the shape of each own cell, triangles, then quads; or none at all for
+                                    ///< ideal ones. Not with `delaunay`
+};
+
+}  // namespace quadloop
