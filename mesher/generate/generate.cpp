@@ -106,7 +106,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
                                const DemandedSplits& demanded) {
   StageTimes times;
   times.begin("front");
-  const LayerFront front = layer_front(input.geometry);
+  const LayerFront front = layer_front(input.geometry, input.mesh.size.curvature);
   times.end();
   GeneratedMesh generated = generate_outer(comm, outside(input, front), demanded);
   times.append(generated.times);

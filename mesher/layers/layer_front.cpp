@@ -1,6 +1,7 @@
 #include "mesher/layers/layer_front.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "mesher/layers/thickness.hpp"
 
@@ -14,10 +15,11 @@ constexpr double sine_of_sector = 0.3;  // columns of a fan are at least some 18
 /// The outline outside the layers, on its way to a Geometry.
 class OuterOutline {
  public:
-  OuterOutline(const WallLine& line, const FittingColumns& fitting)
+  OuterOutline(const WallLine& line, const FittingColumns& fitting, std::optional<double> curvature)
       : line_{line},
         g_{line.geometry()},
         fitting_{fitting},
+        curvature_{curvature},
         first_of_segment_(g_.points().size(), WallLine::none) {
     for (std::int32_t i = line_.size() - 1; i >= 0; --i) {
       if (begins(i)) first_of_segment_[line_[i].segment] = i;
@@ -59,16 +61,13 @@ class OuterOutline {
   }
   bool begins_below(std::int32_t s) const;
   double spacing_after(std::int32_t i) const;
-  /// That of the wall: the front's own is that of columns which spread or converge too.
-  double bend_of(std::int32_t i) const {
-    const std::int32_t s = line_[i].segment;
-    return line_[i].wall == g_.point(s) && line_[i].shape == Station::Shape::smooth ? g_.bend_degrees(s) : 0;
-  }
+  double wall_spacing(std::int32_t i) const;
   double last_layer(std::int32_t i) const;
 
   const WallLine& line_;
   const Geometry& g_;
   const FittingColumns& fitting_;
+  std::optional<double> curvature_;
   std::vector<std::int32_t> first_of_segment_;
   std::vector<Point> points_;
   std::vector<std::int32_t> starts_{0};
@@ -84,7 +83,7 @@ class OuterOutline {
 void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
   std::int32_t i = first;
   for (; i != WallLine::none && begins(i) && line_[i].segment == s; i = line_.next(i))
-    add_vertex(fitting_.front[i], s, i, spacing_after(i), line_[i].kept, bend_of(i));
+    add_vertex(fitting_.front[i], s, i, spacing_after(i), line_[i].kept, 0);
   if (i == WallLine::none || line_[i].segment != s) return;
   std::int32_t on = g_.next(s);  // the segment on which the run's last column ends
   add_vertex(fitting_.front[i], on, WallLine::none, g_.spacing_of(on), true, 0);
@@ -101,22 +100,37 @@ double OuterOutline::last_layer(std::int32_t i) const {
   return column.reached[spec.count] - column.reached[spec.count - 1];
 }
 
+/// What the wall asks for between a station and the next: by its boundary, and by the turns at the ends of
+/// its segment, as if each were spread over half of either side. (The front's own turns are no measure: they
+/// are those of columns which spread or converge.)
+double OuterOutline::wall_spacing(std::int32_t i) const {
+  const std::int32_t s = line_[i].segment, next = g_.next(s);
+  double spacing = g_.spacing_of(s);
+  if (!curvature_) return spacing;
+  for (const std::int32_t v : {s, next}) {
+    const double around =
+        (length(g_.point(v) - g_.point(g_.previous(v))) + length(g_.point(g_.next(v)) - g_.point(v))) / 2;
+    if (g_.bend_degrees(v) > 0) spacing = std::min(spacing, *curvature_ / g_.bend_degrees(v) * around);
+  }
+  return spacing;
+}
+
 double OuterOutline::spacing_after(std::int32_t i) const {
   const std::int32_t j = line_.next(i);
   const double height = std::min(last_layer(i), last_layer(j));
   const double wall = line_.width(i), front = length(fitting_.front[j] - fitting_.front[i]);
   double spacing = leaf_over_last_layer * height;
   if (wall == 0) return std::max(spacing, sine_of_sector * fitting_.thickness[i]);
-  return std::min(spacing, g_.spacing_of(line_[i].segment) * std::min(1.0, front / wall));
+  return std::min(spacing, wall_spacing(i) * std::min(1.0, front / wall));
 }
 
 }  // namespace
 
-LayerFront layer_front(const Geometry& geometry) {
+LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature) {
   WallLine line(geometry, wall_runs(geometry));
   FittingColumns fitting = fit_thickness(line);
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}};
-  OuterOutline(front.line, fitting).build(front);
+  OuterOutline(front.line, fitting, curvature).build(front);
   front.thickness = std::move(fitting.thickness);
   front.columns = std::move(fitting.columns);
   front.points = std::move(fitting.front);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,9 @@ struct LayerFront {
 
 /// The front of all boundaries that ask for layers. Layers are thinner where walls come close to each other
 /// or turn sharply into the domain, so that no two columns meet, and each wall keeps room for cells outside;
-/// both are proved with exact signs. A function of the geometry alone; mirror images have mirrored fronts.
-/// Throws InputError, naming the place, where no layers fit.
-LayerFront layer_front(const Geometry& geometry);
+/// both are proved with exact signs. `curvature`: degrees that the wall may turn along one cell. A function
+/// of the geometry alone; mirror images have mirrored fronts. Throws InputError, naming the place, where no
+/// layers fit.
+LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature = {});
 
 }  // namespace quadloop
