@@ -234,11 +234,9 @@ void LayerBuilder::gather_rays() {
   for (std::size_t i = 0; i < rays_.size();) {
     const std::int32_t fan = rays_[i].fan;
     const auto rays = rays_of(fan);
-    const Station& edge = line_[fan];
-    const double turn =
-        180 - 57.29577951308232 *
-                  std::acos(std::clamp(-dot(edge.before, line_[rays.back().place.station].after), -1.0, 1.0));
-    fan_rows_.emplace(fan, FanRows(size32(rays), line_.spec(fan).count, turn));
+    std::vector<Point> directions;
+    for (const Ray& ray : rays) directions.push_back(unit(ray.point - line_[fan].wall));
+    fan_rows_.emplace(fan, FanRows(directions, line_.spec(fan).count));
     i += rays.size();
   }
 }

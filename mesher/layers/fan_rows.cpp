@@ -1,41 +1,70 @@
 #include "mesher/layers/fan_rows.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace quadloop {
 
 namespace {
 
-constexpr double least_sector = 22;  // degrees, on the mean
+constexpr double cosine_of_sharp = 0.93;  // 21.6 degrees
+constexpr double cosine_of_wide = 0.6;    // 53 degrees: where rows grow by a fifth, cells get flat beyond
 constexpr int rows_between_merges = 3;
 
-/// Of rays those that stay when sectors are merged in pairs, from both ends, so that a mirror image merges
-/// the same; an odd sector stays in the middle.
-std::vector<std::int32_t> merged(const std::vector<std::int32_t>& rays) {
-  const auto sectors = static_cast<std::int32_t>(rays.size()) - 1;
-  std::int32_t from_each_end = sectors / 4;  // pairs
-  std::vector<std::int32_t> kept;
-  for (std::int32_t i = 0; i <= sectors; ++i) {
-    const std::int32_t end = std::min(i, sectors - i);
-    const bool in_pair = end < 2 * from_each_end && end % 2 == 1;
-    const bool in_the_middle = sectors % 4 == 2 && 2 * i == sectors;
-    if (!in_pair && !in_the_middle) kept.push_back(rays[i]);
+/// Rays that go, as two sectors become one, from both ends, so that a mirror image merges the same; or three
+/// in the middle.
+class Merging {
+ public:
+  Merging(std::span<const Point> directions, const std::vector<std::int32_t>& rays)
+      : directions_{directions}, rays_{rays}, goes_(rays.size(), 0) {
+    const std::int32_t sectors = size32(rays) - 1, half = sectors / 2;
+    const bool odd = sectors % 2 == 1, three = odd && half > 0 && merge(half, half + 1);
+    const std::int32_t beside = three ? half - 1 : half;  // sectors of either half that are left
+    const bool one_is_left = !pair_up(0, 1, beside), another = !pair_up(sectors, -1, beside);
+    if (!odd && half > 0 && one_is_left && another) merge(half, half);
   }
-  return kept;
-}
+
+  bool any() const { return std::ranges::find(goes_, 1) != goes_.end(); }
+  bool goes(std::size_t i) const { return goes_[i] != 0; }
+
+ private:
+  /// So many sectors from one end on; whether the last of them is in a pair.
+  bool pair_up(std::int32_t end, std::int32_t step, std::int32_t sectors) {
+    bool paired = false;
+    for (std::int32_t i = 1; i < sectors; ++i) paired = !paired && merge(end + i * step, end + i * step);
+    return paired;
+  }
+  /// The sectors beside these rays become one if one of them is sharp and all are not too wide.
+  bool merge(std::int32_t first, std::int32_t last) {
+    bool sharp = false;
+    for (std::int32_t i = first; i <= last + 1; ++i) sharp |= dot(at(i - 1), at(i)) > cosine_of_sharp;
+    if (!sharp || dot(at(first - 1), at(last + 1)) < cosine_of_wide) return false;
+    goes_[first] = goes_[last] = 1;
+    return true;
+  }
+  Point at(std::int32_t i) const { return directions_[rays_[i]]; }
+
+  std::span<const Point> directions_;
+  const std::vector<std::int32_t>& rays_;
+  std::vector<char> goes_;
+};
 
 }  // namespace
 
-FanRows::FanRows(std::int32_t rays, int rows, double turn_degrees) : rows_{rows}, lowest_(rays, 1) {
-  std::vector<std::int32_t> at(rays);
-  for (std::int32_t i = 0; i < rays; ++i) at[i] = i;
+FanRows::FanRows(std::span<const Point> rays, int rows) : rows_{rows}, lowest_(rays.size(), 1) {
+  std::vector<std::int32_t> at(rays.size());
+  std::iota(at.begin(), at.end(), 0);
   for (int ring = rows - rows_between_merges; ring > 0; ring -= rows_between_merges) {
-    if (turn_degrees / static_cast<double>(at.size() - 1) >= least_sector) return;
-    const std::vector<std::int32_t> kept = merged(at);
-    for (const std::int32_t ray : at) {
-      if (!std::binary_search(kept.begin(), kept.end(), ray)) lowest_[ray] = ring + 1;
+    const Merging merging(rays, at);
+    if (!merging.any()) return;
+    std::vector<std::int32_t> stay;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      if (merging.goes(i))
+        lowest_[at[i]] = ring + 1;
+      else
+        stay.push_back(at[i]);
     }
-    at = kept;
+    at = std::move(stay);
   }
 }
 
@@ -54,12 +83,18 @@ std::vector<FanRows::Cell> FanRows::cells_after(std::int32_t ray) const {
     const auto at = std::find(rays.begin(), rays.end(), ray);
     if (at + 1 == rays.end()) continue;
     const std::int32_t next = at[1];
-    const bool begins = lowest_[ray] == ring && ring > 1, ends = lowest_[next] == ring && ring > 1;
+    const auto stops = [&](std::int32_t which) { return lowest_[which] == ring && ring > 1; };
+    const bool begins = stops(ray), ends = stops(next);
     if (ring == 1) {
       cells.push_back({{ray, 0}, {next, 1}, {ray, 1}});
-    } else if (ends) {  // the next ray ends here: the two sectors become one below
+    } else if (begins && ends) {
+      continue;         // the middle one of three that become one
+    } else if (ends) {  // the next ray stops here: the sectors beside it become one below
       cells.push_back({{ray, ring - 1}, {next, ring}, {ray, ring}});
-      cells.push_back({{ray, ring - 1}, {at[2], ring - 1}, {next, ring}});
+      if (stops(at[2]))
+        cells.push_back({{ray, ring - 1}, {at[3], ring - 1}, {at[2], ring}, {next, ring}});
+      else
+        cells.push_back({{ray, ring - 1}, {at[2], ring - 1}, {next, ring}});
     } else if (begins) {
       cells.push_back({{next, ring - 1}, {next, ring}, {ray, ring}});
     } else {

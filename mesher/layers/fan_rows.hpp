@@ -1,7 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
+
+#include "mesher/base/ids.hpp"
+#include "mesher/geometry/point.hpp"
 
 namespace quadloop {
 
@@ -9,8 +13,8 @@ namespace quadloop {
 /// sectors do not get too sharp.
 class FanRows {
  public:
-  /// So many rays in a fan that opens so wide, and so many rows from the edge to the front.
-  FanRows(std::int32_t rays, int rows, double turn_degrees);
+  /// Of a fan with rays in these directions (of length 1), and so many rows from the edge to the front.
+  FanRows(std::span<const Point> rays, int rows);
 
   /// The lowest ring that a ray reaches down to: 0 is the edge itself, which all share, `rows` the front. No
   /// less than 1.
