@@ -119,8 +119,9 @@ class Columns {
     };
     line_.walk_on(i, h_[i] / 2, [&](std::int32_t j, double) { add(line_.previous(j), on, wall_on); });
     line_.walk_back(i, h_[i] / 2, [&](std::int32_t j, double) { add(j, back, wall_back); });
-    const double wall = wall_on + wall_back;
-    return wall > 0 ? (on + back) / wall : 0;
+    if (wall_on == 0 || wall_back == 0)
+      return wall_on > 0 ? on / wall_on : wall_back > 0 ? back / wall_back : 0;
+    return std::min(on / wall_on, back / wall_back);
   }
 
   /// Of the places beside the stations those where columns come too close or spread too far.
