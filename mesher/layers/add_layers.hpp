@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "mesher/base/communicator.hpp"
 #include "mesher/delaunay/tie_order.hpp"
+#include "mesher/layers/grown_mesh.hpp"
 #include "mesher/layers/layer_front.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
@@ -18,7 +18,7 @@ namespace quadloop {
 /// shorter diagonals, of equal ones by that through the front node of the higher rank. Throws InputError,
 /// naming the place, for a cell that is not positive. *Collective.*
 void add_layers(const Communicator& comm, const LayerFront& front,
-                const std::vector<std::vector<std::int32_t>>& edge_leaves,
-                const std::function<TieRank(Point)>& divide, Mesh& mesh, std::vector<LeafRecord>& leaves);
+                const std::vector<std::vector<std::int32_t>>& edge_leaves, const DivideBy& divide, Mesh& mesh,
+                std::vector<LeafRecord>& leaves);
 
 }  // namespace quadloop
