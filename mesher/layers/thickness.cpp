@@ -108,7 +108,7 @@ class Fitting {
 
   Point wall(std::int32_t i) const { return line_[i].wall; }
   Point front(std::int32_t i) const { return front_[i]; }
-  bool place_exists(std::int32_t i) const { return line_.next(i) != WallLine::none; }
+  bool place_exists(std::int32_t i) const { return line_.goes_on(i); }
 
   /// Walls as the stations see them, then the segments without layers.
   void gather_walls() {

@@ -84,7 +84,8 @@ int read_count(const CaseTable& table, const std::string& key, double most) {
   return static_cast<int>(count);
 }
 
-LayerSpec read_layers(const CaseTable& table) {
+/// All but the question for other keys.
+LayerSpec read_layer_keys(const CaseTable& table) {
   LayerSpec spec;
   const auto first = table.number("first", Range::positive());
   if (!first) table.refuse("first", "is missing: the height of the layer at the wall");
@@ -104,8 +105,54 @@ LayerSpec read_layers(const CaseTable& table) {
       thickness ? layers_within(spec, *thickness, most_layers + 1) : read_count(table, "count", most_layers);
   if (spec.count > most_layers)
     table.refuse("thickness", fmt::format("takes more than {} layers; let them grow faster", most_layers));
+  return spec;
+}
+
+LayerSpec read_layers(const CaseTable& table) {
+  const LayerSpec spec = read_layer_keys(table);
   table.finish();
   return spec;
+}
+
+std::vector<Point> read_path(const CaseTable& table) {
+  std::vector<Point> path;
+  for (const std::vector<double>& point : table.pairs("path")) {
+    path.push_back({point[0], point[1]});
+    if (path.size() > 1 && path[path.size() - 2] == path.back())
+      table.refuse("path",
+                   fmt::format("has the point ({}, {}) twice in a row", path.back().x, path.back().y));
+  }
+  return path;
+}
+
+double read_line_spacing(const CaseTable& table) {
+  const auto spacing = table.number("spacing", Range::positive());
+  if (!spacing) table.refuse("spacing", "is missing: the length of cells along the line");
+  return *spacing;
+}
+
+LayerLine read_wake(const CaseTable& table) {
+  LayerLine wake;
+  wake.from = table.text("from").value_or("");
+  if (wake.from.empty()) table.refuse("from", "is missing: the boundary whose sharp edge the wake begins at");
+  wake.path = read_path(table);
+  const auto length = table.number("length", Range::positive());
+  if (length.has_value() != wake.path.empty())
+    table.refuse("length", "or path must be given, and not both: how far the wake goes on, or where");
+  wake.length = length.value_or(0);
+  wake.spacing = read_line_spacing(table);
+  table.finish();
+  return wake;
+}
+
+LayerLine read_layer_line(const CaseTable& table) {
+  LayerLine line;
+  line.path = read_path(table);
+  if (line.path.size() < 2) table.refuse("path", "must have two points at least");
+  line.spacing = read_line_spacing(table);
+  line.layers = read_layer_keys(table);
+  table.finish();
+  return line;
 }
 
 void read_boundary_tables(const CaseTable& root, Settings& settings) {
@@ -256,6 +303,8 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   read_boundary_tables(root, settings);
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));
+  for (const CaseTable& wake : root.tables("wake")) settings.lines.push_back(read_wake(wake));
+  for (const CaseTable& line : root.tables("layer_line")) settings.lines.push_back(read_layer_line(line));
   read_mesh_table(root, settings);
   read_smooth_table(root, settings);
   settings.adapt = read_adapt_table(root);

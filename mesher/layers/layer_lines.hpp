@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/geometry/geometry.hpp"
+
+namespace quadloop {
+
+/// A line within the domain with layers on both sides, as a case asks for it: a wake, which goes on from the
+/// sharp edge of a wall and takes over its layers, or a free line with layers of its own.
+struct LayerLine {
+  std::string from;                 ///< of a wake: the boundary with the edge; empty for a free line
+  std::vector<Point> path;          ///< of a wake: where it leads after the edge, or none for straight on
+  double length = 0;                ///< of a wake without a path
+  double spacing = 0;               ///< length wanted of the cells along it; above 0
+  std::optional<LayerSpec> layers;  ///< of a free line
+
+  friend bool operator==(const LayerLine&, const LayerLine&) = default;
+};
+
+/// Where it lies.
+struct PlacedLine {
+  static constexpr std::int32_t nowhere = -1;
+
+  std::int32_t edge = nowhere;  ///< the vertex that a wake begins at
+  std::vector<Point> path;      ///< two points at least, the first one the edge
+  double spacing = 0;
+  LayerSpec layers;
+};
+
+/// Finds the edges at which wakes begin: the only vertex of its boundary at which the wall turns away from
+/// the domain by more than 120 degrees. A wake without a path goes straight on, half way between the walls
+/// that meet there. Throws InputError for a boundary that is none, has no layers, no such edge or several.
+std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines);
+
+}  // namespace quadloop
