@@ -78,6 +78,10 @@ class OuterOutline {
   }
   bool begins_below(std::int32_t s) const;
   double spacing_after(std::int32_t i) const;
+  double spread(std::int32_t i) const;
+  double front_width(std::int32_t i) const {
+    return line_.width(i) == 0 ? 0 : length(fitting_.front[line_.next(i)] - fitting_.front[i]);
+  }
   double wall_spacing(std::int32_t i) const;
   double last_layer(std::int32_t i) const;
 
@@ -163,13 +167,27 @@ double OuterOutline::wall_spacing(std::int32_t i) const {
   return spacing;
 }
 
+/// The width of the front over that of the wall, round the place after a station, over half a thickness.
+double OuterOutline::spread(std::int32_t i) const {
+  const double reach = fitting_.thickness[i] / 4;
+  double wall = line_.width(i), front = front_width(i);
+  line_.walk_on(i, line_.width(i) + reach, [&](std::int32_t j, double) {
+    if (line_.next(j) == WallLine::none) return;
+    wall += line_.width(j);
+    front += front_width(j);
+  });
+  line_.walk_back(i, reach, [&](std::int32_t j, double) {
+    wall += line_.width(j);
+    front += front_width(j);
+  });
+  return front / wall;
+}
+
 double OuterOutline::spacing_after(std::int32_t i) const {
   const std::int32_t j = line_.next(i);
-  const double height = std::min(last_layer(i), last_layer(j));
-  const double wall = line_.width(i), front = length(fitting_.front[j] - fitting_.front[i]);
-  double spacing = leaf_over_last_layer * height;
-  if (wall == 0) return std::max(spacing, sine_of_sector * fitting_.thickness[i]);
-  return std::min(spacing, wall_spacing(i) * std::min(1.0, front / wall));
+  const double spacing = leaf_over_last_layer * std::min(last_layer(i), last_layer(j));
+  if (line_.width(i) == 0) return std::max(spacing, sine_of_sector * fitting_.thickness[i]);
+  return std::min(spacing, wall_spacing(i) * std::min(1.0, spread(i)));
 }
 
 /// The fronts of strips keep away from everything else, and from themselves: two segments meet where one

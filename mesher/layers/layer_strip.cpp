@@ -13,8 +13,8 @@ constexpr double widening = 0.1;   // of columns, over the distance from an end
 constexpr double opening = 1.15;   // of the layer at the line, from column to column
 constexpr double spreading = 0.1;  // of all layers together, over the distance from a root
 constexpr double flattest = 0.7;   // height of a row over the width of its columns, at most
-constexpr double triangle_height = 0.85, steepest_front = 0.5;
-constexpr double leaf_over_column = 1.4;
+constexpr double triangle_height = 0.85, steepest_front = 0.85;
+constexpr double leaf_over_column = 1.2;
 
 /// A polyline by its arc length.
 class Path {
