@@ -53,7 +53,7 @@ class Fans {
 class LayerBuilder {
  public:
   LayerBuilder(const Communicator& comm, const LayerFront& front,
-               const std::vector<std::vector<std::int32_t>>& edge_leaves, const DivideBy& divide, Mesh& mesh,
+               std::vector<std::vector<std::int32_t>>& edge_leaves, const DivideBy& divide, Mesh& mesh,
                std::vector<LeafRecord>& leaves)
       : comm_{comm},
         front_{front},
@@ -77,6 +77,7 @@ class LayerBuilder {
       const std::vector<Point> column = layer_column(front_, place_[front], mesh_.point(front));
       points.insert(points.end(), column.begin() + lowest_ring(front), column.end());
     });
+    edge_leaves_ = grown_->edge_leaves();
   }
 
  private:
@@ -139,7 +140,7 @@ class LayerBuilder {
   const WallLine& line_;
   FrontPlaces places_on_;
   Fans fans_;
-  const std::vector<std::vector<std::int32_t>>& edge_leaves_;
+  std::vector<std::vector<std::int32_t>>& edge_leaves_;
   Mesh& mesh_;
   NodeOwners owners_;
   IdVector<NodeId, FrontPlace> place_;
@@ -226,9 +227,11 @@ void LayerBuilder::add_edge(std::size_t b, const std::array<NodeId, 2>& edge, st
   }
   add_strip(from, to, leaf);
   grown_->add_edge(b, leaf, column(from).front(), column(to).front());
-  if (line_.previous(place_[from].station) == WallLine::none && place_[from].at_station())
-    add_ends(from, true, leaf);
-  if (line_.next(place_[to].station) == WallLine::none) add_ends(to, false, leaf);
+  const auto ends = [&](NodeId node) {
+    return place_[node].at_station() && !line_[place_[node].station].at_wake;
+  };
+  if (line_.previous(place_[from].station) == WallLine::none && ends(from)) add_ends(from, true, leaf);
+  if (line_.next(place_[to].station) == WallLine::none && ends(to)) add_ends(to, false, leaf);
 }
 
 /// The cells between two columns.
@@ -269,7 +272,7 @@ void LayerBuilder::add_ends(NodeId node, bool first, std::int32_t leaf) {
 }  // namespace
 
 void add_layers(const Communicator& comm, const LayerFront& front,
-                const std::vector<std::vector<std::int32_t>>& edge_leaves, const DivideBy& divide, Mesh& mesh,
+                std::vector<std::vector<std::int32_t>>& edge_leaves, const DivideBy& divide, Mesh& mesh,
                 std::vector<LeafRecord>& leaves) {
   LayerBuilder(comm, front, edge_leaves, divide, mesh, leaves).build();
 }

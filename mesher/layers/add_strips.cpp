@@ -34,8 +34,14 @@ class FilledStrip {
   const LayerStrip& strip() const { return strip_; }
   const std::vector<FrontEdge>& front() const { return front_; }
   std::size_t columns() const { return strip_.columns.size(); }
-  std::size_t first_own_column() const { return strip_.root ? 1 : 0; }
-  std::size_t rows() const { return 2 * static_cast<std::size_t>(strip_.layers); }
+  std::size_t rows() const { return strip_.columns[0].size() - 1; }
+  /// The column's nodes from one row on and before another are the strip's own: of a wake's first column
+  /// those on the base alone.
+  std::size_t own_begin(std::size_t column) const { return is_root(column) ? strip_.layers + 1 : 0; }
+  std::size_t own_end(std::size_t column) const {
+    return is_root(column) ? std::max(own_begin(column), rows() - strip_.layers) : rows() + 1;
+  }
+  bool is_root(std::size_t column) const { return strip_.root && column == 0; }
   /// The edge whose first node the column's nodes stand behind.
   std::int32_t anchor(std::size_t column) const { return anchor_[column]; }
 
@@ -157,10 +163,12 @@ void FilledStrip::close_ends() {
 
 /// Each column with the first triangle on the left that has its last node.
 void FilledStrip::anchor_columns() {
-  anchor_.assign(columns(), -1);
+  constexpr std::int32_t none = -1;
+  anchor_.assign(columns(), none);
+  if (strip_.root) anchor_[0] = 0;
   for (const Triangle& t : triangles_) {
     for (const Corner& c : t.corners) {
-      if (!c.on_front && c.row == rows() && anchor_[c.column] < 0) anchor_[c.column] = t.edge;
+      if (!c.on_front && c.row == rows() && anchor_[c.column] == none) anchor_[c.column] = t.edge;
     }
   }
 }
@@ -168,13 +176,9 @@ void FilledStrip::anchor_columns() {
 class StripBuilder {
  public:
   StripBuilder(const Communicator& comm, const LayerFront& front,
-               std::vector<std::vector<std::int32_t>> edge_leaves, const DivideBy& divide, Mesh& mesh,
+               const std::vector<std::vector<std::int32_t>>& edge_leaves, const DivideBy& divide, Mesh& mesh,
                std::vector<LeafRecord>& leaves)
-      : comm_{comm},
-        front_{front},
-        edge_leaves_{std::move(edge_leaves)},
-        mesh_{mesh},
-        owners_{comm, mesh.first_node} {
+      : comm_{comm}, front_{front}, edge_leaves_{edge_leaves}, mesh_{mesh}, owners_{comm, mesh.first_node} {
     find_fronts();
     grown_.emplace(comm, nodes_behind(), divide, mesh, leaves);
     exchange_numbers();
@@ -184,14 +188,16 @@ class StripBuilder {
     for (std::size_t b = 0; b < mesh_.boundaries.size(); ++b) {
       if (b == boundary()) continue;
       const auto& edges = mesh_.boundaries[b].edges;
-      for (const auto& edge : edges) grown_->keep_edge(b, 0, edge);
+      for (std::size_t e = 0; e < edges.size(); ++e) grown_->keep_edge(b, edge_leaves_[b][e], edges[e]);
     }
     for (std::size_t s = 0; s < strips_.size(); ++s) add_cells(s);
     grown_->put_together([&](NodeId node, std::vector<Point>& points) {
       const auto [begin, end] = behind_.equal_range(mesh_.global(node));
       for (auto it = begin; it != end; ++it) {
-        const std::vector<Point>& column = strips_[it->second.strip].strip().columns[it->second.column];
-        points.insert(points.end(), column.begin(), column.end());
+        const FilledStrip& strip = strips_[it->second.strip];
+        const std::size_t k = it->second.column;
+        const std::vector<Point>& column = strip.strip().columns[k];
+        points.insert(points.end(), column.begin() + strip.own_begin(k), column.begin() + strip.own_end(k));
       }
     });
     mesh_.boundaries.pop_back();
@@ -210,11 +216,12 @@ class StripBuilder {
   void exchange_numbers();
   GrownNode node(std::size_t strip, const FilledStrip::Corner& c) const;
   static GlobalNodeId wall_node(const FilledStrip& strip, bool left, std::int32_t ring);
+  void add_base(std::size_t s);
   void add_cells(std::size_t s);
 
   const Communicator& comm_;
   const LayerFront& front_;
-  std::vector<std::vector<std::int32_t>> edge_leaves_;
+  const std::vector<std::vector<std::int32_t>>& edge_leaves_;
   Mesh& mesh_;
   NodeOwners owners_;
   std::vector<FilledStrip> strips_;
@@ -227,8 +234,7 @@ class StripBuilder {
 void StripBuilder::find_fronts() {
   std::vector<FrontEdge> own;
   const auto& edges = mesh_.boundaries[boundary()].edges;
-  std::vector<std::int32_t>& leaves = edge_leaves_[boundary()];
-  std::ranges::stable_sort(leaves);  // as add_layers has left the edges
+  const std::vector<std::int32_t>& leaves = edge_leaves_[boundary()];
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto& [from, to] = edges[e];
     own.push_back({{mesh_.global(from), mesh_.global(to)},
@@ -263,11 +269,12 @@ std::vector<std::int32_t> StripBuilder::nodes_behind() {
   std::vector<std::int32_t> added(mesh_.owned_nodes, 0);
   for (std::size_t s = 0; s < strips_.size(); ++s) {
     const FilledStrip& strip = strips_[s];
-    for (std::size_t k = strip.first_own_column(); k < strip.columns(); ++k) {
+    for (std::size_t k = 0; k < strip.columns(); ++k) {
       const GlobalNodeId node = strip.front()[strip.anchor(k)].nodes[0];
       behind_.emplace(node, Column{s, k});
       if (owners_.rank_of(node) == comm_.rank())
-        added[owners_.local(node).value()] += static_cast<std::int32_t>(strip.rows()) + 1;
+        added[owners_.local(node).value()] +=
+            static_cast<std::int32_t>(strip.own_end(k) - strip.own_begin(k));
     }
   }
   return added;
@@ -288,7 +295,7 @@ void StripBuilder::exchange_numbers() {
     tell(strip.front().back().nodes[1]);
     for (std::int32_t ring = 0; ring < strip.strip().layers; ++ring) {
       tell(wall_node(strip, true, ring));
-      if (ring > 0) tell(wall_node(strip, false, ring));
+      if (ring > 0 || strip.strip().core > 0) tell(wall_node(strip, false, ring));
     }
   }
   for (const Renumbered& r : comm_.all_gather_values(std::span<const Renumbered>(own)))
@@ -300,7 +307,8 @@ void StripBuilder::exchange_numbers() {
     if (node != before) next = grown_number_.at(node).value() + 1;
     before = node;
     first_of_column_[column.strip][column.column] = GlobalNodeId{next};
-    next += static_cast<std::int64_t>(strips_[column.strip].rows()) + 1;
+    const FilledStrip& strip = strips_[column.strip];
+    next += static_cast<std::int64_t>(strip.own_end(column.column) - strip.own_begin(column.column));
   }
 }
 
@@ -313,20 +321,33 @@ GrownNode StripBuilder::node(std::size_t s, const FilledStrip::Corner& c) const 
     return {grown_number_.at(nodes[end]), points[end]};
   }
   const Point p = strip.strip().columns[c.column][c.row];
-  if (c.column >= strip.first_own_column())
-    return {GlobalNodeId{first_of_column_[s][c.column].value() + static_cast<std::int64_t>(c.row)}, p};
-  const std::size_t middle = strip.rows() / 2;
-  const bool left = c.row >= middle;
-  const std::size_t ring = left ? c.row - middle : middle - c.row;
-  return {grown_number_.at(wall_node(strip, left, static_cast<std::int32_t>(ring))), p};
+  const std::size_t begin = strip.own_begin(c.column), end = strip.own_end(c.column);
+  if (begin <= c.row && c.row < end)
+    return {GlobalNodeId{first_of_column_[s][c.column].value() + static_cast<std::int64_t>(c.row - begin)},
+            p};
+  const auto layers = strip.strip().layers, row = static_cast<std::int32_t>(c.row);
+  const std::int32_t left_ring = layers - (static_cast<std::int32_t>(strip.rows()) - row);
+  const bool left = left_ring >= 0;
+  return {grown_number_.at(wall_node(strip, left, left ? left_ring : layers - row)), p};
 }
 
 /// The number before of a node in the wall's column on one side of a wake: they stand behind that on the
-/// front, from the wall on, whose node the left one has.
+/// front, from the wall on; at a sharp edge the left one alone has the wall's node.
 GlobalNodeId StripBuilder::wall_node(const FilledStrip& strip, bool left, std::int32_t ring) {
   const GlobalNodeId top = left ? strip.front().front().nodes[0] : strip.front().back().nodes[1];
   if (ring == strip.strip().layers) return top;
-  return GlobalNodeId{top.value() + (left ? 1 + ring : ring)};
+  return GlobalNodeId{top.value() + (left || strip.strip().core > 0 ? 1 + ring : ring)};
+}
+
+/// The wall's edges behind a blunt edge.
+void StripBuilder::add_base(std::size_t s) {
+  const FilledStrip& strip = strips_[s];
+  const FrontEdge& edge = strip.front()[strip.anchor(0)];
+  if (strip.strip().core == 0 || edge.rank != comm_.rank()) return;
+  const BoundaryId wall = front_.line[strip.strip().root->station].layers;
+  for (std::size_t row = strip.rows() - strip.strip().layers;
+       row > static_cast<std::size_t>(strip.strip().layers); --row)
+    grown_->add_edge(wall.value(), edge.leaf, node(s, {false, 0, row}), node(s, {false, 0, row - 1}));
 }
 
 void StripBuilder::add_cells(std::size_t s) {
@@ -340,6 +361,7 @@ void StripBuilder::add_cells(std::size_t s) {
                                              node(s, {false, k + 1, row + 1}), node(s, {false, k, row + 1})});
     }
   }
+  add_base(s);
   for (const auto& [edge, corners] : strip.triangles()) {
     if (!has(edge)) continue;
     grown_->add_cell(strip.front()[edge].leaf,
@@ -350,9 +372,9 @@ void StripBuilder::add_cells(std::size_t s) {
 }  // namespace
 
 void add_strips(const Communicator& comm, const LayerFront& front,
-                std::vector<std::vector<std::int32_t>> edge_leaves, const DivideBy& divide, Mesh& mesh,
+                const std::vector<std::vector<std::int32_t>>& edge_leaves, const DivideBy& divide, Mesh& mesh,
                 std::vector<LeafRecord>& leaves) {
-  StripBuilder(comm, front, std::move(edge_leaves), divide, mesh, leaves).build();
+  StripBuilder(comm, front, edge_leaves, divide, mesh, leaves).build();
 }
 
 }  // namespace quadloop

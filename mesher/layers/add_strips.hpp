@@ -11,7 +11,7 @@ namespace quadloop {
 /// behind nodes on the front, and with the leaves of its edges. The mesh loses the strips' boundary. Throws
 /// InputError, naming the place, for a cell that is not positive. *Collective.*
 void add_strips(const Communicator& comm, const LayerFront& front,
-                std::vector<std::vector<std::int32_t>> edge_leaves, const DivideBy& divide, Mesh& mesh,
+                const std::vector<std::vector<std::int32_t>>& edge_leaves, const DivideBy& divide, Mesh& mesh,
                 std::vector<LeafRecord>& leaves);
 
 }  // namespace quadloop

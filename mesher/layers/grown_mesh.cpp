@@ -137,6 +137,14 @@ void GrownMesh::merge_cells(std::vector<std::array<NodeId, width>>& cells, std::
   cells = std::move(merged);
 }
 
+std::vector<std::vector<std::int32_t>> GrownMesh::edge_leaves() const {
+  std::vector<std::vector<std::int32_t>> leaves(edges_.size());
+  for (std::size_t b = 0; b < edges_.size(); ++b) {
+    for (const OfLeaf<2>& edge : edges_[b]) leaves[b].push_back(edge.leaf);
+  }
+  return leaves;
+}
+
 void GrownMesh::merge_boundaries() {
   for (std::size_t b = 0; b < edges_.size(); ++b) {
     std::ranges::stable_sort(edges_[b], {}, &OfLeaf<2>::leaf);

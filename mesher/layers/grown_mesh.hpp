@@ -47,6 +47,8 @@ class GrownMesh {
   /// The mesh has grown; `append_behind` appends the places of the nodes behind an own node. Throws
   /// InputError, naming the place, for a cell that is not positive. *Collective.*
   void put_together(const std::function<void(NodeId, std::vector<Point>&)>& append_behind);
+  /// Of each boundary, the leaf of each of its edges in the mesh that has grown.
+  std::vector<std::vector<std::int32_t>> edge_leaves() const;
 
  private:
   template <std::size_t width>

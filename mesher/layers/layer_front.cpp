@@ -17,6 +17,15 @@ namespace {
 constexpr double leaf_over_last_layer = 2;
 constexpr double sine_of_sector = 0.3;  // columns of a fan are at least some 18 degrees apart
 
+/// The segments at which wakes begin.
+std::vector<std::int32_t> bases_of(const Geometry& g, const std::vector<PlacedLine>& lines) {
+  std::vector<std::int32_t> bases;
+  for (const PlacedLine& line : lines) {
+    for (std::int32_t s = line.edge; s != line.base_end; s = g.next(s)) bases.push_back(s);
+  }
+  return bases;
+}
+
 /// The outline outside the layers, on its way to a Geometry.
 class OuterOutline {
  public:
@@ -28,6 +37,7 @@ class OuterOutline {
         fitting_{fitting},
         curvature_{curvature},
         first_of_segment_(g_.points().size(), WallLine::none) {
+    bases_ = bases_of(g_, lines_);
     for (std::int32_t i = line_.size() - 1; i >= 0; --i) {
       if (begins(i)) first_of_segment_[line_[i].segment] = i;
     }
@@ -58,13 +68,25 @@ class OuterOutline {
   void add_segment(std::int32_t s) {
     if (const std::int32_t first = first_of_segment_[s]; first != WallLine::none) {
       add_front(first, s);
-    } else if (!begins_below(s)) {
+    } else if (!begins_below(s) && !is_base(s)) {
       add_vertex(g_.point(s), g_.boundary_of(s), WallLine::none, g_.spacing_of(s), g_.kept(s),
                  g_.bend_degrees(s));
     }
   }
   void add_front(std::int32_t first, std::int32_t s);
   void add_wake(std::int32_t i);
+  /// The station on the right of a wake's root.
+  std::int32_t first_at(const PlacedLine& wake) const {
+    const std::int32_t first = first_of_segment_[wake.base_end];
+    return line_[first].opens_wake ? line_.next(first) : first;
+  }
+  std::vector<Point> base_of(const PlacedLine& wake) const {
+    std::vector<Point> base;
+    for (std::int32_t v = wake.edge; v != wake.base_end; v = g_.next(v)) base.push_back(g_.point(v));
+    if (!base.empty()) base.push_back(g_.point(wake.base_end));
+    return base;
+  }
+  bool is_base(std::int32_t s) const { return std::ranges::find(bases_, s) != bases_.end(); }
   void add_free_strip(const PlacedLine& line);
   void add_front_of(const LayerStrip& strip);
   void add_vertex(Point p, BoundaryId boundary, std::int32_t station, double spacing, bool kept,
@@ -99,6 +121,7 @@ class OuterOutline {
   std::vector<char> kept_;
   std::vector<double> bend_;
   std::vector<LayerStrip> strips_;
+  std::vector<std::int32_t> bases_;  ///< segments
 };
 
 /// The stations of segment s from the first one on; where the run ends, the rest of the boundary that it ends
@@ -112,16 +135,20 @@ void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
       add_vertex(fitting_.front[i], g_.boundary_of(s), i, spacing_after(i), line_[i].kept, 0);
   }
   if (i == WallLine::none || line_[i].segment != s) return;
+  if (line_[i].opens_wake) return add_wake(i);
   std::int32_t on = g_.next(s);  // the segment on which the run's last column ends
   add_vertex(fitting_.front[i], g_.boundary_of(on), WallLine::none, g_.spacing_of(on), true, 0);
 }
 
 /// From the column on the left of a wake round its front, up to the column on its right.
 void OuterOutline::add_wake(std::int32_t i) {
-  const auto at = std::ranges::find(lines_, line_[i].segment, &PlacedLine::edge);
-  const std::int32_t before = line_.previous(i), right = line_.next(i);
+  const auto at = std::ranges::find_if(lines_, [&](const PlacedLine& line) {
+    return line.edge != PlacedLine::nowhere && g_.point(line.edge) == line_[i].wall;
+  });
+  const std::int32_t before = line_.previous(i), right = first_at(*at);
   const double spacing = std::min(spacing_after(before), spacing_after(right));
-  strips_.push_back(layer_strip(*at, WakeRoot{i, fitting_.front[i], fitting_.front[right], spacing}));
+  strips_.push_back(
+      layer_strip(*at, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(*at), spacing}));
   add_vertex(fitting_.front[i], strip_boundary(), WallLine::none, strips_.back().spacing[0], true, 0);
   add_front_of(strips_.back());
 }
@@ -220,9 +247,10 @@ LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature
   const std::vector<PlacedLine> placed = place_lines(geometry, lines);
   std::vector<WakeStart> wakes;
   for (const PlacedLine& p : placed) {
-    if (p.edge != PlacedLine::nowhere) wakes.push_back({p.edge, direction_of(p.path[0], p.path[1])});
+    if (p.edge != PlacedLine::nowhere)
+      wakes.push_back({p.edge, p.base_end, direction_of(p.path[0], p.path[1])});
   }
-  WallLine line(geometry, wall_runs(geometry), wakes);
+  WallLine line(geometry, wall_runs(geometry, bases_of(geometry, placed)), wakes);
   FittingColumns fitting = fit_thickness(line);
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}};
   OuterOutline(front.line, fitting, placed, curvature).build(front);

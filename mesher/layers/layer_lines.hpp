@@ -25,15 +25,19 @@ struct LayerLine {
 struct PlacedLine {
   static constexpr std::int32_t nowhere = -1;
 
-  std::int32_t edge = nowhere;  ///< the vertex that a wake begins at
-  std::vector<Point> path;      ///< two points at least, the first one the edge
+  /// The vertex that a wake begins at; of a blunt edge the first one, and the last, with the base between
+  /// them.
+  std::int32_t edge = nowhere, base_end = nowhere;
+  std::vector<Point> path;  ///< two points at least, the first one the edge or the middle of the base
   double spacing = 0;
   LayerSpec layers;
 };
 
 /// Finds the edges at which wakes begin: the only vertex of its boundary at which the wall turns away from
-/// the domain by more than 120 degrees. A wake without a path goes straight on, half way between the walls
-/// that meet there. Throws InputError for a boundary that is none, has no layers, no such edge or several.
+/// the domain by more than 120 degrees; or else the only base, between two corners of more than 50 degrees
+/// and shorter than a twentieth of the boundary's box, which together turn by more than 120. A wake without a
+/// path goes straight on, half way between the walls that meet there. Throws InputError for a boundary that
+/// is none, has no layers, no such edge or several.
 std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines);
 
 }  // namespace quadloop

@@ -9,10 +9,11 @@ namespace quadloop {
 
 namespace {
 
-constexpr double widening = 0.1;   // of columns, over the distance from an end
-constexpr double opening = 1.15;   // of the layer at the line, from column to column
-constexpr double spreading = 0.1;  // of all layers together, over the distance from a root
-constexpr double flattest = 0.7;   // height of a row over the width of its columns, at most
+constexpr double widening = 0.1;         // of columns, over the distance from an end
+constexpr double opening = 1.15;         // of the layer at the line, from column to column
+constexpr double spreading = 0.1;        // of all layers together, over the distance from a root
+constexpr double core_spreading = 0.05;  // of either half of the rows behind a base
+constexpr double flattest = 0.7;         // height of a row over the width of its columns, at most
 constexpr double triangle_height = 0.85, steepest_front = 0.85;
 constexpr double leaf_over_column = 1.2;
 
@@ -46,7 +47,12 @@ class Strip {
       : line_{line}, path_{line.path}, thickness_{layers_thickness(line.layers)} {
     strip_.root = root;
     strip_.layers = line.layers.count;
-    if (root) thickness_ = std::max(length(root->left - line.path[0]), length(root->right - line.path[0]));
+    if (!root) return;
+    thickness_ = std::max(length(root->left - foot(true)), length(root->right - foot(false)));
+    if (root->base.empty()) return;
+    half_base_ = 0.5 * length(root->base.front() - root->base.back());
+    constexpr int most_rows = 1000;
+    strip_.core = 2 * layers_within(line.layers, half_base_, most_rows);
   }
 
   LayerStrip built() && {
@@ -105,33 +111,70 @@ class Strip {
     const Point out = left ? normal : -1.0 * normal;
     if (!strip_.root) return out;
     const double share = std::min(1.0, s / (2 * thickness_));
-    const Point root = unit((left ? strip_.root->left : strip_.root->right) - line_.path[0]);
-    return unit((1 - share) * root + share * out);
+    return unit((1 - share) * unit(root_end(left) - foot(left)) + share * out);
+  }
+  Point root_end(bool left) const { return left ? strip_.root->left : strip_.root->right; }
+  /// Of the wall's columns at the root.
+  Point foot(bool left) const {
+    const std::vector<Point>& base = strip_.root->base;
+    return base.empty() ? line_.path[0] : left ? base.front() : base.back();
   }
   double thickness(std::size_t k, bool left) const {
     if (!strip_.root) return thickness_;
-    const double root = length((left ? strip_.root->left : strip_.root->right) - line_.path[0]);
+    const double root = length(root_end(left) - foot(left));
     return thickness_at(reached_[k]) -
            (thickness_ - root) * std::max(0.0, 1 - reached_[k] / (4 * thickness_));
   }
 
   std::vector<Point> column(std::size_t k) const {
-    const Point foot = k == last() ? line_.path.back() : path_.at(reached_[k]);
-    const auto side = [&](bool left) {
-      const double whole = thickness(k, left);
-      std::vector<Point> points;
-      for (const double height : column_heights(line_.layers, first_height(k), whole).reached)
-        points.push_back(foot + height * direction(k, left));
-      return points;
-    };
-    const std::vector<Point> right = side(false), left = side(true);
-    std::vector<Point> across(right.rbegin(), right.rend());
-    across.insert(across.end(), left.begin() + 1, left.end());
+    std::vector<Point> across = side(k, false);
+    std::ranges::reverse(across);
+    const std::vector<Point> left = side(k, true), core = core_rows(k, across.back(), left.front());
+    across.insert(across.end(), core.begin(), core.end());
+    across.insert(across.end(), left.begin() + (strip_.core == 0 ? 1 : 0), left.end());
     if (k == 0 && strip_.root) {  // to the last bit
       across.front() = strip_.root->right;
       across.back() = strip_.root->left;
     }
     return across;
+  }
+  /// From the line outwards; behind a base from the rows there on.
+  std::vector<Point> side(std::size_t k, bool left) const {
+    const Point on_line = k == last() ? line_.path.back() : path_.at(reached_[k]);
+    Point from = on_line;
+    if (strip_.core > 0) {
+      const double share = std::min(1.0, reached_[k] / (4 * half_base_));
+      const Point aside =
+          (1 - share) * (foot(left) - line_.path[0]) + share * half_base_ * direction(k, left);
+      from = k == 0 ? foot(left) : on_line + (half_core(k) / half_base_) * aside;
+    }
+    const double whole = thickness(k, left);
+    std::vector<Point> points;
+    for (const double height : column_heights(line_.layers, first_height(k), whole).reached)
+      points.push_back(from + height * direction(k, left));
+    return points;
+  }
+  /// The rows behind a base open as the layers beside them do.
+  double half_core(std::size_t k) const {
+    const double open = strip_.core / 2 * first_height(k), widest = half_base_ + core_spreading * reached_[k];
+    return std::max(half_base_, std::min(open, widest));
+  }
+  /// Between the feet, without these: as high as the layers beside them there, growing to the middle.
+  std::vector<Point> core_rows(std::size_t k, Point right, Point left) const {
+    if (strip_.core == 0) return {};
+    LayerSpec half = line_.layers;
+    half.count = strip_.core / 2;
+    const double width = length(left - right);
+    const std::vector<double> heights = column_heights(half, first_height(k), 0.5 * width).reached;
+    const Path base(strip_.root->base);
+    const auto at = [&](double share, bool from_left) {  // of the width
+      if (k == 0) return base.at((from_left ? share : 1 - share) * base.length());
+      return from_left ? left + share * (right - left) : right + share * (left - right);
+    };
+    std::vector<Point> rows;
+    for (int row = 1; row <= half.count; ++row) rows.push_back(at(heights[row] / width, false));
+    for (int row = half.count - 1; row > 0; --row) rows.push_back(at(heights[row] / width, true));
+    return rows;
   }
 
   /// Between the last row and the front.
@@ -165,7 +208,8 @@ class Strip {
 
   /// The two corners beyond a free end.
   void add_cap(std::size_t k, Point out, bool left_first, std::size_t corner) {
-    const double row = length(strip_.columns[k].back() - strip_.columns[k].front()) / (2 * layers());
+    const double row =
+        length(strip_.columns[k].back() - strip_.columns[k].front()) / (2 * layers() + strip_.core);
     const Point beyond = triangle_height * row * out;
     strip_.corners[corner] = strip_.front.size();
     add_front(outside(k, left_first) + beyond, leaf_over_column * row);
@@ -175,7 +219,7 @@ class Strip {
 
   const PlacedLine& line_;
   Path path_;
-  double thickness_;
+  double thickness_, half_base_ = 0;
   std::vector<double> reached_;  ///< arc length to each column
   LayerStrip strip_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -11,8 +12,9 @@ namespace quadloop {
 /// The two columns at the edge from which a wake goes on, with the domain to the left of the wake and to its
 /// right.
 struct WakeRoot {
-  std::int32_t station = 0;  ///< of the WallLine: the column on the left; the other one is the next
+  std::int32_t station = 0;  ///< of the WallLine: the column on the left
   Point left, right;         ///< their ends on the front
+  std::vector<Point> base;   ///< of a blunt edge: the wall from the left column to the right one
   double spacing = 0;        ///< wanted along the wall there
 };
 
@@ -21,7 +23,8 @@ struct WakeRoot {
 struct LayerStrip {
   std::optional<WakeRoot> root;  ///< its first column is the wall's two
   int layers = 0;                ///< on either side
-  /// 2 layers + 1 points each, from right to left.
+  int core = 0;                  ///< rows between them, behind a blunt edge; even
+  /// 2 layers + core + 1 points each, from right to left.
   std::vector<std::vector<Point>> columns;
   std::vector<Point> front;     ///< outside of it: along the left, round the end, back along the right; of a
                                 ///< free line round its beginning too, else from and to the root's columns

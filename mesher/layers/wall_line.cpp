@@ -79,7 +79,7 @@ void WallLine::add_corner(const WallRun& run, std::size_t k) {
   station.layers = run.layers[k];
   station.kept = g.kept(after);
   const Point first = left_of(station.before), last = left_of(station.after);
-  if (const auto wake = std::ranges::find(wakes_, after, &WakeStart::vertex); wake != wakes_.end())
+  if (const auto wake = std::ranges::find(wakes_, after, &WakeStart::first); wake != wakes_.end())
     return add_wake(station, run.layers[before_k], *wake);
   const double turn = cross(station.before, station.after), cosine = dot(station.before, station.after);
   if (turn < 0 && cosine < cosine_of_sharp_edge) {
@@ -106,7 +106,7 @@ void WallLine::add_wake(Station station, BoundaryId before, const WakeStart& wak
   const BoundaryId after = station.layers;
   station.shape = Station::Shape::fan;
   station.kept = true;
-  station.opens_wake = true;
+  station.at_wake = station.opens_wake = true;
   station.layers = before;
   station.direction = unit(left_of(station.before) + left_of(wake.direction));
   stations_.push_back(station);
@@ -149,6 +149,12 @@ void WallLine::add_end(const WallRun& run, bool first) {
   station.kept = true;
   station.direction = first ? direction_of(g.point(vertex), g.point(g.previous(vertex)))
                             : direction_of(g.point(vertex), g.point(g.next(vertex)));
+  const auto wake = std::ranges::find(wakes_, vertex, first ? &WakeStart::last : &WakeStart::first);
+  if (wake != wakes_.end()) {
+    station.at_wake = true;
+    station.opens_wake = !first;
+    station.direction = unit(left_of(station.after) + (first ? -1 : 1) * left_of(wake->direction));
+  }
   const double along = dot(station.direction, station.after);
   station.slope = (first ? along : -along) / dot(station.direction, left_of(station.after));
   stations_.push_back(station);

@@ -23,7 +23,8 @@ struct Station {
   std::int32_t segment = 0;  ///< of the geometry: that after it, or before it where a run ends
   BoundaryId layers;         ///< whose layers it carries
   Shape shape = Shape::smooth;
-  bool opens_wake = false;  ///< a wake lies between it and the next station
+  bool at_wake = false;     ///< a wake begins there
+  bool opens_wake = false;  ///< and lies between it and the next station
   bool kept = false;        ///< must be a node, on the wall and on the front
   double slope = 0;  ///< of a concave corner's or an end's column, over the normal, away from the corner
   Point direction;   ///< of its column: given in fans and at ends, elsewhere the middle of the two normals
@@ -33,10 +34,10 @@ struct Station {
 
 constexpr double cosine_of_sharp_edge = -0.5;  ///< where the wall turns by more than 120 degrees
 
-/// A sharp edge that a wake begins at.
+/// An edge that a wake begins at.
 struct WakeStart {
-  std::int32_t vertex = 0;
-  Point direction;  ///< of the wake, of length 1
+  std::int32_t first = 0, last = 0;  ///< vertices: one and the same at a sharp edge
+  Point direction;                   ///< of the wake, of length 1
 };
 
 /// The walls that carry layers, as stations no farther apart than an eighth of the layers' thickness. Flat:
