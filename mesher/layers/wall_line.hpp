@@ -36,6 +36,7 @@ class WallLine {
  public:
   static constexpr std::int32_t none = -1;
 
+  /// `geometry` must outlive it.
   WallLine(const Geometry& geometry, const std::vector<WallRun>& runs);
 
   std::int32_t size() const { return size32(stations_); }
