@@ -39,7 +39,7 @@ struct LayerFront {
 /// come close to each other or turn sharply into the domain, so that no two columns meet, and each wall keeps
 /// room for cells outside; both are proved with exact signs. `curvature`: degrees that the wall may turn
 /// along one cell. A function of the geometry alone; mirror images have mirrored fronts. Throws InputError,
-/// naming the place, where no layers fit.
+/// naming the place, where no layers fit. `geometry` must outlive the result.
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature = {},
                        const std::vector<LayerLine>& lines = {});
 

@@ -105,9 +105,14 @@ class Strip {
     return std::min(std::max({from_root, from_end, line_.layers.first}), even);
   }
 
+  /// Of the line: bends are rounded over the layers' thickness, so that columns on their inner side do not
+  /// meet.
+  Point along(std::size_t k) const {
+    return path_.direction(reached_[k], std::max(width_at(k), thickness_at(reached_[k])));
+  }
   Point direction(std::size_t k, bool left) const {
     const double s = reached_[k];
-    const Point normal = left_of(path_.direction(s, width_at(k)));
+    const Point normal = left_of(along(k));
     const Point out = left ? normal : -1.0 * normal;
     if (!strip_.root) return out;
     const double share = std::min(1.0, s / (2 * thickness_));
@@ -203,8 +208,8 @@ class Strip {
       add_front(outside(k, left), asked(left || k == 0 ? k : k - 1));
     }
   }
-  void add_end() { add_cap(last(), path_.direction(path_.length(), width_at(last())), true, 0); }
-  void add_beginning() { add_cap(0, -1.0 * path_.direction(0, width_at(0)), false, 2); }
+  void add_end() { add_cap(last(), along(last()), true, 0); }
+  void add_beginning() { add_cap(0, -1.0 * along(0), false, 2); }
 
   /// The two corners beyond a free end.
   void add_cap(std::size_t k, Point out, bool left_first, std::size_t corner) {

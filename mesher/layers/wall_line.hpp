@@ -46,7 +46,8 @@ class WallLine {
  public:
   static constexpr std::int32_t none = -1;
 
-  /// Where a wake begins there is no fan but two columns, one for each side of the wake.
+  /// Where a wake begins there is no fan but two columns, one for each side of the wake. `geometry` must
+  /// outlive it.
   WallLine(const Geometry& geometry, const std::vector<WallRun>& runs,
            const std::vector<WakeStart>& wakes = {});
 
