@@ -147,6 +147,36 @@ TEST_F(SettingsTest, RefusesBadLayers) {
             0u);
 }
 
+TEST_F(SettingsTest, ReadsWakesAndFreeLinesWithLayers) {
+  EXPECT_TRUE(read("").lines.empty());
+  const Settings settings = read(
+      "[[wake]]\nfrom = \"box\"\nlength = 3\nspacing = 0.1\n"
+      "[[wake]]\nfrom = \"box\"\npath = [[2, 0], [4, 1]]\nspacing = 0.2\n"
+      "[[layer_line]]\npath = [[0, 0], [1, 1]]\nspacing = 0.3\nfirst = 1e-3\ncount = 5\n");
+  ASSERT_EQ(settings.lines.size(), 3U);
+  EXPECT_EQ(settings.lines[0], (LayerLine{"box", {}, 3, 0.1, {}}));
+  EXPECT_EQ(settings.lines[1], (LayerLine{"box", {{2, 0}, {4, 1}}, 0, 0.2, {}}));
+  EXPECT_EQ(settings.lines[2], (LayerLine{"", {{0, 0}, {1, 1}}, 0, 0.3, LayerSpec{1e-3, 1.2, 1.2, 5, 1}}));
+}
+
+TEST_F(SettingsTest, RefusesBadWakesAndFreeLines) {
+  const auto wake = [&](const std::string& text) { return refused("[[wake]]\n" + text + "\n"); };
+  const auto line = [&](const std::string& text) { return refused("[[layer_line]]\n" + text + "\n"); };
+  const auto has = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  has(wake("length = 1\nspacing = 1"), "from' is missing");
+  has(wake("from = \"a\"\nspacing = 1"), "length' or path must be given");
+  has(wake("from = \"a\"\nlength = 1\npath = [[1, 1]]\nspacing = 1"), "length' or path must be given");
+  has(wake("from = \"a\"\nlength = 1"), "spacing' is missing");
+  has(wake("from = \"a\"\nlength = 1\nspacing = 0"), "spacing' is 0");
+  has(wake("from = \"a\"\npath = [[1, 1], [1, 1]]\nspacing = 1"),
+      "path' has the point (1, 1) twice in a row");
+  has(wake("from = \"a\"\nlength = 1\nspacing = 1\nfirst = 1"), "unknown key");
+  has(line("path = [[1, 1]]\nspacing = 1\nfirst = 1\ncount = 1"), "path' must have two points at least");
+  has(line("path = [[1, 1], [2, 2]]\nspacing = 1\ncount = 1"), "first' is missing");
+}
+
 TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(refused("[spacing]\nfoo = 1\n").find("case.toml:4: unknown key 'spacing.foo'"), 0u);
   EXPECT_EQ(refused("[spacings]\n").find("case.toml:3: unknown key 'spacings'"), 0u);
