@@ -71,12 +71,21 @@ MeshInput outside(const MeshInput& input, const LayerFront& front) {
   return outer;
 }
 
+/// Files keep with the mesh how many layers its boundaries have.
+void name_layers(const Geometry& geometry, Mesh& mesh) {
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+    const auto& layers = geometry.boundaries()[b].layers;
+    if (layers) mesh.boundaries[b].layers = {layers->count, layers_thickness(*layers)};
+  }
+}
+
 /// Layers on all walls that ask for them. *Collective.*
 void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFront& front,
                  MeshResult& result) {
   std::function<TieRank(Point)> divide;
   if (input.mesh.type == MeshType::delaunay) divide = order_of_nodes(input, result.report.finest_allowed);
   add_layers(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
+  name_layers(input.geometry, result.mesh);
   TreeAttributes& a = result.tree.attributes;
   a.geometry_digest = input.geometry.digest();
   a.nodes = comm.sum(result.mesh.owned_nodes);

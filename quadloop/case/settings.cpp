@@ -15,6 +15,7 @@
 #include "mesher/geometry/boundary_conditions.hpp"
 #include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
+#include "quadloop/case/layer_settings.hpp"
 
 namespace quadloop {
 
@@ -76,44 +77,7 @@ void read_spacing_table(const CaseTable& root, Settings& settings) {
   }
 }
 
-constexpr int most_layers = 1000;
-
-int read_count(const CaseTable& table, const std::string& key, double most) {
-  const double count = table.number(key, {1, most}).value_or(1);
-  if (count != std::floor(count)) table.refuse(key, "must be a whole number of layers");
-  return static_cast<int>(count);
-}
-
-LayerSpec read_layers(const CaseTable& table) {
-  LayerSpec spec;
-  const auto first = table.number("first", Range::positive());
-  if (!first) table.refuse("first", "is missing: the height of the layer at the wall");
-  spec.first = *first;
-  if (table.has("growth")) {
-    const std::vector<double> growth = table.numbers_or_one("growth", {1, 2});
-    if (growth.empty() || growth.size() > 2 || growth.front() > growth.back())
-      table.refuse("growth", "must be a number, or two of which the second is not less");
-    spec.growth = growth.front();
-    spec.growth_to = growth.back();
-  }
-  spec.equal = read_count(table, "equal", most_layers);
-  const auto thickness = table.number("thickness", Range::positive());
-  if (thickness.has_value() == table.has("count"))
-    table.refuse("count", "or thickness must be given: how many layers, or how thick they are together");
-  spec.count =
-      thickness ? layers_within(spec, *thickness, most_layers + 1) : read_count(table, "count", most_layers);
-  if (spec.count > most_layers)
-    table.refuse("thickness", fmt::format("takes more than {} layers; let them grow faster", most_layers));
-  table.finish();
-  return spec;
-}
-
-void read_boundary_tables(const CaseTable& root, Settings& settings) {
-  if (settings.far_field) {
-    settings.outline.rules.push_back(
-        {"farfield", {}, {}, "farfield", settings.far_field->where, false, true});  // unless the case says
-                                                                                    // other
-  }
+void read_rules(const CaseTable& root, LayerSettings& layer_settings, Settings& settings) {
   const auto tables = root.table("boundary");
   if (!tables) return;
   for (const std::string& name : tables->table_names()) {
@@ -124,7 +88,7 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
     rule.spacing = table.number("spacing", Range::positive());
     rule.corner_degrees = table.number("corner", {0, 180});
     rule.corner_spacing = table.number("corner_spacing", Range::positive());
-    if (const auto layers = table.table("layers")) rule.layers = read_layers(*layers);
+    if (const auto layers = table.table("layers")) rule.layers = layer_settings.read(*layers);
     rule.condition = table.choice("bc", condition_words());
     if (const auto pressure = table.number("pressure", Range::positive())) {
       if (rule.condition != "outflow")
@@ -134,6 +98,17 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
     table.finish();
     settings.outline.rules.push_back(std::move(rule));
   }
+}
+
+void read_boundary_tables(const CaseTable& root, Settings& settings) {
+  if (settings.far_field) {
+    settings.outline.rules.push_back(
+        {"farfield", {}, {}, "farfield", settings.far_field->where, false, true});  // unless the case says
+                                                                                    // other
+  }
+  LayerSettings layer_settings(root);
+  read_rules(root, layer_settings, settings);
+  settings.warnings = layer_settings.unused();
 }
 
 constexpr double largest_coordinate = 1e100;
