@@ -100,7 +100,7 @@ bool has_layers(const Geometry& geometry) {
 /// The mesh outside of layers, or the whole where there are none, complete but for its digests. *Collective.*
 GeneratedMesh generate_outer(const Communicator& comm, const MeshInput& input,
                              const DemandedSplits& demanded) {
-  GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}};
+  GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}, {}};
   MeshResult& result = generated.result;
   generated.times.append(result.report.times);
   require_area(comm, input.geometry, result.report.area_dropped, result.mesh);
@@ -120,6 +120,9 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   GeneratedMesh generated = generate_outer(comm, outside(input, front), demanded);
   times.append(generated.times);
   times.begin("layers");
+  generated.layers = report_layers(comm, front, generated.result.mesh);
+  for (std::string& warning : warnings_of(generated.layers))
+    generated.result.report.warnings.push_back(std::move(warning));
   fill_layers(comm, input, front, generated.result);
   times.end();
   generated.times = times;

@@ -146,14 +146,6 @@ LayerPlaces layer_places(const Communicator& comm, const Mesh& mesh) {
   }
 }
 
-Mesh without_layers(const Mesh& mesh, const LayerPlaces& places) {
-  Mesh rest = mesh;
-  const auto in_layers = [&](const auto& nodes) { return is_layer_cell(places, nodes); };
-  std::erase_if(rest.triangles, in_layers);
-  std::erase_if(rest.quads, in_layers);
-  return rest;
-}
-
 IdVector<NodeId, double> heights_to_front(const Communicator& comm, const Mesh& mesh,
                                           const LayerPlaces& places) {
   constexpr double unknown = std::numeric_limits<double>::infinity();

@@ -40,9 +40,6 @@ bool is_layer_cell(const LayerPlaces& places, const Nodes& nodes) {
          std::ranges::any_of(nodes, [&](NodeId node) { return places[node].left > 0; });
 }
 
-/// The mesh without the cells of layers; its nodes stay.
-Mesh without_layers(const Mesh& mesh, const LayerPlaces& places);
-
 /// How high the layers reach above each of their nodes, copies too: the least sum of edges, one for each
 /// layer, on to the front. Above the wall that is the column's length. 0 elsewhere. The same bits on any
 /// number of ranks. *Collective.*

@@ -8,6 +8,7 @@
 
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/id_vector.hpp"
 
 namespace quadloop {
 

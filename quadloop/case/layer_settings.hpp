@@ -4,6 +4,7 @@
 #include <string>
 
 #include "io/input/case_file.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/layer_spec.hpp"
 #include "quadloop/case/first_height.hpp"
