@@ -17,7 +17,6 @@ void keep_layers(const Communicator& comm, const Mesh& mesh, SmoothOptions& opti
 /// those of layers: a negative one of its own for a triangle in layers, else what `given` says, or 0 where it
 /// is empty. *Collective.*
 std::vector<std::int32_t> blocks_for_flips(const Communicator& comm, const Mesh& mesh,
-                                           const LayerPlaces& places,
-                                           const std::vector<std::int32_t>& given);
+                                           const LayerPlaces& places, const std::vector<std::int32_t>& given);
 
 }  // namespace quadloop

@@ -95,8 +95,8 @@ void add_layers(Figures& figures, const LayerReport& report, std::size_t most) {
 }
 
 void add_layers(Figures& figures, const std::vector<LayerFigures>& layers, std::size_t most) {
-  std::vector<const char*> columns{"count", "columns", "first", "median", "largest",
-                                   "growth", "to",     "thick",  "to"};
+  std::vector<const char*> columns{"count",  "columns", "first", "median", "largest",
+                                   "growth", "to",      "thick", "to"};
   if (std::ranges::any_of(layers, [](const LayerFigures& row) { return row.asked > 0; }))
     columns.push_back("of asked");
   add_rows(figures, layers, columns, most);

@@ -34,8 +34,8 @@ WallLayers layers_of_text(std::string_view text) {
   const bool is_count = error == std::errc{} && stopped == count.data() + count.size() && layers.count > 0;
   if (!is_count || !next_word(text).empty()) return {};
   if (thickness.empty()) return layers;
-  const bool is_thickness = parse_real(thickness, layers.thickness) && std::isfinite(layers.thickness) &&
-                            layers.thickness >= 0;
+  const bool is_thickness =
+      parse_real(thickness, layers.thickness) && std::isfinite(layers.thickness) && layers.thickness >= 0;
   return is_thickness ? layers : WallLayers{};
 }
 

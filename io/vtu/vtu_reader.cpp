@@ -125,9 +125,9 @@ class VtuReader {
     const VtuArray* const thicknesses = document_.find("FieldData", vtu_layer_thicknesses);
     if (counts == nullptr || counts->type.starts_with("Float")) return;
     const std::vector<std::int64_t> of_boundary = numbers_.integers(*counts, std::ssize(boundary_names_));
-    const std::vector<double> thickness =
-        thicknesses == nullptr ? std::vector<double>(of_boundary.size())
-                               : finite_reals(*thicknesses, std::ssize(boundary_names_), 1);
+    const std::vector<double> thickness = thicknesses == nullptr
+                                              ? std::vector<double>(of_boundary.size())
+                                              : finite_reals(*thicknesses, std::ssize(boundary_names_), 1);
     has_layers_ = true;
     for (std::size_t b = 0; b < of_boundary.size(); ++b) {
       const bool is_count = of_boundary[b] > 0 && of_boundary[b] <= std::numeric_limits<std::int32_t>::max();

@@ -168,8 +168,7 @@ class VtuWriter {
   template <class Value>
   void write_reals(const std::string& name, const Value& value) {
     file_.write(array_tag("Float64", name));
-    file_.write_rows(mesh_.owned_nodes, 1,
-                     [&](TextRows& text, std::size_t i) { text.put(value(i), '\n'); });
+    file_.write_rows(mesh_.owned_nodes, 1, [&](TextRows& text, std::size_t i) { text.put(value(i), '\n'); });
     file_.write("</DataArray>\n");
   }
 

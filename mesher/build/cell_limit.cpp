@@ -115,9 +115,10 @@ std::string cure_for(const MeshEstimate& estimate, const Geometry& geometry, con
   const MeshLimit& limit = options.limit;
   const DemandedSplits none;
   if (demanded.empty() && 2 * estimate.layer_cells > estimate.cells)
-    return fmt::format("{} of them are in layers: ask for fewer, or for thicker ones with a larger growth, as "
-                       "a column is no wider than its last two layers are high",
-                       text_of_cells(estimate.layer_cells));
+    return fmt::format(
+        "{} of them are in layers: ask for fewer, or for thicker ones with a larger growth, as "
+        "a column is no wider than its last two layers are high",
+        text_of_cells(estimate.layer_cells));
   if (!demanded.empty()) {
     SizedDomain domain(geometry, options.size, none);
     if (share_of(limit, estimate_mesh(geometry, options.type, domain)) <= margin)

@@ -131,12 +131,14 @@ std::vector<std::string> warnings_of(const LayerReport& report) {
   std::vector<std::string> warnings;
   for (const BoundaryLayerReport& row : report) {
     if (row.share_least >= few) continue;
-    warnings.push_back(fmt::format(
-        "boundary '{}': near ({:.6g}, {:.6g}) its {} layers reach {:.0f} % of the thickness asked for, {:.3g}, "
-        "as walls come close or turn sharply there: they grow by {:.3g} instead of {:.3g}; {:.1f} % of the wall "
-        "have all of it",
-        row.boundary, row.least.x, row.least.y, row.reached, 100 * row.share_least, row.thickness_asked,
-        row.growth_least, row.growth_asked, 100 * row.share_full));
+    warnings.push_back(
+        fmt::format("boundary '{}': near ({:.6g}, {:.6g}) its {} layers reach {:.0f} % of the thickness "
+                    "asked for, {:.3g}, "
+                    "as walls come close or turn sharply there: they grow by {:.3g} instead of {:.3g}; "
+                    "{:.1f} % of the wall "
+                    "have all of it",
+                    row.boundary, row.least.x, row.least.y, row.reached, 100 * row.share_least,
+                    row.thickness_asked, row.growth_least, row.growth_asked, 100 * row.share_full));
   }
   return warnings;
 }

@@ -44,8 +44,8 @@ void read_count(const CaseTable& table, LayerSpec& spec) {
     return;
   }
   if (*thickness < spec.first)
-    table.refuse("thickness", fmt::format("is {}, less than the first layer's height of {}", *thickness,
-                                          spec.first));
+    table.refuse("thickness",
+                 fmt::format("is {}, less than the first layer's height of {}", *thickness, spec.first));
   spec.count = layers_within(spec, *thickness, most_layers + 1);
   if (spec.count > most_layers)
     table.refuse("thickness", fmt::format("takes more than {} layers; let them grow faster", most_layers));
@@ -72,7 +72,8 @@ double LayerSettings::first_height(const CaseTable& layers) {
   constexpr std::string_view head = "yplus:";
   const std::string text = *layers.text("first");
   double y_plus = 0;
-  const bool is_y_plus = text.starts_with(head) && parse_real(std::string_view(text).substr(head.size()), y_plus) &&
+  const bool is_y_plus = text.starts_with(head) &&
+                         parse_real(std::string_view(text).substr(head.size()), y_plus) &&
                          std::isfinite(y_plus) && y_plus > 0;
   if (!is_y_plus)
     layers.refuse("first", fmt::format("is '{}', but must be a height above 0, or \"yplus:1\" with any "
@@ -93,7 +94,8 @@ LayerSpec LayerSettings::read(const CaseTable& layers) {
   spec.equal = read_number_of_layers(layers, "equal");
   read_count(layers, spec);
   if (spec.equal > spec.count)
-    layers.refuse("equal", fmt::format("is {}, more than the {} layers that there are", spec.equal, spec.count));
+    layers.refuse("equal",
+                  fmt::format("is {}, more than the {} layers that there are", spec.equal, spec.count));
   layers.finish();
   return spec;
 }
@@ -114,10 +116,11 @@ void require_layers_that_doubles_hold(const Geometry& geometry) {
   for (const BoundaryId b : largest.ids()) {
     const Boundary& boundary = geometry.boundary(b);
     if (!boundary.layers || boundary.layers->first >= steps * largest[b]) continue;
-    throw InputError(fmt::format("boundary {}: a first layer of {} is too thin for coordinates as large as {}: "
-                                 "numbers do not hold it; move the geometry nearer to the origin, or make it "
-                                 "thicker than {:.1g}",
-                                 boundary.name, boundary.layers->first, largest[b], steps * largest[b]));
+    throw InputError(
+        fmt::format("boundary {}: a first layer of {} is too thin for coordinates as large as {}: "
+                    "numbers do not hold it; move the geometry nearer to the origin, or make it "
+                    "thicker than {:.1g}",
+                    boundary.name, boundary.layers->first, largest[b], steps * largest[b]));
   }
 }
 

@@ -54,8 +54,8 @@ class Columns {
 
  private:
   bool is_above(NodeId low, NodeId high) const {
-    return places_[low].valid() && places_[high].valid() &&
-           places_[high].boundary == places_[low].boundary && places_[high].left == places_[low].left - 1;
+    return places_[low].valid() && places_[high].valid() && places_[high].boundary == places_[low].boundary &&
+           places_[high].left == places_[low].left - 1;
   }
   const std::vector<NodeId>* above(NodeId node) const {
     const auto found = above_.find(node);

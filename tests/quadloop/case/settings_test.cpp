@@ -121,9 +121,6 @@ TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(refused("[boundary.box]\nbc = \"wall\"\npressure = 1\n")
                 .find("case.toml:5: 'boundary.box.pressure' needs bc"),
             0u);
-  EXPECT_EQ(refused("[boundary.box]\nlayers = { first = 1, growth = 1.2, count = 3 }\n")
-                .find("case.toml:4: unknown key 'boundary.box.layers'"),
-            0u);
   EXPECT_EQ(refused("[output]\npartitions = 0\n").find("case.toml:4: unknown key 'output.partitions'"), 0u);
   EXPECT_EQ(refused("[spacing]\nmin = 0\n").find("case.toml:4: 'spacing.min' is 0"), 0u);
   EXPECT_EQ(refused("[spacing]\nmin = 2\nmax = 1\n")
