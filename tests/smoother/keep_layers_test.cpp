@@ -41,7 +41,9 @@ void expect_layers_kept(const LayeredStrip& strip, const Mesh& after, const Mesh
   bool moved = false;
   for (std::int32_t i = 0; i < after.owned_nodes; ++i) {
     const bool in_layers = before.points[i].y <= strip.height(strip.layers);
-    if (in_layers) EXPECT_EQ(after.points[i], before.points[i]);
+    if (in_layers) {
+      EXPECT_EQ(after.points[i], before.points[i]);
+    }
     moved = moved || after.points[i] != before.points[i];
   }
   EXPECT_TRUE(world().any(moved));
@@ -80,7 +82,9 @@ TEST(KeepLayers, FlipsSpareTheirCells) {
   const LayerPlaces places = layer_places(world(), mesh);
   bool flipped = false;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (is_layer_cell(places, before.triangles[t])) EXPECT_EQ(mesh.triangles[t], before.triangles[t]);
+    if (is_layer_cell(places, before.triangles[t])) {
+      EXPECT_EQ(mesh.triangles[t], before.triangles[t]);
+    }
     flipped = flipped || mesh.triangles[t] != before.triangles[t];
   }
   EXPECT_TRUE(world().any(flipped));
@@ -93,10 +97,11 @@ TEST(BlocksForFlips, AreOneEachInLayersAndAsTheyWereElsewhere) {
   const std::vector<std::int32_t> blocks = blocks_for_flips(world(), mesh, places, given);
   std::vector<std::int32_t> of_layers;
   for (std::size_t t = 0; t < blocks.size(); ++t) {
-    if (is_layer_cell(places, mesh.triangles[t]))
+    if (is_layer_cell(places, mesh.triangles[t])) {
       of_layers.push_back(blocks[t]);
-    else
+    } else {
       EXPECT_EQ(blocks[t], 3);
+    }
   }
   const auto all = world().all_gather_values(std::span<const std::int32_t>(of_layers));
   EXPECT_EQ(all.size(), 72U);
