@@ -44,6 +44,11 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   report.quality = summarise_quality(Communicator(MPI_COMM_SELF), mesh);
   report.shape = shape_statistics(mesh, chains == nullptr ? std::span<const Chain>() : std::span(*chains));
   report.figures = shape_figures(Communicator(MPI_COMM_SELF), mesh);
+  if (has_layers(mesh)) {
+    const LayerPlaces places = layer_places(Communicator(MPI_COMM_SELF), mesh);
+    report.layers = layer_figures(mesh, places);
+    report.by_layers = quality_by_layers(Communicator(MPI_COMM_SELF), mesh, places);
+  }
   report.area = area_of(mesh);
   report.pinched_nodes = pinched_nodes(mesh);
   report.faults = validate(mesh, {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block});

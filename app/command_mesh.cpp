@@ -128,7 +128,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   context.warn(prepared.input.warnings);
   context.warn(generated.result.report.warnings);
   for (const std::string& file : prepared.files) context.warn(renames_in(generated.result.mesh, file));
-  const MeshSummary summary = summarise(comm, generated.result, times.stages(), prepared.files);
+  const MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
   context.warn(solver_warnings(prepared.input.settings, summary.shape));
   context.record.figures = record_of(summary);
   context.record.files = summary.files;

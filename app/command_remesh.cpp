@@ -163,7 +163,7 @@ SolvedMesh compare(const Communicator& comm, const RemeshArguments& arguments, P
 void report(const CommandContext& context, const CarriedMesh& carried, const StageTimes& times,
             const std::vector<std::string>& files) {
   for (const std::string& file : files) context.warn(renames_in(carried.generated.result.mesh, file));
-  const MeshSummary summary = summarise(context.comm, carried.generated.result, times.stages(), files);
+  const MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), files);
   const Figures of_transfer = transfer_figures(carried);
   context.record.figures = record_of(summary);
   context.record.figures.append(of_transfer.record());

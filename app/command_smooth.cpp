@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <mpi.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -23,6 +25,7 @@
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "smoother/keep_layers.hpp"
 #include "smoother/outline/outline_match.hpp"
 #include "smoother/smooth_mesh.hpp"
 
@@ -62,6 +65,38 @@ NodeFlags interface_nodes(const LoadedMesh& loaded) {
   return shared;
 }
 
+/// Layers are cut by the shorter diagonals; that may be Delaunay or not.
+bool is_delaunay_outside_layers(const LoadedMesh& loaded) {
+  const Communicator alone(MPI_COMM_SELF);
+  const Mesh& mesh = loaded.mesh;
+  return is_delaunay(mesh,
+                     blocks_for_flips(alone, mesh, layer_places(alone, mesh), loaded.triangle_to_block));
+}
+
+constexpr double most_stretched = 20;  // longest edge over the shortest
+
+/// Layers of another program's mesh would be evened out.
+Warnings doubts_about_stretched(const Mesh& mesh, const std::string& path) {
+  if (has_layers(mesh)) return {};
+  std::int64_t stretched = 0;
+  const auto look_at = [&](const auto& nodes) {
+    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const double edge = length(mesh.point(nodes[(k + 1) % nodes.size()]) - mesh.point(nodes[k]));
+      shortest = std::min(shortest, edge);
+      longest = std::max(longest, edge);
+    }
+    if (longest > most_stretched * shortest) ++stretched;
+  };
+  for (const auto& nodes : mesh.triangles) look_at(nodes);
+  for (const auto& nodes : mesh.quads) look_at(nodes);
+  if (stretched == 0) return {};
+  return {fmt::format(
+      "{}: {} cells are more than {:g} times as long as wide; if these are layers at a wall they are evened "
+      "out, unless a .mesh file says '# layers NAME COUNT' before the number of edges of that boundary",
+      path, stretched, most_stretched)};
+}
+
 Geometry read_outline(const std::string& path, Warnings& warnings) {
   AssembleOptions options;
   options.domain_is_known = true;
@@ -93,7 +128,8 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     }
     loaded.order = space_filling_order(loaded.whole.mesh);
     if (loaded.whole.blocks > 1) loaded.pinned = interface_nodes(loaded.whole);
-    loaded.delaunay = is_delaunay(loaded.whole.mesh, loaded.whole.triangle_to_block);
+    loaded.delaunay = is_delaunay_outside_layers(loaded.whole);
+    append(warnings, doubts_about_stretched(loaded.whole.mesh, arguments.input));
     if (loaded.whole.solution && arguments.sweeps > 0)
       warnings.push_back(arguments.input +
                          ": the solution stays with its nodes, which move; it is that of the old mesh");
@@ -114,11 +150,13 @@ SmoothOptions options_of(const Communicator& comm, const SmoothArguments& argume
   options.objective = *value_of(objective_words, arguments.objective);
   options.pinned = NodeFlags(scatter_nodes(comm, loaded.pinned, loaded.order));
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
-  if (!loaded.delaunay) return options;
-  options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);
-  options.delaunay = [centre = box_over_ranks(comm, part.points).centre()](Point p) {
-    return tie_rank(centre, p);
-  };
+  if (loaded.delaunay) {
+    options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);
+    options.delaunay = [centre = box_over_ranks(comm, part.points).centre()](Point p) {
+      return tie_rank(centre, p);
+    };
+  }
+  keep_layers(comm, part, options);
   return options;
 }
 

@@ -16,7 +16,8 @@ enum class Content {
   solution,
   constants,  ///< of the solution
   blocks,
-  conditions  ///< of boundaries
+  conditions,  ///< of boundaries
+  layers       ///< on boundaries: how many
 };
 
 /// A row of the table of formats: a file holds a mesh, often with a solution, or a solution alone. Whoever

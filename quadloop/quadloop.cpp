@@ -1,6 +1,7 @@
 #include "quadloop/quadloop.hpp"
 
 #include <fmt/format.h>
+#include <mpi.h>
 
 #include <optional>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "quadloop/case/case_input.hpp"
+#include "smoother/keep_layers.hpp"
 #include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
@@ -34,7 +36,9 @@ std::string text_of(const MeshFault& fault) {
 /// *Collective.*
 bool all_delaunay(const Communicator& comm, const Mesh& mesh) {
   const Mesh whole = gather_whole(comm, mesh);
-  return comm.any(comm.is_root() && is_delaunay(whole));
+  if (!comm.is_root()) return comm.any(false);
+  const Communicator alone(MPI_COMM_SELF);
+  return comm.any(is_delaunay(whole, blocks_for_flips(alone, whole, layer_places(alone, whole), {})));
 }
 
 void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field) {
@@ -73,6 +77,7 @@ void smooth(const Communicator& comm, const Case& of, Mesh& mesh) {
   const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
   SmoothOptions options = smooth_options_for(input, lattice.finest_level(input.mesh.size.min));
   if (options.delaunay && !all_delaunay(comm, mesh)) options.delaunay = nullptr;
+  keep_layers(comm, mesh, options);
   smooth_mesh(comm, mesh, options);
 }
 

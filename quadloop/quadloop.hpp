@@ -82,7 +82,8 @@ NewMesh make_mesh(const Communicator& comm, const Case& of);
 /// valid mesh of that geometry will do. Its cells stay as they are, but where the case is of the Delaunay
 /// type and the mesh too: flips then make it so again (and one rank holds the whole for a while, to tell).
 /// With quads = "parallel" parallelograms are spared; those that become skew are not divided, as make_mesh()
-/// does. Never makes the worst cell worse. Of inverted cells as many are mended as can be: check() tells.
+/// does. Layers at walls, of boundaries with a number of them, stay to the last bit. Never makes the worst
+/// cell worse. Of inverted cells as many are mended as can be: check() tells.
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 
 /// The built-in solver of the two-dimensional Euler equations with the case's settings, for any mesh of its
@@ -139,7 +140,8 @@ MeshFile read(const Communicator& comm, const std::string& path);
 
 /// Writes a mesh, with the field where the format has a place for one, as the suffix tells; the file appears
 /// whole or not at all. The same bytes on any number of ranks. Returns warnings, the same on all ranks: what
-/// the format has no place for (solution, constants, boundary conditions), and names that it cannot hold.
+/// the format has no place for (solution, constants, boundary conditions, the number of layers), and names
+/// that it cannot hold.
 /// Throws InputError for a suffix that read() does not know, or a field without a row for each owned node;
 /// OutputError where the file cannot be written.
 std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const std::string& path,

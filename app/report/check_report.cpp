@@ -7,6 +7,7 @@
 #include <map>
 
 #include "app/report/figures.hpp"
+#include "app/report/layer_table.hpp"
 
 namespace quadloop {
 
@@ -126,6 +127,8 @@ Figures figures_of(const CheckReport& report, bool verbose, std::size_t most) {
   figures.add("worst quality", quality.worst, number);
   figures.add("mean quality", quality.mean, number);
   figures.add("pinched nodes", report.pinched_nodes);
+  add_quality(figures, report.by_layers);
+  add_layers(figures, report.layers, most);
   if (report.fit) add_fit(figures, *report.fit);
   return figures;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/base/json.hpp"
+#include "mesher/mesh/check/layer_figures.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
 #include "mesher/mesh/check/shape_statistics.hpp"
@@ -20,6 +21,8 @@ struct CheckReport {
   QualitySummary quality;
   ShapeStatistics shape;
   ShapeFigures figures;
+  std::vector<LayerFigures> layers;
+  QualityByLayers by_layers;  ///< where there are any
   double area = 0;
   std::int64_t pinched_nodes = 0;
   std::optional<GeometryFit> fit;  ///< its faults are in `faults` too

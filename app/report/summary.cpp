@@ -6,7 +6,9 @@
 #include <cmath>
 #include <fstream>
 
+#include "app/report/layer_table.hpp"
 #include "mesher/build/mesh_estimate.hpp"
+#include "mesher/mesh/check/layer_figures.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
 
@@ -34,6 +36,11 @@ std::string vanished_text(const std::vector<std::string>& boundaries) {
       named < boundaries.size() ? fmt::format(" and {} more", boundaries.size() - named) : "";
   return fmt::format("  boundaries that vanished, smaller than spacing.min: {}{}\n",
                      fmt::join(boundaries.begin(), boundaries.begin() + named, ", "), more);
+}
+
+/// Nothing where there are no layers. *Collective.*
+QualityByLayers quality_of_layers(const Communicator& comm, const Mesh& mesh) {
+  return has_layers(mesh) ? quality_by_layers(comm, mesh, layer_places(comm, mesh)) : QualityByLayers{};
 }
 
 }  // namespace
@@ -64,14 +71,16 @@ std::string stage_table(const std::vector<StageRow>& stages) {
   return text;
 }
 
-MeshSummary summarise(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds,
+MeshSummary summarise(const Communicator& comm, const GeneratedMesh& generated, const StageSeconds& seconds,
                       const std::vector<std::string>& files) {
+  const MeshResult& result = generated.result;
   MeshSummary summary{{},
                       shape_figures(comm, result.mesh),
                       stage_rows(comm, seconds),
                       files,
                       result.report.boundaries_vanished};
   const QualitySummary quality = summarise_quality(comm, result.mesh);
+  const QualityByLayers by_layers = quality_of_layers(comm, result.mesh);
   const double memory = comm.maximum(peak_memory_mib());
   if (!comm.is_root()) return summary;
 
@@ -100,6 +109,8 @@ MeshSummary summarise(const Communicator& comm, const MeshResult& result, const 
   figures.add_raw("estimated", text_of_bytes(estimated), json_of(std::round(estimated / (1 << 20))),
                   "estimated_memory_mib");
   figures.add("imbalance", report.imbalance, "{:.3f}");
+  add_quality(figures, by_layers);
+  add_layers(figures, generated.layers);
   return summary;
 }
 

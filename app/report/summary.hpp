@@ -6,7 +6,7 @@
 
 #include "app/report/figures.hpp"
 #include "mesher/base/communicator.hpp"
-#include "mesher/build/build_mesh.hpp"
+#include "mesher/generate/generate.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
 
 namespace quadloop {
@@ -37,7 +37,7 @@ struct MeshSummary {
 
 /// The same on every rank but for the figures, which the root rank alone has. *Collective*; every rank names
 /// the same stages.
-MeshSummary summarise(const Communicator& comm, const MeshResult& result, const StageSeconds& seconds,
+MeshSummary summarise(const Communicator& comm, const GeneratedMesh& generated, const StageSeconds& seconds,
                       const std::vector<std::string>& files);
 
 /// The summary as the short table for people.

@@ -7,6 +7,8 @@ namespace quadloop {
 
 /// Name of the descriptor that keeps a boundary's own name where CGNS could not hold it.
 inline constexpr const char* full_name_descriptor = "FullName";
+/// And of that with the number and thickness of a boundary's layers.
+inline constexpr const char* layers_descriptor = "Layers";
 
 /// For each name one that CGNS can hold: at most 32 characters, no '/', none twice and none that the zone or
 /// the base already uses. The same names always give the same answer.

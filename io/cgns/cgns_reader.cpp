@@ -11,6 +11,7 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/files/input_file.hpp"
 #include "io/files/separate_reader.hpp"
+#include "io/loaded/layers_text.hpp"
 #include "io/loaded/pass_mesh.hpp"
 #include "io/text/name_index.hpp"
 #include "mesher/base/error.hpp"
@@ -231,7 +232,7 @@ class ZoneReader {
     const bool of_elements = set == ElementRange || set == ElementList || location != Vertex;
     if (!of_elements) return;
     const bool is_range = set == PointRange || set == ElementRange;
-    const std::string full = full_name(boundary, name.data());
+    const std::string full = descriptor(boundary, full_name_descriptor).value_or(name.data());
     if (count < 0 || (is_range && count != 2)) {
       refuse("boundary " + full + " has " + std::to_string(count) + " numbers where " +
              (is_range ? "a range has 2" : "a list is"));
@@ -239,6 +240,7 @@ class ZoneReader {
     std::vector<cgsize_t> elements(count);
     file_.check(cg_boco_read(file_.id(), base_, zone_, boundary, elements.data(), nullptr));
     BoundaryEdges& edges = boundaries_.named(loaded_.mesh, full, condition_of(boundary, type));
+    if (const auto layers = descriptor(boundary, layers_descriptor)) edges.layers = layers_of_text(*layers);
     if (is_range) return take_range(elements[0], elements[1], edges);
     for (const cgsize_t element : elements) take_bar(element, edges);
   }
@@ -260,16 +262,17 @@ class ZoneReader {
     edges.edges.push_back(*edge);
   }
 
-  std::string full_name(int boundary, const char* name) const {
+  /// The text of the boundary's last descriptor of this name, if it has one.
+  std::optional<std::string> descriptor(int boundary, const std::string& name) const {
     int descriptors = 0;
     file_.check(cg_goto(file_.id(), base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", boundary, "end"));
     file_.check(cg_ndescriptors(&descriptors));
-    std::string result = name;
+    std::optional<std::string> result;
     for (int d = 1; d <= descriptors; ++d) {
       Name label{};
       char* text = nullptr;
       file_.check(cg_descriptor_read(d, label.data(), &text));
-      if (std::string(label.data()) == full_name_descriptor) result = text;
+      if (label.data() == name) result = text;
       cg_free(text);
     }
     return result;

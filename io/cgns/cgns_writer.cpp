@@ -10,6 +10,7 @@
 #include "io/cgns/cgns_nodes.hpp"
 #include "io/files/boundary_stream.hpp"
 #include "io/files/row_stream.hpp"
+#include "io/loaded/layers_text.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -175,6 +176,8 @@ class BoundarySink {
     nodes_.add_text(condition, "FamilyName", "FamilyName_t", name);
     if (name != boundary.name)
       nodes_.add_text(condition, full_name_descriptor, "Descriptor_t", boundary.name);
+    if (boundary.layers.count > 0)
+      nodes_.add_text(condition, layers_descriptor, "Descriptor_t", text_of_layers(boundary.layers));
   }
 
   CgnsNodes nodes_;

@@ -194,6 +194,10 @@ bool CaseTable::is_table(const std::string& key) const {
   return has(key) && as_table(table_).get(key)->is_table();
 }
 
+bool CaseTable::is_text(const std::string& key) const {
+  return has(key) && as_table(table_).get(key)->is_string();
+}
+
 std::vector<std::pair<std::string, std::string>> CaseTable::values(
     const std::vector<std::string>& without) const {
   std::vector<std::pair<std::string, std::string>> result;

@@ -33,6 +33,7 @@ class CaseTable {
 
   bool has(const std::string& key) const;
   bool is_table(const std::string& key) const;
+  bool is_text(const std::string& key) const;
   std::optional<double> number(const std::string& key, const Range& range = {}) const;
   std::optional<std::string> text(const std::string& key) const;
   /// One of the given words.

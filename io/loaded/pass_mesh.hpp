@@ -7,7 +7,7 @@ namespace quadloop {
 
 template <class Pipe>
 void pass_fields(Pipe& pipe, BoundaryEdges& boundary) {
-  pass(pipe, boundary.name, boundary.condition, boundary.edges);
+  pass(pipe, boundary.name, boundary.condition, boundary.edges, boundary.layers);
 }
 
 /// A whole mesh: without copies of other ranks' nodes.

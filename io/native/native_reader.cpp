@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "io/loaded/layers_text.hpp"
 #include "io/native/native_file.hpp"
 #include "io/text/name_index.hpp"
 #include "io/text/text_scanner.hpp"
@@ -82,15 +83,24 @@ class NativeReader {
     const bool more = !scan_.at_end();
     std::string name = more ? name_in(scan_.last_comment_with("(")) : std::string();
     if (name.empty()) name = std::string("boundary_").append(std::to_string(number));
+    const WallLayers layers = more ? layers_of(name) : WallLayers{};
     read_rows("edges of boundary " + std::to_string(number) + " (" + name + ")", edges);
     auto& boundaries = loaded_.mesh.boundaries;
     const auto [index, is_new] = boundary_names_.entry_of(name);
     if (is_new) {
-      boundaries.push_back({name, "none", std::move(edges)});
+      boundaries.push_back({name, "none", std::move(edges), layers});
     } else {
       auto& same = boundaries[index].edges;
       same.insert(same.end(), edges.begin(), edges.end());
+      if (boundaries[index].layers.count == 0) boundaries[index].layers = layers;
     }
+  }
+
+  /// What the comment "# layers NAME COUNT THICKNESS" tells, if the boundary has one.
+  WallLayers layers_of(const std::string& name) const {
+    const std::string head = "# layers " + name + " ";
+    const std::string_view comment = scan_.last_comment_with(head);
+    return comment.starts_with(head) ? layers_of_text(comment.substr(head.size())) : WallLayers{};
   }
 
   /// What stands in the brackets of "#Number of edges for boundary 1 (name)".

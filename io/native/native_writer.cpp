@@ -1,5 +1,6 @@
 #include <span>
 
+#include "io/loaded/layers_text.hpp"
 #include "io/native/native_file.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/mesh/variable_names.hpp"
@@ -83,13 +84,19 @@ class NativeWriter {
     file_.write_boundaries(
         boundaries, 2,
         [&](std::size_t n) {
-          return "#Number of edges for boundary " + std::to_string(n + 1) + " (" +
-                 boundaries.present()[n]->name + ")\n" + std::to_string(boundaries.edges_of(n)) + "\n";
+          const BoundaryEdges& boundary = *boundaries.present()[n];
+          return layers_text(boundary) + "#Number of edges for boundary " + std::to_string(n + 1) + " (" +
+                 boundary.name + ")\n" + std::to_string(boundaries.edges_of(n)) + "\n";
         },
         [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
           text.put(edge[0] + 1, ' ');
           text.put(edge[1] + 1, '\n');
         });
+  }
+
+  static std::string layers_text(const BoundaryEdges& boundary) {
+    if (boundary.layers.count == 0) return {};
+    return "# layers " + boundary.name + " " + text_of_layers(boundary.layers) + "\n";
   }
 
   const Communicator& comm_;

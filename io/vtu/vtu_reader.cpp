@@ -7,6 +7,7 @@
 #include "io/loaded/foreign_mesh.hpp"
 #include "io/vtu/vtu_arrays.hpp"
 #include "io/vtu/vtu_file.hpp"
+#include "io/vtu/vtu_layers.hpp"
 
 namespace quadloop {
 
@@ -115,6 +116,25 @@ class VtuReader {
       block_names_ = numbers_.texts(*array);
     for (const std::string& name : boundary_names_) foreign_.boundary_named(name);  // in their order
     for (const std::string& name : block_names_) foreign_.block_named(name);
+    read_layers();
+  }
+
+  /// Of our own files; numbers that are no counts are passed over.
+  void read_layers() {
+    const VtuArray* const counts = document_.find("FieldData", vtu_layer_counts);
+    const VtuArray* const thicknesses = document_.find("FieldData", vtu_layer_thicknesses);
+    if (counts == nullptr || counts->type.starts_with("Float")) return;
+    const std::vector<std::int64_t> of_boundary = numbers_.integers(*counts, std::ssize(boundary_names_));
+    const std::vector<double> thickness = thicknesses == nullptr
+                                              ? std::vector<double>(of_boundary.size())
+                                              : finite_reals(*thicknesses, std::ssize(boundary_names_), 1);
+    has_layers_ = true;
+    for (std::size_t b = 0; b < of_boundary.size(); ++b) {
+      const bool is_count = of_boundary[b] > 0 && of_boundary[b] <= std::numeric_limits<std::int32_t>::max();
+      if (!is_count) continue;
+      foreign_.loaded.mesh.boundaries[foreign_.boundary_named(boundary_names_[b])].layers = {
+          static_cast<std::int32_t>(of_boundary[b]), std::max(0.0, thickness[b])};
+    }
   }
 
   static std::string name_of(const std::vector<std::string>& names, std::int64_t number, const char* kind,
@@ -166,7 +186,8 @@ class VtuReader {
     std::vector<std::string> names;
     std::vector<std::vector<double>> columns;
     for (const VtuArray& array : document_.arrays) {
-      if (array.section == "PointData" && array.type != "String") add_columns(array, names, columns);
+      if (array.section == "PointData" && array.type != "String" && !is_layer_height(array))
+        add_columns(array, names, columns);
     }
     if (names.empty()) return;
     Field solution{names, {}, {}};
@@ -176,6 +197,10 @@ class VtuReader {
         solution.values[i * names.size() + k] = columns[k][i];
     }
     loaded.solution = std::move(solution);
+  }
+
+  bool is_layer_height(const VtuArray& array) const {
+    return has_layers_ && (array.name == vtu_layer_height_asked || array.name == vtu_layer_height);
   }
 
   void add_columns(const VtuArray& array, std::vector<std::string>& names,
@@ -207,6 +232,7 @@ class VtuReader {
   VtuNumbers numbers_;
   ForeignMesh foreign_;
   std::vector<std::string> boundary_names_, block_names_;
+  bool has_layers_ = false;
   std::size_t place_ = 0, cell_ = 0;  ///< of the cell under way, for a refusal
 };
 

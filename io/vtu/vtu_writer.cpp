@@ -2,6 +2,8 @@
 
 #include "io/text/text_output.hpp"
 #include "io/vtu/vtu_file.hpp"
+#include "io/vtu/vtu_layers.hpp"
+#include "mesher/mesh/layer_nodes.hpp"
 
 namespace quadloop {
 
@@ -52,7 +54,7 @@ class VtuWriter {
     write_head(blocks);
     write_points();
     write_cells();
-    write_solution(solution);
+    write_point_data(solution);
     file_.write("<CellData>\n");
     write_boundary_numbers();
     if (blocks != nullptr) write_block_numbers(*blocks);
@@ -72,9 +74,27 @@ class VtuWriter {
         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
     head += "<UnstructuredGrid>\n<FieldData>\n" + text_array("boundary_names", names);
     if (blocks != nullptr) head += text_array("block_names", blocks->block_names);
+    if (has_layers(mesh_)) head += layer_arrays();
     head += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(comm_.sum(mesh_.owned_nodes)) +
             "\" NumberOfCells=\"" + std::to_string(cells) + "\">\n";
     file_.write(head);
+  }
+
+  /// Count and thickness of each boundary's layers.
+  std::string layer_arrays() const {
+    const auto tag = [&](const char* type, const char* name) {
+      return std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfTuples=\"" +
+             std::to_string(boundaries_.present().size()) + "\" format=\"ascii\">\n";
+    };
+    TextRows counts(std::ssize(boundaries_.present()), 1), thicknesses(std::ssize(boundaries_.present()), 1);
+    for (const BoundaryEdges* boundary : boundaries_.present()) {
+      counts.put(boundary->layers.count, '\n');
+      thicknesses.put(boundary->layers.thickness, '\n');
+    }
+    const std::vector<char> first = counts.take(), second = thicknesses.take();
+    return tag("Int32", vtu_layer_counts) + std::string(first.begin(), first.end()) + "</DataArray>\n" +
+           tag("Float64", vtu_layer_thicknesses) + std::string(second.begin(), second.end()) +
+           "</DataArray>\n";
   }
 
   void write_points() {
@@ -134,18 +154,34 @@ class VtuWriter {
     file_.write_rows(rows, 1, [&](TextRows& text, std::size_t) { text.put(number, '\n'); });
   }
 
-  void write_solution(const Field* solution) {
-    if (solution == nullptr || solution->names.empty()) return;
-    const std::size_t width = solution->names.size();
+  void write_point_data(const Field* solution) {
+    const std::size_t width = solution == nullptr ? 0 : solution->names.size();
+    if (width == 0 && !has_layers(mesh_)) return;
     file_.write("<PointData>\n");
-    for (std::size_t k = 0; k < width; ++k) {
-      file_.write(array_tag("Float64", solution->names[k]));
-      file_.write_rows(mesh_.owned_nodes, 1, [&](TextRows& text, std::size_t i) {
-        text.put(solution->values[i * width + k], '\n');
-      });
-      file_.write("</DataArray>\n");
-    }
+    for (std::size_t k = 0; k < width; ++k)
+      write_reals(solution->names[k], [&](std::size_t i) { return solution->values[i * width + k]; });
+    if (has_layers(mesh_)) write_layer_heights();
     file_.write("</PointData>\n");
+  }
+
+  /// Of a value for each owned node.
+  template <class Value>
+  void write_reals(const std::string& name, const Value& value) {
+    file_.write(array_tag("Float64", name));
+    file_.write_rows(mesh_.owned_nodes, 1, [&](TextRows& text, std::size_t i) { text.put(value(i), '\n'); });
+    file_.write("</DataArray>\n");
+  }
+
+  void write_layer_heights() {
+    const LayerPlaces places = layer_places(comm_, mesh_);
+    const IdVector<NodeId, double> heights = heights_to_front(comm_, mesh_, places);
+    const auto at_wall = [&](std::size_t i) {
+      return on_layered_wall(mesh_, places[NodeId{static_cast<std::int32_t>(i)}]);
+    };
+    write_reals(vtu_layer_height_asked, [&](std::size_t i) {
+      return at_wall(i) ? mesh_.boundaries[places.begin()[i].boundary].layers.thickness : 0;
+    });
+    write_reals(vtu_layer_height, [&](std::size_t i) { return at_wall(i) ? heights.begin()[i] : 0; });
   }
 
   void write_boundary_numbers() {

@@ -110,9 +110,15 @@ class Relaxation {
 };
 
 /// What to change.
-std::string cure_for(const MeshLimit& limit, const Geometry& geometry, const MeshOptions& options,
+std::string cure_for(const MeshEstimate& estimate, const Geometry& geometry, const MeshOptions& options,
                      const DemandedSplits& demanded) {
+  const MeshLimit& limit = options.limit;
   const DemandedSplits none;
+  if (demanded.empty() && 2 * estimate.layer_cells > estimate.cells)
+    return fmt::format(
+        "{} of them are in layers: ask for fewer, or for thicker ones with a larger growth, as "
+        "a column is no wider than its last two layers are high",
+        text_of_cells(estimate.layer_cells));
   if (!demanded.empty()) {
     SizedDomain domain(geometry, options.size, none);
     if (share_of(limit, estimate_mesh(geometry, options.type, domain)) <= margin)
@@ -138,7 +144,7 @@ void require_within(const MeshEstimate& estimate, const Geometry& geometry, cons
   throw TooManyCells(fmt::format("the mesh would have about {} cells, {} of memory, but {}; {}; or {}",
                                  text_of_cells(estimate.cells),
                                  text_of_bytes(total_bytes(estimate, limit.ranks)), allowed,
-                                 cure_for(limit, geometry, options, demanded), or_else));
+                                 cure_for(estimate, geometry, options, demanded), or_else));
 }
 
 }  // namespace quadloop

@@ -7,6 +7,7 @@
 
 #include "mesher/build/islands.hpp"
 #include "mesher/sizes/leaf_estimate.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 
 namespace quadloop {
 
@@ -27,6 +28,22 @@ double kept_points(const Geometry& geometry) {
   return kept;
 }
 
+/// Cells of the layers that are to stand below the front: a column on each of its edges, which are as long as
+/// the leaves there.
+double cells_of_layers(const Geometry& geometry, const SizedDomain& domain) {
+  const Lattice& lattice = domain.lattice;
+  SizeCursor leaves(domain.sizes);
+  double cells = 0;
+  for (std::int32_t s = 0; s < geometry.size(); ++s) {
+    const auto& layers = geometry.boundary(geometry.boundary_of(s)).layers;
+    if (!layers) continue;
+    const Point from = geometry.point(s), to = geometry.point(geometry.next(s)), middle = 0.5 * (from + to);
+    const Quadrant place{lattice.column_at(middle.x), lattice.row_at(middle.y), Quadrant::unit_level};
+    cells += layers->count * length(to - from) / lattice.edge(leaves.wanted_level(place));
+  }
+  return cells;
+}
+
 }  // namespace
 
 MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain& domain) {
@@ -36,6 +53,8 @@ MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain&
   estimate.leaves = leaves.all();
   estimate.cells = (leaves.inside + leaves.cut) * (delaunay ? triangles_of_leaf : hybrid_cells_of_leaf);
   estimate.cells += std::max(0.0, kept_points(geometry) - leaves.cut);
+  estimate.layer_cells = cells_of_layers(geometry, domain) * (delaunay ? 2 : 1);
+  estimate.cells += estimate.layer_cells;
   estimate.bytes = of_leaf * leaves.all() + of_cut_leaf * leaves.cut +
                    (delaunay ? of_delaunay_triangle : of_hybrid_cell) * estimate.cells;
   estimate.bytes_of_rank = of_program + of_segment * geometry.size();

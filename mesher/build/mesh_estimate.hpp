@@ -9,7 +9,8 @@ namespace quadloop {
 
 /// What a mesh of this geometry will cost, within a factor of 1.5 as a rule: from a sample of the tree,
 /// without making it. The time grows with the levels and the segments, not with the cells. The same on any
-/// number of ranks; not collective.
+/// number of ranks; not collective. Boundaries with layers are taken for the front, on whose edges the layers
+/// are to stand.
 MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain& domain);
 
 /// The same of a mesh that build_mesh would make. Throws InputError where no domain is left.

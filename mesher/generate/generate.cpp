@@ -72,6 +72,14 @@ MeshInput outside(const MeshInput& input, const LayerFront& front) {
   return outer;
 }
 
+/// Files keep with the mesh how many layers its boundaries have.
+void name_layers(const Geometry& geometry, Mesh& mesh) {
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+    const auto& layers = geometry.boundaries()[b].layers;
+    if (layers) mesh.boundaries[b].layers = {layers->count, layers_thickness(*layers)};
+  }
+}
+
 /// Layers on all walls that ask for them. *Collective.*
 void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFront& front,
                  MeshResult& result) {
@@ -80,6 +88,7 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
   add_layers(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
   if (front.has_strips())
     add_strips(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
+  name_layers(input.geometry, result.mesh);
   TreeAttributes& a = result.tree.attributes;
   a.geometry_digest = input.geometry.digest();
   a.nodes = comm.sum(result.mesh.owned_nodes);
@@ -95,7 +104,7 @@ bool has_layers(const MeshInput& input) {
 /// The mesh outside of layers, or the whole where there are none, complete but for its digests. *Collective.*
 GeneratedMesh generate_outer(const Communicator& comm, const MeshInput& input,
                              const DemandedSplits& demanded) {
-  GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}};
+  GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}, {}};
   MeshResult& result = generated.result;
   generated.times.append(result.report.times);
   require_area(comm, input.geometry, result.report.area_dropped, result.mesh);
@@ -115,6 +124,9 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   GeneratedMesh generated = generate_outer(comm, outside(input, front), demanded);
   times.append(generated.times);
   times.begin("layers");
+  generated.layers = report_layers(comm, front, generated.result.mesh);
+  for (std::string& warning : warnings_of(generated.layers))
+    generated.result.report.warnings.push_back(std::move(warning));
   fill_layers(comm, input, front, generated.result);
   times.end();
   generated.times = times;

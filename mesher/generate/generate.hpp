@@ -9,6 +9,7 @@
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/layers/layer_lines.hpp"
+#include "mesher/layers/layer_report.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
 #include "smoother/smooth_options.hpp"
 
@@ -26,7 +27,8 @@ struct MeshInput {
 /// A smoothed mesh and its tree record, complete but for what a file adds.
 struct GeneratedMesh {
   MeshResult result;
-  StageTimes times;  ///< those of the report, and "smooth"
+  StageTimes times;    ///< those of the report, and "smooth"
+  LayerReport layers;  ///< of the boundaries that have any
 };
 
 /// How the meshes of this input are smoothed: along its geometry, which must outlive the options, sparing

@@ -28,16 +28,22 @@ double cosine_of_tilt(const WallLine& line, const FrontPlace& place, Point direc
 
 }  // namespace
 
-std::vector<Point> layer_column(const LayerFront& front, const FrontPlace& place, Point node) {
+LayerColumn column_at(const LayerFront& front, const FrontPlace& place, Point node) {
   const WallLine& line = front.line;
   const Point foot = foot_of(line, place), way = node - foot;
   const double whole = length(way);
   const LayerSpec& spec = line.spec(place.station);
   const double cosine = std::clamp(cosine_of_tilt(line, place, (1 / whole) * way), 0.2, 1.0);
-  const ColumnHeights heights = column_heights(spec, spec.first / cosine, whole);
+  return {foot, cosine, column_heights(spec, spec.first / cosine, whole)};
+}
+
+std::vector<Point> layer_column(const LayerFront& front, const FrontPlace& place, Point node) {
+  const LayerColumn column = column_at(front, place, node);
+  const Point way = node - column.foot;
+  const double whole = length(way);
   std::vector<Point> nodes;
-  for (int layer = 0; layer < spec.count; ++layer)
-    nodes.push_back(foot + (heights.reached[layer] / whole) * way);
+  for (std::size_t layer = 0; layer + 1 < column.heights.reached.size(); ++layer)
+    nodes.push_back(column.foot + (column.heights.reached[layer] / whole) * way);
   return nodes;
 }
 

@@ -10,11 +10,20 @@
 
 namespace quadloop {
 
+/// The layers of thin cells that stand on a boundary.
+struct WallLayers {
+  std::int32_t count = 0;  ///< 0: none
+  double thickness = 0;    ///< of all together, normal to the boundary, as it was asked for; 0: not known
+
+  friend bool operator==(const WallLayers&, const WallLayers&) = default;
+};
+
 /// The edges of one named boundary on this rank, each walked with the domain to its left.
 struct BoundaryEdges {
   std::string name;
   std::string condition;  ///< as Boundary::condition
   std::vector<std::array<NodeId, 2>> edges;
+  WallLayers layers = {};
 };
 
 using NodeFlags = IdVector<NodeId, char>;  ///< for each node 1 or 0

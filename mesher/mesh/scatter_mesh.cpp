@@ -97,13 +97,17 @@ std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whol
 /// The root's boundaries on every rank, without their edges.
 std::vector<BoundaryEdges> broadcast_boundaries(const Communicator& comm, const Mesh& whole) {
   std::vector<std::string> words;
+  std::vector<WallLayers> layers;
   for (const BoundaryEdges& boundary : whole.boundaries) {
     words.push_back(boundary.name);
     words.push_back(boundary.condition);
+    layers.push_back(boundary.layers);
   }
   words = broadcast_words(comm, words);
+  comm.broadcast(layers);
   std::vector<BoundaryEdges> boundaries;
-  for (std::size_t i = 0; i < words.size(); i += 2) boundaries.push_back({words[i], words[i + 1], {}});
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    boundaries.push_back({words[2 * i], words[2 * i + 1], {}, layers[i]});
   return boundaries;
 }
 
@@ -252,7 +256,7 @@ Mesh gather_whole(const Communicator& comm, const Mesh& part) {
   whole.quads = whole_cells(gather_cells(comm, part, part.quads));
   for (const BoundaryEdges& boundary : part.boundaries) {
     const auto edges = gather_cells(comm, part, boundary.edges);
-    whole.boundaries.push_back({boundary.name, boundary.condition, whole_cells(edges)});
+    whole.boundaries.push_back({boundary.name, boundary.condition, whole_cells(edges), boundary.layers});
   }
   return whole;
 }

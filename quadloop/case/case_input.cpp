@@ -8,6 +8,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/free_memory.hpp"
 #include "mesher/generate/digests.hpp"
+#include "quadloop/case/layer_settings.hpp"
 
 namespace quadloop {
 
@@ -43,7 +44,9 @@ CaseInput load_case(const CaseArguments& arguments) {
     Warnings told_again_below;
     replace_geometry(arguments.geometry, settings, told_again_below);
   }
+  input.warnings = settings.warnings;
   Geometry geometry = load_geometry(settings, input.warnings, arguments.saved);
+  require_layers_that_doubles_hold(geometry);
   const MeshOptions options = mesh_options(settings, geometry);
   for (std::string& warning : spacing_warnings(options, geometry))
     input.warnings.push_back(std::move(warning));

@@ -15,6 +15,8 @@
 #include "mesher/geometry/boundary_conditions.hpp"
 #include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
+#include "quadloop/case/layer_settings.hpp"
+#include "quadloop/case/line_settings.hpp"
 
 namespace quadloop {
 
@@ -76,91 +78,7 @@ void read_spacing_table(const CaseTable& root, Settings& settings) {
   }
 }
 
-constexpr int most_layers = 1000;
-
-int read_count(const CaseTable& table, const std::string& key, double most) {
-  const double count = table.number(key, {1, most}).value_or(1);
-  if (count != std::floor(count)) table.refuse(key, "must be a whole number of layers");
-  return static_cast<int>(count);
-}
-
-/// All but the question for other keys.
-LayerSpec read_layer_keys(const CaseTable& table) {
-  LayerSpec spec;
-  const auto first = table.number("first", Range::positive());
-  if (!first) table.refuse("first", "is missing: the height of the layer at the wall");
-  spec.first = *first;
-  if (table.has("growth")) {
-    const std::vector<double> growth = table.numbers_or_one("growth", {1, 2});
-    if (growth.empty() || growth.size() > 2 || growth.front() > growth.back())
-      table.refuse("growth", "must be a number, or two of which the second is not less");
-    spec.growth = growth.front();
-    spec.growth_to = growth.back();
-  }
-  spec.equal = read_count(table, "equal", most_layers);
-  const auto thickness = table.number("thickness", Range::positive());
-  if (thickness.has_value() == table.has("count"))
-    table.refuse("count", "or thickness must be given: how many layers, or how thick they are together");
-  spec.count =
-      thickness ? layers_within(spec, *thickness, most_layers + 1) : read_count(table, "count", most_layers);
-  if (spec.count > most_layers)
-    table.refuse("thickness", fmt::format("takes more than {} layers; let them grow faster", most_layers));
-  return spec;
-}
-
-LayerSpec read_layers(const CaseTable& table) {
-  const LayerSpec spec = read_layer_keys(table);
-  table.finish();
-  return spec;
-}
-
-std::vector<Point> read_path(const CaseTable& table) {
-  std::vector<Point> path;
-  for (const std::vector<double>& point : table.pairs("path")) {
-    path.push_back({point[0], point[1]});
-    if (path.size() > 1 && path[path.size() - 2] == path.back())
-      table.refuse("path",
-                   fmt::format("has the point ({}, {}) twice in a row", path.back().x, path.back().y));
-  }
-  return path;
-}
-
-double read_line_spacing(const CaseTable& table) {
-  const auto spacing = table.number("spacing", Range::positive());
-  if (!spacing) table.refuse("spacing", "is missing: the length of cells along the line");
-  return *spacing;
-}
-
-LayerLine read_wake(const CaseTable& table) {
-  LayerLine wake;
-  wake.from = table.text("from").value_or("");
-  if (wake.from.empty()) table.refuse("from", "is missing: the boundary whose sharp edge the wake begins at");
-  wake.path = read_path(table);
-  const auto length = table.number("length", Range::positive());
-  if (length.has_value() != wake.path.empty())
-    table.refuse("length", "or path must be given, and not both: how far the wake goes on, or where");
-  wake.length = length.value_or(0);
-  wake.spacing = read_line_spacing(table);
-  table.finish();
-  return wake;
-}
-
-LayerLine read_layer_line(const CaseTable& table) {
-  LayerLine line;
-  line.path = read_path(table);
-  if (line.path.size() < 2) table.refuse("path", "must have two points at least");
-  line.spacing = read_line_spacing(table);
-  line.layers = read_layer_keys(table);
-  table.finish();
-  return line;
-}
-
-void read_boundary_tables(const CaseTable& root, Settings& settings) {
-  if (settings.far_field) {
-    settings.outline.rules.push_back(
-        {"farfield", {}, {}, "farfield", settings.far_field->where, false, true});  // unless the case says
-                                                                                    // other
-  }
+void read_rules(const CaseTable& root, LayerSettings& layer_settings, Settings& settings) {
   const auto tables = root.table("boundary");
   if (!tables) return;
   for (const std::string& name : tables->table_names()) {
@@ -171,7 +89,7 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
     rule.spacing = table.number("spacing", Range::positive());
     rule.corner_degrees = table.number("corner", {0, 180});
     rule.corner_spacing = table.number("corner_spacing", Range::positive());
-    if (const auto layers = table.table("layers")) rule.layers = read_layers(*layers);
+    if (const auto layers = table.table("layers")) rule.layers = layer_settings.read(*layers);
     rule.condition = table.choice("bc", condition_words());
     if (const auto pressure = table.number("pressure", Range::positive())) {
       if (rule.condition != "outflow")
@@ -181,6 +99,18 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
     table.finish();
     settings.outline.rules.push_back(std::move(rule));
   }
+}
+
+void read_boundary_tables(const CaseTable& root, Settings& settings) {
+  if (settings.far_field) {
+    settings.outline.rules.push_back(
+        {"farfield", {}, {}, "farfield", settings.far_field->where, false, true});  // unless the case says
+                                                                                    // other
+  }
+  LayerSettings layer_settings(root);
+  read_rules(root, layer_settings, settings);
+  settings.lines = read_layer_lines(root, layer_settings);
+  settings.warnings = layer_settings.unused();
 }
 
 constexpr double largest_coordinate = 1e100;
@@ -303,8 +233,6 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   read_boundary_tables(root, settings);
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));
-  for (const CaseTable& wake : root.tables("wake")) settings.lines.push_back(read_wake(wake));
-  for (const CaseTable& line : root.tables("layer_line")) settings.lines.push_back(read_layer_line(line));
   read_mesh_table(root, settings);
   read_smooth_table(root, settings);
   settings.adapt = read_adapt_table(root);

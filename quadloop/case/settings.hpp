@@ -46,6 +46,7 @@ struct Settings {
   std::optional<AdaptOptions> adapt;  ///< where the case has a table for it
   std::string output_prefix;
   std::vector<std::string> formats;
+  Warnings warnings;  ///< what the user is to be told of the case file itself
 };
 
 /// Reads the case file with the command line's assignments over it. On the calling rank alone. Throws

@@ -17,6 +17,7 @@ TEST(Formats, AreListedByWhatTheyHold) {
   EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "cgns", "vtu"}));
   EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh"}));
   EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), Names{});
+  EXPECT_EQ(formats_for({Content::layers}), (Names{"mesh", "cgns", "vtu"}));
 }
 
 TEST(Formats, StandInASentenceBySuffix) {
@@ -36,7 +37,7 @@ TEST(Formats, AreFoundByNameAndSuffix) {
 
 TEST(Formats, NativeOneComesFirstAndKeepsAll) {
   EXPECT_EQ(native_format().name, "mesh");
-  for (const Content content : {Content::mesh, Content::solution, Content::constants})
+  for (const Content content : {Content::mesh, Content::solution, Content::constants, Content::layers})
     EXPECT_TRUE(native_format().holds(content));
   EXPECT_EQ(default_formats(), (Names{"mesh", "cgns"}));
 }

@@ -100,7 +100,7 @@ Mesh share_of(const Mesh& whole, int rank, int ranks) {
   part.quads = localise.rows(whole.quads, rank, ranks);
   for (const BoundaryEdges& boundary : whole.boundaries) {
     part.boundaries.push_back(
-        {boundary.name, boundary.condition, localise.rows(boundary.edges, rank, ranks)});
+        {boundary.name, boundary.condition, localise.rows(boundary.edges, rank, ranks), boundary.layers});
   }
   return part;
 }

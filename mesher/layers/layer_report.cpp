@@ -1,0 +1,146 @@
+#include "mesher/layers/layer_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <tuple>
+
+#include "mesher/layers/layer_column.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double full = 0.985;
+
+/// One column, as all ranks know it.
+struct Column {
+  BoundaryId boundary;
+  GlobalNodeId node;
+  int layers = 0;
+  double first = 0, growth = 0, share = 0;
+  Point foot;
+};
+
+double share_at(const LayerFront& front, std::int32_t station) {
+  return front.thickness[station] / front.line.asked(station);
+}
+
+/// Of the thickness asked for, between two stations by the way.
+double share_at(const LayerFront& front, const FrontPlace& place) {
+  const double here = share_at(front, place.station);
+  if (place.at_station()) return here;
+  const double next = share_at(front, front.line.next(place.station));
+  return 0.5 * ((here + place.share * (next - here)) + (next + place.rest * (here - next)));
+}
+
+/// This rank's, of the front's nodes that it has an edge at; some of two edges, or of two ranks.
+std::vector<Column> own_columns(const LayerFront& front, const Mesh& outer) {
+  const FrontPlaces places(front);
+  std::vector<Column> columns;
+  for (std::int32_t b = 0; b < size32(outer.boundaries); ++b) {
+    for (const auto& [from, to] : outer.boundaries[b].edges) {
+      const std::array nodes{from, to};
+      const std::array ends{places.locate(outer.point(from), BoundaryId{b}),
+                            places.locate(outer.point(to), BoundaryId{b})};
+      if (!places.follows(ends[0], ends[1])) continue;
+      for (const std::size_t k : {0, 1}) {
+        const LayerColumn column = column_at(front, ends[k], outer.point(nodes[k]));
+        columns.push_back({front.line[ends[k].station].layers, outer.global(nodes[k]),
+                           size32(column.heights.reached) - 1, column.heights.first * column.cosine,
+                           column.heights.growth, share_at(front, ends[k]), column.foot});
+      }
+    }
+  }
+  return columns;
+}
+
+/// All ranks' columns, each once, in an order that does not depend on the ranks. *Collective.*
+std::vector<Column> all_columns(const Communicator& comm, const LayerFront& front, const Mesh& outer) {
+  const std::vector<Column> own = own_columns(front, outer);
+  std::vector<Column> columns = comm.all_gather_values(std::span<const Column>(own));
+  const auto key = [](const Column& c) { return std::tuple(c.boundary, c.node, c.share, c.first, c.growth); };
+  std::ranges::sort(columns, {}, key);
+  const auto same = [](const Column& a, const Column& b) {
+    return a.boundary == b.boundary && a.node == b.node;
+  };
+  columns.erase(std::unique(columns.begin(), columns.end(), same), columns.end());
+  return columns;
+}
+
+double median_first(std::span<const Column> columns) {
+  std::vector<double> firsts;
+  for (const Column& column : columns) firsts.push_back(column.first);
+  const auto middle = firsts.begin() + std::ssize(firsts) / 2;
+  std::ranges::nth_element(firsts, middle);
+  return *middle;
+}
+
+/// The share of the wall's length between stations that both have the thickness asked for.
+double share_full(const LayerFront& front, BoundaryId boundary) {
+  double reached = 0, all = 0;
+  for (std::int32_t i = 0; i < front.line.size(); ++i) {
+    const std::int32_t next = front.line.next(i);
+    if (next == WallLine::none || front.line[i].layers != boundary) continue;
+    all += front.line.width(i);
+    if (std::min(share_at(front, i), share_at(front, next)) > full) reached += front.line.width(i);
+  }
+  return all > 0 ? reached / all : 1;
+}
+
+BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, std::span<const Column> columns) {
+  const Boundary& boundary = front.line.geometry().boundary(id);
+  const LayerSpec& spec = *boundary.layers;
+  const auto worst = std::ranges::min_element(
+      columns, {}, [](const Column& c) { return std::tuple(c.share, c.growth, c.foot.x, c.foot.y); });
+  BoundaryLayerReport report;
+  report.boundary = boundary.name;
+  report.asked = spec.count;
+  report.reached = std::ranges::min(columns, {}, &Column::layers).layers;
+  report.columns = std::ssize(columns);
+  report.first_asked = spec.first;
+  report.first_least = std::ranges::min(columns, {}, &Column::first).first;
+  report.first_median = median_first(columns);
+  report.growth_asked = spec.growth;
+  report.growth_least = std::ranges::min(columns, {}, &Column::growth).growth;
+  report.thickness_asked = layers_thickness(spec);
+  report.share_least = worst->share;
+  report.share_full = share_full(front, id);
+  report.least = worst->foot;
+  return report;
+}
+
+}  // namespace
+
+LayerReport report_layers(const Communicator& comm, const LayerFront& front, const Mesh& outer) {
+  const std::vector<Column> columns = all_columns(comm, front, outer);
+  LayerReport report;
+  for (auto begin = columns.begin(); begin != columns.end();) {
+    const BoundaryId boundary = begin->boundary;
+    const auto end =
+        std::find_if(begin, columns.end(), [&](const Column& c) { return c.boundary != boundary; });
+    report.push_back(report_of(front, boundary, std::span(begin, end)));
+    begin = end;
+  }
+  return report;
+}
+
+std::vector<std::string> warnings_of(const LayerReport& report) {
+  constexpr double few = 0.5;
+  std::vector<std::string> warnings;
+  for (const BoundaryLayerReport& row : report) {
+    if (row.share_least >= few) continue;
+    warnings.push_back(
+        fmt::format("boundary '{}': near ({:.6g}, {:.6g}) its {} layers reach {:.0f} % of the thickness "
+                    "asked for, {:.3g}, "
+                    "as walls come close or turn sharply there: they grow by {:.3g} instead of {:.3g}; "
+                    "{:.1f} % of the wall "
+                    "have all of it",
+                    row.boundary, row.least.x, row.least.y, row.reached, 100 * row.share_least,
+                    row.thickness_asked, row.growth_least, row.growth_asked, 100 * row.share_full));
+  }
+  return warnings;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/layers/layer_front.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// What became of the layers of one boundary; they may go on along its neighbours. Heights are normal to the
+/// wall, in the geometry's unit of length.
+struct BoundaryLayerReport {
+  std::string boundary;
+  int asked = 0, reached = 0;  ///< layers; those of the column that has least
+  std::int64_t columns = 0;    ///< nodes of the front
+  double first_asked = 0, first_least = 0, first_median = 0;
+  double growth_asked = 0, growth_least = 0;  ///< of the layers above the equal ones; asked: the first one's
+  double thickness_asked = 0;
+  double share_least = 1;  ///< of the thickness asked for
+  double share_full = 1;   ///< of the wall's length, with the thickness asked for, to 1.5 %
+  Point least;             ///< where on the wall the share, or else the growth, is least
+};
+
+/// One entry for each boundary that asks for layers and has any, in the order of the geometry.
+using LayerReport = std::vector<BoundaryLayerReport>;
+
+/// Of the layers that add_layers() puts between the wall and the front's nodes; `outer` is the mesh outside
+/// of them. The same on any number of ranks. *Collective.*
+LayerReport report_layers(const Communicator& comm, const LayerFront& front, const Mesh& outer);
+
+/// A line for each boundary whose layers are somewhere less than half as thick as was asked, with the place.
+std::vector<std::string> warnings_of(const LayerReport& report);
+
+}  // namespace quadloop

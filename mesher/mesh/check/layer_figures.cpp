@@ -1,0 +1,145 @@
+#include "mesher/mesh/check/layer_figures.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "mesher/mesh/layered_edges.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+Spread spread_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::ranges::sort(values);
+  return {values.front(), values[values.size() / 2], values.back()};
+}
+
+class Columns {
+ public:
+  Columns(const Mesh& mesh, const LayerPlaces& places) : mesh_{mesh}, places_{places} {
+    for_each_cell_edge(mesh, [&](NodeId a, NodeId b, std::int32_t) {
+      if (is_above(a, b)) above_[a].push_back(b);
+      if (is_above(b, a)) above_[b].push_back(a);
+    });
+    for (const LayeredEdge& edge : layered_edges(Communicator(MPI_COMM_SELF), mesh)) {
+      for (const NodeId node : edge.nodes) edges_at_[node].push_back(edge.nodes);
+    }
+  }
+
+  /// From a node of the wall on, itself first.
+  std::vector<NodeId> from(NodeId foot) const {
+    std::vector<NodeId> nodes{foot};
+    for (const std::vector<NodeId>* next = above(foot); next != nullptr; next = above(nodes.back()))
+      nodes.push_back(nodes.size() == 1 ? nearest(foot, *next) : straightest(nodes, *next));
+    return nodes;
+  }
+
+  /// Of a node above the wall's; above a sharp edge its distance.
+  double height(NodeId foot, NodeId node) const {
+    constexpr double sharp = -0.5;  // columns of a fan stand where the wall turns by more than 120 degrees
+    const auto edges = edges_at_.find(foot);
+    const Point way = mesh_.point(node) - mesh_.point(foot);
+    if (edges == edges_at_.end()) return length(way);
+    double most = 0;
+    for (const auto& edge : edges->second) most = std::max(most, std::abs(cross(direction(edge), way)));
+    const bool is_edge =
+        edges->second.size() > 1 && dot(direction(edges->second[0]), direction(edges->second[1])) < sharp;
+    return is_edge ? length(way) : most;
+  }
+
+ private:
+  bool is_above(NodeId low, NodeId high) const {
+    return places_[low].valid() && places_[high].valid() && places_[high].boundary == places_[low].boundary &&
+           places_[high].left == places_[low].left - 1;
+  }
+  const std::vector<NodeId>* above(NodeId node) const {
+    const auto found = above_.find(node);
+    return found == above_.end() ? nullptr : &found->second;
+  }
+  Point direction(const std::array<NodeId, 2>& edge) const {
+    const Point along = mesh_.point(edge[1]) - mesh_.point(edge[0]);
+    return (1 / length(along)) * along;
+  }
+  NodeId nearest(NodeId node, const std::vector<NodeId>& among) const {
+    return *std::ranges::min_element(
+        among, {}, [&](NodeId other) { return length(mesh_.point(other) - mesh_.point(node)); });
+  }
+  NodeId straightest(const std::vector<NodeId>& column, const std::vector<NodeId>& among) const {
+    const Point here = mesh_.point(column.back());
+    const Point before = here - mesh_.point(column[column.size() - 2]);
+    return *std::ranges::max_element(among, {}, [&](NodeId other) {
+      const Point on = mesh_.point(other) - here;
+      return dot(on, before) / length(on);
+    });
+  }
+
+  const Mesh& mesh_;
+  const LayerPlaces& places_;
+  std::unordered_map<NodeId, std::vector<NodeId>> above_;
+  std::unordered_map<NodeId, std::vector<std::array<NodeId, 2>>> edges_at_;
+};
+
+/// What the columns of one boundary add up to.
+struct Tally {
+  std::int64_t columns = 0;
+  std::vector<double> first, growth, thickness;
+
+  void add(const Mesh& mesh, const Columns& columns_of, NodeId foot) {
+    const std::vector<NodeId> column = columns_of.from(foot);
+    ++columns;
+    double whole = 0, before = 0;
+    for (std::size_t k = 1; k < column.size(); ++k) {
+      const double height = length(mesh.point(column[k]) - mesh.point(column[k - 1]));
+      if (k > 1) growth.push_back(height / before);
+      whole += before = height;
+    }
+    if (column.size() > 1) first.push_back(columns_of.height(foot, column[1]));
+    thickness.push_back(whole);
+  }
+};
+
+/// The mesh with cells for which `takes` holds alone.
+template <class Takes>
+Mesh with_cells(const Mesh& mesh, const Takes& takes) {
+  Mesh part;
+  part.points = mesh.points;
+  part.owned_nodes = mesh.owned_nodes;
+  std::ranges::copy_if(mesh.triangles, std::back_inserter(part.triangles), takes);
+  std::ranges::copy_if(mesh.quads, std::back_inserter(part.quads), takes);
+  return part;
+}
+
+}  // namespace
+
+std::vector<LayerFigures> layer_figures(const Mesh& whole, const LayerPlaces& places) {
+  if (!has_layers(whole)) return {};
+  const Columns columns(whole, places);
+  std::vector<Tally> tallies(whole.boundaries.size());
+  for (const NodeId node : places.ids()) {
+    if (on_layered_wall(whole, places[node])) tallies[places[node].boundary].add(whole, columns, node);
+  }
+  std::vector<LayerFigures> figures;
+  for (std::size_t b = 0; b < tallies.size(); ++b) {
+    const BoundaryEdges& boundary = whole.boundaries[b];
+    if (boundary.layers.count == 0) continue;
+    Tally& tally = tallies[b];
+    figures.push_back({boundary.name, boundary.layers.count, tally.columns, spread_of(std::move(tally.first)),
+                       spread_of(std::move(tally.growth)), spread_of(std::move(tally.thickness)),
+                       boundary.layers.thickness});
+  }
+  return figures;
+}
+
+QualityByLayers quality_by_layers(const Communicator& comm, const Mesh& mesh, const LayerPlaces& places) {
+  const auto in_layers = [&](const auto& nodes) { return is_layer_cell(places, nodes); };
+  const auto outside = [&](const auto& nodes) { return !is_layer_cell(places, nodes); };
+  return {summarise_quality(comm, with_cells(mesh, in_layers)),
+          summarise_quality(comm, with_cells(mesh, outside))};
+}
+
+}  // namespace quadloop

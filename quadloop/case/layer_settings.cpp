@@ -1,0 +1,132 @@
+#include "quadloop/case/layer_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "io/text/text_scanner.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/id_vector.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr int most_layers = 1000;
+constexpr double least_reynolds = 1000;
+
+int read_number_of_layers(const CaseTable& table, const std::string& key) {
+  const double count = table.number(key, {1, most_layers}).value_or(1);
+  if (count != std::floor(count)) table.refuse(key, "must be a whole number of layers");
+  return static_cast<int>(count);
+}
+
+void read_growth(const CaseTable& table, LayerSpec& spec) {
+  if (!table.has("growth")) return;
+  const std::vector<double> growth = table.numbers_or_one("growth", {1, 2, true, false});
+  if (growth.empty() || growth.size() > 2 || growth.front() > growth.back())
+    table.refuse("growth", "must be a number, or two of which the second is not less");
+  spec.growth = growth.front();
+  spec.growth_to = growth.back();
+}
+
+void read_count(const CaseTable& table, LayerSpec& spec) {
+  const auto thickness = table.number("thickness", Range::positive());
+  const bool has_count = table.has("count");
+  if (thickness && has_count)
+    table.refuse("thickness", "stands beside count, which says as much; give one of them");
+  if (!thickness && !has_count)
+    table.refuse("count", "is missing: how many layers, or with thickness how thick they are together");
+  if (!thickness) {
+    spec.count = read_number_of_layers(table, "count");
+    return;
+  }
+  if (*thickness < spec.first)
+    table.refuse("thickness",
+                 fmt::format("is {}, less than the first layer's height of {}", *thickness, spec.first));
+  spec.count = layers_within(spec, *thickness, most_layers + 1);
+  if (spec.count > most_layers)
+    table.refuse("thickness", fmt::format("takes more than {} layers; let them grow faster", most_layers));
+}
+
+}  // namespace
+
+LayerSettings::LayerSettings(const CaseTable& root) {
+  const auto table = root.table("flow");
+  if (!table) return;
+  where_ = table->place();
+  const auto reynolds = table->number("reynolds", {least_reynolds});
+  if (!reynolds)
+    table->refuse("reynolds", "is missing: speed times reference length over kinematic viscosity");
+  flow_ = FlowConditions{*reynolds, table->number("reference_length", Range::positive()).value_or(1)};
+  table->number("mach", {0, 100});  // of no use to the estimate, which says so
+  table->finish();
+}
+
+double LayerSettings::first_height(const CaseTable& layers) {
+  if (!layers.has("first"))
+    layers.refuse("first", "is missing: the height of the layer at the wall, or \"yplus:1\"");
+  if (!layers.is_text("first")) return *layers.number("first", Range::positive());
+  constexpr std::string_view head = "yplus:";
+  const std::string text = *layers.text("first");
+  double y_plus = 0;
+  const bool is_y_plus = text.starts_with(head) &&
+                         parse_real(std::string_view(text).substr(head.size()), y_plus) &&
+                         std::isfinite(y_plus) && y_plus > 0;
+  if (!is_y_plus)
+    layers.refuse("first", fmt::format("is '{}', but must be a height above 0, or \"yplus:1\" with any "
+                                       "number above 0 in the place of 1",
+                                       text));
+  if (!flow_)
+    layers.refuse("first", fmt::format("is '{}', which needs a Reynolds number: write a table [flow] with "
+                                       "reynolds = 1e6, and reference_length unless that is 1",
+                                       text));
+  used_ = true;
+  return height_of_y_plus(y_plus, *flow_);
+}
+
+LayerSpec LayerSettings::read(const CaseTable& layers) {
+  const LayerSpec spec = read_among_others(layers);
+  layers.finish();
+  return spec;
+}
+
+LayerSpec LayerSettings::read_among_others(const CaseTable& layers) {
+  LayerSpec spec;
+  spec.first = first_height(layers);
+  read_growth(layers, spec);
+  spec.equal = read_number_of_layers(layers, "equal");
+  read_count(layers, spec);
+  if (spec.equal > spec.count)
+    layers.refuse("equal",
+                  fmt::format("is {}, more than the {} layers that there are", spec.equal, spec.count));
+  return spec;
+}
+
+Warnings LayerSettings::unused() const {
+  if (!flow_ || used_) return {};
+  return {where_ + ": [flow] does nothing, as no boundary's layers have a first = \"yplus:1\""};
+}
+
+void require_layers_that_doubles_hold(const Geometry& geometry) {
+  constexpr double steps = 0x1p-42;  // a thousand steps between doubles, as columns want some for their tilt
+  IdVector<BoundaryId, double> largest(geometry.boundaries().size(), 0);
+  for (std::int32_t v = 0; v < geometry.size(); ++v) {
+    const Point p = geometry.point(v);
+    double& value = largest[geometry.boundary_of(v)];
+    value = std::max({value, std::abs(p.x), std::abs(p.y)});
+  }
+  for (const BoundaryId b : largest.ids()) {
+    const Boundary& boundary = geometry.boundary(b);
+    if (!boundary.layers || boundary.layers->first >= steps * largest[b]) continue;
+    throw InputError(
+        fmt::format("boundary {}: a first layer of {} is too thin for coordinates as large as {}: "
+                    "numbers do not hold it; move the geometry nearer to the origin, or make it "
+                    "thicker than {:.1g}",
+                    boundary.name, boundary.layers->first, largest[b], steps * largest[b]));
+  }
+}
+
+}  // namespace quadloop

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "io/input/case_file.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/layer_spec.hpp"
+#include "quadloop/case/first_height.hpp"
+
+namespace quadloop {
+
+/// Reads the tables `layers` of boundaries, with the table [flow] that `first = "yplus:1"` stands on. Throws
+/// InputError that names key and line.
+class LayerSettings {
+ public:
+  explicit LayerSettings(const CaseTable& root);
+
+  LayerSpec read(const CaseTable& layers);
+  /// The same of a table that has other keys too, after which it does not ask.
+  LayerSpec read_among_others(const CaseTable& table);
+
+  /// A warning where there is a table [flow] and no layers have asked for it.
+  Warnings unused() const;
+
+ private:
+  double first_height(const CaseTable& layers);
+
+  std::optional<FlowConditions> flow_;
+  std::string where_;  ///< [flow] stands
+  bool used_ = false;
+};
+
+/// Throws InputError, naming the boundary, where its first layer is so thin beside the coordinates that
+/// doubles do not tell its nodes apart.
+void require_layers_that_doubles_hold(const Geometry& geometry);
+
+}  // namespace quadloop

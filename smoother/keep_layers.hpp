@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/mesh/layer_nodes.hpp"
+#include "smoother/smooth_options.hpp"
+
+namespace quadloop {
+
+/// Makes the smoother leave layers as they are: their nodes, those of the front too, are pinned, and flips
+/// keep their edges. `options` are for this mesh, all but that in place. *Collective.*
+void keep_layers(const Communicator& comm, const Mesh& mesh, SmoothOptions& options);
+
+/// A block for each of this rank's triangles, such that flips, which keep edges between two blocks, keep
+/// those of layers: a negative one of its own for a triangle in layers, else what `given` says, or 0 where it
+/// is empty. *Collective.*
+std::vector<std::int32_t> blocks_for_flips(const Communicator& comm, const Mesh& mesh,
+                                           const LayerPlaces& places, const std::vector<std::int32_t>& given);
+
+}  // namespace quadloop

@@ -1,0 +1,121 @@
+// What a user is told of layers, and that the same is kept with the mesh.
+#include "mesher/layers/layer_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesher/generate/generate.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+constexpr double thickness = 0.01 * (1.5 * 1.5 * 1.5 * 1.5 - 1) / 0.5;  // of four layers
+const LayerSpec four{0.01, 1.5, 1.5, 4, 1};
+
+/// A channel from x = 0 to 4, as wide as `gap`, with layers below and, if wanted, above.
+MeshInput channel(double gap, bool above) {
+  Boundary floor{"floor", 0.2, 30, "wall"}, ceiling{"ceiling", 0.2, 30, "wall"},
+      ends{"ends", 0.2, 30, "none"};
+  floor.layers = four;
+  if (above) ceiling.layers = four;
+  MeshInput input{{{floor, ends, ceiling},
+                   {{0, 0}, {4, 0}, {4, gap}, {0, gap}},
+                   {0, 4},
+                   {BoundaryId{0}, BoundaryId{1}, BoundaryId{2}, BoundaryId{1}}},
+                  {},
+                  {},
+                  0};
+  input.mesh.size.min = 0.005;
+  input.mesh.size.max = 0.25;
+  return input;
+}
+
+TEST(LayerReport, TellsOfEachBoundaryWhatWasAskedAndReached) {
+  const GeneratedMesh made = generate_mesh(world(), channel(2, true));
+  ASSERT_EQ(made.layers.size(), 2U);
+  EXPECT_EQ(made.layers[0].boundary, "floor");
+  EXPECT_EQ(made.layers[1].boundary, "ceiling");
+  for (const BoundaryLayerReport& row : made.layers) {
+    EXPECT_EQ(row.asked, 4);
+    EXPECT_EQ(row.reached, 4);
+    EXPECT_GT(row.columns, 20);
+    EXPECT_NEAR(row.first_least, 0.01, 1e-12);
+    EXPECT_NEAR(row.first_median, 0.01, 1e-12);
+    EXPECT_NEAR(row.growth_least, 1.5, 1e-9);
+    EXPECT_NEAR(row.thickness_asked, thickness, 1e-12);
+    EXPECT_EQ(row.share_least, 1);
+    EXPECT_EQ(row.share_full, 1);
+  }
+  EXPECT_TRUE(warnings_of(made.layers).empty());
+  EXPECT_EQ(made.layers[0].columns, made.layers[1].columns) << "mirror images";
+}
+
+TEST(LayerReport, WarnsWhereLessThanHalfIsReached) {
+  const GeneratedMesh made = generate_mesh(world(), channel(0.1, true));
+  ASSERT_EQ(made.layers.size(), 2U);
+  const BoundaryLayerReport& floor = made.layers[0];
+  EXPECT_EQ(floor.reached, 4) << "they get thinner, not fewer";
+  EXPECT_LT(floor.share_least, 0.5);
+  EXPECT_EQ(floor.share_full, 0);
+  EXPECT_LT(floor.growth_least, 1.5);
+  EXPECT_EQ(floor.least.y, 0);
+  const std::vector<std::string> warnings = warnings_of(made.layers);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[0].find("boundary 'floor': near ("), std::string::npos) << warnings[0];
+  for (const std::string& warning : warnings)
+    EXPECT_EQ(std::ranges::count(made.result.report.warnings, warning), 1) << warning;
+}
+
+TEST(LayerReport, IsEmptyWithoutLayersAndCountsOnlyThoseThatAsk) {
+  EXPECT_EQ(generate_mesh(world(), channel(2, false)).layers.size(), 1U);
+  MeshInput plain = channel(2, false);
+  plain.geometry = {
+      {{"floor", 0.2, 30, "wall"}}, {{0, 0}, {4, 0}, {4, 2}, {0, 2}}, {0, 4}, std::vector(4, BoundaryId{0})};
+  const GeneratedMesh made = generate_mesh(world(), plain);
+  EXPECT_TRUE(made.layers.empty());
+  EXPECT_EQ(made.result.mesh.boundaries[0].layers, WallLayers{});
+}
+
+TEST(LayerReport, TheMeshKeepsTheNumberOfLayersAndTheirThickness) {
+  const Mesh mesh = generate_mesh(world(), channel(2, false)).result.mesh;
+  EXPECT_EQ(mesh.boundaries[0].layers.count, 4);
+  EXPECT_NEAR(mesh.boundaries[0].layers.thickness, thickness, 1e-12);
+  EXPECT_EQ(mesh.boundaries[1].layers, WallLayers{});
+  EXPECT_EQ(mesh.boundaries[2].layers, WallLayers{});
+}
+
+TEST(LayerReport, IsTheSameOnAnyNumberOfRanks) {
+  const Communicator alone(MPI_COMM_SELF);
+  const LayerReport one = generate_mesh(alone, channel(0.4, true)).layers;
+  const LayerReport many = generate_mesh(world(), channel(0.4, true)).layers;
+  ASSERT_EQ(one.size(), many.size());
+  for (std::size_t b = 0; b < one.size(); ++b) {
+    EXPECT_EQ(one[b].columns, many[b].columns);
+    EXPECT_EQ(one[b].first_least, many[b].first_least);
+    EXPECT_EQ(one[b].first_median, many[b].first_median);
+    EXPECT_EQ(one[b].growth_least, many[b].growth_least);
+    EXPECT_EQ(one[b].share_least, many[b].share_least);
+    EXPECT_EQ(one[b].share_full, many[b].share_full);
+    EXPECT_EQ(one[b].least, many[b].least);
+  }
+}
+
+TEST(LayerReport, TheEstimateCountsTheirCells) {
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    MeshInput input = channel(2, true);
+    input.mesh.type = type;
+    const GeneratedMesh made = generate_mesh(world(), input);
+    const MeshEstimate& estimate = made.result.report.estimate;
+    const std::int64_t columns = made.layers[0].columns + made.layers[1].columns - 2;
+    const auto in_layers = static_cast<double>(4 * columns * (type == MeshType::delaunay ? 2 : 1));
+    EXPECT_LT(std::abs(std::log(estimate.layer_cells / in_layers)), std::log(1.5));
+    EXPECT_GT(estimate.cells, estimate.layer_cells);
+  }
+}
+
+}  // namespace
+}  // namespace quadloop

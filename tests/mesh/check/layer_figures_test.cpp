@@ -1,0 +1,71 @@
+#include "mesher/mesh/check/layer_figures.hpp"
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <cmath>
+
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "tests/mesh/layered_strip.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::LayeredStrip;
+using test::world;
+
+std::vector<LayerFigures> figures_of(const Mesh& whole) {
+  return layer_figures(whole, layer_places(Communicator(MPI_COMM_SELF), whole));
+}
+
+TEST(LayerFigures, MeasureColumnsOfQuadsAndOfTriangles) {
+  for (const bool triangles : {false, true}) {
+    const LayeredStrip strip{.triangles = triangles};
+    const std::vector<LayerFigures> figures = figures_of(strip.mesh());
+    ASSERT_EQ(figures.size(), 1U);
+    const LayerFigures& wall = figures[0];
+    EXPECT_EQ(wall.boundary, "wall");
+    EXPECT_EQ(wall.count, 3);
+    EXPECT_EQ(wall.columns, 7) << "those on symmetry too";
+    for (const double first : {wall.first.least, wall.first.median, wall.first.largest})
+      EXPECT_NEAR(first, 0.1, 1e-15);
+    EXPECT_NEAR(wall.growth.least, 2, 1e-12);
+    EXPECT_NEAR(wall.growth.largest, 2, 1e-12);
+    EXPECT_NEAR(wall.thickness.median, 0.7, 1e-15);
+    EXPECT_NEAR(wall.asked, 0.7, 1e-15);
+  }
+}
+
+TEST(LayerFigures, FirstHeightsAreNormalToTheWallAndSpreadIsSeen) {
+  const LayeredStrip strip;
+  Mesh mesh = strip.mesh();
+  for (Point& p : mesh.points) p.x += 0.3 * p.y;  // columns tilt, all heights stay
+  for (std::int32_t j = 1; j <= strip.layers; ++j) mesh.points[strip.node(3, j).value()].y *= 0.5;
+  const LayerFigures wall = figures_of(mesh).at(0);
+  EXPECT_NEAR(wall.first.least, 0.05, 1e-15);
+  EXPECT_NEAR(wall.first.median, 0.1, 1e-15);
+  EXPECT_NEAR(wall.first.largest, 0.1, 1e-15);
+  EXPECT_NEAR(wall.thickness.largest, 0.7 * std::hypot(1, 0.3), 1e-12);
+  EXPECT_LT(wall.thickness.least, 0.5);
+}
+
+TEST(LayerFigures, NothingWithoutLayers) {
+  Mesh mesh = LayeredStrip{}.mesh();
+  mesh.boundaries[1].layers = {};
+  EXPECT_TRUE(figures_of(mesh).empty());
+}
+
+TEST(QualityByLayers, CountsTheirCellsApart) {
+  const LayeredStrip strip{.triangles = false};
+  const Mesh mesh = scatter_mesh(world(), world().is_root() ? strip.mesh() : Mesh{},
+                                 world().is_root() ? own_order(strip.mesh()) : MeshOrder{});
+  const QualityByLayers by = quality_by_layers(world(), mesh, layer_places(world(), mesh));
+  EXPECT_EQ(by.layers.counts.quads, 18);
+  EXPECT_EQ(by.others.counts.quads, 18);
+  EXPECT_NEAR(by.others.worst, 1, 1e-12) << "squares";
+  EXPECT_NEAR(by.layers.worst, 0.2 / 1.01, 1e-12) << "a cell of 1 by 0.1";
+}
+
+}  // namespace
+}  // namespace quadloop

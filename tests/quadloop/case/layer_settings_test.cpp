@@ -1,0 +1,111 @@
+// The tables `layers` of a case: what they mean, and what is refused, by key and line.
+#include "quadloop/case/layer_settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "quadloop/case/case_input.hpp"
+#include "tests/io/input/temporary_file.hpp"
+
+namespace quadloop {
+namespace {
+
+class LayerSettingsTest : public ::testing::Test {
+ protected:
+  LayerSettingsTest() { folder_.write("box.geom", "1\nbox\n4\n0 0\n4 0\n4 4\n0 4\n"); }
+
+  CaseInput load(const std::string& layers, const std::string& more = {}) {
+    return load_case(
+        {folder_.write("case.toml",
+                       "[geometry]\nfile = \"box.geom\"\n[boundary.box]\nlayers = {" + layers + "}\n" + more),
+         {},
+         {},
+         {}});
+  }
+  LayerSpec read(const std::string& layers, const std::string& more = {}) {
+    return *load(layers, more).mesh->geometry.boundary(BoundaryId{0}).layers;
+  }
+  void expect_refused(const std::string& layers, const std::string& text, const std::string& more = {}) {
+    const std::string said = test::refusal(folder_, [&] { load(layers, more); });
+    EXPECT_NE(said.find(text), std::string::npos) << said;
+  }
+
+  test::InputFolder folder_;
+};
+
+TEST_F(LayerSettingsTest, ReadsEveryKey) {
+  EXPECT_EQ(read("first = 1e-3, count = 7"), (LayerSpec{1e-3, 1.2, 1.2, 7, 1}));
+  EXPECT_EQ(read("first = 1e-3, count = 7, growth = 1.3, equal = 2"), (LayerSpec{1e-3, 1.3, 1.3, 7, 2}));
+  EXPECT_EQ(read("first = 1e-3, count = 7, growth = [1.1, 1.5]"), (LayerSpec{1e-3, 1.1, 1.5, 7, 1}));
+  // 1 + 1.5 + 2.25 = 4.75 of the first
+  EXPECT_EQ(read("first = 0.01, growth = 1.5, thickness = 0.047").count, 3);
+  EXPECT_EQ(read("first = 0.01, growth = 1.5, thickness = 0.048").count, 4);
+  EXPECT_EQ(read("first = 0.01, thickness = 0.01").count, 1);
+}
+
+TEST_F(LayerSettingsTest, TakesTheFirstHeightFromYPlus) {
+  const std::string flow = "[flow]\nreynolds = 6e6\n";
+  EXPECT_DOUBLE_EQ(read("first = \"yplus:1\", count = 7", flow).first, height_of_y_plus(1, {6e6, 1}));
+  EXPECT_DOUBLE_EQ(
+      read("first = \"yplus:0.5\", count = 7", flow + "reference_length = 3\nmach = 0.15\n").first,
+      height_of_y_plus(0.5, {6e6, 3}));
+  EXPECT_TRUE(load("first = \"yplus:1\", count = 7", flow).warnings.empty());
+}
+
+TEST_F(LayerSettingsTest, SaysThatAFlowDoesNothing) {
+  const Warnings warnings = load("first = 1e-3, count = 7", "[flow]\nreynolds = 6e6\n").warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("case.toml:5: [flow] does nothing"), std::string::npos) << warnings[0];
+}
+
+TEST_F(LayerSettingsTest, RefusesAFirstHeightThatIsNone) {
+  expect_refused("count = 3", "case.toml:4: 'boundary.box.layers.first' is missing");
+  for (const char* first : {"0", "-1", "nan", "inf"})
+    expect_refused(std::string("count = 3, first = ") + first,
+                   "case.toml:4: 'boundary.box.layers.first' is ");
+  for (const char* first : {"yplus", "yplus:", "yplus:0", "yplus:-1", "yplus:nan", "yplus:1x", "1e-3"})
+    expect_refused(std::string("count = 3, first = \"") + first + "\"", "or \"yplus:1\" with",
+                   "[flow]\nreynolds = 6e6\n");
+  expect_refused("first = true, count = 3", "'boundary.box.layers.first' must be a number");
+  expect_refused("first = 1e-14, count = 3", "boundary box: a first layer of 1e-14 is too thin");
+}
+
+TEST_F(LayerSettingsTest, RefusesAFlowThatDoesNotTell) {
+  const std::string layers = "first = \"yplus:1\", count = 7";
+  expect_refused(layers,
+                 "case.toml:4: 'boundary.box.layers.first' is 'yplus:1', which needs a Reynolds number");
+  expect_refused(layers, "case.toml:5: 'flow.reynolds' is missing", "[flow]\nmach = 0.1\n");
+  expect_refused(layers, "case.toml:6: 'flow.reynolds' is 999, but must be at least 1000",
+                 "[flow]\nreynolds = 999\n");
+  expect_refused(layers, "'flow.reference_length' is 0", "[flow]\nreynolds = 1e6\nreference_length = 0\n");
+  expect_refused(layers, "'flow.mach' is -1", "[flow]\nreynolds = 1e6\nmach = -1\n");
+  expect_refused(layers, "unknown key 'flow.re'", "[flow]\nreynolds = 1e6\nre = 2\n");
+}
+
+TEST_F(LayerSettingsTest, RefusesNumbersOfLayersAndGrowthsThatCannotBe) {
+  expect_refused("first = 1e-3", "case.toml:4: 'boundary.box.layers.count' is missing");
+  expect_refused("first = 1e-3, count = 3, thickness = 1",
+                 "'boundary.box.layers.thickness' stands beside count");
+  expect_refused("first = 1e-3, thickness = 1e-4",
+                 "'boundary.box.layers.thickness' is 0.0001, less than the first");
+  expect_refused("first = 1e-3, thickness = nan", "'boundary.box.layers.thickness' is nan");
+  expect_refused("first = 1e-12, thickness = 1, growth = 1.01", "takes more than 1000 layers");
+  for (const char* count : {"0", "1001", "2.5"})
+    expect_refused(std::string("first = 1e-3, count = ") + count, "'boundary.box.layers.count' ");
+  for (const char* growth : {"1", "0.9", "2.1", "nan", "[1.5, 1.1]", "[1.1, 1.2, 1.3]", "[]", "[1, 1.5]"})
+    expect_refused(std::string("first = 1e-3, count = 3, growth = ") + growth,
+                   "'boundary.box.layers.growth' ");
+  expect_refused("first = 1e-3, count = 3, equal = 0", "'boundary.box.layers.equal' is 0");
+  expect_refused("first = 1e-3, count = 3, equal = 4",
+                 "'boundary.box.layers.equal' is 4, more than the 3 layers");
+  expect_refused("first = 1e-3, count = 3, last = 4", "unknown key 'boundary.box.layers.last'");
+}
+
+TEST(HeightOfYPlus, IsThatOfAFlatPlateBySchlichting) {
+  // cf = (2 log10 6e6 - 0.65)^-2.3 = 0.00278712, u_tau = 0.0373304 U
+  EXPECT_NEAR(height_of_y_plus(1, {6e6, 1}), 4.464634e-6, 1e-12);
+  EXPECT_NEAR(height_of_y_plus(1, {5000, 1}), 2.541510e-3, 1e-9);
+  EXPECT_DOUBLE_EQ(height_of_y_plus(30, {6e6, 2}), 60 * height_of_y_plus(1, {6e6, 1}));
+}
+
+}  // namespace
+}  // namespace quadloop
