@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "adapt/transfer/cell_triangles.hpp"
+#include "adapt/transfer/column_places.hpp"
 #include "adapt/transfer/curve_shares.hpp"
 #include "adapt/transfer/equal_points.hpp"
 #include "adapt/transfer/linear_values.hpp"
@@ -112,10 +113,10 @@ struct NewRows {
   std::vector<std::int32_t> outside;
 };
 
-/// What the old mesh has at the owned nodes of a new one. *Collective.*
-NewRows ask(const Communicator& comm, const OldMesh& old, const Mesh& mesh) {
-  const Exchange questions = to_shares(comm, old.shares, owned_points(mesh));
-  const std::vector<Point> points = questions.deliver(owned_points(mesh));
+/// What the old mesh has at the places of the owned nodes of a new one. *Collective.*
+NewRows ask(const Communicator& comm, const OldMesh& old, std::span<const Point> places) {
+  const Exchange questions = to_shares(comm, old.shares, places);
+  const std::vector<Point> points = questions.deliver(places);
   Found found(comm, old, points);
   const auto width = old.field.width();
   std::vector<double> rows(points.size() * width);
@@ -124,7 +125,7 @@ NewRows ask(const Communicator& comm, const OldMesh& old, const Mesh& mesh) {
     is_inside.push_back(found.next(std::span(rows).subspan(i * width, width)) ? 1 : 0);
   NewRows answers{questions.answer(rows, width), {}};
   is_inside = questions.answer(is_inside);
-  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
+  for (std::int32_t node = 0; node < std::ssize(places); ++node) {
     if (is_inside[node] == 0) answers.outside.push_back(node);
   }
   return answers;
@@ -132,12 +133,12 @@ NewRows ask(const Communicator& comm, const OldMesh& old, const Mesh& mesh) {
 
 /// Each rank that has an edge tells the values there. *Collective.*
 void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
-                        const Mesh& new_mesh, NewRows& rows) {
+                        std::span<const Point> at, NewRows& rows) {
   const NearestBoundary boundary(comm, old_mesh);
   std::vector<BoundaryPlace> places;
   std::vector<int> ranks;
   for (const std::int32_t node : rows.outside) {
-    places.push_back(boundary.nearest(new_mesh.point(NodeId{node})));
+    places.push_back(boundary.nearest(at[node]));
     ranks.push_back(places.back().rank);
   }
   const Exchange questions(comm, ranks);
@@ -177,10 +178,11 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field
   const Field old = with_copies(comm, old_mesh, old_field);
   const auto triangles = cell_triangles(comm, old_mesh, centre_of_nodes(comm, old_mesh));
   const CurveShares shares(comm, owned_points(old_mesh), owned_points(new_mesh));
-  NewRows rows = ask(comm, {old_mesh, old, triangles, shares}, new_mesh);
+  const std::vector<Point> at = column_places(comm, old_mesh, new_mesh);
+  NewRows rows = ask(comm, {old_mesh, old, triangles, shares}, at);
   Transferred transferred;
   transferred.report.outside = comm.sum(std::ssize(rows.outside));
-  if (transferred.report.outside > 0) take_from_boundary(comm, old_mesh, old, new_mesh, rows);
+  if (transferred.report.outside > 0) take_from_boundary(comm, old_mesh, old, at, rows);
   transferred.field = {old.names, std::move(rows.values), old.constants};
   OldIntegrals before{integrate(comm, old_mesh, triangles, old), {}};
   before.of_sizes = integrate_sizes(comm, old_mesh, triangles, old, before.of_values);

@@ -26,7 +26,8 @@ struct Transferred {
 /// of a quad (split_quad), takes the values interpolated linearly there: those of an old node at the same
 /// place bit for bit, linear fields to rounding. Of several triangles that it lies in it is the one of the
 /// lowest number over all ranks. A node outside the old mesh takes the values at the nearest point of its
-/// boundary edges, of several edges as near those of the lowest number. So no value leaves the range of the
+/// boundary edges, of several edges as near those of the lowest number. In layers at walls nodes go by their
+/// height above the wall (column_places). So no value leaves the range of the
 /// nodes that it is made from, and the bits depend on the two meshes alone, not on how they are spread over
 /// the ranks. `old_field` holds a row of finite numbers for each owned node. Each rank works on a
 /// share of the old triangles and new nodes, told by place; the old boundary edges are gathered on all ranks
