@@ -40,6 +40,22 @@ class WordDigest {
       add(std::get<SizeSource::Line>(shape).to);
     }
   }
+  void add(const LayerLine& line) {
+    const auto& [from, path, length, spacing, layers] = line;
+    add(from.size());
+    for (const unsigned char byte : from) add(std::uint64_t{byte});
+    add(path.size());
+    for (const Point p : path) add(p);
+    add(length);
+    add(spacing);
+    if (!layers) return;
+    const auto& [first, growth, growth_to, count, equal] = *layers;
+    add(first);
+    add(growth);
+    add(growth_to);
+    add(static_cast<std::uint64_t>(count));
+    add(static_cast<std::uint64_t>(equal));
+  }
   std::uint64_t value() const { return mixed_bits(state_); }
 
  private:
@@ -49,7 +65,7 @@ class WordDigest {
 }  // namespace
 
 // By name, so that an option more does not compile before it is thought of here.
-std::uint64_t case_digest(const MeshOptions& options) {
+std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines) {
   const auto& [type, quads, size, snap, may_vanish, limit] = options;  // the last two make no other mesh
   const auto& [min, max, gradation, curvature, gap, sources, root] = size;
   WordDigest digest;
@@ -71,6 +87,7 @@ std::uint64_t case_digest(const MeshOptions& options) {
     digest.add(static_cast<std::uint64_t>(trees_y));
   }
   digest.add(snap);
+  for (const LayerLine& line : lines) digest.add(line);
   return digest.value();
 }
 

@@ -5,12 +5,13 @@
 
 #include "mesher/base/communicator.hpp"
 #include "mesher/build/build_mesh.hpp"
+#include "mesher/layers/layer_lines.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
 
 /// A number that changes with every setting that the mesh depends on, beside the geometry.
-std::uint64_t case_digest(const MeshOptions& options);
+std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines = {});
 
 /// A number that changes with any character of a text.
 std::uint64_t text_digest(const std::string& text);

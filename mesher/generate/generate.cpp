@@ -11,6 +11,7 @@
 #include "mesher/cut/lattice_rank.hpp"
 #include "mesher/generate/digests.hpp"
 #include "mesher/layers/add_layers.hpp"
+#include "mesher/layers/add_strips.hpp"
 #include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
@@ -82,9 +83,11 @@ void name_layers(const Geometry& geometry, Mesh& mesh) {
 /// Layers on all walls that ask for them. *Collective.*
 void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFront& front,
                  MeshResult& result) {
-  std::function<TieRank(Point)> divide;
+  DivideBy divide;
   if (input.mesh.type == MeshType::delaunay) divide = order_of_nodes(input, result.report.finest_allowed);
   add_layers(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
+  if (front.has_strips())
+    add_strips(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
   name_layers(input.geometry, result.mesh);
   TreeAttributes& a = result.tree.attributes;
   a.geometry_digest = input.geometry.digest();
@@ -93,8 +96,9 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
   a.quads = comm.sum(std::ssize(result.mesh.quads));
 }
 
-bool has_layers(const Geometry& geometry) {
-  return std::ranges::any_of(geometry.boundaries(), [](const Boundary& b) { return b.layers.has_value(); });
+bool has_layers(const MeshInput& input) {
+  return !input.lines.empty() || std::ranges::any_of(input.geometry.boundaries(),
+                                                     [](const Boundary& b) { return b.layers.has_value(); });
 }
 
 /// The mesh outside of layers, or the whole where there are none, complete but for its digests. *Collective.*
@@ -115,7 +119,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
                                const DemandedSplits& demanded) {
   StageTimes times;
   times.begin("front");
-  const LayerFront front = layer_front(input.geometry, input.mesh.size.curvature);
+  const LayerFront front = layer_front(input.geometry, input.mesh.size.curvature, input.lines);
   times.end();
   GeneratedMesh generated = generate_outer(comm, outside(input, front), demanded);
   times.append(generated.times);
@@ -141,8 +145,8 @@ SmoothOptions smooth_options_for(const MeshInput& input, int finest_level) {
 
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
                             const DemandedSplits& demanded) {
-  GeneratedMesh generated = has_layers(input.geometry) ? generate_layered(comm, input, demanded)
-                                                       : generate_outer(comm, input, demanded);
+  GeneratedMesh generated =
+      has_layers(input) ? generate_layered(comm, input, demanded) : generate_outer(comm, input, demanded);
   MeshResult& result = generated.result;
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);

@@ -8,6 +8,7 @@
 #include "mesher/base/communicator.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/layers/layer_lines.hpp"
 #include "mesher/layers/layer_report.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
 #include "smoother/smooth_options.hpp"
@@ -19,7 +20,8 @@ struct MeshInput {
   Geometry geometry;
   MeshOptions mesh;
   SmoothOptions smooth;      ///< without the geometry
-  std::uint64_t digest = 0;  ///< of the case: case_digest() of its own mesh options
+  std::uint64_t digest = 0;  ///< of the case: case_digest() of its own mesh options and lines
+  std::vector<LayerLine> lines = {};
 };
 
 /// A smoothed mesh and its tree record, complete but for what a file adds.

@@ -108,7 +108,7 @@ class Fitting {
 
   Point wall(std::int32_t i) const { return line_[i].wall; }
   Point front(std::int32_t i) const { return front_[i]; }
-  bool place_exists(std::int32_t i) const { return line_.next(i) != WallLine::none; }
+  bool place_exists(std::int32_t i) const { return line_.goes_on(i); }
 
   /// Walls as the stations see them, then the segments without layers.
   void gather_walls() {
@@ -151,8 +151,10 @@ class Fitting {
       wall_tree_.for_each_meeting(box_of(wall(i), end), [&](std::int32_t w) {
         const Segment& s = walls_[w];
         if (is_near(w) || !segments_meet(wall(i), end, s.from, s.to)) return;
+        // the mean from both ends, so that it is the same for the wall walked the other way
         const Point across = s.to - s.from;
-        const double share = cross(s.from - wall(i), across) / cross(end - wall(i), across);
+        const double share = (cross(s.from - wall(i), across) + cross(s.to - wall(i), across)) /
+                             (2 * cross(end - wall(i), across));
         if (share > 0 && share < nearest) nearest = share;
       });
       guessed[i] = nearest * h_[i];

@@ -1,5 +1,6 @@
 #include "mesher/layers/wall_line.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace quadloop {
@@ -7,14 +8,13 @@ namespace quadloop {
 namespace {
 
 constexpr double stations_per_thickness = 8;
-constexpr double cosine_of_fan = -0.5;  // a fan where the wall turns by more than 120 degrees
 constexpr double cosine_of_concave = 0.96592582628906831;  // a corner where it turns in by more than 15
 constexpr int fan_halvings = 4;
 
 /// Half way from one normal of the wall to the next. Where the wall almost turns back their sum vanishes, but
 /// the difference of the wall's own directions tells the way.
 Point between(Point a, Point b) {
-  if (dot(a, b) > cosine_of_fan) return unit(a + b);
+  if (dot(a, b) > cosine_of_sharp_edge) return unit(a + b);
   const Point back{a.y - b.y, b.x - a.x};
   return unit(cross(a, b) < 0 ? back : -1.0 * back);
 }
@@ -42,7 +42,9 @@ Point lerp(Point a, Point b, int part, int parts) {
 
 }  // namespace
 
-WallLine::WallLine(const Geometry& geometry, const std::vector<WallRun>& runs) : geometry_{&geometry} {
+WallLine::WallLine(const Geometry& geometry, const std::vector<WallRun>& runs,
+                   const std::vector<WakeStart>& wakes)
+    : geometry_{&geometry}, wakes_{wakes} {
   for (const WallRun& run : runs) add_run(run);
   for (std::int32_t i = 0; i < size(); ++i) {
     width_.push_back(next_[i] == none ? 0 : length(stations_[next_[i]].wall - stations_[i].wall));
@@ -77,8 +79,10 @@ void WallLine::add_corner(const WallRun& run, std::size_t k) {
   station.layers = run.layers[k];
   station.kept = g.kept(after);
   const Point first = left_of(station.before), last = left_of(station.after);
+  if (const auto wake = std::ranges::find(wakes_, after, &WakeStart::first); wake != wakes_.end())
+    return add_wake(station, run.layers[before_k], *wake);
   const double turn = cross(station.before, station.after), cosine = dot(station.before, station.after);
-  if (turn < 0 && cosine < cosine_of_fan) {
+  if (turn < 0 && cosine < cosine_of_sharp_edge) {
     station.shape = Station::Shape::fan;
     const std::vector<Point> fan = fan_between(first, last);
     for (std::size_t i = 0; i < fan.size(); ++i) {
@@ -94,6 +98,21 @@ void WallLine::add_corner(const WallRun& run, std::size_t k) {
     station.shape = Station::Shape::concave;
     station.slope = turn / (1 + cosine);  // of the bisector: the tangent of half the turn
   }
+  stations_.push_back(station);
+}
+
+/// The columns at the edge, half way between the normals of the wall and of the wake.
+void WallLine::add_wake(Station station, BoundaryId before, const WakeStart& wake) {
+  const BoundaryId after = station.layers;
+  station.shape = Station::Shape::fan;
+  station.kept = true;
+  station.at_wake = station.opens_wake = true;
+  station.layers = before;
+  station.direction = unit(left_of(station.before) + left_of(wake.direction));
+  stations_.push_back(station);
+  station.opens_wake = false;
+  station.layers = after;
+  station.direction = unit(left_of(station.after) - left_of(wake.direction));
   stations_.push_back(station);
 }
 
@@ -130,6 +149,12 @@ void WallLine::add_end(const WallRun& run, bool first) {
   station.kept = true;
   station.direction = first ? direction_of(g.point(vertex), g.point(g.previous(vertex)))
                             : direction_of(g.point(vertex), g.point(g.next(vertex)));
+  const auto wake = std::ranges::find(wakes_, vertex, first ? &WakeStart::last : &WakeStart::first);
+  if (wake != wakes_.end()) {
+    station.at_wake = true;
+    station.opens_wake = !first;
+    station.direction = unit(left_of(station.after) + (first ? -1 : 1) * left_of(wake->direction));
+  }
   const double along = dot(station.direction, station.after);
   station.slope = (first ? along : -along) / dot(station.direction, left_of(station.after));
   stations_.push_back(station);

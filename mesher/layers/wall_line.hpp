@@ -23,11 +23,21 @@ struct Station {
   std::int32_t segment = 0;  ///< of the geometry: that after it, or before it where a run ends
   BoundaryId layers;         ///< whose layers it carries
   Shape shape = Shape::smooth;
-  bool kept = false;  ///< must be a node, on the wall and on the front
-  double slope = 0;   ///< of a concave corner's or an end's column, over the normal, away from the corner
-  Point direction;    ///< of its column: given in fans and at ends, elsewhere the middle of the two normals
+  bool at_wake = false;     ///< a wake begins there
+  bool opens_wake = false;  ///< and lies between it and the next station
+  bool kept = false;        ///< must be a node, on the wall and on the front
+  double slope = 0;  ///< of a concave corner's or an end's column, over the normal, away from the corner
+  Point direction;   ///< of its column: given in fans and at ends, elsewhere the middle of the two normals
 
   bool fixed() const { return shape != Shape::smooth; }
+};
+
+constexpr double cosine_of_sharp_edge = -0.5;  ///< where the wall turns by more than 120 degrees
+
+/// An edge that a wake begins at.
+struct WakeStart {
+  std::int32_t first = 0, last = 0;  ///< vertices: one and the same at a sharp edge
+  Point direction;                   ///< of the wake, of length 1
 };
 
 /// The walls that carry layers, as stations no farther apart than an eighth of the layers' thickness. Flat:
@@ -36,7 +46,10 @@ class WallLine {
  public:
   static constexpr std::int32_t none = -1;
 
-  WallLine(const Geometry& geometry, const std::vector<WallRun>& runs);
+  /// Where a wake begins there is no fan but two columns, one for each side of the wake. `geometry` must
+  /// outlive it.
+  WallLine(const Geometry& geometry, const std::vector<WallRun>& runs,
+           const std::vector<WakeStart>& wakes = {});
 
   std::int32_t size() const { return size32(stations_); }
   const Station& operator[](std::int32_t i) const { return stations_[i]; }
@@ -44,6 +57,8 @@ class WallLine {
   std::int32_t previous(std::int32_t i) const { return previous_[i]; }  ///< or `none`
   /// How many stations on from i the station j is, on the same line of wall; `none` where it is not.
   std::int32_t steps(std::int32_t i, std::int32_t j) const;
+  /// Whether the layers go on to a next station.
+  bool goes_on(std::int32_t i) const { return next_[i] != none && !stations_[i].opens_wake; }
   /// The length of the wall to the next station; 0 within a fan, and where there is none.
   double width(std::int32_t i) const { return width_[i]; }
   /// The thickness asked for there.
@@ -76,11 +91,13 @@ class WallLine {
  private:
   void add_run(const WallRun& run);
   void add_corner(const WallRun& run, std::size_t k);
+  void add_wake(Station station, BoundaryId before, const WakeStart& wake);
   void add_between(const WallRun& run, std::size_t k);
   void add_end(const WallRun& run, bool first);
   void link(std::int32_t begin, bool closed);
 
   const Geometry* geometry_;
+  std::vector<WakeStart> wakes_;
   std::vector<Station> stations_;
   std::vector<std::int32_t> next_, previous_;
   struct Run {

@@ -17,15 +17,17 @@ bool can_hold_column(Point before, Point after) {
 
 class Runs {
  public:
-  explicit Runs(const Geometry& geometry) : g_{geometry}, layers_(geometry.points().size()) {
+  Runs(const Geometry& geometry, const std::vector<std::int32_t>& bare)
+      : g_{geometry}, layers_(geometry.points().size()), bare_(geometry.points().size(), 0) {
+    for (const std::int32_t s : bare) bare_[s] = 1;
     for (std::int32_t s = 0; s < g_.size(); ++s) {
-      if (g_.boundary(g_.boundary_of(s)).layers) layers_[s] = g_.boundary_of(s);
+      if (asks(s)) layers_[s] = g_.boundary_of(s);
     }
   }
 
   std::vector<WallRun> found() {
     for (std::int32_t s = 0; s < g_.size(); ++s) {
-      if (g_.boundary(g_.boundary_of(s)).layers) extend(s);
+      if (asks(s)) extend(s);
     }
     require_one_count();
     std::vector<WallRun> runs;
@@ -34,16 +36,18 @@ class Runs {
   }
 
  private:
+  bool asks(std::int32_t s) const { return g_.boundary(g_.boundary_of(s)).layers && !bare_[s]; }
   bool carries(std::int32_t s) const { return layers_[s].valid(); }
   Point direction(std::int32_t s) const { return direction_of(g_.point(s), g_.point(g_.next(s))); }
 
   /// Onto the segments that follow and those that lead there, as far as no column can lie on them.
   void extend(std::int32_t s) {
     for (std::int32_t from = s, to = g_.next(s);
-         !carries(to) && !can_hold_column(direction(from), direction(to)); from = to, to = g_.next(to))
+         !carries(to) && !bare_[to] && !can_hold_column(direction(from), direction(to));
+         from = to, to = g_.next(to))
       layers_[to] = layers_[s];
     for (std::int32_t to = s, from = g_.previous(s);
-         !carries(from) && !can_hold_column(direction(from), direction(to));
+         !carries(from) && !bare_[from] && !can_hold_column(direction(from), direction(to));
          to = from, from = g_.previous(from))
       layers_[from] = layers_[s];
   }
@@ -84,11 +88,14 @@ class Runs {
 
   const Geometry& g_;
   std::vector<BoundaryId> layers_;  ///< of each segment: whose layers it carries, if any
+  std::vector<char> bare_;
 };
 
 }  // namespace
 
-std::vector<WallRun> wall_runs(const Geometry& geometry) { return Runs(geometry).found(); }
+std::vector<WallRun> wall_runs(const Geometry& geometry, const std::vector<std::int32_t>& bare) {
+  return Runs(geometry, bare).found();
+}
 
 Point direction_of(Point from, Point to) {
   const Point along = to - from;

@@ -17,9 +17,10 @@ struct WallRun {
 
 /// All of them, in the order of the outline. A stretch ends only where the next boundary leaves it at 45 to
 /// 135 degrees, so that the last column can lie on that boundary; elsewhere the layers go on along the next
-/// boundary, up to its first corner of such an angle: a stack of thin cells never ends in the open. Throws
-/// InputError where boundaries that meet ask for different numbers of layers.
-std::vector<WallRun> wall_runs(const Geometry& geometry);
+/// boundary, up to its first corner of such an angle: a stack of thin cells never ends in the open. The
+/// segments `bare`, at which wakes begin, have none either. Throws InputError where boundaries that meet ask
+/// for different numbers of layers.
+std::vector<WallRun> wall_runs(const Geometry& geometry, const std::vector<std::int32_t>& bare = {});
 
 /// The direction of a segment, of length 1; that of the reversed segment is its negative, to the last bit.
 Point direction_of(Point from, Point to);

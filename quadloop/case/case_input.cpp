@@ -50,7 +50,8 @@ CaseInput load_case(const CaseArguments& arguments) {
   const MeshOptions options = mesh_options(settings, geometry);
   for (std::string& warning : spacing_warnings(options, geometry))
     input.warnings.push_back(std::move(warning));
-  input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth, case_digest(options)});
+  input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth,
+                               case_digest(options, settings.lines), settings.lines});
   if (arguments.saved) keep_root(*arguments.saved, *input.mesh);
   return input;
 }

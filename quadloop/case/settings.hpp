@@ -10,6 +10,7 @@
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/assemble/transform.hpp"
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/layers/layer_lines.hpp"
 #include "mesher/mesh/tree_record.hpp"
 #include "quadloop/case/solver_settings.hpp"
 #include "smoother/smooth_options.hpp"
@@ -40,6 +41,7 @@ struct Settings {
   std::optional<double> min, max;  ///< spacing.min and spacing.max, where given
   MeshOptions mesh;                ///< without the sizes min and max: those may follow from the geometry
   SmoothOptions smooth;            ///< without the geometry
+  std::vector<LayerLine> lines;    ///< wakes and free lines with layers
   SolverSettings solver;
   std::optional<AdaptOptions> adapt;  ///< where the case has a table for it
   std::string output_prefix;

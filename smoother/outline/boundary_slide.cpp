@@ -204,7 +204,11 @@ bool BoundarySlide::lies_on(NodeId node, std::span<const char> segments) const {
   if (!is_outlined(rail.boundary)) return false;
   const Places places = locate(rail);
   if (!places.before.valid() || !places.at.valid() || !places.after.valid()) return false;
-  const auto between = outline_->segments_between(places.before, places.after);
+  // From the middle of one edge to that of the other: a neighbour at an end of the flagged segments lies on
+  // one that is not.
+  const double back = outline_->way(places.before, places.at), ahead = outline_->way(places.at, places.after);
+  const auto between = outline_->segments_between({places.at.loop, places.at.arc - back / 2},
+                                                  {places.at.loop, places.at.arc + ahead / 2});
   return !between.empty() && std::ranges::all_of(between, [&](std::int32_t s) { return segments[s] != 0; });
 }
 

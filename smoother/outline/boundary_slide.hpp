@@ -32,7 +32,7 @@ class BoundarySlide {
   /// untangles.
   std::optional<Point> improve(NodeId node, const Star& star, Objective objective) const;
 
-  /// Whether a sliding node and both its neighbours lie on flagged segments of the outline.
+  /// Whether a sliding node and the ways to both its neighbours lie on flagged segments of the outline.
   bool lies_on(NodeId node, std::span<const char> segments) const;
 
   /// A place nearer to the middle between a sliding node's neighbours along the outline, or none: no cell's

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -107,16 +108,34 @@ Box surroundings(const TreeAttributes& tree, const LeafRecord& leaf) {
 }
 
 TEST(BuildMesh, CellsLieInTheLeavesThatCountThem) {
-  const auto [mesh, tree, report] = build_mesh(world(), pentagon(), sized(0.02, 0.2));
+  const MeshResult made = build_mesh(world(), pentagon(), sized(0.02, 0.2));
+  const Mesh& mesh = made.mesh;
   auto triangle = mesh.triangles.begin();
   auto quad = mesh.quads.begin();
   const auto expect_within = [&mesh](const Box& box, const auto& cell) {
     for (const NodeId node : cell) EXPECT_TRUE(box.contains(mesh.point(node)));
   };
-  for (const LeafRecord& leaf : tree.leaves) {
-    const Box box = surroundings(tree.attributes, leaf);
+  for (const LeafRecord& leaf : made.tree.leaves) {
+    const Box box = surroundings(made.tree.attributes, leaf);
     for (std::int32_t i = 0; i < leaf.triangles; ++i) expect_within(box, *triangle++);
     for (std::int32_t i = 0; i < leaf.quads; ++i) expect_within(box, *quad++);
+  }
+}
+
+TEST(BuildMesh, BoundaryEdgesLieInTheLeavesThatAreNamed) {
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    MeshOptions options = sized(0.02, 0.2);
+    options.type = type;
+    const MeshResult made = build_mesh(world(), pentagon(), options);
+    ASSERT_EQ(made.edge_leaves.size(), 1U);
+    const std::vector<std::int32_t>& leaves = made.edge_leaves[0];
+    const auto& edges = made.mesh.boundaries[0].edges;
+    ASSERT_EQ(leaves.size(), edges.size());
+    EXPECT_TRUE(std::ranges::is_sorted(leaves));
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const Box box = surroundings(made.tree.attributes, made.tree.leaves[leaves[e]]);
+      for (const NodeId node : edges[e]) EXPECT_TRUE(box.contains(made.mesh.point(node)));
+    }
   }
 }
 

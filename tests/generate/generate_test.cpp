@@ -103,6 +103,54 @@ TEST(Generate, IsTheSameOnAnyNumberOfRanks) {
   }
 }
 
+/// The disc with layers that end 0.1 from it.
+MeshInput layered_disc() {
+  MeshInput input = disc_in_box();
+  const Geometry& g = input.geometry;
+  std::vector<Boundary> boundaries(g.boundaries().begin(), g.boundaries().end());
+  boundaries[1].layers = LayerSpec{0.005, 1.2, 1.2, 9};
+  std::vector<BoundaryId> of_segment;
+  for (std::int32_t s = 0; s < g.size(); ++s) of_segment.push_back(g.boundary_of(s));
+  input.geometry = {boundaries, {g.points().begin(), g.points().end()}, {0, 4, 64}, of_segment};
+  return input;
+}
+
+TEST(Generate, LayersStandOnTheWallsThatAskForThem) {
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    MeshInput input = layered_disc();
+    input.mesh.type = type;
+    const GeneratedMesh made = generate_mesh(world(), input);
+    const TreeAttributes& a = made.result.tree.attributes;
+    EXPECT_EQ(a.geometry_digest, input.geometry.digest()) << "that of the walls, not of the front";
+    EXPECT_EQ(a.coordinate_digest, coordinate_digest(world(), made.result.mesh));
+    EXPECT_EQ(a.nodes, world().sum(made.result.mesh.owned_nodes));
+    EXPECT_EQ(a.triangles, world().sum(std::ssize(made.result.mesh.triangles)));
+    EXPECT_EQ(a.quads, world().sum(std::ssize(made.result.mesh.quads)));
+    EXPECT_EQ(made.times.stages().front().first, "front");
+    EXPECT_EQ(made.times.stages().back().first, "layers");
+    const Mesh whole = gather_whole(world(), made.result.mesh);
+    if (!world().is_root()) continue;
+    EXPECT_TRUE(validate(whole).empty());
+    EXPECT_EQ(whole.quads.empty(), type == MeshType::delaunay);
+    EXPECT_NEAR(area_of(whole), 4 - std::numbers::pi * 0.16, 0.005);
+    std::set<NodeId> on_wall;
+    for (const auto& edge : whole.boundaries[1].edges) on_wall.insert(edge.begin(), edge.end());
+    std::size_t next = 0;
+    for (const Point p : whole.points) next += std::abs(length(p - Point{0.1, 0.05}) - 0.405) < 1e-3 ? 1 : 0;
+    EXPECT_EQ(next, on_wall.size()) << "nodes at the first layer's height";
+  }
+}
+
+TEST(Generate, LayersAreTheSameOnAnyNumberOfRanks) {
+  const Communicator self(MPI_COMM_SELF);
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    MeshInput input = layered_disc();
+    input.mesh.type = type;
+    EXPECT_EQ(generate_mesh(world(), input).result.tree.attributes.coordinate_digest,
+              generate_mesh(self, input).result.tree.attributes.coordinate_digest);
+  }
+}
+
 TEST(Digests, ChangeWithEverySetting) {
   std::set<std::uint64_t> seen;
   const auto see = [&](const std::function<void(MeshOptions&)>& change) {

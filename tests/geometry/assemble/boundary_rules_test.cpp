@@ -31,6 +31,20 @@ TEST(BoundaryRules, ExactNamesWinOverPatterns) {
   EXPECT_EQ(boundaries[2].condition, "wall");
 }
 
+TEST(BoundaryRules, LayersComeFromTheLastRuleThatAsksForThem) {
+  BoundaryRule pattern, exact;
+  pattern.pattern = "island_*";
+  pattern.layers = LayerSpec{1, 1.2, 1.2, 10};
+  exact.pattern = "island_2";
+  exact.layers = LayerSpec{2, 1.2, 1.2, 10};
+  BoundaryRule bare;
+  bare.pattern = "island_1";
+  const auto boundaries = boundaries_by_rules({"sea", "island_1", "island_2"}, {bare, exact, pattern}, 30);
+  EXPECT_FALSE(boundaries[0].layers.has_value());
+  EXPECT_EQ(boundaries[1].layers, pattern.layers);
+  EXPECT_EQ(boundaries[2].layers, exact.layers);
+}
+
 TEST(BoundaryRules, RefuseWhatMatchesNothing) {
   const BoundaryRule rule{"isle_*", 2.0, {}, {}, "case.toml:7: [boundary.isle_*]", true};
   const std::string message = test::refusal([&] { boundaries_by_rules({"sea", "island_1"}, {rule}, 30); });

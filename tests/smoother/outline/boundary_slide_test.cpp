@@ -123,6 +123,56 @@ TEST(BoundarySlide, NodesOnACurvedOutlineSlideAlongIt) {
   EXPECT_GT(moved, 0);
 }
 
+/// A grid inside a square outline of 4 segments, wall to the south and east.
+struct InASquare {
+  InASquare() {
+    mesh.points.begin()[3].x = 0.4;  // from 0.5, on the lower side
+  }
+  Geometry square{{{"wall", 0, 30, "wall"}, {"far", 0, 30, "none"}},
+                  {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+                  {0, 4},
+                  {BoundaryId{0}, BoundaryId{0}, BoundaryId{1}, BoundaryId{1}}};
+  Mesh mesh = grid.mesh();
+};
+
+TEST(BoundarySlide, TellsWhichNodesLieOnFlaggedSegments) {
+  const InASquare in;
+  const Sliding s(in.mesh, &in.square);
+  const std::vector<char> south{1, 0, 0, 0}, none(4, 0);
+  for (const int node : {1, 2, 3, 4, 5}) {
+    EXPECT_TRUE(s.slide->lies_on(NodeId{node}, south)) << node;
+    EXPECT_FALSE(s.slide->lies_on(NodeId{node}, none)) << node;
+  }
+  EXPECT_FALSE(s.slide->lies_on(NodeId{13}, south)) << "on the east side";
+  EXPECT_FALSE(Sliding(in.mesh).slide->lies_on(NodeId{3}, south)) << "without an outline";
+}
+
+TEST(BoundarySlide, AnEighthOfTheDifferenceTowardsTheMiddle) {
+  InASquare in;
+  const auto moved = [&](int node) {
+    const Sliding s(in.mesh, &in.square);
+    Star star;
+    s.stars->gather(node, star);
+    return s.slide->towards_middle(NodeId{node}, star);
+  };
+  const auto to = moved(3);
+  ASSERT_TRUE(to.has_value());
+  EXPECT_EQ(to->y, 0);
+  EXPECT_NEAR(to->x, 0.4 + 0.125 * ((2.0 / 3 - 0.4) - (0.4 - 1.0 / 3)), 1e-12);
+  in.mesh.points.begin()[3].x = 0.5 + 1e-5;
+  EXPECT_FALSE(moved(3).has_value()) << "even enough";
+}
+
+TEST(BoundarySlide, NoAngleFallsUnder28DegreesOnTheWayToTheMiddle) {
+  InASquare in;
+  in.mesh.points.begin()[3].x = 0.36;
+  in.mesh.points.begin()[10].x = 0.10;  // above it, far to the left: a move to the right flattens the cell
+  const Sliding s(in.mesh, &in.square);
+  Star star;
+  s.stars->gather(3, star);
+  EXPECT_FALSE(s.slide->towards_middle(NodeId{3}, star).has_value());
+}
+
 TEST(BoundarySlide, AnOutlineOfOtherNamesIsNone) {
   OnTheCircle c;
   for (BoundaryEdges& boundary : c.mesh.boundaries) boundary.name += " of another";

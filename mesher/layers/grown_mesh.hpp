@@ -1,0 +1,89 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesher/base/communicator.hpp"
+#include "mesher/delaunay/tie_order.hpp"
+#include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/node_exchange.hpp"
+#include "mesher/mesh/tree_record.hpp"
+
+namespace quadloop {
+
+/// A node by its number over all ranks, once the mesh has grown.
+struct GrownNode {
+  GlobalNodeId id;
+  Point point;
+};
+
+/// The order of nodes by which quadrilaterals are divided into triangles, or none.
+using DivideBy = std::function<TieRank(Point)>;
+
+/// A mesh on its way to have more nodes and cells. New nodes stand behind those that there are, in an order
+/// that the caller chooses; new cells belong to leaves and stand behind the leaf's own, which `leaves` count.
+class GrownMesh {
+ public:
+  /// `added`: how many nodes come behind each of this rank's own. All must outlive it. With an order of nodes
+  /// given, quadrilaterals are divided by their shorter diagonals, of equal ones by that through the third or
+  /// fourth corner, whichever has the higher rank. *Collective.*
+  GrownMesh(const Communicator& comm, const std::vector<std::int32_t>& added, const DivideBy& divide,
+            Mesh& mesh, std::vector<LeafRecord>& leaves);
+
+  /// A node that there was, by its number on this rank before.
+  GrownNode node(NodeId before) const { return {after_[before], mesh_.point(before)}; }
+  /// The first of the nodes behind it; the others follow.
+  GlobalNodeId first_behind(NodeId before) const { return GlobalNodeId{after_[before].value() + 1}; }
+
+  /// Of three corners or four, counter-clockwise.
+  void add_cell(std::int32_t leaf, std::span<const GrownNode> corners);
+  void add_edge(std::size_t boundary, std::int32_t leaf, const GrownNode& from, const GrownNode& to);
+  /// Boundaries without any call of this or the one before have no edges in the end.
+  void keep_edge(std::size_t boundary, std::int32_t leaf, const std::array<NodeId, 2>& edge);
+
+  /// The mesh has grown; `append_behind` appends the places of the nodes behind an own node. Throws
+  /// InputError, naming the place, for a cell that is not positive. *Collective.*
+  void put_together(const std::function<void(NodeId, std::vector<Point>&)>& append_behind);
+  /// Of each boundary, the leaf of each of its edges in the mesh that has grown.
+  std::vector<std::vector<std::int32_t>> edge_leaves() const;
+
+ private:
+  template <std::size_t width>
+  struct OfLeaf {
+    std::int32_t leaf = 0;
+    std::array<GlobalNodeId, width> nodes;
+  };
+
+  void use(const GrownNode& node);
+  void add_triangle(std::int32_t leaf, const GrownNode& a, const GrownNode& b, const GrownNode& c);
+  void refuse_bad_cells() const;
+  void place_nodes(const std::function<void(NodeId, std::vector<Point>&)>& append_behind);
+  void merge_boundaries();
+  template <std::size_t width>
+  void merge_cells(std::vector<std::array<NodeId, width>>& cells, std::vector<OfLeaf<width>>& added,
+                   std::int32_t LeafRecord::*count) const;
+  template <std::size_t width>
+  std::array<NodeId, width> numbered(const std::array<GlobalNodeId, width>& ids) const;
+  bool owns(GlobalNodeId id) const {
+    return first_node_ <= id.value() && id.value() < first_node_ + owned_nodes_;
+  }
+
+  const Communicator& comm_;
+  const DivideBy& divide_;
+  Mesh& mesh_;
+  std::vector<LeafRecord>& leaves_;
+  IdVector<NodeId, GlobalNodeId> after_;  ///< the new numbers of the nodes that there were
+  std::int64_t first_node_ = 0;
+  std::int32_t owned_nodes_ = 0;
+  std::map<GlobalNodeId, Point> copies_;
+  std::map<GlobalNodeId, NodeId> local_copy_;
+  std::vector<OfLeaf<3>> triangles_;
+  std::vector<OfLeaf<4>> quads_;
+  std::vector<std::vector<OfLeaf<2>>> edges_;
+  std::optional<Point> bad_;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/geometry/geometry.hpp"
+
+namespace quadloop {
+
+/// A line within the domain with layers on both sides, as a case asks for it: a wake, which goes on from the
+/// sharp edge of a wall and takes over its layers, or a free line with layers of its own.
+struct LayerLine {
+  std::string from;                 ///< of a wake: the boundary with the edge; empty for a free line
+  std::vector<Point> path;          ///< of a wake: where it leads after the edge, or none for straight on
+  double length = 0;                ///< of a wake without a path
+  double spacing = 0;               ///< length wanted of the cells along it; above 0
+  std::optional<LayerSpec> layers;  ///< of a free line
+
+  friend bool operator==(const LayerLine&, const LayerLine&) = default;
+};
+
+/// Where it lies.
+struct PlacedLine {
+  static constexpr std::int32_t nowhere = -1;
+
+  /// The vertex that a wake begins at; of a blunt edge the first one, and the last, with the base between
+  /// them.
+  std::int32_t edge = nowhere, base_end = nowhere;
+  std::vector<Point> path;  ///< two points at least, the first one the edge or the middle of the base
+  double spacing = 0;
+  LayerSpec layers;
+};
+
+/// Finds the edges at which wakes begin: the only vertex of its boundary at which the wall turns away from
+/// the domain by more than 120 degrees; or else the only base, between two corners of more than 50 degrees
+/// and shorter than a twentieth of the boundary's box, which together turn by more than 120. A wake without a
+/// path goes straight on, half way between the walls that meet there. Throws InputError for a boundary that
+/// is none, has no layers, no such edge or several.
+std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines);
+
+}  // namespace quadloop

@@ -1,0 +1,67 @@
+// What an outline asks for at single places: corners, lengths, turns, and demands in their place.
+#include "mesher/geometry/geometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+namespace {
+
+/// A square of edge 2, its right side bent outwards a little in the middle.
+Geometry house(std::optional<LayerSpec> layers = {}) {
+  Boundary wall{"wall", 0.5, 30, "wall"};
+  wall.layers = layers;
+  return {
+      {wall}, {{0, 0}, {2, 0}, {2.1, 1}, {2, 2}, {0, 2}}, {0, 5}, std::vector<BoundaryId>(5, BoundaryId{0})};
+}
+
+TEST(Geometry, BendsWhereItIsNoCorner) {
+  const Geometry g = house();
+  EXPECT_EQ(g.bend_degrees(0), 0) << "a kept corner";
+  EXPECT_EQ(g.bend_degrees(2), g.turn_degrees(2));
+  EXPECT_NEAR(g.bend_degrees(2), 11.42, 0.01);
+}
+
+TEST(Geometry, DemandsOfSinglePlacesReplaceTheBoundarys) {
+  const Geometry plain = house();
+  const Geometry g = plain.with({{0.1, 0.2, 0.3, 0.4, 0.6}, {1, 0, 1, 0, 0}, {0, 5, 0, 0, 7}});
+  EXPECT_EQ(plain.spacing_of(1), 0.5);
+  EXPECT_EQ(g.spacing_of(1), 0.2);
+  EXPECT_EQ(g.spacing_of(4), 0.6);
+  EXPECT_TRUE(plain.kept(1));
+  EXPECT_FALSE(g.kept(1));
+  EXPECT_TRUE(g.kept(2));
+  EXPECT_EQ(g.bend_degrees(1), 5);
+  EXPECT_EQ(g.bend_degrees(2), 0);
+  EXPECT_EQ(g.turn_degrees(2), plain.turn_degrees(2)) << "the outline is the same";
+  EXPECT_EQ(g.size(), plain.size());
+}
+
+TEST(Geometry, ThereIsOneDemandForEachPlace) {
+  EXPECT_THROW(house().with({{0.1}, {1, 0, 1, 0, 0}, {0, 5, 0, 0, 7}}), Fault);
+  EXPECT_THROW(house().with({{0.1, 0.2, 0.3, 0.4, 0.6}, {1}, {0, 5, 0, 0, 7}}), Fault);
+  EXPECT_THROW(house().with({{0.1, 0.2, 0.3, 0.4, 0.6}, {1, 0, 1, 0, 0}, {}}), Fault);
+}
+
+TEST(Geometry, ItsDigestTellsEveryNumberOfTheLayers) {
+  const LayerSpec layers{1e-3, 1.2, 1.3, 10, 2};
+  std::vector<std::uint64_t> digests{house().digest(), house(layers).digest()};
+  const auto changed = [&](auto member, auto value) {
+    LayerSpec other = layers;
+    other.*member = value;
+    digests.push_back(house(other).digest());
+  };
+  changed(&LayerSpec::first, 2e-3);
+  changed(&LayerSpec::growth, 1.1);
+  changed(&LayerSpec::growth_to, 1.4);
+  changed(&LayerSpec::count, 11);
+  changed(&LayerSpec::equal, 1);
+  std::ranges::sort(digests);
+  EXPECT_EQ(std::ranges::adjacent_find(digests), digests.end());
+}
+
+}  // namespace
+}  // namespace quadloop

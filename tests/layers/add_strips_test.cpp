@@ -1,0 +1,144 @@
+// Meshes with wakes and free lines, whole: valid, filling their outline, the same on any number of ranks.
+#include "mesher/layers/add_strips.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "mesher/build/build_mesh.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/shape_statistics.hpp"
+#include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "tests/geometry/outlines.hpp"
+#include "tests/layers/walls.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+const LayerSpec layers{0.005, 1.3, 1.3, 8};
+
+/// A box of 16 by 16 round a body with a sharp nose at the left, of a boundary of its own; at the right it
+/// ends in a base of the given height, or sharp too.
+Geometry body(double base) {
+  test::Side back{"body", {{-1, 0.15}, {0, 0.3}, {2, base / 2}}, layers};
+  if (base > 0) back.points.push_back({2, -base / 2});
+  back.points.push_back({0, -0.3});
+  const test::Side nose{"nose", {{-1, -0.15}, {-2, 0}}, layers};
+  return test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}}, {back, nose}}, 0.4);
+}
+
+LayerLine wake(const std::string& from = "body") {
+  LayerLine line;
+  line.from = from;
+  line.length = 3;
+  line.spacing = 0.2;
+  return line;
+}
+LayerLine free_line() {
+  LayerLine line;
+  line.path = {{-5, -5}, {-3, -5}, {-1, -4.5}};
+  line.spacing = 0.2;
+  line.layers = layers;
+  return line;
+}
+
+struct Made {
+  Made(const Communicator& comm, const Geometry& geometry, const std::vector<LayerLine>& lines, bool divided)
+      : front{layer_front(geometry, {}, lines)} {
+    MeshOptions options;
+    options.size.min = 0.02;
+    options.size.max = 1;
+    MeshResult outside = build_mesh(comm, front.outer, options);
+    mesh = std::move(outside.mesh);
+    leaves = std::move(outside.tree.leaves);
+    DivideBy divide;
+    if (divided) divide = [](Point p) { return tie_rank({0, 0}, p); };
+    add_layers(comm, front, outside.edge_leaves, divide, mesh, leaves);
+    add_strips(comm, front, outside.edge_leaves, divide, mesh, leaves);
+  }
+  LayerFront front;
+  Mesh mesh;
+  std::vector<LeafRecord> leaves;
+};
+
+struct Trial {
+  Geometry geometry;
+  std::vector<LayerLine> lines;
+};
+std::vector<Trial> trials() {
+  return {
+      {body(0), {wake()}}, {body(0.1), {wake()}}, {body(0), {free_line(), wake()}}, {body(0), {free_line()}}};
+}
+
+TEST(AddStrips, MeshesAreValidAndFillTheWholeOutline) {
+  for (const auto& [geometry, lines] : trials()) {
+    for (const bool divided : {false, true}) {
+      const Made made(world(), geometry, lines, divided);
+      const Mesh whole = gather_whole(world(), made.mesh);
+      if (!world().is_root()) continue;
+      EXPECT_TRUE(validate(whole).empty());
+      double area = 0;
+      for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop)
+        area += test::loop_area(geometry, loop);
+      EXPECT_NEAR(area_of(whole), area, 1e-9 * area);
+      EXPECT_EQ(whole.boundaries.size(), geometry.boundaries().size()) << "the strips' own is gone";
+    }
+  }
+}
+
+TEST(AddStrips, MeshesAreTheSameOnAnyNumberOfRanks) {
+  const Communicator self(MPI_COMM_SELF);
+  for (const auto& [geometry, lines] : trials()) {
+    const Made made(world(), geometry, lines, false), alone(self, geometry, lines, false);
+    const Mesh whole = gather_whole(world(), made.mesh), of_one = gather_whole(self, alone.mesh);
+    if (!world().is_root()) continue;
+    EXPECT_EQ(whole.points, of_one.points);
+    EXPECT_EQ(whole.triangles, of_one.triangles);
+    EXPECT_EQ(whole.quads, of_one.quads);
+    for (std::size_t b = 0; b < whole.boundaries.size(); ++b)
+      EXPECT_EQ(whole.boundaries[b].edges, of_one.boundaries[b].edges);
+  }
+}
+
+TEST(AddStrips, WakesTakeAwayTheJumpsOfAreasAtEdges) {
+  const Communicator self(MPI_COMM_SELF);
+  const auto jump = [&](const std::vector<LayerLine>& lines) {
+    return area_ratios(gather_whole(self, Made(self, body(0), lines, false).mesh)).largest;
+  };
+  EXPECT_GT(jump({}), 20);
+  EXPECT_LT(jump({wake(), wake("nose")}), 10);
+}
+
+TEST(AddStrips, ABaseIsDividedByRowsOfItsOwn) {
+  const Made made(world(), body(0.1), {wake()}, false);
+  std::int64_t on_base = 0;
+  double length_of_base = 0;
+  for (const auto& edge : made.mesh.boundaries[1].edges) {
+    const Point a = made.mesh.point(edge[0]), b = made.mesh.point(edge[1]);
+    if (a.x != 2 || b.x != 2) continue;
+    ++on_base;
+    length_of_base += a.y - b.y;  // with the domain to its left
+  }
+  EXPECT_EQ(world().sum(on_base), made.front.strips[0].core);
+  const auto lengths = world().all_gather_values(std::span<const double>(&length_of_base, 1));
+  EXPECT_NEAR(std::accumulate(lengths.begin(), lengths.end(), 0.0), 0.1, 1e-12);
+}
+
+TEST(LayerFront, LinesThatMeetSomethingAreRefused) {
+  LayerLine through = wake();
+  through.length = 20;
+  const auto says = [](const std::vector<LayerLine>& lines) {
+    return test::refusal([&] { layer_front(body(0), {}, lines); });
+  };
+  EXPECT_NE(says({through}).find("meet boundary box"), std::string::npos);
+  LayerLine across = free_line();
+  across.path = {{3, -1}, {3, 1}};
+  EXPECT_NE(says({wake(), across}).find("[[wake]] or [[layer_line]] meet"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace quadloop

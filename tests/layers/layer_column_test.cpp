@@ -1,0 +1,91 @@
+// One column of nodes between the wall and the front.
+#include "mesher/layers/layer_column.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/layers/walls.hpp"
+
+namespace quadloop {
+namespace {
+
+const LayerSpec layers{0.02, 1.2, 1.2, 10};
+
+/// A front with the column at each of its stations.
+struct Front {
+  explicit Front(Geometry g) : geometry{std::move(g)}, front{layer_front(geometry)} {}
+  std::vector<Point> column(const FrontPlace& place, Point node) const {
+    return layer_column(front, place, node);
+  }
+  std::vector<Point> column(std::int32_t station) const { return column({station}, front.points[station]); }
+  Geometry geometry;
+  LayerFront front;
+};
+
+TEST(LayerColumn, OfAStraightWallHasTheHeightsAskedFor) {
+  const Front f(test::floor_with_layers(layers));
+  const std::vector<Point> nodes = f.column(7);
+  ASSERT_EQ(nodes.size(), 10U) << "the front's own node is not among them";
+  double height = 0;
+  for (std::size_t layer = 0; layer < nodes.size(); ++layer) {
+    EXPECT_EQ(nodes[layer].x, f.front.line[7].wall.x);
+    EXPECT_NEAR(nodes[layer].y, height, 1e-14);
+    height += layer_heights(layers)[layer];
+  }
+}
+
+TEST(LayerColumn, StandsOnTheWallAtTheShareThatItsNodeHasOfTheFront) {
+  const Front f(test::step_with_layers(layers));
+  const FrontPlaces places(f.front);
+  std::int32_t corner = 0;
+  while (f.front.line[corner].wall != Point{4, 0}) ++corner;
+  const Point a = f.front.points[corner - 1], b = f.front.points[corner];
+  const Point node = a + 0.25 * (b - a);
+  const std::vector<Point> nodes = f.column(places.locate(node, BoundaryId{0}), node);
+  const Point foot = nodes.front(), first = f.front.line[corner - 1].wall;
+  EXPECT_EQ(foot.y, 0) << "on the wall itself";
+  EXPECT_NEAR(foot.x, first.x + 0.25 * (4 - first.x), 1e-14);
+  for (const Point p : nodes) EXPECT_NEAR(cross(p - foot, node - foot), 0, 1e-14) << "on one line";
+}
+
+TEST(LayerColumn, ThatIsTiltedHasItsFirstHeightNormalToTheWall) {
+  const Front f(test::step_with_layers(layers));
+  for (std::int32_t i = 0; i < f.front.line.size(); ++i) {
+    if (f.front.line[i].wall.y > 0) continue;
+    EXPECT_NEAR(f.column(i)[1].y, 0.02, 1e-14) << f.front.line[i].wall.x;
+  }
+}
+
+TEST(LayerColumn, InAFanHasTheFirstHeightAlongItself) {
+  const Front f(test::rhombus_with_layers(layers, 0.25));
+  for (std::int32_t i = 0; i < f.front.line.size(); ++i) {
+    if (f.front.line[i].shape == Station::Shape::fan) {
+      EXPECT_NEAR(length(f.column(i)[1] - f.front.line[i].wall), 0.02, 1e-14) << i;
+    }
+  }
+}
+
+TEST(LayerColumn, OfReducedLengthKeepsItsCountAndItsFirstHeight) {
+  const Front f(test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}},
+                                  {{"bar", {{3, 0.9}, {3, 1.5}, {5, 1.5}, {5, 0.9}}}}}));
+  for (std::int32_t i = 0; i < f.front.line.size(); ++i) {
+    const std::vector<Point> nodes = f.column(i);
+    EXPECT_EQ(nodes.size(), 10U);
+    EXPECT_NEAR(nodes[1].y, 0.02, 1e-14) << f.front.line[i].wall.x;
+  }
+}
+
+TEST(LayerColumn, IsTheSameForTheWallWalkedTheOtherWay) {
+  const Geometry floor = test::floor_with_layers(layers);
+  const Front f(floor), image(test::mirrored(floor));
+  const Point node{1.23, layers_thickness(layers)}, mirror{1.23, -layers_thickness(layers)};
+  const FrontPlace place = FrontPlaces(f.front).locate(node, BoundaryId{0}),
+                   of_image = FrontPlaces(image.front).locate(mirror, BoundaryId{0});
+  const std::vector<Point> nodes = f.column(place, node), others = image.column(of_image, mirror);
+  for (std::size_t layer = 0; layer < nodes.size(); ++layer)
+    EXPECT_EQ(nodes[layer], (Point{others[layer].x, -others[layer].y})) << layer;
+}
+
+}  // namespace
+}  // namespace quadloop
