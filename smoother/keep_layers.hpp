@@ -9,8 +9,13 @@
 
 namespace quadloop {
 
+/// A cell whose longest edge is so many times as long as its shortest is taken for one of layers behind an
+/// edge, which no number of layers tells of, in a mesh with layers on walls.
+inline constexpr double stretched_like_layers = 5;
+
 /// Makes the smoother leave layers as they are: their nodes, those of the front too, are pinned, and flips
-/// keep their edges. `options` are for this mesh, all but that in place. *Collective.*
+/// keep their edges; so with cells that are stretched like them. Nothing in a mesh without layers. `options`
+/// are for this mesh, all but that in place. *Collective.*
 void keep_layers(const Communicator& comm, const Mesh& mesh, SmoothOptions& options);
 
 /// A block for each of this rank's triangles, such that flips, which keep edges between two blocks, keep

@@ -82,7 +82,7 @@ double share_full(const LayerFront& front, BoundaryId boundary) {
   double reached = 0, all = 0;
   for (std::int32_t i = 0; i < front.line.size(); ++i) {
     const std::int32_t next = front.line.next(i);
-    if (next == WallLine::none || front.line[i].layers != boundary) continue;
+    if (!front.line.goes_on(i) || front.line[i].layers != boundary) continue;
     all += front.line.width(i);
     if (std::min(share_at(front, i), share_at(front, next)) > full) reached += front.line.width(i);
   }

@@ -51,6 +51,37 @@ void read_count(const CaseTable& table, LayerSpec& spec) {
     table.refuse("thickness", fmt::format("takes more than {} layers; let them grow faster", most_layers));
 }
 
+std::vector<Point> read_path(const CaseTable& table) {
+  std::vector<Point> path;
+  for (const std::vector<double>& point : table.pairs("path")) {
+    path.push_back({point[0], point[1]});
+    if (path.size() > 1 && path[path.size() - 2] == path.back())
+      table.refuse("path",
+                   fmt::format("has the point ({}, {}) twice in a row", path.back().x, path.back().y));
+  }
+  return path;
+}
+
+double read_line_spacing(const CaseTable& table) {
+  const auto spacing = table.number("spacing", Range::positive());
+  if (!spacing) table.refuse("spacing", "is missing: the length of cells along the line");
+  return *spacing;
+}
+
+LayerLine read_wake(const CaseTable& table) {
+  LayerLine wake;
+  wake.from = table.text("from").value_or("");
+  if (wake.from.empty()) table.refuse("from", "is missing: the boundary whose sharp edge the wake begins at");
+  wake.path = read_path(table);
+  const auto length = table.number("length", Range::positive());
+  if (length.has_value() != wake.path.empty())
+    table.refuse("length", "or path must be given, and not both: how far the wake goes on, or where");
+  wake.length = length.value_or(0);
+  wake.spacing = read_line_spacing(table);
+  table.finish();
+  return wake;
+}
+
 }  // namespace
 
 LayerSettings::LayerSettings(const CaseTable& root) {
@@ -88,12 +119,12 @@ double LayerSettings::first_height(const CaseTable& layers) {
 }
 
 LayerSpec LayerSettings::read(const CaseTable& layers) {
-  const LayerSpec spec = read_among_others(layers);
+  const LayerSpec spec = read_keys(layers);
   layers.finish();
   return spec;
 }
 
-LayerSpec LayerSettings::read_among_others(const CaseTable& layers) {
+LayerSpec LayerSettings::read_keys(const CaseTable& layers) {
   LayerSpec spec;
   spec.first = first_height(layers);
   read_growth(layers, spec);
@@ -103,6 +134,23 @@ LayerSpec LayerSettings::read_among_others(const CaseTable& layers) {
     layers.refuse("equal",
                   fmt::format("is {}, more than the {} layers that there are", spec.equal, spec.count));
   return spec;
+}
+
+LayerLine LayerSettings::read_layer_line(const CaseTable& table) {
+  LayerLine line;
+  line.path = read_path(table);
+  if (line.path.size() < 2) table.refuse("path", "must have two points at least");
+  line.spacing = read_line_spacing(table);
+  line.layers = read_keys(table);
+  table.finish();
+  return line;
+}
+
+std::vector<LayerLine> LayerSettings::read_lines(const CaseTable& root) {
+  std::vector<LayerLine> lines;
+  for (const CaseTable& wake : root.tables("wake")) lines.push_back(read_wake(wake));
+  for (const CaseTable& line : root.tables("layer_line")) lines.push_back(read_layer_line(line));
+  return lines;
 }
 
 Warnings LayerSettings::unused() const {

@@ -2,29 +2,35 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/input/case_file.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/layer_spec.hpp"
+#include "mesher/layers/layer_lines.hpp"
 #include "quadloop/case/first_height.hpp"
 
 namespace quadloop {
 
-/// Reads the tables `layers` of boundaries, with the table [flow] that `first = "yplus:1"` stands on. Throws
-/// InputError that names key and line.
+/// Reads the tables `layers` of boundaries, wakes and lines with layers, with the table [flow] that `first =
+/// "yplus:1"` stands on. Throws InputError that names key and line.
 class LayerSettings {
  public:
   explicit LayerSettings(const CaseTable& root);
 
   LayerSpec read(const CaseTable& layers);
-  /// The same of a table that has other keys too, after which it does not ask.
-  LayerSpec read_among_others(const CaseTable& table);
 
-  /// A warning where there is a table [flow] and no layers have asked for it.
+  /// Wakes and free lines with layers.
+  std::vector<LayerLine> read_lines(const CaseTable& root);
+
+  /// A warning where there is a table [flow] and no layers have asked for it; once all are read.
   Warnings unused() const;
 
  private:
+  /// The same keys of a table that may have others.
+  LayerSpec read_keys(const CaseTable& table);
+  LayerLine read_layer_line(const CaseTable& table);
   double first_height(const CaseTable& layers);
 
   std::optional<FlowConditions> flow_;

@@ -16,7 +16,6 @@
 #include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
 #include "quadloop/case/layer_settings.hpp"
-#include "quadloop/case/line_settings.hpp"
 
 namespace quadloop {
 
@@ -101,16 +100,13 @@ void read_rules(const CaseTable& root, LayerSettings& layer_settings, Settings& 
   }
 }
 
-void read_boundary_tables(const CaseTable& root, Settings& settings) {
+void read_boundary_tables(const CaseTable& root, LayerSettings& layer_settings, Settings& settings) {
   if (settings.far_field) {
     settings.outline.rules.push_back(
         {"farfield", {}, {}, "farfield", settings.far_field->where, false, true});  // unless the case says
                                                                                     // other
   }
-  LayerSettings layer_settings(root);
   read_rules(root, layer_settings, settings);
-  settings.lines = read_layer_lines(root, layer_settings);
-  settings.warnings = layer_settings.unused();
 }
 
 constexpr double largest_coordinate = 1e100;
@@ -230,9 +226,12 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   settings.title = root.text("title").value_or("");
   read_geometry_table(root, case_path, settings);
   read_spacing_table(root, settings);
-  read_boundary_tables(root, settings);
+  LayerSettings layer_settings(root);
+  read_boundary_tables(root, layer_settings, settings);
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));
+  settings.lines = layer_settings.read_lines(root);
+  settings.warnings = layer_settings.unused();
   read_mesh_table(root, settings);
   read_smooth_table(root, settings);
   settings.adapt = read_adapt_table(root);

@@ -108,6 +108,46 @@ TEST_F(SettingsTest, EachFileHasItsOwnPlace) {
             std::string::npos);
 }
 
+TEST_F(SettingsTest, ReadsLayers) {
+  const auto layers = [&](const std::string& text) {
+    const Geometry g = load(read("[boundary.box]\nlayers = { " + text + " }\n"));
+    return g.boundary(BoundaryId{0}).layers.value_or(LayerSpec{});
+  };
+  EXPECT_FALSE(load(read("")).boundary(BoundaryId{0}).layers.has_value());
+  EXPECT_EQ(layers("first = 1e-3, growth = 1.3, count = 12"), (LayerSpec{1e-3, 1.3, 1.3, 12, 1}));
+  EXPECT_EQ(layers("first = 1e-3, count = 12"), (LayerSpec{1e-3, 1.2, 1.2, 12, 1}));
+  EXPECT_EQ(layers("first = 1e-3, growth = [1.1, 1.5], count = 12, equal = 2"),
+            (LayerSpec{1e-3, 1.1, 1.5, 12, 2}));
+  EXPECT_EQ(layers("first = 4e-3, growth = 1.5, thickness = 0.019").count, 3) << "4 + 6 + 9";
+  EXPECT_EQ(layers("first = 4e-3, growth = 1.5, thickness = 0.0191").count, 4);
+}
+
+TEST_F(SettingsTest, RefusesBadLayers) {
+  const auto layers = [&](const std::string& text) {
+    return refused("[boundary.box]\nlayers = { " + text + " }\n");
+  };
+  const std::string place = "case.toml:4: 'boundary.box.layers.";
+  EXPECT_EQ(layers("count = 3").find(place + "first' is missing"), 0u);
+  EXPECT_EQ(layers("first = 0, count = 3").find(place + "first' is 0"), 0u);
+  EXPECT_EQ(layers("first = 1").find(place + "count' is missing"), 0u);
+  EXPECT_EQ(layers("first = 1, count = 3, thickness = 4").find(place + "thickness' stands beside count"), 0u);
+  EXPECT_EQ(layers("first = 1, count = 0").find(place + "count' is 0"), 0u);
+  EXPECT_EQ(layers("first = 1, count = 1001").find(place + "count' is 1001"), 0u);
+  EXPECT_EQ(layers("first = 1, count = 2.5").find(place + "count' must be a whole number"), 0u);
+  EXPECT_EQ(layers("first = 1, growth = 0.9, count = 3").find(place + "growth' "), 0u);
+  EXPECT_EQ(layers("first = 1, growth = 2.1, count = 3").find(place + "growth' "), 0u);
+  EXPECT_EQ(layers("first = 1, growth = [1.5, 1.2], count = 3").find(place + "growth' must be a number"), 0u);
+  EXPECT_EQ(layers("first = 1, growth = [1.1, 1.1, 1.1], count = 3").find(place + "growth' must be a number"),
+            0u);
+  EXPECT_EQ(
+      layers("first = 1, growth = 1.0001, thickness = 1100").find(place + "thickness' takes more than 1000"),
+      0u);
+  EXPECT_EQ(layers("first = 1, equal = 0, count = 3").find(place + "equal' is 0"), 0u);
+  EXPECT_EQ(layers("first = 1, count = 3, height = 1")
+                .find("case.toml:4: unknown key 'boundary.box.layers.height'"),
+            0u);
+}
+
 TEST_F(SettingsTest, ReadsWakesAndFreeLinesWithLayers) {
   EXPECT_TRUE(read("").lines.empty());
   const Settings settings = read(
