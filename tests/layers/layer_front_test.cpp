@@ -116,5 +116,18 @@ TEST(LayerFront, MirrorImagesHaveMirroredFronts) {
       << "the gap behind the body is narrow";
 }
 
+TEST(LayerFront, OfASymmetricBodyIsSymmetric) {
+  for (const double half_base : {0.3, 0.1, 0.03, 0.01}) {
+    const Geometry body = test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
+                                            {{"body", {{-2, 0}, {2, half_base}, {2, -half_base}}, layers}}});
+    const LayerFront front = layer_front(body);
+    std::vector<Point> points = front.points, mirrored;
+    for (const Point p : points) mirrored.push_back({p.x, 0.0 - p.y});
+    std::ranges::sort(points);
+    std::ranges::sort(mirrored);
+    EXPECT_EQ(points, mirrored) << half_base;
+  }
+}
+
 }  // namespace
 }  // namespace quadloop
