@@ -1,5 +1,9 @@
 #include "mesher/layers/front_columns.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <map>
+
 #include "mesher/layers/layer_column.hpp"
 
 namespace quadloop {
@@ -12,11 +16,13 @@ FrontColumns::FrontColumns(const Communicator& comm, const LayerFront& front, co
       fans_{front},
       owners_{comm, outside.first_node},
       place_(outside.points.size(), {}),
-      numbered_(outside.points.size(), {}) {
+      numbered_(outside.points.size(), {}),
+      columns_(outside.points.size(), {}) {
   find_places();
   gather_rays();
   number_nodes();
   gather_rays();  // now with their numbers
+  make_columns();
 }
 
 /// On the ranks that own the nodes, and on those with an edge there.
@@ -71,6 +77,12 @@ void FrontColumns::number_nodes() {
   NodeExchange(comm_, owners_, outside_.owned_nodes, outside_.copies).update(numbered_);
 }
 
+void FrontColumns::make_columns() {
+  for (const NodeId node : place_.ids()) {
+    if (place_[node].valid()) columns_[node] = column_on(ray_at(node));
+  }
+}
+
 Ray FrontColumns::ray_at(NodeId node) const {
   return {fan_of(node), place_[node], outside_.global(node), numbered_[node], outside_.point(node)};
 }
@@ -82,7 +94,7 @@ int FrontColumns::lowest_ring(const Ray& ray) const {
   return number == 0 ? 0 : fans_.rows_of(ray.fan).lowest_ring(number);
 }
 
-std::vector<LayerNode> FrontColumns::column(const Ray& ray) const {
+std::vector<LayerNode> FrontColumns::column_on(const Ray& ray) const {
   std::vector<LayerNode> nodes;
   const int lowest = lowest_ring(ray);
   for (const Point p : layer_column(front_, ray.place, ray.point)) {
@@ -95,10 +107,6 @@ std::vector<LayerNode> FrontColumns::column(const Ray& ray) const {
   return nodes;
 }
 
-std::vector<LayerNode> FrontColumns::column(NodeId node) const { return column(ray_at(node)); }
-
-LayerNode FrontColumns::foot(NodeId node) const { return column(node).front(); }
-
 LayerNode FrontColumns::apex(std::int32_t fan) const {
   return {GlobalNodeId{fans_.rays_of(fan).front().numbered.value() + 1}, line()[fan].wall};
 }
@@ -106,10 +114,16 @@ LayerNode FrontColumns::apex(std::int32_t fan) const {
 std::vector<std::vector<LayerNode>> FrontColumns::cells_of_sector(NodeId node) const {
   const std::int32_t fan = fan_of(node);
   const auto rays = fans_.rays_of(fan);
+  std::map<std::int32_t, std::vector<LayerNode>> columns;  // of the few rays that bound cells here
+  const auto node_at = [&](const FanRows::Corner& corner) {
+    const auto [at, is_new] = columns.try_emplace(corner.ray);
+    if (is_new) at->second = column_on(rays[corner.ray]);
+    return at->second[corner.ring];
+  };
   std::vector<std::vector<LayerNode>> cells;
   for (const FanRows::Cell& cell : fans_.rows_of(fan).cells_after(fans_.ray_on(fan, outside_.global(node)))) {
     cells.emplace_back();
-    for (const FanRows::Corner& corner : cell) cells.back().push_back(column(rays[corner.ray])[corner.ring]);
+    std::ranges::transform(cell, std::back_inserter(cells.back()), node_at);
   }
   return cells;
 }
@@ -117,9 +131,8 @@ std::vector<std::vector<LayerNode>> FrontColumns::cells_of_sector(NodeId node) c
 std::vector<Point> FrontColumns::numbered_with(NodeId node) const {
   std::vector<Point> points{outside_.point(node)};
   if (!place_[node].valid()) return points;
-  const Ray ray = ray_at(node);
-  const std::vector<LayerNode> nodes = column(ray);
-  for (std::size_t ring = lowest_ring(ray); ring + 1 < nodes.size(); ++ring)
+  const std::vector<LayerNode>& nodes = column(node);
+  for (std::size_t ring = lowest_ring(ray_at(node)); ring + 1 < nodes.size(); ++ring)
     points.push_back(nodes[ring].point);
   return points;
 }

@@ -32,10 +32,9 @@ class FrontColumns {
   /// The fan in which the node stands, or WallLine::none.
   std::int32_t fan_of(NodeId node) const { return fans_.fan_of(place_[node]); }
 
-  /// All nodes of a column from the wall to the front; those below its lowest ring have no number.
-  std::vector<LayerNode> column(NodeId node) const;
-  /// Where the column stands on the wall.
-  LayerNode foot(NodeId node) const;
+  /// All nodes of a column from the wall to the front, of a node that has a place there; those below its
+  /// lowest ring have no number.
+  const std::vector<LayerNode>& column(NodeId node) const { return columns_[node]; }
   /// The corners of the cells that begin at a fan's node, before the next one; on any rank with such an edge.
   std::vector<std::vector<LayerNode>> cells_of_sector(NodeId node) const;
   /// The places of the nodes that are numbered with an own node: itself, and its column from its lowest ring
@@ -54,9 +53,10 @@ class FrontColumns {
   void find_places();
   void gather_rays();
   void number_nodes();
+  void make_columns();
   Ray ray_at(NodeId node) const;
   int lowest_ring(const Ray& ray) const;
-  std::vector<LayerNode> column(const Ray& ray) const;
+  std::vector<LayerNode> column_on(const Ray& ray) const;
   LayerNode apex(std::int32_t fan) const;
 
   const Communicator& comm_;
@@ -67,6 +67,7 @@ class FrontColumns {
   NodeOwners owners_;
   IdVector<NodeId, FrontPlace> place_;
   IdVector<NodeId, GlobalNodeId> numbered_;
+  IdVector<NodeId, std::vector<LayerNode>> columns_;
   std::int64_t first_node_ = 0;
   std::int32_t owned_nodes_ = 0;
 };

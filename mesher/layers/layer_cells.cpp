@@ -44,7 +44,7 @@ void CellMaker::add_edge(std::size_t boundary, const std::array<NodeId, 2>& edge
     return;
   }
   add_strip(from, to, leaf);
-  made_.edges[boundary].push_back({leaf, {columns_.foot(from).id, columns_.foot(to).id}});
+  made_.edges[boundary].push_back({leaf, {columns_.column(from).front().id, columns_.column(to).front().id}});
   const FrontPlace &first = columns_.place(from), &last = columns_.place(to);
   if (line_.previous(first.station) == WallLine::none && first.at_station()) add_ends(from, true, leaf);
   if (line_.next(last.station) == WallLine::none) add_ends(to, false, leaf);
@@ -52,7 +52,7 @@ void CellMaker::add_edge(std::size_t boundary, const std::array<NodeId, 2>& edge
 
 /// The cells between two columns.
 void CellMaker::add_strip(NodeId from, NodeId to, std::int32_t leaf) {
-  const std::vector<LayerNode> a = columns_.column(from), b = columns_.column(to);
+  const std::vector<LayerNode>&a = columns_.column(from), &b = columns_.column(to);
   for (std::size_t ring = 1; ring < a.size(); ++ring)
     add_cell({a[ring - 1], b[ring - 1], b[ring], a[ring]}, outside_.point(from), leaf);
 }
@@ -62,7 +62,7 @@ void CellMaker::add_ends(NodeId node, bool first, std::int32_t leaf) {
   const Geometry& g = line_.geometry();
   const std::int32_t s = line_[columns_.place(node).station].segment;
   const BoundaryId boundary = g.boundary_of(first ? g.previous(s) : g.next(s));
-  const std::vector<LayerNode> nodes = columns_.column(node);
+  const std::vector<LayerNode>& nodes = columns_.column(node);
   for (std::size_t ring = 1; ring < nodes.size(); ++ring) {
     const std::size_t k = first ? nodes.size() - ring : ring;
     const GlobalNodeId low = nodes[k - 1].id, high = nodes[k].id;
