@@ -9,34 +9,40 @@ namespace {
 constexpr int layers_before_rise = 5;
 constexpr double rise = 1.05;
 
-/// The heights over the first one, when the excess of each growth is scaled by `share`.
-std::vector<double> relative_heights(const LayerSpec& spec, double share) {
-  std::vector<double> heights;
+/// Visits the heights over the first one, when the excess of each growth is scaled by `share`.
+template <class Visit>
+void for_relative_heights(const LayerSpec& spec, double share, const Visit& visit) {
   double height = 1, growth = spec.growth;
   for (int layer = 0; layer < spec.count; ++layer) {
     if (layer >= spec.equal) {
       height *= 1 + share * (growth - 1);
       if (layer - spec.equal + 1 >= layers_before_rise) growth = std::min(spec.growth_to, rise * growth);
     }
-    heights.push_back(height);
+    visit(height);
   }
+}
+
+std::vector<double> relative_heights(const LayerSpec& spec, double share) {
+  std::vector<double> heights;
+  heights.reserve(spec.count);
+  for_relative_heights(spec, share, [&](double height) { heights.push_back(height); });
   return heights;
 }
 
-double sum_of(const std::vector<double>& heights) {
+double relative_thickness(const LayerSpec& spec, double share) {
   double sum = 0;
-  for (const double height : heights) sum += height;
+  for_relative_heights(spec, share, [&](double height) { sum += height; });
   return sum;
 }
 
 /// The share of the growths by which the layers are so many times as thick as the first one.
 double share_for(const LayerSpec& spec, double thickness) {
-  if (sum_of(relative_heights(spec, 1)) <= thickness) return 1;
+  if (relative_thickness(spec, 1) <= thickness) return 1;
   constexpr int halvings = 80;
   double low = 0, high = 1;
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (low + high);
-    (sum_of(relative_heights(spec, middle)) <= thickness ? low : high) = middle;
+    (relative_thickness(spec, middle) <= thickness ? low : high) = middle;
   }
   return low;
 }
@@ -49,7 +55,7 @@ std::vector<double> layer_heights(const LayerSpec& spec) {
   return heights;
 }
 
-double layers_thickness(const LayerSpec& spec) { return spec.first * sum_of(relative_heights(spec, 1)); }
+double layers_thickness(const LayerSpec& spec) { return spec.first * relative_thickness(spec, 1); }
 
 int layers_within(const LayerSpec& spec, double thickness, int most) {
   LayerSpec one_more = spec;
@@ -69,7 +75,7 @@ ColumnHeights column_heights(const LayerSpec& spec, double first, double length)
   const double share = share_for(spec, length / column.first);
   const std::vector<double> heights = relative_heights(spec, share);
   column.growth = 1 + share * (spec.growth - 1);
-  const double unit = length / sum_of(heights);  // takes away what bisection has left over
+  const double unit = length / relative_thickness(spec, share);  // takes away what bisection has left over
   double reached = 0;
   for (const double height : heights) {
     reached += unit * height;

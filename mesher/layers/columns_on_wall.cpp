@@ -124,7 +124,8 @@ class Columns {
     return std::min(on / wall_on, back / wall_back);
   }
 
-  /// Of the places beside the stations those where columns come too close or spread too far.
+  /// Of the places beside the stations those where columns come too close or spread too far: the stations at
+  /// both their ends.
   std::vector<std::int32_t> crowded_among(const std::vector<std::int32_t>& stations) {
     std::vector<std::int32_t> found;
     begin_set();
@@ -132,22 +133,22 @@ class Columns {
       for (const std::int32_t place : {line_.previous(i), i}) {
         if (place == WallLine::none || !has_width(place) || !add_to_set(place)) continue;
         const double r = ratio(place, columns_.length);
-        if (r < least_ratio || r > largest_ratio) found.push_back(place);
+        if (r < least_ratio || r > largest_ratio) found.insert(found.end(), {place, line_.next(place)});
       }
     }
     return found;
   }
 
-  /// The stations within reach of places, once each.
+  /// The stations within reach of some, once each.
   template <class Reach>
-  std::vector<std::int32_t> around(const std::vector<std::int32_t>& places, const Reach& reach,
+  std::vector<std::int32_t> around(const std::vector<std::int32_t>& stations, const Reach& reach,
                                    bool free_only) {
     std::vector<std::int32_t> found;
     begin_set();
     const auto take = [&](std::int32_t j, double) {
       if (!(free_only && line_[j].fixed()) && add_to_set(j)) found.push_back(j);
     };
-    for (const std::int32_t i : places) {
+    for (const std::int32_t i : stations) {
       take(i, 0);
       line_.walk_on(i, reach(i), take);
       line_.walk_back(i, reach(i), take);

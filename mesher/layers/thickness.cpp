@@ -14,9 +14,9 @@ namespace quadloop {
 namespace {
 
 constexpr double shrink = 0.85, steepest = 0.35;
-constexpr double clearance = 0.75;         // of a column's length, kept free beyond its end
-constexpr double share_of_gap = 1 / 2.75;  // two walls then have 0.36 of their distance each
-constexpr double own_reach = 4;            // thicknesses of wall on which a column's own wall is no obstacle
+constexpr double clearance = 0.75;     // of a column's length, kept free beyond its end
+constexpr double share_of_gap = 0.36;  // two walls' columns with their clearance then just miss each other
+constexpr double own_reach = 4;        // thicknesses of wall on which a column's own wall is no obstacle
 constexpr int most_passes = 200, passes_alone = 12;
 
 struct Segment {

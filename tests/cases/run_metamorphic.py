@@ -30,6 +30,7 @@ class Subject:
     spacing: float  # of every boundary but the far field
     corner: float = 30
     more: dict = field(default_factory=dict)  # keys of [spacing] without a length
+    layers: tuple = ()  # of every boundary but the far field: first height over `spacing`, growth, count
     ties: bool = False  # distances on this lattice are equal but for rounding: shift and split, which round anew, may break them otherwise
 
     def write(self, folder):
@@ -39,6 +40,8 @@ class Subject:
         lines += [f"{key} = {value!r}" for key, value in self.more.items()]
         for name in dict.fromkeys(entry.name for entry in self.entries):
             lines += [f'[boundary."{name}"]', f"spacing = {self.max if name == 'farfield' else self.spacing!r}"]
+            if self.layers and name != "farfield":
+                lines += [f"layers = {{ first = {self.layers[0] * self.spacing!r}, growth = {self.layers[1]!r}, count = {self.layers[2]} }}"]
         x0, y0, edge, columns, rows = self.root
         lines += ["[mesh]", f"root = [{x0!r}, {y0!r}, {edge!r}, {columns}, {rows}]", "[output]", 'formats = ["mesh"]']
         case = folder / "case.toml"
@@ -68,11 +71,19 @@ def shipped(path, root, minimum, maximum, spacing, corner=30, ties=False, **more
     return Subject(read_outline(ROOT / "cases" / path), root, minimum, maximum, spacing, corner, more, ties)
 
 
+def layered_airfoil():
+    """Its stations follow from where the points stand, so that others between them make another front: no split; nor do lengths add up alike when
+    it is shifted."""
+    airfoil = shipped("naca4412/naca4412.geom", (-9.5, -10.0, 20.0, 1, 1), 0.002, 1.0, 0.01, curvature=10.0)
+    return with_far_field(replace(airfoil, layers=(1 / 512, 1.25, 20), ties=True))
+
+
 SUBJECTS = {
     "small": small,
     "snowflake": snowflake,
     "brick": brick,
     "naca0012": lambda: with_far_field(shipped("naca0012/naca0012.geom", (-9.5, -10.0, 20.0, 1, 1), 0.004, 1.0, 0.01, curvature=10.0)),
+    "naca4412_layers": layered_airfoil,
     "three_element": lambda: shipped("three_element/three_element.geom", (-9.5, -10.0, 20.0, 1, 1), 0.002, 1.0, 0.005, gap=2),
     "catamaran": lambda: shipped("catamaran_x_coarse/catamaran_x_mid.geom", (-64.0, -40.0, 128.0, 1, 1), 0.125, 16.0, 0.25, ties=True),
     "catamaran_askew": lambda: shipped("catamaran_x_coarse/catamaran_x_mid.geom", (-65.3125, -43.1875, 130.625, 1, 1), 0.125, 16.0, 0.25),

@@ -42,12 +42,25 @@ class Layers:
     edges: CellEdges = field(repr=False)
 
 
-def next_row(points, edges, a, b):
-    """The corners (c, d) over each edge a -> b, -1 where there is no quad or pair of triangles, and the cells."""
+def distances_from_line(points, feet, through, x):
+    """Of nodes x from the lines through two nodes each."""
+    along, across = points[through] - points[feet], points[x] - points[feet]
+    return np.abs(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) / np.hypot(*along.T)
+
+
+def stands_over_a(points, a, b, feet, x):
+    """Whether a triangle's third node is of a's column, or of b's. Columns are straight; the lowest cells are flat, so that the nearer one tells."""
+    if feet is None:
+        return np.hypot(*(points[x] - points[a]).T) < np.hypot(*(points[x] - points[b]).T)
+    return distances_from_line(points, feet[0], a, x) < distances_from_line(points, feet[1], b, x)
+
+
+def next_row(points, edges, a, b, feet=None):
+    """The corners (c, d) over each edge a -> b, -1 where there is no quad or pair of triangles, and the cells. `feet`: where both columns begin."""
     cell, place = edges.find(a, b)
     is_quad = (cell >= 0) & (edges.sizes[cell] == 4)
     x = edges.corner(cell, place, 2)
-    over_a = np.hypot(*(points[x] - points[a]).T) < np.hypot(*(points[x] - points[b]).T)
+    over_a = stands_over_a(points, a, b, feet, x)
     other, at = edges.find(np.where(over_a, x, a), np.where(over_a, b, x))  # the triangle beyond the diagonal d-b, or a-c
     beyond = edges.corner(other, at, 2)
     c = np.where(is_quad, x, np.where(over_a, beyond, x))
@@ -62,8 +75,8 @@ def find_layers(mesh, walls, count):
     left, right = [wall[:, 0]], [wall[:, 1]]
     in_layers = np.zeros(len(edges.cells), dtype=bool)
     whole = np.ones(len(wall), dtype=bool)
-    for _ in range(count):
-        c, d, first, second = next_row(mesh.points, edges, left[-1], right[-1])
+    for row in range(count):
+        c, d, first, second = next_row(mesh.points, edges, left[-1], right[-1], (left[0], right[0]) if row else None)
         whole &= c >= 0
         in_layers[first[whole]] = in_layers[second[whole]] = True
         left.append(np.where(whole, d, left[-1]))

@@ -82,6 +82,13 @@ class LayersTest(unittest.TestCase):
             self.assertEqual((c[0], d[0]), (2, 3))
             self.assertEqual({first[0], second[0]}, {0, 1})
 
+    def test_columns_that_lean_are_found_in_triangles_too(self):
+        mesh = floor(width=1, triangles=True)
+        mesh.points[:, 0] += 4 * mesh.points[:, 1]
+        layers = find_layers(mesh, ["wall"], COUNT)
+        self.assertEqual((layers.incomplete, layers.in_layers.sum()), (0, 24))
+        self.assertTrue((layers.left == np.arange(4)[:, None] * (COUNT + 2) + np.arange(COUNT + 1)).all())
+
     def test_a_missing_layer_is_counted(self):
         mesh = floor()
         mesh.quads = np.delete(mesh.quads, 1, axis=0)  # the second layer of the first column

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "mesher/base/error.hpp"
 #include "mesher/build/build_mesh.hpp"
@@ -110,6 +111,31 @@ TEST(AddLayers, DividedOnesHaveTwoTrianglesForEachQuad) {
     EXPECT_EQ(added(divided, &Mesh::quads), 0);
     EXPECT_EQ(added(divided, &Mesh::triangles),
               added(whole, &Mesh::triangles) + 2 * added(whole, &Mesh::quads));
+  }
+}
+
+TEST(AddLayers, QuadsAreDividedByTheirShorterDiagonals) {
+  for (const Geometry& g : outlines()) {
+    const Layered made(world(), g, false), divided(world(), g, true);
+    const Mesh quads = gather_whole(world(), made.mesh), halves = gather_whole(world(), divided.mesh);
+    std::set<std::pair<NodeId, NodeId>> edges;
+    for (const auto& cell : halves.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) edges.emplace(cell[k], cell[(k + 1) % 3]);
+    }
+    const std::set<std::array<NodeId, 4>> kept(halves.quads.begin(), halves.quads.end());
+    const auto diagonal = [&](const std::array<NodeId, 4>& quad, std::size_t k) {
+      return length(quads.point(quad[k + 2]) - quads.point(quad[k]));
+    };
+    std::int32_t skew = 0;
+    for (const auto& quad : quads.quads) {
+      if (kept.contains(quad) || std::abs(diagonal(quad, 0) - diagonal(quad, 1)) < 1e-9) continue;
+      const std::size_t k = diagonal(quad, 0) < diagonal(quad, 1) ? 0 : 1;
+      EXPECT_TRUE(edges.contains({quad[k], quad[k + 2]}));
+      ++skew;
+    }
+    if (world().is_root() && g.size() > 4) {
+      EXPECT_GT(skew, 10);
+    }
   }
 }
 

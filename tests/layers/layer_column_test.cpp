@@ -50,10 +50,15 @@ TEST(LayerColumn, StandsOnTheWallAtTheShareThatItsNodeHasOfTheFront) {
 }
 
 TEST(LayerColumn, ThatIsTiltedHasItsFirstHeightNormalToTheWall) {
-  const Front f(test::step_with_layers(layers));
-  for (std::int32_t i = 0; i < f.front.line.size(); ++i) {
-    if (f.front.line[i].wall.y > 0) continue;
-    EXPECT_NEAR(f.column(i)[1].y, 0.02, 1e-14) << f.front.line[i].wall.x;
+  const Front plain(test::step_with_layers(layers)),
+      thinner(
+          test::outline_of({{{"floor", {{0, 0}, {4, 0}, {4, 2}}, layers}, {"rest", {{8, 2}, {8, 6}, {0, 6}}}},
+                            {{"bar", {{3, 0.8}, {3, 1.2}, {3.4, 1.2}, {3.4, 0.8}}}}}));
+  for (const Front* f : {&plain, &thinner}) {
+    for (std::int32_t i = 0; i < f->front.line.size(); ++i) {
+      if (f->front.line[i].wall.y > 0) continue;
+      EXPECT_NEAR(f->column(i)[1].y, 0.02, 1e-14) << f->front.line[i].wall.x;
+    }
   }
 }
 
@@ -79,12 +84,14 @@ TEST(LayerColumn, OfReducedLengthKeepsItsCountAndItsFirstHeight) {
 TEST(LayerColumn, IsTheSameForTheWallWalkedTheOtherWay) {
   const Geometry floor = test::floor_with_layers(layers);
   const Front f(floor), image(test::mirrored(floor));
-  const Point node{1.23, layers_thickness(layers)}, mirror{1.23, -layers_thickness(layers)};
-  const FrontPlace place = FrontPlaces(f.front).locate(node, BoundaryId{0}),
-                   of_image = FrontPlaces(image.front).locate(mirror, BoundaryId{0});
-  const std::vector<Point> nodes = f.column(place, node), others = image.column(of_image, mirror);
-  for (std::size_t layer = 0; layer < nodes.size(); ++layer)
-    EXPECT_EQ(nodes[layer], (Point{others[layer].x, -others[layer].y})) << layer;
+  const FrontPlaces places(f.front), of_image(image.front);
+  for (double x = 1.23; x < 7; x += 0.00171) {
+    const Point node{x, layers_thickness(layers)}, mirror{x, -layers_thickness(layers)};
+    const std::vector<Point> nodes = f.column(places.locate(node, BoundaryId{0}), node),
+                             others = image.column(of_image.locate(mirror, BoundaryId{0}), mirror);
+    for (std::size_t layer = 0; layer < nodes.size(); ++layer)
+      EXPECT_EQ(nodes[layer], (Point{others[layer].x, -others[layer].y})) << x << ' ' << layer;
+  }
 }
 
 }  // namespace

@@ -91,13 +91,17 @@ TEST(LayerFront, KeptPlacesOfTheWallAreKeptOnTheFront) {
 }
 
 TEST(LayerFront, InAFanSectorsAreNotTooSharp) {
-  const Geometry geometry = test::rhombus_with_layers(layers, 0.25);
+  const LayerSpec low_ones = test::equal_layers(0.5, 20);  // two of the last layers are 0.05 high
+  const Geometry geometry = test::rhombus_with_layers(low_ones, 0.25);
   const LayerFront front = layer_front(geometry);
+  std::int32_t in_fans = 0;
   for (std::int32_t s = 0; s < front.outer.size(); ++s) {
     const std::int32_t i = front.station_of[s];
     if (i == WallLine::none || front.line.width(i) > 0) continue;
-    EXPECT_GE(front.outer.spacing_of(s), 0.3 * front.thickness[i] * (1 - 1e-12));
+    ++in_fans;
+    EXPECT_NEAR(front.outer.spacing_of(s), 0.3 * 0.5, 1e-12);
   }
+  EXPECT_EQ(in_fans, 32);
 }
 
 TEST(LayerFront, MirrorImagesHaveMirroredFronts) {
@@ -114,6 +118,19 @@ TEST(LayerFront, MirrorImagesHaveMirroredFronts) {
   EXPECT_EQ(points, mirrored) << "bit for bit";
   EXPECT_TRUE(std::ranges::any_of(front.thickness, [](double h) { return h < layers_thickness(layers); }))
       << "the gap behind the body is narrow";
+}
+
+TEST(LayerFront, OfASymmetricBodyIsSymmetric) {
+  for (const double half_base : {0.3, 0.1, 0.03, 0.01}) {
+    const Geometry body = test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
+                                            {{"body", {{-2, 0}, {2, half_base}, {2, -half_base}}, layers}}});
+    const LayerFront front = layer_front(body);
+    std::vector<Point> points = front.points, mirrored;
+    for (const Point p : points) mirrored.push_back({p.x, 0.0 - p.y});
+    std::ranges::sort(points);
+    std::ranges::sort(mirrored);
+    EXPECT_EQ(points, mirrored) << half_base;
+  }
 }
 
 }  // namespace

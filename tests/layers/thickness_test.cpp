@@ -54,14 +54,28 @@ TEST(FitThickness, WallsThatFaceEachOtherShareTheirGap) {
     const double h = f.fitting.thickness[i];
     least = std::min(least, h);
     if ((wall.y == 0 || wall.y == gap) && 1 < wall.x && wall.x < 3) {
-      EXPECT_LE(h, 0.37 * gap) << wall.x;
-      EXPECT_GE(h, 0.25 * gap) << wall.x;
+      EXPECT_NEAR(h, 0.36 * gap, 1e-9) << wall.x;
     }
     if (wall.y == -2 || wall.y == 2 + gap) {
       EXPECT_EQ(h, 0.5) << "behind, all is as asked";
     }
   }
   EXPECT_GT(least, 0.2 * gap);
+}
+
+TEST(FitThickness, FrontsThatPassEachOtherKeepRoomForCellsToo) {
+  // The needle's tip is over the floor; columns of the floor beside it meet none of its walls, but its front.
+  const double gap = 0.9;
+  const Fitted f(test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}},
+                                   {{"needle", {{4, gap}, {3.8, 3}, {4.2, 3}}, layers}}}));
+  double least = 1;
+  for (std::int32_t i = 0; i < f.line.size(); ++i) {
+    for (std::int32_t j = 0; j < f.line.size(); ++j) {
+      if (f.line[i].wall.y == 0 && f.line[j].wall.y > 0)
+        least = std::min(least, length(f.fitting.front[i] - f.fitting.front[j]));
+    }
+  }
+  EXPECT_GT(least, 0.25 * gap);
 }
 
 TEST(FitThickness, KeepsAwayFromBoundariesWithoutLayers) {
