@@ -5,6 +5,7 @@
 
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/node_gradients.hpp"
+#include "mesher/mesh/layer_nodes.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
@@ -16,19 +17,39 @@ T change(std::span<const T> of_nodes, NodeId from, NodeId to) {
   return of_nodes[to.value()] - of_nodes[from.value()];
 }
 
-/// Raises each cell's value to the largest of its edges. `of_edge(from, to)` must have the same bits as
-/// `of_edge(to, from)`: the cells on both sides of an edge see it in different directions, and so do
+/// The edges that tell whether a leaf is to be split: not those across layers, which stay as high as the case
+/// asks for, however narrow their columns get.
+class TellingEdges {
+ public:
+  /// *Collective.*
+  TellingEdges(const Communicator& comm, const Mesh& mesh) {
+    if (has_layers(mesh)) places_ = layer_places(comm, mesh);
+  }
+  bool tells(NodeId from, NodeId to) const {
+    if (places_.empty()) return true;
+    const LayerPlace &a = places_[from], &b = places_[to];
+    return !a.valid() || !b.valid() || a.left == b.left;
+  }
+
+ private:
+  LayerPlaces places_;
+};
+
+/// Raises each cell's value to the largest of its edges that tell. `of_edge(from, to)` must have the same
+/// bits as `of_edge(to, from)`: the cells on both sides of an edge see it in different directions, and so do
 /// different ranks. Absolute values of a change do, and products of two changes.
 template <class OfEdge>
-void raise_by_edges(const Mesh& mesh, const OfEdge& of_edge, std::vector<double>& of_cells) {
+void raise_by_edges(const Mesh& mesh, const TellingEdges& edges, const OfEdge& of_edge,
+                    std::vector<double>& of_cells) {
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
+    if (!edges.tells(from, to)) return;
     double& value = of_cells[cell];
     value = std::max(value, of_edge(from, to));
   });
 }
 
-void raise_by_field(const Communicator& comm, const Mesh& mesh, const ScaledField& field, Indicator kind,
-                    std::vector<double>& of_cells) {
+void raise_by_field(const Communicator& comm, const Mesh& mesh, const TellingEdges& edges,
+                    const ScaledField& field, Indicator kind, std::vector<double>& of_cells) {
   const std::span<const double> values(field.values);
   const std::span<const Point> points(mesh.points);
   const auto unless_rounding = [&](double difference) {
@@ -38,12 +59,12 @@ void raise_by_field(const Communicator& comm, const Mesh& mesh, const ScaledFiel
     return unless_rounding(std::abs(change(values, from, to)));
   };
   switch (kind) {
-    case Indicator::difference: raise_by_edges(mesh, difference, of_cells); break;
+    case Indicator::difference: raise_by_edges(mesh, edges, difference, of_cells); break;
     case Indicator::gradient: {
       const auto slope = [&](NodeId from, NodeId to) {
         return difference(from, to) / length(change(points, from, to));
       };
-      raise_by_edges(mesh, slope, of_cells);
+      raise_by_edges(mesh, edges, slope, of_cells);
       break;
     }
     case Indicator::hessian: {
@@ -52,7 +73,7 @@ void raise_by_field(const Communicator& comm, const Mesh& mesh, const ScaledFiel
       const auto bend = [&](NodeId from, NodeId to) {
         return unless_rounding(std::abs(dot(change(gradients, from, to), change(points, from, to))));
       };
-      raise_by_edges(mesh, bend, of_cells);
+      raise_by_edges(mesh, edges, bend, of_cells);
       break;
     }
   }
@@ -66,9 +87,10 @@ std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
   std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(), 0);
   check_field(comm, mesh, field, FieldSign::any);
   const Field shared = with_copies(comm, mesh, field);
+  const TellingEdges edges(comm, mesh);
   for (std::size_t variable = 0; variable < shared.width(); ++variable) {
     const ScaledField scaled = scaled_by_range(comm, shared.column(variable));
-    if (!scaled.constant) raise_by_field(comm, mesh, scaled, kind, of_cells);
+    if (!scaled.constant) raise_by_field(comm, mesh, edges, scaled, kind, of_cells);
   }
   return cells_of_leaves.largest(comm, of_cells);
 }

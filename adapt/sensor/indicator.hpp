@@ -24,7 +24,8 @@ inline constexpr WordTable<Indicator, 3> indicator_words{{{"difference", Indicat
                                                           {"hessian", Indicator::hessian}}};
 
 /// For each leaf of this rank's share the largest indicator of any variable of the field on any edge of the
-/// leaf's cells; 0 for leaves without cells. An edge counts for the leaves of both its cells. A constant
+/// leaf's cells; 0 for leaves without cells. An edge counts for the leaves of both its cells, but
+/// not one that crosses layers at a wall: these keep their heights when a leaf is split. A constant
 /// variable adds nothing; what may be rounding of q (ScaledField::rounding) counts as 0 in the differences of
 /// `difference`, `gradient` and in `hessian`. The mesh must be valid. The same bits on any number of ranks,
 /// however leaves and cells are shared out. Throws InputError on all ranks for a value that is not finite, or

@@ -11,6 +11,7 @@
 #include "mesher/base/error.hpp"
 #include "tests/adapt/sensor/shared_leaves.hpp"
 #include "tests/mesh/grid_mesh.hpp"
+#include "tests/mesh/layered_strip.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -168,6 +169,30 @@ TEST(LeafErrors, AreTheLargestAtTheLeafsNodes) {
   EXPECT_EQ(errors({5, 1, 2, 1, 3, 0}), (Values{5, 0, 2, 3}));
   EXPECT_EQ(errors({0, 0, 0, 0, 0, 1e-9}), (Values{0, 0, 1e-9, 1e-9}));
   EXPECT_THROW(errors({0, 0, 0, 0, -1e-9, 0}), InputError);
+}
+
+TEST(Indicator, EdgesAcrossLayersDoNotCount) {
+  for (const bool triangles : {false, true}) {
+    test::LayeredStrip strip;
+    strip.from = 0;
+    strip.triangles = triangles;
+    const Mesh mesh = strip.mesh();
+    Leaves leaves;  // of each column its layers, and what is above
+    for (std::int32_t k = 0; k < 2 * strip.columns; ++k)
+      leaves.push_back(triangles ? test::leaf_with(2 * strip.layers, 0) : test::leaf_with(0, strip.layers));
+    const auto of = [&](const auto& value, Indicator kind) {
+      Field field{{"q"}, {}, {}};
+      for (const Point p : mesh.points) field.values.push_back(value(p));
+      return leaf_indicator(Communicator(MPI_COMM_SELF), mesh, leaves, field, kind);
+    };
+    const double height = strip.height(strip.rows());
+    const Values across = of([](Point p) { return p.y; }, Indicator::difference);
+    const Values along = of([](Point p) { return p.x; }, Indicator::difference);
+    for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+      EXPECT_NEAR(across[leaf], leaf % 2 == 0 ? 0 : 1 / height, 1e-12) << leaf;
+      EXPECT_NEAR(along[leaf], 1.0 / strip.columns, 1e-12) << leaf;
+    }
+  }
 }
 
 }  // namespace
