@@ -68,14 +68,16 @@ class LayerBuilder {
     make_rows();
     grown_.emplace(comm, nodes_below(), divide, mesh, leaves);
     gather_rays();  // with their new numbers
+    make_columns();
   }
 
   void build() {
     for (std::size_t b = 0; b < mesh_.boundaries.size(); ++b) add_boundary(b);
     grown_->put_together([&](NodeId front, std::vector<Point>& points) {
       if (!place_[front].valid()) return;
-      const std::vector<Point> column = layer_column(front_, place_[front], mesh_.point(front));
-      points.insert(points.end(), column.begin() + lowest_ring(front), column.end());
+      const std::vector<GrownNode>& column = columns_[front];
+      for (auto node = column.begin() + lowest_ring(front); node + 1 != column.end(); ++node)
+        points.push_back(node->point);
     });
     edge_leaves_ = grown_->edge_leaves();
   }
@@ -84,6 +86,7 @@ class LayerBuilder {
   void find_places();
   void gather_rays();
   void make_rows();
+  void make_columns();
   std::vector<std::int32_t> nodes_below() const;
   void add_boundary(std::size_t b);
   void add_edge(std::size_t b, const std::array<NodeId, 2>& edge, std::int32_t leaf);
@@ -125,12 +128,6 @@ class LayerBuilder {
     nodes.push_back(front);
     return nodes;
   }
-  /// In a fan the column stands on the edge, which its first column owns.
-  std::vector<GrownNode> column(NodeId node) const {
-    std::vector<GrownNode> nodes = column(place_[node], grown_->node(node), lowest_ring(node));
-    if (const std::int32_t fan = fan_of(place_[node]); fan != WallLine::none) nodes.front() = edge_of(fan);
-    return nodes;
-  }
   GrownNode edge_of(std::int32_t fan) const {
     return {GlobalNodeId{rays_of(fan).front().front.id.value() + 1}, line_[fan].wall};
   }
@@ -147,6 +144,7 @@ class LayerBuilder {
   std::vector<Ray> rays_;  ///< of all fans, in order
   std::map<std::int32_t, FanRows> fan_rows_;
   std::optional<GrownMesh> grown_;
+  IdVector<NodeId, std::vector<GrownNode>> columns_;  ///< of front nodes, from the wall to the front
 };
 
 /// Of the front's nodes, on the ranks that own them and on those with an edge there.
@@ -209,6 +207,17 @@ std::vector<std::int32_t> LayerBuilder::nodes_below() const {
   return below;
 }
 
+/// In a fan a column stands on the edge, which its first column owns.
+void LayerBuilder::make_columns() {
+  columns_.resize(mesh_.points.size());
+  for (const NodeId node : columns_.ids()) {
+    if (!place_[node].valid()) continue;
+    columns_[node] = column(place_[node], grown_->node(node), lowest_ring(node));
+    if (const std::int32_t fan = fan_of(place_[node]); fan != WallLine::none)
+      columns_[node].front() = edge_of(fan);
+  }
+}
+
 void LayerBuilder::add_boundary(std::size_t b) {
   const auto& edges = mesh_.boundaries[b].edges;
   for (std::size_t e = 0; e < edges.size(); ++e) add_edge(b, edges[e], edge_leaves_[b][e]);
@@ -226,7 +235,7 @@ void LayerBuilder::add_edge(std::size_t b, const std::array<NodeId, 2>& edge, st
     return;
   }
   add_strip(from, to, leaf);
-  grown_->add_edge(b, leaf, column(from).front(), column(to).front());
+  grown_->add_edge(b, leaf, columns_[from].front(), columns_[to].front());
   const auto ends = [&](NodeId node) {
     return place_[node].at_station() && !line_[place_[node].station].at_wake;
   };
@@ -236,7 +245,7 @@ void LayerBuilder::add_edge(std::size_t b, const std::array<NodeId, 2>& edge, st
 
 /// The cells between two columns.
 void LayerBuilder::add_strip(NodeId from, NodeId to, std::int32_t leaf) {
-  const std::vector<GrownNode> a = column(from), b = column(to);
+  const std::vector<GrownNode>&a = columns_[from], &b = columns_[to];
   for (std::size_t ring = 1; ring < a.size(); ++ring)
     grown_->add_cell(leaf, std::array{a[ring - 1], b[ring - 1], b[ring], a[ring]});
 }
@@ -244,10 +253,13 @@ void LayerBuilder::add_strip(NodeId from, NodeId to, std::int32_t leaf) {
 /// The cells of a fan that begin at the sector after a ray.
 void LayerBuilder::add_sector(NodeId from, std::int32_t fan, std::int32_t leaf) {
   const auto rays = rays_of(fan);
+  std::map<std::int32_t, std::vector<GrownNode>> columns;  // of the few rays that bound cells here
   const auto node_at = [&](const FanRows::Corner& corner) {
     if (corner.ring == 0) return edge_of(fan);
+    const auto [at, is_new] = columns.try_emplace(corner.ray);
     const Ray& ray = rays[corner.ray];
-    return column(ray.place, ray.front, lowest_ring(fan, corner.ray))[corner.ring];
+    if (is_new) at->second = column(ray.place, ray.front, lowest_ring(fan, corner.ray));
+    return at->second[corner.ring];
   };
   for (const FanRows::Cell& cell : rows_of(fan).cells_after(number_in_fan(fan, mesh_.global(from)))) {
     std::vector<GrownNode> corners;
@@ -261,7 +273,7 @@ void LayerBuilder::add_ends(NodeId node, bool first, std::int32_t leaf) {
   const Geometry& g = line_.geometry();
   const std::int32_t s = line_[place_[node].station].segment;
   const BoundaryId boundary = g.boundary_of(first ? g.previous(s) : g.next(s));
-  const std::vector<GrownNode> nodes = column(node);
+  const std::vector<GrownNode>& nodes = columns_[node];
   for (std::size_t ring = 1; ring < nodes.size(); ++ring) {
     const std::size_t k = first ? nodes.size() - ring : ring;
     const GrownNode &low = nodes[k - 1], &high = nodes[k];
