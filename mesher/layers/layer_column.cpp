@@ -36,6 +36,7 @@ std::vector<Point> layer_column(const LayerFront& front, const FrontPlace& place
   const double cosine = std::clamp(cosine_of_tilt(line, place, (1 / whole) * way), 0.2, 1.0);
   const ColumnHeights heights = column_heights(spec, spec.first / cosine, whole);
   std::vector<Point> nodes;
+  nodes.reserve(spec.count);
   for (int layer = 0; layer < spec.count; ++layer)
     nodes.push_back(foot + (heights.reached[layer] / whole) * way);
   return nodes;
