@@ -1,9 +1,23 @@
 #include "smoother/even_widths.hpp"
 
+#include <utility>
+#include <vector>
+
 #include "smoother/colouring.hpp"
 #include "smoother/node_stars.hpp"
 
 namespace quadloop {
+
+namespace {
+
+/// The places that decide whether a node has a better one.
+std::vector<Point> places_in(const Star& star) {
+  std::vector<Point> places;
+  for (const StarCorner& corner : star.corners()) places.insert(places.end(), {corner.q, corner.r});
+  return places;
+}
+
+}  // namespace
 
 bool even_widths(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
                  std::span<const char> segments, int sweeps) {
@@ -13,6 +27,7 @@ bool even_widths(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& 
   }
   const NodeStars stars(mesh, std::move(nodes), {});
   const Colouring colouring = colour_stars(comm, mesh, stars);
+  std::vector<std::vector<Point>> settled(stars.size());  // the star in which each node last stayed
   bool moved_ever = false;
   Star star;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -22,7 +37,10 @@ bool even_widths(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& 
         const NodeId node = stars.nodes()[i];
         if (colouring.colour_of[node] != colour) continue;
         stars.gather(i, star);
+        std::vector<Point> places = places_in(star);
+        if (places == settled[i]) continue;
         const auto to = slide.towards_middle(node, star);
+        settled[i] = to ? std::vector<Point>{} : std::move(places);
         if (!to) continue;
         mesh.points()[node.value()] = *to;
         moved[node] = 1;

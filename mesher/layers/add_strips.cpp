@@ -226,7 +226,8 @@ class StripBuilder {
   NodeOwners owners_;
   std::vector<FilledStrip> strips_;
   std::multimap<GlobalNodeId, Column> behind_;         ///< by the number before
-  std::map<GlobalNodeId, GlobalNodeId> grown_number_;  ///< of all nodes of fronts
+  std::map<GlobalNodeId, GrownNode> grown_nodes_;  ///< of fronts and of walls' columns at roots, by the number
+                                                   ///< before
   std::vector<std::vector<GlobalNodeId>> first_of_column_;
   std::optional<GrownMesh> grown_;
 };
@@ -299,12 +300,12 @@ void StripBuilder::exchange_numbers() {
     }
   }
   for (const Renumbered& r : comm_.all_gather_values(std::span<const Renumbered>(own)))
-    grown_number_.emplace(r.before, r.after);
+    grown_nodes_.emplace(r.before, r.node);
   for (const FilledStrip& strip : strips_) first_of_column_.emplace_back(strip.columns());
   GlobalNodeId before;
   std::int64_t next = 0;
   for (const auto& [node, column] : behind_) {
-    if (node != before) next = grown_number_.at(node).value() + 1;
+    if (node != before) next = grown_nodes_.at(node).id.value() + 1;
     before = node;
     first_of_column_[column.strip][column.column] = GlobalNodeId{next};
     const FilledStrip& strip = strips_[column.strip];
@@ -316,9 +317,8 @@ GrownNode StripBuilder::node(std::size_t s, const FilledStrip::Corner& c) const 
   const FilledStrip& strip = strips_[s];
   if (c.on_front) {
     const std::size_t edges = strip.front().size();
-    const auto& [nodes, points, rank, leaf] = strip.front()[std::min(c.column, edges - 1)];
-    const std::size_t end = c.column < edges ? 0 : 1;
-    return {grown_number_.at(nodes[end]), points[end]};
+    const auto& nodes = strip.front()[std::min(c.column, edges - 1)].nodes;
+    return grown_nodes_.at(nodes[c.column < edges ? 0 : 1]);
   }
   const Point p = strip.strip().columns[c.column][c.row];
   const std::size_t begin = strip.own_begin(c.column), end = strip.own_end(c.column);
@@ -328,7 +328,7 @@ GrownNode StripBuilder::node(std::size_t s, const FilledStrip::Corner& c) const 
   const auto layers = strip.strip().layers, row = static_cast<std::int32_t>(c.row);
   const std::int32_t left_ring = layers - (static_cast<std::int32_t>(strip.rows()) - row);
   const bool left = left_ring >= 0;
-  return {grown_number_.at(wall_node(strip, left, left ? left_ring : layers - row)), p};
+  return grown_nodes_.at(wall_node(strip, left, left ? left_ring : layers - row));
 }
 
 /// The number before of a node in the wall's column on one side of a wake: they stand behind that on the

@@ -42,6 +42,7 @@ std::vector<Point> layer_column(const LayerFront& front, const FrontPlace& place
   const Point way = node - column.foot;
   const double whole = length(way);
   std::vector<Point> nodes;
+  nodes.reserve(column.heights.reached.size() - 1);
   for (std::size_t layer = 0; layer + 1 < column.heights.reached.size(); ++layer)
     nodes.push_back(column.foot + (column.heights.reached[layer] / whole) * way);
   return nodes;
