@@ -52,6 +52,12 @@ class BestOfAll {
         owners_{comm, mesh.first_node},
         exchange_{comm, owners_, mesh.owned_nodes, mesh.copies} {}
 
+  /// Copies get their owners' values. *Collective.*
+  template <class Values>
+  void update_copies(Values& values) const {
+    exchange_.update(values);
+  }
+
   /// The nodes of this rank that have got a better value. *Collective.*
   std::vector<NodeId> share(IdVector<NodeId, Value>& values) const {
     const IdVector<NodeId, Value> before = values;
@@ -154,14 +160,16 @@ IdVector<NodeId, double> heights_to_front(const Communicator& comm, const Mesh& 
   const Neighbours neighbours(mesh);
   const std::vector<NodeId> nodes = from_front(places);
   const BestOfAll<double> best(comm, mesh, lower);
+  std::vector<Point> points = mesh.points;
+  best.update_copies(points);  // a copy may be off by rounding, and heights would depend on the ranks
+  const auto edge = [&](NodeId a, NodeId b) { return length(points[b.value()] - points[a.value()]); };
   do {
     for (const NodeId node : nodes) {
       const LayerPlace beyond{places[node].left - 1, places[node].boundary};
       if (!beyond.valid()) heights[node] = 0;
       for (const NodeId other : neighbours.of(node)) {
         if (places[other] != beyond) continue;
-        heights[node] =
-            std::min(heights[node], heights[other] + length(mesh.point(other) - mesh.point(node)));
+        heights[node] = std::min(heights[node], heights[other] + edge(node, other));
       }
     }
   } while (comm.any(!best.share(heights).empty()));

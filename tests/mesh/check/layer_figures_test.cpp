@@ -50,6 +50,15 @@ TEST(LayerFigures, FirstHeightsAreNormalToTheWallAndSpreadIsSeen) {
   EXPECT_LT(wall.thickness.least, 0.5);
 }
 
+TEST(LayerFigures, AColumnGoesStraightOnThoughADiagonalBeShorter) {
+  Mesh mesh = LayeredStrip{.triangles = true}.mesh();
+  for (Point& p : mesh.points) p = {p.x + 1.8 * p.y, 2 * p.y};
+  const LayerFigures wall = figures_of(mesh).at(0);
+  EXPECT_NEAR(wall.growth.least, 2, 1e-9);
+  EXPECT_NEAR(wall.growth.largest, 2, 1e-9);
+  EXPECT_NEAR(wall.thickness.least, 0.7 * std::hypot(2, 1.8), 1e-12);
+}
+
 TEST(LayerFigures, NothingWithoutLayers) {
   Mesh mesh = LayeredStrip{}.mesh();
   mesh.boundaries[1].layers = {};
