@@ -225,9 +225,9 @@ class StripBuilder {
   Mesh& mesh_;
   NodeOwners owners_;
   std::vector<FilledStrip> strips_;
-  std::multimap<GlobalNodeId, Column> behind_;         ///< by the number before
-  std::map<GlobalNodeId, GrownNode> grown_nodes_;  ///< of fronts and of walls' columns at roots, by the number
-                                                   ///< before
+  std::multimap<GlobalNodeId, Column> behind_;     ///< by the number before
+  std::map<GlobalNodeId, GrownNode> grown_nodes_;  ///< of fronts and of walls' columns at roots, by the
+                                                   ///< number before
   std::vector<std::vector<GlobalNodeId>> first_of_column_;
   std::optional<GrownMesh> grown_;
 };
@@ -284,11 +284,12 @@ std::vector<std::int32_t> StripBuilder::nodes_behind() {
 /// Of the fronts' nodes to all ranks, and by them those of the columns behind.
 void StripBuilder::exchange_numbers() {
   struct Renumbered {
-    GlobalNodeId before, after;
+    GlobalNodeId before;
+    GrownNode node;
   };
   std::vector<Renumbered> own;
   const auto tell = [&](GlobalNodeId node) {
-    if (owners_.rank_of(node) == comm_.rank()) own.push_back({node, grown_->node(owners_.local(node)).id});
+    if (owners_.rank_of(node) == comm_.rank()) own.push_back({node, grown_->node(owners_.local(node))});
   };
   for (const FilledStrip& strip : strips_) {
     for (const FrontEdge& edge : strip.front()) tell(edge.nodes[0]);
