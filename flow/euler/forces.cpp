@@ -12,7 +12,7 @@ ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, co
     if (!feels_force(model.boundaries[face.boundary].condition)) continue;
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
       if (!mesh.is_owned(own)) continue;
-      const State state = state_at_half(states[own], states[other]);
+      const State state = state_at_half(face, states[own], states[other]);
       const double push = (state[3] - model.free_stream[3]) * face.half_size;
       along_x.push_back(push * face.normal.x);
       along_y.push_back(push * face.normal.y);

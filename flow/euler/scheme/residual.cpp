@@ -91,7 +91,7 @@ void Residual::add_faces(const std::vector<State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
     const BoundaryModel& boundary = model_.boundaries[face.boundary];
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
-      const State state = state_at_half(states[own], states[other]);
+      const State state = state_at_half(face, states[own], states[other]);
       const Flux flux = boundary_flux(model_, boundary, state, face.normal);
       for (std::size_t k = 0; k < 4; ++k) sums_[own][k] += face.half_size * flux[k];
     }

@@ -42,9 +42,9 @@ class Residual {
 /// What acts on one node's half of a boundary face: nearer to the node's own state than the half's middle is,
 /// which makes up for what the edge along the boundary leaves over (see SkewEdge). The fluxes of a linear
 /// field then add up exactly there too.
-inline State state_at_half(const State& own, const State& other) {
+inline State state_at_half(const BoundaryFace& face, const State& own, const State& other) {
   State state;
-  for (std::size_t k = 0; k < 4; ++k) state[k] = own[k] + (other[k] - own[k]) / 6;
+  for (std::size_t k = 0; k < 4; ++k) state[k] = own[k] + face.blend * (other[k] - own[k]) / 6;
   return state;
 }
 
