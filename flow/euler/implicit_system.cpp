@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <numeric>
 
+#include "flow/euler/scheme/viscous.hpp"
+
 namespace quadloop::euler {
 
 namespace {
 
-/// Row by row to column by column.
-void store(const Matrix4& matrix, double factor, std::array<float, 16>& block) {
+/// Row by row to column by column; rows 1 to `held` become 0.
+void store(const Matrix4& matrix, double factor, std::size_t held, std::array<float, 16>& block) {
   for (std::size_t row = 0; row < 4; ++row) {
+    const double scale = 1 <= row && row <= held ? 0 : factor;
     for (std::size_t column = 0; column < 4; ++column)
-      block[4 * column + row] = static_cast<float>(factor * matrix[4 * row + column]);
+      block[4 * column + row] = static_cast<float>(scale * matrix[4 * row + column]);
   }
 }
 
@@ -23,16 +26,31 @@ void add(const Matrix4& matrix, double factor, Matrix4& sum) {
   for (std::size_t k = 0; k < 16; ++k) sum[k] += factor * matrix[k];
 }
 
+/// What viscosity adds to how the flux from low to high answers to either. Returns the diffusivity times face
+/// over distance.
+double add_viscous_edge(const FlowModel& model, const DualEdge& edge, const State& low, const State& high,
+                        Matrix4& by_low, Matrix4& by_high) {
+  const double length_squared = 4 * dot(edge.half, edge.half);
+  const double factor = edge.size * std::abs(dot(edge.normal, edge.half)) * 2 / length_squared;
+  State mean;
+  for (std::size_t k = 0; k < 4; ++k) mean[k] = 0.5 * (low[k] + high[k]);
+  add_viscous_matrix(model, low, mean, edge.normal, factor, by_low);
+  add_viscous_matrix(model, high, mean, edge.normal, -factor, by_high);
+  return factor * diffusivity(model, mean);
+}
+
 }  // namespace
 
 ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model)
     : mesh_{mesh},
       model_{model},
+      no_slip_(mesh, model),
       colours_{colour_dual_nodes(comm, mesh)},
       diagonal_(mesh.nodes()),
       inverses_(mesh.owned_nodes()),
       skewness_(mesh.edges().size(), 0.0),
       wave_sums_(mesh.nodes()) {
+  held_ = no_slip_.held_rows(mesh.nodes());
   order_rows();
   place_edges(lay_out_rows());
   for (const SkewEdge& skew : mesh.skew_edges()) {
@@ -94,7 +112,8 @@ void ImplicitSystem::assemble(const std::vector<State>& states, double cfl,
   std::fill(wave_sums_.begin(), wave_sums_.end(), 0.0);
   add_edges(states);
   add_faces(states);
-  invert_diagonal(cfl, shares);
+  add_time_terms(cfl, shares);
+  invert_diagonal();
 }
 
 /// The flux from low to high changes by (A_low + |A|) / 2 with the low state and by (A_high - |A|) / 2 with
@@ -111,12 +130,15 @@ void ImplicitSystem::add_edges(const std::vector<State>& states) {
     add(upwind, -1, by_high);
     add_flux_matrix(model_.gas, states[low], edge.normal, half, by_low);
     add_flux_matrix(model_.gas, states[high], edge.normal, half, by_high);
+    double diffusion = 0;
+    if (model_.is_viscous())
+      diffusion = add_viscous_edge(model_, edge, states[low], states[high], by_low, by_high);
     add(by_low, 1, diagonal_[low]);
     add(by_high, -1, diagonal_[high]);
-    if (slots_[e].in_low >= 0) store(by_high, 1, blocks_[slots_[e].in_low]);
-    if (slots_[e].in_high >= 0) store(by_low, -1, blocks_[slots_[e].in_high]);
-    wave_sums_[low] += half * speed;
-    wave_sums_[high] += half * speed;
+    if (slots_[e].in_low >= 0) store(by_high, 1, held_[low], blocks_[slots_[e].in_low]);
+    if (slots_[e].in_high >= 0) store(by_low, -1, held_[high], blocks_[slots_[e].in_high]);
+    wave_sums_[low] += half * speed + diffusion;
+    wave_sums_[high] += half * speed + diffusion;
   }
 }
 
@@ -134,14 +156,20 @@ void ImplicitSystem::add_faces(const std::vector<State>& states) {
   }
 }
 
-void ImplicitSystem::invert_diagonal(double cfl, const std::vector<double>& shares) {
+void ImplicitSystem::add_time_terms(double cfl, const std::vector<double>& shares) {
+  for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
+    const double area_over_step = wave_sums_[node] / (cfl * shares[node]);
+    for (std::size_t k = 0; k < 4; ++k) diagonal_[node][5 * k] += area_over_step;
+  }
+}
+
+void ImplicitSystem::invert_diagonal() {
+  no_slip_.hold(diagonal_);
   for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
     using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
-    Eigen::Map<Matrix> block(diagonal_[node].data());
-    block.diagonal().array() += wave_sums_[node] / (cfl * shares[node]);  // the area over the time step
     Matrix4 inverse;
-    Eigen::Map<Matrix>(inverse.data()) = block.inverse();
-    store(inverse, 1, inverses_[node]);
+    Eigen::Map<Matrix>(inverse.data()) = Eigen::Map<const Matrix>(diagonal_[node].data()).inverse();
+    store(inverse, 1, 0, inverses_[node]);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "flow/euler/scheme/dual_mesh.hpp"
 #include "flow/euler/scheme/flow_model.hpp"
 #include "flow/euler/scheme/flux_jacobian.hpp"
+#include "flow/euler/scheme/no_slip.hpp"
 
 namespace quadloop::euler {
 
@@ -39,12 +40,15 @@ class ImplicitSystem {
   void place_edges(std::vector<std::size_t> next);
   void add_edges(const std::vector<State>& states);
   void add_faces(const std::vector<State>& states);
-  void invert_diagonal(double cfl, const std::vector<double>& shares);
+  void add_time_terms(double cfl, const std::vector<double>& shares);
+  void invert_diagonal();
   void relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual,
                   std::vector<Change>& change) const;
 
   const DualMesh& mesh_;
   const FlowModel& model_;
+  NoSlipNodes no_slip_;
+  std::vector<char> held_;  ///< of each node: rows 1 to this one of its block row say what is known
   Colouring colours_;
   std::vector<std::int32_t> row_nodes_;     ///< the owned nodes, colour by colour
   std::vector<std::size_t> colour_starts_;  ///< into them
