@@ -10,12 +10,11 @@ namespace quadloop::euler {
 
 namespace {
 
-/// Row by row to column by column; rows 1 to `held` become 0.
-void store(const Matrix4& matrix, double factor, std::size_t held, std::array<float, 16>& block) {
+/// Row by row to column by column.
+void store(const Matrix4& matrix, std::array<float, 16>& block) {
   for (std::size_t row = 0; row < 4; ++row) {
-    const double scale = 1 <= row && row <= held ? 0 : factor;
     for (std::size_t column = 0; column < 4; ++column)
-      block[4 * column + row] = static_cast<float>(scale * matrix[4 * row + column]);
+      block[4 * column + row] = static_cast<float>(matrix[4 * row + column]);
   }
 }
 
@@ -46,6 +45,8 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
       model_{model},
       no_slip_(mesh, model),
       colours_{colour_dual_nodes(comm, mesh)},
+      lines_(comm, mesh, colours_),
+      line_rows_(lines_.rows()),
       diagonal_(mesh.nodes()),
       inverses_(mesh.owned_nodes()),
       skewness_(mesh.edges().size(), 0.0),
@@ -61,16 +62,23 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
   }
 }
 
-/// The rows colour by colour, within a colour in the order of nodes.
+/// The colour with which the node is changed: that of its line, or its own.
+std::int8_t ImplicitSystem::turn(std::int32_t owned_node) const {
+  const std::int8_t of_line = lines_.colour(owned_node);
+  return of_line >= 0 ? of_line : colours_.colour_of[NodeId{owned_node}];
+}
+
+/// The rows turn by turn, first those of lines, which must see nothing of what changes in the same turn, then
+/// in the order of nodes.
 void ImplicitSystem::order_rows() {
-  const auto colour = [&](std::int32_t node) { return colours_.colour_of[NodeId{node}]; };
+  const auto key = [&](std::int32_t node) { return std::pair{turn(node), lines_.colour(node) < 0}; };
   row_nodes_.resize(mesh_.owned_nodes());
   std::iota(row_nodes_.begin(), row_nodes_.end(), 0);
   std::stable_sort(row_nodes_.begin(), row_nodes_.end(),
-                   [&](std::int32_t a, std::int32_t b) { return colour(a) < colour(b); });
+                   [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
   for (int c = 0; c <= colours_.count; ++c) {
     const auto first = std::partition_point(row_nodes_.begin(), row_nodes_.end(),
-                                            [&](std::int32_t node) { return colour(node) < c; });
+                                            [&](std::int32_t node) { return turn(node) < c; });
     colour_starts_.push_back(first - row_nodes_.begin());
   }
 }
@@ -79,8 +87,8 @@ void ImplicitSystem::order_rows() {
 std::vector<std::size_t> ImplicitSystem::lay_out_rows() {
   std::vector<std::size_t> neighbours(row_nodes_.size(), 0), starts(row_nodes_.size());
   for (const DualEdge& edge : mesh_.edges()) {
-    for (const std::int32_t node : {edge.low, edge.high}) {
-      if (mesh_.is_owned(node)) ++neighbours[node];
+    for (const auto& [node, other] : {std::pair{edge.low, edge.high}, {edge.high, edge.low}}) {
+      if (mesh_.is_owned(node) && !lines_.links(node).contains(other)) ++neighbours[node];
     }
   }
   row_starts_.push_back(0);
@@ -97,7 +105,8 @@ std::vector<std::size_t> ImplicitSystem::lay_out_rows() {
 /// node's row.
 void ImplicitSystem::place_edges(std::vector<std::size_t> next) {
   const auto take = [&](std::int32_t node, std::int32_t column) {
-    if (!mesh_.is_owned(node)) return -1;
+    if (!mesh_.is_owned(node)) return nowhere;
+    if (lines_.links(node).contains(column)) return in_line;
     const std::size_t slot = next[node]++;
     columns_[slot] = column;
     return static_cast<std::int32_t>(slot);
@@ -114,6 +123,18 @@ void ImplicitSystem::assemble(const std::vector<State>& states, double cfl,
   add_faces(states);
   add_time_terms(cfl, shares);
   invert_diagonal();
+}
+
+/// How the node's row answers to the other node.
+void ImplicitSystem::place(std::int32_t slot, std::int32_t node, std::int32_t other, const Matrix4& block) {
+  if (slot == nowhere) return;
+  Matrix4 kept = block;
+  for (int row = 1; row <= held_[node]; ++row) std::fill_n(kept.begin() + 4 * row, 4, 0.0);
+  if (slot == in_line) {
+    lines_.set_block(node, other, kept);
+  } else {
+    store(kept, blocks_[slot]);
+  }
 }
 
 /// The flux from low to high changes by (A_low + |A|) / 2 with the low state and by (A_high - |A|) / 2 with
@@ -135,10 +156,11 @@ void ImplicitSystem::add_edges(const std::vector<State>& states) {
       diffusion = add_viscous_edge(model_, edge, states[low], states[high], by_low, by_high);
     add(by_low, 1, diagonal_[low]);
     add(by_high, -1, diagonal_[high]);
-    if (slots_[e].in_low >= 0) store(by_high, 1, held_[low], blocks_[slots_[e].in_low]);
-    if (slots_[e].in_high >= 0) store(by_low, -1, held_[high], blocks_[slots_[e].in_high]);
-    wave_sums_[low] += half * speed + diffusion;
-    wave_sums_[high] += half * speed + diffusion;
+    for (double& value : by_low) value = -value;
+    place(slots_[e].in_low, edge.low, edge.high, by_high);
+    place(slots_[e].in_high, edge.high, edge.low, by_low);
+    if (slots_[e].in_low != in_line) wave_sums_[low] += half * speed + diffusion;
+    if (slots_[e].in_high != in_line) wave_sums_[high] += half * speed + diffusion;
   }
 }
 
@@ -150,6 +172,7 @@ void ImplicitSystem::add_faces(const std::vector<State>& states) {
       const std::size_t at = node;
       const State& state = states[at];
       add_boundary_matrix(model_, boundary, state, face.normal, face.half_size, diagonal_[at]);
+      if (lines_.links(node).is_end()) continue;
       const double along = std::abs(state[1] * face.normal.x + state[2] * face.normal.y);
       wave_sums_[at] += 0.5 * face.half_size * (along + model_.gas.sound_speed(state));
     }
@@ -165,11 +188,12 @@ void ImplicitSystem::add_time_terms(double cfl, const std::vector<double>& share
 
 void ImplicitSystem::invert_diagonal() {
   no_slip_.hold(diagonal_);
+  if (!lines_.empty()) lines_.factor(diagonal_);
   for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
     using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
     Matrix4 inverse;
     Eigen::Map<Matrix>(inverse.data()) = Eigen::Map<const Matrix>(diagonal_[node].data()).inverse();
-    store(inverse, 1, 0, inverses_[node]);
+    store(inverse, inverses_[node]);
   }
 }
 
@@ -180,9 +204,18 @@ void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::v
          ++step) {  // the sweep before ended with the colour that this one would begin with
       const int colour = sweep % 2 == 0 ? step : colours_.count - 1 - step;
       relax_rows(colour_starts_[colour], colour_starts_[colour + 1], residual, change);
-      mesh_.exchange().update(change,
-                              [&](std::int32_t node) { return colours_.colour_of[NodeId{node}] == colour; });
+      if (!lines_.empty()) change_lines(colour, change);
+      mesh_.exchange().update(change, [&](std::int32_t node) { return turn(node) == colour; });
     }
+  }
+}
+
+void ImplicitSystem::change_lines(int colour, std::vector<Change>& change) const {
+  lines_.solve(colour, line_rows_);
+  for (std::size_t row = colour_starts_[colour]; row < colour_starts_[colour + 1]; ++row) {
+    const std::int32_t node = row_nodes_[row];
+    if (!lines_.links(node).any()) continue;
+    for (std::size_t k = 0; k < 4; ++k) change[node][k] = static_cast<float>(line_rows_[node][k]);
   }
 }
 
@@ -194,6 +227,10 @@ void ImplicitSystem::relax_rows(std::size_t begin, std::size_t end, const std::v
     for (int k = 0; k < 4; ++k) right[k] = static_cast<float>(-residual[node][k]);
     for (std::size_t slot = row_starts_[row]; slot < row_starts_[row + 1]; ++slot) {
       right.noalias() -= MatrixMap(blocks_[slot].data()) * VectorMap(change[columns_[slot]].data());
+    }
+    if (lines_.links(row_nodes_[row]).any()) {
+      Eigen::Map<Eigen::Vector4d>(line_rows_[node].data()) = right.cast<double>();
+      continue;
     }
     Eigen::Map<Eigen::Vector4f>(change[node].data()).noalias() = MatrixMap(inverses_[node].data()) * right;
   }

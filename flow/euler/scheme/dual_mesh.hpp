@@ -48,6 +48,7 @@ class DualMesh {
   /// boundary. *Collective.*
   DualMesh(const Communicator& comm, const Mesh& mesh);
 
+  std::int64_t first_node() const { return first_node_; }  ///< as of the mesh
   std::int32_t owned_nodes() const { return halo_.owned_nodes(); }
   std::size_t nodes() const { return halo_.points().size(); }
   bool is_owned(std::int32_t node) const { return node < owned_nodes(); }
@@ -68,6 +69,7 @@ class DualMesh {
   void collect_faces();
 
   HaloMesh halo_;
+  std::int64_t first_node_;
   IdVector<NodeId, double> areas_;
   std::vector<DualEdge> edges_;
   std::vector<SkewEdge> skew_edges_;
