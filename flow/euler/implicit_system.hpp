@@ -33,7 +33,8 @@ class ImplicitSystem {
 
  private:
   using Block = std::array<float, 16>;  ///< column by column
-  /// An edge's blocks in the rows of its nodes: nowhere where another rank has the row, or in the node's line.
+  /// An edge's blocks in the rows of its nodes: nowhere where another rank has the row, or in the node's
+  /// line.
   static constexpr std::int32_t nowhere = -1, in_line = -2;
   struct Slots {
     std::int32_t in_low = nowhere, in_high = nowhere;
@@ -58,9 +59,9 @@ class ImplicitSystem {
   Colouring colours_;
   LineSystem lines_;
   mutable std::vector<LineSystem::Row> line_rows_;  ///< of right sides
-  std::vector<std::int32_t> row_nodes_;     ///< the owned nodes, colour by colour
-  std::vector<std::size_t> colour_starts_;  ///< into them
-  std::vector<std::size_t> row_starts_;     ///< into the two lists that follow
+  std::vector<std::int32_t> row_nodes_;             ///< the owned nodes, colour by colour
+  std::vector<std::size_t> colour_starts_;          ///< into them
+  std::vector<std::size_t> row_starts_;             ///< into the two lists that follow
   std::vector<std::int32_t> columns_;
   std::vector<Block> blocks_;
   std::vector<Slots> slots_;       ///< of each edge
@@ -70,6 +71,7 @@ class ImplicitSystem {
                                   ///< of the flux along the edge
   /// Of each node: half the sum of largest wave speed times size over its faces.
   std::vector<double> wave_sums_;
+  std::vector<double> line_sums_;  ///< the same along lines
 };
 
 }  // namespace quadloop::euler

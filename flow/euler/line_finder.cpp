@@ -9,16 +9,14 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr double strong = 10;  ///< in couplings of the third strongest edge: cells about three times as long as
-                               ///< high
+constexpr double strong = 10;  ///< in couplings of the third strongest edge: cells about three times as long
+                               ///< as high
 constexpr std::int64_t nobody = -1;
 
 /// A node's two strongest edges that count as strong: numbers of the nodes there over all ranks.
 struct Partners {
   std::array<std::int64_t, 2> nodes{nobody, nobody};
-  bool contains(GlobalNodeId node) const {
-    return nodes[0] == node.value() || nodes[1] == node.value();
-  }
+  bool contains(GlobalNodeId node) const { return nodes[0] == node.value() || nodes[1] == node.value(); }
 };
 
 struct Coupled {
@@ -140,7 +138,8 @@ class LineFinder {
   }
 
   bool names_differ() const {
-    return std::ranges::any_of(joints_, [&](const auto& joint) { return names_[joint[0]] != names_[joint[1]]; });
+    return std::ranges::any_of(joints_,
+                               [&](const auto& joint) { return names_[joint[0]] != names_[joint[1]]; });
   }
 
   /// On the rank that owns the node after which a line is named.
@@ -164,7 +163,8 @@ class LineFinder {
   std::vector<Place> put_together(const std::vector<Member>& members) const {
     Outbox<Place> out;
     for (auto begin = members.begin(); begin != members.end();) {
-      const auto end = std::find_if(begin, members.end(), [&](const Member& m) { return m.line != begin->line; });
+      const auto end =
+          std::find_if(begin, members.end(), [&](const Member& m) { return m.line != begin->line; });
       const std::vector<const Member*> line = in_order({begin, end});
       std::vector<int> ranks;
       for (const Member* member : line) ranks.push_back(member->rank);

@@ -24,7 +24,9 @@ double unit_time_step(const FlowRun& run, std::vector<double>& wave_sums) {
   for (const DualEdge& edge : run.mesh.edges()) {
     const double sum =
         0.5 * edge.size * std::max(speed(edge.low, edge.normal), speed(edge.high, edge.normal)) +
-        edge.size / (2 * length(edge.half)) * std::max(diffusivity(run.model, run.states[edge.low]), diffusivity(run.model, run.states[edge.high]));
+        edge.size / (2 * length(edge.half)) *
+            std::max(diffusivity(run.model, run.states[edge.low]),
+                     diffusivity(run.model, run.states[edge.high]));
     wave_sums[edge.low] += sum;
     wave_sums[edge.high] += sum;
   }

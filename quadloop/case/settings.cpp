@@ -133,7 +133,8 @@ void read_boundary_tables(const CaseTable& root, Settings& settings) {
     }
     if (const auto temperature = table.number("wall_temperature", Range::positive())) {
       if (rule.condition != "wall")
-        table.refuse("wall_temperature", "needs bc = \"wall\" in the same table; elsewhere there is none to set");
+        table.refuse("wall_temperature",
+                     "needs bc = \"wall\" in the same table; elsewhere there is none to set");
       settings.solver.wall_temperatures.push_back({name, *temperature});
     }
     table.finish();

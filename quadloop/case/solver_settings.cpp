@@ -23,7 +23,8 @@ int whole_number(const CaseTable& table, const std::string& key, int absent) {
 
 /// Viscosity may be given or asked for by a Reynolds number.
 void read_viscosity(const CaseTable& table, EulerOptions& options) {
-  const double length = table.number("reference_length", Range::positive()).value_or(options.reference_length);
+  const double length =
+      table.number("reference_length", Range::positive()).value_or(options.reference_length);
   options.viscosity = table.number("viscosity", {0}).value_or(options.viscosity);
   if (const auto reynolds = table.number("reynolds", Range::positive())) {
     if (table.has("viscosity"))

@@ -73,7 +73,8 @@ double twice_area(const std::array<Point, 4>& p) { return cross(p[2] - p[0], p[3
 
 }  // namespace
 
-DualMesh::DualMesh(const Communicator& comm, const Mesh& mesh) : halo_(comm, mesh), first_node_{mesh.first_node} {
+DualMesh::DualMesh(const Communicator& comm, const Mesh& mesh)
+    : halo_(comm, mesh), first_node_{mesh.first_node} {
   add_areas();
   collect_edges();
   comm.together([&] { collect_faces(); });

@@ -20,7 +20,7 @@ bool feels_force(Condition condition);
 
 struct BoundaryModel {
   Condition condition = Condition::none;
-  std::optional<double> pressure;  ///< behind an outflow; else it is supersonic
+  std::optional<double> pressure;     ///< behind an outflow; else it is supersonic
   std::optional<double> temperature;  ///< of a wall, else adiabatic
 };
 

@@ -22,7 +22,12 @@ bool keeps_enough(const State& extrapolated, const State& state) {
 }  // namespace
 
 Residual::Residual(const DualMesh& mesh, const FlowModel& model, const EulerOptions& options)
-    : mesh_{mesh}, model_{model}, least_squares_(mesh), gradients_(mesh.nodes()), sums_(mesh.nodes()), no_slip_(mesh, model) {
+    : mesh_{mesh},
+      model_{model},
+      least_squares_(mesh),
+      gradients_(mesh.nodes()),
+      sums_(mesh.nodes()),
+      no_slip_(mesh, model) {
   if (model.is_viscous()) {
     viscous_gradients_.resize(mesh.nodes());
     friction_.resize(mesh.nodes());
@@ -69,7 +74,8 @@ void Residual::take_viscous_edges(const std::vector<State>& states) {
     const std::size_t low = edge.low, high = edge.high;
     State mean;
     for (std::size_t k = 0; k < 4; ++k) mean[k] = 0.5 * (states[low][k] + states[high][k]);
-    const ViscousGradient gradient = gradient_between(model_.gas, states[low], states[high], viscous_gradients_[low],
+    const ViscousGradient gradient =
+        gradient_between(model_.gas, states[low], states[high], viscous_gradients_[low],
                          viscous_gradients_[high], 2.0 * edge.half);
     const Flux flux = viscous_flux(model_, mean, gradient, edge.normal);
     for (std::size_t k = 1; k < 4; ++k) {

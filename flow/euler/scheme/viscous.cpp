@@ -32,10 +32,10 @@ ViscousGradient viscous_gradient(const Gas& gas, const State& state, const Gradi
 
 ViscousGradient gradient_between(const Gas& gas, const State& low, const State& high,
                                  const ViscousGradient& at_low, const ViscousGradient& at_high, Point way) {
-  return {
-      mean_along(at_low.x_velocity, at_high.x_velocity, high[1] - low[1], way),
-      mean_along(at_low.y_velocity, at_high.y_velocity, high[2] - low[2], way),
-      mean_along(at_low.temperature, at_high.temperature, temperature(gas, high) - temperature(gas, low), way)};
+  return {mean_along(at_low.x_velocity, at_high.x_velocity, high[1] - low[1], way),
+          mean_along(at_low.y_velocity, at_high.y_velocity, high[2] - low[2], way),
+          mean_along(at_low.temperature, at_high.temperature, temperature(gas, high) - temperature(gas, low),
+                     way)};
 }
 
 Flux viscous_flux(const FlowModel& model, const State& state, const ViscousGradient& gradient, Point normal) {
