@@ -128,9 +128,9 @@ Figures result_figures(std::int64_t nodes, const EulerResult& result, const Eule
   figures.add("cl", result.cl, "{:.6f}");
   figures.add("cd", result.cd, "{:.6f}");
   if (options.viscosity > 0) {
-    figures.add("cd, pressure", result.cd - result.cd_friction, "{:.6f}");
-    figures.add("cd, friction", result.cd_friction, "{:.6f}");
-    figures.add("cl, friction", result.cl_friction, "{:.6f}");
+    figures.add("cd pressure", result.cd - result.cd_friction, "{:.6f}");
+    figures.add("cd friction", result.cd_friction, "{:.6f}");
+    figures.add("cl friction", result.cl_friction, "{:.6f}");
   }
   return figures;
 }

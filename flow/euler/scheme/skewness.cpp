@@ -6,11 +6,11 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr double farthest = 0.5;         ///< as Nearness::reach counts
+constexpr double farthest = 0.9;         ///< as Nearness::reach counts
 constexpr double least_size = 1.0 / 20;  ///< of a face, in lengths of its edge
 
-/// 1 up to the limit, then down to nothing with the square.
-double fading(double ratio) { return ratio > 1 ? 1 / (ratio * ratio) : 1; }
+/// 1 up to the limit, nothing from one and a half of it on.
+double fading(double ratio) { return std::clamp(3 - 2 * ratio, 0.0, 1.0); }
 
 }  // namespace
 
