@@ -39,9 +39,9 @@ struct Strongest {
   }
   Partners partners() const {
     Partners result;
-    if (count < 3) return result;
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (edges[k].strength >= strong * edges[2].strength) result.nodes[k] = edges[k].node;
+    const std::size_t weak = std::min(count, 3) - 1;  // of a corner's two edges the second
+    for (std::size_t k = 0; k < weak; ++k) {
+      if (edges[k].strength >= strong * edges[weak].strength) result.nodes[k] = edges[k].node;
     }
     return result;
   }

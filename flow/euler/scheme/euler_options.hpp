@@ -16,8 +16,8 @@ struct BoundaryChoice {
   std::string condition;           ///< wall | farfield | inflow | outflow | symmetry; empty: the mesh's own
   std::optional<double> pressure;  ///< behind an outflow, in units of the free stream's; none: the flow
                                    ///< leaves faster than sound
-  std::optional<double> temperature;  ///< of a wall that a viscous flow sticks to, in units of the free
-                                      ///< stream's; none: it lets no heat through
+  std::optional<double> temperature = {};  ///< of a wall that a viscous flow sticks to, in units of the free
+                                           ///< stream's; none: it lets no heat through
 };
 
 /// How far a run has come.

@@ -20,8 +20,8 @@ bool feels_force(Condition condition);
 
 struct BoundaryModel {
   Condition condition = Condition::none;
-  std::optional<double> pressure;     ///< behind an outflow; else it is supersonic
-  std::optional<double> temperature;  ///< of a wall, else adiabatic
+  std::optional<double> pressure = {};     ///< behind an outflow; else it is supersonic
+  std::optional<double> temperature = {};  ///< of a wall, else adiabatic
 };
 
 /// The gas, the free stream and what happens at each boundary of a mesh, in the mesh's order.
