@@ -164,8 +164,8 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
 
 void add_solve_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<SolveArguments>();
-  CLI::App* command =
-      app.add_subcommand("solve", "run the built-in flow solver (2D Euler equations) on a mesh");
+  CLI::App* command = app.add_subcommand(
+      "solve", "run the built-in flow solver (2D Euler equations, laminar flow) on a mesh");
   add_case_argument(*command, arguments->case_path);
   command
       ->add_option("input", arguments->input,
