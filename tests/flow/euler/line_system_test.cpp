@@ -62,6 +62,20 @@ TEST(FindLines, AreNoneInCellsOfModerateShape) {
   EXPECT_TRUE(LineSystem(world(), dual, colour_dual_nodes(world(), dual)).empty());
 }
 
+TEST(FindLines, BeginWhereCellsAreThinnest) {
+  const Communicator self(MPI_COMM_SELF);
+  Mesh whole = test::irregular_grid(12, {1, 1}, 0.05);
+  for (Point& p : whole.points) p.y = p.y * p.y * p.y * p.y;
+  const Mesh mesh = scatter_mesh(self, whole, test::shuffled_order(whole, 3));
+  const DualMesh dual(self, mesh);
+  const std::vector<NodeLine> lines = find_lines(self, dual, colour_dual_nodes(self, dual));
+  EXPECT_EQ(lines.size(), 13);
+  for (const NodeLine& line : lines) {
+    EXPECT_EQ(dual.point(static_cast<std::int32_t>(line.nodes.front().value())).y, 0);
+    EXPECT_LT(dual.point(static_cast<std::int32_t>(line.nodes.back().value())).y, 0.5);
+  }
+}
+
 TEST(FindLines, CutARing) {
   Mesh whole = test::ring_mesh(12, 2, 1, 4000);  // cells so long outwards that the rings are lines
   const Mesh mesh = scatter_mesh(world(), whole, test::shuffled_order(whole, 3));
