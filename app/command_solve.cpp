@@ -127,6 +127,11 @@ Figures result_figures(std::int64_t nodes, const EulerResult& result, const Eule
   figures.add("residual", result.residual, "{:.3e}");
   figures.add("cl", result.cl, "{:.6f}");
   figures.add("cd", result.cd, "{:.6f}");
+  if (options.viscosity > 0) {
+    figures.add("cd pressure", result.cd - result.cd_friction, "{:.6f}");
+    figures.add("cd friction", result.cd_friction, "{:.6f}");
+    figures.add("cl friction", result.cl_friction, "{:.6f}");
+  }
   return figures;
 }
 
@@ -159,8 +164,8 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
 
 void add_solve_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<SolveArguments>();
-  CLI::App* command =
-      app.add_subcommand("solve", "run the built-in flow solver (2D Euler equations) on a mesh");
+  CLI::App* command = app.add_subcommand(
+      "solve", "run the built-in flow solver (2D Euler equations, laminar flow) on a mesh");
   add_case_argument(*command, arguments->case_path);
   command
       ->add_option("input", arguments->input,

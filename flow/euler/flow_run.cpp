@@ -35,8 +35,8 @@ void tell_progress(const FlowRun& run, const EulerResult& result) {
 void report(const FlowRun& run, const EulerResult& result, double cfl, bool at_end) {
   tell_progress(run, result);
   if (!run.options.progress || (!at_end && result.iterations % run.options.progress_every != 0)) return;
-  const ForceCoefficients forces =
-      wall_forces(run.comm, run.mesh, run.model, run.states, run.options.reference_length);
+  const ForceCoefficients forces = wall_forces(run.comm, run.mesh, run.model, run.states,
+                                               run.residual.friction(), run.options.reference_length);
   if (progress::Stage* stage = progress::current())
     stage->say_then(fmt::format("cl {:.4f}  cd {:.5f}", forces.cl, forces.cd));
   run.options.progress({result.iterations, result.residual, forces.cl, forces.cd, result.time, cfl});

@@ -1,29 +1,77 @@
 #include "flow/euler/forces.hpp"
 
+#include <algorithm>
+
 #include "flow/euler/scheme/residual.hpp"
 #include "mesher/base/reproducible_sum.hpp"
 
 namespace quadloop::euler {
 
+namespace {
+
+/// Forces in wind axes, as coefficients.
+struct WindAxes {
+  double scale, cosine, sine;
+
+  double lift(Point force) const { return scale * (force.y * cosine - force.x * sine); }
+  double drag(Point force) const { return scale * (force.x * cosine + force.y * sine); }
+};
+
+Point sum_over_ranks(const Communicator& comm, const std::vector<Point>& forces) {
+  std::vector<double> along_x, along_y;
+  for (const Point& force : forces) {
+    along_x.push_back(force.x);
+    along_y.push_back(force.y);
+  }
+  const double x = reproducible_sum(comm, along_x);
+  return {x, reproducible_sum(comm, along_y)};
+}
+
+}  // namespace
+
 ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
-                              const std::vector<State>& states, double reference_length) {
-  std::vector<double> along_x, along_y;  // of each half of a wall face that belongs to an owned node
+                              const std::vector<State>& states, const std::vector<Point>& friction,
+                              double reference_length) {
+  std::vector<Point> pushes, rubs;  // of each half of a wall face that belongs to an owned node; of each node
   for (const BoundaryFace& face : mesh.faces()) {
     if (!feels_force(model.boundaries[face.boundary].condition)) continue;
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
       if (!mesh.is_owned(own)) continue;
-      const State state = state_at_half(states[own], states[other]);
+      const State state = state_at_half(face, states[own], states[other]);
       const double push = (state[3] - model.free_stream[3]) * face.half_size;
-      along_x.push_back(push * face.normal.x);
-      along_y.push_back(push * face.normal.y);
+      pushes.push_back(push * face.normal);
     }
   }
-  const double x = reproducible_sum(comm, along_x), y = reproducible_sum(comm, along_y);
+  for (std::size_t node = 0; node < std::min<std::size_t>(friction.size(), mesh.owned_nodes()); ++node)
+    rubs.push_back(-1.0 * friction[node]);
+  const Point push = sum_over_ranks(comm, pushes), rub = sum_over_ranks(comm, rubs);
   const double speed = std::hypot(model.free_stream[1], model.free_stream[2]);
   if (speed == 0) return {};
-  const double scale = 1 / (0.5 * speed * speed * reference_length), cosine = model.free_stream[1] / speed,
-               sine = model.free_stream[2] / speed;
-  return {scale * (y * cosine - x * sine), scale * (x * cosine + y * sine)};
+  const WindAxes axes{1 / (0.5 * speed * speed * reference_length), model.free_stream[1] / speed,
+                      model.free_stream[2] / speed};
+  const double lift = axes.lift(rub), drag = axes.drag(rub);
+  return {axes.lift(push) + lift, axes.drag(push) + drag, lift, drag};
+}
+
+std::vector<double> wall_shear(const DualMesh& mesh, const FlowModel& model,
+                               const std::vector<Point>& friction) {
+  std::vector<Point> normals(mesh.nodes());
+  std::vector<double> sizes(mesh.nodes(), 0.0), shear(mesh.owned_nodes(), 0.0);
+  for (const BoundaryFace& face : mesh.faces()) {
+    if (model.boundaries[face.boundary].condition != Condition::no_slip) continue;
+    for (const std::int32_t node : {face.from, face.to}) {
+      normals[node] = normals[node] + face.half_size * face.normal;
+      sizes[node] += face.half_size;
+    }
+  }
+  for (std::size_t node = 0; node < shear.size(); ++node) {
+    const double size = length(normals[node]);
+    if (size == 0) continue;
+    Point along{-normals[node].y / size, normals[node].x / size};
+    if (along.x * model.free_stream[1] + along.y * model.free_stream[2] < 0) along = -1.0 * along;
+    shear[node] = -dot(friction[node], along) / sizes[node];
+  }
+  return shear;
 }
 
 }  // namespace quadloop::euler

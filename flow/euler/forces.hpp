@@ -9,12 +9,19 @@ namespace quadloop::euler {
 
 /// Force per depth over dynamic pressure and reference length, across and along the free stream.
 struct ForceCoefficients {
-  double cl = 0, cd = 0;
+  double cl = 0, cd = 0;                    ///< by pressure and friction
+  double cl_friction = 0, cd_friction = 0;  ///< the part of friction
 };
 
-/// What the pressure, less the free stream's, does to all boundaries that feels_force() counts; 0 where the
-/// free stream rests. The states' copies must be up to date. *Collective.*
+/// What the pressure, less the free stream's, and friction do to all boundaries that feels_force() counts; 0
+/// where the free stream rests. The states' copies must be up to date; `friction` is as Residual::friction().
+/// *Collective.*
 ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
-                              const std::vector<State>& states, double reference_length);
+                              const std::vector<State>& states, const std::vector<Point>& friction,
+                              double reference_length);
+
+/// The friction along the wall at each owned node, as wall_shear_name says.
+std::vector<double> wall_shear(const DualMesh& mesh, const FlowModel& model,
+                               const std::vector<Point>& friction);
 
 }  // namespace quadloop::euler

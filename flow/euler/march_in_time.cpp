@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flow/euler/flow_run.hpp"
+#include "flow/euler/scheme/viscous.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::euler {
@@ -22,7 +23,10 @@ double unit_time_step(const FlowRun& run, std::vector<double>& wave_sums) {
   std::fill(wave_sums.begin(), wave_sums.end(), 0.0);
   for (const DualEdge& edge : run.mesh.edges()) {
     const double sum =
-        0.5 * edge.size * std::max(speed(edge.low, edge.normal), speed(edge.high, edge.normal));
+        0.5 * edge.size * std::max(speed(edge.low, edge.normal), speed(edge.high, edge.normal)) +
+        edge.size / (2 * length(edge.half)) *
+            std::max(diffusivity(run.model, run.states[edge.low]),
+                     diffusivity(run.model, run.states[edge.high]));
     wave_sums[edge.low] += sum;
     wave_sums[edge.high] += sum;
   }

@@ -37,6 +37,30 @@ std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, cons
   return states;
 }
 
+/// Flow and forces as they are at the end. *Collective.*
+void take_flow(const FlowRun& run, EulerResult& result) {
+  const bool viscous = run.model.is_viscous();
+  if (viscous) run.residual.evaluate(run.states);  // the flow that is kept may not be the last one
+  const std::vector<Point>& friction = run.residual.friction();
+  const ForceCoefficients forces =
+      wall_forces(run.comm, run.mesh, run.model, run.states, friction, run.options.reference_length);
+  result.cl = forces.cl;
+  result.cd = forces.cd;
+  result.cl_friction = forces.cl_friction;
+  result.cd_friction = forces.cd_friction;
+  result.flow.names = flow_names();
+  std::vector<double> shear;
+  if (viscous) {
+    result.flow.names.emplace_back(wall_shear_name);
+    shear = wall_shear(run.mesh, run.model, friction);
+  }
+  std::vector<double>& values = result.flow.values;
+  for (std::size_t node = 0; node < run.mesh.areas().size(); ++node) {
+    values.insert(values.end(), run.states[node].begin(), run.states[node].end());
+    if (viscous) values.push_back(shear[node]);
+  }
+}
+
 }  // namespace
 
 EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
@@ -46,17 +70,13 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
   const DualMesh dual(comm, mesh);
   std::vector<State> states = start_states(comm, mesh, dual, model, options, start);
   Residual residual(dual, model, options);
+  residual.no_slip().hold(states);
   const FlowRun run{comm, options, dual, model, residual, states};
   const bool steady = options.time == EulerOptions::Time::steady;
   const progress::Stage stage("solving", steady ? options.iterations : options.end_time,
                               steady ? "steps" : "units of time");
   EulerResult result = steady ? march_to_steady(run) : march_in_time(run);
-  const ForceCoefficients forces = wall_forces(comm, dual, model, states, options.reference_length);
-  result.cl = forces.cl;
-  result.cd = forces.cd;
-  result.flow.names = flow_names();
-  for (std::size_t node = 0; node < dual.areas().size(); ++node)
-    result.flow.values.insert(result.flow.values.end(), states[node].begin(), states[node].end());
+  take_flow(run, result);
   return result;
 }
 

@@ -9,11 +9,13 @@ namespace quadloop {
 
 /// What solve_euler found.
 struct EulerResult {
-  Field flow;             ///< euler_names at each owned node, without constants
-  int iterations = 0;     ///< steps done
-  double residual = 0;    ///< root mean square of the nodes' net mass fluxes, relative to the larger of the
-                          ///< start's and the uniform free stream's
-  double cl = 0, cd = 0;  ///< over all boundaries that feels_force() counts, in wind axes
+  Field flow;           ///< euler_names at each owned node, without constants; a viscous one's
+                        ///< wall_shear_name too
+  int iterations = 0;   ///< steps done
+  double residual = 0;  ///< root mean square of the nodes' net mass fluxes, relative to the larger of the
+                        ///< start's and the uniform free stream's
+  double cl_friction = 0, cd_friction = 0;  ///< the part of friction in what follows
+  double cl = 0, cd = 0;                    ///< over all boundaries that feels_force() counts, in wind axes
   /// The step whose flow this is: the last, or that of the best residual where it rose again.
   int kept_iteration = 0;
   double last_residual = 0;  ///< after the last step
@@ -22,11 +24,11 @@ struct EulerResult {
   double time = 0;           ///< of an accurate run
 };
 
-/// Solves the two-dimensional Euler equations on a mesh of triangles and quadrilaterals. The flow starts
-/// from `start`, which has a row for each owned node; without variables, as the options say. The result has
-/// the same bits on any number of ranks. Throws InputError for a mesh or options that it cannot use, or a
-/// start in which variable() does not find euler_names, SolverError, with the place, where the flow cannot be
-/// kept physical. *Collective.*
+/// Solves the two-dimensional Euler equations, or with a viscosity those of laminar flow, on a mesh of
+/// triangles and quadrilaterals. The flow starts from `start`, which has a row for each owned node; without
+/// variables, as the options say. The result has the same bits on any number of ranks. Throws InputError for
+/// a mesh or options that it cannot use, or a start in which variable() does not find euler_names,
+/// SolverError, with the place, where the flow cannot be kept physical. *Collective.*
 EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
                         const Field& start = {});
 

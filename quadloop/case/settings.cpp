@@ -95,6 +95,12 @@ void read_rules(const CaseTable& root, LayerSettings& layer_settings, Settings& 
         table.refuse("pressure", "needs bc = \"outflow\" in the same table; elsewhere there is none to set");
       settings.solver.pressures.push_back({name, *pressure});
     }
+    if (const auto temperature = table.number("wall_temperature", Range::positive())) {
+      if (rule.condition != "wall")
+        table.refuse("wall_temperature",
+                     "needs bc = \"wall\" in the same table; elsewhere there is none to set");
+      settings.solver.wall_temperatures.push_back({name, *temperature});
+    }
     table.finish();
     settings.outline.rules.push_back(std::move(rule));
   }

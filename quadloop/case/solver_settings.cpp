@@ -21,10 +21,25 @@ int whole_number(const CaseTable& table, const std::string& key, int absent) {
   return static_cast<int>(*value);
 }
 
+/// Viscosity may be given or asked for by a Reynolds number.
+void read_viscosity(const CaseTable& table, EulerOptions& options) {
+  const double length =
+      table.number("reference_length", Range::positive()).value_or(options.reference_length);
+  options.viscosity = table.number("viscosity", {0}).value_or(options.viscosity);
+  if (const auto reynolds = table.number("reynolds", Range::positive())) {
+    if (table.has("viscosity"))
+      table.refuse("reynolds", "stands beside viscosity, which it decides; give one of the two");
+    if (options.mach == 0) table.refuse("reynolds", "needs a mach above 0; give viscosity instead");
+    options.viscosity = options.mach * length / *reynolds;
+  }
+  options.prandtl = table.number("prandtl", Range::positive()).value_or(options.prandtl);
+}
+
 void read_euler_keys(const CaseTable& table, EulerOptions& options) {
   options.mach = table.number("mach", {0, 100}).value_or(options.mach);
   options.alpha = table.number("alpha", {-360, 360}).value_or(options.alpha);
   options.gamma = table.number("gamma", {1, 10, true, false}).value_or(options.gamma);
+  read_viscosity(table, options);
   if (table.choice("time", {"steady", "accurate"}) == "accurate") options.time = EulerOptions::Time::accurate;
   options.end_time = table.number("end_time", {0}).value_or(options.end_time);
   if (options.time == EulerOptions::Time::accurate && !table.has("end_time")) {
@@ -79,11 +94,15 @@ EulerOptions euler_options(const SolverSettings& settings, const std::vector<Bou
   for (BoundaryRule& rule : lenient) rule.must_match = false;  // the mesh may have dropped a small island
   EulerOptions options = settings.euler;
   for (const Boundary& boundary : boundaries_by_rules(names, lenient, 0)) {
-    BoundaryChoice choice{boundary.name, boundary.condition == "none" ? "" : boundary.condition, {}};
+    BoundaryChoice choice{boundary.name, boundary.condition == "none" ? "" : boundary.condition, {}, {}};
     for (const bool exact : {false, true}) {
       for (const OutflowPressure& outflow : settings.pressures) {
         if ((outflow.pattern == boundary.name) == exact && matches(outflow.pattern, boundary.name))
           choice.pressure = outflow.pressure;
+      }
+      for (const WallTemperature& wall : settings.wall_temperatures) {
+        if ((wall.pattern == boundary.name) == exact && matches(wall.pattern, boundary.name))
+          choice.temperature = wall.temperature;
       }
     }
     options.boundaries.push_back(std::move(choice));

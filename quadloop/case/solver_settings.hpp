@@ -18,6 +18,12 @@ struct OutflowPressure {
   double pressure = 1;
 };
 
+/// The temperature that the case asks for at walls whose name matches, in units of the free stream's.
+struct WallTemperature {
+  std::string pattern;
+  double temperature = 1;
+};
+
 /// The case's table [solver], and what its boundary tables say to the solver alone.
 struct SolverSettings {
   enum class Kind { euler, command };
@@ -27,6 +33,7 @@ struct SolverSettings {
   EulerOptions euler;     ///< without the boundaries
   CommandSolver command;  ///< without the case's folder
   std::vector<OutflowPressure> pressures;
+  std::vector<WallTemperature> wall_temperatures;
 };
 
 /// Reads [solver], where there is one. Throws InputError that names key and line.

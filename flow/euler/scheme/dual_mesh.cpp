@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "flow/euler/scheme/skewness.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::euler {
@@ -15,8 +16,8 @@ namespace {
 struct Facet {
   GlobalNodeId global_low, global_high;
   NodeId low, high;
-  Point normal;          ///< as long as the facet
-  Point with_x, with_y;  ///< as of a SkewEdge
+  Point normal;                        ///< as long as the facet
+  Skewness of_middle, left_over, sum;  ///< as of a SkewFace
 };
 
 template <class Nodes>
@@ -37,17 +38,26 @@ Facet facet_of(const HaloMesh& mesh, NodeId a, NodeId b, Point centre, bool is_q
   const double side = global_a < global_b ? 1 : -1;
   const Point along = mesh.point(b) - mesh.point(a), across = centre - middle(mesh.point(a), mesh.point(b)),
               normal = side * turned(across);
-  Facet facet{global_a, global_b, a, b, normal, {}, {}};
+  Facet facet{global_a, global_b, a, b, normal, {}, {}, {}};
   if (is_quad) {  // half from the facet's own middle; the rest is what each triangle leaves over at an edge
                   // for the next one
-    facet.with_x = 0.5 * across.x * normal + side * along.x / 24 * turned(along);
-    facet.with_y = 0.5 * across.y * normal + side * along.y / 24 * turned(along);
+    facet.of_middle = {0.5 * across.x * normal, 0.5 * across.y * normal};
+    facet.left_over = {side * along.x / 24 * turned(along), side * along.y / 24 * turned(along)};
+    facet.sum = facet.of_middle + facet.left_over;
   }
   if (side < 0) {
     std::swap(facet.global_low, facet.global_high);
     std::swap(facet.low, facet.high);
   }
   return facet;
+}
+
+/// The facets of an edge together.
+void add(const Facet& facet, Facet& sum) {
+  sum.normal = sum.normal + facet.normal;
+  sum.of_middle = sum.of_middle + facet.of_middle;
+  sum.left_over = sum.left_over + facet.left_over;
+  sum.sum = sum.sum + facet.sum;
 }
 
 /// Less than this share of an edge's length squared is rounding.
@@ -63,7 +73,8 @@ double twice_area(const std::array<Point, 4>& p) { return cross(p[2] - p[0], p[3
 
 }  // namespace
 
-DualMesh::DualMesh(const Communicator& comm, const Mesh& mesh) : halo_(comm, mesh) {
+DualMesh::DualMesh(const Communicator& comm, const Mesh& mesh)
+    : halo_(comm, mesh), first_node_{mesh.first_node} {
   add_areas();
   collect_edges();
   comm.together([&] { collect_faces(); });
@@ -97,22 +108,35 @@ void DualMesh::collect_edges() {
   std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) {
     return a.global_low != b.global_low ? a.global_low < b.global_low : a.global_high < b.global_high;
   });
+  std::vector<SkewFace> skew;
   for (std::size_t i = 0; i < facets.size();) {
     Facet sum = facets[i];
     std::size_t end = i + 1;
-    for (; end < facets.size() && facets[end].low == sum.low && facets[end].high == sum.high; ++end) {
-      sum.normal = sum.normal + facets[end].normal;
-      sum.with_x = sum.with_x + facets[end].with_x;
-      sum.with_y = sum.with_y + facets[end].with_y;
-    }
+    for (; end < facets.size() && facets[end].low == sum.low && facets[end].high == sum.high; ++end)
+      add(facets[end], sum);
     const double size = length(sum.normal);
-    const Point half = 0.5 * (halo_.point(sum.high) - halo_.point(sum.low));
-    const double skew = std::max(length(sum.with_x), length(sum.with_y));
-    if (skew > least_skew * dot(half, half)) skew_edges_.push_back({edges_.size(), sum.with_x, sum.with_y});
-    edges_.push_back(
-        {sum.low.value(), sum.high.value(), size > 0 ? (1 / size) * sum.normal : Point{}, size, half});
+    const Point edge = halo_.point(sum.high) - halo_.point(sum.low),
+                normal = size > 0 ? (1 / size) * sum.normal : Point{};
+    edges_.push_back({sum.low.value(), sum.high.value(), normal, size, 0.5 * edge});
+    skew.push_back({edge, size, normal, sum.of_middle, sum.left_over, sum.sum});
     open_.push_back(end == i + 1 ? 1 : 0);
     i = end;
+  }
+  collect_skew_edges(skew);
+}
+
+void DualMesh::collect_skew_edges(const std::vector<SkewFace>& faces) {
+  std::vector<Nearness> nearness(nodes());
+  for (const DualEdge& edge : edges_) {
+    nearness[edge.low].add(2.0 * edge.half);
+    nearness[edge.high].add(2.0 * edge.half);
+  }
+  halo_.exchange().update(nearness);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const DualEdge& edge = edges_[e];
+    const auto [with_x, with_y] = bearable(faces[e], nearness[edge.low], nearness[edge.high]);
+    const double skew = std::max(length(with_x), length(with_y));
+    if (skew > least_skew * dot(edge.half, edge.half)) skew_edges_.push_back({e, with_x, with_y});
   }
 }
 
@@ -139,7 +163,8 @@ void DualMesh::collect_faces() {
     }
     const Point outward = turned(to - from);
     const double size = length(outward);
-    faces_.push_back({e.from.value(), e.to.value(), e.boundary, (1 / size) * outward, 0.5 * size});
+    faces_.push_back({e.from.value(), e.to.value(), e.boundary, (1 / size) * outward, 0.5 * size,
+                      share_left_over(size, found->size)});
     open = 0;
   }
   for (std::size_t i = 0; i < edges_.size(); ++i) {

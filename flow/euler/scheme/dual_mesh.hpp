@@ -8,6 +8,8 @@
 
 namespace quadloop::euler {
 
+struct SkewFace;
+
 /// An edge between two nodes and the face of the median dual that it crosses.
 struct DualEdge {
   std::int32_t low, high;  ///< nodes of this rank; the first has the lower number over all ranks
@@ -21,7 +23,7 @@ struct DualEdge {
 /// quadrilaterals: the integral over the face of place (from the middle) times normal. A flux that varies
 /// linearly carries that times its gradient beside its value in the middle. In triangles these terms cancel
 /// round each node; what is here counts from that, so that the fluxes of a linear field add up exactly on any
-/// mesh.
+/// mesh, but for long thin cells on curved walls: there it fades, since it would make the scheme unstable.
 struct SkewEdge {
   std::size_t edge;      ///< into the edges
   Point with_x, with_y;  ///< normals that go with the gradient along x and along y
@@ -33,6 +35,7 @@ struct BoundaryFace {
   std::int32_t boundary;
   Point normal;      ///< of length 1, out of the domain
   double half_size;  ///< each of its two nodes has one half of it
+  double blend;      ///< 1; less at thin cells, to 0: how much of the other node counts in a half
 };
 
 /// The median dual of a mesh around this rank's owned nodes: each node's part of a cell is bounded by the
@@ -45,6 +48,7 @@ class DualMesh {
   /// boundary. *Collective.*
   DualMesh(const Communicator& comm, const Mesh& mesh);
 
+  std::int64_t first_node() const { return first_node_; }  ///< as of the mesh
   std::int32_t owned_nodes() const { return halo_.owned_nodes(); }
   std::size_t nodes() const { return halo_.points().size(); }
   bool is_owned(std::int32_t node) const { return node < owned_nodes(); }
@@ -61,9 +65,11 @@ class DualMesh {
  private:
   void add_areas();
   void collect_edges();
+  void collect_skew_edges(const std::vector<SkewFace>& faces);
   void collect_faces();
 
   HaloMesh halo_;
+  std::int64_t first_node_;
   IdVector<NodeId, double> areas_;
   std::vector<DualEdge> edges_;
   std::vector<SkewEdge> skew_edges_;

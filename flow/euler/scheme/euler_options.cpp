@@ -21,6 +21,8 @@ void validate(const EulerOptions& options) {
   require_option(options.mach >= 0, "mach", options.mach, "0 or more");
   require_option(true, "alpha", options.alpha, "a number of degrees");
   require_option(options.gamma > 1, "gamma", options.gamma, "above 1");
+  require_option(options.viscosity >= 0, "viscosity", options.viscosity, "0 or more");
+  require_option(options.prandtl > 0, "prandtl", options.prandtl, "above 0");
   require_option(options.end_time >= 0, "end_time", options.end_time, "0 or more");
   require_option(options.cfl > 0, "cfl", options.cfl, "above 0");
   require_option(options.iterations >= 0, "iterations", options.iterations, "0 or more");
@@ -31,6 +33,9 @@ void validate(const EulerOptions& options) {
     if (choice.pressure)
       require_option(*choice.pressure > 0, ("pressure at '" + choice.name + "'").c_str(), *choice.pressure,
                      "above 0");
+    if (choice.temperature)
+      require_option(*choice.temperature > 0, ("wall_temperature at '" + choice.name + "'").c_str(),
+                     *choice.temperature, "above 0");
   }
 }
 

@@ -16,6 +16,8 @@ struct BoundaryChoice {
   std::string condition;           ///< wall | farfield | inflow | outflow | symmetry; empty: the mesh's own
   std::optional<double> pressure;  ///< behind an outflow, in units of the free stream's; none: the flow
                                    ///< leaves faster than sound
+  std::optional<double> temperature = {};  ///< of a wall that a viscous flow sticks to, in units of the free
+                                           ///< stream's; none: it lets no heat through
 };
 
 /// How far a run has come.
@@ -37,6 +39,11 @@ struct EulerOptions {
   double mach = 0.8;
   double alpha = 0;  ///< degrees
   double gamma = 1.4;
+  /// The same everywhere, in units of the free stream's density, its speed of sound and the geometry's
+  /// length: that is Mach number times length over Reynolds number. Above 0 the flow is laminar and sticks to
+  /// walls.
+  double viscosity = 0;
+  double prandtl = 0.72;
   Time time = Time::steady;
   double end_time = 1;  ///< of an accurate run
   /// Steady: of the first steps, it grows as the residual falls; accurate: no more than 0.8 is used.
@@ -56,6 +63,10 @@ struct EulerOptions {
 
 /// The variables of a state, as files name them.
 inline constexpr std::array<const char*, 4> euler_names{"density", "x_velocity", "y_velocity", "pressure"};
+
+/// What a viscous flow has beside them: the stress along the wall at its nodes, positive where it pulls the
+/// wall the way of the free stream, in units of the free stream's density and speed of sound; 0 elsewhere.
+inline constexpr const char* wall_shear_name = "wall_shear";
 
 /// Throws InputError that names the value and what it may be.
 void validate(const EulerOptions& options);

@@ -39,13 +39,16 @@ Condition condition_of(const std::string& name, const std::string& word) {
 
 BoundaryModel boundary_model(const BoundaryEdges& boundary, const EulerOptions& options) {
   std::string word = boundary.condition;
-  std::optional<double> pressure;
+  std::optional<double> pressure, temperature;
   for (const BoundaryChoice& choice : options.boundaries) {
     if (choice.name != boundary.name) continue;
     if (!choice.condition.empty()) word = choice.condition;
     if (choice.pressure) pressure = *choice.pressure / options.gamma;
+    temperature = choice.temperature;
   }
-  return {condition_of(boundary.name, word), pressure};
+  Condition condition = condition_of(boundary.name, word);
+  if (condition == Condition::wall && options.viscosity > 0) condition = Condition::no_slip;
+  return {condition, pressure, temperature};
 }
 
 Flux farfield_flux(const FlowModel& model, const State& state, Point normal) {
@@ -93,7 +96,8 @@ constexpr const char* no_face = "a boundary without edges has a face";
 
 bool feels_force(Condition condition) {
   switch (condition) {
-    case Condition::wall: return true;
+    case Condition::wall:
+    case Condition::no_slip: return true;
     case Condition::farfield:
     case Condition::inflow:
     case Condition::outflow:
@@ -105,7 +109,10 @@ bool feels_force(Condition condition) {
 }
 
 FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOptions& options) {
-  FlowModel model{{options.gamma}, {}, {}};
+  FlowModel model;
+  model.gas.gamma = options.gamma;
+  model.viscosity = options.viscosity;
+  model.prandtl = options.prandtl;
   model.free_stream = model.gas.free_stream(options.mach, options.alpha);
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     const bool present = comm.any(!boundary.edges.empty());
@@ -117,6 +124,7 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
 Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state, Point normal) {
   switch (boundary.condition) {
     case Condition::wall:
+    case Condition::no_slip:
     case Condition::symmetry: return {0, state[3] * normal.x, state[3] * normal.y, 0};
     case Condition::farfield: return farfield_flux(model, state, normal);
     case Condition::inflow: return inflow_flux(model, state, normal);
@@ -131,6 +139,7 @@ void add_boundary_matrix(const FlowModel& model, const BoundaryModel& boundary, 
                          Point normal, double factor, Matrix4& sum) {
   switch (boundary.condition) {
     case Condition::wall:
+    case Condition::no_slip:
     case Condition::symmetry: return add_wall_matrix(model.gas, state, normal, factor, sum);
     case Condition::farfield:
     case Condition::inflow: return add_open_matrix(model.gas, state, model.free_stream, normal, factor, sum);

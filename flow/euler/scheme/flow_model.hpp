@@ -11,21 +11,25 @@
 
 namespace quadloop::euler {
 
-/// What happens at a boundary. `none` stands for a boundary without edges.
-enum class Condition { none, wall, farfield, inflow, outflow, symmetry };
+/// What happens at a boundary. `none` stands for a boundary without edges; a `wall` is `no_slip` to a viscous
+/// flow.
+enum class Condition { none, wall, no_slip, farfield, inflow, outflow, symmetry };
 
 /// Whether the forces count what the flow does there: a body does, a plane of symmetry does not.
 bool feels_force(Condition condition);
 
 struct BoundaryModel {
   Condition condition = Condition::none;
-  std::optional<double> pressure;  ///< behind an outflow; else it is supersonic
+  std::optional<double> pressure = {};     ///< behind an outflow; else it is supersonic
+  std::optional<double> temperature = {};  ///< of a wall, else adiabatic
 };
 
 /// The gas, the free stream and what happens at each boundary of a mesh, in the mesh's order.
 struct FlowModel {
   Gas gas;
   State free_stream{};
+  double viscosity = 0, prandtl = 1;  ///< as in EulerOptions
+  bool is_viscous() const { return viscosity > 0; }
   std::vector<BoundaryModel> boundaries;
 };
 
@@ -35,7 +39,7 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
 /// What leaves the domain through a boundary of length 1 with this outward unit normal, the flow inside being
 /// `state`.
 ///
-///   wall, symmetry
+///   wall, no_slip, symmetry
 ///             the pressure alone
 ///   farfield  the upwind flux against the free stream, which lets waves out; there is no correction for the
 ///   circulation, so lift errs by the order of

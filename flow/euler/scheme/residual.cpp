@@ -22,7 +22,16 @@ bool keeps_enough(const State& extrapolated, const State& state) {
 }  // namespace
 
 Residual::Residual(const DualMesh& mesh, const FlowModel& model, const EulerOptions& options)
-    : mesh_{mesh}, model_{model}, least_squares_(mesh), gradients_(mesh.nodes()), sums_(mesh.nodes()) {
+    : mesh_{mesh},
+      model_{model},
+      least_squares_(mesh),
+      gradients_(mesh.nodes()),
+      sums_(mesh.nodes()),
+      no_slip_(mesh, model) {
+  if (model.is_viscous()) {
+    viscous_gradients_.resize(mesh.nodes());
+    friction_.resize(mesh.nodes());
+  }
   if (options.limiter == EulerOptions::Limiter::venkatakrishnan)
     limiter_.emplace(mesh, options.reference_length);
 }
@@ -38,13 +47,53 @@ void Residual::release_limiter() {
 const std::vector<Flux>& Residual::evaluate(std::vector<State>& states) {
   mesh_.exchange().update(states);
   least_squares_.compute(states, gradients_);
+  if (model_.is_viscous()) find_viscous_gradients(states);
   if (limiter_) limiter_->apply(states, gradients_);
   mesh_.exchange().update(gradients_);
   for (Flux& sum : sums_) sum = {};
   add_edges(states);
   add_skew(states);
   add_faces(states);
+  if (model_.is_viscous()) {
+    take_viscous_edges(states);
+    take_viscous_faces(states);
+    no_slip_.take_friction(sums_, friction_);
+  }
   return sums_;
+}
+
+void Residual::find_viscous_gradients(const std::vector<State>& states) {
+  const std::size_t owned = mesh_.owned_nodes();
+  for (std::size_t node = 0; node < owned; ++node)
+    viscous_gradients_[node] = viscous_gradient(model_.gas, states[node], gradients_[node]);
+  mesh_.exchange().update(viscous_gradients_);
+}
+
+void Residual::take_viscous_edges(const std::vector<State>& states) {
+  for (const DualEdge& edge : mesh_.edges()) {
+    const std::size_t low = edge.low, high = edge.high;
+    State mean;
+    for (std::size_t k = 0; k < 4; ++k) mean[k] = 0.5 * (states[low][k] + states[high][k]);
+    const ViscousGradient gradient =
+        gradient_between(model_.gas, states[low], states[high], viscous_gradients_[low],
+                         viscous_gradients_[high], 2.0 * edge.half);
+    const Flux flux = viscous_flux(model_, mean, gradient, edge.normal);
+    for (std::size_t k = 1; k < 4; ++k) {
+      sums_[low][k] -= edge.size * flux[k];
+      sums_[high][k] += edge.size * flux[k];
+    }
+  }
+}
+
+void Residual::take_viscous_faces(const std::vector<State>& states) {
+  for (const BoundaryFace& face : mesh_.faces()) {
+    const BoundaryModel& boundary = model_.boundaries[face.boundary];
+    for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
+      const State state = state_at_half(face, states[own], states[other]);
+      const Flux flux = viscous_boundary_flux(model_, boundary, state, viscous_gradients_[own], face.normal);
+      for (std::size_t k = 1; k < 4; ++k) sums_[own][k] -= face.half_size * flux[k];
+    }
+  }
 }
 
 /// Where a reconstructed density or pressure would come near zero, the edge takes the nodes' own states:
@@ -91,7 +140,7 @@ void Residual::add_faces(const std::vector<State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
     const BoundaryModel& boundary = model_.boundaries[face.boundary];
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
-      const State state = state_at_half(states[own], states[other]);
+      const State state = state_at_half(face, states[own], states[other]);
       const Flux flux = boundary_flux(model_, boundary, state, face.normal);
       for (std::size_t k = 0; k < 4; ++k) sums_[own][k] += face.half_size * flux[k];
     }

@@ -5,20 +5,27 @@
 
 #include "flow/euler/scheme/dual_mesh.hpp"
 #include "flow/euler/scheme/flow_model.hpp"
+#include "flow/euler/scheme/no_slip.hpp"
 #include "flow/euler/scheme/reconstruction.hpp"
+#include "flow/euler/scheme/viscous.hpp"
 
 namespace quadloop::euler {
 
 /// The net flux out of each owned node's dual cell: second order, with states at the middles of edges from
-/// limited gradients and Roe's flux between them.
+/// limited gradients and Roe's flux between them; a viscous flow's less what gradients not limited carry.
 class Residual {
  public:
   /// Both must outlive it.
   Residual(const DualMesh& mesh, const FlowModel& model, const EulerOptions& options);
 
   /// `states` has an entry for each node; those of copies are brought up to date first. The result has one
-  /// for each node too, of which those of owned nodes count. *Collective.*
+  /// for each node too, of which those of owned nodes count; what no-slip walls decide is 0. *Collective.*
   const std::vector<Flux>& evaluate(std::vector<State>& states);
+
+  const NoSlipNodes& no_slip() const { return no_slip_; }
+  /// The force per depth on the fluid by the walls' friction, by the last evaluation: an entry for each node,
+  /// none where the flow is not viscous.
+  const std::vector<Point>& friction() const { return friction_; }
 
   /// From now on the limiter's factors stay as they are.
   void freeze_limiter();
@@ -30,6 +37,9 @@ class Residual {
   void add_edges(const std::vector<State>& states);
   void add_skew(const std::vector<State>& states);
   void add_faces(const std::vector<State>& states);
+  void find_viscous_gradients(const std::vector<State>& states);
+  void take_viscous_edges(const std::vector<State>& states);
+  void take_viscous_faces(const std::vector<State>& states);
 
   const DualMesh& mesh_;
   const FlowModel& model_;
@@ -37,14 +47,17 @@ class Residual {
   std::optional<Limiter> limiter_;
   std::vector<Gradient> gradients_;
   std::vector<Flux> sums_;
+  NoSlipNodes no_slip_;
+  std::vector<ViscousGradient> viscous_gradients_;  ///< of a viscous flow
+  std::vector<Point> friction_;
 };
 
 /// What acts on one node's half of a boundary face: nearer to the node's own state than the half's middle is,
 /// which makes up for what the edge along the boundary leaves over (see SkewEdge). The fluxes of a linear
 /// field then add up exactly there too.
-inline State state_at_half(const State& own, const State& other) {
+inline State state_at_half(const BoundaryFace& face, const State& own, const State& other) {
   State state;
-  for (std::size_t k = 0; k < 4; ++k) state[k] = own[k] + (other[k] - own[k]) / 6;
+  for (std::size_t k = 0; k < 4; ++k) state[k] = own[k] + face.blend * (other[k] - own[k]) / 6;
   return state;
 }
 

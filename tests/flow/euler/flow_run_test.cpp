@@ -46,7 +46,7 @@ struct RingRun {
       states[node][3] = pressure(dual.point(node));
   }
   ForceCoefficients forces(double length = 1) const {
-    return wall_forces(run.comm, dual, model, states, length);
+    return wall_forces(run.comm, dual, model, states, {}, length);
   }
 
   Mesh whole, mesh;

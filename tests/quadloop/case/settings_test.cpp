@@ -191,6 +191,13 @@ TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(refused("[boundary.box]\nbc = \"wall\"\npressure = 1\n")
                 .find("case.toml:5: 'boundary.box.pressure' needs bc"),
             0u);
+  EXPECT_EQ(refused("[boundary.box]\nbc = \"symmetry\"\nwall_temperature = 1\n")
+                .find("case.toml:5: 'boundary.box.wall_temperature' needs bc"),
+            0u);
+  EXPECT_EQ(refused("[solver]\nviscosity = 1\nreynolds = 5\n").find("case.toml:5: 'solver.reynolds' stands"),
+            0u);
+  EXPECT_EQ(refused("[solver]\nmach = 0\nreynolds = 5\n").find("case.toml:5: 'solver.reynolds' needs a mach"),
+            0u);
   EXPECT_EQ(refused("[output]\npartitions = 0\n").find("case.toml:4: unknown key 'output.partitions'"), 0u);
   EXPECT_EQ(refused("[spacing]\nmin = 0\n").find("case.toml:4: 'spacing.min' is 0"), 0u);
   EXPECT_EQ(refused("[spacing]\nmin = 2\nmax = 1\n")
@@ -301,6 +308,28 @@ TEST_F(SettingsTest, BoundaryTablesGiveTheMeshItsConditions) {
   EXPECT_EQ(choices[2].condition, "farfield");
   EXPECT_EQ(choices[3].condition, "");  // the mesh's own stands
   EXPECT_FALSE(choices[3].pressure);
+}
+
+TEST_F(SettingsTest, AReynoldsNumberSetsTheViscosity) {
+  const EulerOptions o = read("[solver]\nmach = 0.5\nreynolds = 5000\nreference_length = 2\n").solver.euler;
+  EXPECT_EQ(o.viscosity, 0.5 * 2 / 5000);
+  EXPECT_EQ(o.prandtl, 0.72);
+  const EulerOptions given = read("[solver]\nviscosity = 0.25\nprandtl = 1\n").solver.euler;
+  EXPECT_EQ(given.viscosity, 0.25);
+  EXPECT_EQ(given.prandtl, 1);
+  EXPECT_EQ(read("").solver.euler.viscosity, 0);
+}
+
+TEST_F(SettingsTest, WallsMayHaveATemperature) {
+  const Settings s = read(
+      "[boundary.\"b*\"]\nbc = \"wall\"\nwall_temperature = 2\n[boundary.box]\nbc = \"wall\"\n"
+      "wall_temperature = 0.5\n");
+  Mesh mesh;
+  mesh.boundaries = {{"box", "none", {}}, {"bottom", "none", {}}, {"other", "wall", {}}};
+  const std::vector<BoundaryChoice> choices = euler_options(s.solver, s.outline.rules, mesh).boundaries;
+  EXPECT_EQ(choices[0].temperature, 0.5);
+  EXPECT_EQ(choices[1].temperature, 2);
+  EXPECT_FALSE(choices[2].temperature);
 }
 
 TEST_F(SettingsTest, NeedsAGeometry) {

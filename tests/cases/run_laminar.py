@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Laminar flow on layered meshes against what is known. A table of figures with their bounds; status 1 where one fails.
+
+    run_laminar.py --quadloop PROGRAM
+
+Drag of the NACA 0012 at Mach 0.5 and Reynolds number 5000 and where its boundary layer comes off, as published; a flat plate's friction as of Blasius.
+"""
+import argparse
+import json
+import math
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from quadloop_runs import ROOT, run
+from run_forces import Figures
+
+
+def walls(path, name):
+    """The nodes (x, y) of a boundary along x, and wall_shear at them."""
+    lines = Path(path).read_text().splitlines()
+    points = [tuple(map(float, line.split())) for line in lines[2:2 + int(lines[1])]]
+    start = next(i for i, line in enumerate(lines) if line.startswith("#Number of edges") and line.endswith(f"({name})"))
+    edges = [line.split() for line in lines[start + 2:start + 2 + int(lines[start + 1])]]
+    nodes = sorted({int(node) - 1 for edge in edges for node in edge}, key=lambda node: points[node])
+    shear = [float(line.split()[4]) for line in lines[-len(points):]]
+    return [(*points[node], shear[node]) for node in nodes]
+
+
+def solve(quadloop, name, folder):
+    """What the solver tells, and the file that it leaves."""
+    case, flow = ROOT / "cases" / name / "case.toml", folder / f"{name}_flow.mesh"
+    run([quadloop, "mesh", case, "-o", folder / name, "--set", 'output.formats=["mesh"]'])
+    told = subprocess.run([quadloop, "-q", "solve", case, folder / f"{name}.mesh", "-o", flow, "--json"], check=True, stdout=subprocess.PIPE, text=True)
+    return json.loads(told.stdout), flow
+
+
+def airfoil(quadloop, folder, figures):
+    told, flow = solve(quadloop, "naca0012_laminar", folder)
+    figures.add("airfoil: nodes", told["nodes"], 0, 10000)
+    figures.add("airfoil: residual", told["residual"], 0, 1e-6)
+    figures.add("airfoil: CD, published 0.0554 to 0.0556", told["cd"], 0.0554 * 0.99, 0.0556 * 1.01)
+    figures.add("airfoil: CD by friction", told["cd_friction"], 0.031, 0.033)
+    figures.add("airfoil: CL", told["cl"], -2e-4, 2e-4)
+    upper = [(x, shear) for x, y, shear in walls(flow, "airfoil") if y > 0 and 0.5 < x < 0.98]
+    off = next(x + shear / (shear - then) * (to - x) for (x, shear), (to, then) in zip(upper, upper[1:]) if shear > 0 >= then)
+    figures.add("airfoil: the flow separates at, published 0.81 to 0.82", off, 0.805, 0.825)
+
+
+def plate(quadloop, folder, figures):
+    told, flow = solve(quadloop, "flat_plate_laminar", folder)
+    figures.add("plate: residual", told["residual"], 0, 1e-6)
+    figures.add("plate: CD over Blasius'", told["cd"] / (1.328 / math.sqrt(1e5)), 0.98, 1.02)
+    for x, _, shear in walls(flow, "plate"):
+        if not 0.25 < x < 0.95:
+            continue
+        figures.add(f"plate: friction over Blasius' at {x:.3f}", shear / (0.5 * 0.2**2) * math.sqrt(1e5 * x) / 0.664, 0.98, 1.02)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--quadloop", required=True)
+    arguments = parser.parse_args()
+    figures = Figures()
+    with tempfile.TemporaryDirectory() as folder:
+        airfoil(arguments.quadloop, Path(folder), figures)
+        plate(arguments.quadloop, Path(folder), figures)
+    return 1 if figures.missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
