@@ -205,7 +205,7 @@ void ImplicitSystem::invert_diagonal() {
   }
 }
 
-void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change) const {
+void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change) {
   for (Change& c : change) c = {};
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (int step = sweep == 0 ? 0 : 1; step < colours_.count;
@@ -218,7 +218,7 @@ void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::v
   }
 }
 
-void ImplicitSystem::change_lines(int colour, std::vector<Change>& change) const {
+void ImplicitSystem::change_lines(int colour, std::vector<Change>& change) {
   lines_.solve(colour, line_rows_);
   for (std::size_t row = colour_starts_[colour]; row < colour_starts_[colour + 1]; ++row) {
     const std::int32_t node = row_nodes_[row];
@@ -228,7 +228,7 @@ void ImplicitSystem::change_lines(int colour, std::vector<Change>& change) const
 }
 
 void ImplicitSystem::relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual,
-                                std::vector<Change>& change) const {
+                                std::vector<Change>& change) {
   for (std::size_t row = begin; row < end; ++row) {
     const std::size_t node = row_nodes_[row];
     Eigen::Vector4f right;

@@ -29,7 +29,7 @@ class ImplicitSystem {
 
   /// That many sweeps, every second one through the colours backwards, from zero. `change` has an entry for
   /// each node. *Collective.*
-  void relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change) const;
+  void relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change);
 
  private:
   using Block = std::array<float, 16>;  ///< column by column
@@ -41,7 +41,7 @@ class ImplicitSystem {
   };
   std::int8_t turn(std::int32_t owned_node) const;
   void place(std::int32_t slot, std::int32_t node, std::int32_t other, const Matrix4& block);
-  void change_lines(int colour, std::vector<Change>& change) const;
+  void change_lines(int colour, std::vector<Change>& change);
   void order_rows();
   std::vector<std::size_t> lay_out_rows();
   void place_edges(std::vector<std::size_t> next);
@@ -50,7 +50,7 @@ class ImplicitSystem {
   void add_time_terms(double cfl, const std::vector<double>& shares);
   void invert_diagonal();
   void relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual,
-                  std::vector<Change>& change) const;
+                  std::vector<Change>& change);
 
   const DualMesh& mesh_;
   const FlowModel& model_;
@@ -58,10 +58,10 @@ class ImplicitSystem {
   std::vector<char> held_;  ///< of each node: rows 1 to this one of its block row say what is known
   Colouring colours_;
   LineSystem lines_;
-  mutable std::vector<LineSystem::Row> line_rows_;  ///< of right sides
-  std::vector<std::int32_t> row_nodes_;             ///< the owned nodes, colour by colour
-  std::vector<std::size_t> colour_starts_;          ///< into them
-  std::vector<std::size_t> row_starts_;             ///< into the two lists that follow
+  std::vector<LineSystem::Row> line_rows_;  ///< of right sides
+  std::vector<std::int32_t> row_nodes_;     ///< the owned nodes, colour by colour
+  std::vector<std::size_t> colour_starts_;  ///< into them
+  std::vector<std::size_t> row_starts_;     ///< into the two lists that follow
   std::vector<std::int32_t> columns_;
   std::vector<Block> blocks_;
   std::vector<Slots> slots_;       ///< of each edge
