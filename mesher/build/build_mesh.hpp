@@ -34,9 +34,9 @@ struct MeshLimit {
 /// What a mesh is expected to cost, before it is made.
 struct MeshEstimate {
   double leaves = 0, cells = 0;
-  double layer_cells = 0;    ///< of the cells those in layers at walls
   double bytes = 0;          ///< of memory, shared out over the ranks
   double bytes_of_rank = 0;  ///< beside that, on each
+  double layer_cells = 0;    ///< of the cells those in layers at walls
 };
 
 /// Refuses a mesh that would have more cells than are allowed, or than memory holds.

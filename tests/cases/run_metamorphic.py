@@ -68,7 +68,7 @@ def brick():
 
 
 def shipped(path, root, minimum, maximum, spacing, corner=30, ties=False, **more):
-    return Subject(read_outline(ROOT / "cases" / path), root, minimum, maximum, spacing, corner, more, ties)
+    return Subject(read_outline(ROOT / "cases" / path), root, minimum, maximum, spacing, corner, more, ties=ties)
 
 
 def layered_airfoil():
