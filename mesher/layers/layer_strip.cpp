@@ -161,7 +161,8 @@ class Strip {
   }
   /// The rows behind a base open as the layers beside them do.
   double half_core(std::size_t k) const {
-    const double open = strip_.core / 2 * first_height(k), widest = half_base_ + core_spreading * reached_[k];
+    const double open = 0.5 * strip_.core * first_height(k),
+                 widest = half_base_ + core_spreading * reached_[k];
     return std::max(half_base_, std::min(open, widest));
   }
   /// Between the feet, without these: as high as the layers beside them there, growing to the middle.
