@@ -100,6 +100,7 @@ std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
   const Point centre = geometry.box().centre();
   const std::vector<std::vector<double>> meshed = shares_of_area(mesh, centre);
   const std::vector<double> wanted = outline_shares(geometry, centre);
+  QUADLOOP_REQUIRE(meshed.size() == wanted.size(), "a mesh has its outline's boundaries");
   std::size_t worst = 0;
   double most = -1;
   for (std::size_t b = 0; b < meshed.size(); ++b) {
