@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/closing.hpp"
-#include "mesher/base/communicator.hpp"
 #include "mesher/base/json.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 
 namespace CLI {
 class App;

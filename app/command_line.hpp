@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 
 namespace CLI {
 class App;

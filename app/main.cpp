@@ -17,10 +17,10 @@
 #include "io/files/input_file.hpp"
 #include "io/files/interruption.hpp"
 #include "io/gis/gis_formats.hpp"
-#include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/free_memory.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/base/parallel/communicator.hpp"
+#include "mesher/base/parallel/free_memory.hpp"
 #include "mesher/base/progress.hpp"
 
 namespace quadloop {

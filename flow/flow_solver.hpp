@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 

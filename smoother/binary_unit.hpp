@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
 

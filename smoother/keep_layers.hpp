@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/layer_nodes.hpp"
 #include "smoother/smooth_options.hpp"
 

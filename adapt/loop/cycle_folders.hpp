@@ -3,7 +3,7 @@
 #include <string>
 
 #include "flow/command/descriptor.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 
 namespace quadloop {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/error.hpp"
-#include "mesher/base/exchange.hpp"
+#include "mesher/base/parallel/exchange.hpp"
 
 namespace quadloop {
 

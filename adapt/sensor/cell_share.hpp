@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 
 namespace quadloop {
 

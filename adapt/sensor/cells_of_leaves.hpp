@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "adapt/sensor/cell_share.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
 

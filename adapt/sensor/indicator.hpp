@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adapt/sensor/scaled_field.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/word_table.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "mesher/base/error.hpp"
-#include "mesher/base/reproducible_sum.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
 
 namespace quadloop {
 

@@ -7,7 +7,7 @@
 
 #include "adapt/sensor/mark.hpp"
 #include "adapt/sensor/ordered_values.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop {

@@ -5,7 +5,7 @@
 
 #include "adapt/sensor/mark.hpp"
 #include "adapt/sensor/scaled_field.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mesher/base/reproducible_sum.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
 
 namespace quadloop {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "adapt/transfer/cell_triangles.hpp"
+#include "adapt/transfer/locate/cell_triangles.hpp"
 #include "mesher/mesh/field.hpp"
 
 namespace quadloop {

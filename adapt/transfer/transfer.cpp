@@ -2,17 +2,17 @@
 
 #include <algorithm>
 
-#include "adapt/transfer/cell_triangles.hpp"
 #include "adapt/transfer/column_places.hpp"
-#include "adapt/transfer/curve_shares.hpp"
-#include "adapt/transfer/equal_points.hpp"
 #include "adapt/transfer/linear_values.hpp"
-#include "adapt/transfer/locate_points.hpp"
+#include "adapt/transfer/locate/cell_triangles.hpp"
+#include "adapt/transfer/locate/curve_shares.hpp"
+#include "adapt/transfer/locate/equal_points.hpp"
+#include "adapt/transfer/locate/locate_points.hpp"
+#include "adapt/transfer/locate/nearest_boundary.hpp"
+#include "adapt/transfer/locate/point_cells.hpp"
+#include "adapt/transfer/locate/triangle_piece.hpp"
 #include "adapt/transfer/mesh_integrals.hpp"
-#include "adapt/transfer/nearest_boundary.hpp"
-#include "adapt/transfer/point_cells.hpp"
-#include "adapt/transfer/triangle_piece.hpp"
-#include "mesher/base/exchange.hpp"
+#include "mesher/base/parallel/exchange.hpp"
 
 namespace quadloop {
 

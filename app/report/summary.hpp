@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/report/figures.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/generate/generate.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "flow/euler/forces.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/base/progress.hpp"
-#include "mesher/base/reproducible_sum.hpp"
 
 namespace quadloop::euler {
 

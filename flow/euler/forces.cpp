@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "flow/euler/scheme/residual.hpp"
-#include "mesher/base/reproducible_sum.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
 
 namespace quadloop::euler {
 

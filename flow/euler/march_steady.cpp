@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "flow/euler/flow_run.hpp"
-#include "flow/euler/implicit_system.hpp"
+#include "flow/euler/implicit/implicit_system.hpp"
 #include "flow/euler/residual_watch.hpp"
 #include "flow/euler/step_shares.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
-#include "mesher/base/reproducible_sum.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
 
 namespace quadloop::euler {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "flow/euler/scheme/euler_options.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 

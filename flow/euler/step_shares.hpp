@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "flow/euler/implicit_system.hpp"
+#include "flow/euler/implicit/implicit_system.hpp"
 
 namespace quadloop::euler {
 

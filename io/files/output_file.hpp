@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/files/staging_folder.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 
 namespace quadloop {
 

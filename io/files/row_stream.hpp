@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/progress.hpp"
 
 namespace quadloop {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop {

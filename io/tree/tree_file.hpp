@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/files/output_file.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop {

@@ -4,7 +4,7 @@
 
 #include "io/files/output_file.hpp"
 #include "io/loaded/loaded_mesh.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <ranges>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -9,15 +9,53 @@
 
 namespace quadloop {
 
-/// The ids from `begin` to before `end`, ascending; from 0.
+/// Ids of one kind, ascending without gaps: a range to loop over, or for an algorithm.
+template <class Id>
+class IdRange {
+ public:
+  class iterator {
+   public:
+    using value_type = Id;
+    using difference_type = std::ptrdiff_t;
+
+    constexpr iterator() = default;
+    constexpr explicit iterator(Id id) : number_{id.value()} {}
+
+    constexpr Id operator*() const { return Id{number_}; }
+    constexpr iterator& operator++() {
+      ++number_;
+      return *this;
+    }
+    constexpr iterator operator++(int) {
+      const iterator before = *this;
+      ++number_;
+      return before;
+    }
+    friend constexpr bool operator==(iterator, iterator) = default;
+
+   private:
+    typename Id::rep number_ = 0;
+  };
+
+  constexpr IdRange(Id begin, Id end) : begin_{begin}, end_{end} {}
+
+  constexpr iterator begin() const { return iterator{begin_}; }
+  constexpr iterator end() const { return iterator{end_}; }
+  constexpr bool empty() const { return begin_ == end_; }
+  constexpr std::size_t size() const { return static_cast<std::size_t>(end_.value() - begin_.value()); }
+
+ private:
+  Id begin_, end_;
+};
+
+/// The ids from `begin` to before `end`, which is not below it; from 0.
 template <class Tag, class Rep>
-constexpr auto ids_between(Id<Tag, Rep> begin, Id<Tag, Rep> end) {
-  return std::views::iota(begin.value(), end.value()) |
-         std::views::transform([](Rep number) { return Id<Tag, Rep>{number}; });
+constexpr IdRange<Id<Tag, Rep>> ids_between(Id<Tag, Rep> begin, Id<Tag, Rep> end) {
+  return {begin, end};
 }
 template <class Tag, class Rep>
-constexpr auto ids_below(Id<Tag, Rep> end) {
-  return ids_between(Id<Tag, Rep>{0}, end);
+constexpr IdRange<Id<Tag, Rep>> ids_below(Id<Tag, Rep> end) {
+  return {Id<Tag, Rep>{0}, end};
 }
 
 /// A value for each entity of one kind: a vector whose subscripts are ids of that kind alone. Those below

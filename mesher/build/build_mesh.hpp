@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/lattice/size_options.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesher/base/exchange.hpp"
+#include "mesher/base/parallel/exchange.hpp"
 #include "mesher/cut/cut_forest.hpp"
 #include "mesher/mesh/mesh.hpp"
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "mesher/base/error.hpp"
-#include "mesher/base/reproducible_sum.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/mesh/check/validate.hpp"
 
 namespace quadloop {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/cut/leaf_cells.hpp"
 #include "mesher/forest/leaf_graph.hpp"
 #include "mesher/sizes/size_tree.hpp"

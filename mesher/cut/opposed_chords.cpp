@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesher/base/exchange.hpp"
+#include "mesher/base/parallel/exchange.hpp"
 
 namespace quadloop {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/cut/cut_forest.hpp"
 #include "mesher/forest/leaf_graph.hpp"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/forest/curve_owners.hpp"
 
 namespace quadloop {

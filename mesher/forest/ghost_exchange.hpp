@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "mesher/base/exchange.hpp"
+#include "mesher/base/parallel/exchange.hpp"
 #include "mesher/forest/leaf_graph.hpp"
 
 namespace quadloop {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
 #include "mesher/base/id_vector.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/forest/forest.hpp"
 
 namespace quadloop {

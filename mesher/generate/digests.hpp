@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/build/build_mesh.hpp"
-#include "mesher/layers/layer_lines.hpp"
+#include "mesher/layers/front/layer_lines.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/geometry.hpp"
-#include "mesher/layers/layer_lines.hpp"
+#include "mesher/layers/front/layer_lines.hpp"
 #include "mesher/layers/layer_report.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
 #include "smoother/smooth_options.hpp"

@@ -10,7 +10,7 @@
 #include <unordered_map>
 
 #include "mesher/base/error.hpp"
-#include "mesher/base/exchange.hpp"
+#include "mesher/base/parallel/exchange.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/layers/fan_rows.hpp"
 #include "mesher/layers/layer_column.hpp"

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/delaunay/tie_order.hpp"
+#include "mesher/layers/front/layer_front.hpp"
 #include "mesher/layers/grown_mesh.hpp"
-#include "mesher/layers/layer_front.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
 

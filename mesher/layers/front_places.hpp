@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mesher/geometry/box_tree.hpp"
-#include "mesher/layers/layer_front.hpp"
+#include "mesher/layers/front/layer_front.hpp"
 
 namespace quadloop {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/delaunay/tie_order.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/node_exchange.hpp"

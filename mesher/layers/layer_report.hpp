@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
-#include "mesher/layers/layer_front.hpp"
+#include "mesher/base/parallel/communicator.hpp"
+#include "mesher/layers/front/layer_front.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {

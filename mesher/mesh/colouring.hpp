@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/mixed_bits.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 
 namespace quadloop {

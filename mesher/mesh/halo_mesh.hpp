@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/node_table.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {

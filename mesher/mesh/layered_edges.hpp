@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "mesher/base/exchange.hpp"
 #include "mesher/base/id_vector.hpp"
+#include "mesher/base/parallel/exchange.hpp"
 
 namespace quadloop {
 

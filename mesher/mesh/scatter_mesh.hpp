@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/base/exchange.hpp"
+#include "mesher/base/parallel/exchange.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 

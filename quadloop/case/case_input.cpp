@@ -6,7 +6,7 @@
 #include "adapt/remesh/restart.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/free_memory.hpp"
+#include "mesher/base/parallel/free_memory.hpp"
 #include "mesher/generate/digests.hpp"
 #include "quadloop/case/layer_settings.hpp"
 

@@ -8,7 +8,7 @@
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/layer_spec.hpp"
-#include "mesher/layers/layer_lines.hpp"
+#include "mesher/layers/front/layer_lines.hpp"
 #include "quadloop/case/first_height.hpp"
 
 namespace quadloop {

@@ -10,7 +10,7 @@
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/assemble/transform.hpp"
 #include "mesher/geometry/geometry.hpp"
-#include "mesher/layers/layer_lines.hpp"
+#include "mesher/layers/front/layer_lines.hpp"
 #include "mesher/mesh/tree_record.hpp"
 #include "quadloop/case/solver_settings.hpp"
 #include "smoother/smooth_options.hpp"

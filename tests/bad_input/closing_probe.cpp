@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/closing.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);

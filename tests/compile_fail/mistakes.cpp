@@ -1,7 +1,7 @@
 // Mistakes that the types forbid. Without a macro this file compiles; with any one of them it must not.
 
-#include "mesher/base/communicator.hpp"
 #include "mesher/base/id_vector.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 
 namespace quadloop {
 

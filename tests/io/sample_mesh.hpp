@@ -4,8 +4,8 @@
 #include <string>
 
 #include "io/loaded/loaded_mesh.hpp"
-#include "mesher/base/communicator.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/tree_record.hpp"
 #include "tests/support/temporary_folder.hpp"
 

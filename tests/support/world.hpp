@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 
 namespace quadloop::test {
 

@@ -6,7 +6,7 @@
 #include "flow/euler/scheme/euler_options.hpp"
 #include "flow/euler/scheme/flux_jacobian.hpp"
 #include "flow/euler/scheme/gas.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop::euler {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/delaunay/tie_order.hpp"
 #include "mesher/mesh/mesh.hpp"
 

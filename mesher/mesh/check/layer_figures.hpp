@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/layer_nodes.hpp"
 #include "mesher/mesh/mesh.hpp"

@@ -8,7 +8,7 @@
 
 #include "adapt/sensor/scaled_field.hpp"
 #include "adapt/sensor/thresholds.hpp"
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"

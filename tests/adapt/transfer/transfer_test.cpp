@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "adapt/transfer/cell_triangles.hpp"
+#include "adapt/transfer/locate/cell_triangles.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"

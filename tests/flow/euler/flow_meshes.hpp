@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "mesher/base/communicator.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 

@@ -1,5 +1,4 @@
-// What marching works with: residuals, the place named in a failure, forces of known pressures, colours, the
-// implicit system.
+// What marching works with: residuals, the place named in a failure, forces of known pressures.
 #include "flow/euler/flow_run.hpp"
 
 #include <gtest/gtest.h>
@@ -7,9 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "flow/euler/colouring.hpp"
 #include "flow/euler/forces.hpp"
-#include "flow/euler/implicit_system.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -132,80 +129,6 @@ TEST(WorstPlace, IsThatOfTheLargestFluxOrTheFirstThatIsNone) {
   set(40, std::numeric_limits<double>::quiet_NaN(), 0.25);
   set(30, std::numeric_limits<double>::infinity(), 0.5);
   EXPECT_NE(worst_place(ring.run, fluxes).find("density is 0.5,"), std::string::npos) << "the lower number";
-}
-
-TEST(ColourEdges, NoEdgeJoinsTwoOfOneColour) {
-  const RingRun ring;
-  const Colouring colours = colour_dual_nodes(world(), ring.dual);
-  for (const DualEdge& edge : ring.dual.edges()) {
-    EXPECT_NE(colours.colour_of[NodeId{edge.low}], colours.colour_of[NodeId{edge.high}]);
-    EXPECT_GE(colours.colour_of[NodeId{edge.low}], 0);
-  }
-  EXPECT_LE(colours.count, 5);
-}
-
-std::vector<Flux> made_up_residual(const DualMesh& mesh) {
-  std::vector<Flux> residual(mesh.nodes());
-  for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh.nodes()); ++node) {
-    for (int k = 0; k < 4; ++k) residual[node][k] = 0.01 * test::scattered(11, mesh.global(node).value(), k);
-  }
-  return residual;
-}
-
-std::vector<Change> relaxed(const RingRun& ring, double cfl, int sweeps, double scale = 1) {
-  ImplicitSystem system(ring.run.comm, ring.dual, ring.model);
-  system.assemble(ring.states, cfl, std::vector<double>(ring.dual.owned_nodes(), 1));
-  std::vector<Flux> residual = made_up_residual(ring.dual);
-  for (Flux& flux : residual) {
-    for (double& part : flux) part *= scale;
-  }
-  std::vector<Change> change(ring.dual.nodes());
-  system.relax(residual, sweeps, change);
-  change.resize(ring.dual.owned_nodes());
-  return change;
-}
-
-TEST(ImplicitSystem, HasTheSameBitsOnAnyNumberOfRanks) {
-  const Communicator self(MPI_COMM_SELF);
-  const RingRun together, alone(self);
-  const auto part = relaxed(together, 20, 5), whole = relaxed(alone, 20, 5);
-  for (std::size_t i = 0; i < part.size(); ++i) EXPECT_EQ(part[i], whole[together.mesh.first_node + i]);
-}
-
-TEST(ImplicitSystem, IsLinear) {
-  const RingRun ring;
-  const auto once = relaxed(ring, 20, 5), twice = relaxed(ring, 20, 5, 2);
-  for (std::size_t i = 0; i < once.size(); ++i) {
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(twice[i][k], 2 * once[i][k]);
-  }
-  for (const Change& change : relaxed(ring, 20, 3, 0)) EXPECT_EQ(change, Change{});
-}
-
-/// Of a tiny time step the change goes against the residual, and every sweep finds it.
-TEST(ImplicitSystem, ASmallStepIsAnExplicitOne) {
-  const RingRun ring;
-  const auto once = relaxed(ring, 1e-6, 1), often = relaxed(ring, 1e-6, 8);
-  const auto residual = made_up_residual(ring.dual);
-  for (std::size_t i = 0; i < once.size(); ++i) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      EXPECT_NEAR(once[i][k], often[i][k], 1e-4F * std::abs(often[i][k]) + 1e-12F);
-      EXPECT_LE(often[i][k] * residual[i][k], 0);
-    }
-  }
-}
-
-TEST(ImplicitSystem, SweepsConverge) {
-  const RingRun ring;
-  const auto distance = [](const std::vector<Change>& a, const std::vector<Change>& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      for (std::size_t k = 0; k < 4; ++k) largest = std::max(largest, std::abs(1.0 * a[i][k] - b[i][k]));
-    }
-    return world().maximum(largest);
-  };
-  const auto solved = relaxed(ring, 5, 200);
-  EXPECT_LT(distance(relaxed(ring, 5, 20), solved), 0.1 * distance(relaxed(ring, 5, 2), solved));
-  EXPECT_LT(distance(relaxed(ring, 5, 100), solved), 1e-6);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "flow/euler/vortex.hpp"
-#include "mesher/base/reproducible_sum.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/support/world.hpp"
 

@@ -1,0 +1,53 @@
+#include "adapt/transfer/locate/equal_points.hpp"
+
+#include <bit>
+
+namespace quadloop {
+
+namespace {
+
+/// 0 and -0 are equal, and so must their hashes be.
+std::uint64_t hash_of(Point p) {
+  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;
+  const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number + 0.0); };
+  const std::uint64_t mixed = (std::rotl(bits(p.x) * odd, 32) ^ bits(p.y)) * odd;
+  return mixed ^ (mixed >> 32);
+}
+
+/// A hash table of points with open addressing, at most half full.
+class PointTable {
+ public:
+  explicit PointTable(std::span<const Point> points)
+      : points_{points}, slots_(std::bit_ceil(2 * points.size() + 1), -1) {
+    for (std::int32_t i = 0; i < std::ssize(points); ++i) {
+      std::int32_t& slot = slot_of(points[i]);
+      if (slot < 0) slot = i;
+    }
+  }
+
+  std::int32_t find(Point p) { return slot_of(p); }
+
+ private:
+  /// That of an equal point, or else an empty one.
+  std::int32_t& slot_of(Point p) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = hash_of(p) & mask;
+    while (slots_[at] >= 0 && !(points_[slots_[at]] == p)) at = (at + 1) & mask;
+    return slots_[at];
+  }
+
+  std::span<const Point> points_;
+  std::vector<std::int32_t> slots_;
+};
+
+}  // namespace
+
+std::vector<std::int32_t> find_equal_points(std::span<const Point> known, std::span<const Point> points) {
+  PointTable table(known);
+  std::vector<std::int32_t> found;
+  found.reserve(points.size());
+  for (const Point p : points) found.push_back(table.find(p));
+  return found;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,106 @@
+#include "adapt/transfer/locate/locate_points.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "mesher/geometry/predicates.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::size_t few = 8;  ///< points or triangles that are no longer shared out
+constexpr int deepest = 100;    ///< ends the halving of points that cannot be told apart
+
+bool contains(const std::array<Point, 3>& corners, Point p) {
+  const auto& [a, b, c] = corners;
+  return orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0;
+}
+
+/// Points and triangles together are shared out to ever smaller boxes, those of the points that are left,
+/// until the few are tried with each other.
+class Search {
+ public:
+  Search(const TrianglePiece& piece, std::span<const Point> points)
+      : piece_{piece}, points_{points}, found_(points.size(), -1) {
+    boxes_.reserve(piece.triangles.size());
+    for (const CellTriangle& triangle : piece.triangles) {
+      Box box;
+      for (const Point p : piece.corners(triangle)) box.include(p);
+      boxes_.push_back(box);
+    }
+  }
+
+  std::vector<std::int32_t> run() {
+    std::vector<std::int32_t> order(points_.size());
+    std::iota(order.begin(), order.end(), 0);
+    candidates_.resize(boxes_.size());
+    std::iota(candidates_.begin(), candidates_.end(), 0);
+    share_out(order, 0, 0);
+    return std::move(found_);
+  }
+
+ private:
+  const Point& point(std::int32_t index) const { return points_[index]; }
+
+  /// The points against candidates_[first ...], those whose boxes met the box above this one's.
+  void share_out(std::span<std::int32_t> order, std::size_t first, int depth) {
+    if (order.empty()) return;
+    Box box;
+    for (const std::int32_t index : order) box.include(point(index));
+    const std::size_t begin = candidates_.size();
+    candidates_.resize(begin + (begin - first));
+    std::size_t end = begin;
+    for (std::size_t i = first; i < begin; ++i) {
+      const std::int32_t candidate = candidates_[i];
+      candidates_[end] = candidate;  // taken back unless its box meets this one
+      end += boxes_[candidate].meets(box) ? 1 : 0;
+    }
+    candidates_.resize(end);
+    if (std::min(order.size(), candidates_.size() - begin) <= few || depth == deepest) {
+      try_all(order, begin);
+    } else {
+      halve(order, begin, box, depth);
+    }
+    candidates_.resize(begin);
+  }
+
+  void halve(std::span<std::int32_t> order, std::size_t begin, const Box& box, int depth) {
+    const Point centre = box.centre();
+    const bool wide = box.width() > box.height();
+    const auto middle = std::partition(order.begin(), order.end(), [&](std::int32_t index) {
+      return wide ? point(index).x < centre.x : point(index).y < centre.y;
+    });
+    const std::size_t low = middle - order.begin();
+    share_out(order.first(low), begin, depth + 1);
+    share_out(order.subspan(low), begin, depth + 1);
+  }
+
+  void try_all(std::span<const std::int32_t> order, std::size_t begin) {
+    for (const std::int32_t index : order) {
+      const Point p = point(index);
+      std::int32_t& best = found_[index];
+      for (std::size_t i = begin; i < candidates_.size(); ++i) {
+        const std::int32_t candidate = candidates_[i];
+        if (!boxes_[candidate].contains(p) || (best >= 0 && number_of(best) < number_of(candidate))) continue;
+        if (contains(piece_.corners(piece_.triangles[candidate]), p)) best = candidate;
+      }
+    }
+  }
+
+  std::int64_t number_of(std::int32_t triangle) const { return piece_.triangles[triangle].number; }
+
+  const TrianglePiece& piece_;
+  std::span<const Point> points_;
+  std::vector<Box> boxes_;                ///< of the triangles
+  std::vector<std::int32_t> candidates_;  ///< a stack: each depth's triangles after those of the depth above
+  std::vector<std::int32_t> found_;
+};
+
+}  // namespace
+
+std::vector<std::int32_t> locate_points(const TrianglePiece& piece, std::span<const Point> points) {
+  return Search(piece, points).run();
+}
+
+}  // namespace quadloop

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "mesher/base/parallel/communicator.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// A boundary edge on the rank that has it: the index counts through the mesh's boundaries in order.
+struct BoundaryPlace {
+  std::int32_t rank = 0, edge = 0;
+  double parameter = 0;  ///< along the edge, 0 at its first node
+};
+
+/// The boundary edges of all ranks, on each of them (they are few beside the cells), and which is the
+/// nearest.
+class NearestBoundary {
+ public:
+  /// *Collective.*
+  NearestBoundary(const Communicator& comm, const Mesh& mesh);
+  ~NearestBoundary();
+  NearestBoundary(const NearestBoundary&) = delete;
+  NearestBoundary& operator=(const NearestBoundary&) = delete;
+
+  /// Of edges as near the one with the lowest number: numbers run through the boundaries in order, within one
+  /// through the ranks.
+  BoundaryPlace nearest(Point p) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+/// This rank's boundary edges, by the index of BoundaryPlace.
+std::vector<std::array<NodeId, 2>> boundary_edges_of(const Mesh& mesh);
+
+}  // namespace quadloop

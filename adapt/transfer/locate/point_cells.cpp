@@ -1,0 +1,75 @@
+#include "adapt/transfer/locate/point_cells.hpp"
+
+#include <algorithm>
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::int64_t most_cells = 1 << 16, few_points = 8;
+constexpr CurveGrid::Square whole_grid{{}, 32};
+
+}  // namespace
+
+PointCells::PointCells(const Communicator& comm, const CurveGrid& grid, std::span<const Point> points)
+    : grid_{&grid} {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(points.size());
+  for (const Point p : points) keys.push_back(grid.key_of(p));
+  std::sort(keys.begin(), keys.end());
+  const std::int64_t few = std::max(few_points, 4 * comm.sum(std::ssize(keys)) / most_cells);
+  std::vector<Stretch> own;
+  split(keys, whole_grid, few, own);
+  own = comm.all_gather_values(std::span<const Stretch>(own));
+  std::sort(own.begin(), own.end(), [](const Stretch& a, const Stretch& b) {
+    return a.first != b.first ? a.first < b.first : a.last > b.last;
+  });
+  for (const Stretch& stretch : own) {  // squares lie in each other or apart
+    if (stretches_.empty() || stretches_.back().last < stretch.first) stretches_.push_back(stretch);
+  }
+}
+
+/// `keys` are those in the square, ascending.
+void PointCells::split(std::span<const std::uint64_t> keys, const CurveGrid::Square& square, std::size_t few,
+                       std::vector<Stretch>& stretches) {
+  if (keys.empty()) return;
+  if (keys.size() <= few || square.bits == 0) {
+    stretches.push_back({CurveGrid::key_at(square.begin), CurveGrid::key_at(square.last())});
+    return;
+  }
+  for (int k = 0; k < 4; ++k) {
+    const CurveGrid::Square child = square.child(k);
+    const auto end = std::upper_bound(keys.begin(), keys.end(), CurveGrid::key_at(child.last()));
+    const std::size_t count = end - keys.begin();
+    split(keys.first(count), child, few, stretches);
+    keys = keys.subspan(count);
+  }
+}
+
+/// The first that does not end before the key.
+const PointCells::Stretch* PointCells::next(std::uint64_t key) const {
+  const auto found = std::partition_point(stretches_.begin(), stretches_.end(),
+                                          [key](const Stretch& stretch) { return stretch.last < key; });
+  return found == stretches_.end() ? nullptr : &*found;
+}
+
+bool PointCells::meet(const Box& box) const {
+  const CurveGrid::Steps steps = grid_->steps_of(box);
+  const Stretch* stretch = next(CurveGrid::key_at(steps.low));
+  if (stretch == nullptr || stretch->first > CurveGrid::key_at(steps.high)) return false;
+  return descend(steps, CurveGrid::square_around(steps));
+}
+
+bool PointCells::descend(const CurveGrid::Steps& steps, const CurveGrid::Square& square) const {
+  if (!square.meets(steps)) return false;
+  const std::uint64_t first = CurveGrid::key_at(square.begin), last = CurveGrid::key_at(square.last());
+  const Stretch* stretch = next(first);
+  if (stretch == nullptr || stretch->first > last) return false;
+  if (square.lies_in(steps) || (stretch->first <= first && last <= stretch->last)) return true;
+  for (int k = 0; k < 4; ++k) {
+    if (descend(steps, square.child(k))) return true;
+  }
+  return false;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,237 @@
+#include "flow/euler/implicit/line_finder.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "mesher/base/parallel/exchange.hpp"
+
+namespace quadloop::euler {
+
+namespace {
+
+constexpr double strong = 10;  ///< in couplings of the third strongest edge: cells about three times as long
+                               ///< as high
+constexpr std::int64_t nobody = -1;
+
+/// A node's two strongest edges that count as strong: numbers of the nodes there over all ranks.
+struct Partners {
+  std::array<std::int64_t, 2> nodes{nobody, nobody};
+  bool contains(GlobalNodeId node) const { return nodes[0] == node.value() || nodes[1] == node.value(); }
+};
+
+struct Coupled {
+  double strength = 0;
+  std::int64_t node = nobody;
+};
+
+/// The strongest three edges of a node, in this order; of equal ones the first stays first.
+struct Strongest {
+  std::array<Coupled, 3> edges;
+  int count = 0;
+
+  void add(const Coupled& edge) {
+    ++count;
+    std::size_t at = edges.size();
+    while (at > 0 && edge.strength > edges[at - 1].strength) --at;
+    if (at == edges.size()) return;
+    std::move_backward(edges.begin() + static_cast<std::ptrdiff_t>(at), edges.end() - 1, edges.end());
+    edges[at] = edge;
+  }
+  Partners partners() const {
+    Partners result;
+    const std::size_t weak = std::min(count, 3) - 1;  // of a corner's two edges the second
+    for (std::size_t k = 0; k < weak; ++k) {
+      if (edges[k].strength >= strong * edges[weak].strength) result.nodes[k] = edges[k].node;
+    }
+    return result;
+  }
+};
+
+/// An owned node in a line, as the rank that puts the line together is told of it.
+struct Member {
+  std::int64_t line;  ///< the least number of its nodes
+  std::int64_t node;
+  Partners partners;
+  double strength;  ///< of its strongest edge
+  int rank;
+  std::int8_t colour;
+};
+
+/// A node in its place in a line.
+struct Place {
+  std::int64_t line, node;
+  std::int32_t place;
+  std::int8_t colour;
+};
+
+class LineFinder {
+ public:
+  LineFinder(const Communicator& comm, const DualMesh& mesh, const Colouring& colours)
+      : comm_{comm},
+        mesh_{mesh},
+        colours_{colours},
+        owners_(comm, mesh.first_node()),
+        strongest_(mesh.nodes()),
+        partners_(mesh.nodes()) {}
+
+  std::vector<NodeLine> find() {
+    choose_partners();
+    join();
+    name_lines();
+    return received(put_together(members()));
+  }
+
+ private:
+  void choose_partners() {
+    for (const DualEdge& edge : mesh_.edges()) {
+      const double strength = edge.size / length(edge.half);
+      strongest_[edge.low].add({strength, mesh_.global(edge.high).value()});
+      strongest_[edge.high].add({strength, mesh_.global(edge.low).value()});
+    }
+    for (std::int32_t node = 0; node < mesh_.owned_nodes(); ++node)
+      partners_[node] = strongest_[node].partners();
+    mesh_.exchange().update(partners_);
+  }
+
+  /// Edges that both of their nodes want; those partners stay that an owned node has in common with its own.
+  void join() {
+    std::vector<Partners> common(mesh_.owned_nodes());
+    const auto note = [&](std::int32_t node, GlobalNodeId other) {
+      if (!mesh_.is_owned(node)) return;
+      auto& nodes = common[node].nodes;
+      nodes[nodes[0] == nobody ? 0 : 1] = other.value();
+    };
+    for (const DualEdge& edge : mesh_.edges()) {
+      const GlobalNodeId low = mesh_.global(edge.low), high = mesh_.global(edge.high);
+      if (!partners_[edge.low].contains(high) || !partners_[edge.high].contains(low)) continue;
+      joints_.push_back({edge.low, edge.high});
+      note(edge.low, high);
+      note(edge.high, low);
+    }
+    partners_ = std::move(common);
+  }
+
+  /// Each line has the least of its nodes' numbers, found along the line, over ranks too.
+  void name_lines() {
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh_.nodes()); ++node)
+      names_.push_back(mesh_.global(node).value());
+    bool changed = true;
+    while (comm_.any(changed)) {
+      changed = false;
+      while (names_spread()) changed = true;
+      mesh_.exchange().update(names_);
+      // a copy's new name must be taken on by this rank's nodes in the next round
+      changed = changed || names_differ();
+    }
+  }
+
+  bool names_spread() {
+    bool changed = false;
+    const auto spread = [&](const std::array<std::int32_t, 2>& joint) {
+      std::int64_t &a = names_[joint[0]], &b = names_[joint[1]];
+      changed = changed || a != b;
+      a = b = std::min(a, b);
+    };
+    std::for_each(joints_.begin(), joints_.end(), spread);
+    std::for_each(joints_.rbegin(), joints_.rend(), spread);
+    return changed;
+  }
+
+  bool names_differ() const {
+    return std::ranges::any_of(joints_,
+                               [&](const auto& joint) { return names_[joint[0]] != names_[joint[1]]; });
+  }
+
+  /// On the rank that owns the node after which a line is named.
+  std::vector<Member> members() const {
+    Outbox<Member> out;
+    for (std::int32_t node = 0; node < mesh_.owned_nodes(); ++node) {
+      if (partners_[node].nodes[0] == nobody) continue;
+      const std::int64_t name = names_[node];
+      out.add(owners_.rank_of(GlobalNodeId{name}),
+              {name, mesh_.global(node).value(), partners_[node], strongest_[node].edges[0].strength,
+               comm_.rank(), colours_.colour_of[NodeId{node}]});
+    }
+    std::vector<Member> all = out.deliver(comm_);
+    std::ranges::sort(all, [](const Member& a, const Member& b) {
+      return a.line != b.line ? a.line < b.line : a.node < b.node;
+    });
+    return all;
+  }
+
+  /// Each line in its order, to the ranks that own some of it.
+  std::vector<Place> put_together(const std::vector<Member>& members) const {
+    Outbox<Place> out;
+    for (auto begin = members.begin(); begin != members.end();) {
+      const auto end =
+          std::find_if(begin, members.end(), [&](const Member& m) { return m.line != begin->line; });
+      const std::vector<const Member*> line = in_order({begin, end});
+      std::vector<int> ranks;
+      for (const Member* member : line) ranks.push_back(member->rank);
+      std::ranges::sort(ranks);
+      const auto same = std::ranges::unique(ranks);
+      ranks.erase(same.begin(), same.end());
+      for (const int rank : ranks) {
+        for (std::size_t k = 0; k < line.size(); ++k)
+          out.add(rank, {line[k]->line, line[k]->node, static_cast<std::int32_t>(k), line[0]->colour});
+      }
+      begin = end;
+    }
+    return out.deliver(comm_);
+  }
+
+  /// From the end with the stronger edge on; a ring begins with its first node and is cut before it.
+  static std::vector<const Member*> in_order(std::span<const Member> members) {
+    const auto find = [&](std::int64_t node) -> const Member* {
+      const auto found = std::ranges::lower_bound(members, node, {}, &Member::node);
+      return found != members.end() && found->node == node ? &*found : nullptr;
+    };
+    const Member* start = nullptr;
+    for (const Member& member : members) {
+      if (member.partners.nodes[1] == nobody && (start == nullptr || member.strength > start->strength))
+        start = &member;
+    }
+    if (start == nullptr) start = members.data();
+    std::vector<const Member*> line;
+    for (const Member *at = start, *before = nullptr; at != nullptr;) {
+      line.push_back(at);
+      const Member* next = nullptr;
+      for (const std::int64_t partner : at->partners.nodes) {
+        const Member* other = find(partner);
+        if (other != nullptr && other != before && other != start && next == nullptr) next = other;
+      }
+      before = at;
+      at = next;
+    }
+    return line;
+  }
+
+  static std::vector<NodeLine> received(std::vector<Place> places) {
+    std::ranges::sort(places, [](const Place& a, const Place& b) {
+      return a.line != b.line ? a.line < b.line : a.place < b.place;
+    });
+    std::vector<NodeLine> lines;
+    for (const Place& place : places) {
+      if (place.place == 0) lines.push_back({{}, place.colour});
+      lines.back().nodes.push_back(GlobalNodeId{place.node});
+    }
+    return lines;
+  }
+
+  const Communicator& comm_;
+  const DualMesh& mesh_;
+  const Colouring& colours_;
+  NodeOwners owners_;
+  std::vector<Strongest> strongest_;
+  std::vector<Partners> partners_;
+  std::vector<std::array<std::int32_t, 2>> joints_;
+  std::vector<std::int64_t> names_;  ///< of each node's line
+};
+
+}  // namespace
+
+std::vector<NodeLine> find_lines(const Communicator& comm, const DualMesh& mesh, const Colouring& colours) {
+  return LineFinder(comm, mesh, colours).find();
+}
+
+}  // namespace quadloop::euler

@@ -1,0 +1,84 @@
+#include "flow/euler/implicit/line_system.hpp"
+
+#include <Eigen/LU>
+#include <unordered_map>
+
+namespace quadloop::euler {
+
+namespace {
+
+using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+using MatrixMap = Eigen::Map<const Matrix>;
+using VectorMap = Eigen::Map<Eigen::Vector4d>;
+
+}  // namespace
+
+LineSystem::LineSystem(const Communicator& comm, const DualMesh& mesh, const Colouring& colours)
+    : mesh_{mesh}, links_(mesh.nodes()), node_colours_(mesh.nodes(), -1) {
+  const std::vector<NodeLine> found = find_lines(comm, mesh, colours);
+  if (!comm.any(!found.empty())) return;
+  std::unordered_map<GlobalNodeId, std::int32_t> here;  // nodes that edges of owned nodes know
+  for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh.nodes()); ++node)
+    here.emplace(mesh.global(node), node);
+  std::vector<GlobalNodeId> others;
+  for (const NodeLine& line : found) {
+    std::vector<std::int32_t> locals, rows;
+    for (const GlobalNodeId node : line.nodes) {
+      const auto at = here.find(node);
+      locals.push_back(at == here.end() ? -1 : at->second);
+      const bool owned = locals.back() >= 0 && mesh.is_owned(locals.back());
+      rows.push_back(owned ? locals.back() : mesh.owned_nodes() + static_cast<std::int32_t>(others.size()));
+      if (!owned) others.push_back(node);
+    }
+    for (std::size_t k = 0; k < locals.size(); ++k) {
+      if (locals[k] < 0 || !mesh.is_owned(locals[k])) continue;
+      links_[locals[k]] = {k > 0 ? locals[k - 1] : -1, k + 1 < locals.size() ? locals[k + 1] : -1};
+      node_colours_[locals[k]] = line.colour;
+    }
+    lines_.push_back({std::move(rows), line.colour});
+  }
+  exchange_.emplace(comm, NodeOwners(comm, mesh.first_node()), mesh.owned_nodes(), others);
+  blocks_.resize(mesh.owned_nodes() + others.size());
+}
+
+void LineSystem::set_block(std::int32_t node, std::int32_t neighbour, const Matrix4& block) {
+  (links_[node].before == neighbour ? blocks_[node].before : blocks_[node].after) = block;
+}
+
+void LineSystem::factor(const std::vector<Matrix4>& diagonal) {
+  for (std::int32_t node = 0; node < mesh_.owned_nodes(); ++node) blocks_[node].inverse = diagonal[node];
+  exchange_->update(blocks_);
+  for (const Line& line : lines_) {
+    const Blocks* before = nullptr;
+    for (const std::int32_t row : line.rows) {
+      Eigen::Map<Matrix> block(blocks_[row].inverse.data());
+      if (before != nullptr) {
+        block -= MatrixMap(blocks_[row].before.data()) *
+                 (MatrixMap(before->inverse.data()) * MatrixMap(before->after.data())).eval();
+      }
+      block = block.inverse().eval();
+      before = &blocks_[row];
+    }
+  }
+}
+
+void LineSystem::solve(int colour, std::vector<Row>& rows) const {
+  exchange_->update(rows, [&](std::int32_t node) { return node_colours_[node] == colour; });
+  for (const Line& line : lines_) {
+    if (line.colour != colour) continue;
+    for (std::size_t k = 0; k < line.rows.size(); ++k) {
+      const Blocks& blocks = blocks_[line.rows[k]];
+      VectorMap right(rows[line.rows[k]].data());
+      if (k > 0) right -= MatrixMap(blocks.before.data()) * VectorMap(rows[line.rows[k - 1]].data());
+      right = (MatrixMap(blocks.inverse.data()) * right).eval();
+    }
+    for (std::size_t k = line.rows.size() - 1; k-- > 0;) {
+      const Blocks& blocks = blocks_[line.rows[k]];
+      VectorMap(rows[line.rows[k]].data()) -=
+          MatrixMap(blocks.inverse.data()) *
+          (MatrixMap(blocks.after.data()) * VectorMap(rows[line.rows[k + 1]].data())).eval();
+    }
+  }
+}
+
+}  // namespace quadloop::euler

@@ -1,0 +1,198 @@
+#include "mesher/base/parallel/communicator.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <new>
+#include <string>
+#include <thread>
+
+#include "mesher/base/error.hpp"
+#include "mesher/base/ids.hpp"
+#include "mesher/base/parallel/free_memory.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr auto shortest_nap = std::chrono::microseconds(100), longest_nap = std::chrono::microseconds(10000);
+constexpr std::size_t largest_message = Communicator::largest_message;
+
+template <class T>
+T reduced(T value, MPI_Datatype type, MPI_Op operation, MPI_Comm comm) {
+  T result{};
+  MPI_Allreduce(&value, &result, 1, type, operation, comm);
+  return result;
+}
+
+/// Calls `visit(begin, length)` for the pieces of a message.
+template <class Visit>
+void for_pieces(std::size_t size, std::size_t largest, const Visit& visit) {
+  for (std::size_t begin = 0; begin < size; begin += largest)
+    visit(begin, static_cast<int>(std::min(largest, size - begin)));
+}
+
+/// Refused rather than cut short: collective pieces are bounded by the callers.
+int count_of(std::size_t size) {
+  QUADLOOP_REQUIRE(size <= largest_message, "a collective message of more than 1 GiB");
+  return static_cast<int>(size);
+}
+
+std::vector<int> offsets_of(const std::vector<int>& counts) {
+  std::vector<int> offsets(counts.size() + 1, 0);
+  for (std::size_t r = 0; r < counts.size(); ++r) {
+    offsets[r + 1] = count_of(static_cast<std::size_t>(offsets[r]) + static_cast<std::size_t>(counts[r]));
+  }
+  return offsets;
+}
+
+/// The same kind of error on every rank, whichever rank met it.
+[[noreturn]] void rethrow(ExitStatus status, const std::string& message) {
+  switch (status) {
+    case ExitStatus::bad_input: throw InputError(message);
+    case ExitStatus::wrong_usage: throw UsageError(message);
+    case ExitStatus::solver_failed: throw SolverError(message);
+    case ExitStatus::output_failed: throw OutputError(message);
+    case ExitStatus::fault: throw Fault(message);
+    default: throw Error(status, message);
+  }
+}
+
+}  // namespace
+
+Communicator::Communicator(MPI_Comm to_duplicate) {
+  MPI_Comm_dup(to_duplicate, &comm_);
+  MPI_Comm_rank(comm_, &rank_);
+  MPI_Comm_size(comm_, &size_);
+}
+
+Communicator::~Communicator() { MPI_Comm_free(&comm_); }
+
+std::int64_t Communicator::sum(std::int64_t value) const {
+  return reduced(value, MPI_INT64_T, MPI_SUM, comm_);
+}
+std::int64_t Communicator::minimum(std::int64_t value) const {
+  return reduced(value, MPI_INT64_T, MPI_MIN, comm_);
+}
+std::int64_t Communicator::maximum(std::int64_t value) const {
+  return reduced(value, MPI_INT64_T, MPI_MAX, comm_);
+}
+double Communicator::minimum(double value) const { return reduced(value, MPI_DOUBLE, MPI_MIN, comm_); }
+double Communicator::maximum(double value) const { return reduced(value, MPI_DOUBLE, MPI_MAX, comm_); }
+
+std::int64_t Communicator::exclusive_sum(std::int64_t value) const {
+  std::int64_t before = 0;
+  MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, comm_);
+  return rank_ == 0 ? 0 : before;
+}
+
+void Communicator::barrier() const { MPI_Barrier(comm_); }
+
+void Communicator::patient_barrier() const {
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(comm_, &request);
+  auto nap = shortest_nap;
+  for (int done = 0; done == 0; nap = std::min(2 * nap, longest_nap)) {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done == 0) std::this_thread::sleep_for(nap);
+  }
+}
+
+std::vector<std::byte> Communicator::all_gather_bytes(std::span<const std::byte> bytes) const {
+  const int mine = count_of(bytes.size());
+  std::vector<int> counts(size_);
+  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
+  const std::vector<int> offsets = offsets_of(counts);
+  std::vector<std::byte> all(offsets.back());
+  MPI_Allgatherv(bytes.data(), mine, MPI_BYTE, all.data(), counts.data(), offsets.data(), MPI_BYTE, comm_);
+  return all;
+}
+
+void Communicator::broadcast_bytes(std::vector<std::byte>& bytes, int from) const {
+  std::uint64_t size = bytes.size();
+  MPI_Bcast(&size, 1, MPI_UINT64_T, from, comm_);
+  bytes.resize(size);
+  for_pieces(bytes.size(), largest_message, [&](std::size_t begin, int length) {
+    MPI_Bcast(bytes.data() + begin, length, MPI_BYTE, from, comm_);
+  });
+}
+
+std::vector<std::int64_t> Communicator::exchange_counts(const std::vector<std::int64_t>& to_rank) const {
+  std::vector<std::int64_t> from_rank(to_rank.size());
+  MPI_Alltoall(to_rank.data(), 1, MPI_INT64_T, from_rank.data(), 1, MPI_INT64_T, comm_);
+  return from_rank;
+}
+
+void Communicator::exchange_messages(std::span<const Outgoing> out, std::span<const Incoming> in,
+                                     std::size_t largest_piece) const {
+  std::vector<MPI_Request> requests;
+  for (const Incoming& message : in) {
+    for_pieces(message.bytes.size(), largest_piece, [&](std::size_t begin, int length) {
+      MPI_Irecv(message.bytes.data() + begin, length, MPI_BYTE, message.from, 1, comm_,
+                &requests.emplace_back());
+    });
+  }
+  for (const Outgoing& message : out) {
+    for_pieces(message.bytes.size(), largest_piece, [&](std::size_t begin, int length) {
+      MPI_Isend(message.bytes.data() + begin, length, MPI_BYTE, message.to, 1, comm_,
+                &requests.emplace_back());
+    });
+  }
+  MPI_Waitall(size32(requests), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+void Communicator::send_bytes(std::span<const std::byte> bytes, int to) const {
+  const std::uint64_t size = bytes.size();
+  MPI_Send(&size, 1, MPI_UINT64_T, to, 2, comm_);
+  for_pieces(bytes.size(), largest_message, [&](std::size_t begin, int length) {
+    MPI_Send(bytes.data() + begin, length, MPI_BYTE, to, 3, comm_);
+  });
+}
+
+std::vector<std::byte> Communicator::receive_bytes(int from) const {
+  std::uint64_t size = 0;
+  MPI_Recv(&size, 1, MPI_UINT64_T, from, 2, comm_, MPI_STATUS_IGNORE);
+  std::vector<std::byte> bytes(size);
+  for_pieces(bytes.size(), largest_message, [&](std::size_t begin, int length) {
+    MPI_Recv(bytes.data() + begin, length, MPI_BYTE, from, 3, comm_, MPI_STATUS_IGNORE);
+  });
+  return bytes;
+}
+
+void Communicator::together(const std::function<void()>& local) const {
+  std::string message;
+  auto status = ExitStatus::done;
+  try {
+    local();
+  } catch (const Error& error) {
+    status = error.status();
+    message = error.what();
+  } catch (const std::bad_alloc&) {
+    status = ExitStatus::bad_input;
+    message = out_of_memory;
+  } catch (const std::exception& error) {
+    status = ExitStatus::fault;
+    message = error.what();
+  }
+  const auto failed_rank = minimum(std::int64_t{status == ExitStatus::done ? size_ : rank_});
+  if (failed_rank == size_) return;
+  message.insert(message.begin(), static_cast<char>(status));
+  std::vector<char> agreed(message.begin(), message.end());
+  broadcast(agreed, static_cast<int>(failed_rank));
+  rethrow(static_cast<ExitStatus>(agreed.front()), std::string(agreed.begin() + 1, agreed.end()));
+}
+
+std::vector<std::string> broadcast_words(const Communicator& comm, const std::vector<std::string>& words) {
+  std::vector<char> text;
+  for (const std::string& word : words) text.insert(text.end(), word.c_str(), word.c_str() + word.size() + 1);
+  comm.broadcast(text);
+  std::vector<std::string> shared;
+  for (auto at = text.begin(); at != text.end();) {
+    const auto end = std::find(at, text.end(), '\0');
+    shared.emplace_back(at, end);
+    at = end + 1;
+  }
+  return shared;
+}
+
+}  // namespace quadloop

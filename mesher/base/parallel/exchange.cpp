@@ -1,0 +1,93 @@
+#include "mesher/base/parallel/exchange.hpp"
+
+#include <cstring>
+#include <numeric>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Of each rank that counts, its stretch of all.
+std::vector<Exchange::Source> stretches(const std::vector<std::int64_t>& counts) {
+  std::vector<Exchange::Source> found;
+  std::size_t begin = 0;
+  for (std::size_t rank = 0; rank < counts.size(); ++rank) {
+    const std::size_t end = begin + counts[rank];
+    if (end > begin) found.push_back({static_cast<int>(rank), begin, end});
+    begin = end;
+  }
+  return found;
+}
+
+}  // namespace
+
+Exchange::Exchange(const Communicator& comm, std::span<const int> ranks) : comm_{&comm} {
+  std::vector<std::int64_t> counts(comm.size(), 0);
+  for (const int rank : ranks) {
+    QUADLOOP_REQUIRE(0 <= rank && rank < comm.size(), "items are for one of the ranks");
+    ++counts[rank];
+  }
+  targets_ = stretches(counts);
+  sources_ = stretches(comm.exchange_counts(counts));
+  if (std::is_sorted(ranks.begin(), ranks.end())) return;
+  order_.resize(ranks.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](std::size_t a, std::size_t b) { return ranks[a] < ranks[b]; });
+}
+
+std::size_t Exchange::arrivals_before(int rank) const {
+  const auto found = std::partition_point(sources_.begin(), sources_.end(),
+                                          [&](const Source& source) { return source.rank < rank; });
+  return found == sources_.end() ? arrivals() : found->begin;
+}
+
+/// Both sides know the number of rows.
+void Exchange::move(std::span<const Source> to, Bytes rows, std::span<const Source> from, Room room,
+                    std::size_t row) const {
+  std::vector<Communicator::Outgoing> out;
+  for (const Source& t : to) out.push_back({t.rank, rows.subspan(t.begin * row, t.size() * row)});
+  std::vector<Communicator::Incoming> in;
+  for (const Source& s : from) in.push_back({s.rank, room.subspan(s.begin * row, s.size() * row)});
+  comm_->exchange_messages(out, in);
+}
+
+void Exchange::deliver_bytes(Bytes rows, Room room, std::size_t row) const {
+  QUADLOOP_REQUIRE(rows.size() == items() * row, "a row for each item");
+  if (order_.empty() || row == 0) return move(targets_, rows, sources_, room, row);
+  std::vector<std::byte> sorted(rows.size());
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    std::memcpy(sorted.data() + i * row, rows.data() + order_[i] * row, row);
+  move(targets_, sorted, sources_, room, row);
+}
+
+void Exchange::answer_bytes(Bytes rows, Room room, std::size_t row) const {
+  QUADLOOP_REQUIRE(rows.size() == arrivals() * row, "a row for each arrival");
+  if (order_.empty() || row == 0) return move(sources_, rows, targets_, room, row);
+  std::vector<std::byte> sorted(room.size());
+  move(sources_, rows, targets_, sorted, row);
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    std::memcpy(room.data() + order_[i] * row, sorted.data() + i * row, row);
+}
+
+std::vector<int> CopyExchange::owners_of(std::vector<Copy>& copies) {
+  std::stable_sort(copies.begin(), copies.end(),
+                   [](const Copy& a, const Copy& b) { return a.owner < b.owner; });
+  std::vector<int> owners;
+  for (const Copy& copy : copies) owners.push_back(copy.owner);
+  return owners;
+}
+
+CopyExchange::CopyExchange(const Communicator& comm, std::vector<Copy> copies, std::int32_t first_owned)
+    : exchange_(comm, owners_of(copies)) {
+  for (const Copy& copy : copies) {
+    copies_.push_back(copy.entry);
+    owned_.push_back(copy.owners_entry);
+  }
+  owned_ = exchange_.deliver(owned_);
+  for (std::int32_t& entry : owned_) entry += first_owned;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,206 @@
+#include "mesher/layers/front/columns_on_wall.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace quadloop {
+
+namespace {
+
+constexpr double least_visible = 0.2;                   // cosine of a column's tilt
+constexpr double least_ratio = 0.3, largest_ratio = 6;  // of the front's width over the wall's
+constexpr double convergent = 1.1, spreading = 1.5;     // the same
+constexpr int most_averagings = 40;
+
+class Columns {
+ public:
+  Columns(const WallLine& line, const std::vector<double>& thickness)
+      : line_{line},
+        h_{thickness},
+        convergence_(thickness.size()),
+        seen_(thickness.size()),
+        columns_{{}, thickness} {
+    for (std::int32_t i = 0; i < line_.size(); ++i) columns_.direction.push_back(line_[i].direction);
+  }
+
+  WallColumns found() && {
+    lean_from_corners();
+    std::vector<std::int32_t> all(line_.size());
+    std::iota(all.begin(), all.end(), 0);
+    set_lengths(all);
+    std::vector<std::int32_t> crowded = crowded_among(all);
+    for (int round = 0; round < most_averagings && !crowded.empty(); ++round) {
+      const std::vector<std::int32_t> turned = around(
+          crowded, [&](std::int32_t i) { return h_[i]; }, true);
+      if (turned.empty()) break;
+      average(turned);
+      const auto touched = around(
+          turned, [&](std::int32_t i) { return 0.75 * h_[i]; }, false);
+      set_lengths(touched);
+      crowded = crowded_among(touched);
+    }
+    return std::move(columns_);
+  }
+
+ private:
+  Point along(std::int32_t i) const {
+    const Point n = line_[i].direction;
+    return {n.y, -n.x};
+  }
+
+  /// Columns lean by tan(tilt) = slope (1 - distance / reach), reach = 2 h slope: their feet on the front
+  /// keep half the distances of the wall.
+  void lean_from_corners() {
+    std::vector<double> onwards(h_.size()), backwards(h_.size());
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      const Station& corner = line_[i];
+      if (corner.slope == 0) continue;
+      const double reach = 2 * h_[i] * std::abs(corner.slope);
+      const auto take = [&](std::vector<double>& leans) {
+        return [&, reach](std::int32_t j, double distance) {
+          const double lean = corner.slope * (1 - distance / reach);
+          if (line_[j].shape == Station::Shape::smooth && std::abs(lean) > std::abs(leans[j]))
+            leans[j] = lean;
+        };
+      };
+      line_.walk_on(i, reach, take(onwards));
+      line_.walk_back(i, reach, take(backwards));
+    }
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      const double lean = onwards[i] - backwards[i];
+      if (lean != 0) columns_.direction[i] = visible(i, unit(line_[i].direction + lean * along(i)));
+    }
+  }
+
+  /// The width of the front over that of the wall, between i and the next station.
+  double ratio(std::int32_t i, const std::vector<double>& lengths) const {
+    const std::int32_t j = line_.next(i);
+    const Point front = (line_[j].wall - line_[i].wall) +
+                        (lengths[j] * columns_.direction[j] - lengths[i] * columns_.direction[i]);
+    return dot(front, line_[i].after) / line_.width(i);
+  }
+  bool has_width(std::int32_t i) const { return line_.width(i) > 0; }
+
+  double cosine_of_tilt(std::int32_t i) const {
+    return std::min(dot(columns_.direction[i], left_of(line_[i].before)),
+                    dot(columns_.direction[i], left_of(line_[i].after)));
+  }
+
+  /// How far columns converge on the place after a station: 1 to 0.
+  void set_convergence(std::int32_t i) {
+    if (i != WallLine::none && has_width(i))
+      convergence_[i] = std::clamp((spreading - ratio(i, h_)) / (spreading - convergent), 0.0, 1.0);
+  }
+
+  /// L = h (1 + p (1/c - 1)): where columns converge they keep the layers' thickness over the wall, where
+  /// they spread their own length.
+  void set_lengths(const std::vector<std::int32_t>& stations) {
+    for (const std::int32_t i : stations) {
+      set_convergence(i);
+      set_convergence(line_.previous(i));
+    }
+    for (const std::int32_t i : stations) {
+      const Station& station = line_[i];
+      const bool corner = station.slope != 0 || station.shape == Station::Shape::end;
+      const double share = station.shape == Station::Shape::fan ? 0 : corner ? 1 : mean_convergence(i);
+      const double cosine = std::max(cosine_of_tilt(i), 0.5);
+      columns_.length[i] = h_[i] * (1 + share * (1 / cosine - 1));
+    }
+  }
+
+  /// Over half a thickness of wall on both sides.
+  double mean_convergence(std::int32_t i) const {
+    double on = 0, back = 0, wall_on = 0, wall_back = 0;
+    const auto add = [&](std::int32_t place, double& sum, double& wall) {
+      sum += line_.width(place) * convergence_[place];
+      wall += line_.width(place);
+    };
+    line_.walk_on(i, h_[i] / 2, [&](std::int32_t j, double) { add(line_.previous(j), on, wall_on); });
+    line_.walk_back(i, h_[i] / 2, [&](std::int32_t j, double) { add(j, back, wall_back); });
+    if (wall_on == 0 || wall_back == 0)
+      return wall_on > 0 ? on / wall_on : wall_back > 0 ? back / wall_back : 0;
+    return std::min(on / wall_on, back / wall_back);
+  }
+
+  /// Of the places beside the stations those where columns come too close or spread too far: the stations at
+  /// both their ends.
+  std::vector<std::int32_t> crowded_among(const std::vector<std::int32_t>& stations) {
+    std::vector<std::int32_t> found;
+    begin_set();
+    for (const std::int32_t i : stations) {
+      for (const std::int32_t place : {line_.previous(i), i}) {
+        if (place == WallLine::none || !has_width(place) || !add_to_set(place)) continue;
+        const double r = ratio(place, columns_.length);
+        if (r < least_ratio || r > largest_ratio) found.insert(found.end(), {place, line_.next(place)});
+      }
+    }
+    return found;
+  }
+
+  /// The stations within reach of some, once each.
+  template <class Reach>
+  std::vector<std::int32_t> around(const std::vector<std::int32_t>& stations, const Reach& reach,
+                                   bool free_only) {
+    std::vector<std::int32_t> found;
+    begin_set();
+    const auto take = [&](std::int32_t j, double) {
+      if (!(free_only && line_[j].fixed()) && add_to_set(j)) found.push_back(j);
+    };
+    for (const std::int32_t i : stations) {
+      take(i, 0);
+      line_.walk_on(i, reach(i), take);
+      line_.walk_back(i, reach(i), take);
+    }
+    return found;
+  }
+
+  void begin_set() { ++stamp_; }
+  bool add_to_set(std::int32_t i) { return std::exchange(seen_[i], stamp_) != stamp_; }
+
+  /// Turns columns half way to the mean of their neighbours.
+  void average(const std::vector<std::int32_t>& stations) {
+    std::vector<Point> turned;
+    turned.reserve(stations.size());
+    for (const std::int32_t i : stations)
+      turned.push_back(visible(i, unit(columns_.direction[i] + mean_of_neighbours(i))));
+    for (std::size_t k = 0; k < stations.size(); ++k) columns_.direction[stations[k]] = turned[k];
+  }
+
+  Point mean_of_neighbours(std::int32_t i) const {
+    const std::vector<Point>& directions = columns_.direction;
+    const std::int32_t a = line_.previous(i), b = line_.next(i);
+    if (line_.width(a) == 0) return directions[a];  // cannot be: a fan's stations are fixed
+    if (line_.width(i) == 0) return directions[b];
+    return unit((1 / line_.width(a)) * directions[a] + (1 / line_.width(i)) * directions[b]);
+  }
+
+  /// Turned back towards the normal until it rises from both sides of its station.
+  Point visible(std::int32_t i, Point direction) const {
+    constexpr int most_turns = 32;
+    const Station& station = line_[i];
+    const auto seen = [&](Point d) {
+      return dot(d, left_of(station.before)) >= least_visible &&
+             dot(d, left_of(station.after)) >= least_visible;
+    };
+    for (int turn = 0; turn < most_turns && !seen(direction); ++turn)
+      direction = unit(direction + 0.25 * station.direction);
+    return direction;
+  }
+
+  const WallLine& line_;
+  const std::vector<double>& h_;
+  std::vector<double> convergence_;  ///< of the place after each station
+  std::vector<std::int64_t> seen_;   ///< the last set that each was added to
+  std::int64_t stamp_ = 0;
+  WallColumns columns_;
+};
+
+}  // namespace
+
+WallColumns columns_on_wall(const WallLine& line, const std::vector<double>& thickness) {
+  return Columns(line, thickness).found();
+}
+
+}  // namespace quadloop

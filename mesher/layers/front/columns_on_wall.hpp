@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "mesher/layers/front/wall_line.hpp"
+
+namespace quadloop {
+
+/// The columns of a wall's stations: straight lines from the wall to the front.
+struct WallColumns {
+  std::vector<Point> direction;  ///< of length 1, from the wall on
+  std::vector<double> length;
+
+  Point front(const WallLine& line, std::int32_t i) const { return line[i].wall + length[i] * direction[i]; }
+};
+
+/// Columns for layers of these thicknesses (normal to the wall, one for each station). Each stands normal to
+/// the wall where it can. Beside a concave corner, columns lean away from it, less with the distance, so that
+/// the front is the wall's offset line and nothing crosses; where columns would come too close to each other,
+/// or spread too far, directions are averaged along the wall, but a column always rises visibly from both
+/// sides of its station.
+WallColumns columns_on_wall(const WallLine& line, const std::vector<double>& thickness);
+
+}  // namespace quadloop

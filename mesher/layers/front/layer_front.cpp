@@ -1,0 +1,264 @@
+#include "mesher/layers/front/layer_front.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "mesher/base/error.hpp"
+#include "mesher/geometry/box_tree.hpp"
+#include "mesher/geometry/predicates.hpp"
+#include "mesher/layers/front/thickness.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double leaf_over_last_layer = 2;
+constexpr double sine_of_sector = 0.3;  // columns of a fan are at least some 18 degrees apart
+
+/// The segments at which wakes begin.
+std::vector<std::int32_t> bases_of(const Geometry& g, const std::vector<PlacedLine>& lines) {
+  std::vector<std::int32_t> bases;
+  for (const PlacedLine& line : lines) {
+    for (std::int32_t s = line.edge; s != line.base_end; s = g.next(s)) bases.push_back(s);
+  }
+  return bases;
+}
+
+/// The outline outside the layers, on its way to a Geometry.
+class OuterOutline {
+ public:
+  OuterOutline(const WallLine& line, const FittingColumns& fitting, const std::vector<PlacedLine>& lines,
+               std::optional<double> curvature)
+      : line_{line},
+        g_{line.geometry()},
+        lines_{lines},
+        fitting_{fitting},
+        curvature_{curvature},
+        first_of_segment_(g_.points().size(), WallLine::none) {
+    bases_ = bases_of(g_, lines_);
+    for (std::int32_t i = line_.size() - 1; i >= 0; --i) {
+      if (begins(i)) first_of_segment_[line_[i].segment] = i;
+    }
+  }
+
+  void build(LayerFront& into) {
+    for (std::int32_t loop = 0; loop < g_.loop_count(); ++loop) {
+      for (std::int32_t v = g_.loop_start(loop); v < g_.loop_start(loop + 1); ++v) add_segment(v);
+      starts_.push_back(size32(points_));
+    }
+    for (const PlacedLine& line : lines_) {
+      if (line.edge == PlacedLine::nowhere) add_free_strip(line);
+    }
+    std::vector<Boundary> boundaries(g_.boundaries().begin(), g_.boundaries().end());
+    if (!strips_.empty()) boundaries.push_back({.name = "[[wake]] or [[layer_line]]", .corner_degrees = 180});
+    into.strips = std::move(strips_);
+    into.outer = Geometry(std::move(boundaries), std::move(points_), std::move(starts_), std::move(boundary_))
+                     .with({std::move(spacing_), std::move(kept_), std::move(bend_)});
+    into.station_of = std::move(station_of_);
+  }
+
+ private:
+  /// Whether there is a place after the station.
+  bool begins(std::int32_t i) const { return line_.next(i) != WallLine::none; }
+  BoundaryId strip_boundary() const { return BoundaryId{size32(g_.boundaries())}; }
+  bool ends_run(std::int32_t i) const { return line_[i].shape == Station::Shape::end; }
+
+  void add_segment(std::int32_t s) {
+    if (const std::int32_t first = first_of_segment_[s]; first != WallLine::none) {
+      add_front(first, s);
+    } else if (!begins_below(s) && !is_base(s)) {
+      add_vertex(g_.point(s), g_.boundary_of(s), WallLine::none, g_.spacing_of(s), g_.kept(s),
+                 g_.bend_degrees(s));
+    }
+  }
+  void add_front(std::int32_t first, std::int32_t s);
+  void add_wake(std::int32_t i);
+  /// The station on the right of a wake's root.
+  std::int32_t first_at(const PlacedLine& wake) const {
+    const std::int32_t first = first_of_segment_[wake.base_end];
+    return line_[first].opens_wake ? line_.next(first) : first;
+  }
+  std::vector<Point> base_of(const PlacedLine& wake) const {
+    std::vector<Point> base;
+    for (std::int32_t v = wake.edge; v != wake.base_end; v = g_.next(v)) base.push_back(g_.point(v));
+    if (!base.empty()) base.push_back(g_.point(wake.base_end));
+    return base;
+  }
+  bool is_base(std::int32_t s) const { return std::ranges::find(bases_, s) != bases_.end(); }
+  void add_free_strip(const PlacedLine& line);
+  void add_front_of(const LayerStrip& strip);
+  void add_vertex(Point p, BoundaryId boundary, std::int32_t station, double spacing, bool kept,
+                  double bend) {
+    points_.push_back(p);
+    boundary_.push_back(boundary);
+    station_of_.push_back(station);
+    spacing_.push_back(spacing);
+    kept_.push_back(kept ? 1 : 0);
+    bend_.push_back(bend);
+  }
+  bool begins_below(std::int32_t s) const;
+  double spacing_after(std::int32_t i) const;
+  double spread(std::int32_t i) const;
+  double front_width(std::int32_t i) const {
+    return line_.width(i) == 0 ? 0 : length(fitting_.front[line_.next(i)] - fitting_.front[i]);
+  }
+  double wall_spacing(std::int32_t i) const;
+  double last_layer(std::int32_t i) const;
+
+  const WallLine& line_;
+  const Geometry& g_;
+  const std::vector<PlacedLine>& lines_;
+  const FittingColumns& fitting_;
+  std::optional<double> curvature_;
+  std::vector<std::int32_t> first_of_segment_;
+  std::vector<Point> points_;
+  std::vector<std::int32_t> starts_{0};
+  std::vector<BoundaryId> boundary_;
+  std::vector<std::int32_t> station_of_;
+  std::vector<double> spacing_;
+  std::vector<char> kept_;
+  std::vector<double> bend_;
+  std::vector<LayerStrip> strips_;
+  std::vector<std::int32_t> bases_;  ///< segments
+};
+
+/// The stations of segment s from the first one on; where the run ends, the rest of the boundary that it ends
+/// on.
+void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
+  std::int32_t i = first;
+  for (; i != WallLine::none && begins(i) && line_[i].segment == s; i = line_.next(i)) {
+    if (line_[i].opens_wake)
+      add_wake(i);
+    else
+      add_vertex(fitting_.front[i], g_.boundary_of(s), i, spacing_after(i), line_[i].kept, 0);
+  }
+  if (i == WallLine::none || line_[i].segment != s) return;
+  if (line_[i].opens_wake) return add_wake(i);
+  std::int32_t on = g_.next(s);  // the segment on which the run's last column ends
+  add_vertex(fitting_.front[i], g_.boundary_of(on), WallLine::none, g_.spacing_of(on), true, 0);
+}
+
+/// From the column on the left of a wake round its front, up to the column on its right.
+void OuterOutline::add_wake(std::int32_t i) {
+  const auto at = std::ranges::find_if(lines_, [&](const PlacedLine& line) {
+    return line.edge != PlacedLine::nowhere && g_.point(line.edge) == line_[i].wall;
+  });
+  const std::int32_t before = line_.previous(i), right = first_at(*at);
+  const double spacing = std::min(spacing_after(before), spacing_after(right));
+  strips_.push_back(
+      layer_strip(*at, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(*at), spacing}));
+  add_vertex(fitting_.front[i], strip_boundary(), WallLine::none, strips_.back().spacing[0], true, 0);
+  add_front_of(strips_.back());
+}
+
+void OuterOutline::add_free_strip(const PlacedLine& line) {
+  strips_.push_back(layer_strip(line, {}));
+  add_front_of(strips_.back());
+  starts_.push_back(size32(points_));
+}
+
+void OuterOutline::add_front_of(const LayerStrip& strip) {
+  const std::size_t ahead = strip.root ? 1 : 0;
+  for (std::size_t k = 0; k < strip.front.size(); ++k) {
+    const auto corners = std::span(strip.corners).first(strip.root ? 2 : 4);
+    const bool kept = std::ranges::find(corners, k) != corners.end();
+    add_vertex(strip.front[k], strip_boundary(), WallLine::none, strip.spacing[k + ahead], kept, 0);
+  }
+}
+
+/// Whether the segment of a boundary without layers begins at a wall, behind its last column.
+bool OuterOutline::begins_below(std::int32_t s) const {
+  return first_of_segment_[g_.previous(s)] != WallLine::none;
+}
+
+double OuterOutline::last_layer(std::int32_t i) const {
+  const LayerSpec& spec = line_.spec(i);
+  const ColumnHeights column = column_heights(spec, spec.first, fitting_.thickness[i]);
+  return column.reached[spec.count] - column.reached[spec.count - 1];
+}
+
+/// What the wall asks for between a station and the next: by its boundary, and by the turns at the ends of
+/// its segment, as if each were spread over half of either side. (The front's own turns are no measure: they
+/// are those of columns which spread or converge.)
+double OuterOutline::wall_spacing(std::int32_t i) const {
+  const std::int32_t s = line_[i].segment, next = g_.next(s);
+  double spacing = g_.spacing_of(s);
+  if (!curvature_) return spacing;
+  for (const std::int32_t v : {s, next}) {
+    const double around =
+        (length(g_.point(v) - g_.point(g_.previous(v))) + length(g_.point(g_.next(v)) - g_.point(v))) / 2;
+    if (g_.bend_degrees(v) > 0) spacing = std::min(spacing, *curvature_ / g_.bend_degrees(v) * around);
+  }
+  return spacing;
+}
+
+/// The width of the front over that of the wall, round the place after a station, over half a thickness.
+double OuterOutline::spread(std::int32_t i) const {
+  const double reach = fitting_.thickness[i] / 4;
+  double wall = line_.width(i), front = front_width(i);
+  line_.walk_on(i, line_.width(i) + reach, [&](std::int32_t j, double) {
+    if (line_.next(j) == WallLine::none) return;
+    wall += line_.width(j);
+    front += front_width(j);
+  });
+  line_.walk_back(i, reach, [&](std::int32_t j, double) {
+    wall += line_.width(j);
+    front += front_width(j);
+  });
+  return front / wall;
+}
+
+double OuterOutline::spacing_after(std::int32_t i) const {
+  const std::int32_t j = line_.next(i);
+  const double spacing = leaf_over_last_layer * std::min(last_layer(i), last_layer(j));
+  if (line_.width(i) == 0) return std::max(spacing, sine_of_sector * fitting_.thickness[i]);
+  return std::min(spacing, wall_spacing(i) * std::min(1.0, spread(i)));
+}
+
+/// The fronts of strips keep away from everything else, and from themselves: two segments meet where one
+/// follows the other alone.
+void require_disjoint(const LayerFront& front) {
+  if (!front.has_strips()) return;
+  const Geometry& g = front.outer;
+  std::vector<Box> boxes;
+  for (std::int32_t s = 0; s < g.size(); ++s) boxes.push_back(box_of(g.point(s), g.point(g.next(s))));
+  const BoxTree tree(boxes);
+  for (std::int32_t s = 0; s < g.size(); ++s) {
+    if (g.boundary_of(s) != front.strip_boundary()) continue;
+    const Point a = g.point(s), b = g.point(g.next(s));
+    tree.for_each_meeting(boxes[s], [&](std::int32_t t) {
+      if (t == s || t == g.next(s) || t == g.previous(s)) return;
+      if (!segments_meet(a, b, g.point(t), g.point(g.next(t)))) return;
+      throw InputError(
+          fmt::format("the layers of a [[wake]] or [[layer_line]] meet boundary {} at ({}, {}); lead it "
+                      "elsewhere, or make "
+                      "it shorter or its spacing smaller",
+                      g.boundary(g.boundary_of(t)).name, a.x, a.y));
+    });
+  }
+}
+
+}  // namespace
+
+LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature,
+                       const std::vector<LayerLine>& lines) {
+  const std::vector<PlacedLine> placed = place_lines(geometry, lines);
+  std::vector<WakeStart> wakes;
+  for (const PlacedLine& p : placed) {
+    if (p.edge != PlacedLine::nowhere)
+      wakes.push_back({p.edge, p.base_end, direction_of(p.path[0], p.path[1])});
+  }
+  WallLine line(geometry, wall_runs(geometry, bases_of(geometry, placed)), wakes);
+  FittingColumns fitting = fit_thickness(line);
+  LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}};
+  OuterOutline(front.line, fitting, placed, curvature).build(front);
+  require_disjoint(front);
+  front.thickness = std::move(fitting.thickness);
+  front.columns = std::move(fitting.columns);
+  front.points = std::move(fitting.front);
+  return front;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,239 @@
+#include "mesher/layers/front/layer_strip.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/layers/front/wall_line.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double widening = 0.1;         // of columns, over the distance from an end
+constexpr double opening = 1.15;         // of the layer at the line, from column to column
+constexpr double spreading = 0.1;        // of all layers together, over the distance from a root
+constexpr double core_spreading = 0.05;  // of either half of the rows behind a base
+constexpr double flattest = 0.7;         // height of a row over the width of its columns, at most
+constexpr double triangle_height = 0.85, steepest_front = 0.85;
+constexpr double leaf_over_column = 1.2;
+
+/// A polyline by its arc length.
+class Path {
+ public:
+  explicit Path(const std::vector<Point>& points) : points_{points}, reached_{0} {
+    for (std::size_t i = 1; i < points.size(); ++i)
+      reached_.push_back(reached_.back() + quadloop::length(points[i] - points[i - 1]));
+  }
+  double length() const { return reached_.back(); }
+  Point at(double s) const {
+    const auto after = std::upper_bound(reached_.begin() + 1, reached_.end() - 1, s);
+    const auto i = static_cast<std::size_t>(after - reached_.begin());
+    const double share = (s - reached_[i - 1]) / (reached_[i] - reached_[i - 1]);
+    return points_[i - 1] + share * (points_[i] - points_[i - 1]);
+  }
+  /// Of the chord from so far before to so far behind.
+  Point direction(double s, double reach) const {
+    return unit(at(std::min(s + reach, length())) - at(std::max(s - reach, 0.0)));
+  }
+
+ private:
+  const std::vector<Point>& points_;
+  std::vector<double> reached_;
+};
+
+class Strip {
+ public:
+  Strip(const PlacedLine& line, const std::optional<WakeRoot>& root)
+      : line_{line}, path_{line.path}, thickness_{layers_thickness(line.layers)} {
+    strip_.root = root;
+    strip_.layers = line.layers.count;
+    if (!root) return;
+    thickness_ = std::max(length(root->left - foot(true)), length(root->right - foot(false)));
+    if (root->base.empty()) return;
+    half_base_ = 0.5 * length(root->base.front() - root->base.back());
+    constexpr int most_rows = 1000;
+    strip_.core = 2 * layers_within(line.layers, half_base_, most_rows);
+  }
+
+  LayerStrip built() && {
+    place_columns();
+    for (std::size_t k = 0; k < reached_.size(); ++k) strip_.columns.push_back(column(k));
+    add_side(true);
+    add_end();
+    add_side(false);
+    if (!strip_.root) add_beginning();
+    return std::move(strip_);
+  }
+
+ private:
+  int layers() const { return strip_.layers; }
+  std::size_t last() const { return reached_.size() - 1; }
+
+  /// Of all layers on one side.
+  double thickness_at(double s) const {
+    if (!strip_.root) return thickness_;
+    const double widest = std::max(thickness_, flattest * layers() * line_.spacing);
+    return std::min(thickness_ + spreading * s, widest);
+  }
+  double even_row(double s) const { return thickness_at(s) / layers(); }
+
+  /// As wide as is wanted, at free ends as the rows are high.
+  double width_wanted(double s) const {
+    const double on = path_.length() - s, at_end = even_row(path_.length()) / flattest;
+    const double at_beginning = strip_.root ? strip_.root->spacing : at_end;
+    return std::min({line_.spacing, at_beginning + widening * s, at_end + widening * on});
+  }
+
+  void place_columns() {
+    reached_ = {0};
+    while (reached_.back() < path_.length())
+      reached_.push_back(reached_.back() + width_wanted(reached_.back()));
+    const double excess = reached_.back() / path_.length();
+    for (double& s : reached_) s /= excess;
+  }
+  double width_at(std::size_t k) const {
+    return k == last() ? reached_[k] - reached_[k - 1] : reached_[k + 1] - reached_[k];
+  }
+
+  /// Of the layer at the line: from that of the wall, and from that of even rows at a free end.
+  double first_height(std::size_t k) const {
+    const double even = even_row(reached_[k]);
+    double from_root = line_.layers.first, from_end = even;
+    const std::size_t to_end = strip_.root ? last() - k : std::min(k, last() - k);
+    for (std::size_t i = 0; i < k && strip_.root && from_root < even; ++i) from_root *= opening;
+    for (std::size_t i = 0; i < to_end && from_end > line_.layers.first; ++i) from_end /= opening;
+    return std::min(std::max({from_root, from_end, line_.layers.first}), even);
+  }
+
+  /// Of the line: bends are rounded over the layers' thickness, so that columns on their inner side do not
+  /// meet.
+  Point along(std::size_t k) const {
+    return path_.direction(reached_[k], std::max(width_at(k), thickness_at(reached_[k])));
+  }
+  Point direction(std::size_t k, bool left) const {
+    const double s = reached_[k];
+    const Point normal = left_of(along(k));
+    const Point out = left ? normal : -1.0 * normal;
+    if (!strip_.root) return out;
+    const double share = std::min(1.0, s / (2 * thickness_));
+    return unit((1 - share) * unit(root_end(left) - foot(left)) + share * out);
+  }
+  Point root_end(bool left) const { return left ? strip_.root->left : strip_.root->right; }
+  /// Of the wall's columns at the root.
+  Point foot(bool left) const {
+    const std::vector<Point>& base = strip_.root->base;
+    return base.empty() ? line_.path[0] : left ? base.front() : base.back();
+  }
+  double thickness(std::size_t k, bool left) const {
+    if (!strip_.root) return thickness_;
+    const double root = length(root_end(left) - foot(left));
+    return thickness_at(reached_[k]) -
+           (thickness_ - root) * std::max(0.0, 1 - reached_[k] / (4 * thickness_));
+  }
+
+  std::vector<Point> column(std::size_t k) const {
+    std::vector<Point> across = side(k, false);
+    std::ranges::reverse(across);
+    const std::vector<Point> left = side(k, true), core = core_rows(k, across.back(), left.front());
+    across.insert(across.end(), core.begin(), core.end());
+    across.insert(across.end(), left.begin() + (strip_.core == 0 ? 1 : 0), left.end());
+    if (k == 0 && strip_.root) {  // to the last bit
+      across.front() = strip_.root->right;
+      across.back() = strip_.root->left;
+    }
+    return across;
+  }
+  /// From the line outwards; behind a base from the rows there on.
+  std::vector<Point> side(std::size_t k, bool left) const {
+    const Point on_line = k == last() ? line_.path.back() : path_.at(reached_[k]);
+    Point from = on_line;
+    if (strip_.core > 0) {
+      const double share = std::min(1.0, reached_[k] / (4 * half_base_));
+      const Point aside =
+          (1 - share) * (foot(left) - line_.path[0]) + share * half_base_ * direction(k, left);
+      from = k == 0 ? foot(left) : on_line + (half_core(k) / half_base_) * aside;
+    }
+    const double whole = thickness(k, left);
+    std::vector<Point> points;
+    for (const double height : column_heights(line_.layers, first_height(k), whole).reached)
+      points.push_back(from + height * direction(k, left));
+    return points;
+  }
+  /// The rows behind a base open as the layers beside them do.
+  double half_core(std::size_t k) const {
+    const double open = 0.5 * strip_.core * first_height(k),
+                 widest = half_base_ + core_spreading * reached_[k];
+    return std::max(half_base_, std::min(open, widest));
+  }
+  /// Between the feet, without these: as high as the layers beside them there, growing to the middle.
+  std::vector<Point> core_rows(std::size_t k, Point right, Point left) const {
+    if (strip_.core == 0) return {};
+    LayerSpec half = line_.layers;
+    half.count = strip_.core / 2;
+    const double width = length(left - right);
+    const std::vector<double> heights = column_heights(half, first_height(k), 0.5 * width).reached;
+    const Path base(strip_.root->base);
+    const auto at = [&](double share, bool from_left) {  // of the width
+      if (k == 0) return base.at((from_left ? share : 1 - share) * base.length());
+      return from_left ? left + share * (right - left) : right + share * (left - right);
+    };
+    std::vector<Point> rows;
+    for (int row = 1; row <= half.count; ++row) rows.push_back(at(heights[row] / width, false));
+    for (int row = half.count - 1; row > 0; --row) rows.push_back(at(heights[row] / width, true));
+    return rows;
+  }
+
+  /// Between the last row and the front.
+  double gap(std::size_t k, bool left) const {
+    const std::vector<Point>& across = strip_.columns[k];
+    const double last_row =
+        left ? length(across.back() - across[across.size() - 2]) : length(across[0] - across[1]);
+    const double gap = std::min(triangle_height * width_at(k), 3 * last_row);
+    return strip_.root ? std::min(gap, steepest_front * reached_[k]) : gap;
+  }
+  Point outside(std::size_t k, bool left) const {
+    return (left ? strip_.columns[k].back() : strip_.columns[k].front()) + gap(k, left) * direction(k, left);
+  }
+
+  void add_front(Point p, double spacing) {
+    strip_.front.push_back(p);
+    strip_.spacing.push_back(spacing);
+  }
+  /// Onwards along the left, back along the right.
+  void add_side(bool left) {
+    const std::size_t first = strip_.root ? 1 : 0;
+    const auto asked = [&](std::size_t k) { return leaf_over_column * width_at(k); };
+    if (strip_.root && left) strip_.spacing.push_back(asked(0));
+    for (std::size_t n = first; n <= last(); ++n) {
+      const std::size_t k = left ? n : last() + first - n;
+      add_front(outside(k, left), asked(left || k == 0 ? k : k - 1));
+    }
+  }
+  void add_end() { add_cap(last(), along(last()), true, 0); }
+  void add_beginning() { add_cap(0, -1.0 * along(0), false, 2); }
+
+  /// The two corners beyond a free end.
+  void add_cap(std::size_t k, Point out, bool left_first, std::size_t corner) {
+    const double row =
+        length(strip_.columns[k].back() - strip_.columns[k].front()) / (2 * layers() + strip_.core);
+    const Point beyond = triangle_height * row * out;
+    strip_.corners[corner] = strip_.front.size();
+    add_front(outside(k, left_first) + beyond, leaf_over_column * row);
+    strip_.corners[corner + 1] = strip_.front.size();
+    add_front(outside(k, !left_first) + beyond, leaf_over_column * width_at(k));
+  }
+
+  const PlacedLine& line_;
+  Path path_;
+  double thickness_, half_base_ = 0;
+  std::vector<double> reached_;  ///< arc length to each column
+  LayerStrip strip_;
+};
+
+}  // namespace
+
+LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root) {
+  return Strip(line, root).built();
+}
+
+}  // namespace quadloop

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mesher/layers/front/layer_lines.hpp"
+
+namespace quadloop {
+
+/// The two columns at the edge from which a wake goes on, with the domain to the left of the wake and to its
+/// right.
+struct WakeRoot {
+  std::int32_t station = 0;  ///< of the WallLine: the column on the left
+  Point left, right;         ///< their ends on the front
+  std::vector<Point> base;   ///< of a blunt edge: the wall from the left column to the right one
+  double spacing = 0;        ///< wanted along the wall there
+};
+
+/// Layers on both sides of a line, as columns across it whose nodes are given: so both sides have the same
+/// ones. Between its last rows and its front lie triangles, and the cells outside need not match.
+struct LayerStrip {
+  std::optional<WakeRoot> root;  ///< its first column is the wall's two
+  int layers = 0;                ///< on either side
+  int core = 0;                  ///< rows between them, behind a blunt edge; even
+  /// 2 layers + core + 1 points each, from right to left.
+  std::vector<std::vector<Point>> columns;
+  std::vector<Point> front;     ///< outside of it: along the left, round the end, back along the right; of a
+                                ///< free line round its beginning too, else from and to the root's columns
+  std::vector<double> spacing;  ///< wanted of cells outside, on the way to the next point of the front; one
+                                ///< more in front of a root's strip: before the first point
+  /// Of `front`: the corners at the end, left and right, and at the beginning of a free line, right and left.
+  std::array<std::size_t, 4> corners{};
+};
+
+/// Layers open downstream of a wake's root, by 1.15 from column to column at the line itself and by a tenth
+/// of the distance in all, and towards free ends, where they are as high as they are wide; columns are
+/// `spacing` apart where they are far from ends.
+LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root);
+
+}  // namespace quadloop

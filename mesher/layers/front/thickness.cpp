@@ -1,0 +1,305 @@
+#include "mesher/layers/front/thickness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "mesher/base/error.hpp"
+#include "mesher/geometry/box_tree.hpp"
+#include "mesher/geometry/predicates.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double shrink = 0.85, steepest = 0.35;
+constexpr double clearance = 0.75;     // of a column's length, kept free beyond its end
+constexpr double share_of_gap = 0.36;  // two walls' columns with their clearance then just miss each other
+constexpr double own_reach = 4;        // thicknesses of wall on which a column's own wall is no obstacle
+constexpr int most_passes = 200, passes_alone = 12;
+
+struct Segment {
+  Point from, to;
+};
+
+/// The stations, and the segments of other boundaries, from which a station's column needs to keep no
+/// distance: those near it along the outline.
+class Vicinity {
+ public:
+  explicit Vicinity(const WallLine& line)
+      : line_{line}, station_(line.size()), segment_(line.geometry().points().size()) {}
+
+  void move_to(std::int32_t i, double reach) {
+    ++stamp_;
+    place(i);
+    if (line_.previous(i) != WallLine::none) place(line_.previous(i));
+    double on = 0, back = 0;
+    std::int32_t last = i, first = i;
+    line_.walk_on(i, reach, [&](std::int32_t j, double distance) { place(j), last = j, on = distance; });
+    line_.walk_back(i, reach, [&](std::int32_t j, double distance) {
+      place(j), first = j, back = distance;
+      if (line_.previous(j) != WallLine::none) place(line_.previous(j));
+    });
+    if (line_.next(last) == WallLine::none) beyond_end(last, reach - on, true);
+    if (line_.previous(first) == WallLine::none) beyond_end(first, reach - back, false);
+  }
+  /// Whether the wall between the station and the next one is near.
+  bool has_station(std::int32_t i) const { return station_[i] == stamp_; }
+  bool has_segment(std::int32_t s) const { return segment_[s] == stamp_; }
+
+ private:
+  void place(std::int32_t i) { station_[i] = stamp_; }
+
+  void beyond_end(std::int32_t end, double reach, bool onwards) {
+    const Geometry& g = line_.geometry();
+    std::int32_t s = line_[end].segment;
+    for (double distance = 0; distance <= reach;) {
+      s = onwards ? g.next(s) : g.previous(s);
+      if (segment_[s] == stamp_) return;
+      segment_[s] = stamp_;
+      distance += length(g.point(g.next(s)) - g.point(s));
+    }
+  }
+
+  const WallLine& line_;
+  std::vector<std::int64_t> station_, segment_;
+  std::int64_t stamp_ = 0;
+};
+
+class Fitting {
+ public:
+  explicit Fitting(const WallLine& line)
+      : line_{line}, vicinity_{line}, h_(line.size()), meets_(line.size()) {
+    for (std::int32_t i = 0; i < line_.size(); ++i) h_[i] = line_.asked(i);
+    gather_walls();
+  }
+
+  FittingColumns found() && {
+    guess();
+    for (int pass = 0; pass < most_passes; ++pass) {
+      limit_slopes();
+      renew_columns();
+      std::fill(meets_.begin(), meets_.end(), 0);
+      mark_meeting();
+      mark_unproved();
+      if (pass >= passes_alone) spread_marks();
+      if (!any_marked()) return {std::move(h_), std::move(columns_), std::move(front_)};
+      for (std::int32_t i = 0; i < line_.size(); ++i) {
+        if (meets_[i]) h_[i] *= shrink;
+      }
+    }
+    refuse();
+  }
+
+ private:
+  /// Notes which stations' fronts have moved: only these need to be looked at again.
+  void renew_columns() {
+    columns_ = columns_on_wall(line_, h_);
+    std::vector<Point> before = std::exchange(front_, {});
+    before.resize(line_.size());
+    moved_.clear();
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      front_.push_back(columns_.front(line_, i));
+      moved_.push_back(front_[i] != before[i] ? 1 : 0);
+    }
+  }
+  bool front_moved(std::int32_t i) const { return moved_[i] || moved_[line_.next(i)]; }
+
+  Point wall(std::int32_t i) const { return line_[i].wall; }
+  Point front(std::int32_t i) const { return front_[i]; }
+  bool place_exists(std::int32_t i) const { return line_.goes_on(i); }
+
+  /// Walls as the stations see them, then the segments without layers.
+  void gather_walls() {
+    const Geometry& g = line_.geometry();
+    std::vector<char> layered(g.points().size());
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      layered[line_[i].segment] = 1;
+      const Point next = place_exists(i) ? wall(line_.next(i)) : wall(i);
+      walls_.push_back({wall(i), next});
+    }
+    for (std::int32_t s = 0; s < g.size(); ++s) {
+      if (layered[s]) continue;
+      walls_.push_back({g.point(s), g.point(g.next(s))});
+      other_segments_.push_back(s);
+    }
+    wall_tree_ = tree_of(walls_);
+  }
+  static BoxTree tree_of(const std::vector<Segment>& segments) {
+    std::vector<Box> boxes;
+    boxes.reserve(segments.size());
+    for (const Segment& s : segments) boxes.push_back(box_of(s.from, s.to));
+    return BoxTree(boxes);
+  }
+  /// Whether a wall, by its number in walls_, is one from which the station in vicinity_ keeps no distance.
+  bool is_near(std::int32_t wall) const {
+    return wall < line_.size() ? vicinity_.has_station(wall) || !place_exists(wall)
+                               : vicinity_.has_segment(other_segments_[wall - line_.size()]);
+  }
+
+  /// From how far the next wall is along each column.
+  void guess() {
+    limit_slopes();
+    columns_ = columns_on_wall(line_, h_);
+    std::vector<double> guessed = h_;
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      vicinity_.move_to(i, own_reach * h_[i]);
+      const double reach = columns_.length[i] / share_of_gap;
+      const Point end = wall(i) + reach * columns_.direction[i];
+      double nearest = 1;
+      wall_tree_.for_each_meeting(box_of(wall(i), end), [&](std::int32_t w) {
+        const Segment& s = walls_[w];
+        if (is_near(w) || !segments_meet(wall(i), end, s.from, s.to)) return;
+        // the mean from both ends, so that it is the same for the wall walked the other way
+        const Point across = s.to - s.from;
+        const double share = (cross(s.from - wall(i), across) + cross(s.to - wall(i), across)) /
+                             (2 * cross(end - wall(i), across));
+        if (share > 0 && share < nearest) nearest = share;
+      });
+      guessed[i] = nearest * h_[i];
+    }
+    h_ = guessed;
+  }
+
+  /// h(s) <= h(s') + 0.35 |s - s'|.
+  void limit_slopes() {
+    for (int round = 0; round < 2; ++round) {  // a closed run needs a second one
+      for (std::int32_t i = 0; i < line_.size(); ++i) {
+        if (const std::int32_t j = line_.next(i); j != WallLine::none)
+          h_[j] = std::min(h_[j], h_[i] + steepest * line_.width(i));
+      }
+      for (std::int32_t i = line_.size() - 1; i >= 0; --i) {
+        if (const std::int32_t j = line_.previous(i); j != WallLine::none)
+          h_[j] = std::min(h_[j], h_[i] + steepest * line_.width(j));
+      }
+    }
+  }
+
+  void mark_meeting() {
+    std::vector<Segment> fronts, moved;
+    std::vector<std::int32_t> places, moved_places;
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      if (!place_exists(i)) continue;
+      fronts.push_back({front(i), front(line_.next(i))});
+      places.push_back(i);
+      if (!front_moved(i)) continue;
+      moved.push_back(fronts.back());
+      moved_places.push_back(i);
+    }
+    const BoxTree all = tree_of(fronts), of_moved = tree_of(moved);
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      const Point end = front(i) + clearance * (front(i) - wall(i));
+      const Box box = box_of(wall(i), end);
+      if (!moved_[i] && !of_moved.any_meeting(box, [](std::int32_t) { return true; })) continue;
+      vicinity_.move_to(i, own_reach * h_[i]);
+      if (moved_[i]) mark_walls_met(i, end, box);
+      (moved_[i] ? all : of_moved).for_each_meeting(box, [&](std::int32_t k) {
+        const std::int32_t j = (moved_[i] ? places : moved_places)[k];
+        if (j == i || line_.next(j) == i) return;
+        const Point top = vicinity_.has_station(j) ? front(i) : end;
+        if (!segments_meet(wall(i), top, front(j), front(line_.next(j)))) return;
+        meets_[i] = meets_[j] = meets_[line_.next(j)] = 1;
+      });
+    }
+  }
+
+  void mark_walls_met(std::int32_t i, Point end, const Box& box) {
+    wall_tree_.for_each_meeting(box, [&](std::int32_t w) {
+      if (is_near(w) || !segments_meet(wall(i), end, walls_[w].from, walls_[w].to)) return;
+      meets_[i] = 1;
+      if (w < line_.size()) meets_[w] = meets_[line_.next(w)] = 1;
+    });
+  }
+
+  /// Onto all stations within a thickness of wall.
+  void spread_marks() {
+    const std::vector<char> direct = meets_;
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      if (!direct[i]) continue;
+      const auto take = [&](std::int32_t j, double) { meets_[j] = 1; };
+      line_.walk_on(i, h_[i], take);
+      line_.walk_back(i, h_[i], take);
+    }
+  }
+
+  bool any_marked() const {
+    return std::ranges::any_of(meets_, [](char m) { return m != 0; });
+  }
+
+  /// The strip between two columns has four corners that turn left, and no segment of a front meets another
+  /// one or a boundary: then no two columns meet at all, as a map of a ring that is one-to-one nearby and on
+  /// its rims is one-to-one.
+  void mark_unproved() {
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      if (!place_exists(i) || is_positive(i)) continue;
+      meets_[i] = meets_[line_.next(i)] = 1;
+    }
+    mark_crossing_fronts();
+  }
+
+  bool is_positive(std::int32_t i) const {
+    const std::int32_t j = line_.next(i);
+    const Point a = wall(i), b = wall(j), c = front(j), d = front(i);
+    if (a == b) return orientation(a, c, d) > 0;
+    return orientation(a, b, c) > 0 && orientation(b, c, d) > 0 && orientation(c, d, a) > 0 &&
+           orientation(d, a, b) > 0;
+  }
+
+  void mark_crossing_fronts();
+
+  [[noreturn]] void refuse() const {
+    const auto at = std::ranges::find(meets_, 1) - meets_.begin();
+    const Station& station = line_[size32(std::vector<char>(at))];
+    throw InputError(
+        fmt::format("boundary {} near ({}, {}): its layers meet others however thin they are made; ask for "
+                    "thinner layers there "
+                    "or give the place a boundary of its own without layers",
+                    line_.geometry().boundary(line_.geometry().boundary_of(station.segment)).name,
+                    station.wall.x, station.wall.y));
+  }
+
+  const WallLine& line_;
+  Vicinity vicinity_;
+  std::vector<double> h_;
+  std::vector<char> meets_, moved_;
+  std::vector<Segment> walls_;  ///< one for each station, then those without layers
+  std::vector<std::int32_t> other_segments_;
+  BoxTree wall_tree_;
+  WallColumns columns_;
+  std::vector<Point> front_;
+};
+
+/// Fronts with each other, and with boundaries that have no layers; where a front ends on one they touch.
+void Fitting::mark_crossing_fronts() {
+  std::vector<Segment> all = walls_;
+  for (std::int32_t i = 0; i < line_.size(); ++i)
+    all[i] = {front(i), place_exists(i) ? front(line_.next(i)) : front(i)};
+  const BoxTree tree = tree_of(all);
+  const auto is_end = [&](std::int32_t i) { return line_[i].shape == Station::Shape::end; };
+  for (std::int32_t i = 0; i < line_.size(); ++i) {
+    if (!place_exists(i)) continue;
+    const std::int32_t j = line_.next(i);
+    tree.for_each_meeting(box_of(front(i), front(j)), [&](std::int32_t k) {
+      if (k == i || (k < line_.size() && !place_exists(k))) return;
+      const bool other = k >= line_.size();
+      if (other && (is_end(i) || is_end(j))) return;
+      if (!other && (line_.next(k) == i || j == k)) {
+        const Point far_k = line_.next(k) == i ? all[k].from : all[k].to;
+        const Point far_i = line_.next(k) == i ? front(j) : front(i),
+                    common = line_.next(k) == i ? front(i) : front(j);
+        if (!on_segment(far_k, far_i, common) && !on_segment(far_i, far_k, common)) return;
+      } else if (!segments_meet(front(i), front(j), all[k].from, all[k].to)) {
+        return;
+      }
+      meets_[i] = meets_[j] = 1;
+      if (!other) meets_[k] = meets_[line_.next(k)] = 1;
+    });
+  }
+}
+
+}  // namespace
+
+FittingColumns fit_thickness(const WallLine& line) { return Fitting(line).found(); }
+
+}  // namespace quadloop

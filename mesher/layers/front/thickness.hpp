@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "mesher/layers/front/columns_on_wall.hpp"
+
+namespace quadloop {
+
+/// Columns that fit.
+struct FittingColumns {
+  std::vector<double> thickness;  ///< normal to the wall, at each station
+  WallColumns columns;
+  std::vector<Point> front;
+};
+
+/// The thickest layers, none thicker than asked, whose columns keep away from other walls, from their fronts
+/// and from each other. Thickness changes by at most 0.35 of the distance along the wall. Throws InputError,
+/// naming the place, where none fit.
+FittingColumns fit_thickness(const WallLine& line);
+
+}  // namespace quadloop

@@ -1,0 +1,179 @@
+#include "mesher/layers/front/wall_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadloop {
+
+namespace {
+
+constexpr double stations_per_thickness = 8;
+constexpr double cosine_of_concave = 0.96592582628906831;  // a corner where it turns in by more than 15
+constexpr int fan_halvings = 4;
+
+/// Half way from one normal of the wall to the next. Where the wall almost turns back their sum vanishes, but
+/// the difference of the wall's own directions tells the way.
+Point between(Point a, Point b) {
+  if (dot(a, b) > cosine_of_sharp_edge) return unit(a + b);
+  const Point back{a.y - b.y, b.x - a.x};
+  return unit(cross(a, b) < 0 ? back : -1.0 * back);
+}
+
+/// The directions of a fan from one normal to the other, both among them.
+std::vector<Point> fan_between(Point first, Point last) {
+  std::vector<Point> fan{first, last};
+  for (int halving = 0; halving < fan_halvings; ++halving) {
+    std::vector<Point> finer{fan.front()};
+    for (std::size_t k = 1; k < fan.size(); ++k) {
+      finer.push_back(between(fan[k - 1], fan[k]));
+      finer.push_back(fan[k]);
+    }
+    fan = std::move(finer);
+  }
+  return fan;
+}
+
+/// A place between two points, computed from the nearer one.
+Point lerp(Point a, Point b, int part, int parts) {
+  const double share = part / static_cast<double>(parts), rest = (parts - part) / static_cast<double>(parts);
+  if (2 * part == parts) return 0.5 * (a + b);
+  return 2 * part < parts ? a + share * (b - a) : b + rest * (a - b);
+}
+
+}  // namespace
+
+WallLine::WallLine(const Geometry& geometry, const std::vector<WallRun>& runs,
+                   const std::vector<WakeStart>& wakes)
+    : geometry_{&geometry}, wakes_{wakes} {
+  for (const WallRun& run : runs) add_run(run);
+  for (std::int32_t i = 0; i < size(); ++i) {
+    width_.push_back(next_[i] == none ? 0 : length(stations_[next_[i]].wall - stations_[i].wall));
+    asked_.push_back(layers_thickness(spec(i)));
+  }
+}
+
+void WallLine::add_run(const WallRun& run) {
+  const std::int32_t begin = size();
+  for (std::size_t k = 0; k < run.segments.size(); ++k) {
+    if (k == 0 && !run.closed) {
+      add_end(run, true);
+    } else {
+      add_corner(run, k);
+    }
+    add_between(run, k);
+  }
+  if (!run.closed) add_end(run, false);
+  link(begin, run.closed);
+}
+
+/// The vertex from which segment k of the run starts.
+void WallLine::add_corner(const WallRun& run, std::size_t k) {
+  const std::size_t before_k = k == 0 ? run.segments.size() - 1 : k - 1;
+  const std::int32_t before = run.segments[before_k], after = run.segments[k];
+  const Geometry& g = *geometry_;
+  Station station;
+  station.wall = g.point(after);
+  station.before = direction_of(g.point(before), g.point(after));
+  station.after = direction_of(g.point(after), g.point(g.next(after)));
+  station.segment = after;
+  station.layers = run.layers[k];
+  station.kept = g.kept(after);
+  const Point first = left_of(station.before), last = left_of(station.after);
+  if (const auto wake = std::ranges::find(wakes_, after, &WakeStart::first); wake != wakes_.end())
+    return add_wake(station, run.layers[before_k], *wake);
+  const double turn = cross(station.before, station.after), cosine = dot(station.before, station.after);
+  if (turn < 0 && cosine < cosine_of_sharp_edge) {
+    station.shape = Station::Shape::fan;
+    const std::vector<Point> fan = fan_between(first, last);
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      station.direction = fan[i];
+      station.kept = i == 0 || i + 1 == fan.size();
+      station.layers = run.layers[2 * i < fan.size() ? before_k : k];
+      stations_.push_back(station);
+    }
+    return;
+  }
+  station.direction = between(first, last);
+  if (station.kept && turn > 0 && cosine < cosine_of_concave) {
+    station.shape = Station::Shape::concave;
+    station.slope = turn / (1 + cosine);  // of the bisector: the tangent of half the turn
+  }
+  stations_.push_back(station);
+}
+
+/// The columns at the edge, half way between the normals of the wall and of the wake.
+void WallLine::add_wake(Station station, BoundaryId before, const WakeStart& wake) {
+  const BoundaryId after = station.layers;
+  station.shape = Station::Shape::fan;
+  station.kept = true;
+  station.at_wake = station.opens_wake = true;
+  station.layers = before;
+  station.direction = unit(left_of(station.before) + left_of(wake.direction));
+  stations_.push_back(station);
+  station.opens_wake = false;
+  station.layers = after;
+  station.direction = unit(left_of(station.after) - left_of(wake.direction));
+  stations_.push_back(station);
+}
+
+/// Inside segment k of the run.
+void WallLine::add_between(const WallRun& run, std::size_t k) {
+  const Geometry& g = *geometry_;
+  const std::int32_t s = run.segments[k];
+  const Point from = g.point(s), to = g.point(g.next(s));
+  const double thickness = layers_thickness(*g.boundary(run.layers[k]).layers);
+  const int parts =
+      std::max(1, static_cast<int>(std::ceil(stations_per_thickness * length(to - from) / thickness)));
+  Station station;
+  station.before = station.after = direction_of(from, to);
+  station.segment = s;
+  station.layers = run.layers[k];
+  station.direction = left_of(station.after);
+  for (int part = 1; part < parts; ++part) {
+    station.wall = lerp(from, to, part, parts);
+    stations_.push_back(station);
+  }
+}
+
+/// Where an open run begins or ends: its column lies on the boundary that is met there.
+void WallLine::add_end(const WallRun& run, bool first) {
+  const Geometry& g = *geometry_;
+  const std::int32_t s = first ? run.segments.front() : run.segments.back();
+  const std::int32_t vertex = first ? s : g.next(s);
+  Station station;
+  station.wall = g.point(vertex);
+  station.before = station.after = direction_of(g.point(s), g.point(g.next(s)));
+  station.segment = s;
+  station.layers = first ? run.layers.front() : run.layers.back();
+  station.shape = Station::Shape::end;
+  station.kept = true;
+  station.direction = first ? direction_of(g.point(vertex), g.point(g.previous(vertex)))
+                            : direction_of(g.point(vertex), g.point(g.next(vertex)));
+  const auto wake = std::ranges::find(wakes_, vertex, first ? &WakeStart::last : &WakeStart::first);
+  if (wake != wakes_.end()) {
+    station.at_wake = true;
+    station.opens_wake = !first;
+    station.direction = unit(left_of(station.after) + (first ? -1 : 1) * left_of(wake->direction));
+  }
+  const double along = dot(station.direction, station.after);
+  station.slope = (first ? along : -along) / dot(station.direction, left_of(station.after));
+  stations_.push_back(station);
+}
+
+std::int32_t WallLine::steps(std::int32_t i, std::int32_t j) const {
+  if (run_of_[i] != run_of_[j]) return none;
+  const Run& run = runs_[run_of_[i]];
+  if (j >= i) return j - i;
+  return run.closed ? j - i + (run.end - run.begin) : none;
+}
+
+void WallLine::link(std::int32_t begin, bool closed) {
+  for (std::int32_t i = begin; i < size(); ++i) {
+    next_.push_back(i + 1 < size() ? i + 1 : closed ? begin : none);
+    previous_.push_back(i > begin ? i - 1 : closed ? size() - 1 : none);
+    run_of_.push_back(size32(runs_));
+  }
+  runs_.push_back({begin, size(), closed});
+}
+
+}  // namespace quadloop

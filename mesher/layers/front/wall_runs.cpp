@@ -1,0 +1,105 @@
+#include "mesher/layers/front/wall_runs.hpp"
+
+#include <fmt/format.h>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Whether a column can lie on the segment `other` where it meets the segment `own`; both are given as they
+/// are walked, one after the other.
+bool can_hold_column(Point before, Point after) {
+  constexpr double cosine_of_45 = 0.70710678118654757;
+  return cross(before, after) > 0 && std::abs(dot(before, after)) <= cosine_of_45;
+}
+
+class Runs {
+ public:
+  Runs(const Geometry& geometry, const std::vector<std::int32_t>& bare)
+      : g_{geometry}, layers_(geometry.points().size()), bare_(geometry.points().size(), 0) {
+    for (const std::int32_t s : bare) bare_[s] = 1;
+    for (std::int32_t s = 0; s < g_.size(); ++s) {
+      if (asks(s)) layers_[s] = g_.boundary_of(s);
+    }
+  }
+
+  std::vector<WallRun> found() {
+    for (std::int32_t s = 0; s < g_.size(); ++s) {
+      if (asks(s)) extend(s);
+    }
+    require_one_count();
+    std::vector<WallRun> runs;
+    for (std::int32_t loop = 0; loop < g_.loop_count(); ++loop) add_runs_of(loop, runs);
+    return runs;
+  }
+
+ private:
+  bool asks(std::int32_t s) const { return g_.boundary(g_.boundary_of(s)).layers && !bare_[s]; }
+  bool carries(std::int32_t s) const { return layers_[s].valid(); }
+  Point direction(std::int32_t s) const { return direction_of(g_.point(s), g_.point(g_.next(s))); }
+
+  /// Onto the segments that follow and those that lead there, as far as no column can lie on them.
+  void extend(std::int32_t s) {
+    for (std::int32_t from = s, to = g_.next(s);
+         !carries(to) && !bare_[to] && !can_hold_column(direction(from), direction(to));
+         from = to, to = g_.next(to))
+      layers_[to] = layers_[s];
+    for (std::int32_t to = s, from = g_.previous(s);
+         !carries(from) && !bare_[from] && !can_hold_column(direction(from), direction(to));
+         to = from, from = g_.previous(from))
+      layers_[from] = layers_[s];
+  }
+
+  void require_one_count() const {
+    for (std::int32_t s = 0; s < g_.size(); ++s) {
+      const std::int32_t t = g_.next(s);
+      if (!carries(s) || !carries(t)) continue;
+      const Boundary &a = g_.boundary(layers_[s]), &b = g_.boundary(layers_[t]);
+      if (a.layers->count == b.layers->count) continue;
+      throw InputError(fmt::format(
+          "boundaries {} and {} meet at ({}, {}), but one asks for {} layers and the other for {}; give them "
+          "one count",
+          a.name, b.name, g_.point(t).x, g_.point(t).y, a.layers->count, b.layers->count));
+    }
+  }
+
+  void add_runs_of(std::int32_t loop, std::vector<WallRun>& runs) const {
+    const std::int32_t begin = g_.loop_start(loop), end = g_.loop_start(loop + 1);
+    bool whole = true;
+    for (std::int32_t s = begin; s < end; ++s) {
+      whole = whole && carries(s);
+      if (carries(s) && !carries(g_.previous(s))) runs.push_back(run_from(s, false));
+    }
+    if (whole) runs.push_back(run_from(begin, true));
+  }
+
+  WallRun run_from(std::int32_t first, bool closed) const {
+    WallRun run{closed, {}, {}};
+    std::int32_t s = first;
+    do {
+      run.segments.push_back(s);
+      run.layers.push_back(layers_[s]);
+      s = g_.next(s);
+    } while (carries(s) && s != first);
+    return run;
+  }
+
+  const Geometry& g_;
+  std::vector<BoundaryId> layers_;  ///< of each segment: whose layers it carries, if any
+  std::vector<char> bare_;
+};
+
+}  // namespace
+
+std::vector<WallRun> wall_runs(const Geometry& geometry, const std::vector<std::int32_t>& bare) {
+  return Runs(geometry, bare).found();
+}
+
+Point direction_of(Point from, Point to) {
+  const Point along = to - from;
+  return (1 / length(along)) * along;
+}
+
+}  // namespace quadloop

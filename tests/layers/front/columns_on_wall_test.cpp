@@ -1,0 +1,119 @@
+// Directions and lengths of columns: on straight walls, at corners, on bodies.
+#include "mesher/layers/front/columns_on_wall.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/layers/walls.hpp"
+
+namespace quadloop {
+namespace {
+
+const LayerSpec layers = test::equal_layers(0.5, 4);
+
+/// The columns on an outline's walls, of the thickness that is asked for.
+struct Columned {
+  explicit Columned(Geometry g) : geometry{std::move(g)}, line(geometry, wall_runs(geometry)) {
+    std::vector<double> asked;
+    for (std::int32_t i = 0; i < line.size(); ++i) asked.push_back(line.asked(i));
+    columns = columns_on_wall(line, asked);
+  }
+  Point front(std::int32_t i) const { return columns.front(line, i); }
+  /// The cosine of the larger tilt against the wall before and after.
+  double cosine(std::int32_t i) const {
+    const Point d = columns.direction[i];
+    return std::min(dot(d, left_of(line[i].before)), dot(d, left_of(line[i].after)));
+  }
+  Geometry geometry;
+  WallLine line;
+  WallColumns columns;
+};
+
+TEST(ColumnsOnWall, StandNormalToAStraightWall) {
+  const Columned floor(test::floor_with_layers(layers));
+  for (std::int32_t i = 0; i < floor.line.size(); ++i) {
+    EXPECT_EQ(floor.columns.direction[i], (Point{0, 1}));
+    EXPECT_EQ(floor.columns.length[i], 0.5);
+  }
+}
+
+TEST(ColumnsOnWall, BesideAConcaveCornerTheFrontIsTheWallsOffsetLine) {
+  const Columned step(test::step_with_layers(layers));
+  std::int32_t beside = 0;
+  for (std::int32_t i = 0; i < step.line.size(); ++i) {
+    const Point wall = step.line[i].wall, front = step.front(i);
+    if (wall.y == 0) {
+      EXPECT_NEAR(front.y, 0.5, 1e-14) << wall.x;
+    }
+    if (wall.x == 4 && wall.y < 1.25) {
+      EXPECT_NEAR(front.x, 3.5, 1e-14) << wall.y;
+    }
+    if (wall.y == 0 && 3 < wall.x && wall.x < 4) {
+      ++beside;
+      EXPECT_NEAR(front.x, 3 + (wall.x - 3) / 2, 1e-14) << "half of the wall's width, up to a thickness away";
+    }
+    if (wall.y == 0 && wall.x <= 3) {
+      EXPECT_EQ(front.x, wall.x);
+    }
+  }
+  EXPECT_EQ(beside, 15);
+}
+
+TEST(ColumnsOnWall, AnEndLiesOnItsSideAndTheOthersLeanWithIt) {
+  const Columned slanted(
+      test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {7, 2}, {-1, 2}}}}}));
+  const std::int32_t last = slanted.line.size() - 1;
+  EXPECT_NEAR(slanted.front(last).x, 7.75, 1e-14);
+  EXPECT_NEAR(slanted.front(0).x, -0.25, 1e-14);
+  for (std::int32_t i = 0; i <= last; ++i)
+    EXPECT_NEAR(slanted.front(i).y, 0.5, slanted.line[i].wall.x < 1 ? 0.04 : 1e-14)
+        << i << ": where columns spread, before the leaning inlet, they keep their own length";
+  for (std::int32_t i = 0; i < last; ++i) {
+    const double ratio = (slanted.front(i + 1).x - slanted.front(i).x) / slanted.line.width(i);
+    EXPECT_GT(ratio, 0.3);
+    EXPECT_LT(ratio, 2);
+  }
+}
+
+TEST(ColumnsOnWall, SpreadAtAConvexCornerWithTheirOwnLength) {
+  const Columned step(test::step_with_layers(layers));
+  for (std::int32_t i = 0; i < step.line.size(); ++i) {
+    if (step.line[i].wall != Point{4, 2}) continue;
+    EXPECT_LT(step.columns.length[i], 0.57) << "no horn at the corner, which would be 0.707 long";
+    EXPECT_NEAR(step.columns.direction[i].x, -std::sqrt(0.5), 1e-12);
+    EXPECT_LT(step.columns.direction[i + 1].x, -0.05) << "its turn is spread over the wall";
+    EXPECT_GT(step.columns.direction[i + 1].x, step.columns.direction[i].x);
+  }
+}
+
+TEST(ColumnsOnWall, RiseVisiblyEverywhereAndNeverCrossTheirNeighbours) {
+  for (const Geometry& g : {test::step_with_layers(layers), test::rhombus_with_layers(layers, 0.25),
+                            test::rhombus_with_layers(layers, 1.5), test::rhombus_with_layers(layers, 3)}) {
+    const Columned c(g);
+    for (std::int32_t i = 0; i < c.line.size(); ++i) {
+      if (c.line[i].shape != Station::Shape::fan) {
+        EXPECT_GE(c.cosine(i), 0.2) << i;
+      }
+      EXPECT_NEAR(length(c.columns.direction[i]), 1, 1e-14);
+      const std::int32_t j = c.line.next(i);
+      if (j == WallLine::none || c.line.width(i) == 0) continue;
+      const double ratio = dot(c.front(j) - c.front(i), c.line[i].after) / c.line.width(i);
+      EXPECT_GE(ratio, 0.3 - 1e-12) << i;
+      EXPECT_LE(ratio, 6 + 1e-12) << i;
+    }
+  }
+}
+
+TEST(ColumnsOnWall, AFansRaysHaveTheThicknessForTheirLength) {
+  const Columned body(test::rhombus_with_layers(layers, 0.25));
+  for (std::int32_t i = 0; i < body.line.size(); ++i) {
+    if (body.line[i].shape == Station::Shape::fan) {
+      EXPECT_EQ(body.columns.length[i], 0.5);
+      EXPECT_EQ(body.columns.direction[i], body.line[i].direction);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,137 @@
+// The outline of the domain outside the layers, and what it asks of the mesh there.
+#include "mesher/layers/front/layer_front.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/geometry/outlines.hpp"
+#include "tests/layers/walls.hpp"
+
+namespace quadloop {
+namespace {
+
+const LayerSpec layers{0.02, 1.2, 1.2, 10};  // 0.519 thick, the last one 0.103
+
+TEST(LayerFront, StandsInTheWallsPlace) {
+  const Geometry floor = test::floor_with_layers(layers);
+  const LayerFront front = layer_front(floor);
+  const double thickness = layers_thickness(layers);
+  EXPECT_NEAR(test::loop_area(front.outer, 0), 8 * (4 - thickness), 1e-12);
+  ASSERT_EQ(std::ssize(front.station_of), front.outer.size());
+  std::int32_t of_front = 0;
+  for (std::int32_t s = 0; s < front.outer.size(); ++s) {
+    const bool is_front = front.station_of[s] != WallLine::none;
+    of_front += is_front ? 1 : 0;
+    EXPECT_EQ(front.outer.boundary(front.outer.boundary_of(s)).name, is_front ? "floor" : "rest");
+    if (!is_front) continue;
+    EXPECT_EQ(front.outer.point(s), front.points[front.station_of[s]]);
+    EXPECT_NEAR(front.outer.point(s).y, thickness, 1e-15);
+  }
+  EXPECT_EQ(of_front, front.line.size() - 1);
+  EXPECT_EQ(front.outer.size(), of_front + 4 - 1) << "the sides that it ends on begin above the wall";
+}
+
+TEST(LayerFront, LeavesAreAsHighAsTwoOfTheLastLayers) {
+  const Geometry geometry = test::floor_with_layers(layers);
+  const LayerFront front = layer_front(geometry);
+  const std::vector<double> heights = layer_heights(layers);
+  for (std::int32_t s = 0; s < front.outer.size(); ++s) {
+    if (front.station_of[s] != WallLine::none) {
+      EXPECT_NEAR(front.outer.spacing_of(s), 2 * heights.back(), 1e-12);
+    } else {
+      EXPECT_EQ(front.outer.spacing_of(s), 0.25) << "sides without layers ask for what they did";
+    }
+  }
+}
+
+TEST(LayerFront, TheWallsOwnSpacingHoldsOnItsFrontToo) {
+  const Geometry fine =
+      test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}}}, 0.0625);
+  const LayerFront front = layer_front(fine);
+  for (std::int32_t s = 0; s < front.outer.size(); ++s)
+    EXPECT_LE(front.outer.spacing_of(s), 0.0625 * (1 + 1e-12));
+}
+
+TEST(LayerFront, TheWallsTurnsAskForSmallerLeavesWhereCurvatureIsARule) {
+  std::vector<Point> circle;
+  for (int k = 0; k < 40; ++k) {
+    const double angle = -std::acos(-1.0) * k / 20;
+    circle.push_back({std::cos(angle), std::sin(angle)});
+  }
+  LayerSpec thin = layers;
+  thin.first = 0.005;
+  const Geometry body =
+      test::outline_of({{{"box", {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}}}, {{"body", circle, thin}}}, 1);
+  const LayerFront loose = layer_front(body), strict = layer_front(body, 1.0);
+  for (std::int32_t s = 0; s < strict.outer.size(); ++s) {
+    if (strict.station_of[s] == WallLine::none) continue;
+    EXPECT_NEAR(strict.outer.spacing_of(s), 2 * std::sin(std::acos(-1.0) / 40) / 9, 1e-3)
+        << "a degree of nine, of a side";
+    EXPECT_GT(loose.outer.spacing_of(s), 2 * strict.outer.spacing_of(s));
+    EXPECT_EQ(strict.outer.bend_degrees(s), 0) << "the front's own turns do not count";
+  }
+}
+
+TEST(LayerFront, KeptPlacesOfTheWallAreKeptOnTheFront) {
+  const Geometry geometry = test::step_with_layers(layers);
+  const LayerFront front = layer_front(geometry);
+  std::vector<Point> kept;
+  for (std::int32_t v = 0; v < front.outer.size(); ++v) {
+    if (front.outer.kept(v)) kept.push_back(front.outer.point(v));
+  }
+  ASSERT_EQ(kept.size(), 6U) << "two corners, two ends, two corners of the box";
+  const double h = layers_thickness(layers);
+  EXPECT_NEAR(kept[0].x, 0, 1e-15);
+  EXPECT_NEAR(kept[1].x, 4 - h, 1e-12) << "the concave corner";
+  EXPECT_NEAR(kept[1].y, h, 1e-12);
+  EXPECT_LT(kept[2].x, 4) << "the convex one";
+  EXPECT_GT(kept[2].y, 2);
+}
+
+TEST(LayerFront, InAFanSectorsAreNotTooSharp) {
+  const LayerSpec low_ones = test::equal_layers(0.5, 20);  // two of the last layers are 0.05 high
+  const Geometry geometry = test::rhombus_with_layers(low_ones, 0.25);
+  const LayerFront front = layer_front(geometry);
+  std::int32_t in_fans = 0;
+  for (std::int32_t s = 0; s < front.outer.size(); ++s) {
+    const std::int32_t i = front.station_of[s];
+    if (i == WallLine::none || front.line.width(i) > 0) continue;
+    ++in_fans;
+    EXPECT_NEAR(front.outer.spacing_of(s), 0.3 * 0.5, 1e-12);
+  }
+  EXPECT_EQ(in_fans, 32);
+}
+
+TEST(LayerFront, MirrorImagesHaveMirroredFronts) {
+  const Geometry body =
+      test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
+                        {{"body", {{-2, 0.1}, {-0.7, 0.6}, {0.4, 0.3}, {2, 0}, {0.3, -0.4}}, layers}},
+                        {{"flap", {{2.2, 0.3}, {3.3, -0.4}, {2.4, -0.2}}, layers}}});
+  const Geometry other = test::mirrored(body);
+  const LayerFront front = layer_front(body), image = layer_front(other);
+  std::vector<Point> points = front.points, mirrored;
+  for (const Point p : image.points) mirrored.push_back({p.x, -p.y});
+  std::ranges::sort(points);
+  std::ranges::sort(mirrored);
+  EXPECT_EQ(points, mirrored) << "bit for bit";
+  EXPECT_TRUE(std::ranges::any_of(front.thickness, [](double h) { return h < layers_thickness(layers); }))
+      << "the gap behind the body is narrow";
+}
+
+TEST(LayerFront, OfASymmetricBodyIsSymmetric) {
+  for (const double half_base : {0.3, 0.1, 0.03, 0.01}) {
+    const Geometry body = test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
+                                            {{"body", {{-2, 0}, {2, half_base}, {2, -half_base}}, layers}}});
+    const LayerFront front = layer_front(body);
+    std::vector<Point> points = front.points, mirrored;
+    for (const Point p : points) mirrored.push_back({p.x, 0.0 - p.y});
+    std::ranges::sort(points);
+    std::ranges::sort(mirrored);
+    EXPECT_EQ(points, mirrored) << half_base;
+  }
+}
+
+}  // namespace
+}  // namespace quadloop

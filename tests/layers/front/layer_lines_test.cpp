@@ -1,0 +1,75 @@
+// Where wakes begin, and how a line that cannot begin is refused.
+#include "mesher/layers/front/layer_lines.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/geometry/outlines.hpp"
+#include "tests/layers/walls.hpp"
+
+namespace quadloop {
+namespace {
+
+const LayerSpec layers{0.02, 1.2, 1.2, 10};
+
+/// A box round a body that is blunt at x = -1 and ends at x = 2, in a point or in a base of the given height.
+Geometry wedge(double base, const std::optional<LayerSpec>& of_wedge = layers) {
+  std::vector<Point> points{{-1, -0.5}, {-1, 0.5}, {0, 0.5}, {2, base / 2}};
+  if (base > 0) points.push_back({2, -base / 2});
+  points.push_back({0, -0.5});
+  return test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}}, {{"wedge", points, of_wedge}}});
+}
+
+LayerLine wake_of(const std::string& name) {
+  LayerLine wake;
+  wake.from = name;
+  wake.length = 3;
+  wake.spacing = 0.1;
+  return wake;
+}
+
+TEST(PlaceLines, AWakeGoesStraightOnFromASharpEdge) {
+  const Geometry g = test::rhombus_with_layers(layers, 0.25);
+  LayerLine wake = wake_of("body");
+  EXPECT_NE(test::refusal([&] { place_lines(g, {wake}); }).find("has 2 edges, at ("), std::string::npos);
+  const std::vector<PlacedLine> placed = place_lines(wedge(0), {wake_of("wedge")});
+  ASSERT_EQ(placed.size(), 1U);
+  ASSERT_EQ(placed[0].path.size(), 2U);
+  EXPECT_NEAR(placed[0].path[1].x, 5, 1e-12);
+  EXPECT_NEAR(placed[0].path[1].y, 0, 1e-12);
+  EXPECT_EQ(placed[0].layers, layers);
+}
+
+TEST(PlaceLines, ABluntEdgesWakeBeginsInTheMiddleOfItsBase) {
+  const Geometry g = wedge(0.1);
+  const PlacedLine placed = place_lines(g, {wake_of("wedge")})[0];
+  EXPECT_NE(placed.edge, placed.base_end);
+  EXPECT_EQ(g.point(placed.edge), (Point{2, 0.05}));
+  EXPECT_EQ(g.point(placed.base_end), (Point{2, -0.05}));
+  EXPECT_EQ(placed.path[0], (Point{2, 0}));
+}
+
+TEST(PlaceLines, APathIsFollowedAsItIsGiven) {
+  LayerLine wake = wake_of("wedge");
+  wake.path = {{3, 0.1}, {5, 0.5}};
+  const std::vector<Point> wanted{{2, 0}, {3, 0.1}, {5, 0.5}};
+  EXPECT_EQ(place_lines(wedge(0.1), {wake})[0].path, wanted);
+  LayerLine free;
+  free.path = {{-6, -6}, {-5, -6}};
+  free.layers = layers;
+  const PlacedLine placed = place_lines(wedge(0.1), {free})[0];
+  EXPECT_EQ(placed.edge, PlacedLine::nowhere);
+  EXPECT_EQ(placed.path, free.path);
+}
+
+TEST(PlaceLines, AWakeNeedsAnEdgeOfABoundaryWithLayers) {
+  const auto says = [](const Geometry& g, const std::string& name, const std::string& wanted) {
+    const std::string message = test::refusal([&] { place_lines(g, {wake_of(name)}); });
+    EXPECT_NE(message.find(wanted), std::string::npos) << message;
+  };
+  says(wedge(0.1), "wing", "no boundary of that name");
+  says(wedge(0.1, std::nullopt), "wedge", "has no layers");
+  says(wedge(0.8), "wedge", "has no edge");
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,136 @@
+// The columns across a wake or a free line, and the front round them.
+#include "mesher/layers/front/layer_strip.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesher/geometry/predicates.hpp"
+
+namespace quadloop {
+namespace {
+
+const LayerSpec layers{0.01, 1.3, 1.3, 8};
+
+PlacedLine straight(double length, double spacing) {
+  return {PlacedLine::nowhere, PlacedLine::nowhere, {{0, 0}, {length, 0}}, spacing, layers};
+}
+
+LayerStrip sharp_wake() {
+  PlacedLine line = straight(6, 0.1);
+  line.edge = line.base_end = 0;
+  const double h = layers_thickness(layers);
+  return layer_strip(line, WakeRoot{0, {0.02, h}, {0.02, -h}, {}, 0.04});
+}
+
+double row_height(const LayerStrip& strip, std::size_t column, std::size_t row) {
+  return length(strip.columns[column][row + 1] - strip.columns[column][row]);
+}
+
+void expect_positive(const LayerStrip& strip) {
+  for (std::size_t k = 0; k + 1 < strip.columns.size(); ++k) {
+    const std::vector<Point>&a = strip.columns[k], &b = strip.columns[k + 1];
+    for (std::size_t r = 0; r + 1 < a.size(); ++r) {
+      const std::array quad{a[r], b[r], b[r + 1], a[r + 1]};
+      for (std::size_t c = 0; c < 4; ++c)
+        EXPECT_GT(orientation(quad[c], quad[(c + 1) % 4], quad[(c + 2) % 4]), 0)
+            << "column " << k << ", row " << r;
+    }
+  }
+}
+
+TEST(LayerStrip, AWakeBeginsWithTheWallsColumnsAndOpens) {
+  const LayerStrip strip = sharp_wake();
+  expect_positive(strip);
+  const auto rows = static_cast<std::size_t>(2 * layers.count), middle = rows / 2;
+  for (const auto& column : strip.columns) ASSERT_EQ(column.size(), rows + 1);
+  EXPECT_EQ(strip.columns[0].back(), strip.root->left);
+  EXPECT_EQ(strip.columns[0].front(), strip.root->right);
+  EXPECT_NEAR(row_height(strip, 0, middle), layers.first, 1e-2 * layers.first) << "its column leans";
+  for (std::size_t k = 0; k + 1 < strip.columns.size(); ++k) {
+    const double ratio = row_height(strip, k + 1, middle) / row_height(strip, k, middle);
+    EXPECT_GT(ratio, 0.95) << k;
+    EXPECT_LT(ratio, 1.25) << k;
+  }
+  const std::size_t last = strip.columns.size() - 1;
+  const double width = strip.columns[last][middle].x - strip.columns[last - 1][middle].x;
+  for (std::size_t r = 0; r < rows; ++r) {
+    EXPECT_GT(row_height(strip, last, r), 0.4 * width);
+    EXPECT_LT(row_height(strip, last, r), 1.5 * width);
+  }
+  EXPECT_EQ(strip.columns[last][middle], (Point{6, 0}));
+}
+
+TEST(LayerStrip, BothSidesAreMirrored) {
+  const LayerStrip strip = sharp_wake();
+  for (const auto& column : strip.columns) {
+    for (std::size_t r = 0; r < column.size(); ++r) {
+      const Point p = column[r], q = column[column.size() - 1 - r];
+      EXPECT_EQ(p.x, q.x);
+      EXPECT_EQ(p.y, -q.y);
+    }
+  }
+}
+
+TEST(LayerStrip, ABaseIsDividedAsFinelyAsTheLayersBesideIt) {
+  PlacedLine line = straight(6, 0.1);
+  line.edge = 0;
+  line.base_end = 1;
+  const double h = layers_thickness(layers), half = 0.1;
+  const LayerStrip strip =
+      layer_strip(line, WakeRoot{0, {0, half + h}, {0, -half - h}, {{0, half}, {0, -half}}, 0.04});
+  expect_positive(strip);
+  EXPECT_EQ(strip.core % 2, 0);
+  EXPECT_EQ(strip.columns[0].size(), static_cast<std::size_t>(2 * layers.count + strip.core + 1));
+  for (int row = layers.count; row <= layers.count + strip.core; ++row)
+    EXPECT_EQ(strip.columns[0][row].x, 0) << "on the base";
+  EXPECT_EQ(strip.columns[0][layers.count], (Point{0, -half}));
+  EXPECT_EQ(strip.columns[0][layers.count + strip.core], (Point{0, half}));
+  for (int row = layers.count - 1; row < layers.count + strip.core; ++row) {
+    const double ratio = row_height(strip, 0, row + 1) / row_height(strip, 0, row);
+    EXPECT_LT(std::max(ratio, 1 / ratio), 1.35) << row;
+  }
+}
+
+TEST(LayerStrip, AFreeLineIsFineAlongItAndCoarseAtBothEnds) {
+  const LayerStrip strip = layer_strip(straight(4, 0.1), {});
+  expect_positive(strip);
+  const std::size_t middle = layers.count, half = strip.columns.size() / 2;
+  EXPECT_NEAR(row_height(strip, half, middle), layers.first, 1e-9);
+  const double even = layers_thickness(layers) / layers.count;
+  EXPECT_NEAR(row_height(strip, 0, middle), even, 1e-9);
+  EXPECT_NEAR(row_height(strip, strip.columns.size() - 1, middle), even, 1e-9);
+  EXPECT_NEAR(strip.columns[half + 1][middle].x - strip.columns[half][middle].x, 0.1, 0.01);
+}
+
+/// Half of the sum of cross products; negative where points go round clockwise.
+double area_round(const std::vector<Point>& points) {
+  double area = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    area += 0.5 * cross(points[i], points[(i + 1) % points.size()]);
+  return area;
+}
+
+TEST(LayerStrip, TheFrontGoesRoundItWithTheDomainToItsLeft) {
+  const LayerStrip free = layer_strip(straight(4, 0.1), {});
+  EXPECT_LT(area_round(free.front), -4 * 2 * layers_thickness(layers));
+  EXPECT_EQ(free.spacing.size(), free.front.size());
+  const LayerStrip wake = sharp_wake();
+  EXPECT_EQ(wake.spacing.size(), wake.front.size() + 1);
+  EXPECT_EQ(wake.front[wake.corners[0]].x, wake.front[wake.corners[1]].x);
+  EXPECT_GT(wake.front[wake.corners[0]].y, wake.front[wake.corners[1]].y);
+  std::vector<Point> closed = wake.front;
+  closed.push_back(wake.root->right);
+  closed.push_back(wake.root->left);
+  EXPECT_LT(area_round(closed), 0);
+}
+
+TEST(LayerStrip, ABentPathHasColumnsAcrossIt) {
+  PlacedLine line = straight(4, 0.05);
+  line.path = {{0, 0}, {2, 0}, {3.5, 1}};
+  const LayerStrip strip = layer_strip(line, {});
+  expect_positive(strip);
+}
+
+}  // namespace
+}  // namespace quadloop

@@ -1,0 +1,108 @@
+// Which stretches of the outline carry layers, and where they end.
+#include "mesher/layers/front/wall_runs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/geometry/outlines.hpp"
+#include "tests/layers/walls.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::outline_of;
+
+const LayerSpec layers = test::equal_layers(0.5, 4);
+
+/// A floor from (0, 0) to (4, 0) with layers, behind an "inlet" that comes down to it at `first` degrees
+/// inside the domain and before an "outlet" that leaves it at `last`.
+Geometry floor_between(double first, double last) {
+  const auto at = [](double degrees) {
+    const double angle = degrees * std::acos(-1.0) / 180;
+    return Point{2 * std::cos(angle), 2 * std::sin(angle)};
+  };
+  const Point a = at(first), b = at(last);
+  return outline_of({{{"floor", {{0, 0}}, layers},
+                      {"outlet", {{4, 0}, {4 - b.x, b.y}}},
+                      {"lid", {{4 - b.x, 8}, {a.x, 8}}},
+                      {"inlet", {a}}}});
+}
+
+TEST(WallRuns, AnOpenOneEndsOnTheSidesBesideIt) {
+  const auto runs = wall_runs(test::step_with_layers(layers));
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_FALSE(runs[0].closed);
+  EXPECT_EQ(runs[0].segments, (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_EQ(runs[0].layers, std::vector<BoundaryId>(3, BoundaryId{0}));
+}
+
+TEST(WallRuns, AWholeLoopIsClosed) {
+  const auto runs = wall_runs(test::rhombus_with_layers(layers, 0.25));
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_TRUE(runs[0].closed);
+  EXPECT_EQ(runs[0].segments, (std::vector<std::int32_t>{4, 5, 6, 7}));
+}
+
+TEST(WallRuns, OneThatPassesTheLoopsFirstPointIsOne) {
+  const auto runs = wall_runs(outline_of(
+      {{{"floor", {{2, 0}}, layers}, {"rest", {{4, 0}, {4, 4}, {0, 4}}}, {"floor", {{0, 0}, {1, 0}}}}}));
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_EQ(runs[0].segments, (std::vector<std::int32_t>{4, 5, 0}));
+}
+
+TEST(WallRuns, EndWhereASideLeavesAt45To135Degrees) {
+  for (const double degrees : {46., 60., 90., 120., 134.}) {
+    for (const auto& g : {floor_between(degrees, 90), floor_between(90, degrees)})
+      EXPECT_EQ(wall_runs(g)[0].segments, (std::vector<std::int32_t>{0})) << degrees;
+  }
+}
+
+TEST(WallRuns, GoOnAlongASideThatLeavesOtherwiseUpToItsFirstCorner) {
+  for (const double degrees : {30., 44., 136., 160.}) {
+    const Geometry behind = floor_between(90, degrees), before = floor_between(degrees, 90);
+    const auto on = wall_runs(behind)[0], back = wall_runs(before)[0];
+    ASSERT_GE(on.segments.size(), 2U) << degrees;
+    EXPECT_EQ(on.segments[0], 0);
+    EXPECT_EQ(on.segments[1], 1) << "the outlet";
+    EXPECT_EQ(on.layers[1], BoundaryId{0}) << "carries the floor's layers";
+    ASSERT_GE(back.segments.size(), 2U);
+    EXPECT_EQ(back.segments.back(), 0);
+    EXPECT_EQ(back.segments[back.segments.size() - 2], before.size() - 1) << "the inlet";
+  }
+}
+
+TEST(WallRuns, OfAPlateBehindASymmetryLineTakeTheLineAlong) {
+  const auto runs = wall_runs(outline_of(
+      {{{"symmetry", {{-1, 0}}}, {"plate", {{0, 0}}, layers}, {"rest", {{2, 0}, {2, 1}, {-1, 1}}}}}));
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_EQ(runs[0].segments, (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(runs[0].layers, std::vector<BoundaryId>(2, BoundaryId{1}));
+}
+
+TEST(WallRuns, ThereIsNoneWithoutLayers) {
+  EXPECT_TRUE(wall_runs(outline_of({{{"box", {{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}})).empty());
+}
+
+TEST(WallRuns, BoundariesThatMeetHaveOneCount) {
+  LayerSpec thicker = layers, more = layers;
+  thicker.first *= 2;
+  more.count += 1;
+  const auto floors = [](const LayerSpec& second) {
+    return outline_of(
+        {{{"one", {{0, 0}}, layers}, {"two", {{2, 0}}, second}, {"rest", {{4, 0}, {4, 4}, {0, 4}}}}});
+  };
+  EXPECT_EQ(wall_runs(floors(thicker))[0].layers, (std::vector<BoundaryId>{BoundaryId{0}, BoundaryId{1}}));
+  EXPECT_EQ(test::refusal([&] { wall_runs(floors(more)); }),
+            "boundaries one and two meet at (2, 0), but one asks for 4 layers and the other for 5; give them "
+            "one count");
+}
+
+TEST(WallRuns, ADirectionTurnsRoundToTheLastBit) {
+  const Point a{0.1, 0.7}, b{0.35, -0.2};
+  EXPECT_EQ(direction_of(a, b), -1.0 * direction_of(b, a));
+  EXPECT_NEAR(length(direction_of(a, b)), 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace quadloop
