@@ -13,6 +13,7 @@
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/geometry/outlines.hpp"
 #include "tests/layers/walls.hpp"
+#include "tests/mesh/same_meshes.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -73,12 +74,7 @@ TEST(AddLayers, MeshesAreTheSameOnAnyNumberOfRanks) {
     for (const bool divided : {false, true}) {
       const Layered made(world(), g, divided), alone(self, g, divided);
       const Mesh whole = gather_whole(world(), made.mesh), of_one = gather_whole(self, alone.mesh);
-      if (!world().is_root()) continue;
-      EXPECT_EQ(whole.points, of_one.points);
-      EXPECT_EQ(whole.triangles, of_one.triangles);
-      EXPECT_EQ(whole.quads, of_one.quads);
-      for (std::size_t b = 0; b < whole.boundaries.size(); ++b)
-        EXPECT_EQ(whole.boundaries[b].edges, of_one.boundaries[b].edges);
+      if (world().is_root()) test::expect_same_meshes(whole, of_one);
     }
   }
 }

@@ -12,6 +12,7 @@
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/geometry/outlines.hpp"
 #include "tests/layers/walls.hpp"
+#include "tests/mesh/same_meshes.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -95,12 +96,7 @@ TEST(AddStrips, MeshesAreTheSameOnAnyNumberOfRanks) {
   for (const auto& [geometry, lines] : trials()) {
     const Made made(world(), geometry, lines, false), alone(self, geometry, lines, false);
     const Mesh whole = gather_whole(world(), made.mesh), of_one = gather_whole(self, alone.mesh);
-    if (!world().is_root()) continue;
-    EXPECT_EQ(whole.points, of_one.points);
-    EXPECT_EQ(whole.triangles, of_one.triangles);
-    EXPECT_EQ(whole.quads, of_one.quads);
-    for (std::size_t b = 0; b < whole.boundaries.size(); ++b)
-      EXPECT_EQ(whole.boundaries[b].edges, of_one.boundaries[b].edges);
+    if (world().is_root()) test::expect_same_meshes(whole, of_one);
   }
 }
 

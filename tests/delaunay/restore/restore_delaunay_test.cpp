@@ -16,11 +16,13 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/node_table.hpp"
 #include "mesher/mesh/topology.hpp"
+#include "tests/mesh/same_meshes.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::expect_same_meshes;
 using test::world;
 
 Chain circle(const std::string& name, Point centre, double radius, int vertices) {
@@ -142,14 +144,6 @@ Mesh gather(const Communicator& comm, const Mesh& part) {
   return whole;
 }
 
-void expect_same(const Mesh& a, const Mesh& b) {
-  EXPECT_TRUE(a.points == b.points);
-  EXPECT_TRUE(a.triangles == b.triangles);
-  ASSERT_EQ(a.boundaries.size(), b.boundaries.size());
-  for (std::size_t i = 0; i < a.boundaries.size(); ++i)
-    EXPECT_TRUE(a.boundaries[i].edges == b.boundaries[i].edges);
-}
-
 /// The triangles of a whole mesh, whatever their order.
 std::vector<std::array<NodeId, 3>> sorted_triangles(const Mesh& whole) {
   auto triangles = whole.triangles;
@@ -195,7 +189,7 @@ Mesh move_and_restore(Mesh whole, Mesh part, std::int64_t every, unsigned seed) 
   restore_delaunay(self, whole, moves.apply(whole), rank_of);
   restore_delaunay(world(), part, moved, rank_of);
   EXPECT_FALSE(whole.triangles == triangles_before);
-  expect_same(gather(world(), part), whole);
+  expect_same_meshes(gather(world(), part), whole);
   expect_consistent_copies(part, whole);
   expect_delaunay(whole);
   return whole;
@@ -205,7 +199,7 @@ TEST(RestoreDelaunay, SameOnAnyNumberOfRanks) {
   const Communicator self(MPI_COMM_SELF);
   const Mesh whole = delaunay_mesh(self), part = delaunay_mesh(world());
   ASSERT_GT(whole.triangles.size(), 1000U);
-  expect_same(gather(world(), part), whole);
+  expect_same_meshes(gather(world(), part), whole);
   for (const std::int64_t every : {1, 3, 30, 200}) {
     for (unsigned seed = 0; seed < 4; ++seed) move_and_restore(whole, part, every, seed);
   }
@@ -250,7 +244,7 @@ TEST(RestoreDelaunayNearby, PutsTrianglesWhereOldOnesWere) {
     const NodeFlags moved = moves.apply(part);
     const auto standing = restore_delaunay_nearby(self, whole, moves.apply(whole), rank_of);
     const auto of_part = restore_delaunay_nearby(world(), part, moved, rank_of);
-    expect_same(gather(world(), part), whole);
+    expect_same_meshes(gather(world(), part), whole);
     EXPECT_EQ(world().all_gather_values(std::span<const std::int32_t>(of_part)), standing);
     EXPECT_NE(std::count(standing.begin(), standing.end(), 0), 0);
     expect_near(start, whole, standing);
@@ -348,7 +342,7 @@ TEST(RestoreDelaunay, AnyDistributionWillDo) {
   const Communicator self(MPI_COMM_SELF);
   const Mesh mesh = delaunay_mesh(self, 0.2);
   const Mesh whole = shuffled_part(self, mesh), part = shuffled_part(world(), mesh);
-  expect_same(gather(world(), part), whole);
+  expect_same_meshes(gather(world(), part), whole);
   for (const std::int64_t every : {1, 10}) {
     for (unsigned seed = 0; seed < 4; ++seed) move_and_restore(whole, part, every, seed);
   }
@@ -391,7 +385,7 @@ TEST(RestoreDelaunay, FollowsAsFarAsOneMoveReaches) {
   };
   restore(self, whole);
   restore(world(), part);
-  expect_same(gather(world(), part), whole);
+  expect_same_meshes(gather(world(), part), whole);
   expect_delaunay(whole);
   for (const auto& t : whole.triangles) {
     EXPECT_TRUE(std::any_of(t.begin(), t.end(), [&](NodeId n) { return whole.point(n) == after; }));

@@ -22,13 +22,20 @@ struct Ring {
         whole{test::ring_mesh(24, 6, 0.4, 8)},
         mesh{scatter_mesh(comm, whole, space_filling_order(whole))},
         dual{comm, mesh},
+        options{at_half_the_speed_of_sound()},
         model{flow_model(comm, mesh, options)},
         states(dual.nodes(), model.free_stream) {}
 
+  static EulerOptions at_half_the_speed_of_sound() {
+    EulerOptions options;
+    options.mach = 0.5;
+    return options;
+  }
+
   const Communicator& comm;
-  EulerOptions options{.mach = 0.5};
   Mesh whole, mesh;
   DualMesh dual;
+  EulerOptions options;
   FlowModel model;
   std::vector<State> states;
 };
