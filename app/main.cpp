@@ -14,6 +14,7 @@
 #include "app/closing.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "app/lone_process.hpp"
 #include "io/files/input_file.hpp"
 #include "io/files/interruption.hpp"
 #include "io/gis/gis_formats.hpp"
@@ -42,6 +43,7 @@ void throw_mpi_error(MPI_Comm* /*unused*/, int* code, ...) {
 class MpiGuard {
  public:
   MpiGuard(int& argc, char**& argv) {
+    const LoneProcess settings;
     MPI_Init(&argc, &argv);
     MPI_Errhandler handler = MPI_ERRHANDLER_NULL;
     MPI_Comm_create_errhandler(throw_mpi_error, &handler);

@@ -33,15 +33,17 @@ constexpr std::int32_t ideal_begin = width == 3 ? 0 : 3;
 
 NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
                      const std::vector<CellTarget>& targets)
-    : mesh_{mesh}, nodes_{std::move(free_nodes)}, starts_(nodes_.size() + 1, 0) {
+    : mesh_{mesh},
+      nodes_{std::move(free_nodes)},
+      star_of_(mesh.points().size(), -1),
+      starts_(nodes_.size() + 1, 0) {
   for (const auto& seen : {seen_targets<3>(ideal_targets<3>()), seen_targets<4>(ideal_targets<4>())}) {
     targets_.insert(targets_.end(), seen.begin(), seen.end());
   }
-  IdVector<NodeId, std::int32_t> star_of(mesh.points().size(), -1);
-  for (std::int32_t i = 0; const NodeId node : nodes_) star_of[node] = i++;
+  for (std::int32_t i = 0; const NodeId node : nodes_) star_of_[node] = i++;
   mesh.for_each_cell([&](const auto& cell) {
     for (const NodeId node : cell) {
-      const std::size_t i = star_of[node] + 1;
+      const std::size_t i = star_of_[node] + 1;
       if (i > 0) starts_[i] += corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
     }
   });
@@ -50,9 +52,27 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
   std::vector<std::size_t> ends(starts_.begin(), starts_.end() - 1);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& cell) {
-    add_cell(cell, targets.empty() ? CellTarget{} : targets[number], star_of, ends);
+    add_cell(cell, targets.empty() ? CellTarget{} : targets[number], ends);
     ++number;
   });
+  list_stars_round_copies();
+}
+
+/// Copies are few and lie at the borders of ranks.
+void NodeStars::list_stars_round_copies() {
+  copy_starts_.assign(mesh_.points().size() - mesh_.owned_nodes() + 1, 0);
+  const auto for_each_pair = [&](const auto& visit) {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      for_each_neighbour(i, [&](NodeId other) {
+        if (!mesh_.owns(other)) visit(other.value() - mesh_.owned_nodes(), static_cast<std::int32_t>(i));
+      });
+    }
+  };
+  for_each_pair([&](std::int32_t copy, std::int32_t) { ++copy_starts_[copy + 1]; });
+  std::partial_sum(copy_starts_.begin(), copy_starts_.end(), copy_starts_.begin());
+  copy_stars_.resize(copy_starts_.back());
+  std::vector<std::size_t> ends(copy_starts_.begin(), copy_starts_.end() - 1);
+  for_each_pair([&](std::int32_t copy, std::int32_t star) { copy_stars_[ends[copy]++] = star; });
 }
 
 template <std::size_t width>
@@ -66,11 +86,11 @@ std::int32_t NodeStars::first_target(const CellTarget& target) {
 
 template <std::size_t width>
 void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
-                         const IdVector<NodeId, std::int32_t>& star_of, std::vector<std::size_t>& ends) {
+                         std::vector<std::size_t>& ends) {
   constexpr std::int32_t nodes{width}, per_node{corners_of_cell<width>};
   std::int32_t targets = -1;
   for (std::int32_t k = 0; k < nodes; ++k) {
-    const std::int32_t i = star_of[cell[k]];
+    const std::int32_t i = star_of_[cell[k]];
     if (i < 0) continue;
     if (targets < 0) targets = first_target<width>(target);
     const NodeId next = cell[(k + 1) % width], previous = cell[(k + width - 1) % width];

@@ -17,6 +17,8 @@ class NodeStars {
 
   const std::vector<NodeId>& nodes() const { return nodes_; }
   std::size_t size() const { return nodes_.size(); }
+  /// Which of the free nodes a node is; -1 for others.
+  std::int32_t star_of(NodeId node) const { return star_of_[node]; }
 
   /// The star of the i-th free node, with the nodes where they are now.
   void gather(std::size_t i, Star& star) const;
@@ -29,6 +31,10 @@ class NodeStars {
       visit(c.r);
     }
   }
+  /// Calls `visit(j)` for the free nodes that share a cell with a node, which is free, here or on the rank
+  /// that owns it; for each as often as for_each_neighbour(j) comes to the node.
+  template <class Visit>
+  void for_each_star_round(NodeId node, const Visit& visit) const;
 
  private:
   struct Corner {
@@ -41,15 +47,31 @@ class NodeStars {
   }
   template <std::size_t width>
   void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
-                const IdVector<NodeId, std::int32_t>& star_of, std::vector<std::size_t>& ends);
+                std::vector<std::size_t>& ends);
   template <std::size_t width>
   std::int32_t first_target(const CellTarget& target);
+  void list_stars_round_copies();
 
   const HaloMesh& mesh_;
   std::vector<NodeId> nodes_;
+  IdVector<NodeId, std::int32_t> star_of_;  ///< the index of each free node; -1 for others
   std::vector<std::size_t> starts_;
   std::vector<Corner> corners_;
   std::vector<CornerTarget> targets_;
+  std::vector<std::size_t> copy_starts_;  ///< of each copy in copy_stars_
+  std::vector<std::int32_t> copy_stars_;  ///< those that have the copy among their neighbours
 };
+
+template <class Visit>
+void NodeStars::for_each_star_round(NodeId node, const Visit& visit) const {
+  if (const std::int32_t star = star_of_[node]; star >= 0) {
+    for_each_neighbour(star, [&](NodeId other) {
+      if (star_of_[other] >= 0) visit(star_of_[other]);
+    });
+  } else if (!mesh_.owns(node)) {
+    const std::size_t copy = node.value() - mesh_.owned_nodes();
+    for (std::size_t k = copy_starts_[copy]; k < copy_starts_[copy + 1]; ++k) visit(copy_stars_[k]);
+  }
+}
 
 }  // namespace quadloop

@@ -23,11 +23,11 @@ class Sweeper {
 
  private:
   NodeId node(std::size_t i) const { return stars_.nodes()[i]; }
-  bool is_stale(std::size_t i) const;
   void find_bad();
-  bool is_active(std::size_t i) const;
+  void count_bad_near(NodeId node);
   bool visit(std::size_t i);
   std::optional<Point> better_place(NodeId n, Point p);
+  void say_moved(NodeId n);
   void share_moves();
 
   const Communicator& comm_;
@@ -38,10 +38,13 @@ class Sweeper {
   double threshold_;
   std::unique_ptr<NodeSolver> solver_;
   std::vector<std::vector<std::size_t>> by_colour_;
-  IdVector<NodeId, std::int32_t> moved_at_;  ///< the clock when each node moved last
-  std::vector<std::int32_t> visited_at_;     ///< the clock when each free node was visited last
-  NodeFlags bad_;
-  std::int32_t clock_ = 0;
+  NodeFlags bad_;              ///< nodes of cells above the threshold, other ranks' too
+  NodeFlags moved_;            ///< those that have moved in this colour
+  std::vector<NodeId> moves_;  ///< the same, this rank's
+  std::vector<std::int32_t>
+      bad_near_;             ///< of each free node: itself and its neighbours, as often as they are met
+  std::vector<char> stale_;  ///< of each free node: whether something near has moved since its last visit
+  std::vector<char> unmeasured_;  ///< ... since it was last found bad or not
   Star star_;
 };
 

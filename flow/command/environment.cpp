@@ -43,6 +43,14 @@ bool set_by_launcher(std::string_view variable) {
   return starts_with_any(variable, launcher_prefixes) && !starts_with_any(variable, user_prefixes);
 }
 
+bool started_by_launcher() {
+  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+    const std::string_view text(*entry);
+    if (set_by_launcher(text.substr(0, text.find('=')))) return true;
+  }
+  return false;
+}
+
 bool started_by_mpirun() { return std::getenv("OMPI_COMM_WORLD_RANK") != nullptr; }
 
 std::vector<std::string> environment_for(const std::string& folder) {

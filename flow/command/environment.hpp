@@ -12,6 +12,9 @@ namespace quadloop {
 /// that place ranks on machines and all of OMPI_MCA_orte_ count as the launcher's.
 bool set_by_launcher(std::string_view variable);
 
+/// True where a launcher's variables are set in this process.
+bool started_by_launcher();
+
 /// True where Open MPI's mpirun (or its daemon on this machine) started this process.
 bool started_by_mpirun();
 

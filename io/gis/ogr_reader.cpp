@@ -1,7 +1,6 @@
 #include "io/gis/ogr_reader.hpp"
 
 #include <fmt/format.h>
-#include <ogrsf_frmts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <span>
 
 #include "io/files/input_file.hpp"
+#include "io/gis/gdal_library.hpp"
 #include "io/gis/gis_formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
@@ -20,20 +20,31 @@ namespace quadloop {
 
 namespace {
 
+const GdalLibrary& gdal() { return GdalLibrary::instance(); }
+
+/// Handles of GDAL's, which are pointers to void, each with the function that ends it.
+template <auto end>
+struct End {
+  void operator()(void* handle) const { (gdal().*end)(handle); }
+};
+using Dataset = std::unique_ptr<void, End<&GdalLibrary::GDALClose>>;
+using Feature = std::unique_ptr<void, End<&GdalLibrary::OGR_F_Destroy>>;
+using OwnGeometry = std::unique_ptr<void, End<&GdalLibrary::OGR_G_DestroyGeometry>>;
+
 /// Where memory ends GDAL would call abort(). All else it keeps as its last message.
 void throw_out_of_memory(CPLErr kind, CPLErrorNum number, const char* message) {
   if (kind == CE_Fatal && number == CPLE_OutOfMemory) throw std::bad_alloc();
-  CPLQuietErrorHandler(kind, number, message);
+  gdal().CPLQuietErrorHandler(kind, number, message);
 }
 
 /// GDAL would print its own lines on stderr; its last message goes into ours instead.
 class QuietGdal {
  public:
   QuietGdal() {
-    CPLPushErrorHandler(throw_out_of_memory);
-    CPLErrorReset();
+    gdal().CPLPushErrorHandler(throw_out_of_memory);
+    gdal().CPLErrorReset();
   }
-  ~QuietGdal() { CPLPopErrorHandler(); }
+  ~QuietGdal() { gdal().CPLPopErrorHandler(); }
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
 };
@@ -48,14 +59,14 @@ std::string without_blanks(std::string name) {
   return name;
 }
 
-std::string name_of(const OGRFeature& feature, const OGRLayer& layer) {
+std::string name_of(OGRFeatureH feature, OGRLayerH layer) {
   for (const char* attribute : {"boundary", "name", "Layer"}) {
-    const int field = feature.GetFieldIndex(attribute);  // in any case
-    if (field < 0 || !feature.IsFieldSetAndNotNull(field)) continue;
-    const std::string name = feature.GetFieldAsString(field);
+    const int field = gdal().OGR_F_GetFieldIndex(feature, attribute);  // in any case
+    if (field < 0 || gdal().OGR_F_IsFieldSetAndNotNull(feature, field) == 0) continue;
+    const std::string name = gdal().OGR_F_GetFieldAsString(feature, field);
     if (!name.empty()) return without_blanks(name);
   }
-  return without_blanks(const_cast<OGRLayer&>(layer).GetName());
+  return without_blanks(gdal().OGR_L_GetName(layer));
 }
 
 /// Gathers the chains of one feature after another.
@@ -63,14 +74,13 @@ class Collector {
  public:
   explicit Collector(std::vector<Chain>& chains) : chains_{chains} {}
 
-  void add(const OGRGeometry& geometry, const std::string& name, const std::string& source) {
-    const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  void add(OGRGeometryH geometry, const std::string& name, const std::string& source) {
+    const OGRwkbGeometryType type = gdal().OGR_GT_Flatten(gdal().OGR_G_GetGeometryType(geometry));
     if (type == wkbLineString || type == wkbLinearRing) {
-      add_line(*geometry.toLineString(), name, source);
-    } else if (type == wkbPolygon) {
-      for (const OGRLinearRing* ring : *geometry.toPolygon()) add_line(*ring, name, source);
-    } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
-      for (const OGRGeometry* part : *geometry.toGeometryCollection()) add(*part, name, source);
+      add_line(geometry, name, source);
+    } else if (type == wkbPolygon || gdal().OGR_GT_IsSubClassOf(type, wkbGeometryCollection) != 0) {
+      const int parts = gdal().OGR_G_GetGeometryCount(geometry);
+      for (int i = 0; i < parts; ++i) add(gdal().OGR_G_GetGeometryRef(geometry, i), name, source);
     } else {
       ++left_out_;
     }
@@ -78,9 +88,11 @@ class Collector {
   std::int64_t left_out() const { return left_out_; }
 
  private:
-  void add_line(const OGRSimpleCurve& line, const std::string& name, const std::string& source) {
+  void add_line(OGRGeometryH line, const std::string& name, const std::string& source) {
     Chain chain{name, true, {}, source};
-    for (int i = 0; i < line.getNumPoints(); ++i) chain.points.push_back({line.getX(i), line.getY(i)});
+    const int points = gdal().OGR_G_GetPointCount(line);
+    for (int i = 0; i < points; ++i)
+      chain.points.push_back({gdal().OGR_G_GetX(line, i), gdal().OGR_G_GetY(line, i)});
     if (chain.points.empty()) return;
     if (chain.points.size() > 2 && chain.points.front() == chain.points.back()) {
       chain.points.pop_back();
@@ -123,46 +135,49 @@ void warn_of_degrees(const std::string& path, std::span<const Chain> chains,
                   path, middle.y, std::cos(middle.y * std::numbers::pi / 180), utm_code(middle), name));
 }
 
-bool is_in_degrees(const OGRLayer& layer) {
-  const OGRSpatialReference* reference = const_cast<OGRLayer&>(layer).GetSpatialRef();
-  return reference != nullptr && reference->IsGeographic() != 0;
+bool is_in_degrees(OGRLayerH layer) {
+  const OGRSpatialReferenceH reference = gdal().OGR_L_GetSpatialRef(layer);
+  return reference != nullptr && gdal().OSRIsGeographic(reference) != 0;
 }
 
-void read_layer(OGRLayer& layer, const std::string& path, Collector& collector) {
-  while (const auto feature = std::unique_ptr<OGRFeature>(layer.GetNextFeature())) {
-    const OGRGeometry* geometry = feature->GetGeometryRef();
+void read_layer(OGRLayerH layer, const std::string& path, Collector& collector) {
+  while (const Feature feature{gdal().OGR_L_GetNextFeature(layer)}) {
+    const OGRGeometryH geometry = gdal().OGR_F_GetGeometryRef(feature.get());
     if (geometry == nullptr) continue;
-    const auto straight = std::unique_ptr<OGRGeometry>(
-        geometry->hasCurveGeometry() ? geometry->getLinearGeometry() : geometry->clone());
-    const std::string source =
-        fmt::format("{}: layer '{}', feature {}", path, layer.GetName(), feature->GetFID());
-    collector.add(*straight, name_of(*feature, layer), source);
+    const OwnGeometry straight{gdal().OGR_G_HasCurveGeometry(geometry, 0) != 0
+                                   ? gdal().OGR_G_GetLinearGeometry(geometry, 0, nullptr)
+                                   : gdal().OGR_G_Clone(geometry)};
+    const std::string source = fmt::format("{}: layer '{}', feature {}", path, gdal().OGR_L_GetName(layer),
+                                           gdal().OGR_F_GetFID(feature.get()));
+    collector.add(straight.get(), name_of(feature.get(), layer), source);
   }
-  if (CPLGetLastErrorType() >= CE_Failure)
+  if (gdal().CPLGetLastErrorType() >= CE_Failure)
     throw InputError(
-        fmt::format("{}: {}; correct or export the file anew", path, one_line(CPLGetLastErrorMsg())));
+        fmt::format("{}: {}; correct or export the file anew", path, one_line(gdal().CPLGetLastErrorMsg())));
 }
 
 }  // namespace
 
 std::vector<Chain> read_ogr(const std::string& path, std::vector<std::string>& warnings) {
   require_input_file(path);
-  GDALAllRegister();
+  gdal().GDALAllRegister();
   const QuietGdal quiet;
-  const GDALDatasetUniquePtr data(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  const Dataset data{
+      gdal().GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr)};
   if (!data) {
     throw InputError(
         fmt::format("{}: cannot be read as the kind of file that its suffix says ({}); export it anew", path,
-                    one_line(CPLGetLastErrorMsg())));
+                    one_line(gdal().CPLGetLastErrorMsg())));
   }
   std::vector<Chain> chains;
   Collector collector(chains);
-  CPLErrorReset();
+  gdal().CPLErrorReset();
   std::vector<Chain> in_degrees;
-  for (OGRLayer* layer : data->GetLayers()) {
+  for (int i = 0; i < gdal().GDALDatasetGetLayerCount(data.get()); ++i) {
+    const OGRLayerH layer = gdal().GDALDatasetGetLayer(data.get(), i);
     const auto before = std::ssize(chains);
-    read_layer(*layer, path, collector);
-    if (is_in_degrees(*layer)) in_degrees.insert(in_degrees.end(), chains.begin() + before, chains.end());
+    read_layer(layer, path, collector);
+    if (is_in_degrees(layer)) in_degrees.insert(in_degrees.end(), chains.begin() + before, chains.end());
   }
   if (chains.empty())
     throw InputError(path + ": holds no lines and no polygons; a geometry needs closed outlines");

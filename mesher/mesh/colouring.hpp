@@ -36,14 +36,15 @@ Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span
   Colouring colouring;
   auto& colours = colouring.colour_of;
   colours.resize(mesh.points().size(), Colouring::none);
-  std::vector<std::size_t> order;  // those that have not chosen yet
+  const auto priority = [&](NodeId node) { return colouring_priority(mesh.global(node)); };
+  std::vector<std::pair<std::uint64_t, std::size_t>> first;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     colours[nodes[i]] = waiting;
-    order.push_back(i);
+    first.emplace_back(priority(nodes[i]), i);
   }
-  const auto priority = [&](NodeId node) { return colouring_priority(mesh.global(node)); };
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return priority(nodes[a]) > priority(nodes[b]); });
+  std::sort(first.begin(), first.end(), std::greater{});
+  std::vector<std::size_t> order;  // those that have not chosen yet
+  for (const auto& [key, i] : first) order.push_back(i);
   const auto choose = [&](std::size_t i) {
     const std::uint64_t own = priority(nodes[i]);
     std::uint64_t taken = 0;

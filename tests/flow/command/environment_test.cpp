@@ -46,6 +46,14 @@ TEST(Environment, UserVariablesAreKept) {
     EXPECT_FALSE(set_by_launcher(name)) << name;
 }
 
+TEST(Environment, TellsWhetherALauncherStartedThisProcess) {
+  const bool before = started_by_launcher();
+  setenv("PMI_RANK", "0", 1);
+  EXPECT_TRUE(started_by_launcher());
+  unsetenv("PMI_RANK");
+  EXPECT_EQ(started_by_launcher(), before);
+}
+
 TEST(Environment, IsThatOfThisProcessCleaned) {
   setenv("OMPI_COMM_WORLD_RANK", "1", 1);
   setenv("OMPI_MCA_osc", "pt2pt", 1);

@@ -1,0 +1,31 @@
+#include "app/lone_process.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <utility>
+
+#include "flow/command/environment.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::array<std::pair<const char*, const char*>, 2> settings{
+    {{"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_pml", "ob1"}}};
+
+}  // namespace
+
+LoneProcess::LoneProcess() {
+  if (started_by_launcher()) return;
+  for (const auto& [name, value] : settings) {
+    if (std::getenv(name) != nullptr) continue;
+    setenv(name, value, 1);
+    set_.push_back(name);
+  }
+}
+
+LoneProcess::~LoneProcess() {
+  for (const char* name : set_) unsetenv(name);
+}
+
+}  // namespace quadloop

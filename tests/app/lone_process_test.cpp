@@ -1,0 +1,68 @@
+// What Open MPI is told where no launcher started the process.
+#include "app/lone_process.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "flow/command/environment.hpp"
+
+namespace quadloop {
+namespace {
+
+constexpr const char* daemon = "OMPI_MCA_ess_singleton_isolated";
+constexpr const char* network = "OMPI_MCA_pml";
+
+std::string value_of(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : "none";
+}
+
+class LoneProcessTest : public testing::Test {
+ protected:
+  void SetUp() override { forget(); }
+  void TearDown() override { forget(); }
+
+ private:
+  /// Also of what MPI_Init has set in the test itself.
+  static void forget() {
+    std::vector<std::string> names{daemon, network};
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+      const std::string name = std::string(*entry).substr(0, std::string(*entry).find('='));
+      if (set_by_launcher(name)) names.push_back(name);
+    }
+    for (const std::string& name : names) unsetenv(name.c_str());
+  }
+};
+
+TEST_F(LoneProcessTest, NeedsNeitherADaemonNorANetworkAndLeavesNoSettings) {
+  {
+    const LoneProcess settings;
+    EXPECT_EQ(value_of(daemon), "1");
+    EXPECT_EQ(value_of(network), "ob1");
+  }
+  EXPECT_EQ(value_of(daemon), "none");
+  EXPECT_EQ(value_of(network), "none");
+}
+
+TEST_F(LoneProcessTest, LeavesWhatTheUserHasSet) {
+  setenv(network, "ucx", 1);
+  {
+    const LoneProcess settings;
+    EXPECT_EQ(value_of(network), "ucx");
+  }
+  EXPECT_EQ(value_of(network), "ucx");
+}
+
+TEST_F(LoneProcessTest, SaysNothingToOneOfALaunchersRanks) {
+  setenv("PMI_RANK", "1", 1);
+  const LoneProcess settings;
+  EXPECT_EQ(value_of(daemon), "none");
+  EXPECT_EQ(value_of(network), "none");
+}
+
+}  // namespace
+}  // namespace quadloop
