@@ -99,8 +99,8 @@ class LayerBuilder {
   int layers_of(const FrontPlace& place) const { return line_.spec(place.station).count; }
   std::int32_t fan_of(const FrontPlace& place) const { return fans_.fan_of(line_, place); }
   std::span<const Ray> rays_of(std::int32_t fan) const {
-    const auto [begin, end] = std::ranges::equal_range(rays_, fan, {}, &Ray::fan);
-    return {begin, end};
+    return {std::ranges::lower_bound(rays_, fan, {}, &Ray::fan),
+            std::ranges::upper_bound(rays_, fan, {}, &Ray::fan)};
   }
   std::int32_t number_in_fan(std::int32_t fan, GlobalNodeId before) const {
     const auto rays = rays_of(fan);
