@@ -20,10 +20,10 @@ std::vector<Point> places_in(const Star& star) {
 }  // namespace
 
 bool even_widths(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
-                 std::span<const char> segments, int sweeps) {
+                 std::span<const double> heights, int sweeps) {
   std::vector<NodeId> nodes;
   for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
-    if (slide.freedom(node) == NodeFreedom::sliding && slide.lies_on(node, segments)) nodes.push_back(node);
+    if (slide.freedom(node) == NodeFreedom::sliding && slide.lies_on(node, heights)) nodes.push_back(node);
   }
   const NodeStars stars(mesh, std::move(nodes), {});
   const Colouring colouring = colour_stars(comm, mesh, stars);

@@ -199,7 +199,7 @@ std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objec
   return std::nullopt;
 }
 
-bool BoundarySlide::lies_on(NodeId node, std::span<const char> segments) const {
+bool BoundarySlide::lies_on(NodeId node, std::span<const double> heights) const {
   const Rail& rail = rail_of(node);
   if (!is_outlined(rail.boundary)) return false;
   const Places places = locate(rail);
@@ -209,7 +209,21 @@ bool BoundarySlide::lies_on(NodeId node, std::span<const char> segments) const {
   const double back = outline_->way(places.before, places.at), ahead = outline_->way(places.at, places.after);
   const auto between = outline_->segments_between({places.at.loop, places.at.arc - back / 2},
                                                   {places.at.loop, places.at.arc + ahead / 2});
-  return !between.empty() && std::ranges::all_of(between, [&](std::int32_t s) { return segments[s] != 0; });
+  return !between.empty() && std::ranges::all_of(between, [&](std::int32_t s) { return heights[s] > 0; });
+}
+
+double BoundarySlide::height_at(const HaloEdge& edge, std::span<const double> heights) const {
+  const auto chord = chord_of(edge);
+  if (!chord) return 0;
+  const OutlinePlace middle{chord->from.loop, chord->from.arc + outline_->way(chord->from, chord->to) / 2};
+  return heights[outline_->segments_between(middle, middle).front()];
+}
+
+double BoundarySlide::unevenness(NodeId node) const {
+  const Rail& rail = rail_of(node);
+  const double back = length(point(node) - point(rail.before)),
+               ahead = length(point(rail.after) - point(node));
+  return std::max(back, ahead) / std::min(back, ahead);
 }
 
 std::optional<Point> BoundarySlide::towards_middle(NodeId node, const Star& star) const {

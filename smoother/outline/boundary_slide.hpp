@@ -32,8 +32,15 @@ class BoundarySlide {
   /// untangles.
   std::optional<Point> improve(NodeId node, const Star& star, Objective objective) const;
 
-  /// Whether a sliding node and the ways to both its neighbours lie on flagged segments of the outline.
-  bool lies_on(NodeId node, std::span<const char> segments) const;
+  /// Whether a sliding node and the ways to both its neighbours lie on segments of the outline that have a
+  /// height.
+  bool lies_on(NodeId node, std::span<const double> heights) const;
+
+  /// The height of the segment in the middle of a boundary edge; 0 where that is none of the outline.
+  double height_at(const HaloEdge& edge, std::span<const double> heights) const;
+
+  /// The longer one of the edges at a sliding node over the shorter one.
+  double unevenness(NodeId node) const;
 
   /// A place nearer to the middle between a sliding node's neighbours along the outline, or none: no cell's
   /// angle may fall under 28 degrees, or under the smallest one now.
