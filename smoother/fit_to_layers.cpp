@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "smoother/colouring.hpp"
-#include "smoother/node_stars.hpp"
+#include "smoother/coloured_sweeps.hpp"
 #include "smoother/rings.hpp"
 
 namespace quadloop {
@@ -87,40 +86,17 @@ class LayerFit {
     const NodeStars stars(mesh_, std::move(nodes), {});
     nodes_ = stars.nodes();
     list_cells(stars);
-    const Colouring colouring = colour_stars(comm_, mesh_, stars);
-    std::vector<std::vector<std::size_t>> by_colour(colouring.count);
-    for (std::size_t i = 0; i < stars.size(); ++i)
-      by_colour[colouring.colour_of[stars.nodes()[i]]].push_back(i);
-    IdVector<NodeId, std::int32_t> moved_at(mesh_.points().size(), 0);
-    std::vector<std::int32_t> visited_at(stars.size(), -1);
-    std::int32_t clock = 0;
+    ColouredSweeps coloured(comm_, mesh_, stars);
     bool moved = true, moved_ever = false;
     for (int sweep = 0; sweep < most_sweeps && moved; ++sweep) {
-      moved = false;
-      for (const auto& of_colour : by_colour) {
-        ++clock;
-        for (const std::size_t i : of_colour) {
-          const NodeId node = stars.nodes()[i];
-          bool stale = moved_at[node] >= visited_at[i];
-          stars.for_each_neighbour(i,
-                                   [&](NodeId other) { stale = stale || moved_at[other] >= visited_at[i]; });
-          if (!stale) continue;
-          visited_at[i] = clock;
-          stars.gather(i, star_);
-          const auto to = slide_.freedom(node) == NodeFreedom::sliding ? slide_.towards_middle(node, star_)
-                                                                       : better_place(i, mesh_.point(node));
-          if (!to) continue;
-          mesh_.points()[node.value()] = *to;
-          moved_at[node] = clock;
-          moved = moved_ever = true;
-        }
-        const auto just_moved = [&](std::int32_t n) { return moved_at[NodeId{n}] == clock; };
-        mesh_.exchange().update(mesh_.points(), just_moved);
-        mesh_.exchange().update(moved_at, just_moved);
-      }
-      moved = comm_.any(moved);
+      moved = comm_.any(coloured.sweep([](std::size_t) { return true; },
+                                       [&](std::size_t i) {
+                                         stars.gather(i, star_);
+                                         return better_place(i);
+                                       }) > 0);
+      moved_ever = moved_ever || moved;
     }
-    return comm_.any(moved_ever);
+    return moved_ever;
   }
 
  private:
@@ -181,7 +157,10 @@ class LayerFit {
     return share + 1 / share - 2;
   }
 
-  std::optional<Point> better_place(std::size_t i, Point p) {
+  std::optional<Point> better_place(std::size_t i) {
+    const NodeId node = nodes_[i];
+    if (slide_.freedom(node) == NodeFreedom::sliding) return slide_.towards_middle(node, star_);
+    const Point p = mesh_.point(node);
     constexpr double diagonal = 0.70710678118654757;
     static constexpr std::array<Point, Star::batch> directions{{{1, 0},
                                                                 {diagonal, diagonal},
@@ -191,7 +170,6 @@ class LayerFit {
                                                                 {-diagonal, -diagonal},
                                                                 {0, -1},
                                                                 {diagonal, -diagonal}}};
-    const NodeId node = node_of(i);
     const auto misfits = [&](Point at) {
       double sum = 0;
       for (const std::int32_t c : cells_of_[i]) sum += misfit(cells_[c], node, at);
@@ -224,8 +202,6 @@ class LayerFit {
     }
     return std::nullopt;
   }
-
-  NodeId node_of(std::size_t i) const { return nodes_[i]; }
 
   const Communicator& comm_;
   HaloMesh& mesh_;

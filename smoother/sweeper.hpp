@@ -3,9 +3,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <vector>
 
-#include "smoother/node_stars.hpp"
+#include "smoother/coloured_sweeps.hpp"
 #include "smoother/outline/boundary_slide.hpp"
 
 namespace quadloop {
@@ -23,25 +22,19 @@ class Sweeper {
 
  private:
   NodeId node(std::size_t i) const { return stars_.nodes()[i]; }
-  bool is_stale(std::size_t i) const;
   void find_bad();
   bool is_active(std::size_t i) const;
-  bool visit(std::size_t i);
-  std::optional<Point> better_place(NodeId n, Point p);
-  void share_moves();
+  std::optional<Point> better_place(std::size_t i);
 
   const Communicator& comm_;
-  HaloMesh& mesh_;
+  const HaloMesh& mesh_;
   const NodeStars& stars_;
   const BoundarySlide& slide_;
   Objective objective_;
   double threshold_;
   std::unique_ptr<NodeSolver> solver_;
-  std::vector<std::vector<std::size_t>> by_colour_;
-  IdVector<NodeId, std::int32_t> moved_at_;  ///< the clock when each node moved last
-  std::vector<std::int32_t> visited_at_;     ///< the clock when each free node was visited last
+  ColouredSweeps sweeps_;
   NodeFlags bad_;
-  std::int32_t clock_ = 0;
   Star star_;
 };
 

@@ -31,7 +31,8 @@ BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
     : mesh_{mesh},
       boundaries_{boundaries},
       outline_{outline},
-      freedom_(mesh.owned_nodes(), NodeFreedom::interior) {
+      freedom_(mesh.owned_nodes(), NodeFreedom::interior),
+      located_(mesh.points().size()) {
   for (const BoundaryEdges& boundary : boundaries)
     outlined_.push_back(outline != nullptr && outline->has(boundary.name) ? 1 : 0);
   if (outline != nullptr) find_tight_segments(comm);
@@ -131,9 +132,18 @@ bool BoundarySlide::is_straight(const Rail& rail) const {
 
 /// The chords' ends may be kept vertices, whose places are those of any other point.
 BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
-  const std::string& name = boundaries_[rail.boundary].name;
-  return {outline_->locate(point(rail.before), name, true), outline_->locate(point(rail.node), name, false),
-          outline_->locate(point(rail.after), name, true)};
+  return {place_of(rail.before, rail.boundary, true), place_of(rail.node, rail.boundary, false),
+          place_of(rail.after, rail.boundary, true)};
+}
+
+OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary, bool also_kept) const {
+  Located& last = located_[node];
+  const bool valid_for_both = last.place.valid() && !last.also_kept;
+  if (last.boundary != boundary || last.point != point(node) ||
+      (last.also_kept != also_kept && !valid_for_both))
+    last = {point(node), outline_->locate(point(node), boundaries_[boundary].name, also_kept), boundary,
+            also_kept};
+  return last.place;
 }
 
 bool BoundarySlide::may_slide(const Rail& rail) const {

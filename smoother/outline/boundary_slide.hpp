@@ -65,6 +65,7 @@ class BoundarySlide {
   bool is_straight(const Rail& rail) const;
   bool is_outlined(std::int32_t boundary) const { return outlined_[boundary] != 0; }
   Places locate(const Rail& rail) const;
+  OutlinePlace place_of(NodeId node, std::int32_t boundary, bool also_kept) const;
   const Point& point(NodeId node) const { return mesh_.point(node); }
   const Rail& rail_of(NodeId node) const;
   bool keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const;
@@ -75,6 +76,14 @@ class BoundarySlide {
   std::vector<char> outlined_;  ///< a flag for each boundary: the outline has it
   IdVector<NodeId, NodeFreedom> freedom_;
   std::vector<Rail> rails_;  ///< by node
+  /// Where a node was on the outline when it was asked for last: the place is a function of the point.
+  struct Located {
+    Point point;
+    OutlinePlace place;
+    std::int32_t boundary = -1;
+    bool also_kept = false;
+  };
+  mutable IdVector<NodeId, Located> located_;
   /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for:
   /// nodes there stay, as chords that keep clear of the other parts of the outline could still meet one
   /// another. Ascending.
