@@ -13,8 +13,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double lowest = 0.8, highest = 1.9;  // heights of cells, over that of the last layer, that are left
-constexpr double steepest = 1.4;               // ratio of neighbouring widths that is left
+constexpr double lowest = 0.75, highest = 2;  // heights of cells, over that of the last layer, that are left
+constexpr double steepest = 1.3;               // ratio of neighbouring widths that is left
 constexpr double low_aim = 0.9, high_aim = 1.7;      // heights aimed at lie between these
 constexpr double height_of_equilateral = 0.8660254;  // over its width
 constexpr double weight = 0.02;                      // of a cell's misfit, against the costs of shapes
@@ -22,7 +22,7 @@ constexpr double worthwhile = 1 - 1e-3;
 constexpr double cotangent_of_28 = 1.8807264653463318;
 constexpr double defect_at_28 = 0.2683281572999748;  // square root of the cost of the worst cell allowed
 constexpr std::array<double, 2> steps{0.12, 0.04};   // of the node's mean edge
-constexpr int rings = 2, most_sweeps = 12;
+constexpr int rings = 1, most_sweeps = 6;
 
 /// Which side of a cell lies on the front, if any, and the height of the last layer below it.
 struct FrontSide {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -14,6 +15,7 @@ constexpr double least_ratio = 0.3, largest_ratio = 6;  // of the front's width 
 constexpr double convergent = 1.1, spreading = 1.5;     // the same
 constexpr int most_averagings = 40;
 
+static const double near = getenv("NEAR") ? atof(getenv("NEAR")) : 6;
 class Columns {
  public:
   Columns(const WallLine& line, const std::vector<double>& thickness)
@@ -104,21 +106,21 @@ class Columns {
     for (const std::int32_t i : stations) {
       const Station& station = line_[i];
       const bool corner = station.slope != 0 || station.shape == Station::Shape::end;
-      const double share = station.shape == Station::Shape::fan ? 0 : corner ? 1 : mean_convergence(i);
+      const double share = station.shape == Station::Shape::fan ? 0 : corner ? 1 : std::min(mean_convergence(i, h_[i] / 2), mean_convergence(i, h_[i] / near));
       const double cosine = std::max(cosine_of_tilt(i), 0.5);
       columns_.length[i] = h_[i] * (1 + share * (1 / cosine - 1));
     }
   }
 
-  /// Over half a thickness of wall on both sides.
-  double mean_convergence(std::int32_t i) const {
+  /// Over so much wall on both sides.
+  double mean_convergence(std::int32_t i, double reach) const {
     double on = 0, back = 0, wall_on = 0, wall_back = 0;
     const auto add = [&](std::int32_t place, double& sum, double& wall) {
       sum += line_.width(place) * convergence_[place];
       wall += line_.width(place);
     };
-    line_.walk_on(i, h_[i] / 2, [&](std::int32_t j, double) { add(line_.previous(j), on, wall_on); });
-    line_.walk_back(i, h_[i] / 2, [&](std::int32_t j, double) { add(j, back, wall_back); });
+    line_.walk_on(i, reach, [&](std::int32_t j, double) { add(line_.previous(j), on, wall_on); });
+    line_.walk_back(i, reach, [&](std::int32_t j, double) { add(j, back, wall_back); });
     if (wall_on == 0 || wall_back == 0)
       return wall_on > 0 ? on / wall_on : wall_back > 0 ? back / wall_back : 0;
     return std::min(on / wall_on, back / wall_back);
