@@ -18,8 +18,8 @@ class ColouredSweeps {
   /// Whether the i-th node or one that it shares a cell with has moved since it was last visited.
   bool is_stale(std::size_t i) const;
 
-  /// Asks `place(i)` for a new place, or none, of each stale node for which `is_active(i)`. Returns the number
-  /// of nodes moved on this rank. *Collective.*
+  /// Asks `place(i)` for a new place, or none, of each stale node for which `is_active(i)`. Returns the
+  /// number of nodes moved on this rank. *Collective.*
   template <class IsActive, class Place>
   std::int64_t sweep(const IsActive& is_active, const Place& place) {
     std::int64_t moves = 0;

@@ -14,10 +14,10 @@ namespace quadloop {
 namespace {
 
 constexpr double lowest = 0.75, highest = 2;  // heights of cells, over that of the last layer, that are left
-constexpr double steepest = 1.3;               // ratio of neighbouring widths that is left
+constexpr double steepest = 1.3;              // ratio of neighbouring widths that is left
 constexpr double low_aim = 0.9, high_aim = 1.7;      // heights aimed at lie between these
 constexpr double height_of_equilateral = 0.8660254;  // over its width
-constexpr double weight = 0.02;                      // of a cell's misfit, against the costs of shapes
+constexpr double weight = 0.04;                      // of a cell's misfit, against the costs of shapes
 constexpr double worthwhile = 1 - 1e-3;
 constexpr double cotangent_of_28 = 1.8807264653463318;
 constexpr double defect_at_28 = 0.2683281572999748;  // square root of the cost of the worst cell allowed
@@ -89,6 +89,7 @@ class LayerFit {
     ColouredSweeps coloured(comm_, mesh_, stars);
     bool moved = true, moved_ever = false;
     for (int sweep = 0; sweep < most_sweeps && moved; ++sweep) {
+      fixed_ = slide_.widths_at_fixed(heights_);
       moved = comm_.any(coloured.sweep([](std::size_t) { return true; },
                                        [&](std::size_t i) {
                                          stars.gather(i, star_);
@@ -159,7 +160,7 @@ class LayerFit {
 
   std::optional<Point> better_place(std::size_t i) {
     const NodeId node = nodes_[i];
-    if (slide_.freedom(node) == NodeFreedom::sliding) return slide_.towards_middle(node, star_);
+    if (slide_.freedom(node) == NodeFreedom::sliding) return slide_.towards_middle(node, star_, fixed_);
     const Point p = mesh_.point(node);
     constexpr double diagonal = 0.70710678118654757;
     static constexpr std::array<Point, Star::batch> directions{{{1, 0},
@@ -211,6 +212,7 @@ class LayerFit {
   std::vector<std::vector<std::int32_t>>
       cells_of_;  ///< of each node that may move, those it is no front node of
   std::vector<NodeId> nodes_;
+  std::vector<Point> fixed_;
   Star star_;
 };
 

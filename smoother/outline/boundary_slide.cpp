@@ -236,12 +236,30 @@ double BoundarySlide::unevenness(NodeId node) const {
   return std::max(back, ahead) / std::min(back, ahead);
 }
 
-std::optional<Point> BoundarySlide::towards_middle(NodeId node, const Star& star) const {
+std::vector<Point> BoundarySlide::widths_at_fixed(std::span<const double> heights) const {
+  std::vector<Point> widths(mesh_.points().size());
+  for (const HaloEdge& edge : mesh_.boundary_edges()) {
+    const auto is_fixed = [&](NodeId n) { return mesh_.owns(n) && freedom_[n] == NodeFreedom::fixed; };
+    if ((!is_fixed(edge.from) && !is_fixed(edge.to)) || !(height_at(edge, heights) > 0)) continue;
+    const double width = length(point(edge.to) - point(edge.from));
+    if (is_fixed(edge.from)) widths[edge.from.value()].y = width;
+    if (is_fixed(edge.to)) widths[edge.to.value()].x = width;
+  }
+  mesh_.exchange().update(widths);
+  return widths;
+}
+
+std::optional<Point> BoundarySlide::towards_middle(NodeId node, const Star& star,
+                                                   std::span<const Point> fixed) const {
   const Rail& rail = rail_of(node);
   const Places places = locate(rail);
   if (!places.before.valid() || !places.at.valid() || !places.after.valid()) return std::nullopt;
   const double back = outline_->way(places.before, places.at), ahead = outline_->way(places.at, places.after);
-  const double step = step_to_middle * (ahead - back);
+  const double beyond_back = fixed[rail.before.value()].x, beyond_ahead = fixed[rail.after.value()].y;
+  double middle = (back + ahead) / 2;
+  if (beyond_back > 0) middle = std::min(middle, std::sqrt(beyond_back * ahead));
+  if (beyond_ahead > 0) middle = std::max(middle, back + ahead - std::sqrt(beyond_ahead * back));
+  const double step = step_to_middle * 2 * (middle - back);
   if (std::abs(step) <= even_enough * (ahead + back)) return std::nullopt;
   const OutlinePlace moved{places.at.loop, places.at.arc + step};
   const Point to = outline_->point_at(moved);

@@ -42,9 +42,15 @@ class BoundarySlide {
   /// The longer one of the edges at a sliding node over the shorter one.
   double unevenness(NodeId node) const;
 
+  /// Of each node that stays where it is while two edges with a height meet there their lengths, the one that
+  /// leads to it first; 0 for others. *Collective.*
+  std::vector<Point> widths_at_fixed(std::span<const double> heights) const;
+
   /// A place nearer to the middle between a sliding node's neighbours along the outline, or none: no cell's
-  /// angle may fall under 28 degrees, or under the smallest one now.
-  std::optional<Point> towards_middle(NodeId node, const Star& star) const;
+  /// angle may fall under 28 degrees, or under the smallest one now. Beside a node that stays it is a place
+  /// nearer to the one that makes an even step to the width beyond that node, if that is smaller; `fixed` as
+  /// widths_at_fixed has it.
+  std::optional<Point> towards_middle(NodeId node, const Star& star, std::span<const Point> fixed) const;
 
  private:
   /// The boundary through a sliding node.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -15,7 +14,6 @@ constexpr double least_ratio = 0.3, largest_ratio = 6;  // of the front's width 
 constexpr double convergent = 1.1, spreading = 1.5;     // the same
 constexpr int most_averagings = 40;
 
-static const double near = getenv("NEAR") ? atof(getenv("NEAR")) : 6;
 class Columns {
  public:
   Columns(const WallLine& line, const std::vector<double>& thickness)
@@ -85,9 +83,13 @@ class Columns {
   }
   bool has_width(std::int32_t i) const { return line_.width(i) > 0; }
 
+  /// Against the normal that the column leans away from more; at a turn away from the domain the other one,
+  /// or a column there would stand out from those beside it.
   double cosine_of_tilt(std::int32_t i) const {
-    return std::min(dot(columns_.direction[i], left_of(line_[i].before)),
-                    dot(columns_.direction[i], left_of(line_[i].after)));
+    const Station& station = line_[i];
+    const auto [less, more] = std::minmax({dot(columns_.direction[i], left_of(station.before)),
+                                           dot(columns_.direction[i], left_of(station.after))});
+    return cross(station.before, station.after) < 0 ? more : less;
   }
 
   /// How far columns converge on the place after a station: 1 to 0.
@@ -106,21 +108,21 @@ class Columns {
     for (const std::int32_t i : stations) {
       const Station& station = line_[i];
       const bool corner = station.slope != 0 || station.shape == Station::Shape::end;
-      const double share = station.shape == Station::Shape::fan ? 0 : corner ? 1 : std::min(mean_convergence(i, h_[i] / 2), mean_convergence(i, h_[i] / near));
+      const double share = station.shape == Station::Shape::fan ? 0 : corner ? 1 : mean_convergence(i);
       const double cosine = std::max(cosine_of_tilt(i), 0.5);
       columns_.length[i] = h_[i] * (1 + share * (1 / cosine - 1));
     }
   }
 
-  /// Over so much wall on both sides.
-  double mean_convergence(std::int32_t i, double reach) const {
+  /// Over half a thickness of wall on both sides.
+  double mean_convergence(std::int32_t i) const {
     double on = 0, back = 0, wall_on = 0, wall_back = 0;
     const auto add = [&](std::int32_t place, double& sum, double& wall) {
       sum += line_.width(place) * convergence_[place];
       wall += line_.width(place);
     };
-    line_.walk_on(i, reach, [&](std::int32_t j, double) { add(line_.previous(j), on, wall_on); });
-    line_.walk_back(i, reach, [&](std::int32_t j, double) { add(j, back, wall_back); });
+    line_.walk_on(i, h_[i] / 2, [&](std::int32_t j, double) { add(line_.previous(j), on, wall_on); });
+    line_.walk_back(i, h_[i] / 2, [&](std::int32_t j, double) { add(j, back, wall_back); });
     if (wall_on == 0 || wall_back == 0)
       return wall_on > 0 ? on / wall_on : wall_back > 0 ? back / wall_back : 0;
     return std::min(on / wall_on, back / wall_back);
