@@ -13,27 +13,29 @@ namespace quadloop {
 
 namespace {
 
-constexpr double lowest = 0.75, highest = 2;  // heights of cells, over that of the last layer, that are left
-constexpr double steepest = 1.3;              // ratio of neighbouring widths that is left
+constexpr double lowest = 0.75, highest = 2;   // heights of cells, over that of the last layer, that are left
+constexpr double steepest = 1.3;               // ratio of neighbouring widths that is left
 constexpr double low_aim = 0.9, high_aim = 1.7;      // heights aimed at lie between these
 constexpr double height_of_equilateral = 0.8660254;  // over its width
 constexpr double weight = 0.04;                      // of a cell's misfit, against the costs of shapes
 constexpr double worthwhile = 1 - 1e-3;
 constexpr double cotangent_of_28 = 1.8807264653463318;
-constexpr double defect_at_28 = 0.2683281572999748;  // square root of the cost of the worst cell allowed
+constexpr double defect_at_28 = 0.2683281572999748;  // square root of the largest cost of a corner
 constexpr std::array<double, 2> steps{0.12, 0.04};   // of the node's mean edge
+constexpr double diagonal = 0.70710678118654757;
+constexpr std::array<Point, Star::batch> directions{{{1, 0},
+                                                     {diagonal, diagonal},
+                                                     {0, 1},
+                                                     {-diagonal, diagonal},
+                                                     {-1, 0},
+                                                     {-diagonal, -diagonal},
+                                                     {0, -1},
+                                                     {diagonal, -diagonal}}};
 constexpr int rings = 1, most_sweeps = 6;
 
 /// Which side of a cell lies on the front, if any, and the height of the last layer below it.
 struct FrontSide {
   std::int8_t side = -1;
-  double height = 0;
-};
-
-/// A cell with a side on the front: its nodes from that side's on, three or four.
-struct FrontCell {
-  std::array<NodeId, 4> nodes;
-  bool is_quad = false;
   double height = 0;
 };
 
@@ -64,6 +66,15 @@ std::vector<FrontSide> own_sides(const Mesh& mesh, const BoundarySlide& slide,
   return sides;
 }
 
+/// A cell with a side on the front: its nodes from that side's on, three or four.
+struct FrontCell {
+  std::array<NodeId, 4> nodes;
+  bool is_quad = false;
+  double last_layer = 0;  ///< its height
+
+  std::span<const NodeId> all() const { return std::span(nodes).first(is_quad ? 4 : 3); }
+};
+
 class LayerFit {
  public:
   LayerFit(const Communicator& comm, HaloMesh& mesh, const Mesh& own, const BoundarySlide& slide,
@@ -81,11 +92,10 @@ class LayerFit {
   }
 
   bool run() {
-    std::vector<NodeId> nodes = nodes_of_misfits();
-    if (!comm_.any(!nodes.empty())) return false;
-    const NodeStars stars(mesh_, std::move(nodes), {});
-    nodes_ = stars.nodes();
-    list_cells(stars);
+    nodes_ = nodes_near_misfits();
+    if (!comm_.any(!nodes_.empty())) return false;
+    list_cells();
+    const NodeStars stars(mesh_, nodes_, {});
     ColouredSweeps coloured(comm_, mesh_, stars);
     bool moved = true, moved_ever = false;
     for (int sweep = 0; sweep < most_sweeps && moved; ++sweep) {
@@ -101,107 +111,99 @@ class LayerFit {
   }
 
  private:
-  /// A front cell's height, as if it were as wide everywhere.
+  bool slides_on_front(NodeId node) const {
+    return slide_.freedom(node) == NodeFreedom::sliding && slide_.lies_on(node, heights_);
+  }
+  double width_of(const FrontCell& cell) const {
+    return length(mesh_.point(cell.nodes[1]) - mesh_.point(cell.nodes[0]));
+  }
+  /// The height of a cell, as if it were the same all along its side, with a node at p.
+  double height_of(const FrontCell& cell, NodeId node, Point p) const {
+    const auto at = [&](std::size_t k) { return cell.nodes[k] == node ? p : mesh_.point(cell.nodes[k]); };
+    const Point a = at(0), b = at(1);
+    return (cell.is_quad ? cross(at(2) - a, at(3) - b) / 2 : cross(b - a, at(2) - a)) / length(b - a);
+  }
   double height_of(const FrontCell& cell) const {
-    const auto& n = cell.nodes;
-    const Point along = mesh_.point(n[1]) - mesh_.point(n[0]);
-    const double doubled =
-        cell.is_quad ? cross(mesh_.point(n[2]) - mesh_.point(n[0]), mesh_.point(n[3]) - mesh_.point(n[1]))
-                     : cross(along, mesh_.point(n[2]) - mesh_.point(n[0]));
-    return doubled / length(along) / (cell.is_quad ? 2 : 1);
+    return height_of(cell, cell.nodes[0], mesh_.point(cell.nodes[0]));
   }
 
-  std::vector<NodeId> nodes_of_misfits() const {
+  std::vector<NodeId> nodes_near_misfits() const {
     NodeFlags flags(mesh_.points().size(), 0);
     for (const FrontCell& cell : cells_) {
-      const double height = height_of(cell) / cell.height;
-      if (height < lowest || height > highest)
-        flag_all(std::span(cell.nodes).first(cell.is_quad ? 4 : 3), flags);
+      const double ratio = height_of(cell) / cell.last_layer;
+      if (ratio < lowest || ratio > highest) flag_all(cell.all(), flags);
     }
     for (const NodeId node : ids_below(NodeId{mesh_.owned_nodes()})) {
       if (slide_.freedom(node) == NodeFreedom::sliding && slide_.unevenness(node) > steepest &&
-          slide_.lies_on(node, heights_))
+          slides_on_front(node))
         flags[node] = 1;
     }
     grow(mesh_, flags, rings);
     std::vector<NodeId> nodes;
     for (const NodeId node : ids_below(NodeId{mesh_.owned_nodes()})) {
-      const NodeFreedom freedom = slide_.freedom(node);
-      if (flags[node] != 0 && (freedom == NodeFreedom::interior ||
-                               (freedom == NodeFreedom::sliding && slide_.lies_on(node, heights_))))
+      if (flags[node] != 0 && (slide_.freedom(node) == NodeFreedom::interior || slides_on_front(node)))
         nodes.push_back(node);
     }
     return nodes;
   }
 
-  void list_cells(const NodeStars& stars) {
-    IdVector<NodeId, std::int32_t> star_of(mesh_.points().size(), -1);
-    for (std::int32_t i = 0; const NodeId node : stars.nodes()) star_of[node] = i++;
-    cells_of_.resize(stars.size());
-    for (std::int32_t c = 0; c < size32(cells_); ++c) {
-      for (std::size_t k = 2; k < (cells_[c].is_quad ? 4U : 3U); ++k) {
-        if (const std::int32_t i = star_of[cells_[c].nodes[k]]; i >= 0) cells_of_[i].push_back(c);
+  /// Those that have a node that may move off the front.
+  void list_cells() {
+    IdVector<NodeId, std::int32_t> place_of(mesh_.points().size(), -1);
+    for (std::int32_t i = 0; const NodeId node : nodes_) place_of[node] = i++;
+    cells_of_.resize(nodes_.size());
+    for (const FrontCell& cell : cells_) {
+      for (const NodeId node : cell.all().subspan(2)) {
+        if (const std::int32_t i = place_of[node]; i >= 0) cells_of_[i].push_back(cell);
       }
     }
   }
 
-  /// How far the cell's area is from what is aimed at, with a node at p.
-  double misfit(const FrontCell& cell, NodeId node, Point p) const {
-    const auto& n = cell.nodes;
-    const auto at = [&](NodeId other) { return other == node ? p : mesh_.point(other); };
-    const Point a = mesh_.point(n[0]), b = mesh_.point(n[1]);
-    const double width = length(b - a);
-    const double natural = (cell.is_quad ? 1 : height_of_equilateral) * width;
-    const double aim = std::clamp(natural, low_aim * cell.height, high_aim * cell.height);
-    const double doubled = cell.is_quad ? cross(at(n[2]) - a, at(n[3]) - b) / 2 : cross(b - a, at(n[2]) - a);
-    const double share = doubled / (aim * width);
-    return share + 1 / share - 2;
+  /// How far the heights of a node's cells are from what is aimed at, with it at p. The star must be valid
+  /// there.
+  double misfit(std::size_t i, Point p) const {
+    double sum = 0;
+    for (const FrontCell& cell : cells_of_[i]) {
+      const double natural = (cell.is_quad ? 1 : height_of_equilateral) * width_of(cell);
+      const double aim = std::clamp(natural, low_aim * cell.last_layer, high_aim * cell.last_layer);
+      const double ratio = height_of(cell, nodes_[i], p) / aim;
+      sum += ratio + 1 / ratio - 2;
+    }
+    return weight * sum;
   }
 
-  std::optional<Point> better_place(std::size_t i) {
+  std::optional<Point> better_place(std::size_t i) const {
     const NodeId node = nodes_[i];
     if (slide_.freedom(node) == NodeFreedom::sliding) return slide_.towards_middle(node, star_, fixed_);
     const Point p = mesh_.point(node);
-    constexpr double diagonal = 0.70710678118654757;
-    static constexpr std::array<Point, Star::batch> directions{{{1, 0},
-                                                                {diagonal, diagonal},
-                                                                {0, 1},
-                                                                {-diagonal, diagonal},
-                                                                {-1, 0},
-                                                                {-diagonal, -diagonal},
-                                                                {0, -1},
-                                                                {diagonal, -diagonal}}};
-    const auto misfits = [&](Point at) {
-      double sum = 0;
-      for (const std::int32_t c : cells_of_[i]) sum += misfit(cells_[c], node, at);
-      return weight * sum;
-    };
     const StarCost<1> now = star_.cost(p, Objective::power);
     if (!now.valid[0]) return std::nullopt;
-    const double flattest = std::max(cotangent_of_28, now.largest_cotangent[0]),
-                 defect = std::max(defect_at_28, now.largest_defect[0]);
     const double edge = std::sqrt(star_.reference(p));
-    double best = worthwhile * (now.objective[0] + misfits(p));
     for (const double step : steps) {
-      Star::Batch x, y;
-      for (int k = 0; k < Star::batch; ++k) {
-        x[k] = p.x + step * edge * directions[k].x;
-        y[k] = p.y + step * edge * directions[k].y;
-      }
-      const StarCost<Star::batch> cost = star_.cost(x, y, Objective::power);
-      std::optional<Point> found;
-      for (int k = 0; k < Star::batch; ++k) {
-        if (!cost.valid[k] || cost.largest_cotangent[k] > flattest || cost.largest_defect[k] > defect ||
-            cost.objective[k] >= best)
-          continue;
-        const double value = cost.objective[k] + misfits({x[k], y[k]});
-        if (value >= best) continue;
-        best = value;
-        found = Point{x[k], y[k]};
-      }
-      if (found) return found;
+      if (const auto found = best_step(i, p, now, step * edge)) return found;
     }
     return std::nullopt;
+  }
+
+  std::optional<Point> best_step(std::size_t i, Point p, const StarCost<1>& now, double step) const {
+    const double flattest = std::max(cotangent_of_28, now.largest_cotangent[0]),
+                 defect = std::max(defect_at_28, now.largest_defect[0]);
+    Star::Batch x, y;
+    for (int k = 0; k < Star::batch; ++k) {
+      x[k] = p.x + step * directions[k].x;
+      y[k] = p.y + step * directions[k].y;
+    }
+    const StarCost<Star::batch> cost = star_.cost(x, y, Objective::power);
+    double best = worthwhile * (now.objective[0] + misfit(i, p));
+    std::optional<Point> found;
+    for (int k = 0; k < Star::batch; ++k) {
+      if (!cost.valid[k] || cost.largest_cotangent[k] > flattest || cost.largest_defect[k] > defect) continue;
+      const double value = cost.objective[k] + misfit(i, {x[k], y[k]});
+      if (value >= best) continue;
+      best = value;
+      found = Point{x[k], y[k]};
+    }
+    return found;
   }
 
   const Communicator& comm_;
@@ -209,11 +211,10 @@ class LayerFit {
   const BoundarySlide& slide_;
   std::span<const double> heights_;
   std::vector<FrontCell> cells_;
-  std::vector<std::vector<std::int32_t>>
-      cells_of_;  ///< of each node that may move, those it is no front node of
-  std::vector<NodeId> nodes_;
+  std::vector<NodeId> nodes_;  ///< that may move
+  std::vector<std::vector<FrontCell>> cells_of_;
   std::vector<Point> fixed_;
-  Star star_;
+  Star star_;  ///< of the node that is visited
 };
 
 }  // namespace
