@@ -33,37 +33,23 @@ constexpr std::array<Point, Star::batch> directions{{{1, 0},
                                                      {diagonal, -diagonal}}};
 constexpr int rings = 1, most_sweeps = 6;
 
-/// Which side of a cell lies on the front, if any, and the height of the last layer below it.
-struct FrontSide {
-  std::int8_t side = -1;
-  double height = 0;
+/// An edge of the front as the node where it begins has it.
+struct FrontEdge {
+  GlobalNodeId to{-1};
+  double last_layer = 0;  ///< the height of the last layer below it; 0: no front begins there
 };
 
-/// Of the mesh's own cells.
-std::vector<FrontSide> own_sides(const Mesh& mesh, const BoundarySlide& slide,
-                                 std::span<const double> heights) {
-  IdVector<NodeId, NodeId> next(mesh.points.size());
-  IdVector<NodeId, double> height(mesh.points.size(), 0);
-  for (std::int32_t b = 0; b < std::ssize(mesh.boundaries); ++b) {
-    for (const auto& [from, to] : mesh.boundaries[b].edges) {
-      const double h = slide.height_at({from, to, b}, heights);
-      if (h == 0) continue;
-      next[from] = to;
-      height[from] = h;
-    }
+/// Of each node, copies too. *Collective.*
+IdVector<NodeId, FrontEdge> front_edges(const HaloMesh& mesh, const BoundarySlide& slide,
+                                        std::span<const double> heights) {
+  IdVector<NodeId, FrontEdge> edges(mesh.points().size());
+  for (const HaloEdge& edge : mesh.boundary_edges()) {
+    if (!mesh.owns(edge.from)) continue;
+    const double height = slide.height_at(edge, heights);
+    if (height > 0) edges[edge.from] = {mesh.global(edge.to), height};
   }
-  std::vector<FrontSide> sides;
-  const auto add = [&](const auto& cell) {
-    FrontSide found;
-    for (std::size_t k = 0; k < cell.size(); ++k) {
-      const NodeId from = cell[k], to = cell[(k + 1) % cell.size()];
-      if (height[from] > 0 && next[from] == to) found = {static_cast<std::int8_t>(k), height[from]};
-    }
-    sides.push_back(found);
-  };
-  for (const auto& cell : mesh.triangles) add(cell);
-  for (const auto& cell : mesh.quads) add(cell);
-  return sides;
+  mesh.exchange().update(edges);
+  return edges;
 }
 
 /// A cell with a side on the front: its nodes from that side's on, three or four.
@@ -77,17 +63,16 @@ struct FrontCell {
 
 class LayerFit {
  public:
-  LayerFit(const Communicator& comm, HaloMesh& mesh, const Mesh& own, const BoundarySlide& slide,
+  LayerFit(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
            std::span<const double> heights)
       : comm_{comm}, mesh_{mesh}, slide_{slide}, heights_{heights} {
-    const std::vector<FrontSide> sides = mesh.spread(comm, own_sides(own, slide, heights));
-    std::size_t number = 0;
+    const IdVector<NodeId, FrontEdge> edges = front_edges(mesh, slide, heights);
     mesh.for_each_cell([&](const auto& cell) {
-      const FrontSide& front = sides[number++];
-      if (front.side < 0) return;
-      FrontCell found{{}, cell.size() == 4, front.height};
-      for (std::size_t k = 0; k < cell.size(); ++k) found.nodes[k] = cell[(front.side + k) % cell.size()];
-      cells_.push_back(found);
+      for (std::size_t k = 0; k < cell.size(); ++k) {
+        const FrontEdge& edge = edges[cell[k]];
+        if (edge.last_layer > 0 && mesh.global(cell[(k + 1) % cell.size()]) == edge.to)
+          add_cell(cell, k, edge.last_layer);
+      }
     });
   }
 
@@ -111,6 +96,12 @@ class LayerFit {
   }
 
  private:
+  template <std::size_t width>
+  void add_cell(const std::array<NodeId, width>& cell, std::size_t side, double last_layer) {
+    FrontCell found{{}, width == 4, last_layer};
+    for (std::size_t k = 0; k < width; ++k) found.nodes[k] = cell[(side + k) % width];
+    cells_.push_back(found);
+  }
   bool slides_on_front(NodeId node) const {
     return slide_.freedom(node) == NodeFreedom::sliding && slide_.lies_on(node, heights_);
   }
@@ -219,9 +210,9 @@ class LayerFit {
 
 }  // namespace
 
-bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, const Mesh& own, const BoundarySlide& slide,
+bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
                    std::span<const double> heights) {
-  return LayerFit(comm, mesh, own, slide, heights).run();
+  return LayerFit(comm, mesh, slide, heights).run();
 }
 
 }  // namespace quadloop

@@ -12,7 +12,7 @@ namespace quadloop {
 /// go on towards the middle of their neighbours. No angle falls under 28 degrees, or under the smallest one
 /// in a node's star. `heights`: of the last layer at each segment of the outline, 0 where it is no front. The
 /// same bits on any number of ranks. *Collective.* Returns whether any node has moved.
-bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, const Mesh& own, const BoundarySlide& slide,
+bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
                    std::span<const double> heights);
 
 }  // namespace quadloop

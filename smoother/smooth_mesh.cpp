@@ -221,7 +221,7 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
   sweep_in_rounds(comm, halo, slide, targets, before, options, report);
   if (comm.any(!options.front_heights.empty()) && options.sweeps > 0) {
     even_widths(comm, halo, slide, options.front_heights, most_even_sweeps);
-    fit_to_layers(comm, halo, mesh, slide, options.front_heights);
+    fit_to_layers(comm, halo, slide, options.front_heights);
   }
   WorstCell after = worst_cell(comm, halo, targets, before);
   const NodeFlags moved = take_positions(halo, mesh);

@@ -42,8 +42,8 @@ class BoundarySlide {
   /// The longer one of the edges at a sliding node over the shorter one.
   double unevenness(NodeId node) const;
 
-  /// Of each node that stays where it is while two edges with a height meet there their lengths, the one that
-  /// leads to it first; 0 for others. *Collective.*
+  /// Of each node that stays where it is the lengths of the edges with a height there, that which leads to it
+  /// and that which leaves it; 0 where there is none, and for nodes that slide. *Collective.*
   std::vector<Point> widths_at_fixed(std::span<const double> heights) const;
 
   /// A place nearer to the middle between a sliding node's neighbours along the outline, or none: no cell's
