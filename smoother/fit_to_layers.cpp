@@ -13,8 +13,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double lowest = 0.75, highest = 2;   // heights of cells, over that of the last layer, that are left
-constexpr double steepest = 1.3;               // ratio of neighbouring widths that is left
+constexpr double lowest = 0.75, highest = 2;  // heights of cells, over that of the last layer, that are left
+constexpr double steepest = 1.3;              // ratio of neighbouring widths that is left
 constexpr double low_aim = 0.9, high_aim = 1.7;      // heights aimed at lie between these
 constexpr double height_of_equilateral = 0.8660254;  // over its width
 constexpr double weight = 0.04;                      // of a cell's misfit, against the costs of shapes

@@ -204,6 +204,15 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
   }
 }
 
+/// Nodes on the front of layers spread evenly, the cells beside it fitted to the layers. Returns whether any
+/// node has moved. *Collective.*
+bool fit_front(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
+               std::span<const double> heights) {
+  if (!comm.any(!heights.empty())) return false;
+  const bool evened = even_widths(comm, halo, slide, heights, most_even_sweeps);
+  return fit_to_layers(comm, halo, slide, heights) || evened;
+}
+
 /// Sweeps, then flips; what the flips make of the worst cell is seen in the report. *Collective.*
 SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
   SmoothReport report;
@@ -219,14 +228,12 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
   if (may_move_lines && move_level_lines(comm, halo, options.pinned, options.bad))
     before = survey(comm, halo, targets, options.threshold);
   sweep_in_rounds(comm, halo, slide, targets, before, options, report);
-  if (comm.any(!options.front_heights.empty()) && options.sweeps > 0) {
-    even_widths(comm, halo, slide, options.front_heights, most_even_sweeps);
-    fit_to_layers(comm, halo, slide, options.front_heights);
-  }
+  const bool fitted = options.sweeps > 0 && fit_front(comm, halo, slide, options.front_heights);
+  if (fitted) before.near = NodeFlags(halo.points().size(), 1);
   WorstCell after = worst_cell(comm, halo, targets, before);
   const NodeFlags moved = take_positions(halo, mesh);
   const bool sound = after.inverted == 0 || !comm.any(any_turns_right(mesh));
-  if (options.delaunay && sound && report.moves > 0) {
+  if (options.delaunay && sound && (report.moves > 0 || fitted)) {
     if (options.keep_slots) restore_delaunay(comm, mesh, moved, options.delaunay, options.triangle_to_block);
     if (!options.keep_slots) report.standing = restore_delaunay_nearby(comm, mesh, moved, options.delaunay);
     after = worst_triangle(comm, mesh);
