@@ -11,7 +11,9 @@
 #include "mesher/mesh/node_exchange.hpp"
 #include "smoother/binary_unit.hpp"
 #include "smoother/even_widths.hpp"
+#include "smoother/fit_to_layers.hpp"
 #include "smoother/level_lines.hpp"
+#include "smoother/rings.hpp"
 #include "smoother/sweeper.hpp"
 
 namespace quadloop {
@@ -69,16 +71,6 @@ struct Survey {
   NodeFlags parallel;         ///< of parallelograms; right for owned nodes
 };
 
-template <class Nodes>
-bool any_flagged(const NodeFlags& flags, const Nodes& nodes) {
-  return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[n] != 0; });
-}
-
-template <class Nodes>
-void flag_all(const Nodes& nodes, NodeFlags& flags) {
-  for (const NodeId node : nodes) flags[node] = 1;
-}
-
 WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) {
   return {comm.maximum(worst.cost), comm.sum(worst.inverted)};
 }
@@ -87,19 +79,6 @@ WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) {
 void include(WorstCell& worst, const HaloMesh& mesh, NodeId first, double cost) {
   worst.cost = std::max(worst.cost, cost);
   worst.inverted += cost >= 1 && mesh.owns(first) ? 1 : 0;
-}
-
-/// Flags the nodes of cells that have a flagged one, so many times; `flags` count for owned nodes alone and
-/// are right for all. *Collective.*
-void grow(const HaloMesh& mesh, NodeFlags& flags, int rings) {
-  for (int ring = 0; ring < rings; ++ring) {
-    mesh.exchange().update(flags);
-    const NodeFlags before = flags;
-    mesh.for_each_cell([&](const auto& nodes) {
-      if (any_flagged(before, nodes)) flag_all(nodes, flags);
-    });
-  }
-  mesh.exchange().update(flags);
 }
 
 bool is_parallelogram(const std::array<Point, 4>& p) { return is_square(p) || skew_of(p) <= parallel_skew; }
@@ -225,6 +204,15 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
   }
 }
 
+/// Nodes on the front of layers spread evenly, the cells beside it fitted to the layers. Returns whether any
+/// node has moved. *Collective.*
+bool fit_front(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
+               std::span<const double> heights) {
+  if (!comm.any(!heights.empty())) return false;
+  const bool evened = even_widths(comm, halo, slide, heights, most_even_sweeps);
+  return fit_to_layers(comm, halo, slide, heights) || evened;
+}
+
 /// Sweeps, then flips; what the flips make of the worst cell is seen in the report. *Collective.*
 SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
   SmoothReport report;
@@ -240,12 +228,12 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
   if (may_move_lines && move_level_lines(comm, halo, options.pinned, options.bad))
     before = survey(comm, halo, targets, options.threshold);
   sweep_in_rounds(comm, halo, slide, targets, before, options, report);
-  if (comm.any(!options.even_segments.empty()) && options.sweeps > 0)
-    even_widths(comm, halo, slide, options.even_segments, most_even_sweeps);
+  const bool fitted = options.sweeps > 0 && fit_front(comm, halo, slide, options.front_heights);
+  if (fitted) before.near = NodeFlags(halo.points().size(), 1);
   WorstCell after = worst_cell(comm, halo, targets, before);
   const NodeFlags moved = take_positions(halo, mesh);
   const bool sound = after.inverted == 0 || !comm.any(any_turns_right(mesh));
-  if (options.delaunay && sound && report.moves > 0) {
+  if (options.delaunay && sound && (report.moves > 0 || fitted)) {
     if (options.keep_slots) restore_delaunay(comm, mesh, moved, options.delaunay, options.triangle_to_block);
     if (!options.keep_slots) report.standing = restore_delaunay_nearby(comm, mesh, moved, options.delaunay);
     after = worst_triangle(comm, mesh);
@@ -315,6 +303,7 @@ SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptio
   std::optional<Geometry> scaled_geometry;
   if (options.geometry != nullptr)
     scaled_options.geometry = &scaled_geometry.emplace(unit.into(*options.geometry));
+  for (double& height : scaled_options.front_heights) height = unit.into(Point{height, 0}).x;
   if (options.delaunay) scaled_options.delaunay = [&](Point p) { return options.delaunay(unit.out_of(p)); };
   for (Point& p : mesh.points) p = unit.into(p);
   const SmoothReport report = smooth_ordinary(comm, mesh, scaled_options);

@@ -26,9 +26,10 @@ struct SmoothOptions {
                        ///< degrees does
   const Geometry* geometry = nullptr;  ///< the outline that boundary nodes slide along; without it they slide
                                        ///< where the mesh's own is straight
-  std::vector<char> even_segments;  ///< a flag for each segment of the geometry along which the nodes are to
-                                    ///< be spread evenly, or none at all
-  NodeFlags pinned;                 ///< a flag for each owned node that must stay, or none at all
+  /// For each segment of the geometry on which layers end the height of the last one, 0 for others; or none
+  /// at all. Nodes there are spread evenly, and the cells beside them brought to a height near it.
+  std::vector<double> front_heights;
+  NodeFlags pinned;                        ///< a flag for each owned node that must stay, or none at all
   std::function<TieRank(Point)> delaunay;  ///< if set, the mesh is Delaunay under this order of nodes, and is
                                            ///< made so again by flips in the end
   /// Of each own triangle, or none: flips keep edges between two blocks.

@@ -12,8 +12,9 @@ namespace quadloop {
   DO(CPLErrorReset)                                                                                          \
   DO(CPLGetLastErrorMsg)                                                                                     \
   DO(CPLGetLastErrorType)                                                                                    \
-  DO(CPLPopErrorHandler) DO(CPLPushErrorHandler) DO(CPLQuietErrorHandler) DO(GDALAllRegister) DO(GDALClose)  \
-      DO(GDALDatasetGetLayer) DO(GDALDatasetGetLayerCount) DO(GDALOpenEx) DO(OGR_F_Destroy) DO(OGR_F_GetFID) \
+  DO(CPLPopErrorHandler)                                                                                     \
+  DO(CPLPushErrorHandler) DO(CPLQuietErrorHandler) DO(GDALAllRegister) DO(GDALClose) DO(GDALDatasetGetLayer) \
+      DO(GDALDatasetGetLayerCount) DO(GDALOpenEx) DO(OGR_F_Destroy) DO(OGR_F_GetFID)                         \
           DO(OGR_F_GetFieldAsString) DO(OGR_F_GetFieldIndex) DO(OGR_F_GetGeometryRef)                        \
               DO(OGR_F_IsFieldSetAndNotNull) DO(OGR_G_Clone) DO(OGR_G_DestroyGeometry)                       \
                   DO(OGR_G_GetGeometryCount) DO(OGR_G_GetGeometryRef) DO(OGR_G_GetGeometryType)              \

@@ -64,8 +64,7 @@ void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result
 MeshInput outside(const MeshInput& input, const LayerFront& front) {
   MeshInput outer = input;
   outer.geometry = front.outer;
-  for (const std::int32_t station : front.station_of)
-    outer.smooth.even_segments.push_back(station != WallLine::none);
+  outer.smooth.front_heights = front.last_heights;
   const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
   outer.mesh.size.root =
       RootOptions{lattice.box().low, lattice.tree_edge(), lattice.trees_x(), lattice.trees_y()};

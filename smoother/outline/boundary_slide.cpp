@@ -31,7 +31,8 @@ BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
     : mesh_{mesh},
       boundaries_{boundaries},
       outline_{outline},
-      freedom_(mesh.owned_nodes(), NodeFreedom::interior) {
+      freedom_(mesh.owned_nodes(), NodeFreedom::interior),
+      located_(mesh.points().size()) {
   for (const BoundaryEdges& boundary : boundaries)
     outlined_.push_back(outline != nullptr && outline->has(boundary.name) ? 1 : 0);
   if (outline != nullptr) find_tight_segments(comm);
@@ -131,9 +132,18 @@ bool BoundarySlide::is_straight(const Rail& rail) const {
 
 /// The chords' ends may be kept vertices, whose places are those of any other point.
 BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
-  const std::string& name = boundaries_[rail.boundary].name;
-  return {outline_->locate(point(rail.before), name, true), outline_->locate(point(rail.node), name, false),
-          outline_->locate(point(rail.after), name, true)};
+  return {place_of(rail.before, rail.boundary, true), place_of(rail.node, rail.boundary, false),
+          place_of(rail.after, rail.boundary, true)};
+}
+
+OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary, bool also_kept) const {
+  Located& last = located_[node];
+  const bool valid_for_both = last.place.valid() && !last.also_kept;
+  if (last.boundary != boundary || last.point != point(node) ||
+      (last.also_kept != also_kept && !valid_for_both))
+    last = {point(node), outline_->locate(point(node), boundaries_[boundary].name, also_kept), boundary,
+            also_kept};
+  return last.place;
 }
 
 bool BoundarySlide::may_slide(const Rail& rail) const {
@@ -199,7 +209,7 @@ std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objec
   return std::nullopt;
 }
 
-bool BoundarySlide::lies_on(NodeId node, std::span<const char> segments) const {
+bool BoundarySlide::lies_on(NodeId node, std::span<const double> heights) const {
   const Rail& rail = rail_of(node);
   if (!is_outlined(rail.boundary)) return false;
   const Places places = locate(rail);
@@ -209,15 +219,47 @@ bool BoundarySlide::lies_on(NodeId node, std::span<const char> segments) const {
   const double back = outline_->way(places.before, places.at), ahead = outline_->way(places.at, places.after);
   const auto between = outline_->segments_between({places.at.loop, places.at.arc - back / 2},
                                                   {places.at.loop, places.at.arc + ahead / 2});
-  return !between.empty() && std::ranges::all_of(between, [&](std::int32_t s) { return segments[s] != 0; });
+  return !between.empty() && std::ranges::all_of(between, [&](std::int32_t s) { return heights[s] > 0; });
 }
 
-std::optional<Point> BoundarySlide::towards_middle(NodeId node, const Star& star) const {
+double BoundarySlide::height_at(const HaloEdge& edge, std::span<const double> heights) const {
+  const auto chord = chord_of(edge);
+  if (!chord) return 0;
+  const OutlinePlace middle{chord->from.loop, chord->from.arc + outline_->way(chord->from, chord->to) / 2};
+  return heights[outline_->segments_between(middle, middle).front()];
+}
+
+double BoundarySlide::unevenness(NodeId node) const {
+  const Rail& rail = rail_of(node);
+  const double back = length(point(node) - point(rail.before)),
+               ahead = length(point(rail.after) - point(node));
+  return std::max(back, ahead) / std::min(back, ahead);
+}
+
+std::vector<Point> BoundarySlide::widths_at_fixed(std::span<const double> heights) const {
+  std::vector<Point> widths(mesh_.points().size());
+  for (const HaloEdge& edge : mesh_.boundary_edges()) {
+    const auto is_fixed = [&](NodeId n) { return mesh_.owns(n) && freedom_[n] == NodeFreedom::fixed; };
+    if ((!is_fixed(edge.from) && !is_fixed(edge.to)) || !(height_at(edge, heights) > 0)) continue;
+    const double width = length(point(edge.to) - point(edge.from));
+    if (is_fixed(edge.from)) widths[edge.from.value()].y = width;
+    if (is_fixed(edge.to)) widths[edge.to.value()].x = width;
+  }
+  mesh_.exchange().update(widths);
+  return widths;
+}
+
+std::optional<Point> BoundarySlide::towards_middle(NodeId node, const Star& star,
+                                                   std::span<const Point> fixed) const {
   const Rail& rail = rail_of(node);
   const Places places = locate(rail);
   if (!places.before.valid() || !places.at.valid() || !places.after.valid()) return std::nullopt;
   const double back = outline_->way(places.before, places.at), ahead = outline_->way(places.at, places.after);
-  const double step = step_to_middle * (ahead - back);
+  const double beyond_back = fixed[rail.before.value()].x, beyond_ahead = fixed[rail.after.value()].y;
+  double middle = (back + ahead) / 2;
+  if (beyond_back > 0) middle = std::min(middle, std::sqrt(beyond_back * ahead));
+  if (beyond_ahead > 0) middle = std::max(middle, back + ahead - std::sqrt(beyond_ahead * back));
+  const double step = step_to_middle * 2 * (middle - back);
   if (std::abs(step) <= even_enough * (ahead + back)) return std::nullopt;
   const OutlinePlace moved{places.at.loop, places.at.arc + step};
   const Point to = outline_->point_at(moved);

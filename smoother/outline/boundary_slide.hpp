@@ -32,12 +32,25 @@ class BoundarySlide {
   /// untangles.
   std::optional<Point> improve(NodeId node, const Star& star, Objective objective) const;
 
-  /// Whether a sliding node and the ways to both its neighbours lie on flagged segments of the outline.
-  bool lies_on(NodeId node, std::span<const char> segments) const;
+  /// Whether a sliding node and the ways to both its neighbours lie on segments of the outline that have a
+  /// height.
+  bool lies_on(NodeId node, std::span<const double> heights) const;
+
+  /// The height of the segment in the middle of a boundary edge; 0 where that is none of the outline.
+  double height_at(const HaloEdge& edge, std::span<const double> heights) const;
+
+  /// The longer one of the edges at a sliding node over the shorter one.
+  double unevenness(NodeId node) const;
+
+  /// Of each node that stays where it is the lengths of the edges with a height there, that which leads to it
+  /// and that which leaves it; 0 where there is none, and for nodes that slide. *Collective.*
+  std::vector<Point> widths_at_fixed(std::span<const double> heights) const;
 
   /// A place nearer to the middle between a sliding node's neighbours along the outline, or none: no cell's
-  /// angle may fall under 28 degrees, or under the smallest one now.
-  std::optional<Point> towards_middle(NodeId node, const Star& star) const;
+  /// angle may fall under 28 degrees, or under the smallest one now. Beside a node that stays it is a place
+  /// nearer to the one that makes an even step to the width beyond that node, if that is smaller; `fixed` as
+  /// widths_at_fixed has it.
+  std::optional<Point> towards_middle(NodeId node, const Star& star, std::span<const Point> fixed) const;
 
  private:
   /// The boundary through a sliding node.
@@ -58,6 +71,7 @@ class BoundarySlide {
   bool is_straight(const Rail& rail) const;
   bool is_outlined(std::int32_t boundary) const { return outlined_[boundary] != 0; }
   Places locate(const Rail& rail) const;
+  OutlinePlace place_of(NodeId node, std::int32_t boundary, bool also_kept) const;
   const Point& point(NodeId node) const { return mesh_.point(node); }
   const Rail& rail_of(NodeId node) const;
   bool keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const;
@@ -68,6 +82,14 @@ class BoundarySlide {
   std::vector<char> outlined_;  ///< a flag for each boundary: the outline has it
   IdVector<NodeId, NodeFreedom> freedom_;
   std::vector<Rail> rails_;  ///< by node
+  /// Where a node was on the outline when it was asked for last: the place is a function of the point.
+  struct Located {
+    Point point;
+    OutlinePlace place;
+    std::int32_t boundary = -1;
+    bool also_kept = false;
+  };
+  mutable IdVector<NodeId, Located> located_;
   /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for:
   /// nodes there stay, as chords that keep clear of the other parts of the outline could still meet one
   /// another. Ascending.

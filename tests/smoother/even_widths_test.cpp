@@ -28,7 +28,7 @@ struct Uneven {
 
 /// The positions after so many sweeps over `segments`, by the nodes' numbers; and whether any has moved.
 std::pair<bool, std::map<std::int64_t, Point>> spread(const Communicator& comm, const Uneven& uneven,
-                                                      const std::vector<char>& segments, int sweeps) {
+                                                      const std::vector<double>& segments, int sweeps) {
   Mesh part = scatter_mesh(comm, uneven.mesh, own_order(uneven.mesh));
   HaloMesh halo(comm, part);
   const OutlinePath path(uneven.square);
@@ -83,8 +83,8 @@ TEST(EvenWidths, AreSmoothingsLastStepWhereItIsAskedFor) {
   const Uneven uneven;
   SmoothOptions options;
   options.geometry = &uneven.square;
-  const auto unevenness_after = [&](std::vector<char> segments, int sweeps) {
-    options.even_segments = std::move(segments);
+  const auto unevenness_after = [&](std::vector<double> segments, int sweeps) {
+    options.front_heights = std::move(segments);
     options.sweeps = sweeps;
     const Mesh mesh = test::smoothed_alone(uneven.mesh, options);
     std::map<std::int64_t, Point> positions;

@@ -83,9 +83,13 @@ class Columns {
   }
   bool has_width(std::int32_t i) const { return line_.width(i) > 0; }
 
+  /// Against the normal that the column leans away from more; at a turn away from the domain the other one,
+  /// or a column there would stand out from those beside it.
   double cosine_of_tilt(std::int32_t i) const {
-    return std::min(dot(columns_.direction[i], left_of(line_[i].before)),
-                    dot(columns_.direction[i], left_of(line_[i].after)));
+    const Station& station = line_[i];
+    const auto [less, more] = std::minmax({dot(columns_.direction[i], left_of(station.before)),
+                                           dot(columns_.direction[i], left_of(station.after))});
+    return cross(station.before, station.after) < 0 ? more : less;
   }
 
   /// How far columns converge on the place after a station: 1 to 0.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "mesher/base/error.hpp"
@@ -56,6 +57,8 @@ class OuterOutline {
     into.strips = std::move(strips_);
     into.outer = Geometry(std::move(boundaries), std::move(points_), std::move(starts_), std::move(boundary_))
                      .with({std::move(spacing_), std::move(kept_), std::move(bend_)});
+    for (const std::int32_t i : station_of_)
+      into.last_heights.push_back(i == WallLine::none ? 0 : (last_layer(i) + last_layer(line_.next(i))) / 2);
     into.station_of = std::move(station_of_);
   }
 
@@ -104,7 +107,7 @@ class OuterOutline {
   double front_width(std::int32_t i) const {
     return line_.width(i) == 0 ? 0 : length(fitting_.front[line_.next(i)] - fitting_.front[i]);
   }
-  double wall_spacing(std::int32_t i) const;
+  double spacing_of_turns(std::int32_t i) const;
   double last_layer(std::int32_t i) const;
 
   const WallLine& line_;
@@ -179,12 +182,12 @@ double OuterOutline::last_layer(std::int32_t i) const {
   return column.reached[spec.count] - column.reached[spec.count - 1];
 }
 
-/// What the wall asks for between a station and the next: by its boundary, and by the turns at the ends of
-/// its segment, as if each were spread over half of either side. (The front's own turns are no measure: they
-/// are those of columns which spread or converge.)
-double OuterOutline::wall_spacing(std::int32_t i) const {
+/// The widths of columns on the wall that its turns ask for between a station and the next, each turn as if
+/// spread over half of either side. (The front's own turns are no measure: they are those of columns which
+/// spread or converge.)
+double OuterOutline::spacing_of_turns(std::int32_t i) const {
   const std::int32_t s = line_[i].segment, next = g_.next(s);
-  double spacing = g_.spacing_of(s);
+  double spacing = std::numeric_limits<double>::infinity();
   if (!curvature_) return spacing;
   for (const std::int32_t v : {s, next}) {
     const double around =
@@ -214,7 +217,9 @@ double OuterOutline::spacing_after(std::int32_t i) const {
   const std::int32_t j = line_.next(i);
   const double spacing = leaf_over_last_layer * std::min(last_layer(i), last_layer(j));
   if (line_.width(i) == 0) return std::max(spacing, sine_of_sector * fitting_.thickness[i]);
-  return std::min(spacing, wall_spacing(i) * std::min(1.0, spread(i)));
+  const double wider = spread(i);
+  return std::min(
+      {spacing, g_.spacing_of(line_[i].segment) * std::min(1.0, wider), spacing_of_turns(i) * wider});
 }
 
 /// The fronts of strips keep away from everything else, and from themselves: two segments meet where one
@@ -252,7 +257,7 @@ LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature
   }
   WallLine line(geometry, wall_runs(geometry, bases_of(geometry, placed)), wakes);
   FittingColumns fitting = fit_thickness(line);
-  LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}};
+  LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}};
   OuterOutline(front.line, fitting, placed, curvature).build(front);
   require_disjoint(front);
   front.thickness = std::move(fitting.thickness);

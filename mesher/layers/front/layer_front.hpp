@@ -23,6 +23,8 @@ struct LayerFront {
   Geometry outer;
   /// Of each of outer's segments: the station where it begins, or WallLine::none where it is no wall's front.
   std::vector<std::int32_t> station_of;
+  /// The same: the height of the last layer there, or 0.
+  std::vector<double> last_heights;
 
   /// Layers on both sides of lines. Their fronts are outer's last boundary, if there are any.
   std::vector<LayerStrip> strips;

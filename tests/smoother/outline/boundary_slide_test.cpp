@@ -138,7 +138,7 @@ struct InASquare {
 TEST(BoundarySlide, TellsWhichNodesLieOnFlaggedSegments) {
   const InASquare in;
   const Sliding s(in.mesh, &in.square);
-  const std::vector<char> south{1, 0, 0, 0}, none(4, 0);
+  const std::vector<double> south{1, 0, 0, 0}, none(4, 0);
   for (const int node : {1, 2, 3, 4, 5}) {
     EXPECT_TRUE(s.slide->lies_on(NodeId{node}, south)) << node;
     EXPECT_FALSE(s.slide->lies_on(NodeId{node}, none)) << node;
@@ -153,7 +153,7 @@ TEST(BoundarySlide, AnEighthOfTheDifferenceTowardsTheMiddle) {
     const Sliding s(in.mesh, &in.square);
     Star star;
     s.stars->gather(node, star);
-    return s.slide->towards_middle(NodeId{node}, star);
+    return s.slide->towards_middle(NodeId{node}, star, std::vector<Point>(in.mesh.points.size()));
   };
   const auto to = moved(3);
   ASSERT_TRUE(to.has_value());
@@ -170,7 +170,37 @@ TEST(BoundarySlide, NoAngleFallsUnder28DegreesOnTheWayToTheMiddle) {
   const Sliding s(in.mesh, &in.square);
   Star star;
   s.stars->gather(3, star);
-  EXPECT_FALSE(s.slide->towards_middle(NodeId{3}, star).has_value());
+  const std::vector<Point> none(in.mesh.points.size());
+  EXPECT_FALSE(s.slide->towards_middle(NodeId{3}, star, none).has_value());
+}
+
+TEST(BoundarySlide, BesideANodeThatStaysTheWidthBeyondItCountsToo) {
+  InASquare in;
+  in.mesh.points.begin()[13].y = 0.05;  // east of the corner, node 6
+  const Sliding s(in.mesh, &in.square);
+  const std::vector<Point> fixed = s.slide->widths_at_fixed(std::vector<double>{1, 1, 0, 0});
+  EXPECT_NEAR(fixed[6].x, 1.0 / 6, 1e-12);
+  EXPECT_NEAR(fixed[6].y, 0.05, 1e-12);
+  EXPECT_EQ(fixed[5], Point()) << "it slides";
+  EXPECT_EQ(s.slide->widths_at_fixed(std::vector<double>(4, 0))[6], Point());
+  const auto moved = [&](int node, const std::vector<Point>& widths) {
+    Star star;
+    s.stars->gather(node, star);
+    return s.slide->towards_middle(NodeId{node}, star, widths);
+  };
+  EXPECT_FALSE(moved(5, std::vector<Point>(fixed.size())).has_value()) << "in the middle";
+  const auto to = moved(5, fixed);
+  ASSERT_TRUE(to.has_value());
+  EXPECT_NEAR(to->x, 5.0 / 6 + 0.25 * (1.0 / 6 - std::sqrt(0.05 / 6)), 1e-12);
+}
+
+TEST(BoundarySlide, HeightsAreThoseOfTheSegmentInTheMiddleOfAnEdge) {
+  InASquare in;
+  const Sliding s(in.mesh, &in.square);
+  const std::vector<double> heights{3, 4, 0, 0};
+  EXPECT_EQ(s.slide->height_at({NodeId{5}, NodeId{6}, 0}, heights), 3);
+  EXPECT_EQ(s.slide->height_at({NodeId{6}, NodeId{13}, 0}, heights), 4);
+  EXPECT_NEAR(s.slide->unevenness(NodeId{3}), (2.0 / 3 - 0.4) / (0.4 - 1.0 / 3), 1e-12);
 }
 
 TEST(BoundarySlide, AnOutlineOfOtherNamesIsNone) {

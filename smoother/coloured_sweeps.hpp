@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "smoother/node_stars.hpp"
+
+namespace quadloop {
+
+/// Sweeps over the nodes that may move, colour by colour; a node is visited where something in its star has
+/// moved since it was visited last.
+class ColouredSweeps {
+ public:
+  /// Mesh and stars must outlive it. *Collective.*
+  ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars);
+
+  /// Whether the i-th node or one that it shares a cell with has moved since it was last visited.
+  bool is_stale(std::size_t i) const { return stale_[i] != 0; }
+  /// Those round which something has moved, other ranks' nodes too, since this was asked last; at first all.
+  std::vector<std::int32_t> take_changed();
+
+  /// Asks `place(i)` for a new place, or none, of each stale node for which `is_active(i)`. Returns the
+  /// number of nodes moved on this rank. *Collective.*
+  template <class IsActive, class Place>
+  std::int64_t sweep(const IsActive& is_active, const Place& place) {
+    std::int64_t moves = 0;
+    for (const auto& nodes : by_colour_) {
+      for (const std::size_t i : nodes) {
+        if (!is_stale(i) || !is_active(i)) continue;
+        stale_[i] = 0;
+        const std::optional<Point> to = place(i);
+        if (!to) continue;
+        move(i, *to);
+        ++moves;
+      }
+      share_moves();
+    }
+    return moves;
+  }
+
+ private:
+  void move(std::size_t i, Point to);
+  void share_moves();
+  void say_moved(NodeId node);
+
+  HaloMesh& mesh_;
+  const NodeStars& stars_;
+  std::vector<std::vector<std::size_t>> by_colour_;
+  std::vector<char> stale_;
+  std::vector<std::int32_t> changed_;  ///< what take_changed() will give,
+  std::vector<char> is_changed_;       ///< flagged
+  NodeFlags moved_;                    ///< nodes that have moved in this colour
+  std::vector<NodeId> own_moves_;      ///< the same, this rank's
+};
+
+}  // namespace quadloop

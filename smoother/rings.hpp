@@ -1,0 +1,32 @@
+#pragma once
+
+#include <algorithm>
+
+#include "mesher/mesh/halo_mesh.hpp"
+
+namespace quadloop {
+
+template <class Nodes>
+bool any_flagged(const NodeFlags& flags, const Nodes& nodes) {
+  return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[n] != 0; });
+}
+
+template <class Nodes>
+void flag_all(const Nodes& nodes, NodeFlags& flags) {
+  for (const NodeId node : nodes) flags[node] = 1;
+}
+
+/// Flags the nodes of cells that have a flagged one, so many times; `flags` count for owned nodes alone and
+/// are right for all. *Collective.*
+inline void grow(const HaloMesh& mesh, NodeFlags& flags, int rings) {
+  for (int ring = 0; ring < rings; ++ring) {
+    mesh.exchange().update(flags);
+    const NodeFlags before = flags;
+    mesh.for_each_cell([&](const auto& nodes) {
+      if (any_flagged(before, nodes)) flag_all(nodes, flags);
+    });
+  }
+  mesh.exchange().update(flags);
+}
+
+}  // namespace quadloop
