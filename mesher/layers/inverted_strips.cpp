@@ -37,9 +37,12 @@ std::vector<std::int32_t> stations_between(const WallLine& line, const FrontPlac
   return stations;
 }
 
-/// Whether they lie in one fan, or at a wake.
-bool in_fan(const WallLine& line, const FrontPlace& first) {
-  return line[first.station].shape == Station::Shape::fan && line.width(first.station) == 0;
+/// Whether both lie in one fan, so that no wall is between their columns.
+bool in_one_fan(const WallLine& line, const FrontPlace& first, const FrontPlace& second) {
+  for (std::int32_t i = first.station; i != second.station; i = line.next(i)) {
+    if (line.width(i) > 0) return false;
+  }
+  return second.at_station() || line.width(second.station) == 0;
 }
 
 }  // namespace
@@ -54,7 +57,7 @@ std::vector<InvertedStrip> inverted_strips(const LayerFront& front, const Mesh& 
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const Point from = outer.point(edges[e][0]), to = outer.point(edges[e][1]);
       const FrontPlace first = places.locate(from, boundary), second = places.locate(to, boundary);
-      if (!places.follows(first, second) || in_fan(front.line, first)) continue;
+      if (!places.follows(first, second) || in_one_fan(front.line, first, second)) continue;
       if (are_positive(column_to(front, first, from), column_to(front, second, to))) continue;
       strips.push_back({edges[e], edge_leaves[b][e], stations_between(front.line, first, second)});
     }
