@@ -173,10 +173,10 @@ class OutsideMesh {
 
   bool columns_stand_when_smooth() {
     smooth(comm_, outer_, pinned_, mesh_);
-    const std::vector<GlobalNodeId> inverted = nodes_of_inverted(comm_, front_, mesh_.result);
-    pinned_.insert(pinned_.end(), inverted.begin(), inverted.end());
+    const std::vector<GlobalNodeId> unsound = unsound_nodes(comm_, front_, mesh_.result);
+    pinned_.insert(pinned_.end(), unsound.begin(), unsound.end());
     std::ranges::sort(pinned_);
-    return inverted.empty();
+    return unsound.empty();
   }
 
   void discard() { trials_.append(std::exchange(mesh_, {}).times); }

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "mesher/base/log.hpp"
-#include "mesher/layers/inverted_strips.hpp"
+#include "mesher/layers/unsound_strips.hpp"
 
 namespace quadloop {
 
@@ -35,15 +35,15 @@ int levels_for(const LayerFront& front, std::int32_t station, double edge) {
 
 bool refine_front(const Communicator& comm, const Lattice& lattice, const MeshResult& outside,
                   LayerFront& front, DemandedSplits& splits) {
-  const std::vector<InvertedStrip> strips = inverted_strips(front, outside.mesh, outside.edge_leaves);
+  const std::vector<UnsoundStrip> strips = unsound_strips(comm, front, outside.mesh, outside.edge_leaves);
   const std::int64_t count = comm.sum(std::ssize(strips));
   if (count == 0) return false;
-  log::detail(fmt::format("layers: cells would be inverted on {} edges of the front; meshed again", count));
+  log::detail(fmt::format("layers cannot stand on {} edges of the front; meshed again", count));
   std::vector<SplitDemand> demands;
   std::vector<std::int32_t> kept;
-  for (const InvertedStrip& strip : strips) {
+  for (const UnsoundStrip& strip : strips) {
     const int level = outside.tree.leaves[strip.leaf].level;
-    const Point middle = 0.5 * (outside.mesh.point(strip.chord[0]) + outside.mesh.point(strip.chord[1]));
+    const Point middle = 0.5 * (outside.mesh.point(strip.edge[0]) + outside.mesh.point(strip.edge[1]));
     if (strip.stations.empty()) demands.push_back(split_at(lattice, middle, level));
     for (const std::int32_t station : strip.stations) {
       const int levels = levels_for(front, station, lattice.edge(level));
@@ -57,11 +57,11 @@ bool refine_front(const Communicator& comm, const Lattice& lattice, const MeshRe
   return true;
 }
 
-std::vector<GlobalNodeId> nodes_of_inverted(const Communicator& comm, const LayerFront& front,
-                                            const MeshResult& outside) {
+std::vector<GlobalNodeId> unsound_nodes(const Communicator& comm, const LayerFront& front,
+                                        const MeshResult& outside) {
   std::vector<GlobalNodeId> nodes;
-  for (const InvertedStrip& strip : inverted_strips(front, outside.mesh, outside.edge_leaves)) {
-    for (const NodeId node : strip.chord) nodes.push_back(outside.mesh.global(node));
+  for (const UnsoundStrip& strip : unsound_strips(comm, front, outside.mesh, outside.edge_leaves)) {
+    for (const NodeId node : strip.edge) nodes.push_back(outside.mesh.global(node));
   }
   return comm.all_gather_values(std::span<const GlobalNodeId>(nodes));
 }
