@@ -70,7 +70,7 @@ class Vicinity {
 class Fitting {
  public:
   explicit Fitting(const WallLine& line)
-      : line_{line}, vicinity_{line}, h_(line.size()), meets_(line.size()) {
+      : line_{line}, vicinity_{line}, h_(line.size()), meets_(line.size()), columns_on_wall_{line} {
     for (std::int32_t i = 0; i < line_.size(); ++i) h_[i] = line_.asked(i);
     gather_walls();
   }
@@ -95,7 +95,7 @@ class Fitting {
  private:
   /// Notes which stations' fronts have moved: only these need to be looked at again.
   void renew_columns() {
-    columns_ = columns_on_wall(line_, h_);
+    columns_ = columns_on_wall_.fit(h_);
     std::vector<Point> before = std::exchange(front_, {});
     before.resize(line_.size());
     moved_.clear();
@@ -141,7 +141,7 @@ class Fitting {
   /// From how far the next wall is along each column.
   void guess() {
     limit_slopes();
-    columns_ = columns_on_wall(line_, h_);
+    columns_ = columns_on_wall_.fit(h_);
     std::vector<double> guessed = h_;
     for (std::int32_t i = 0; i < line_.size(); ++i) {
       vicinity_.move_to(i, own_reach * h_[i]);
@@ -232,7 +232,7 @@ class Fitting {
   /// its rims is one-to-one.
   void mark_unproved() {
     for (std::int32_t i = 0; i < line_.size(); ++i) {
-      if (!place_exists(i) || is_positive(i)) continue;
+      if (!place_exists(i) || !front_moved(i) || is_positive(i)) continue;
       meets_[i] = meets_[line_.next(i)] = 1;
     }
     mark_crossing_fronts();
@@ -266,6 +266,7 @@ class Fitting {
   std::vector<Segment> walls_;  ///< one for each station, then those without layers
   std::vector<std::int32_t> other_segments_;
   BoxTree wall_tree_;
+  ColumnsOnWall columns_on_wall_;
   WallColumns columns_;
   std::vector<Point> front_;
 };
