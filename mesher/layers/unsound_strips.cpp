@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/geometry/predicates.hpp"
@@ -23,12 +24,6 @@ bool are_positive(const std::vector<Point>& a, const std::vector<Point>& b) {
     }
   }
   return true;
-}
-
-std::vector<Point> column_to(const LayerFront& front, const FrontPlace& place, Point node) {
-  std::vector<Point> column = layer_column(front, place, node);
-  column.push_back(node);
-  return column;
 }
 
 /// After the first place, before the second one.
@@ -61,7 +56,9 @@ class Survey {
   Survey(const LayerFront& front, const Mesh& outer,
          const std::vector<std::vector<std::int32_t>>& edge_leaves)
       : front_{front}, outer_{outer}, edge_leaves_{edge_leaves}, places_{front} {
+    columns_.resize(outer_.points.size());
     for (std::size_t b = 0; b < outer_.boundaries.size(); ++b) look_at(b);
+    columns_ = {};
   }
 
   std::vector<UnsoundStrip> unsound(const Communicator& comm) && {
@@ -77,7 +74,16 @@ class Survey {
 
  private:
   void look_at(std::size_t b);
-  bool is_sound(const UnsoundStrip& strip, const std::array<FrontPlace, 2>& places, Chord& chord) const;
+  bool is_sound(const UnsoundStrip& strip, const std::array<FrontPlace, 2>& places, Chord& chord);
+  /// From the wall to the node of the front, which is its last point.
+  const std::vector<Point>& column_to(NodeId node, const FrontPlace& place) {
+    std::vector<Point>& column = columns_[node];
+    if (column.empty()) {
+      column = layer_column(front_, place, outer_.point(node));
+      column.push_back(outer_.point(node));
+    }
+    return column;
+  }
 
   void mark_pinched(const std::vector<Chord>& all) {
     std::vector<GlobalNodeId> begins, twice;
@@ -112,6 +118,7 @@ class Survey {
   const Mesh& outer_;
   const std::vector<std::vector<std::int32_t>>& edge_leaves_;
   FrontPlaces places_;
+  IdVector<NodeId, std::vector<Point>> columns_;
   std::vector<UnsoundStrip> edges_;  ///< all of this rank's, of which those marked bad are unsound
   std::vector<Chord> chords_;
   std::vector<char> bad_;
@@ -138,10 +145,8 @@ void Survey::look_at(std::size_t b) {
 }
 
 /// Of a strip on the front; the chord becomes that of the wall.
-bool Survey::is_sound(const UnsoundStrip& strip, const std::array<FrontPlace, 2>& places,
-                      Chord& chord) const {
-  const std::vector<Point> a = column_to(front_, places[0], chord.from),
-                           b = column_to(front_, places[1], chord.to);
+bool Survey::is_sound(const UnsoundStrip& strip, const std::array<FrontPlace, 2>& places, Chord& chord) {
+  const std::vector<Point>&a = column_to(strip.edge[0], places[0]), &b = column_to(strip.edge[1], places[1]);
   chord.from = a.front();
   chord.to = b.front();
   if (!are_positive(a, b)) return false;
