@@ -28,6 +28,13 @@ class StageTimes {
     end();
     stages_.insert(stages_.end(), other.stages_.begin(), other.stages_.end());
   }
+  /// The other's stages come after these as one.
+  void append_as(std::string stage, const StageTimes& other) {
+    end();
+    double sum = 0;
+    for (const auto& [name, seconds] : other.stages_) sum += seconds;
+    stages_.emplace_back(std::move(stage), sum);
+  }
   const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
 
  private:

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "mesher/base/log.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/lattice_rank.hpp"
 #include "mesher/generate/digests.hpp"
+#include "mesher/generate/refine_front.hpp"
 #include "mesher/layers/add_layers.hpp"
 #include "mesher/layers/add_strips.hpp"
 #include "smoother/smooth_mesh.hpp"
@@ -47,10 +49,19 @@ void keep_parallelograms(const Communicator& comm, const std::function<TieRank(P
   result.tree.attributes.quads = comm.sum(std::ssize(result.mesh.quads));
 }
 
-void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result) {
+/// A flag for each owned node; the nodes are sorted.
+NodeFlags owned_among(const std::vector<GlobalNodeId>& nodes, const Mesh& mesh) {
+  NodeFlags flags(mesh.owned_nodes, 0);
+  for (const NodeId node : flags.ids()) flags[node] = std::ranges::binary_search(nodes, mesh.global(node));
+  return flags;
+}
+
+void smooth(const Communicator& comm, const MeshInput& input, const std::vector<GlobalNodeId>& pinned,
+            MeshResult& result) {
   if (input.smooth.sweeps == 0) return;
   const int finest = result.report.finest_allowed;
   SmoothOptions options = smooth_options_for(input, finest);
+  if (!pinned.empty()) options.pinned = owned_among(pinned, result.mesh);
   options.keep_slots = input.mesh.type != MeshType::delaunay;
   const SmoothReport report = smooth_mesh(comm, result.mesh, options);
   if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
@@ -100,27 +111,94 @@ bool has_layers(const MeshInput& input) {
                                                      [](const Boundary& b) { return b.layers.has_value(); });
 }
 
-/// The mesh outside of layers, or the whole where there are none, complete but for its digests. *Collective.*
-GeneratedMesh generate_outer(const Communicator& comm, const MeshInput& input,
-                             const DemandedSplits& demanded) {
+/// A mesh that is not smoothed yet. *Collective.*
+GeneratedMesh build(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded) {
   GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}, {}};
-  MeshResult& result = generated.result;
-  generated.times.append(result.report.times);
-  require_area(comm, input.geometry, result.report.area_dropped, result.mesh);
-  generated.times.begin("smooth");
-  smooth(comm, input, result);
-  generated.times.end();
-  require_area(comm, input.geometry, result.report.area_dropped, result.mesh, true);
+  const MeshReport& report = generated.result.report;
+  generated.times.append(report.times);
+  require_area(comm, input.geometry, report.area_dropped, generated.result.mesh);
   return generated;
 }
+
+/// Nodes `pinned`, sorted, stay. *Collective.*
+void smooth(const Communicator& comm, const MeshInput& input, const std::vector<GlobalNodeId>& pinned,
+            GeneratedMesh& generated) {
+  generated.times.begin("smooth");
+  smooth(comm, input, pinned, generated.result);
+  generated.times.end();
+  require_area(comm, input.geometry, generated.result.report.area_dropped, generated.result.mesh, true);
+}
+
+/// The mesh outside, on which all columns can stand: where they could not it is made again, first as it is
+/// cut, with more nodes, then as it is smoothed, with less freedom. *Collective.*
+class OutsideMesh {
+ public:
+  OutsideMesh(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
+              LayerFront& front)
+      : comm_{comm},
+        input_{input},
+        demanded_{demanded},
+        splits_{demanded},
+        front_{front},
+        lattice_{choose_root(input.geometry, input.mesh.size.root)},
+        outer_{outside(input, front)} {}
+
+  GeneratedMesh made() {
+    cut();
+    for (int attempt = 0; !columns_stand_when_smooth() && attempt < most_attempts; ++attempt) {
+      discard();
+      mesh_ = build(comm_, outer_, splits_);
+    }
+    forget_splits(demanded_, mesh_.result.tree);
+    StageTimes times;
+    if (!trials_.stages().empty()) times.append_as("trials", trials_);
+    times.append(mesh_.times);
+    mesh_.times = times;
+    return std::move(mesh_);
+  }
+
+ private:
+  static constexpr int most_attempts = 16;
+
+  void cut() {
+    mesh_ = build(comm_, outer_, splits_);
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+      if (!refine_front(comm_, lattice_, mesh_.result, front_, splits_)) return;
+      discard();
+      outer_ = outside(input_, front_);
+      mesh_ = build(comm_, outer_, splits_);
+    }
+  }
+
+  bool columns_stand_when_smooth() {
+    smooth(comm_, outer_, pinned_, mesh_);
+    const std::vector<GlobalNodeId> unsound = unsound_nodes(comm_, front_, mesh_.result);
+    pinned_.insert(pinned_.end(), unsound.begin(), unsound.end());
+    std::ranges::sort(pinned_);
+    return unsound.empty();
+  }
+
+  void discard() { trials_.append(std::exchange(mesh_, {}).times); }
+
+  const Communicator& comm_;
+  const MeshInput& input_;
+  const DemandedSplits& demanded_;
+  DemandedSplits splits_;
+  LayerFront& front_;
+  Lattice lattice_;
+  MeshInput outer_;
+  GeneratedMesh mesh_;
+  std::vector<GlobalNodeId> pinned_;
+  StageTimes trials_;
+};
 
 GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
                                const DemandedSplits& demanded) {
   StageTimes times;
   times.begin("front");
-  const LayerFront front = layer_front(input.geometry, input.mesh.size.curvature, input.lines);
+  LayerFront front = layer_front(input.geometry, input.mesh.size.curvature, input.lines);
   times.end();
-  GeneratedMesh generated = generate_outer(comm, outside(input, front), demanded);
+  GeneratedMesh generated = OutsideMesh(comm, input, demanded, front).made();
   times.append(generated.times);
   times.begin("layers");
   generated.layers = report_layers(comm, front, generated.result.mesh);
@@ -129,6 +207,13 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   fill_layers(comm, input, front, generated.result);
   times.end();
   generated.times = times;
+  return generated;
+}
+
+GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input,
+                             const DemandedSplits& demanded) {
+  GeneratedMesh generated = build(comm, input, demanded);
+  smooth(comm, input, {}, generated);
   return generated;
 }
 
@@ -145,7 +230,7 @@ SmoothOptions smooth_options_for(const MeshInput& input, int finest_level) {
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
                             const DemandedSplits& demanded) {
   GeneratedMesh generated =
-      has_layers(input) ? generate_layered(comm, input, demanded) : generate_outer(comm, input, demanded);
+      has_layers(input) ? generate_layered(comm, input, demanded) : generate_plain(comm, input, demanded);
   MeshResult& result = generated.result;
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);

@@ -42,6 +42,7 @@ double share_for(const LayerSpec& spec, double thickness) {
   double low = 0, high = 1;
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;  // no double between them: nothing would change any more
     (relative_thickness(spec, middle) <= thickness ? low : high) = middle;
   }
   return low;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/layers/front/layer_front.hpp"
 
@@ -28,9 +29,13 @@ class FrontPlaces {
   bool follows(const FrontPlace& first, const FrontPlace& second) const;
 
  private:
+  struct OfBoundary {
+    std::vector<std::int32_t> segments;  ///< of outer, that are front
+    BoxTree tree;
+  };
+
   const LayerFront* front_;
-  std::vector<std::int32_t> segments_;  ///< of outer, that are front
-  BoxTree tree_;
+  IdVector<BoundaryId, OfBoundary> of_boundary_;
 };
 
 }  // namespace quadloop

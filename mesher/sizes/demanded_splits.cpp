@@ -29,10 +29,23 @@ void make_unique(std::vector<std::uint64_t>& keys) {
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 }
 
-using KeysOfLevels = std::array<std::vector<std::uint64_t>, Quadrant::unit_level>;
+/// Those keys and all above them.
+template <class KeysOfLevels>
+KeysOfLevels with_ancestors(KeysOfLevels keys) {
+  for (std::size_t level = keys.size() - 1; level > 0; --level) {
+    for (const std::uint64_t key : keys[level]) {
+      if (keys[level - 1].empty() || keys[level - 1].back() != key >> 2) keys[level - 1].push_back(key >> 2);
+    }
+    make_unique(keys[level - 1]);
+  }
+  return keys;
+}
+
+}  // namespace
 
 /// The keys that are asked for, level by level, the same on all ranks.
-KeysOfLevels gather_asked(const Communicator& comm, std::span<const SplitDemand> demands) {
+DemandedSplits::KeysOfLevels DemandedSplits::gather_asked(const Communicator& comm,
+                                                          std::span<const SplitDemand> demands) {
   KeysOfLevels asked;
   for (const SplitDemand& demand : demands) {
     for (std::uint32_t levels = demand.levels; levels != 0; levels &= levels - 1) {
@@ -52,21 +65,20 @@ KeysOfLevels gather_asked(const Communicator& comm, std::span<const SplitDemand>
   return asked;
 }
 
-/// Those keys and all above them.
-KeysOfLevels with_ancestors(KeysOfLevels keys) {
-  for (std::size_t level = keys.size() - 1; level > 0; --level) {
-    for (const std::uint64_t key : keys[level]) {
-      if (keys[level - 1].empty() || keys[level - 1].back() != key >> 2) keys[level - 1].push_back(key >> 2);
-    }
-    make_unique(keys[level - 1]);
-  }
-  return keys;
+DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands) {
+  assign(gather_asked(comm, demands));
 }
 
-}  // namespace
+DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands,
+                               const DemandedSplits& before) {
+  KeysOfLevels asked = gather_asked(comm, demands);
+  before.append_asked(asked);
+  for (auto& keys : asked) make_unique(keys);
+  assign(asked);
+}
 
-DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands) {
-  const KeysOfLevels asked = gather_asked(comm, demands), all = with_ancestors(asked);
+void DemandedSplits::assign(const KeysOfLevels& asked) {
+  const KeysOfLevels all = with_ancestors(asked);
   std::int32_t first = 0;
   for (std::size_t level = 0; level < all.size() && !all[level].empty(); ++level) {
     const auto begin = size32(masks_);
@@ -80,6 +92,22 @@ DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDe
   for (std::size_t i = 0; i < masks_.size(); ++i) {
     if (i % block == 0) children_before_.push_back(children);
     children += std::popcount(static_cast<unsigned>(masks_[i] & children_bits));
+  }
+}
+
+void DemandedSplits::append_asked(KeysOfLevels& asked) const {
+  std::vector<Key> keys = roots_, below;
+  std::size_t number = 0;
+  for (std::size_t level = 0; !keys.empty(); ++level) {
+    below.clear();
+    for (const Key key : keys) {
+      const std::uint8_t mask = masks_[number++];
+      if ((mask & asked_bit) != 0) asked[level].push_back(key);
+      for (Key child = 0; child < 4; ++child) {
+        if ((mask >> child & 1) != 0) below.push_back(key << 2 | child);
+      }
+    }
+    keys.swap(below);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +28,9 @@ class DemandedSplits {
   DemandedSplits() = default;
   /// Of all ranks' demands; the order does not matter. *Collective.*
   DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands);
+  /// These beside those of `before`. *Collective.*
+  DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands,
+                 const DemandedSplits& before);
 
   bool empty() const { return masks_.empty(); }
   /// The level of the finest leaves that they ask for; 0 for none.
@@ -43,6 +47,10 @@ class DemandedSplits {
  private:
   /// Key of a quadrant on the Morton curve over all trees, among those of its level.
   using Key = std::uint64_t;
+  using KeysOfLevels = std::array<std::vector<Key>, Quadrant::unit_level>;
+  static KeysOfLevels gather_asked(const Communicator& comm, std::span<const SplitDemand> demands);
+  void assign(const KeysOfLevels& asked);
+  void append_asked(KeysOfLevels& asked) const;
   void append_level(std::span<const Key> all, std::span<const Key> asked, std::span<const Key> above,
                     std::int32_t first_above);
 

@@ -202,5 +202,39 @@ TEST(Digests, OfTextsTellLengths) {
   EXPECT_NE(text_digest("ab"), text_digest("ba"));
 }
 
+/// The disc as an island with a zigzag coast, on leaves too large for it, with layers on it.
+MeshInput rough_island() {
+  std::vector<Point> points{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  std::vector<BoundaryId> boundary(4, BoundaryId{0});
+  for (int i = 0; i < 240; ++i) {
+    const double angle = -2 * std::numbers::pi * i / 240, radius = 0.4 + (i % 2 + i % 5) * 0.02;
+    points.push_back({0.1 + radius * std::cos(angle), 0.05 + radius * std::sin(angle)});
+    boundary.push_back(BoundaryId{1});
+  }
+  Boundary coast{"coast", 0, 180, "wall"};
+  coast.layers = LayerSpec{0.002, 1.2, 1.2, 8};
+  MeshInput input{{{{"box", 0.25, 30, "none"}, coast}, points, {0, 4, 244}, boundary}, {}, {}, 0};
+  input.mesh.size.min = 0.05;
+  input.mesh.size.max = 0.25;
+  input.smooth.sweeps = 5;
+  return input;
+}
+
+TEST(Generate, LayersOnARoughCoastGetTheLeavesThatTheyNeed) {
+  const Communicator self(MPI_COMM_SELF);
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    MeshInput input = rough_island();
+    input.mesh.type = type;
+    const GeneratedMesh made = generate_mesh(world(), input), alone = generate_mesh(self, input);
+    EXPECT_EQ(made.times.stages()[1].first, "trials") << "the first mesh outside is too coarse";
+    EXPECT_EQ(made.result.tree.attributes.coordinate_digest, alone.result.tree.attributes.coordinate_digest);
+    for (const LeafRecord& leaf : made.result.tree.leaves)
+      EXPECT_EQ(leaf.adapted, 0U) << "adaptation has asked for nothing";
+    const Mesh whole = gather_whole(world(), made.result.mesh);
+    if (!world().is_root()) continue;
+    EXPECT_TRUE(validate(whole).empty());
+  }
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -111,5 +111,19 @@ TEST(DemandedSplits, NumbersAreThoseOfOneQuadrantEach) {
   }
 }
 
+TEST(DemandedSplits, BesideOthersAreThoseOfBoth) {
+  const auto demands = random_demands(300);
+  const std::vector<SplitDemand> some(demands.begin(), demands.begin() + 100),
+      more(demands.begin() + 60, demands.end());
+  const DemandedSplits before(world(), share_of(some)), both(world(), share_of(more), before),
+      at_once(world(), share_of(demands));
+  EXPECT_EQ(both.finest_level(), at_once.finest_level());
+  DemandPath path(both), expected(at_once);
+  for (const auto& [leaf, levels] : demands) {
+    EXPECT_EQ(path.levels_above(leaf), expected.levels_above(leaf));
+    EXPECT_EQ(number_of(both, leaf), number_of(at_once, leaf));
+  }
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace quadloop {
@@ -14,23 +13,77 @@ constexpr double least_ratio = 0.3, largest_ratio = 6;  // of the front's width 
 constexpr double convergent = 1.1, spreading = 1.5;     // the same
 constexpr int most_averagings = 40;
 
-class Columns {
+// A station's length takes in half a thickness of wall: so it tells of places as far from it as that, counted
+// in the thickness there, which may be less by 0.35 of the way.
+constexpr double known_within = 0.61;
+
+}  // namespace
+
+/// Where columns are turned they come to depend on those beside them: such stations are active. Stretches of
+/// active stations that do not touch know nothing of each other, so a change of thickness is followed as far
+/// as the stretches that it touches.
+class ColumnsOnWall::Columns {
  public:
-  Columns(const WallLine& line, const std::vector<double>& thickness)
+  explicit Columns(const WallLine& line)
       : line_{line},
-        h_{thickness},
-        convergence_(thickness.size()),
-        seen_(thickness.size()),
-        columns_{{}, thickness} {
-    for (std::int32_t i = 0; i < line_.size(); ++i) columns_.direction.push_back(line_[i].direction);
+        h_(line.size()),
+        leans_(line.size()),
+        convergence_(line.size()),
+        seen_(line.size()),
+        active_(line.size()),
+        again_(line.size()),
+        turned_(line.size()),
+        columns_{std::vector<Point>(line.size()), std::vector<double>(line.size())} {}
+
+  const WallColumns& fit(const std::vector<double>& thickness) {
+    std::vector<std::int32_t> stations = changed_by(thickness);
+    while (!stations.empty()) {
+      for (const std::int32_t i : stations) add_stretches(i);
+      stand_and_turn();
+      stations = active_outside();
+    }
+    for (const std::int32_t i : stations_) active_[i] = 0;
+    for (const std::int32_t i : zone_of(touched_)) active_[i] = 1;
+    for (const std::int32_t i : stations_) again_[i] = 0;
+    stations_.clear();
+    return columns_;
   }
 
-  WallColumns found() && {
-    lean_from_corners();
-    std::vector<std::int32_t> all(line_.size());
-    std::iota(all.begin(), all.end(), 0);
-    set_lengths(all);
-    std::vector<std::int32_t> crowded = crowded_among(all);
+ private:
+  /// The stations whose columns would be others before any is turned.
+  std::vector<std::int32_t> changed_by(const std::vector<double>& thickness) {
+    const std::vector<double> h_before = std::exchange(h_, thickness);
+    const std::vector<double> leans_before = std::exchange(leans_, leans());
+    std::vector<std::int32_t> changed;
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      if (h_[i] != h_before[i] || leans_[i] != leans_before[i]) changed.push_back(i);
+    }
+    return with_neighbours(around(
+        changed, [&](std::int32_t i) { return known_within * std::max(h_[i], h_before[i]); }, false));
+  }
+
+  /// The station, and the stretch of active ones that it touches, are begun again.
+  void add_stretches(std::int32_t i) {
+    if (!add_again(i)) return;
+    for (std::int32_t j = line_.next(i); j != WallLine::none && active_[j] && add_again(j);)
+      j = line_.next(j);
+    for (std::int32_t j = line_.previous(i); j != WallLine::none && active_[j] && add_again(j);)
+      j = line_.previous(j);
+  }
+  bool add_again(std::int32_t i) {
+    if (std::exchange(again_[i], 1)) return false;
+    stations_.push_back(i);
+    return true;
+  }
+
+  void stand_and_turn() {
+    for (const std::int32_t i : stations_) {
+      const Point normal = line_[i].direction;
+      columns_.direction[i] = leans_[i] == 0 ? normal : visible(i, unit(normal + leans_[i] * along(i)));
+    }
+    touched_.clear();
+    set_lengths(stations_);
+    std::vector<std::int32_t> crowded = crowded_among(stations_);
     for (int round = 0; round < most_averagings && !crowded.empty(); ++round) {
       const std::vector<std::int32_t> turned = around(
           crowded, [&](std::int32_t i) { return h_[i]; }, true);
@@ -40,11 +93,42 @@ class Columns {
           turned, [&](std::int32_t i) { return 0.75 * h_[i]; }, false);
       set_lengths(touched);
       crowded = crowded_among(touched);
+      for (const std::int32_t i : touched) {
+        if (!std::exchange(turned_[i], 1)) touched_.push_back(i);
+      }
     }
-    return std::move(columns_);
+    for (const std::int32_t i : touched_) turned_[i] = 0;
   }
 
- private:
+  /// The stations that depend on some.
+  std::vector<std::int32_t> zone_of(const std::vector<std::int32_t>& stations) {
+    return with_neighbours(around(
+        stations, [&](std::int32_t i) { return known_within * h_[i]; }, false));
+  }
+  std::vector<std::int32_t> with_neighbours(const std::vector<std::int32_t>& stations) {
+    std::vector<std::int32_t> all;
+    begin_set();
+    for (const std::int32_t i : stations) {
+      for (const std::int32_t j : {line_.previous(i), i, line_.next(i)}) {
+        if (j != WallLine::none && add_to_set(j)) all.push_back(j);
+      }
+    }
+    return all;
+  }
+
+  /// What has come to be active beyond the stations that were begun again, if it touches what is so already.
+  std::vector<std::int32_t> active_outside() {
+    std::vector<std::int32_t> outside;
+    bool touches = false;
+    for (const std::int32_t i : zone_of(touched_)) {
+      if (again_[i]) continue;
+      outside.push_back(i);
+      for (const std::int32_t j : {line_.previous(i), i, line_.next(i)})
+        touches = touches || (j != WallLine::none && active_[j] && !again_[j]);
+    }
+    return touches ? outside : std::vector<std::int32_t>{};
+  }
+
   Point along(std::int32_t i) const {
     const Point n = line_[i].direction;
     return {n.y, -n.x};
@@ -52,7 +136,7 @@ class Columns {
 
   /// Columns lean by tan(tilt) = slope (1 - distance / reach), reach = 2 h slope: their feet on the front
   /// keep half the distances of the wall.
-  void lean_from_corners() {
+  std::vector<double> leans() const {
     std::vector<double> onwards(h_.size()), backwards(h_.size());
     for (std::int32_t i = 0; i < line_.size(); ++i) {
       const Station& corner = line_[i];
@@ -68,10 +152,8 @@ class Columns {
       line_.walk_on(i, reach, take(onwards));
       line_.walk_back(i, reach, take(backwards));
     }
-    for (std::int32_t i = 0; i < line_.size(); ++i) {
-      const double lean = onwards[i] - backwards[i];
-      if (lean != 0) columns_.direction[i] = visible(i, unit(line_[i].direction + lean * along(i)));
-    }
+    for (std::int32_t i = 0; i < line_.size(); ++i) onwards[i] -= backwards[i];
+    return onwards;
   }
 
   /// The width of the front over that of the wall, between i and the next station.
@@ -194,17 +276,27 @@ class Columns {
   }
 
   const WallLine& line_;
-  const std::vector<double>& h_;
+  std::vector<double> h_, leans_;
   std::vector<double> convergence_;  ///< of the place after each station
   std::vector<std::int64_t> seen_;   ///< the last set that each was added to
   std::int64_t stamp_ = 0;
+  std::vector<char> active_;
+  std::vector<std::int32_t> stations_;  ///< those to begin again,
+  std::vector<char> again_;             ///< marked
+  std::vector<std::int32_t> touched_;   ///< those that have got another length by turns,
+  std::vector<char> turned_;            ///< marked
   WallColumns columns_;
 };
 
-}  // namespace
+ColumnsOnWall::ColumnsOnWall(const WallLine& line) : columns_{std::make_unique<Columns>(line)} {}
+ColumnsOnWall::~ColumnsOnWall() = default;
+
+const WallColumns& ColumnsOnWall::fit(const std::vector<double>& thickness) {
+  return columns_->fit(thickness);
+}
 
 WallColumns columns_on_wall(const WallLine& line, const std::vector<double>& thickness) {
-  return Columns(line, thickness).found();
+  return ColumnsOnWall(line).fit(thickness);
 }
 
 }  // namespace quadloop

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "mesher/layers/front/wall_line.hpp"
@@ -19,6 +20,25 @@ struct WallColumns {
 /// the front is the wall's offset line and nothing crosses; where columns would come too close to each other,
 /// or spread too far, directions are averaged along the wall, but a column always rises visibly from both
 /// sides of its station.
+/// Thickness changes by at most 0.35 of the distance along the wall.
 WallColumns columns_on_wall(const WallLine& line, const std::vector<double>& thickness);
+
+/// Such columns for one set of thicknesses after another. Each time the work is that of the places that have
+/// changed and of those whose columns depend on them; the columns are those of columns_on_wall(), bit for
+/// bit.
+class ColumnsOnWall {
+ public:
+  /// `line` must outlive it.
+  explicit ColumnsOnWall(const WallLine& line);
+  ~ColumnsOnWall();
+  ColumnsOnWall(const ColumnsOnWall&) = delete;
+  ColumnsOnWall& operator=(const ColumnsOnWall&) = delete;
+
+  const WallColumns& fit(const std::vector<double>& thickness);
+
+ private:
+  class Columns;
+  std::unique_ptr<Columns> columns_;
+};
 
 }  // namespace quadloop

@@ -247,6 +247,19 @@ void require_disjoint(const LayerFront& front) {
 
 }  // namespace
 
+void LayerFront::keep(const std::vector<std::int32_t>& stations) {
+  std::vector<char> keeps(line.size(), 0);
+  for (const std::int32_t i : stations) keeps[i] = 1;
+  LocalDemands demands;
+  for (std::int32_t s = 0; s < outer.size(); ++s) {
+    const bool kept = station_of[s] != WallLine::none && keeps[station_of[s]] != 0;
+    demands.spacing.push_back(outer.spacing_of(s));
+    demands.kept.push_back(kept || outer.kept(s) ? 1 : 0);
+    demands.bend_degrees.push_back(kept ? 0 : outer.bend_degrees(s));
+  }
+  outer = outer.with(std::move(demands));
+}
+
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature,
                        const std::vector<LayerLine>& lines) {
   const std::vector<PlacedLine> placed = place_lines(geometry, lines);

@@ -35,6 +35,9 @@ struct LayerFront {
     return station_of[segment] != WallLine::none ||
            (has_strips() && outer.boundary_of(segment) == strip_boundary());
   }
+
+  /// From now on these stations must be nodes of the mesh outside.
+  void keep(const std::vector<std::int32_t>& stations);
 };
 
 /// The front of all boundaries that ask for layers, and of lines with layers. Layers are thinner where walls

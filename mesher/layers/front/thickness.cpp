@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "mesher/base/error.hpp"
@@ -67,10 +68,54 @@ class Vicinity {
   std::int64_t stamp_ = 0;
 };
 
+/// The segments of fronts, by the stations that they begin at. Most stay from one pass to the next: the tree
+/// is that of some passes ago, with those that have moved since in a small one beside it.
+class FrontTree {
+ public:
+  /// `segment(place)` is the present one; `moved` are the places where it is another one than before.
+  template <class SegmentAt>
+  void update(const std::vector<std::int32_t>& moved, std::int32_t size, const SegmentAt& segment) {
+    constexpr std::int32_t few = 8;  // one of so many
+    has_moved_.resize(size, 0);
+    for (const std::int32_t place : moved) {
+      if (!std::exchange(has_moved_[place], 1)) recent_places_.push_back(place);
+    }
+    if (size32(recent_places_) > size32(places_) / few) {
+      places_.clear();
+      for (std::int32_t place = 0; place < size; ++place) {
+        if (segment(place)) places_.push_back(place);
+      }
+      tree_ = tree_of(places_, segment);
+      std::fill(has_moved_.begin(), has_moved_.end(), 0);
+      recent_places_.clear();
+    }
+    recent_ = tree_of(recent_places_, segment);
+  }
+  template <class Visit>
+  void for_each_meeting(const Box& box, const Visit& visit) const {
+    tree_.for_each_meeting(box, [&](std::int32_t k) {
+      if (!has_moved_[places_[k]]) visit(places_[k]);
+    });
+    recent_.for_each_meeting(box, [&](std::int32_t k) { visit(recent_places_[k]); });
+  }
+
+ private:
+  template <class SegmentAt>
+  static BoxTree tree_of(const std::vector<std::int32_t>& places, const SegmentAt& segment) {
+    std::vector<Box> boxes;
+    for (const std::int32_t place : places) boxes.push_back(box_of(segment(place)->from, segment(place)->to));
+    return BoxTree(boxes);
+  }
+
+  std::vector<std::int32_t> places_, recent_places_;
+  std::vector<char> has_moved_;
+  BoxTree tree_, recent_;
+};
+
 class Fitting {
  public:
   explicit Fitting(const WallLine& line)
-      : line_{line}, vicinity_{line}, h_(line.size()), meets_(line.size()) {
+      : line_{line}, vicinity_{line}, h_(line.size()), meets_(line.size()), columns_on_wall_{line} {
     for (std::int32_t i = 0; i < line_.size(); ++i) h_[i] = line_.asked(i);
     gather_walls();
   }
@@ -95,7 +140,7 @@ class Fitting {
  private:
   /// Notes which stations' fronts have moved: only these need to be looked at again.
   void renew_columns() {
-    columns_ = columns_on_wall(line_, h_);
+    columns_ = columns_on_wall_.fit(h_);
     std::vector<Point> before = std::exchange(front_, {});
     before.resize(line_.size());
     moved_.clear();
@@ -141,7 +186,7 @@ class Fitting {
   /// From how far the next wall is along each column.
   void guess() {
     limit_slopes();
-    columns_ = columns_on_wall(line_, h_);
+    columns_ = columns_on_wall_.fit(h_);
     std::vector<double> guessed = h_;
     for (std::int32_t i = 0; i < line_.size(); ++i) {
       vicinity_.move_to(i, own_reach * h_[i]);
@@ -176,31 +221,37 @@ class Fitting {
     }
   }
 
+  std::optional<Segment> front_after(std::int32_t i) const {
+    if (!place_exists(i)) return {};
+    return Segment{front(i), front(line_.next(i))};
+  }
+
   void mark_meeting() {
-    std::vector<Segment> fronts, moved;
-    std::vector<std::int32_t> places, moved_places;
+    std::vector<std::int32_t> moved_places;
+    std::vector<Segment> moved;
     for (std::int32_t i = 0; i < line_.size(); ++i) {
-      if (!place_exists(i)) continue;
-      fronts.push_back({front(i), front(line_.next(i))});
-      places.push_back(i);
-      if (!front_moved(i)) continue;
-      moved.push_back(fronts.back());
+      if (!place_exists(i) || !front_moved(i)) continue;
       moved_places.push_back(i);
+      moved.push_back(*front_after(i));
     }
-    const BoxTree all = tree_of(fronts), of_moved = tree_of(moved);
+    fronts_.update(moved_places, line_.size(), [&](std::int32_t i) { return front_after(i); });
+    const BoxTree of_moved = tree_of(moved);
     for (std::int32_t i = 0; i < line_.size(); ++i) {
       const Point end = front(i) + clearance * (front(i) - wall(i));
       const Box box = box_of(wall(i), end);
       if (!moved_[i] && !of_moved.any_meeting(box, [](std::int32_t) { return true; })) continue;
       vicinity_.move_to(i, own_reach * h_[i]);
       if (moved_[i]) mark_walls_met(i, end, box);
-      (moved_[i] ? all : of_moved).for_each_meeting(box, [&](std::int32_t k) {
-        const std::int32_t j = (moved_[i] ? places : moved_places)[k];
+      const auto look_at = [&](std::int32_t j) {
         if (j == i || line_.next(j) == i) return;
         const Point top = vicinity_.has_station(j) ? front(i) : end;
         if (!segments_meet(wall(i), top, front(j), front(line_.next(j)))) return;
         meets_[i] = meets_[j] = meets_[line_.next(j)] = 1;
-      });
+      };
+      if (moved_[i])
+        fronts_.for_each_meeting(box, look_at);
+      else
+        of_moved.for_each_meeting(box, [&](std::int32_t k) { look_at(moved_places[k]); });
     }
   }
 
@@ -232,7 +283,7 @@ class Fitting {
   /// its rims is one-to-one.
   void mark_unproved() {
     for (std::int32_t i = 0; i < line_.size(); ++i) {
-      if (!place_exists(i) || is_positive(i)) continue;
+      if (!place_exists(i) || !front_moved(i) || is_positive(i)) continue;
       meets_[i] = meets_[line_.next(i)] = 1;
     }
     mark_crossing_fronts();
@@ -247,6 +298,7 @@ class Fitting {
   }
 
   void mark_crossing_fronts();
+  bool fronts_meet(std::int32_t i, std::int32_t k) const;
 
   [[noreturn]] void refuse() const {
     const auto at = std::ranges::find(meets_, 1) - meets_.begin();
@@ -266,36 +318,37 @@ class Fitting {
   std::vector<Segment> walls_;  ///< one for each station, then those without layers
   std::vector<std::int32_t> other_segments_;
   BoxTree wall_tree_;
+  ColumnsOnWall columns_on_wall_;
+  FrontTree fronts_;
   WallColumns columns_;
   std::vector<Point> front_;
 };
 
 /// Fronts with each other, and with boundaries that have no layers; where a front ends on one they touch.
+/// Those that have not moved did not meet before.
 void Fitting::mark_crossing_fronts() {
-  std::vector<Segment> all = walls_;
-  for (std::int32_t i = 0; i < line_.size(); ++i)
-    all[i] = {front(i), place_exists(i) ? front(line_.next(i)) : front(i)};
-  const BoxTree tree = tree_of(all);
   const auto is_end = [&](std::int32_t i) { return line_[i].shape == Station::Shape::end; };
   for (std::int32_t i = 0; i < line_.size(); ++i) {
-    if (!place_exists(i)) continue;
+    if (!place_exists(i) || !front_moved(i)) continue;
     const std::int32_t j = line_.next(i);
-    tree.for_each_meeting(box_of(front(i), front(j)), [&](std::int32_t k) {
-      if (k == i || (k < line_.size() && !place_exists(k))) return;
-      const bool other = k >= line_.size();
-      if (other && (is_end(i) || is_end(j))) return;
-      if (!other && (line_.next(k) == i || j == k)) {
-        const Point far_k = line_.next(k) == i ? all[k].from : all[k].to;
-        const Point far_i = line_.next(k) == i ? front(j) : front(i),
-                    common = line_.next(k) == i ? front(i) : front(j);
-        if (!on_segment(far_k, far_i, common) && !on_segment(far_i, far_k, common)) return;
-      } else if (!segments_meet(front(i), front(j), all[k].from, all[k].to)) {
-        return;
-      }
-      meets_[i] = meets_[j] = 1;
-      if (!other) meets_[k] = meets_[line_.next(k)] = 1;
+    const Box box = box_of(front(i), front(j));
+    fronts_.for_each_meeting(box, [&](std::int32_t k) {
+      if (k != i && fronts_meet(i, k)) meets_[i] = meets_[j] = meets_[k] = meets_[line_.next(k)] = 1;
+    });
+    if (is_end(i) || is_end(j)) continue;
+    wall_tree_.for_each_meeting(box, [&](std::int32_t w) {
+      if (w >= line_.size() && segments_meet(front(i), front(j), walls_[w].from, walls_[w].to))
+        meets_[i] = meets_[j] = 1;
     });
   }
+}
+
+/// Those after two stations; neighbours outside their common point.
+bool Fitting::fronts_meet(std::int32_t i, std::int32_t k) const {
+  const std::int32_t j = line_.next(i), l = line_.next(k);
+  if (l == i) return on_segment(front(k), front(j), front(i)) || on_segment(front(j), front(k), front(i));
+  if (j == k) return on_segment(front(l), front(i), front(j)) || on_segment(front(i), front(l), front(j));
+  return segments_meet(front(i), front(j), front(k), front(l));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tests/layers/walls.hpp"
 
@@ -111,6 +112,33 @@ TEST(ColumnsOnWall, AFansRaysHaveTheThicknessForTheirLength) {
     if (body.line[i].shape == Station::Shape::fan) {
       EXPECT_EQ(body.columns.length[i], 0.5);
       EXPECT_EQ(body.columns.direction[i], body.line[i].direction);
+    }
+  }
+}
+
+TEST(ColumnsOnWall, FittedAgainAreThoseFittedAtOnce) {
+  std::mt19937_64 random(7);
+  std::vector<Point> coast;
+  for (int i = 0; i < 300; ++i) {  // clockwise, rough
+    const double angle = -2 * M_PI * i / 300, radius = 5 + 0.2 * static_cast<double>(random() % 100) / 100;
+    coast.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  const Columned island(
+      test::outline_of({{{"sea", {{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}}}, {{"coast", coast, layers}}}));
+  const WallLine& line = island.line;
+  ColumnsOnWall again(line);
+  std::vector<double> h(line.size(), 0.5);
+  for (int pass = 0; pass < 40; ++pass) {
+    const WallColumns& fitted = again.fit(h);
+    const WallColumns at_once = columns_on_wall(line, h);
+    ASSERT_EQ(fitted.direction, at_once.direction) << pass;
+    ASSERT_EQ(fitted.length, at_once.length) << pass;
+    h[random() % h.size()] *= pass < 20 ? 0.8 : 0.5;
+    for (int round = 0; round < 2; ++round) {  // slopes
+      for (std::int32_t i = 0; i < line.size(); ++i)
+        h[line.next(i)] = std::min(h[line.next(i)], h[i] + 0.35 * line.width(i));
+      for (std::int32_t i = line.size() - 1; i >= 0; --i)
+        h[line.previous(i)] = std::min(h[line.previous(i)], h[i] + 0.35 * line.width(line.previous(i)));
     }
   }
 }
