@@ -6,10 +6,12 @@
 #include <limits>
 #include <optional>
 
+#include "adapt/remesh/followed_walls.hpp"
 #include "adapt/remesh/mark_family.hpp"
 #include "adapt/remesh/restart.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/build/mesh_estimate.hpp"
+#include "mesher/generate/mesh_trial.hpp"
 
 namespace quadloop {
 
@@ -18,9 +20,14 @@ namespace {
 /// Looks along the family for the marks that lead to a number of nodes from 95 to 100 % of the one allowed.
 class NodeSearch {
  public:
-  NodeSearch(const Communicator& comm, const MeshInput& input, const SolvedMesh& solved,
-             const MarkFamily& family, int finest)
-      : comm_{comm}, input_{input}, solved_{solved}, family_{family}, finest_{finest} {}
+  NodeSearch(const Communicator& comm, const MeshInput& input, const MeasuredWall& measured,
+             const SolvedMesh& solved, const MarkFamily& family, int finest)
+      : comm_{comm},
+        trial_{input, measured},
+        limit_{input.mesh.limit},
+        solved_{solved},
+        family_{family},
+        finest_{finest} {}
 
   ChangedSplits changes_at(double at) const {
     return changed_splits(comm_, solved_.tree, family_.marks(at), finest_);
@@ -29,8 +36,7 @@ class NodeSearch {
   /// As many as no mesh has where the mesh would not be allowed.
   std::int64_t nodes_after(const ChangedSplits& changes) const {
     try {
-      return build_mesh(comm_, input_.geometry, input_.mesh, DemandedSplits(comm_, changes.demands))
-          .tree.attributes.nodes;
+      return trial_.nodes(comm_, DemandedSplits(comm_, changes.demands));
     } catch (const TooManyCells&) {  // by an estimate that all ranks make
       return beyond;
     }
@@ -68,12 +74,12 @@ class NodeSearch {
   }
 
   double share_after(const ChangedSplits& changes) const {
-    return share_of(input_.mesh.limit,
-                    estimate_mesh(input_.geometry, input_.mesh, DemandedSplits(comm_, changes.demands)));
+    return share_of(limit_, trial_.estimate(DemandedSplits(comm_, changes.demands)));
   }
 
   const Communicator& comm_;
-  const MeshInput& input_;
+  MeshTrial trial_;
+  MeshLimit limit_;
   const SolvedMesh& solved_;
   const MarkFamily& family_;
   int finest_;
@@ -129,10 +135,12 @@ MarkFamily family_of(const Communicator& comm, const AdaptOptions& options, cons
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved) {
   const MarkFamily family = family_of(comm, options, solved);
-  const NodeSearch search(comm, input, solved, family, finest_level(input, options));
+  AdaptationPlan plan;
+  plan.measured_wall = wall_to_follow(comm, input, options, solved);
+  plan.new_heights = other_heights(input, solved.tree.measured_wall, plan.measured_wall);
+  const NodeSearch search(comm, input, plan.measured_wall, solved, family, finest_level(input, options));
   const ChangedSplits all = search.changes_at(1);
   ChangedSplits changes = all;
-  AdaptationPlan plan;
   const bool bounded = !search.allowed(all);
   if (bounded) {
     plan.warnings.emplace_back(

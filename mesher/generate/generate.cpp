@@ -10,6 +10,7 @@
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/lattice_rank.hpp"
 #include "mesher/generate/digests.hpp"
+#include "mesher/generate/outside_layers.hpp"
 #include "mesher/layers/add_layers.hpp"
 #include "mesher/layers/add_strips.hpp"
 #include "smoother/smooth_mesh.hpp"
@@ -60,18 +61,6 @@ void smooth(const Communicator& comm, const MeshInput& input, MeshResult& result
                           report.worst_cost_before));
 }
 
-/// The same input for the domain outside the layers, in the same root.
-MeshInput outside(const MeshInput& input, const LayerFront& front) {
-  MeshInput outer = input;
-  outer.geometry = front.outer;
-  for (const std::int32_t station : front.station_of)
-    outer.smooth.even_segments.push_back(station != WallLine::none);
-  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
-  outer.mesh.size.root =
-      RootOptions{lattice.box().low, lattice.tree_edge(), lattice.trees_x(), lattice.trees_y()};
-  return outer;
-}
-
 /// Files keep with the mesh how many layers its boundaries have.
 void name_layers(const Geometry& geometry, Mesh& mesh) {
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
@@ -96,11 +85,6 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
   a.quads = comm.sum(std::ssize(result.mesh.quads));
 }
 
-bool has_layers(const MeshInput& input) {
-  return !input.lines.empty() || std::ranges::any_of(input.geometry.boundaries(),
-                                                     [](const Boundary& b) { return b.layers.has_value(); });
-}
-
 /// The mesh outside of layers, or the whole where there are none, complete but for its digests. *Collective.*
 GeneratedMesh generate_outer(const Communicator& comm, const MeshInput& input,
                              const DemandedSplits& demanded) {
@@ -116,10 +100,10 @@ GeneratedMesh generate_outer(const Communicator& comm, const MeshInput& input,
 }
 
 GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
-                               const DemandedSplits& demanded) {
+                               const DemandedSplits& demanded, const MeasuredWall& measured) {
   StageTimes times;
   times.begin("front");
-  const LayerFront front = layer_front(input.geometry, input.mesh.size.curvature, input.lines);
+  const LayerFront front = front_of(input, measured);
   times.end();
   GeneratedMesh generated = generate_outer(comm, outside(input, front), demanded);
   times.append(generated.times);
@@ -128,6 +112,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   for (std::string& warning : warnings_of(generated.layers))
     generated.result.report.warnings.push_back(std::move(warning));
   fill_layers(comm, input, front, generated.result);
+  if (wants_y_plus(input.geometry)) generated.result.tree.measured_wall = measured;
   times.end();
   generated.times = times;
   return generated;
@@ -143,10 +128,10 @@ SmoothOptions smooth_options_for(const MeshInput& input, int finest_level) {
   return options;
 }
 
-GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
-                            const DemandedSplits& demanded) {
-  GeneratedMesh generated =
-      has_layers(input) ? generate_layered(comm, input, demanded) : generate_outer(comm, input, demanded);
+GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
+                            const MeasuredWall& measured) {
+  GeneratedMesh generated = has_layers(input) ? generate_layered(comm, input, demanded, measured)
+                                              : generate_outer(comm, input, demanded);
   MeshResult& result = generated.result;
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/layers/front/layer_front.hpp"
+#include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
 
@@ -32,5 +34,10 @@ class FrontPlaces {
   std::vector<std::int32_t> segments_;  ///< of outer, that are front
   BoxTree tree_;
 };
+
+/// Of each of a mesh's nodes that are on a front: on the ranks that own them and on those with an edge there.
+/// *Collective.*
+IdVector<NodeId, FrontPlace> places_of_nodes(const Communicator& comm, const FrontPlaces& places,
+                                             const Mesh& mesh);
 
 }  // namespace quadloop
