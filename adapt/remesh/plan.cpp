@@ -34,11 +34,11 @@ class NodeSearch {
   }
 
   /// As many as no mesh has where the mesh would not be allowed.
-  std::int64_t nodes_after(const ChangedSplits& changes) const {
+  NodeBounds nodes_after(const ChangedSplits& changes) const {
     try {
       return trial_.nodes(comm_, DemandedSplits(comm_, changes.demands));
     } catch (const TooManyCells&) {  // by an estimate that all ranks make
-      return beyond;
+      return {beyond, beyond};
     }
   }
 
@@ -49,16 +49,17 @@ class NodeSearch {
   ChangedSplits within(const std::optional<std::int64_t>& most, ChangedSplits all) const {
     constexpr double enough = 0.95;
     constexpr int most_steps = 24;
-    if (filled(most, all) <= 1) return all;
+    if (filled(most, all).most <= 1) return all;
     double low = -1, high = 1;
     ChangedSplits best = changes_at(low);
     for (int step = 0; step < most_steps; ++step) {
       const double middle = 0.5 * (low + high);
       ChangedSplits tried = changes_at(middle);
-      const double share = filled(most, tried);
-      (share <= 1 ? low : high) = middle;
-      if (share <= 1) best = std::move(tried);
-      if (share <= 1 && share >= enough) break;
+      const Share share = filled(most, tried);
+      const bool fits = share.most <= 1;
+      (fits ? low : high) = middle;
+      if (fits) best = std::move(tried);
+      if (fits && share.least >= enough) break;
     }
     return best;
   }
@@ -66,11 +67,18 @@ class NodeSearch {
   static constexpr std::int64_t beyond = std::numeric_limits<std::int64_t>::max();
 
  private:
-  /// Of cap and limit, the share that is nearer to being used up; above 1: too many.
-  double filled(const std::optional<std::int64_t>& most, const ChangedSplits& changes) const {
+  /// Of cap and limit, what is used up of the one that is nearer to it, at least and at most; above 1: too
+  /// many.
+  struct Share {
+    double least = 0, most = 0;
+  };
+  Share filled(const std::optional<std::int64_t>& most, const ChangedSplits& changes) const {
     const double of_limit = share_after(changes);
-    if (!most || of_limit > 1) return of_limit;
-    return std::max(of_limit, static_cast<double>(nodes_after(changes)) / static_cast<double>(*most));
+    if (!most || of_limit > 1) return {of_limit, of_limit};
+    const NodeBounds nodes = nodes_after(changes);
+    const auto cap = static_cast<double>(*most);
+    return {std::max(of_limit, static_cast<double>(nodes.least) / cap),
+            std::max(of_limit, static_cast<double>(nodes.most) / cap)};
   }
 
   double share_after(const ChangedSplits& changes) const {
@@ -149,11 +157,11 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   }
   if (options.max_nodes || bounded) changes = search.within(options.max_nodes, all);
   if (options.max_nodes) {
-    const std::int64_t nodes = search.nodes_after(changes);
+    const auto [least, nodes] = search.nodes_after(changes);
     if (nodes > *options.max_nodes && nodes != NodeSearch::beyond) {
       plan.warnings.push_back(fmt::format(
-          "the mesh has {} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them",
-          nodes, *options.max_nodes));
+          "the mesh has {}{} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them",
+          least < nodes ? "up to " : "", nodes, *options.max_nodes));
     }
   }
   plan.refined = changes.refined;

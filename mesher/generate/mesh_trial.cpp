@@ -1,7 +1,6 @@
 #include "mesher/generate/mesh_trial.hpp"
 
 #include "mesher/build/mesh_estimate.hpp"
-#include "mesher/layers/count_layers.hpp"
 
 namespace quadloop {
 
@@ -11,9 +10,11 @@ MeshTrial::MeshTrial(const MeshInput& input, const MeasuredWall& measured) : inp
   outer_.emplace(outside(input, *front_));
 }
 
-std::int64_t MeshTrial::nodes(const Communicator& comm, const DemandedSplits& demanded) const {
+NodeBounds MeshTrial::nodes(const Communicator& comm, const DemandedSplits& demanded) const {
   const MeshResult made = build_mesh(comm, meshed().geometry, meshed().mesh, demanded);
-  return made.tree.attributes.nodes + (front_ ? most_layer_nodes(comm, *front_, made.mesh) : 0);
+  const std::int64_t outer = made.tree.attributes.nodes;
+  const NodeBounds layers = front_ ? layer_nodes(comm, *front_, made.mesh) : NodeBounds{};
+  return {outer + layers.least, outer + layers.most};
 }
 
 MeshEstimate MeshTrial::estimate(const DemandedSplits& demanded) const {

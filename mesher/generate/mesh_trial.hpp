@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesher/generate/outside_layers.hpp"
+#include "mesher/layers/count_layers.hpp"
 
 namespace quadloop {
 
@@ -13,10 +14,10 @@ class MeshTrial {
   /// `input` must outlive it. Throws InputError where its layers do not fit.
   explicit MeshTrial(const MeshInput& input, const MeasuredWall& measured = {});
 
-  /// The nodes that generate_mesh() would make, those of layers too: of a mesh that is not smoothed, outside
-  /// the layers alone. Where columns of a fan merge they are counted as if they did not, so that there are
-  /// never more; a few for each sharp edge. Throws as build_mesh does. *Collective.*
-  std::int64_t nodes(const Communicator& comm, const DemandedSplits& demanded) const;
+  /// The nodes that generate_mesh() would make, those of layers too, from the mesh outside the layers, which
+  /// is not smoothed. The bounds differ at sharp edges alone (layer_nodes()). Throws as build_mesh does.
+  /// *Collective.*
+  NodeBounds nodes(const Communicator& comm, const DemandedSplits& demanded) const;
 
   /// The same on any number of ranks; not collective.
   MeshEstimate estimate(const DemandedSplits& demanded) const;
