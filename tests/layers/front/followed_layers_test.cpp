@@ -36,10 +36,10 @@ struct Followed {
 };
 
 TEST(FollowedLayers, TheFirstHeightHasTheYPlusAndThicknessAndCountStay) {
-  const Followed f(test::floor_with_layers(wanted), measured_floor(1, [](double x) { return 100 + 25 * x; }));
+  const Followed f(test::floor_with_layers(wanted), measured_floor(1, [](double x) { return 100 + 7.5 * x; }));
   for (std::int32_t i = 0; i < f.line.size(); ++i) {
     const LayerSpec& layers = f.layers[i];
-    EXPECT_NEAR(layers.first, 2 / (100 + 25 * f.line[i].wall.x), 1e-15);
+    EXPECT_NEAR(layers.first, 2 / (100 + 7.5 * f.line[i].wall.x), 1e-15);
     EXPECT_EQ(layers.count, 10);
     EXPECT_NEAR(layers_thickness(layers), thickness, 1e-9) << f.line[i].wall.x;
   }
@@ -61,17 +61,17 @@ TEST(FollowedLayers, HeightsStayWithinATenthAndTenTimesOfTheEstimate) {
 
 TEST(FollowedLayers, HeightsGrowSlowlyTowardsAPlaceWithoutFriction) {
   const Followed f(test::floor_with_layers(wanted),
-                   measured_floor(64, [](double x) { return 100 * std::abs(x - 4); }));
+                   measured_floor(64, [](double x) { return 200 * std::abs(x - 4); }));
   double largest = 0;
   for (std::int32_t i = 0; f.line.next(i) != WallLine::none; ++i) {
     const double here = f.layers[i].first, next = f.layers[f.line.next(i)].first;
     const double most = 1 + 0.6 * f.line.width(i) / thickness;
     EXPECT_LE(next, here * most * (1 + 1e-12));
     EXPECT_LE(here, next * most * (1 + 1e-12));
-    EXPECT_LE(here, 2 / (100 * std::abs(f.line[i].wall.x - 4)) * (1 + 1e-12)) << "y+ is never more";
+    EXPECT_LE(here, 2 / (200 * std::abs(f.line[i].wall.x - 4)) * (1 + 1e-12)) << "y+ is never more";
     largest = std::max(largest, here);
   }
-  EXPECT_NEAR(f.layers[0].first, 2.0 / 400, 1e-15) << "far from there y+ is met";
+  EXPECT_NEAR(f.layers[0].first, 2.0 / 800, 1e-15) << "far from there y+ is met";
   EXPECT_LT(largest, thickness / 10) << "there it is not the bound that holds";
 }
 
@@ -111,7 +111,7 @@ TEST(FollowedLayers, MirrorImagesHaveMirroredHeights) {
 
 TEST(FollowedLayers, TheFrontsLastLayersAskForLeavesOfTheirSize) {
   const Geometry floor = test::floor_with_layers(wanted);
-  const MeasuredWall wall = measured_floor(1, [](double x) { return 100 + 50 * x; });
+  const MeasuredWall wall = measured_floor(1, [](double x) { return 100 + 7.5 * x; });
   const LayerFront front = layer_front(floor, {}, {}, wall);
   double before = 0;
   for (std::int32_t i = 0; i < front.line.size(); ++i) {
