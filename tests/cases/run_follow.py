@@ -55,7 +55,7 @@ def first_heights(path):
 
 
 def friction(path):
-    """Nodes (x, y) of the aerofoil along x, and how many wall units go into a chord there."""
+    """Nodes (x, y) of the airfoil along x, and how many wall units go into a chord there."""
     nodes = walls(path, "airfoil")
     lines = Path(path).read_text().splitlines()
     places = {tuple(map(float, line.split())): row for row, line in enumerate(lines[2:2 + int(lines[1])])}

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/generate/mesh_trial.hpp"
@@ -179,6 +180,21 @@ TEST(PlanWithLayers, TheCapCountsTheirNodes) {
   const std::int64_t filled = nodes(bounded);
   EXPECT_LE(filled, *bounded.max_nodes);
   EXPECT_GE(static_cast<double>(filled), 0.95 * static_cast<double>(*bounded.max_nodes));
+}
+
+TEST(OwnMesh, MayHaveLayersThatReachFarBelowTheirLeaves) {
+  MeshInput input = channel();
+  Boundary floor = input.geometry.boundaries()[0], rest = input.geometry.boundaries()[1];
+  floor.layers = LayerSpec{0.01, 1.3, 1.3, 12};  // 0.74 thick
+  const std::vector<BoundaryId> of_segment{BoundaryId{0}, BoundaryId{1}, BoundaryId{1}, BoundaryId{1}};
+  input.geometry = {{floor, rest}, {{0, 0}, {4, 0}, {4, 2}, {0, 2}}, {0, 4}, of_segment};
+  SolvedMesh flow = solved(world(), input, "other", y_plus);
+  EXPECT_NO_THROW(require_untouched_mesh(world(), flow, "mesh", "tree"));
+  for (Point& p : flow.mesh.points) p.x += 1e-9;
+  EXPECT_NO_THROW(require_own_mesh(world(), flow, "mesh", "tree")) << "other formats round";
+  EXPECT_THROW(require_untouched_mesh(world(), flow, "mesh", "tree"), InputError);
+  for (Point& p : flow.mesh.points) p.x += 1;
+  EXPECT_THROW(require_own_mesh(world(), flow, "mesh", "tree"), InputError);
 }
 
 /// A wedge of layers with sharp edges, in a box; with a wake behind one of them, or fans at both.

@@ -36,7 +36,8 @@ struct Followed {
 };
 
 TEST(FollowedLayers, TheFirstHeightHasTheYPlusAndThicknessAndCountStay) {
-  const Followed f(test::floor_with_layers(wanted), measured_floor(1, [](double x) { return 100 + 7.5 * x; }));
+  const Followed f(test::floor_with_layers(wanted),
+                   measured_floor(1, [](double x) { return 100 + 7.5 * x; }));
   for (std::int32_t i = 0; i < f.line.size(); ++i) {
     const LayerSpec& layers = f.layers[i];
     EXPECT_NEAR(layers.first, 2 / (100 + 7.5 * f.line[i].wall.x), 1e-15);
