@@ -87,10 +87,8 @@ TEST(FollowedLayers, BoundariesOfAGivenHeightAndWhatIsNotMeasuredKeepTheirs) {
 }
 
 TEST(FollowedLayers, EachSideOfAThinBodyFollowsItsOwnFriction) {
-  const MeasuredWall wall{{{-2, 0}, {0, 1e-4}, 100, 100},
-                          {{0, 1e-4}, {2, 0}, 100, 100},
-                          {{2, 0}, {0, -1e-4}, 150, 150},
-                          {{0, -1e-4}, {-2, 0}, 150, 150}};
+  // of an earlier mesh, whose lower side lies nearer to the upper one of this body than its own upper side
+  const MeasuredWall wall{{{-2, 1e-3}, {2, 1e-3}, 100, 100}, {{2, 0}, {-2, 0}, 150, 150}};
   const Followed f(test::rhombus_with_layers(wanted, 1e-4), wall);
   for (std::int32_t i = 0; i < f.line.size(); ++i) {
     const Point place = f.line[i].wall;
