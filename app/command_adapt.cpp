@@ -81,7 +81,11 @@ std::string line_of(const CycleRecord& record) {
   if (record.residual) line += fmt::format("  residual {:.1e}", *record.residual);
   double seconds = 0;
   for (const auto& stage : record.seconds) seconds += stage.second;
-  return line + fmt::format("  {:.1f} s", seconds);
+  line += fmt::format("  {:.1f} s", seconds);
+  for (const auto& [boundary, least, largest] : record.first_heights)
+    line +=
+        fmt::format("\n          first heights asked for on {}: {:.4g} to {:.4g}", boundary, least, largest);
+  return line;
 }
 
 /// A cycle's figures and files join those of the run.

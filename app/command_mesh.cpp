@@ -119,7 +119,8 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   const DemandedSplits demanded(comm, saved ? standing_splits(*saved, input) : std::vector<SplitDemand>{});
   log::detail("meshing " + std::to_string(input.geometry.size()) + " segments");
   times.end();
-  const GeneratedMesh generated = generate_mesh(comm, input, demanded);
+  const GeneratedMesh generated =
+      generate_mesh(comm, input, demanded, saved ? saved->measured_wall : MeasuredWall{});
   times.append(generated.times);
   times.begin("write");
   log::detail("writing " + prepared.input.settings.output_prefix + ".*");

@@ -28,6 +28,8 @@ std::string log_text(const CycleRecord& record, const std::vector<std::string>& 
   std::string text =
       fmt::format("cycle {}: {} nodes, {} triangles, {} quads, smallest angle {:.1f}\n", record.cycle,
                   record.nodes, record.triangles, record.quads, record.worst_angle);
+  for (const auto& [boundary, least, largest] : record.first_heights)
+    text += fmt::format("first heights asked for on {}: {:.6g} to {:.6g}\n", boundary, least, largest);
   for (const std::string& line : notes) text += line + "\n";
   for (const std::string& line : warnings) text += "warning: " + line + "\n";
   text += fmt::format("marks for the next cycle: {} leaves to be split, {} to go\n", record.refined,

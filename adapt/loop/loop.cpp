@@ -90,6 +90,10 @@ class Loop {
     record.cl = flow.cl;
     record.cd = flow.cd;
     record.residual = flow.residual;
+    for (const BoundaryLayerReport& row : carried.generated.layers) {
+      if (row.y_plus > 0)
+        record.first_heights.push_back({row.boundary, row.first_asked, row.first_asked_most});
+    }
     record.seconds = seconds_of(comm_, times);
     return record;
   }

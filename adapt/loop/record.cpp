@@ -77,6 +77,10 @@ JsonObject figures_of(const CycleRecord& record) {
        {std::pair{"cl", record.cl}, {"cd", record.cd}, {"residual", record.residual}}) {
     if (value) json.add(name, *value);
   }
+  JsonObject heights;
+  for (const auto& [boundary, least, largest] : record.first_heights)
+    heights.add(boundary, std::vector{least, largest});
+  if (!record.first_heights.empty()) json.add("first_heights", heights);
   return json;
 }
 

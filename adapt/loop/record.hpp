@@ -11,6 +11,12 @@
 
 namespace quadloop {
 
+/// Of one boundary's layers, in the geometry's unit of length.
+struct FirstHeights {
+  std::string boundary;
+  double least = 0, largest = 0;
+};
+
 /// What record.json keeps of a cycle.
 struct CycleRecord {
   int cycle = 0;
@@ -25,6 +31,8 @@ struct CycleRecord {
   /// How far each variable's integral drifted in the transfer into this cycle.
   std::vector<std::pair<std::string, double>> drift;
   std::optional<double> cl, cd, residual;
+  /// Of boundaries that want a y+: the least and the largest first height that their layers were asked for.
+  std::vector<FirstHeights> first_heights;
   std::vector<std::pair<std::string, double>> seconds;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adapt/sensor/indicator.hpp"
+#include "adapt/sensor/measured_friction.hpp"
 #include "adapt/sensor/thresholds.hpp"
 #include "mesher/base/word_table.hpp"
 
@@ -29,6 +30,8 @@ struct AdaptOptions {
   std::optional<std::int64_t> max_nodes;  ///< a cap; the target for Threshold::nodes
   /// Leaf size that adaptation may reach, in the geometry's unit; none: that of the case.
   std::optional<double> min;
+  /// Where first heights of layers are to follow the wall shear of a solution.
+  std::optional<WallFlow> wall_flow;
 };
 
 }  // namespace quadloop

@@ -3,25 +3,29 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <limits>
 
 #include "adapt/remesh/restart.hpp"
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/layer_nodes.hpp"
 
 namespace quadloop {
 
 namespace {
 
-/// A coordinate of the centres of this rank's cells, triangles, then quads.
-std::vector<double> centres(const Mesh& mesh, double Point::*coordinate) {
+/// A coordinate of the centres of this rank's cells, triangles, then quads; of those in layers, which reach
+/// from their leaf down to the wall, `in_layers`.
+std::vector<double> centres(const Mesh& mesh, const LayerPlaces& places, double Point::*coordinate,
+                            double in_layers) {
   std::vector<double> values;
   const auto append = [&](const auto& cells) {
     for (const auto& nodes : cells) {
       double sum = 0;
       for (const NodeId node : nodes) sum += mesh.point(node).*coordinate;
-      values.push_back(sum / size32(nodes));
+      values.push_back(is_layer_cell(places, nodes) ? in_layers : sum / size32(nodes));
     }
   };
   append(mesh.triangles);
@@ -32,6 +36,10 @@ std::vector<double> centres(const Mesh& mesh, double Point::*coordinate) {
 Lattice lattice_of(const TreeAttributes& a) {
   const Point low{a.root_x, a.root_y};
   return {{low, low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge}}, a.trees_x, a.trees_y};
+}
+
+bool is_untouched(const Communicator& comm, const SolvedMesh& solved) {
+  return coordinate_digest(comm, solved.mesh) == solved.tree.attributes.coordinate_digest;
 }
 
 }  // namespace
@@ -51,10 +59,17 @@ void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const 
                       const std::string& tree) {
   constexpr double reach = 2;
   require_counts(count(comm, solved.mesh), solved.tree.attributes, shown, tree);
+  if (has_layers(solved.mesh) && is_untouched(comm, solved)) return;
   const CellsOfLeaves cells(comm, solved.mesh, solved.tree.leaves);
-  const auto x = centres(solved.mesh, &Point::x), y = centres(solved.mesh, &Point::y);
-  const auto left = cells.smallest(comm, x), right = cells.largest(comm, x), bottom = cells.smallest(comm, y),
-             top = cells.largest(comm, y);
+  const LayerPlaces places = layer_places(comm, solved.mesh);
+  const auto of_all = [&](double Point::*coordinate, double in_layers) {
+    return centres(solved.mesh, places, coordinate, in_layers);
+  };
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const auto left = cells.smallest(comm, of_all(&Point::x, none)),
+             right = cells.largest(comm, of_all(&Point::x, -none)),
+             bottom = cells.smallest(comm, of_all(&Point::y, none)),
+             top = cells.largest(comm, of_all(&Point::y, -none));
   const Lattice lattice = lattice_of(solved.tree.attributes);
   comm.together([&] {
     for (std::size_t i = 0; i < solved.tree.leaves.size(); ++i) {
@@ -77,7 +92,7 @@ void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const 
 void require_untouched_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,
                             const std::string& tree) {
   require_own_mesh(comm, solved, shown, tree);
-  if (coordinate_digest(comm, solved.mesh) == solved.tree.attributes.coordinate_digest) return;
+  if (is_untouched(comm, solved)) return;
   throw InputError(fmt::format("{}: its nodes do not lie where those of the mesh of {} lie", shown, tree));
 }
 

@@ -6,10 +6,12 @@
 #include <limits>
 #include <optional>
 
+#include "adapt/remesh/followed_walls.hpp"
 #include "adapt/remesh/mark_family.hpp"
 #include "adapt/remesh/restart.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/build/mesh_estimate.hpp"
+#include "mesher/generate/mesh_trial.hpp"
 
 namespace quadloop {
 
@@ -18,21 +20,25 @@ namespace {
 /// Looks along the family for the marks that lead to a number of nodes from 95 to 100 % of the one allowed.
 class NodeSearch {
  public:
-  NodeSearch(const Communicator& comm, const MeshInput& input, const SolvedMesh& solved,
-             const MarkFamily& family, int finest)
-      : comm_{comm}, input_{input}, solved_{solved}, family_{family}, finest_{finest} {}
+  NodeSearch(const Communicator& comm, const MeshInput& input, const MeasuredWall& measured,
+             const SolvedMesh& solved, const MarkFamily& family, int finest)
+      : comm_{comm},
+        trial_{input, measured},
+        limit_{input.mesh.limit},
+        solved_{solved},
+        family_{family},
+        finest_{finest} {}
 
   ChangedSplits changes_at(double at) const {
     return changed_splits(comm_, solved_.tree, family_.marks(at), finest_);
   }
 
   /// As many as no mesh has where the mesh would not be allowed.
-  std::int64_t nodes_after(const ChangedSplits& changes) const {
+  NodeBounds nodes_after(const ChangedSplits& changes) const {
     try {
-      return build_mesh(comm_, input_.geometry, input_.mesh, DemandedSplits(comm_, changes.demands))
-          .tree.attributes.nodes;
+      return trial_.nodes(comm_, DemandedSplits(comm_, changes.demands));
     } catch (const TooManyCells&) {  // by an estimate that all ranks make
-      return beyond;
+      return {beyond, beyond};
     }
   }
 
@@ -43,16 +49,17 @@ class NodeSearch {
   ChangedSplits within(const std::optional<std::int64_t>& most, ChangedSplits all) const {
     constexpr double enough = 0.95;
     constexpr int most_steps = 24;
-    if (filled(most, all) <= 1) return all;
+    if (filled(most, all).most <= 1) return all;
     double low = -1, high = 1;
     ChangedSplits best = changes_at(low);
     for (int step = 0; step < most_steps; ++step) {
       const double middle = 0.5 * (low + high);
       ChangedSplits tried = changes_at(middle);
-      const double share = filled(most, tried);
-      (share <= 1 ? low : high) = middle;
-      if (share <= 1) best = std::move(tried);
-      if (share <= 1 && share >= enough) break;
+      const Share share = filled(most, tried);
+      const bool fits = share.most <= 1;
+      (fits ? low : high) = middle;
+      if (fits) best = std::move(tried);
+      if (fits && share.least >= enough) break;
     }
     return best;
   }
@@ -60,20 +67,27 @@ class NodeSearch {
   static constexpr std::int64_t beyond = std::numeric_limits<std::int64_t>::max();
 
  private:
-  /// Of cap and limit, the share that is nearer to being used up; above 1: too many.
-  double filled(const std::optional<std::int64_t>& most, const ChangedSplits& changes) const {
+  /// Of cap and limit, what is used up of the one that is nearer to it, at least and at most; above 1: too
+  /// many.
+  struct Share {
+    double least = 0, most = 0;
+  };
+  Share filled(const std::optional<std::int64_t>& most, const ChangedSplits& changes) const {
     const double of_limit = share_after(changes);
-    if (!most || of_limit > 1) return of_limit;
-    return std::max(of_limit, static_cast<double>(nodes_after(changes)) / static_cast<double>(*most));
+    if (!most || of_limit > 1) return {of_limit, of_limit};
+    const NodeBounds nodes = nodes_after(changes);
+    const auto cap = static_cast<double>(*most);
+    return {std::max(of_limit, static_cast<double>(nodes.least) / cap),
+            std::max(of_limit, static_cast<double>(nodes.most) / cap)};
   }
 
   double share_after(const ChangedSplits& changes) const {
-    return share_of(input_.mesh.limit,
-                    estimate_mesh(input_.geometry, input_.mesh, DemandedSplits(comm_, changes.demands)));
+    return share_of(limit_, trial_.estimate(DemandedSplits(comm_, changes.demands)));
   }
 
   const Communicator& comm_;
-  const MeshInput& input_;
+  MeshTrial trial_;
+  MeshLimit limit_;
   const SolvedMesh& solved_;
   const MarkFamily& family_;
   int finest_;
@@ -129,10 +143,12 @@ MarkFamily family_of(const Communicator& comm, const AdaptOptions& options, cons
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved) {
   const MarkFamily family = family_of(comm, options, solved);
-  const NodeSearch search(comm, input, solved, family, finest_level(input, options));
+  AdaptationPlan plan;
+  plan.measured_wall = wall_to_follow(comm, input, options, solved);
+  plan.new_heights = other_heights(input, solved.tree.measured_wall, plan.measured_wall);
+  const NodeSearch search(comm, input, plan.measured_wall, solved, family, finest_level(input, options));
   const ChangedSplits all = search.changes_at(1);
   ChangedSplits changes = all;
-  AdaptationPlan plan;
   const bool bounded = !search.allowed(all);
   if (bounded) {
     plan.warnings.emplace_back(
@@ -141,11 +157,11 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   }
   if (options.max_nodes || bounded) changes = search.within(options.max_nodes, all);
   if (options.max_nodes) {
-    const std::int64_t nodes = search.nodes_after(changes);
+    const auto [least, nodes] = search.nodes_after(changes);
     if (nodes > *options.max_nodes && nodes != NodeSearch::beyond) {
       plan.warnings.push_back(fmt::format(
-          "the mesh has {} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them",
-          nodes, *options.max_nodes));
+          "the mesh has {}{} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them",
+          least < nodes ? "up to " : "", nodes, *options.max_nodes));
     }
   }
   plan.refined = changes.refined;

@@ -17,14 +17,18 @@ struct AdaptationPlan {
   std::vector<SplitDemand> demands;  ///< from this rank's share of leaves
   double mean = 0, deviation = 0;    ///< of log10 of the indicator; 0 for sizes
   std::int64_t refined = 0, coarsened = 0;
+  MeasuredWall measured_wall;  ///< that first heights of layers are to follow; the same on every rank
+  bool new_heights = false;    ///< they differ from those of the last mesh
   std::vector<std::string> warnings;
 
-  /// Without a mark that takes effect the next mesh would be the last one again.
-  bool changes_mesh() const { return refined + coarsened > 0; }
+  /// Without a mark that takes effect, or new heights, the next mesh would be the last one again.
+  bool changes_mesh() const { return refined + coarsened > 0 || new_heights; }
 };
 
 /// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where
-/// the number of nodes is bounded or wanted; the nodes are counted on the meshes themselves, unsmoothed.
+/// the number of nodes is bounded or wanted; the nodes are counted on the meshes themselves, unsmoothed
+/// (MeshTrial). Where walls want a y+ and the solution tells friction, first heights follow it, from the next
+/// mesh on if any changes by more than a twentieth.
 /// *Collective.* Throws InputError where the solution has no such variable, or one that is not finite.
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved);

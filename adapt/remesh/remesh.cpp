@@ -22,7 +22,7 @@ std::vector<std::pair<std::string, double>> CarriedMesh::drifts() const {
 CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan,
                        const SolvedMesh& old) {
   CarriedMesh carried;
-  carried.generated = generate_mesh(comm, input, DemandedSplits(comm, plan.demands));
+  carried.generated = generate_mesh(comm, input, DemandedSplits(comm, plan.demands), plan.measured_wall);
   carried.times.append(carried.generated.times);
   carried.times.begin("transfer");
   Transferred transferred = transfer(comm, old.mesh, old.solution, carried.generated.result.mesh);
@@ -35,6 +35,7 @@ CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const A
 AdaptationPlan standing_plan(const TreeRecord& tree, const MeshInput& input) {
   AdaptationPlan plan;
   plan.demands = standing_splits(tree, input);
+  plan.measured_wall = tree.measured_wall;
   return plan;
 }
 

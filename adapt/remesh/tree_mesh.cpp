@@ -78,7 +78,8 @@ TreeMesh mesh_of_tree(const Communicator& comm, const TreeRecord& tree, const Me
   const auto input = std::ranges::find_if(inputs, fits);
   result.known = comm.any(found.has_value());
   if (!result.known && input != inputs.end()) {
-    const GeneratedMesh made = generate_mesh(comm, *input, DemandedSplits(comm, adapted_splits(tree)));
+    const GeneratedMesh made =
+        generate_mesh(comm, *input, DemandedSplits(comm, adapted_splits(tree)), tree.measured_wall);
     result.known = made.result.tree.attributes.coordinate_digest == tree.attributes.coordinate_digest;
     if (result.known) found = whole_at_root(comm, made.result.mesh);
   }

@@ -41,6 +41,7 @@ JsonObject json_of_row(const BoundaryLayerReport& row) {
   json.add("count", row.reached);
   json.add("columns", row.columns);
   json.add("first_asked", row.first_asked);
+  if (row.y_plus > 0) json.add("first_asked_most", row.first_asked_most);
   json.add("first_least", row.first_least);
   json.add("first_median", row.first_median);
   json.add("growth_asked", row.growth_asked);

@@ -86,6 +86,17 @@ void require_possible_attributes(const TreeAttributes& attributes, std::int64_t 
   if (nodes < 0 || triangles < 0 || quads < 0) refuse("it has a number of nodes or cells below 0");
 }
 
+void require_possible_wall(const MeasuredWall& wall, const std::string& path) {
+  for (const MeasuredEdge& edge : wall) {
+    const bool finite = std::isfinite(edge.from.x) && std::isfinite(edge.from.y) &&
+                        std::isfinite(edge.to.x) && std::isfinite(edge.to.y) &&
+                        std::isfinite(edge.wall_units_from) && std::isfinite(edge.wall_units_to);
+    if (!finite || edge.wall_units_from < 0 || edge.wall_units_to < 0)
+      throw InputError(fmt::format("{}: the friction measured at ({}, {}) is not possible{}", path,
+                                   edge.from.x, edge.from.y, cure));
+  }
+}
+
 void require_whole_tree(const Communicator& comm, const TreeRecord& tree,
                         const std::optional<LeafRecord>& before, const std::string& path) {
   std::int64_t begun = 0, ended = 0, triangles = 0, quads = 0;

@@ -14,6 +14,9 @@ namespace quadloop {
 void require_possible_attributes(const TreeAttributes& attributes, std::int64_t leaves,
                                  const std::string& path);
 
+/// Throws InputError where a number is not finite or friction is below 0. Local.
+void require_possible_wall(const MeasuredWall& wall, const std::string& path);
+
 /// Throws InputError on all ranks unless the leaves are those of whole trees along the space-filling curve,
 /// each with what it may hold, and their cells as many as the attributes say. `before` is the leaf before
 /// this rank's first. *Collective.*

@@ -39,6 +39,20 @@ class TreeSink {
     for_each_attribute(attributes, [&](const char* name, auto value) { put_number(name, value); });
   }
 
+  void put_measured_wall(const MeasuredWall& wall) {
+    if (wall.empty()) return;
+    const std::array<hsize_t, 2> size{wall.size(), measured_wall_columns};
+    const Hdf5Handle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(creation.id(), false);
+    Hdf5Handle dataset(H5Dcreate2(file_.id(), measured_wall_name, file_type<double>(), space.id(),
+                                  H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+                       H5Dclose);
+    check(dataset.valid() &&
+          H5Dwrite(dataset.id(), memory_type<double>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, wall.data()) >= 0 &&
+          dataset.close() >= 0);
+  }
+
   void put_leaves(std::span<const LeafRecord> leaves) {
     while (!leaves.empty()) {
       const std::size_t count = std::min<std::size_t>(leaves.size(), rows_per_chunk - waiting_.size());
@@ -151,6 +165,7 @@ void write_tree(OutputSet& outputs, const TreeRecord& tree, const std::string& p
     if (!comm.is_root()) return;
     sink = std::make_unique<TreeSink>(staged, all);
     sink->put_attributes(tree.attributes);
+    sink->put_measured_wall(tree.measured_wall);
   });
   const RowStream stream{comm, own, rows_per_chunk};
   stream.run<LeafRecord>(

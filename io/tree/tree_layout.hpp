@@ -31,6 +31,11 @@ void for_each_attribute(Attributes& attributes, const Visit& visit) {
   visit("coordinate_digest", attributes.coordinate_digest);
 }
 
+/// The dataset of TreeRecord::measured_wall, which files without one lack: a row an edge.
+inline constexpr const char* measured_wall_name = "measured_wall";
+inline constexpr std::size_t measured_wall_columns = 6;  ///< x, y of its ends, then wall units at either
+static_assert(sizeof(MeasuredEdge) == measured_wall_columns * sizeof(double));
+
 /// Calls `visit(name, pointers to the members that make one row)` for each dataset, in the order of the file.
 template <class Visit>
 void for_each_tree_dataset(const Visit& visit) {

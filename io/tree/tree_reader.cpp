@@ -51,6 +51,21 @@ class TreeSource {
     });
   }
 
+  /// All of it; empty where the file has none.
+  MeasuredWall measured_wall() const {
+    if (H5Lexists(file_.id(), measured_wall_name, H5P_DEFAULT) <= 0) return {};
+    const Hdf5Handle dataset = open(measured_wall_name);
+    const Hdf5Handle space(H5Dget_space(dataset.id()), H5Sclose);
+    std::array<hsize_t, 32> size{};
+    const bool shaped = H5Sget_simple_extent_dims(space.id(), size.data(), nullptr) == 2 &&
+                        size[1] == measured_wall_columns && may_hold(dataset, size[0] * size[1]);
+    MeasuredWall wall(shaped ? size[0] : 0);
+    if (!shaped ||
+        H5Dread(dataset.id(), memory_type<double>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, wall.data()) < 0)
+      refuse(std::string("its dataset \"") + measured_wall_name + "\" cannot be read; the file is damaged");
+    return wall;
+  }
+
   std::vector<LeafRecord> read(std::int64_t begin, std::int64_t end) const {
     std::vector<LeafRecord> result(end - begin);
     for_each_tree_dataset([&](const char* name, const auto& members) {
@@ -131,6 +146,7 @@ template <class Pipe>
 void pass_fields(Pipe& pipe, TreeShare& share) {
   pass(pipe, share.tree.attributes);
   pass(pipe, share.tree.leaves);
+  pass(pipe, share.tree.measured_wall);
   pass(pipe, share.before);
 }
 
@@ -144,6 +160,8 @@ TreeShare read_share(const std::string& path, std::int64_t rank, std::int64_t ra
   const std::int64_t begin = all / ranks * rank + std::min(all % ranks, rank),
                      end = all / ranks * (rank + 1) + std::min(all % ranks, rank + 1);
   share.tree.leaves = source.read(begin, end);
+  share.tree.measured_wall = source.measured_wall();
+  require_possible_wall(share.tree.measured_wall, path);
   if (begin > 0 && begin < end) share.before = source.read(begin - 1, begin).front();
   return share;
 }

@@ -49,12 +49,13 @@ class WordDigest {
     add(length);
     add(spacing);
     if (!layers) return;
-    const auto& [first, growth, growth_to, count, equal] = *layers;
+    const auto& [first, growth, growth_to, count, equal, y_plus] = *layers;
     add(first);
     add(growth);
     add(growth_to);
     add(static_cast<std::uint64_t>(count));
     add(static_cast<std::uint64_t>(equal));
+    if (y_plus > 0) add(y_plus);
   }
   std::uint64_t value() const { return mixed_bits(state_); }
 

@@ -11,6 +11,7 @@
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/lattice_rank.hpp"
 #include "mesher/generate/digests.hpp"
+#include "mesher/generate/outside_layers.hpp"
 #include "mesher/generate/refine_front.hpp"
 #include "mesher/layers/add_layers.hpp"
 #include "mesher/layers/add_strips.hpp"
@@ -71,17 +72,6 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
                           report.worst_cost_before));
 }
 
-/// The same input for the domain outside the layers, in the same root.
-MeshInput outside(const MeshInput& input, const LayerFront& front) {
-  MeshInput outer = input;
-  outer.geometry = front.outer;
-  outer.smooth.front_heights = front.last_heights;
-  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
-  outer.mesh.size.root =
-      RootOptions{lattice.box().low, lattice.tree_edge(), lattice.trees_x(), lattice.trees_y()};
-  return outer;
-}
-
 /// Files keep with the mesh how many layers its boundaries have.
 void name_layers(const Geometry& geometry, Mesh& mesh) {
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
@@ -104,11 +94,6 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
   a.nodes = comm.sum(result.mesh.owned_nodes);
   a.triangles = comm.sum(std::ssize(result.mesh.triangles));
   a.quads = comm.sum(std::ssize(result.mesh.quads));
-}
-
-bool has_layers(const MeshInput& input) {
-  return !input.lines.empty() || std::ranges::any_of(input.geometry.boundaries(),
-                                                     [](const Boundary& b) { return b.layers.has_value(); });
 }
 
 /// A mesh that is not smoothed yet. *Collective.*
@@ -193,10 +178,10 @@ class OutsideMesh {
 };
 
 GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
-                               const DemandedSplits& demanded) {
+                               const DemandedSplits& demanded, const MeasuredWall& measured) {
   StageTimes times;
   times.begin("front");
-  LayerFront front = layer_front(input.geometry, input.mesh.size.curvature, input.lines);
+  LayerFront front = front_of(input, measured);
   times.end();
   GeneratedMesh generated = OutsideMesh(comm, input, demanded, front).made();
   times.append(generated.times);
@@ -205,6 +190,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   for (std::string& warning : warnings_of(generated.layers))
     generated.result.report.warnings.push_back(std::move(warning));
   fill_layers(comm, input, front, generated.result);
+  if (wants_y_plus(input.geometry)) generated.result.tree.measured_wall = measured;
   times.end();
   generated.times = times;
   return generated;
@@ -227,10 +213,10 @@ SmoothOptions smooth_options_for(const MeshInput& input, int finest_level) {
   return options;
 }
 
-GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
-                            const DemandedSplits& demanded) {
-  GeneratedMesh generated =
-      has_layers(input) ? generate_layered(comm, input, demanded) : generate_plain(comm, input, demanded);
+GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
+                            const MeasuredWall& measured) {
+  GeneratedMesh generated = has_layers(input) ? generate_layered(comm, input, demanded, measured)
+                                              : generate_plain(comm, input, demanded);
   MeshResult& result = generated.result;
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);

@@ -8,6 +8,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/measured_wall.hpp"
 #include "mesher/layers/front/layer_lines.hpp"
 #include "mesher/layers/layer_report.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
@@ -37,9 +38,9 @@ struct GeneratedMesh {
 SmoothOptions smooth_options_for(const MeshInput& input, int finest_level);
 
 /// Meshes and smooths; smoothing always begins with the mesh as it is cut, and a mesh of the Delaunay type
-/// ends with flips, under the order of nodes that it was made with. *Collective.* Throws InputError as
-/// build_mesh does.
+/// ends with flips, under the order of nodes that it was made with. First heights of layers that want a y+
+/// follow the measured wall, which the tree keeps. *Collective.* Throws InputError as build_mesh does.
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
-                            const DemandedSplits& demanded = {});
+                            const DemandedSplits& demanded = {}, const MeasuredWall& measured = {});
 
 }  // namespace quadloop

@@ -71,6 +71,26 @@ int layers_within(const LayerSpec& spec, double thickness, int most) {
   return layers;
 }
 
+LayerSpec with_first_height(const LayerSpec& spec, double first) {
+  constexpr double most = 1.5;
+  constexpr int halvings = 80;
+  const double thickness = layers_thickness(spec);
+  LayerSpec other = spec;
+  other.first = std::min(first, thickness / spec.count);
+  const auto scale = [&](double share) {
+    other.growth = 1 + share * (spec.growth - 1);
+    other.growth_to = 1 + share * (spec.growth_to - 1);
+  };
+  double low = 0, high = most;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    scale(middle);
+    (layers_thickness(other) <= thickness ? low : high) = middle;
+  }
+  scale(low);
+  return other;
+}
+
 ColumnHeights column_heights(const LayerSpec& spec, double first, double length) {
   ColumnHeights column{{0}, std::min(first, length / spec.count), spec.growth};
   const double share = share_for(spec, length / column.first);

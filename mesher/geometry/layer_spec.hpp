@@ -14,6 +14,8 @@ struct LayerSpec {
       1.2;        ///< what it rises to, by a twentieth a layer after the first five; at least `growth`
   int count = 0;  ///< of layers; above 0
   int equal = 1;  ///< so many layers have the first height
+  double y_plus =
+      0;  ///< above 0: what the first height is to be in wall units, of which `first` is an estimate
 
   friend bool operator==(const LayerSpec&, const LayerSpec&) = default;
 };
@@ -26,6 +28,11 @@ double layers_thickness(const LayerSpec& spec);
 
 /// The number of layers that reach the thickness, the last one perhaps beyond it; at most `most`.
 int layers_within(const LayerSpec& spec, double thickness, int most);
+
+/// Layers of another first height, as many and as thick together: the excess of each growth over 1 is scaled
+/// by one number, found by bisection. By 1.5 at most; where that is too little they are thinner. A first
+/// height that leaves no room for the others becomes an equal share of the thickness.
+LayerSpec with_first_height(const LayerSpec& spec, double first);
 
 /// One column of layers.
 struct ColumnHeights {

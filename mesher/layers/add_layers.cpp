@@ -10,11 +10,9 @@
 #include <unordered_map>
 
 #include "mesher/base/error.hpp"
-#include "mesher/base/parallel/exchange.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/layers/fan_rows.hpp"
 #include "mesher/layers/layer_column.hpp"
-#include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop {
 
@@ -61,9 +59,8 @@ class LayerBuilder {
         places_on_{front},
         fans_{front.line},
         edge_leaves_{edge_leaves},
-        mesh_{mesh},
-        owners_{comm, mesh.first_node} {
-    find_places();
+        mesh_{mesh} {
+    place_ = places_of_nodes(comm, places_on_, mesh);
     gather_rays();
     make_rows();
     grown_.emplace(comm, nodes_below(), divide, mesh, leaves);
@@ -83,7 +80,6 @@ class LayerBuilder {
   }
 
  private:
-  void find_places();
   void gather_rays();
   void make_rows();
   void make_columns();
@@ -139,40 +135,12 @@ class LayerBuilder {
   Fans fans_;
   std::vector<std::vector<std::int32_t>>& edge_leaves_;
   Mesh& mesh_;
-  NodeOwners owners_;
   IdVector<NodeId, FrontPlace> place_;
   std::vector<Ray> rays_;  ///< of all fans, in order
   std::map<std::int32_t, FanRows> fan_rows_;
   std::optional<GrownMesh> grown_;
   IdVector<NodeId, std::vector<GrownNode>> columns_;  ///< of front nodes, from the wall to the front
 };
-
-/// Of the front's nodes, on the ranks that own them and on those with an edge there.
-void LayerBuilder::find_places() {
-  struct Asked {
-    GlobalNodeId node;
-    BoundaryId boundary;
-  };
-  place_.resize(mesh_.points.size());
-  Outbox<Asked> asked;
-  for (std::size_t b = 0; b < mesh_.boundaries.size(); ++b) {
-    const BoundaryId boundary{static_cast<std::int32_t>(b)};
-    for (const auto& edge : mesh_.boundaries[b].edges) {
-      const std::array places{places_on_.locate(mesh_.point(edge[0]), boundary),
-                              places_on_.locate(mesh_.point(edge[1]), boundary)};
-      if (!places_on_.follows(places[0], places[1])) continue;
-      for (const std::size_t k : {0, 1}) {
-        place_[edge[k]] = places[k];
-        const GlobalNodeId node = mesh_.global(edge[k]);
-        if (!mesh_.owns(edge[k])) asked.add(owners_.rank_of(node), {node, boundary});
-      }
-    }
-  }
-  for (const Asked& a : asked.deliver(comm_)) {
-    const NodeId node = owners_.local(a.node);
-    place_[node] = places_on_.locate(mesh_.point(node), a.boundary);
-  }
-}
 
 void LayerBuilder::gather_rays() {
   std::vector<Ray> own;

@@ -1,6 +1,11 @@
 #include "mesher/layers/front_places.hpp"
 
+#include <array>
+#include <limits>
+
+#include "mesher/base/parallel/exchange.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
+#include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop {
 
@@ -40,6 +45,35 @@ bool FrontPlaces::follows(const FrontPlace& first, const FrontPlace& second) con
   const std::int32_t distance_back = line.steps(second.station, first.station);
   return distance_on != WallLine::none && distance_on != 0 &&
          (distance_back == WallLine::none || distance_on <= distance_back);
+}
+
+IdVector<NodeId, FrontPlace> places_of_nodes(const Communicator& comm, const FrontPlaces& places,
+                                             const Mesh& mesh) {
+  struct Asked {
+    GlobalNodeId node;
+    BoundaryId boundary;
+  };
+  const NodeOwners owners(comm, mesh.first_node);
+  IdVector<NodeId, FrontPlace> found(mesh.points.size());
+  Outbox<Asked> asked;
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+    const BoundaryId boundary{static_cast<std::int32_t>(b)};
+    for (const auto& edge : mesh.boundaries[b].edges) {
+      const std::array ends{places.locate(mesh.point(edge[0]), boundary),
+                            places.locate(mesh.point(edge[1]), boundary)};
+      if (!places.follows(ends[0], ends[1])) continue;
+      for (const std::size_t k : {0, 1}) {
+        found[edge[k]] = ends[k];
+        const GlobalNodeId node = mesh.global(edge[k]);
+        if (!mesh.owns(edge[k])) asked.add(owners.rank_of(node), {node, boundary});
+      }
+    }
+  }
+  for (const Asked& a : asked.deliver(comm)) {
+    const NodeId node = owners.local(a.node);
+    found[node] = places.locate(mesh.point(node), a.boundary);
+  }
+  return found;
 }
 
 }  // namespace quadloop

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "mesher/base/id_vector.hpp"
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/layers/front/layer_front.hpp"
+#include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
 
@@ -37,5 +39,10 @@ class FrontPlaces {
   const LayerFront* front_;
   IdVector<BoundaryId, OfBoundary> of_boundary_;
 };
+
+/// Of each of a mesh's nodes that are on a front: on the ranks that own them and on those with an edge there.
+/// *Collective.*
+IdVector<NodeId, FrontPlace> places_of_nodes(const Communicator& comm, const FrontPlaces& places,
+                                             const Mesh& mesh);
 
 }  // namespace quadloop

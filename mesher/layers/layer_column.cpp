@@ -26,13 +26,28 @@ double cosine_of_tilt(const WallLine& line, const FrontPlace& place, Point direc
   return place.at_station() ? std::min(after, dot(direction, left_of(station.before))) : after;
 }
 
+/// Between two stations the first height changes evenly; the same for the wall walked the other way. Growth
+/// is what either lets it be, so that it is the length that decides.
+LayerSpec spec_at(const WallLine& line, const FrontPlace& place) {
+  LayerSpec spec = line.spec(place.station);
+  if (place.at_station()) return spec;
+  const LayerSpec& next = line.spec(line.next(place.station));
+  if (next == spec) return spec;
+  const double here = spec.first;
+  spec.first =
+      0.5 * ((here + place.share * (next.first - here)) + (next.first + place.rest * (here - next.first)));
+  spec.growth = std::max(spec.growth, next.growth);
+  spec.growth_to = std::max(spec.growth_to, next.growth_to);
+  return spec;
+}
+
 }  // namespace
 
 LayerColumn column_at(const LayerFront& front, const FrontPlace& place, Point node) {
   const WallLine& line = front.line;
   const Point foot = foot_of(line, place), way = node - foot;
   const double whole = length(way);
-  const LayerSpec& spec = line.spec(place.station);
+  const LayerSpec spec = spec_at(line, place);
   const double cosine = std::clamp(cosine_of_tilt(line, place, (1 / whole) * way), 0.2, 1.0);
   return {foot, cosine, column_heights(spec, spec.first / cosine, whole)};
 }

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "mesher/layers/layer_column.hpp"
 
@@ -89,6 +91,17 @@ double share_full(const LayerFront& front, BoundaryId boundary) {
   return all > 0 ? reached / all : 1;
 }
 
+/// The least and the largest first height that the boundary's stations ask for.
+std::pair<double, double> first_asked(const LayerFront& front, BoundaryId boundary) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (std::int32_t i = 0; i < front.line.size(); ++i) {
+    if (front.line[i].layers != boundary) continue;
+    least = std::min(least, front.line.spec(i).first);
+    most = std::max(most, front.line.spec(i).first);
+  }
+  return {least, most};
+}
+
 BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, std::span<const Column> columns) {
   const Boundary& boundary = front.line.geometry().boundary(id);
   const LayerSpec& spec = *boundary.layers;
@@ -99,7 +112,8 @@ BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, std::span<
   report.asked = spec.count;
   report.reached = std::ranges::min(columns, {}, &Column::layers).layers;
   report.columns = std::ssize(columns);
-  report.first_asked = spec.first;
+  std::tie(report.first_asked, report.first_asked_most) = first_asked(front, id);
+  report.y_plus = spec.y_plus;
   report.first_least = std::ranges::min(columns, {}, &Column::first).first;
   report.first_median = median_first(columns);
   report.growth_asked = spec.growth;

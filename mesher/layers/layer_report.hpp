@@ -16,7 +16,9 @@ struct BoundaryLayerReport {
   std::string boundary;
   int asked = 0, reached = 0;  ///< layers; those of the column that has least
   std::int64_t columns = 0;    ///< nodes of the front
-  double first_asked = 0, first_least = 0, first_median = 0;
+  double y_plus = 0;           ///< asked of the first layer; 0: none
+  /// Where first heights follow a flow they are asked for from `first_asked` to `first_asked_most`.
+  double first_asked = 0, first_asked_most = 0, first_least = 0, first_median = 0;
   double growth_asked = 0, growth_least = 0;  ///< of the layers above the equal ones; asked: the first one's
   double thickness_asked = 0;
   double share_least = 1;  ///< of the thickness asked for

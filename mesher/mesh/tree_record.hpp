@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesher/geometry/measured_wall.hpp"
+
 namespace quadloop {
 
 /// One leaf as the tree file keeps it.
@@ -33,6 +35,7 @@ struct TreeAttributes {
 struct TreeRecord {
   TreeAttributes attributes;
   std::vector<LeafRecord> leaves;
+  MeasuredWall measured_wall = {};  ///< that first heights of layers follow; all of it on every rank
 };
 
 }  // namespace quadloop

@@ -91,21 +91,25 @@ LayerSettings::LayerSettings(const CaseTable& root) {
   const auto reynolds = table->number("reynolds", {least_reynolds});
   if (!reynolds)
     table->refuse("reynolds", "is missing: speed times reference length over kinematic viscosity");
-  flow_ = FlowConditions{*reynolds, table->number("reference_length", Range::positive()).value_or(1)};
+  flow_ = FlowConditions{*reynolds, table->number("reference_length", Range::positive()).value_or(1),
+                         table->number("density", Range::positive()).value_or(1),
+                         table->number("speed", Range::positive()).value_or(1)};
   table->number("mach", {0, 100});  // of no use to the estimate, which says so
   table->finish();
 }
 
-double LayerSettings::first_height(const CaseTable& layers) {
+void LayerSettings::read_first_height(const CaseTable& layers, LayerSpec& spec) {
   if (!layers.has("first"))
     layers.refuse("first", "is missing: the height of the layer at the wall, or \"yplus:1\"");
-  if (!layers.is_text("first")) return *layers.number("first", Range::positive());
+  if (!layers.is_text("first")) {
+    spec.first = *layers.number("first", Range::positive());
+    return;
+  }
   constexpr std::string_view head = "yplus:";
   const std::string text = *layers.text("first");
-  double y_plus = 0;
   const bool is_y_plus = text.starts_with(head) &&
-                         parse_real(std::string_view(text).substr(head.size()), y_plus) &&
-                         std::isfinite(y_plus) && y_plus > 0;
+                         parse_real(std::string_view(text).substr(head.size()), spec.y_plus) &&
+                         std::isfinite(spec.y_plus) && spec.y_plus > 0;
   if (!is_y_plus)
     layers.refuse("first", fmt::format("is '{}', but must be a height above 0, or \"yplus:1\" with any "
                                        "number above 0 in the place of 1",
@@ -115,7 +119,7 @@ double LayerSettings::first_height(const CaseTable& layers) {
                                        "reynolds = 1e6, and reference_length unless that is 1",
                                        text));
   used_ = true;
-  return height_of_y_plus(y_plus, *flow_);
+  spec.first = height_of_y_plus(spec.y_plus, *flow_);
 }
 
 LayerSpec LayerSettings::read(const CaseTable& layers) {
@@ -126,7 +130,7 @@ LayerSpec LayerSettings::read(const CaseTable& layers) {
 
 LayerSpec LayerSettings::read_keys(const CaseTable& layers) {
   LayerSpec spec;
-  spec.first = first_height(layers);
+  read_first_height(layers, spec);
   read_growth(layers, spec);
   spec.equal = read_number_of_layers(layers, "equal");
   read_count(layers, spec);
@@ -142,6 +146,7 @@ LayerLine LayerSettings::read_layer_line(const CaseTable& table) {
   if (line.path.size() < 2) table.refuse("path", "must have two points at least");
   line.spacing = read_line_spacing(table);
   line.layers = read_keys(table);
+  line.layers->y_plus = 0;  // there is no friction to follow
   table.finish();
   return line;
 }
@@ -151,6 +156,13 @@ std::vector<LayerLine> LayerSettings::read_lines(const CaseTable& root) {
   for (const CaseTable& wake : root.tables("wake")) lines.push_back(read_wake(wake));
   for (const CaseTable& line : root.tables("layer_line")) lines.push_back(read_layer_line(line));
   return lines;
+}
+
+std::optional<WallFlow> LayerSettings::wall_flow(const SolverSettings& solver) const {
+  if (!flow_ || !used_) return {};
+  if (solver.kind == SolverSettings::Kind::euler && solver.euler.viscosity > 0)
+    return WallFlow{solver.euler.viscosity, 1};
+  return WallFlow{flow_->density * flow_->speed * flow_->reference_length / flow_->reynolds, flow_->density};
 }
 
 Warnings LayerSettings::unused() const {

@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "adapt/sensor/measured_friction.hpp"
 #include "io/input/case_file.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/layer_spec.hpp"
 #include "mesher/layers/front/layer_lines.hpp"
 #include "quadloop/case/first_height.hpp"
+#include "quadloop/case/solver_settings.hpp"
 
 namespace quadloop {
 
@@ -24,6 +26,10 @@ class LayerSettings {
   /// Wakes and free lines with layers.
   std::vector<LayerLine> read_lines(const CaseTable& root);
 
+  /// What turns a solution's wall shear into wall units, if a wall's layers want a y+: by a laminar flow's
+  /// own viscosity, else by [flow].
+  std::optional<WallFlow> wall_flow(const SolverSettings& solver) const;
+
   /// A warning where there is a table [flow] and no layers have asked for it; once all are read.
   Warnings unused() const;
 
@@ -31,7 +37,7 @@ class LayerSettings {
   /// The same keys of a table that may have others.
   LayerSpec read_keys(const CaseTable& table);
   LayerLine read_layer_line(const CaseTable& table);
-  double first_height(const CaseTable& layers);
+  void read_first_height(const CaseTable& layers, LayerSpec& spec);
 
   std::optional<FlowConditions> flow_;
   std::string where_;  ///< [flow] stands

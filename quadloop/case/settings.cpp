@@ -242,6 +242,9 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   read_smooth_table(root, settings);
   settings.adapt = read_adapt_table(root);
   read_solver_table(root, settings.solver);
+  if (settings.adapt) settings.adapt->wall_flow = layer_settings.wall_flow(settings.solver);
+  for (std::string& warning : idle_wall_temperatures(settings.solver))
+    settings.warnings.push_back(std::move(warning));
   read_output_table(root, case_path, settings);
   root.finish();
   settings.values = root.values({"title", "output.prefix", "adapt.cycles", "solver.timeout", "solver.ranks"});

@@ -86,6 +86,17 @@ void read_solver_table(const CaseTable& root, SolverSettings& settings) {
   table->finish();
 }
 
+std::vector<std::string> idle_wall_temperatures(const SolverSettings& settings) {
+  if (settings.kind != SolverSettings::Kind::euler || settings.euler.viscosity > 0) return {};
+  std::vector<std::string> warnings;
+  for (const WallTemperature& wall : settings.wall_temperatures)
+    warnings.push_back(
+        fmt::format("'boundary.{}.wall_temperature' does nothing, as the flow has no "
+                    "viscosity: set solver.reynolds or solver.viscosity",
+                    wall.pattern));
+  return warnings;
+}
+
 EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
                            const Mesh& mesh) {
   std::vector<std::string> names;

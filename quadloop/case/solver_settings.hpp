@@ -39,6 +39,9 @@ struct SolverSettings {
 /// Reads [solver], where there is one. Throws InputError that names key and line.
 void read_solver_table(const CaseTable& root, SolverSettings& settings);
 
+/// A warning for each wall temperature that the built-in solver's flow does not feel, as it has no viscosity.
+std::vector<std::string> idle_wall_temperatures(const SolverSettings& settings);
+
 /// The options with what the case's rules say of the mesh's boundaries; where they are silent the mesh's own
 /// conditions stand.
 EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,

@@ -93,5 +93,23 @@ TEST(LayerSpec, ColumnsScaleToTheLastBit) {
   for (std::size_t i = 0; i < a.reached.size(); ++i) EXPECT_EQ(1024 * a.reached[i], b.reached[i]);
 }
 
+TEST(LayerSpec, OfAnotherFirstHeightItIsAsThickAndHasAsManyLayers) {
+  const double thickness = layers_thickness(usual);
+  for (const double first : {3e-6, 1e-5, 5e-5, 2e-4}) {
+    const LayerSpec other = with_first_height(usual, first);
+    EXPECT_EQ(other.first, first);
+    EXPECT_EQ(other.count, 30);
+    EXPECT_NEAR(layers_thickness(other), thickness, 1e-9 * thickness) << first;
+    EXPECT_EQ(other.growth > 1.2, first < 1e-5 - 1e-9) << first;
+  }
+}
+
+TEST(LayerSpec, OfAMuchSmallerFirstHeightItGrowsByHalfAsMuchAgainAtMost) {
+  const LayerSpec other = with_first_height({1e-5, 1.2, 1.4, 30}, 1e-8);
+  EXPECT_NEAR(other.growth, 1.3, 1e-12);
+  EXPECT_NEAR(other.growth_to, 1.6, 1e-12);
+  EXPECT_EQ(with_first_height(usual, 1).first, layers_thickness(usual) / 30) << "an equal share at most";
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -94,5 +94,19 @@ TEST(LayerColumn, IsTheSameForTheWallWalkedTheOtherWay) {
   }
 }
 
+TEST(LayerColumn, ThatFollowsFrictionChangesEvenlyBetweenStations) {
+  LayerSpec wanted = layers;
+  wanted.y_plus = 2;
+  const Geometry floor = test::floor_with_layers(wanted);
+  const LayerFront front = layer_front(floor, {}, {}, {{{0, 0}, {8, 0}, 60, 140}});
+  const double here = front.line.spec(7).first, next = front.line.spec(8).first;
+  EXPECT_GT(here, next * 1.001);
+  const Point node = front.points[7] + 0.25 * (front.points[8] - front.points[7]);
+  const std::vector<Point> nodes = layer_column(front, {7, 0.25, 0.75}, node);
+  ASSERT_EQ(nodes.size(), 10U);
+  EXPECT_NEAR(nodes[1].y, here + 0.25 * (next - here), 1e-9);
+  EXPECT_NEAR(layer_column(front, {8}, front.points[8])[1].y, next, 1e-9);
+}
+
 }  // namespace
 }  // namespace quadloop

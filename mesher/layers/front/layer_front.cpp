@@ -9,6 +9,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/predicates.hpp"
+#include "mesher/layers/front/followed_layers.hpp"
 #include "mesher/layers/front/thickness.hpp"
 
 namespace quadloop {
@@ -150,8 +151,10 @@ void OuterOutline::add_wake(std::int32_t i) {
   });
   const std::int32_t before = line_.previous(i), right = first_at(*at);
   const double spacing = std::min(spacing_after(before), spacing_after(right));
+  PlacedLine wake = *at;
+  wake.layers = line_.spec(i).first < line_.spec(right).first ? line_.spec(i) : line_.spec(right);
   strips_.push_back(
-      layer_strip(*at, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(*at), spacing}));
+      layer_strip(wake, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(*at), spacing}));
   add_vertex(fitting_.front[i], strip_boundary(), WallLine::none, strips_.back().spacing[0], true, 0);
   add_front_of(strips_.back());
 }
@@ -222,6 +225,18 @@ double OuterOutline::spacing_after(std::int32_t i) const {
       {spacing, g_.spacing_of(line_[i].segment) * std::min(1.0, wider), spacing_of_turns(i) * wider});
 }
 
+WallLine wall_line(const Geometry& geometry, const std::vector<PlacedLine>& placed,
+                   const MeasuredWall& measured) {
+  std::vector<WakeStart> wakes;
+  for (const PlacedLine& p : placed) {
+    if (p.edge != PlacedLine::nowhere)
+      wakes.push_back({p.edge, p.base_end, direction_of(p.path[0], p.path[1])});
+  }
+  WallLine line(geometry, wall_runs(geometry, bases_of(geometry, placed)), wakes);
+  if (!measured.empty()) line.follow(followed_layers(line, measured));
+  return line;
+}
+
 /// The fronts of strips keep away from everything else, and from themselves: two segments meet where one
 /// follows the other alone.
 void require_disjoint(const LayerFront& front) {
@@ -260,15 +275,15 @@ void LayerFront::keep(const std::vector<std::int32_t>& stations) {
   outer = outer.with(std::move(demands));
 }
 
+WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,
+                   const MeasuredWall& measured) {
+  return wall_line(geometry, place_lines(geometry, lines), measured);
+}
+
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature,
-                       const std::vector<LayerLine>& lines) {
+                       const std::vector<LayerLine>& lines, const MeasuredWall& measured) {
   const std::vector<PlacedLine> placed = place_lines(geometry, lines);
-  std::vector<WakeStart> wakes;
-  for (const PlacedLine& p : placed) {
-    if (p.edge != PlacedLine::nowhere)
-      wakes.push_back({p.edge, p.base_end, direction_of(p.path[0], p.path[1])});
-  }
-  WallLine line(geometry, wall_runs(geometry, bases_of(geometry, placed)), wakes);
+  WallLine line = wall_line(geometry, placed, measured);
   FittingColumns fitting = fit_thickness(line);
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}};
   OuterOutline(front.line, fitting, placed, curvature).build(front);

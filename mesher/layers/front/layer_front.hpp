@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/measured_wall.hpp"
 #include "mesher/layers/front/columns_on_wall.hpp"
 #include "mesher/layers/front/layer_strip.hpp"
 #include "mesher/layers/front/wall_line.hpp"
@@ -43,9 +44,14 @@ struct LayerFront {
 /// The front of all boundaries that ask for layers, and of lines with layers. Layers are thinner where walls
 /// come close to each other or turn sharply into the domain, so that no two columns meet, and each wall keeps
 /// room for cells outside; both are proved with exact signs. `curvature`: degrees that the wall may turn
-/// along one cell. A function of the geometry alone; mirror images have mirrored fronts. Throws InputError,
-/// naming the place, where no layers fit. `geometry` must outlive the result.
+/// along one cell. With a measured wall first heights follow it (followed_layers()). A function of its
+/// arguments alone; mirror images have mirrored fronts. Throws InputError, naming the place, where no layers
+/// fit. `geometry` must outlive the result.
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature = {},
-                       const std::vector<LayerLine>& lines = {});
+                       const std::vector<LayerLine>& lines = {}, const MeasuredWall& measured = {});
+
+/// The front's stations alone, with the layers that they ask for.
+WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,
+                   const MeasuredWall& measured);
 
 }  // namespace quadloop

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace quadloop {
 
@@ -50,6 +51,11 @@ WallLine::WallLine(const Geometry& geometry, const std::vector<WallRun>& runs,
     width_.push_back(next_[i] == none ? 0 : length(stations_[next_[i]].wall - stations_[i].wall));
     asked_.push_back(layers_thickness(spec(i)));
   }
+}
+
+void WallLine::follow(std::vector<LayerSpec> specs) {
+  followed_ = std::move(specs);
+  for (std::int32_t i = 0; i < size(); ++i) asked_[i] = layers_thickness(spec(i));
 }
 
 void WallLine::add_run(const WallRun& run) {

@@ -51,6 +51,9 @@ class WallLine {
   WallLine(const Geometry& geometry, const std::vector<WallRun>& runs,
            const std::vector<WakeStart>& wakes = {});
 
+  /// Other layers at each station, as many as there are.
+  void follow(std::vector<LayerSpec> specs);
+
   std::int32_t size() const { return size32(stations_); }
   const Station& operator[](std::int32_t i) const { return stations_[i]; }
   std::int32_t next(std::int32_t i) const { return next_[i]; }          ///< or `none`
@@ -63,7 +66,10 @@ class WallLine {
   double width(std::int32_t i) const { return width_[i]; }
   /// The thickness asked for there.
   double asked(std::int32_t i) const { return asked_[i]; }
-  const LayerSpec& spec(std::int32_t i) const { return *geometry_->boundary(stations_[i].layers).layers; }
+  /// The layers asked for there: those of its boundary, or what follow() has made of them.
+  const LayerSpec& spec(std::int32_t i) const {
+    return followed_.empty() ? *geometry_->boundary(stations_[i].layers).layers : followed_[i];
+  }
   const Geometry& geometry() const { return *geometry_; }
 
   /// Calls `visit(station, distance)` for the stations that follow i, or that lead to it, as far as `reach`
@@ -107,6 +113,7 @@ class WallLine {
   std::vector<Run> runs_;
   std::vector<std::int32_t> run_of_;
   std::vector<double> width_, asked_;
+  std::vector<LayerSpec> followed_;
 };
 
 /// Left of a direction: into the domain.

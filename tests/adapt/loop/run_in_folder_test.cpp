@@ -8,6 +8,7 @@
 #include "adapt/loop/command_solver.hpp"
 #include "adapt/loop/cycle_files.hpp"
 #include "io/native/native_file.hpp"
+#include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -87,6 +88,53 @@ TEST(RunInFolder, GoneOnWithItEndsWithTheSameFiles) {
     EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) ==
                 test::bytes_of(folder.file("parts/cycle_02/") + name))
         << name;
+  world().barrier();
+}
+
+/// Laminar flow along the floor of a channel, a few steps of it: too few to be right, enough to have
+/// friction.
+AdaptiveCase floor_case(int cycles) {
+  Boundary floor{"floor", 0.25, 30, "wall"}, rest{"rest", 0.25, 30, "farfield"};
+  floor.layers = LayerSpec{0.01, 1.5, 1.5, 5, 1, 0.5};
+  EulerOptions euler;
+  euler.mach = 0.5;
+  euler.viscosity = 1e-3;
+  euler.iterations = 3;
+  const std::vector<BoundaryId> of_segment{BoundaryId{0}, BoundaryId{1}, BoundaryId{1}, BoundaryId{1}};
+  AdaptiveCase adaptive{{{{floor, rest}, {{0, 0}, {4, 0}, {4, 2}, {0, 2}}, {0, 4}, of_segment}, {}, {}, 0},
+                        {},
+                        euler,
+                        {"mesh"},
+                        {}};
+  adaptive.mesh.mesh.size.min = 0.02;
+  adaptive.mesh.mesh.size.max = 0.25;
+  adaptive.adapt.cycles = cycles;
+  adaptive.adapt.wall_flow = WallFlow{1e-3, 1};
+  return adaptive;
+}
+
+TEST(RunInFolder, FirstHeightsFollowTheFlowAndItsTreeKeepsThem) {
+  const TemporaryFolder folder;
+  Heard whole, begun, resumed;
+  whole.run(floor_case(2), folder.file("whole"), false);
+  begun.run(floor_case(1), folder.file("parts"), false);
+  resumed.run(floor_case(2), folder.file("parts"), true);
+  EXPECT_EQ(resumed.cycles, (std::vector<int>{2}));
+  world().barrier();
+  const auto tree = [&](const std::string& cycle) {
+    return read_tree(world(), folder.file("whole/" + cycle + "/mesh.tree.h5"));
+  };
+  EXPECT_TRUE(tree("cycle_00").measured_wall.empty());
+  EXPECT_FALSE(tree("cycle_01").measured_wall.empty());
+  EXPECT_NE(tree("cycle_02").measured_wall, tree("cycle_01").measured_wall);
+  for (const char* name : {"mesh.mesh", "mesh.tree.h5"})
+    EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) ==
+                test::bytes_of(folder.file("parts/cycle_02/") + name))
+        << name;
+  const std::string log = test::bytes_of(folder.file("whole/cycle_02/log.txt")),
+                    record = test::bytes_of(folder.file("whole/cycle_02/record.json"));
+  EXPECT_NE(log.find("first heights asked for on floor: 0.0"), std::string::npos) << log;
+  EXPECT_NE(record.find("\"first_heights\": {\"floor\": [0.0"), std::string::npos) << record;
   world().barrier();
 }
 

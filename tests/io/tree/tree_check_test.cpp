@@ -145,5 +145,27 @@ TEST(TreeFile, AHandMadeTreeComesBackWhole) {
   }
 }
 
+TEST(TreeFile, AMeasuredWallComesBackOnEveryRank) {
+  const test::TemporaryFolder folder;
+  TreeRecord tree;
+  tree.attributes.trees_x = 2;
+  tree.attributes.tree_edge = 0.5;
+  tree.attributes.quads = 8;
+  if (world().is_root()) tree.leaves = leaves();
+  write_tree(world(), tree, folder.file("without.tree.h5"));
+  EXPECT_TRUE(read_tree(world(), folder.file("without.tree.h5")).measured_wall.empty());
+  tree.measured_wall = {{{0, 1}, {0.1, 1.5}, 1e5, 2e5}, {{0.1, 1.5}, {0.25, 2}, 2e5, 0}};
+  write_tree(world(), tree, folder.file("a.tree.h5"));
+  EXPECT_EQ(read_tree(world(), folder.file("a.tree.h5")).measured_wall, tree.measured_wall);
+  tree.measured_wall[1].wall_units_to = -1;
+  write_tree(world(), tree, folder.file("bad.tree.h5"));
+  try {
+    read_tree(world(), folder.file("bad.tree.h5"));
+    ADD_FAILURE();
+  } catch (const InputError& fault) {
+    EXPECT_NE(std::string(fault.what()).find("the friction measured at (0.1, 1.5)"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -51,6 +51,25 @@ TEST_F(LayerSettingsTest, TakesTheFirstHeightFromYPlus) {
   EXPECT_TRUE(load("first = \"yplus:1\", count = 7", flow).warnings.empty());
 }
 
+TEST_F(LayerSettingsTest, AYPlusFollowsTheFlowInTheLoop) {
+  const std::string adapt = "[adapt]\n", flow = "[flow]\nreynolds = 6e6\n",
+                    layers = "first = \"yplus:2\", count = 7";
+  const auto of = [&](const std::string& first, const std::string& more) {
+    return load(first, more + adapt).settings.adapt->wall_flow;
+  };
+  EXPECT_EQ(read(layers, flow).y_plus, 2);
+  EXPECT_EQ(read("first = 1e-3, count = 7").y_plus, 0);
+  EXPECT_EQ(of(layers, flow), (WallFlow{1 / 6e6, 1}));
+  EXPECT_EQ(of(layers, flow + "reference_length = 3\ndensity = 2\nspeed = 5\n"),
+            (WallFlow{2 * 5 * 3 / 6e6, 2}));
+  EXPECT_EQ(of(layers, flow + "[solver]\nmach = 0.5\nreynolds = 5000\n"), (WallFlow{0.5 / 5000, 1}))
+      << "a laminar flow has its own viscosity";
+  EXPECT_FALSE(of("first = 1e-3, count = 7", flow));
+  const auto line = load(layers, flow + "[[layer_line]]\npath = [[1, 1], [2, 1]]\nspacing = 0.1\n" +
+                                     layers.substr(0, 17) + "\ncount = 3\n");
+  EXPECT_EQ(line.mesh->lines[0].layers->y_plus, 0) << "a free line has no friction";
+}
+
 TEST_F(LayerSettingsTest, SaysThatAFlowDoesNothing) {
   const Warnings warnings = load("first = 1e-3, count = 7", "[flow]\nreynolds = 6e6\n").warnings;
   ASSERT_EQ(warnings.size(), 1U);

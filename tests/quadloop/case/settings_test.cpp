@@ -330,6 +330,10 @@ TEST_F(SettingsTest, WallsMayHaveATemperature) {
   EXPECT_EQ(choices[0].temperature, 0.5);
   EXPECT_EQ(choices[1].temperature, 2);
   EXPECT_FALSE(choices[2].temperature);
+  ASSERT_EQ(s.warnings.size(), 2U) << "of one each";
+  EXPECT_NE(s.warnings[0].find("'boundary.b*.wall_temperature' does nothing"), std::string::npos);
+  EXPECT_TRUE(
+      read("[boundary.box]\nbc = \"wall\"\nwall_temperature = 2\n[solver]\nreynolds = 9\n").warnings.empty());
 }
 
 TEST_F(SettingsTest, NeedsAGeometry) {

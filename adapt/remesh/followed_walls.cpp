@@ -1,0 +1,33 @@
+#include "adapt/remesh/followed_walls.hpp"
+
+#include <cmath>
+
+#include "mesher/generate/outside_layers.hpp"
+
+namespace quadloop {
+
+MeasuredWall wall_to_follow(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
+                            const SolvedMesh& solved) {
+  if (!options.wall_flow || !wants_y_plus(input.geometry)) return {};
+  std::vector<std::string> walls;
+  for (const Boundary& boundary : input.geometry.boundaries()) {
+    if (boundary.layers && boundary.layers->y_plus > 0) walls.push_back(boundary.name);
+  }
+  MeasuredWall measured =
+      measured_friction(comm, solved.mesh, solved.solution, walls, *options.wall_flow, solved.file);
+  return measured.empty() ? solved.tree.measured_wall : measured;
+}
+
+bool other_heights(const MeshInput& input, const MeasuredWall& before, const MeasuredWall& now) {
+  constexpr double much = 0.05;
+  if (before == now) return false;
+  const WallLine old_line = wall_line(input.geometry, input.lines, before),
+                 new_line = wall_line(input.geometry, input.lines, now);
+  for (std::int32_t i = 0; i < new_line.size(); ++i) {
+    const double old_height = old_line.spec(i).first;
+    if (std::abs(new_line.spec(i).first - old_height) > much * old_height) return true;
+  }
+  return false;
+}
+
+}  // namespace quadloop

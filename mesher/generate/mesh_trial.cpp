@@ -1,0 +1,24 @@
+#include "mesher/generate/mesh_trial.hpp"
+
+#include "mesher/build/mesh_estimate.hpp"
+
+namespace quadloop {
+
+MeshTrial::MeshTrial(const MeshInput& input, const MeasuredWall& measured) : input_{input} {
+  if (!has_layers(input)) return;
+  front_.emplace(front_of(input, measured));
+  outer_.emplace(outside(input, *front_));
+}
+
+NodeBounds MeshTrial::nodes(const Communicator& comm, const DemandedSplits& demanded) const {
+  const MeshResult made = build_mesh(comm, meshed().geometry, meshed().mesh, demanded);
+  const std::int64_t outer = made.tree.attributes.nodes;
+  const NodeBounds layers = front_ ? layer_nodes(comm, *front_, made.mesh) : NodeBounds{};
+  return {outer + layers.least, outer + layers.most};
+}
+
+MeshEstimate MeshTrial::estimate(const DemandedSplits& demanded) const {
+  return estimate_mesh(meshed().geometry, meshed().mesh, demanded);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "mesher/generate/generate.hpp"
+#include "mesher/geometry/measured_wall.hpp"
+#include "mesher/layers/front/layer_front.hpp"
+
+namespace quadloop {
+
+/// Whether any wall or line asks for layers.
+bool has_layers(const MeshInput& input);
+
+/// Whether any wall wants a y+, so that its first heights can follow a measured flow.
+bool wants_y_plus(const Geometry& geometry);
+
+/// The front of an input's layers. `input` must outlive it.
+LayerFront front_of(const MeshInput& input, const MeasuredWall& measured);
+
+/// The same input for the domain outside the layers, in the same root.
+MeshInput outside(const MeshInput& input, const LayerFront& front);
+
+}  // namespace quadloop

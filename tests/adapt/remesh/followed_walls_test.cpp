@@ -1,0 +1,234 @@
+// Friction on the walls of a mesh with layers, and first heights that follow it into the next mesh.
+#include "adapt/remesh/followed_walls.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "adapt/remesh/own_mesh.hpp"
+#include "adapt/remesh/remesh.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/generate/mesh_trial.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+constexpr double viscosity = 0.01, density = 4;
+
+/// A channel from x = 0 to 4, y = 0 to 2, whose floor wants y+ = 2, with an estimate of 0.01.
+MeshInput channel() {
+  Boundary floor{"floor", 0.2, 30, "wall"}, rest{"rest", 0.2, 30, "none"};
+  floor.layers = LayerSpec{0.01, 1.5, 1.5, 5, 1, 2};
+  const std::vector<BoundaryId> of_segment{BoundaryId{0}, BoundaryId{1}, BoundaryId{1}, BoundaryId{1}};
+  MeshInput input{{{floor, rest}, {{0, 0}, {4, 0}, {4, 2}, {0, 2}}, {0, 4}, of_segment}, {}, {}, 0};
+  input.mesh.size.min = 0.005;
+  input.mesh.size.max = 0.25;
+  return input;
+}
+
+AdaptOptions options() {
+  AdaptOptions options;
+  options.variables = {"density"};
+  options.wall_flow = WallFlow{viscosity, 1};
+  return options;
+}
+
+/// Wall units that the flow has along the floor, by half as many again from its beginning to its end.
+double wall_units(double x) { return 150 + 18.75 * x; }
+
+SolvedMesh solved(const Communicator& comm, const MeshInput& input, const std::string& name,
+                  double (*value)(double x)) {
+  MeshResult made = generate_mesh(comm, input).result;
+  SolvedMesh solved{std::move(made.mesh), std::move(made.tree), {{"density", name}, {}, {}}, "flow.mesh"};
+  for (std::int32_t i = 0; i < solved.mesh.owned_nodes; ++i) {
+    const Point p = solved.mesh.point(NodeId{i});
+    solved.solution.values.push_back(density);
+    solved.solution.values.push_back(p.y == 0 ? value(p.x) : 0);
+  }
+  return solved;
+}
+
+double shear(double x) {
+  const double u_tau = wall_units(x) * viscosity / density;  // u_tau / nu
+  return -density * u_tau * u_tau;
+}
+
+double y_plus(double x) { return 0.01 * wall_units(x); }
+
+void expect_friction_of_the_floor(const MeasuredWall& wall) {
+  ASSERT_GT(wall.size(), 10U);
+  double reached = 0;
+  for (const MeasuredEdge& edge : wall) {
+    EXPECT_EQ(edge.from.y, 0);
+    EXPECT_LT(edge.from.x, edge.to.x) << "the domain to its left";
+    EXPECT_NEAR(edge.wall_units_from, wall_units(edge.from.x), 1e-6);
+    EXPECT_NEAR(edge.wall_units_to, wall_units(edge.to.x), 1e-6);
+    reached += edge.to.x - edge.from.x;
+  }
+  EXPECT_NEAR(reached, 4, 1e-12);
+}
+
+TEST(FollowedWalls, TellFrictionByWallShear) {
+  const MeshInput input = channel();
+  expect_friction_of_the_floor(
+      wall_to_follow(world(), input, options(), solved(world(), input, "wall_shear", shear)));
+}
+
+TEST(FollowedWalls, TellFrictionByYPlusOfTheFirstNodes) {
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    MeshInput input = channel();
+    input.mesh.type = type;
+    for (const char* name : {"y_plus", "Y_Plus", "yPlus", "y+"})
+      expect_friction_of_the_floor(
+          wall_to_follow(world(), input, options(), solved(world(), input, name, y_plus)));
+  }
+}
+
+TEST(FollowedWalls, KeepWhatTheTreeHasWhereNothingIsTold) {
+  const MeshInput input = channel();
+  SolvedMesh silent = solved(world(), input, "temperature", y_plus);
+  EXPECT_TRUE(wall_to_follow(world(), input, options(), silent).empty());
+  silent.tree.measured_wall = {{{0, 0}, {4, 0}, 7, 8}};
+  EXPECT_EQ(wall_to_follow(world(), input, options(), silent), silent.tree.measured_wall);
+  AdaptOptions without = options();
+  without.wall_flow.reset();
+  EXPECT_TRUE(wall_to_follow(world(), input, without, silent).empty());
+}
+
+TEST(FollowedWalls, RefuseWhatIsNotFinite) {
+  const MeshInput input = channel();
+  const SolvedMesh bad =
+      solved(world(), input, "wall_shear", [](double x) { return x > 3 ? std::nan("") : 1; });
+  try {
+    wall_to_follow(world(), input, options(), bad);
+    FAIL();
+  } catch (const InputError& fault) {
+    EXPECT_TRUE(std::string(fault.what()).starts_with("flow.mesh: 'wall_shear' is not finite"))
+        << fault.what();
+  }
+}
+
+/// The first node above each wall node, by its height.
+void expect_heights(const Mesh& mesh) {
+  for (const auto& cell : mesh.quads) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Point foot = mesh.point(cell[k]), above = mesh.point(cell[(k + 3) % 4]);
+      if (foot.y != 0 || mesh.point(cell[(k + 1) % 4]).y != 0) continue;
+      EXPECT_NEAR(above.y * wall_units(foot.x), 2, 1e-3) << foot.x;
+    }
+  }
+}
+
+TEST(FollowedWalls, TheNextMeshHasTheYPlusThatIsWantedAndSoHasItsRestart) {
+  const MeshInput input = channel();
+  const SolvedMesh flow = solved(world(), input, "wall_shear", shear);
+  const AdaptationPlan plan = plan_adaptation(world(), input, options(), flow);
+  EXPECT_EQ(plan.refined + plan.coarsened, 0) << "density is constant";
+  EXPECT_TRUE(plan.new_heights);
+  EXPECT_TRUE(plan.changes_mesh());
+  EXPECT_TRUE(plan.warnings.empty());
+  const CarriedMesh carried = carry_over(world(), input, plan, flow);
+  const MeshResult& made = carried.generated.result;
+  expect_heights(made.mesh);
+  EXPECT_EQ(made.tree.measured_wall, plan.measured_wall);
+  ASSERT_EQ(carried.generated.layers.size(), 1U);
+  EXPECT_NEAR(carried.generated.layers[0].first_asked, 2 / wall_units(4), 1e-6);
+  EXPECT_NEAR(carried.generated.layers[0].first_asked_most, 2 / wall_units(0), 1e-6);
+  const AdaptationPlan standing = standing_plan(made.tree, input);
+  const MeshResult again =
+      generate_mesh(world(), input, DemandedSplits(world(), standing.demands), standing.measured_wall).result;
+  EXPECT_EQ(again.tree.attributes.coordinate_digest, made.tree.attributes.coordinate_digest);
+  const Communicator alone(MPI_COMM_SELF);
+  const SolvedMesh of_one = solved(alone, input, "wall_shear", shear);
+  const AdaptationPlan plan_of_one = plan_adaptation(alone, input, options(), of_one);
+  EXPECT_EQ(plan_of_one.measured_wall, plan.measured_wall);
+  EXPECT_EQ(carry_over(alone, input, plan_of_one, of_one).generated.result.tree.attributes.coordinate_digest,
+            made.tree.attributes.coordinate_digest);
+}
+
+TEST(FollowedWalls, HeightsThatStayChangeNoMesh) {
+  const MeshInput input = channel();
+  SolvedMesh flow = solved(world(), input, "wall_shear", shear);
+  flow.tree.measured_wall = wall_to_follow(world(), input, options(), flow);
+  EXPECT_FALSE(other_heights(input, flow.tree.measured_wall, flow.tree.measured_wall));
+  for (MeasuredEdge& edge : flow.tree.measured_wall) edge.wall_units_from *= 1.02;
+  EXPECT_FALSE(plan_adaptation(world(), input, options(), flow).new_heights);
+  for (MeasuredEdge& edge : flow.tree.measured_wall) edge.wall_units_from *= 1.2;
+  EXPECT_TRUE(plan_adaptation(world(), input, options(), flow).new_heights);
+}
+
+TEST(PlanWithLayers, TheCapCountsTheirNodes) {
+  const MeshInput input = channel();
+  SolvedMesh flow = solved(world(), input, "other", y_plus);
+  for (std::int32_t i = 0; i < flow.mesh.owned_nodes; ++i)
+    flow.solution.row(NodeId{i})[0] = std::tanh(8 * (flow.mesh.point(NodeId{i}).x - 2));
+  AdaptOptions bounded = options();
+  const auto nodes = [&](const AdaptOptions& by) {
+    const AdaptationPlan plan = plan_adaptation(world(), input, by, flow);
+    return generate_mesh(world(), input, DemandedSplits(world(), plan.demands)).result.tree.attributes.nodes;
+  };
+  bounded.min = 0.01;
+  const std::int64_t before = flow.tree.attributes.nodes, all = nodes(bounded);
+  bounded.max_nodes = before + (all - before) / 2;
+  const std::int64_t made = nodes(bounded);
+  EXPECT_LE(made, *bounded.max_nodes);
+  EXPECT_GT(made, before);
+  bounded.threshold = AdaptOptions::Threshold::nodes;
+  const std::int64_t filled = nodes(bounded);
+  EXPECT_LE(filled, *bounded.max_nodes);
+  EXPECT_GE(static_cast<double>(filled), 0.95 * static_cast<double>(*bounded.max_nodes));
+}
+
+TEST(OwnMesh, MayHaveLayersThatReachFarBelowTheirLeaves) {
+  MeshInput input = channel();
+  Boundary floor = input.geometry.boundaries()[0], rest = input.geometry.boundaries()[1];
+  floor.layers = LayerSpec{0.01, 1.3, 1.3, 12};  // 0.74 thick
+  const std::vector<BoundaryId> of_segment{BoundaryId{0}, BoundaryId{1}, BoundaryId{1}, BoundaryId{1}};
+  input.geometry = {{floor, rest}, {{0, 0}, {4, 0}, {4, 2}, {0, 2}}, {0, 4}, of_segment};
+  SolvedMesh flow = solved(world(), input, "other", y_plus);
+  EXPECT_NO_THROW(require_untouched_mesh(world(), flow, "mesh", "tree"));
+  for (Point& p : flow.mesh.points) p.x += 1e-9;
+  EXPECT_NO_THROW(require_own_mesh(world(), flow, "mesh", "tree")) << "other formats round";
+  EXPECT_THROW(require_untouched_mesh(world(), flow, "mesh", "tree"), InputError);
+  for (Point& p : flow.mesh.points) p.x += 1;
+  EXPECT_THROW(require_own_mesh(world(), flow, "mesh", "tree"), InputError);
+}
+
+/// A wedge of layers with sharp edges, in a box; with a wake behind one of them, or fans at both.
+MeshInput wedge(bool with_wake) {
+  Boundary box{"box", 1, 30, "farfield"}, body{"body", 0.25, 30, "wall"};
+  body.layers = LayerSpec{0.02, 1.3, 1.3, 8};
+  const std::vector<Point> points{{-8, -8}, {8, -8},     {8, 8}, {-8, 8},
+                                  {-2, 0},  {-1.5, 0.5}, {2, 0}, {-1.5, -0.5}};
+  std::vector<BoundaryId> of_segment(4, BoundaryId{0});
+  of_segment.resize(8, BoundaryId{1});
+  MeshInput input{{{box, body}, points, {0, 4, 8}, of_segment}, {}, {}, 0};
+  input.mesh.size.min = 0.02;
+  input.mesh.size.max = 1;
+  if (with_wake) input.lines = {{"body", {}, 3, 0.1, {}}};
+  return input;
+}
+
+TEST(MeshTrial, CountsTheNodesOfLayersAndWakes) {
+  const MeshInput straight = channel();
+  const NodeBounds exact = MeshTrial(straight).nodes(world(), {});
+  EXPECT_EQ(exact.least, exact.most) << "there are no fans";
+  EXPECT_EQ(exact.most, generate_mesh(world(), straight).result.tree.attributes.nodes);
+  for (const bool with_wake : {false, true}) {
+    const MeshInput input = wedge(with_wake);
+    const std::int64_t made = generate_mesh(world(), input).result.tree.attributes.nodes;
+    const NodeBounds counted = MeshTrial(input).nodes(world(), {});
+    EXPECT_GE(counted.most, made) << with_wake;
+    EXPECT_LE(counted.least, made) << with_wake;
+    EXPECT_LE(static_cast<double>(counted.most), 1.1 * static_cast<double>(counted.least)) << with_wake;
+    if (with_wake) {
+      EXPECT_LE(counted.most, counted.least + 2) << "a wake has no fan";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quadloop

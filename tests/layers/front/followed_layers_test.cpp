@@ -1,0 +1,126 @@
+// First heights that follow the friction along the wall.
+#include "mesher/layers/front/followed_layers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/layers/front/layer_front.hpp"
+#include "tests/layers/walls.hpp"
+
+namespace quadloop {
+namespace {
+
+/// An estimate of 0.02 for y+ = 2; 0.519 thick.
+const LayerSpec wanted{0.02, 1.2, 1.2, 10, 1, 2};
+const double thickness = layers_thickness(wanted);
+
+/// The floor from x = 0 to 8 in so many edges, with wall units that depend on x.
+template <class WallUnits>
+MeasuredWall measured_floor(int edges, const WallUnits& wall_units) {
+  MeasuredWall wall;
+  for (int k = 0; k < edges; ++k) {
+    const double from = 8.0 * k / edges, to = 8.0 * (k + 1) / edges;
+    wall.push_back({{from, 0}, {to, 0}, wall_units(from), wall_units(to)});
+  }
+  return wall;
+}
+
+struct Followed {
+  Followed(Geometry g, const MeasuredWall& wall)
+      : geometry{std::move(g)}, line{geometry, wall_runs(geometry)}, layers{followed_layers(line, wall)} {}
+  Geometry geometry;
+  WallLine line;
+  std::vector<LayerSpec> layers;
+};
+
+TEST(FollowedLayers, TheFirstHeightHasTheYPlusAndThicknessAndCountStay) {
+  const Followed f(test::floor_with_layers(wanted),
+                   measured_floor(1, [](double x) { return 100 + 7.5 * x; }));
+  for (std::int32_t i = 0; i < f.line.size(); ++i) {
+    const LayerSpec& layers = f.layers[i];
+    EXPECT_NEAR(layers.first, 2 / (100 + 7.5 * f.line[i].wall.x), 1e-15);
+    EXPECT_EQ(layers.count, 10);
+    EXPECT_NEAR(layers_thickness(layers), thickness, 1e-9) << f.line[i].wall.x;
+  }
+}
+
+TEST(FollowedLayers, HeightsStayWithinATenthAndTenTimesOfTheEstimate) {
+  const Followed thin(test::floor_with_layers(wanted), measured_floor(4, [](double) { return 1e9; }));
+  const Followed thick(test::floor_with_layers(wanted), measured_floor(4, [](double) { return 0.0; }));
+  for (const LayerSpec& layers : thin.layers) {
+    EXPECT_DOUBLE_EQ(layers.first, 0.002);
+    EXPECT_NEAR(layers.growth, 1.3, 1e-9) << "no more than half as much again";
+    EXPECT_LT(layers_thickness(layers), thickness);
+  }
+  for (const LayerSpec& layers : thick.layers) {
+    EXPECT_NEAR(layers.first, thickness / 10, 1e-12) << "less than ten times, as the others need room";
+    EXPECT_NEAR(layers_thickness(layers), thickness, 1e-12);
+  }
+}
+
+TEST(FollowedLayers, HeightsGrowSlowlyTowardsAPlaceWithoutFriction) {
+  const Followed f(test::floor_with_layers(wanted),
+                   measured_floor(64, [](double x) { return 200 * std::abs(x - 4); }));
+  double largest = 0;
+  for (std::int32_t i = 0; f.line.next(i) != WallLine::none; ++i) {
+    const double here = f.layers[i].first, next = f.layers[f.line.next(i)].first;
+    const double most = 1 + 0.6 * f.line.width(i) / thickness;
+    EXPECT_LE(next, here * most * (1 + 1e-12));
+    EXPECT_LE(here, next * most * (1 + 1e-12));
+    EXPECT_LE(here, 2 / (200 * std::abs(f.line[i].wall.x - 4)) * (1 + 1e-12)) << "y+ is never more";
+    largest = std::max(largest, here);
+  }
+  EXPECT_NEAR(f.layers[0].first, 2.0 / 800, 1e-15) << "far from there y+ is met";
+  EXPECT_LT(largest, thickness / 10) << "there it is not the bound that holds";
+}
+
+TEST(FollowedLayers, BoundariesOfAGivenHeightAndWhatIsNotMeasuredKeepTheirs) {
+  LayerSpec given = wanted;
+  given.y_plus = 0;
+  const Followed fixed(test::floor_with_layers(given), measured_floor(4, [](double) { return 1000.0; }));
+  for (const LayerSpec& layers : fixed.layers) EXPECT_EQ(layers, given);
+  const MeasuredWall backwards{{{8, 0}, {0, 0}, 1000, 1000}};
+  const Followed unknown(test::floor_with_layers(wanted), backwards);
+  for (const LayerSpec& layers : unknown.layers) EXPECT_EQ(layers.first, wanted.first);
+}
+
+TEST(FollowedLayers, EachSideOfAThinBodyFollowsItsOwnFriction) {
+  // of an earlier mesh, whose lower side lies nearer to the upper one of this body than its own upper side
+  const MeasuredWall wall{{{-2, 1e-3}, {2, 1e-3}, 100, 100}, {{2, 0}, {-2, 0}, 150, 150}};
+  const Followed f(test::rhombus_with_layers(wanted, 1e-4), wall);
+  for (std::int32_t i = 0; i < f.line.size(); ++i) {
+    const Point place = f.line[i].wall;
+    if (std::abs(place.x) > 1) continue;  // at the edges both sides meet
+    EXPECT_DOUBLE_EQ(f.layers[i].first, place.y > 0 ? 0.02 : 2.0 / 150) << place.x;
+  }
+}
+
+TEST(FollowedLayers, MirrorImagesHaveMirroredHeights) {
+  MeasuredWall wall = measured_floor(13, [](double x) { return 100 + 300 * std::abs(std::sin(x)); }), other;
+  const Geometry floor = test::floor_with_layers(wanted);
+  for (const MeasuredEdge& e : wall)
+    other.push_back({{e.to.x, -e.to.y}, {e.from.x, -e.from.y}, e.wall_units_to, e.wall_units_from});
+  const Followed one(floor, wall), image(test::mirrored(floor), other);
+  ASSERT_EQ(one.line.size(), image.line.size());
+  for (std::int32_t i = 0; i < one.line.size(); ++i)
+    EXPECT_EQ(one.layers[i], image.layers[one.line.size() - 1 - i]) << i;
+}
+
+TEST(FollowedLayers, TheFrontsLastLayersAskForLeavesOfTheirSize) {
+  const Geometry floor = test::floor_with_layers(wanted);
+  const MeasuredWall wall = measured_floor(1, [](double x) { return 100 + 7.5 * x; });
+  const LayerFront front = layer_front(floor, {}, {}, wall);
+  double before = 0;
+  for (std::int32_t i = 0; i < front.line.size(); ++i) {
+    EXPECT_EQ(front.thickness[i], front.line.asked(i));
+    const double leaf = front.outer.spacing_of(i);
+    if (i + 1 == front.line.size()) continue;
+    EXPECT_GE(leaf, before) << "thinner first layers grow faster, so that the last ones are higher";
+    before = leaf;
+  }
+}
+
+}  // namespace
+}  // namespace quadloop
