@@ -65,15 +65,11 @@ SUBJECTS = {
 
 # Subject and figure: what is reached, and held, where what is asked is missed.
 MISSED = {
-    "naca0012": {"outer_5": 0.55, "outer_area": 4.75},
-    "naca0012_blunt": {"full": 99.3, "outer_5": 0.57, "outer_area": 4.45},
-    "naca4412": {"outer_95": 2.3},
-    "rae2822": {"tilt_far": 11, "widths_most": 2.1, "outer_5": 0.49, "outer_95": 2.25, "outer_area": 6.7},
-    "three_element": {"widths_most": 2.6, "outer_5": 0.37, "outer_95": 2.2, "outer_area": 10.8},
-    "30p30n": {"skew_most": 0.83, "skew_999": 0.62, "widths_most": 2.3, "outer_5": 0.35, "outer_95": 2.2, "outer_area": 10.4, "orthogonality": 74},
-    "plate": {"outer_5": 0.47, "outer_area": 4.9},  # where it is turned, as for the two below
-    "plate_slanted": {"outer_5": 0.56, "outer_area": 7.9},
-    "step": {"widths_most": 2.1, "outer_5": 0.66, "outer_area": 5.5},
+    "naca0012_blunt": {"full": 99.39},
+    "rae2822": {"tilt_far": 10.3},
+    "three_element": {"widths_most": 2.05},
+    "30p30n": {"outer_area": 4.5},
+    "plate_slanted": {"outer_area": 5.2},  # where it is turned
 }
 
 TURN, SCALE = 17, 1000

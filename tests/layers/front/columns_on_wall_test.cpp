@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -104,6 +105,22 @@ TEST(ColumnsOnWall, RiseVisiblyEverywhereAndNeverCrossTheirNeighbours) {
       EXPECT_LE(ratio, 6 + 1e-12) << i;
     }
   }
+}
+
+TEST(ColumnsOnWall, AtACornerTheyDoNotStandOutFromThoseBesideIt) {
+  // A short base, with turns of 79 and 99 degrees: its columns lean to the side of the larger one.
+  const Point upper{0, 0}, lower{-0.17, -0.295};
+  const Columned body(test::outline_of({{{"box", {{-16, -16}, {16, -16}, {16, 16}, {-16, 16}}}},
+                                        {{"body", {{-5.6, 5.7}, upper, lower, {-6.5, 4.6}}, layers}}}));
+  int corners = 0;
+  for (std::int32_t i = 0; i < body.line.size(); ++i) {
+    if (body.line[i].wall != upper && body.line[i].wall != lower) continue;
+    ++corners;
+    const std::vector<double>& lengths = body.columns.length;
+    const double beside = std::max(lengths[body.line.previous(i)], lengths[body.line.next(i)]);
+    EXPECT_LE(lengths[i], 1.055 * beside) << body.line[i].wall.x;
+  }
+  EXPECT_EQ(corners, 2);
 }
 
 TEST(ColumnsOnWall, AFansRaysHaveTheThicknessForTheirLength) {

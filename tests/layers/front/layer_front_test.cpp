@@ -65,13 +65,18 @@ TEST(LayerFront, TheWallsTurnsAskForSmallerLeavesWhereCurvatureIsARule) {
   const Geometry body =
       test::outline_of({{{"box", {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}}}, {{"body", circle, thin}}}, 1);
   const LayerFront loose = layer_front(body), strict = layer_front(body, 1.0);
+  const double on_wall = 2 * std::sin(std::acos(-1.0) / 40) / 9;  // a degree of nine, of a side
+  double most = 0;
   for (std::int32_t s = 0; s < strict.outer.size(); ++s) {
     if (strict.station_of[s] == WallLine::none) continue;
-    EXPECT_NEAR(strict.outer.spacing_of(s), 2 * std::sin(std::acos(-1.0) / 40) / 9, 1e-3)
-        << "a degree of nine, of a side";
+    most = std::max(most, strict.outer.spacing_of(s));
+    EXPECT_GE(strict.outer.spacing_of(s), on_wall * (1 - 1e-9));
     EXPECT_GT(loose.outer.spacing_of(s), 2 * strict.outer.spacing_of(s));
     EXPECT_EQ(strict.outer.bend_degrees(s), 0) << "the front's own turns do not count";
+    EXPECT_GT(strict.last_heights[s], 0);
   }
+  EXPECT_GT(most, 1.1 * on_wall) << "columns are wider on the front, where they spread";
+  EXPECT_LT(most, 1.5 * on_wall);
 }
 
 TEST(LayerFront, KeptPlacesOfTheWallAreKeptOnTheFront) {
