@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesher/base/log.hpp"
+#include "mesher/build/islands.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/lattice_rank.hpp"
@@ -193,13 +194,36 @@ class OutsideMesh {
   StageTimes trials_;
 };
 
+/// The geometry without islands that no leaf can tell, as they would go without layers.
+Geometry layered_part(const MeshInput& input, MeshReport& dropped) {
+  Geometry kept = without_small_islands(input.geometry, input.mesh.size.min, dropped);
+  if (!input.mesh.may_vanish && !dropped.boundaries_vanished.empty()) {
+    refuse_vanished(input.geometry, dropped.boundaries_vanished,
+                    fmt::format("is smaller than spacing.min = {}", input.mesh.size.min));
+  }
+  return kept;
+}
+
+void add_dropped(const MeshReport& dropped, MeshReport& report) {
+  report.islands_dropped += dropped.islands_dropped;
+  report.area_dropped += dropped.area_dropped;
+  report.warnings.insert(report.warnings.begin(), dropped.warnings.begin(), dropped.warnings.end());
+  for (const std::string& name : dropped.boundaries_vanished) {
+    if (std::ranges::find(report.boundaries_vanished, name) == report.boundaries_vanished.end())
+      report.boundaries_vanished.push_back(name);
+  }
+}
+
 GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
                                const DemandedSplits& demanded) {
   StageTimes times;
   times.begin("front");
-  LayerFront front = layer_front(input.geometry, input.mesh.size.curvature, input.lines);
+  MeshReport dropped;
+  const Geometry geometry = layered_part(input, dropped);
+  LayerFront front = layer_front(geometry, input.mesh.size.curvature, input.lines);
   times.end();
   GeneratedMesh generated = OutsideMesh(comm, input, demanded, front).made();
+  add_dropped(dropped, generated.result.report);
   times.append(generated.times);
   times.begin("layers");
   generated.layers = report_layers(comm, front, generated.result.mesh);
