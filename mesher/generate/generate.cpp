@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesher/base/log.hpp"
+#include "mesher/build/islands.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/lattice_rank.hpp"
@@ -177,13 +178,25 @@ class OutsideMesh {
   StageTimes trials_;
 };
 
+void add_dropped(const MeshReport& dropped, MeshReport& report) {
+  report.islands_dropped += dropped.islands_dropped;
+  report.area_dropped += dropped.area_dropped;
+  report.warnings.insert(report.warnings.begin(), dropped.warnings.begin(), dropped.warnings.end());
+  for (const std::string& name : dropped.boundaries_vanished) {
+    if (std::ranges::find(report.boundaries_vanished, name) == report.boundaries_vanished.end())
+      report.boundaries_vanished.push_back(name);
+  }
+}
+
 GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
                                const DemandedSplits& demanded, const MeasuredWall& measured) {
   StageTimes times;
   times.begin("front");
-  LayerFront front = front_of(input, measured);
+  MeshReport dropped;
+  LayerFront front = front_of(input, measured, dropped);
   times.end();
   GeneratedMesh generated = OutsideMesh(comm, input, demanded, front).made();
+  add_dropped(dropped, generated.result.report);
   times.append(generated.times);
   times.begin("layers");
   generated.layers = report_layers(comm, front, generated.result.mesh);

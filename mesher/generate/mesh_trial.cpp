@@ -6,7 +6,8 @@ namespace quadloop {
 
 MeshTrial::MeshTrial(const MeshInput& input, const MeasuredWall& measured) : input_{input} {
   if (!has_layers(input)) return;
-  front_.emplace(front_of(input, measured));
+  MeshReport dropped;  // said when the mesh is made
+  front_.emplace(front_of(input, measured, dropped));
   outer_.emplace(outside(input, *front_));
 }
 

@@ -1,6 +1,11 @@
 #include "mesher/generate/outside_layers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "mesher/build/islands.hpp"
+#include "mesher/build/outline_losses.hpp"
 
 namespace quadloop {
 
@@ -14,8 +19,22 @@ bool wants_y_plus(const Geometry& geometry) {
                              [](const Boundary& b) { return b.layers && b.layers->y_plus > 0; });
 }
 
-LayerFront front_of(const MeshInput& input, const MeasuredWall& measured) {
-  return layer_front(input.geometry, input.mesh.size.curvature, input.lines, measured);
+namespace {
+
+/// The geometry without islands that no leaf can tell, as they would go without layers.
+Geometry layered_part(const MeshInput& input, MeshReport& dropped) {
+  Geometry kept = without_small_islands(input.geometry, input.mesh.size.min, dropped);
+  if (!input.mesh.may_vanish && !dropped.boundaries_vanished.empty()) {
+    refuse_vanished(input.geometry, dropped.boundaries_vanished,
+                    fmt::format("is smaller than spacing.min = {}", input.mesh.size.min));
+  }
+  return kept;
+}
+
+}  // namespace
+
+LayerFront front_of(const MeshInput& input, const MeasuredWall& measured, MeshReport& dropped) {
+  return layer_front(layered_part(input, dropped), input.mesh.size.curvature, input.lines, measured);
 }
 
 MeshInput outside(const MeshInput& input, const LayerFront& front) {

@@ -12,8 +12,9 @@ bool has_layers(const MeshInput& input);
 /// Whether any wall wants a y+, so that its first heights can follow a measured flow.
 bool wants_y_plus(const Geometry& geometry);
 
-/// The front of an input's layers. `input` must outlive it.
-LayerFront front_of(const MeshInput& input, const MeasuredWall& measured);
+/// The front of an input's layers. Islands that no leaf can tell are left out before, and noted in `dropped`;
+/// throws InputError where a boundary that may not vanish does.
+LayerFront front_of(const MeshInput& input, const MeasuredWall& measured, MeshReport& dropped);
 
 /// The same input for the domain outside the layers, in the same root.
 MeshInput outside(const MeshInput& input, const LayerFront& front);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "mesher/base/error.hpp"
 #include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/quality.hpp"
@@ -234,6 +235,26 @@ TEST(Generate, LayersOnARoughCoastGetTheLeavesThatTheyNeed) {
     if (!world().is_root()) continue;
     EXPECT_TRUE(validate(whole).empty());
   }
+}
+
+TEST(Generate, IslandsTooSmallForALeafGetNoLayers) {
+  MeshInput input = rough_island();
+  std::vector<Boundary> boundaries(input.geometry.boundaries().begin(), input.geometry.boundaries().end());
+  boundaries.push_back(boundaries.back());
+  boundaries.back().name = "rock";
+  std::vector<Point> points(input.geometry.points().begin(), input.geometry.points().end());
+  points.insert(points.end(), {{-0.7, -0.7}, {-0.69, -0.69}, {-0.68, -0.7}});
+  std::vector<BoundaryId> of_segment(4, BoundaryId{0});
+  of_segment.resize(244, BoundaryId{1});
+  of_segment.resize(247, BoundaryId{2});
+  input.geometry = Geometry(boundaries, points, {0, 4, 244, 247}, of_segment);
+  input.mesh.may_vanish = true;
+  const GeneratedMesh made = generate_mesh(world(), input);
+  EXPECT_EQ(made.result.report.islands_dropped, 1);
+  EXPECT_EQ(made.result.report.boundaries_vanished, std::vector<std::string>{"rock"});
+  EXPECT_EQ(made.layers.size(), 1U);
+  input.mesh.may_vanish = false;
+  EXPECT_THROW(generate_mesh(world(), input), InputError);
 }
 
 }  // namespace
