@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "mesher/base/log.hpp"
-#include "mesher/build/islands.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/lattice_rank.hpp"
@@ -193,7 +192,8 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   StageTimes times;
   times.begin("front");
   MeshReport dropped;
-  LayerFront front = front_of(input, measured, dropped);
+  const Geometry geometry = geometry_with_layers(input, dropped);
+  LayerFront front = front_of(input, geometry, measured);
   times.end();
   GeneratedMesh generated = OutsideMesh(comm, input, demanded, front).made();
   add_dropped(dropped, generated.result.report);

@@ -13,6 +13,8 @@ class MeshTrial {
  public:
   /// `input` must outlive it. Throws InputError where its layers do not fit.
   explicit MeshTrial(const MeshInput& input, const MeasuredWall& measured = {});
+  MeshTrial(const MeshTrial&) = delete;
+  MeshTrial& operator=(const MeshTrial&) = delete;
 
   /// The nodes that generate_mesh() would make, those of layers too, from the mesh outside the layers, which
   /// is not smoothed. The bounds differ at sharp edges alone (layer_nodes()). Throws as build_mesh does.
@@ -26,6 +28,7 @@ class MeshTrial {
   const MeshInput& meshed() const { return outer_ ? *outer_ : input_; }
 
   const MeshInput& input_;
+  std::optional<Geometry> geometry_;
   std::optional<LayerFront> front_;
   std::optional<MeshInput> outer_;
 };

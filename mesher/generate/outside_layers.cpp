@@ -19,10 +19,7 @@ bool wants_y_plus(const Geometry& geometry) {
                              [](const Boundary& b) { return b.layers && b.layers->y_plus > 0; });
 }
 
-namespace {
-
-/// The geometry without islands that no leaf can tell, as they would go without layers.
-Geometry layered_part(const MeshInput& input, MeshReport& dropped) {
+Geometry geometry_with_layers(const MeshInput& input, MeshReport& dropped) {
   Geometry kept = without_small_islands(input.geometry, input.mesh.size.min, dropped);
   if (!input.mesh.may_vanish && !dropped.boundaries_vanished.empty()) {
     refuse_vanished(input.geometry, dropped.boundaries_vanished,
@@ -31,10 +28,8 @@ Geometry layered_part(const MeshInput& input, MeshReport& dropped) {
   return kept;
 }
 
-}  // namespace
-
-LayerFront front_of(const MeshInput& input, const MeasuredWall& measured, MeshReport& dropped) {
-  return layer_front(layered_part(input, dropped), input.mesh.size.curvature, input.lines, measured);
+LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredWall& measured) {
+  return layer_front(geometry, input.mesh.size.curvature, input.lines, measured);
 }
 
 MeshInput outside(const MeshInput& input, const LayerFront& front) {
