@@ -81,6 +81,8 @@ LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments
     require_readable_suffix(arguments.input);
     require_solid_suffix(arguments.output);
     if (!context.comm.is_root()) return;
+    if (read_solid(arguments.input))
+      throw InputError(arguments.input + ": is a 3D mesh already; give one of two dimensions");
     whole = read_mesh(arguments.input);
     require_valid_input(whole, arguments.input);
     warnings = whole.warnings;

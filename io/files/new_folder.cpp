@@ -43,7 +43,7 @@ NewFolder NewFolder::at(const std::string& path, const std::vector<std::string>&
   if (!fs::is_directory(parent))
     throw OutputError(path + ": cannot be written: the folder '" + parent +
                       "' does not exist; create it first");
-  folder.made_.emplace(path);
+  folder.made_ = std::make_unique<Temporary>(path);
   if (::mkdir(path.c_str(), open_to_all) != 0) {
     const int reason = errno;
     folder.keep();

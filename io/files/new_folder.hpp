@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,7 +23,7 @@ class NewFolder {
 
  private:
   NewFolder() = default;
-  std::optional<Temporary> made_;
+  std::unique_ptr<Temporary> made_;
 };
 
 }  // namespace quadloop
