@@ -93,9 +93,10 @@ LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments
 
 /// *Collective.*
 Plane spread(const Communicator& comm, LoadedMesh whole) {
+  if (comm.size() == 1) return {std::move(whole.mesh), std::move(whole.solution)};
   const MeshOrder order = comm.is_root() ? own_order(whole.mesh) : MeshOrder{};
   Plane plane{scatter_mesh(comm, whole.mesh, order), std::nullopt};
-  whole.mesh = {};
+  whole.mesh = {};  // before the 3D mesh streams
   if (comm.any(whole.solution.has_value()))
     plane.solution = scatter_field(comm, whole.solution.value_or(Field{}), plane.mesh, order);
   return plane;

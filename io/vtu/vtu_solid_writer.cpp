@@ -92,11 +92,12 @@ class VtuSolidWriter {
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n" +
         vtu_text_array("boundary_names", stream_.patch_names()) + "</FieldData>\n<Piece NumberOfPoints=\"" +
-        std::to_string(nodes) + "\" NumberOfCells=\"" + std::to_string(elements_) + "\">\n<Points>\n" +
-        array_tag("Float64", "Points", 24 * nodes, 3) + "</Points>\n<Cells>\n" +
-        array_tag("Int64", "connectivity", 8 * entries_) + array_tag("Int64", "offsets", 8 * elements_) +
-        array_tag("UInt8", "types", elements_) + "</Cells>\n<CellData>\n" +
-        array_tag("Int32", "boundary", 4 * elements_) + "</CellData>\n";
+        std::to_string(nodes) + "\" NumberOfCells=\"" + std::to_string(elements_) + "\">\n<Points>\n";
+    head += array_tag("Float64", "Points", 24 * nodes, 3);  // one after another: each moves the offset on
+    head += "</Points>\n<Cells>\n" + array_tag("Int64", "connectivity", 8 * entries_);
+    head += array_tag("Int64", "offsets", 8 * elements_);
+    head += array_tag("UInt8", "types", elements_);
+    head += "</Cells>\n<CellData>\n" + array_tag("Int32", "boundary", 4 * elements_) + "</CellData>\n";
     if (!variables_.empty()) {
       head += "<PointData>\n";
       for (const ExtrudedVariable& variable : variables_)

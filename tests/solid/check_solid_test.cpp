@@ -75,7 +75,7 @@ TEST(CheckSolid, NamesWhatIsBroken) {
   expect_fault(conforming, "is on patches 2 times, first on rest", [](SolidMesh& mesh) {
     mesh.patches[0].faces.push_back(mesh.patches[1].faces.front());
   });
-  expect_fault(conforming, "a face inside, of prism 1, is on floor", [](SolidMesh& mesh) {
+  expect_fault(conforming, "a face inside, of hexahedron 1, is on floor", [](SolidMesh& mesh) {
     mesh.patches[0].faces.push_back({1, 2, 6, 5});
   });
   expect_fault(conforming, "is that of no cell", [](SolidMesh& mesh) {
