@@ -62,7 +62,8 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   return report;
 }
 
-void check_solid_on_root(const CommandContext& context, const CheckArguments& arguments, const SolidMesh& mesh) {
+void check_solid_on_root(const CommandContext& context, const CheckArguments& arguments,
+                         const SolidMesh& mesh) {
   if (!arguments.geometry.empty())
     throw UsageError(arguments.input + ": is a 3D mesh, which --geometry says nothing of; leave it out");
   context.warn(mesh.warnings);
@@ -91,8 +92,10 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
 void add_check_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check", "say whether a mesh is valid");
-  command->add_option("input", arguments->input, "the mesh, of two dimensions (" + suffixes_for({Content::mesh}) +
-                                              ") or three (" + suffixes_for({Content::solid}) + ", a folder)")
+  command
+      ->add_option("input", arguments->input,
+                   "the mesh, of two dimensions (" + suffixes_for({Content::mesh}) + ") or three (" +
+                       suffixes_for({Content::solid}) + ", a folder)")
       ->required()
       ->type_name("IN");
   command->add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")

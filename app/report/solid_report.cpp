@@ -22,7 +22,8 @@ std::string place_text(Point3 p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})"
 std::string patches_text(const std::vector<PatchFigures>& patches, std::size_t most) {
   std::string text;
   for (std::size_t n = 0; n < std::min(patches.size(), most); ++n)
-    text += fmt::format("    {:<22}{:>12}  area {:.6g}\n", patches[n].name, patches[n].faces, patches[n].area);
+    text +=
+        fmt::format("    {:<22}{:>12}  area {:.6g}\n", patches[n].name, patches[n].faces, patches[n].area);
   if (patches.size() > most)
     text += fmt::format("    {} more; --verbose or --json shows them\n", patches.size() - most);
   return text;
@@ -89,8 +90,9 @@ JsonObject solid_record(const std::string& file, const SolidMesh& mesh, const So
 
 void refuse_invalid_solid(const std::string& file, const SolidFigures& figures) {
   const std::int64_t more = figures.all_faults - 1;
-  throw InputError(fmt::format("{}: invalid mesh: {}{}", file, fault_text(figures.faults.front()),
-                               more == 0 ? "" : fmt::format("; {} fault{} more", more, more == 1 ? "" : "s")));
+  throw InputError(
+      fmt::format("{}: invalid mesh: {}{}", file, fault_text(figures.faults.front()),
+                  more == 0 ? "" : fmt::format("; {} fault{} more", more, more == 1 ? "" : "s")));
 }
 
 }  // namespace quadloop

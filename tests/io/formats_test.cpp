@@ -12,8 +12,10 @@ namespace {
 using Names = std::vector<std::string>;
 
 TEST(Formats, AreListedByWhatTheyHold) {
-  EXPECT_EQ(formats_for({}), (Names{"mesh", "cgns", "vtu", "su2", "msh", "b8.ugrid", "lb8.ugrid", "polyMesh", "csv"}));
-  EXPECT_EQ(formats_for({Content::solid}), (Names{"cgns", "vtu", "su2", "b8.ugrid", "lb8.ugrid", "polyMesh"}));
+  EXPECT_EQ(formats_for({}),
+            (Names{"mesh", "cgns", "vtu", "su2", "msh", "b8.ugrid", "lb8.ugrid", "polyMesh", "csv"}));
+  EXPECT_EQ(formats_for({Content::solid}),
+            (Names{"cgns", "vtu", "su2", "b8.ugrid", "lb8.ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh}), (Names{"mesh", "cgns", "vtu", "su2", "msh"}));
   EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "cgns", "vtu"}));
   EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh"}));

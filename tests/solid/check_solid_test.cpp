@@ -15,7 +15,7 @@ constexpr std::int32_t none = SolidPatch::no_node;
 /// but for the floor, "floor".
 SolidMesh sample() {
   SolidMesh mesh;
-  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1},
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},     {1, 0, 1},
                  {1, 1, 1}, {0, 1, 1}, {2, 0, 0}, {2, 0, 1}, {0.5, 0.5, 2}, {2, 0.5, 2}};
   mesh.hexahedra = {{0, 1, 2, 3, 4, 5, 6, 7}};
   mesh.prisms = {{1, 8, 2, 5, 9, 6}};
@@ -72,9 +72,8 @@ TEST(CheckSolid, NamesWhatIsBroken) {
   });
   expect_fault(conforming, "has no other cell and is on no patch",
                [](SolidMesh& mesh) { mesh.patches[1].faces.pop_back(); });
-  expect_fault(conforming, "is on patches 2 times, first on rest", [](SolidMesh& mesh) {
-    mesh.patches[0].faces.push_back(mesh.patches[1].faces.front());
-  });
+  expect_fault(conforming, "is on patches 2 times, first on rest",
+               [](SolidMesh& mesh) { mesh.patches[0].faces.push_back(mesh.patches[1].faces.front()); });
   expect_fault(conforming, "a face inside, of hexahedron 1, is on floor", [](SolidMesh& mesh) {
     mesh.patches[0].faces.push_back({1, 2, 6, 5});
   });

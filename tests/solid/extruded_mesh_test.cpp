@@ -61,8 +61,10 @@ TEST(ExtrudedMesh, VectorsStayInThePlane) {
   };
   using Names = std::vector<std::string>;
   const Field field{{"density", "u", "y_velocity"}, {}, {}};
-  EXPECT_EQ(names(field, ExtrusionAxis::z), (Names{"density:0", "x_velocity:1", "y_velocity:2", "z_velocity:-1"}));
-  EXPECT_EQ(names(field, ExtrusionAxis::y), (Names{"density:0", "x_velocity:1", "z_velocity:2", "y_velocity:-1"}));
+  EXPECT_EQ(names(field, ExtrusionAxis::z),
+            (Names{"density:0", "x_velocity:1", "y_velocity:2", "z_velocity:-1"}));
+  EXPECT_EQ(names(field, ExtrusionAxis::y),
+            (Names{"density:0", "x_velocity:1", "z_velocity:2", "y_velocity:-1"}));
   EXPECT_EQ(names({{"x_momentum", "t"}, {}, {}}, ExtrusionAxis::y), (Names{"x_momentum:0", "t:1"}));
 }
 
