@@ -133,6 +133,15 @@ class Extrude(ProgramTest):
         (self.folder / "polyMesh/cellZones").touch()
         self.refused(4, ["holds 'cellZones'"], "extrude", "a.mesh", "-o", "polyMesh", *EVEN)
 
+    def test_faces_of_a_folder_are_in_upper_triangular_order(self):
+        def numbers(name):
+            return [int(word) for word in (self.folder / "polyMesh" / name).read_text().split("\n(\n")[1].split(")")[0].split()]
+        self.done("extrude", "a.mesh", "-o", "polyMesh", *EVEN, "-q", ranks=2)
+        owner, neighbour = numbers("owner"), numbers("neighbour")
+        inside = list(zip(owner, neighbour))
+        self.assertEqual(inside, sorted(set(inside)))
+        self.assertTrue(all(low < high for low, high in inside))
+
     def test_one_layer_is_empty_in_front_and_behind(self):
         self.done("extrude", "a.cgns", "-o", "polyMesh", "--layers", "1", "--thickness", "1", "-q")
         boundary = (self.folder / "polyMesh/boundary").read_text()
