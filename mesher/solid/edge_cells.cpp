@@ -52,45 +52,71 @@ void ask(const Communicator& comm, const Questions& questions) {
   for (std::size_t i = 0; i < answers.size(); ++i) *questions.answers[i] = answers[i];
 }
 
-}  // namespace
+/// Fills in what this rank's own cells tell, and collects the questions of the rest.
+class OwnEdges {
+ public:
+  OwnEdges(const Communicator& comm, const Mesh& mesh, EdgeCells& cells)
+      : comm_{comm}, mesh_{mesh}, cells_{cells}, owners_(comm, mesh.first_node), table_(mesh) {}
 
-EdgeCells edge_cells(const Communicator& comm, const Mesh& mesh) {
-  const EdgeTable table(mesh);
-  const NodeOwners owners(comm, mesh.first_node);
-  const std::int64_t triangles = std::ssize(mesh.triangles);
-  EdgeCells cells;
-  cells.first_triangle = comm.exclusive_sum(triangles);
-  cells.first_quad = comm.sum(triangles) + comm.exclusive_sum(std::ssize(mesh.quads));
-  const auto number = [&](std::int64_t cell) {
-    return cell < triangles ? cells.first_triangle + cell : cells.first_quad + cell - triangles;
-  };
-  cells.across.resize(3 * mesh.triangles.size() + 4 * mesh.quads.size(), EdgeCells::none);
-  Questions questions;
-  std::size_t at = 0;
-  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    std::int64_t& across = cells.across[at++];
-    const std::int32_t other = table.cell_left_of(to, from);
-    if (other >= 0) {
-      across = number(other);
-    } else if (comm.size() > 1) {
-      questions.add(owners, {mesh.global(from).value(), mesh.global(to).value(), number(cell)}, across);
-    }
-  });
-  std::size_t edges = 0;
-  for (const BoundaryEdges& boundary : mesh.boundaries) edges += boundary.edges.size();
-  cells.of_boundary.resize(edges, EdgeCells::none);
-  at = 0;
-  for (const BoundaryEdges& boundary : mesh.boundaries) {
-    for (const auto& [from, to] : boundary.edges) {
-      std::int64_t& left = cells.of_boundary[at++];
-      const std::int32_t own = table.cell_left_of(from, to);
-      if (own >= 0) {
-        left = number(own);
-      } else {
-        questions.add(owners, {mesh.global(from).value(), mesh.global(to).value(), EdgeCells::none}, left);
+  void fill_across(Questions& questions) const {
+    auto at = cells_.across.begin();
+    for_each_cell_edge(mesh_, [&](NodeId from, NodeId to, std::int32_t cell) {
+      std::int64_t& across = *at++;
+      const std::int32_t other = table_.cell_left_of(to, from);
+      if (other >= 0) {
+        across = number(other);
+      } else if (comm_.size() > 1) {
+        questions.add(owners_, directed(from, to, number(cell)), across);
+      }
+    });
+  }
+
+  void fill_boundary(Questions& questions) const {
+    auto at = cells_.of_boundary.begin();
+    for (const BoundaryEdges& boundary : mesh_.boundaries) {
+      for (const auto& [from, to] : boundary.edges) {
+        std::int64_t& left = *at++;
+        const std::int32_t own = table_.cell_left_of(from, to);
+        if (own >= 0) {
+          left = number(own);
+        } else {
+          questions.add(owners_, directed(from, to, EdgeCells::none), left);
+        }
       }
     }
   }
+
+ private:
+  std::int64_t number(std::int64_t cell) const {
+    const std::int64_t triangles = std::ssize(mesh_.triangles);
+    return cell < triangles ? cells_.first_triangle + cell : cells_.first_quad + cell - triangles;
+  }
+  DirectedEdge directed(NodeId from, NodeId to, std::int64_t cell) const {
+    return {mesh_.global(from).value(), mesh_.global(to).value(), cell};
+  }
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  EdgeCells& cells_;
+  NodeOwners owners_;
+  EdgeTable table_;
+};
+
+}  // namespace
+
+EdgeCells edge_cells(const Communicator& comm, const Mesh& mesh) {
+  const std::int64_t triangles = std::ssize(mesh.triangles);
+  std::size_t edges = 0;
+  for (const BoundaryEdges& boundary : mesh.boundaries) edges += boundary.edges.size();
+  EdgeCells cells;
+  cells.first_triangle = comm.exclusive_sum(triangles);
+  cells.first_quad = comm.sum(triangles) + comm.exclusive_sum(std::ssize(mesh.quads));
+  cells.across.resize(3 * mesh.triangles.size() + 4 * mesh.quads.size(), EdgeCells::none);
+  cells.of_boundary.resize(edges, EdgeCells::none);
+  Questions questions;
+  const OwnEdges own(comm, mesh, cells);
+  own.fill_across(questions);
+  own.fill_boundary(questions);
   ask(comm, questions);
   return cells;
 }
