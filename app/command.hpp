@@ -59,5 +59,6 @@ void add_solve_command(CLI::App& app, CommandContext& context);
 void add_check_command(CLI::App& app, CommandContext& context);
 void add_plot_command(CLI::App& app, CommandContext& context);
 void add_convert_command(CLI::App& app, CommandContext& context);
+void add_extrude_command(CLI::App& app, CommandContext& context);
 
 }  // namespace quadloop

@@ -9,9 +9,12 @@
 #include "app/command.hpp"
 #include "app/report/check_report.hpp"
 #include "app/report/refusals.hpp"
+#include "app/report/solid_report.hpp"
 #include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
+#include "io/solid_file.hpp"
+#include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 
 namespace quadloop {
@@ -59,7 +62,20 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   return report;
 }
 
+void check_solid_on_root(const CommandContext& context, const CheckArguments& arguments,
+                         const SolidMesh& mesh) {
+  if (!arguments.geometry.empty())
+    throw UsageError(arguments.input + ": is a 3D mesh, which --geometry says nothing of; leave it out");
+  context.warn(mesh.warnings);
+  const SolidFigures figures = check_solid(mesh);
+  context.record.figures = solid_record(arguments.input, mesh, figures);
+  if (context.shows_table()) std::cout << solid_text(mesh, figures, context.verbose) << std::flush;
+  if (!figures.faults.empty()) refuse_invalid_solid(arguments.input, figures);
+}
+
 void check_on_root(const CommandContext& context, const CheckArguments& arguments) {
+  if (const std::optional<SolidMesh> solid = read_solid(arguments.input))
+    return check_solid_on_root(context, arguments, *solid);
   const LoadedMesh loaded = read_mesh(arguments.input);
   context.warn(loaded.warnings);
   std::vector<Chain> chains;
@@ -76,7 +92,10 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
 void add_check_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check", "say whether a mesh is valid");
-  command->add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
+  command
+      ->add_option("input", arguments->input,
+                   "the mesh, of two dimensions (" + suffixes_for({Content::mesh}) + ") or three (" +
+                       suffixes_for({Content::solid}) + ", a folder)")
       ->required()
       ->type_name("IN");
   command->add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")

@@ -74,6 +74,7 @@ void add_commands(CLI::App& app, CommandContext& context) {
   add_check_command(app, context);
   add_plot_command(app, context);
   add_convert_command(app, context);
+  add_extrude_command(app, context);
   for (CLI::App* command : commands_of(app)) {
     command->footer(fmt::format(
         "With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n"

@@ -5,11 +5,16 @@
 
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_names.hpp"
+#include "io/cgns/cgns_solid_file.hpp"
+#include "io/foam/foam_file.hpp"
 #include "io/msh/msh_file.hpp"
 #include "io/native/native_file.hpp"
 #include "io/su2/su2_csv_file.hpp"
 #include "io/su2/su2_file.hpp"
+#include "io/su2/su2_solid_file.hpp"
+#include "io/ugrid/ugrid_file.hpp"
 #include "io/vtu/vtu_file.hpp"
+#include "io/vtu/vtu_solid_file.hpp"
 
 namespace quadloop {
 
@@ -27,6 +32,16 @@ std::vector<std::string> msh_group_names(const std::vector<std::string>& boundar
   return names;
 }
 
+/// One for each order of bytes.
+FileFormat ugrid_row(const std::string& name) {
+  return {.name = name,
+          .program = "AFLR3",
+          .places = {Content::solid},
+          .write_solid = write_ugrid,
+          .read_solid = read_ugrid,
+          .patch_names = mapbc_names};
+}
+
 }  // namespace
 
 const std::vector<FileFormat>& file_formats() {
@@ -39,28 +54,47 @@ const std::vector<FileFormat>& file_formats() {
                                                 .write_mesh = write_native,
                                                 .write_blocks = write_native},
                                                {.name = "cgns",
-                                                .places = {mesh, solution, conditions, layers},
+                                                .places = {mesh, solution, conditions, layers, solid},
                                                 .by_default = true,
                                                 .read_mesh = read_cgns,
                                                 .write_mesh = write_cgns,
-                                                .boundary_names = cgns_boundary_names},
+                                                .boundary_names = cgns_boundary_names,
+                                                .write_solid = write_cgns_solid,
+                                                .read_solid = read_cgns_solid,
+                                                .patch_names = cgns_boundary_names,
+                                                .solution_in_solid = true},
                                                {.name = "vtu",
-                                                .places = {mesh, solution, blocks, layers},
+                                                .places = {mesh, solution, blocks, layers, solid},
                                                 .without_values = save,
                                                 .read_mesh = read_vtu,
                                                 .write_mesh = write_vtu,
-                                                .write_blocks = write_vtu},
+                                                .write_blocks = write_vtu,
+                                                .write_solid = write_vtu_solid,
+                                                .read_solid = read_vtu_solid,
+                                                .solution_in_solid = true},
                                                {.name = "su2",
-                                                .places = {mesh},
+                                                .places = {mesh, solid},
                                                 .read_mesh = read_su2,
                                                 .write_mesh = write_mesh_alone<write_su2>,
-                                                .boundary_names = su2_marker_names},
+                                                .boundary_names = su2_marker_names,
+                                                .write_solid = write_su2_solid,
+                                                .read_solid = read_su2_solid,
+                                                .patch_names = su2_marker_names},
                                                {.name = "msh",
                                                 .places = {mesh, blocks},
                                                 .read_mesh = read_msh,
                                                 .write_mesh = write_mesh_alone<write_msh>,
                                                 .write_blocks = write_msh,
                                                 .boundary_names = msh_group_names},
+                                               ugrid_row("b8.ugrid"),
+                                               ugrid_row("lb8.ugrid"),
+                                               {.name = "polyMesh",
+                                                .program = "OpenFOAM",
+                                                .places = {solid},
+                                                .write_solid = write_foam,
+                                                .read_solid = read_foam,
+                                                .patch_names = foam_patch_names,
+                                                .is_folder = true},
                                                {.name = "csv",
                                                 .program = "SU2",
                                                 .places = {solution},
@@ -77,8 +111,14 @@ const FileFormat* format_named(const std::string& name) {
 }
 
 const FileFormat* format_of(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension();
-  return suffix.empty() ? nullptr : format_named(suffix.substr(1));
+  std::filesystem::path file = path;
+  if (!file.has_filename()) file = file.parent_path();  // a folder with a slash behind it
+  const std::string name = file.filename();
+  const auto found = std::ranges::find_if(file_formats(), [&](const FileFormat& format) {
+    const bool is_suffix = name.ends_with("." + format.name) && name.size() > format.name.size() + 1;
+    return is_suffix || (format.is_folder && name == format.name);
+  });
+  return found == file_formats().end() ? nullptr : &*found;
 }
 
 const FileFormat& native_format() { return file_formats().front(); }
@@ -105,7 +145,7 @@ std::string suffixes_for(std::initializer_list<Content> contents, const std::str
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i > 0) text += i + 1 == names.size() ? " " + last + " " : ", ";
-    text += "." + names[i];
+    text += format_named(names[i])->suffix();
   }
   return text;
 }

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/files/output_file.hpp"
 #include "io/loaded/loaded_mesh.hpp"
 #include "io/loaded/loaded_solution.hpp"
+#include "mesher/solid/extruded_mesh.hpp"
+#include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
 
@@ -17,14 +20,16 @@ enum class Content {
   constants,  ///< of the solution
   blocks,
   conditions,  ///< of boundaries
-  layers       ///< on boundaries: how many
+  layers,      ///< on boundaries: how many
+  solid        ///< a 3D mesh
 };
 
-/// A row of the table of formats: a file holds a mesh, often with a solution, or a solution alone. Whoever
+/// A row of the table of formats: a file holds a mesh of two dimensions or of three (some formats have both),
+/// often with a solution, or a solution alone. Whoever
 /// adds a format adds a folder and a row: commands, case keys and messages list it by what it has a place
 /// for.
 struct FileFormat {
-  std::string name;             ///< the suffix without its dot
+  std::string name;             ///< the suffix without its dot; of a folder its own name, or the suffix of it
   std::string program = {};     ///< whose format it is, where the suffix does not tell
   std::vector<Content> places;  ///< what it has a place for
   bool by_default = false;      ///< written unless a case says otherwise, and in each cycle of a run
@@ -46,7 +51,19 @@ struct FileFormat {
   void (*write_solution)(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                          double gamma) = nullptr;
 
+  /// A 3D mesh by extrusion, with its solution where there is a place for one. *Collective.* Throws
+  /// OutputError.
+  void (*write_solid)(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path) = nullptr;
+  /// A 3D mesh on the calling rank alone; nothing where the file holds one of two dimensions. Throws
+  /// InputError.
+  std::optional<SolidMesh> (*read_solid)(const std::string& path) = nullptr;
+  /// The names of its patches as a file has them; null: as they are.
+  std::vector<std::string> (*patch_names)(const std::vector<std::string>& names) = nullptr;
+  bool solution_in_solid = false;  ///< whether a 3D mesh has a place for one
+  bool is_folder = false;
+
   bool holds(Content content) const;
+  std::string suffix() const { return (is_folder ? "" : ".") + name; }  ///< as sentences have it
 };
 
 /// The table.

@@ -50,6 +50,9 @@ void require_readable_suffix(const std::string& path) {
   std::error_code no_such_file;
   if (const std::string ours = path + "." + native_format().name; std::filesystem::exists(ours, no_such_file))
     throw InputError(path + ": is no mesh file; do you mean '" + ours + "'?");
+  if (const FileFormat* format = format_of(path); format != nullptr && format->holds(Content::solid))
+    throw InputError(path + ": holds a 3D mesh, where one of two dimensions is wanted; give a " +
+                     suffixes_for({Content::mesh}) + " file");
   throw InputError(path + ": no mesh is read from the format '" + suffix_of(path) + "'; give a " +
                    suffixes_for({Content::mesh}) + " file");
 }
@@ -61,6 +64,9 @@ LoadedMesh read_mesh(const std::string& path) {
 
 void require_writable_suffix(const std::string& path) {
   if (mesh_format(path) != nullptr) return;
+  if (const FileFormat* format = format_of(path); format != nullptr && format->holds(Content::solid))
+    throw InputError(path + ": is of a format of 3D meshes, which `quadloop extrude` writes; name a " +
+                     suffixes_for({Content::mesh}) + " file");
   throw InputError(path + ": no mesh is written in the format '" + suffix_of(path) + "'; name a " +
                    suffixes_for({Content::mesh}) + " file");
 }

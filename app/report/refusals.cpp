@@ -67,6 +67,11 @@ void require_sound_topology(const LoadedMesh& loaded, const std::string& file) {
   if (!faults.empty()) refuse_invalid(file, faults);
 }
 
+void require_valid_input(const LoadedMesh& loaded, const std::string& file) {
+  const std::vector<MeshFault> faults = validate(loaded.mesh, blocks_of(loaded));
+  if (!faults.empty()) refuse_invalid(file, faults);
+}
+
 void require_valid(const LoadedMesh& smoothed, const std::string& file) {
   const std::vector<MeshFault> faults = validate(smoothed.mesh, blocks_of(smoothed));
   if (faults.empty()) return;

@@ -18,6 +18,9 @@ std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::strin
 /// Throws InputError for a mesh that no movement of its nodes can make valid.
 void require_sound_topology(const LoadedMesh& loaded, const std::string& file);
 
+/// Throws InputError for a mesh that is not valid.
+void require_valid_input(const LoadedMesh& loaded, const std::string& file);
+
 /// Throws InputError for a smoothed mesh that may not be written: where its worst cell is, if cells are still
 /// inverted; else its first fault.
 void require_valid(const LoadedMesh& smoothed, const std::string& file);

@@ -15,14 +15,16 @@ namespace {
 
 constexpr std::size_t longest_name = 32;
 
-constexpr std::array<std::pair<const char*, const char*>, 8> variables{{{"density", "Density"},
-                                                                        {"pressure", "Pressure"},
-                                                                        {"temperature", "Temperature"},
-                                                                        {"mach", "Mach"},
-                                                                        {"x_velocity", "VelocityX"},
-                                                                        {"y_velocity", "VelocityY"},
-                                                                        {"x_momentum", "MomentumX"},
-                                                                        {"y_momentum", "MomentumY"}}};
+constexpr std::array<std::pair<const char*, const char*>, 10> variables{{{"density", "Density"},
+                                                                         {"pressure", "Pressure"},
+                                                                         {"temperature", "Temperature"},
+                                                                         {"mach", "Mach"},
+                                                                         {"x_velocity", "VelocityX"},
+                                                                         {"y_velocity", "VelocityY"},
+                                                                         {"z_velocity", "VelocityZ"},
+                                                                         {"x_momentum", "MomentumX"},
+                                                                         {"y_momentum", "MomentumY"},
+                                                                         {"z_momentum", "MomentumZ"}}};
 
 /// The number of a BCType_t by its name.
 int type_named(std::string_view name) {
@@ -43,8 +45,8 @@ std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& nam
   // Sections stand in the zone and families in the base, beside these nodes.
   DistinctNames distinct;
   for (const char* used :
-       {"", ".", "..", "ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "ZoneBC", "ZoneGridConnectivity",
-        "FlowSolution", "domain", "DataClass", "DimensionalUnits"}) {
+       {"", ".", "..", "ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "PENTA_6", "HEXA_8", "ZoneBC",
+        "ZoneGridConnectivity", "FlowSolution", "domain", "DataClass", "DimensionalUnits"}) {
     distinct.reserve(used);
   }
   std::vector<std::string> result;

@@ -1,6 +1,7 @@
 #include "io/files/boundary_stream.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 
@@ -35,6 +36,12 @@ BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh) : com
     all_edges_ += share.edges;
   }
   if (comm.is_root()) shares_ = std::move(all);
+}
+
+BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh, std::vector<Edge> instead)
+    : BoundaryStream(comm, mesh) {
+  instead_ = std::move(instead);
+  QUADLOOP_REQUIRE(std::ssize(instead_) == own_before_.back(), "numbers for each boundary edge");
 }
 
 std::vector<BoundaryStream::Incoming> BoundaryStream::all_incoming() const {
@@ -74,6 +81,7 @@ void BoundaryStream::send_all() const {
 
 std::vector<BoundaryStream::Edge> BoundaryStream::own_piece(std::int64_t first) const {
   const std::int64_t end = std::min(own_before_.back(), first + edges_per_piece);
+  if (!instead_.empty()) return {instead_.begin() + first, instead_.begin() + end};
   std::vector<Edge> piece;
   piece.reserve(end - first);
   std::size_t b = std::upper_bound(own_before_.begin(), own_before_.end(), first) - own_before_.begin() - 1;

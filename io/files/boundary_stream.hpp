@@ -21,6 +21,9 @@ class BoundaryStream {
 
   /// *Collective.* The mesh must outlive it.
   BoundaryStream(const Communicator& comm, const Mesh& mesh);
+  /// Of each edge two other numbers in the place of its nodes' own: this rank's edges, boundary after
+  /// boundary.
+  BoundaryStream(const Communicator& comm, const Mesh& mesh, std::vector<Edge> instead);
 
   std::int64_t all_edges() const { return all_edges_; }
   /// The boundaries that have edges on any rank, in their order; and how many.
@@ -98,6 +101,7 @@ class BoundaryStream {
   std::vector<std::int64_t> own_before_;
   std::vector<Share> shares_;  ///< on rank 0: by boundary, then rank
   std::int64_t all_edges_ = 0;
+  std::vector<Edge> instead_;
 };
 
 }  // namespace quadloop

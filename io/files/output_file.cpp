@@ -111,6 +111,16 @@ StagedFile OutputSet::stage(const std::string& path) {
   return file;
 }
 
+std::vector<StagedFile> OutputSet::stage_folder(const std::string& path,
+                                                const std::vector<std::string>& files) {
+  comm_.together([&] {
+    if (comm_.is_root()) folders_.push_back(NewFolder::at(path, files));
+  });
+  std::vector<StagedFile> staged;
+  for (const std::string& file : files) staged.push_back(stage(path + "/" + file));
+  return staged;
+}
+
 void OutputSet::commit() {
   comm_.together([&] {
     for (const Output& output : outputs_) bring_to_disk(output.staged.temporary, output.staged.path);
@@ -129,6 +139,8 @@ void OutputSet::put_in_place() {
     renaming.keep();
     outputs_.clear();
     staging_.clear();
+    for (NewFolder& folder : folders_) folder.keep();
+    folders_.clear();
     return;
   }
   throw OutputError(

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/files/new_folder.hpp"
 #include "io/files/staging_folder.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 
@@ -36,6 +37,11 @@ class OutputSet {
   /// it. *Collective.*
   StagedFile stage(const std::string& path);
 
+  /// An output that is a folder of these files: makes it where there is none, to be taken away again without
+  /// a commit, and stages them in it. Refuses one that holds anything else: it would go with other files than
+  /// these. *Collective.*
+  std::vector<StagedFile> stage_folder(const std::string& path, const std::vector<std::string>& files);
+
   /// Brings all outputs to the disk, then gives them their names. *Collective.*
   void commit();
 
@@ -49,7 +55,8 @@ class OutputSet {
   void put_in_place();
 
   const Communicator& comm_;
-  std::vector<Output> outputs_;  ///< these two on rank 0 only
+  std::vector<NewFolder> folders_;  ///< these three on rank 0 only; before what is staged in them
+  std::vector<Output> outputs_;
   std::map<FolderId, std::unique_ptr<StagingFolder>> staging_;
 };
 

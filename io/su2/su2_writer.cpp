@@ -1,7 +1,7 @@
 #include <span>
 
 #include "io/su2/su2_file.hpp"
-#include "io/text/name_index.hpp"
+#include "io/text/plain_names.hpp"
 #include "io/text/text_output.hpp"
 
 namespace quadloop {
@@ -9,17 +9,6 @@ namespace quadloop {
 namespace {
 
 constexpr int vtk_line = 3, vtk_triangle = 5, vtk_quad = 9;
-
-std::string marker_name(const std::string& name) {
-  std::string result = name.empty() ? "_" : name;
-  for (char& c : result) {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'), digit = c >= '0' && c <= '9';
-    const bool above_ascii = (c & 0x80U) != 0;  // part of a letter in UTF-8
-    if (!letter && !digit && !above_ascii && std::string_view("_-.+").find(c) == std::string_view::npos)
-      c = '_';
-  }
-  return result;
-}
 
 class Su2Writer {
  public:
@@ -86,13 +75,7 @@ class Su2Writer {
 }  // namespace
 
 std::vector<std::string> su2_marker_names(const std::vector<std::string>& boundaries) {
-  std::vector<std::string> names;
-  DistinctNames distinct;
-  for (const std::string& boundary : boundaries) {
-    const std::string wanted = marker_name(boundary);
-    names.push_back(distinct.name(wanted, [&](const std::string& suffix) { return wanted + suffix; }));
-  }
-  return names;
+  return plain_names(boundaries);
 }
 
 void write_su2(OutputSet& outputs, const Mesh& mesh, const std::string& path) {

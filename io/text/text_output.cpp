@@ -2,8 +2,10 @@
 
 namespace quadloop {
 
-TextOutput::TextOutput(OutputSet& outputs, const std::string& path) : comm_{outputs.communicator()} {
-  const StagedFile staged = outputs.stage(path);
+TextOutput::TextOutput(OutputSet& outputs, const std::string& path)
+    : TextOutput(outputs.communicator(), outputs.stage(path)) {}
+
+TextOutput::TextOutput(const Communicator& comm, const StagedFile& staged) : comm_{comm} {
   comm_.together([&] {
     if (comm_.is_root()) file_ = std::make_unique<OutputFile>(staged);
   });

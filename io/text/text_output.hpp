@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <memory>
@@ -29,6 +30,8 @@ class TextRows {
     *end = after;
     used_ += end - begin + 1;
   }
+  /// One sign more; rows must have asked for enough numbers that there is room for it.
+  void mark(char sign) { text_[used_++] = sign; }
   std::vector<char> take() {
     text_.resize(used_);
     return std::move(text_);
@@ -44,6 +47,8 @@ class TextRows {
 class TextOutput {
  public:
   TextOutput(OutputSet& outputs, const std::string& path);
+  /// A file that is staged already.
+  TextOutput(const Communicator& comm, const StagedFile& staged);
 
   const Communicator& communicator() const { return comm_; }
 
@@ -54,7 +59,7 @@ class TextOutput {
   /// for this rank's row i.
   template <class Put>
   void write_rows(std::int64_t rows, std::size_t width, const Put& put) {
-    const RowStream stream{comm_, rows, rows_per_piece};
+    const RowStream stream{comm_, rows, rows_per_piece(width)};
     stream.run<char>(
         [&](std::int64_t begin, std::int64_t end) {
           TextRows text(end - begin, width);
@@ -77,6 +82,7 @@ class TextOutput {
   template <class Head, class Put>
   void write_boundaries(const BoundaryStream& boundaries, std::size_t width, const Head& head,
                         const Put& put) {
+    const std::int64_t most = rows_per_piece(width);
     std::size_t under_way = 0;
     std::string waiting;  // boundaries of a few edges each would be as many small writes
     boundaries.run(
@@ -85,13 +91,16 @@ class TextOutput {
           waiting += head(n);
         },
         [&](std::span<const BoundaryStream::Edge> edges) {
-          TextRows rows(std::ssize(edges), width);
-          for (const BoundaryStream::Edge& edge : edges) put(rows, under_way, edge);
-          const std::vector<char> text = rows.take();
-          waiting.append(text.begin(), text.end());
-          if (waiting.size() < largest_wait) return;
-          file_->write(waiting);
-          waiting.clear();
+          for (; !edges.empty(); edges = edges.subspan(std::min<std::size_t>(edges.size(), most))) {
+            const auto some = edges.first(std::min<std::size_t>(edges.size(), most));
+            TextRows rows(std::ssize(some), width);
+            for (const BoundaryStream::Edge& edge : some) put(rows, under_way, edge);
+            const std::vector<char> text = rows.take();
+            waiting.append(text.begin(), text.end());
+            if (waiting.size() < largest_wait) continue;
+            file_->write(waiting);
+            waiting.clear();
+          }
         });
     write(waiting);
   }
@@ -99,8 +108,12 @@ class TextOutput {
   void close();
 
  private:
-  static constexpr std::int64_t rows_per_piece = std::int64_t{1} << 16;
-  static constexpr std::size_t largest_wait = std::size_t{1} << 20;  // bytes
+  static std::int64_t rows_per_piece(std::size_t width) {
+    return std::max<std::int64_t>(1, numbers_per_piece / static_cast<std::int64_t>(width));
+  }
+
+  static constexpr std::int64_t numbers_per_piece = std::int64_t{1} << 17;  // at most 3.3 MB of text
+  static constexpr std::size_t largest_wait = std::size_t{1} << 20;         // bytes
 
   const Communicator& comm_;
   std::unique_ptr<OutputFile> file_;

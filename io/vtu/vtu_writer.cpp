@@ -3,6 +3,7 @@
 #include "io/text/text_output.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_layers.hpp"
+#include "io/vtu/vtu_text.hpp"
 #include "mesher/mesh/layer_nodes.hpp"
 
 namespace quadloop {
@@ -11,38 +12,10 @@ namespace {
 
 constexpr int vtk_line = 3, vtk_triangle = 5, vtk_quad = 9;
 
-std::string escaped(const std::string& name) {
-  std::string result;
-  for (const char c : name) {
-    switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
-    }
-  }
-  return result;
-}
-
 std::string array_tag(const std::string& type, const std::string& name, int components = 1) {
-  std::string tag = "<DataArray type=\"" + type + "\" Name=\"" + escaped(name) + "\"";
+  std::string tag = "<DataArray type=\"" + type + "\" Name=\"" + xml_escaped(name) + "\"";
   if (components > 1) tag += " NumberOfComponents=\"" + std::to_string(components) + "\"";
   return tag + " format=\"ascii\">\n";
-}
-
-/// The codes of their bytes, after each text a 0: what an array of strings holds, but under a type of
-/// numbers, since not every reader knows strings.
-std::string text_array(const std::string& name, const std::vector<std::string>& texts) {
-  std::string codes;
-  std::size_t count = 0;
-  for (const std::string& text : texts) {
-    for (const unsigned char c : text) codes += std::to_string(c) + " ";
-    codes += "0\n";
-    count += text.size() + 1;
-  }
-  return "<DataArray type=\"UInt8\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(count) +
-         "\" format=\"ascii\">\n" + codes + "</DataArray>\n";
 }
 
 class VtuWriter {
@@ -72,8 +45,8 @@ class VtuWriter {
     std::string head =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
-    head += "<UnstructuredGrid>\n<FieldData>\n" + text_array("boundary_names", names);
-    if (blocks != nullptr) head += text_array("block_names", blocks->block_names);
+    head += "<UnstructuredGrid>\n<FieldData>\n" + vtu_text_array("boundary_names", names);
+    if (blocks != nullptr) head += vtu_text_array("block_names", blocks->block_names);
     if (has_layers(mesh_)) head += layer_arrays();
     head += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(comm_.sum(mesh_.owned_nodes)) +
             "\" NumberOfCells=\"" + std::to_string(cells) + "\">\n";

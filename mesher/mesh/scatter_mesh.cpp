@@ -76,6 +76,7 @@ template <std::size_t width>
 GlobalCells<width> scatter_cells(const Communicator& comm, const Cells<width>& cells,
                                  const std::vector<std::int32_t>& order, const NodeNumbers& numbers) {
   GlobalCells<width> ordered;
+  ordered.reserve(order.size());
   for (const std::int32_t cell : order) {
     std::array<GlobalNodeId, width> nodes;
     for (std::size_t k = 0; k < width; ++k) nodes[k] = numbers[cells[cell][k]];

@@ -165,5 +165,27 @@ TEST(OutputSet, OldFilesStandUntilTheCommit) {
   EXPECT_EQ(test::files_in(folder.path()), 2U);
 }
 
+TEST(OutputSet, AFolderAppearsWithItsFilesOrNotAtAll) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("mesh");
+  const auto stage = [&](bool commit) {
+    OutputSet outputs(world());
+    const std::vector<StagedFile> staged = outputs.stage_folder(path, {"a", "b"});
+    EXPECT_EQ(staged[1].path, path + "/b");
+    if (commit) outputs.commit();
+  };
+  stage(false);
+  world().barrier();
+  EXPECT_FALSE(std::filesystem::exists(path));
+  world().barrier();
+  stage(true);
+  stage(true);  // over the old files
+  world().barrier();
+  EXPECT_TRUE(std::filesystem::exists(path + "/a"));
+  EXPECT_TRUE(std::filesystem::exists(path + "/b"));
+  folder.write("mesh/c", "another's");
+  EXPECT_THROW(stage(true), OutputError);
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -92,6 +92,31 @@ TEST(BoundaryStream, BringsEachBoundarysEdgesTogether) {
   }
 }
 
+TEST(BoundaryStream, BringsOtherNumbersInThePlaceOfNodes) {
+  const Mesh part = spread_mesh();
+  std::vector<BoundaryStream::Edge> instead;
+  std::int64_t wanted = 0;
+  for (const BoundaryEdges& boundary : part.boundaries) {
+    for (std::size_t i = 0; i < boundary.edges.size(); ++i)
+      wanted += instead.emplace_back(BoundaryStream::Edge{100 * world().rank() + std::ssize(instead), 7})[0];
+  }
+  const BoundaryStream stream(world(), part, std::move(instead));
+  std::int64_t sum = 0, edges = 0;
+  stream.run([](std::size_t) {},
+             [&](std::span<const BoundaryStream::Edge> some) {
+               for (const auto& [number, seven] : some) {
+                 EXPECT_EQ(seven, 7);
+                 sum += number;
+                 ++edges;
+               }
+             });
+  wanted = world().sum(wanted);
+  if (world().is_root()) {
+    EXPECT_EQ(sum, wanted);
+    EXPECT_EQ(edges, stream.all_edges());
+  }
+}
+
 TEST(BoundaryStream, AFailureEndsOnAllRanks) {
   const Mesh part = spread_mesh();
   const BoundaryStream stream(world(), part);

@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "app/command.hpp"
+#include "app/command_line.hpp"
+#include "app/report/figures.hpp"
+#include "app/report/refusals.hpp"
+#include "io/formats.hpp"
+#include "io/mesh_file.hpp"
+#include "io/solid_file.hpp"
+#include "io/text/text_scanner.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::int64_t most_layers = 1000000;
+
+struct ExtrudeArguments {
+  std::string input, output, heights, axis = "z";
+  std::int64_t layers = 0;
+  double thickness = 0;
+};
+
+/// Numbers from a text file, "#" begins a comment: the coordinates of the levels, ascending.
+std::vector<double> read_heights(const std::string& path) {
+  TextScanner scan(path);
+  std::vector<double> heights;
+  while (!scan.at_end()) {
+    const double height = scan.real("the height of a level");
+    if (!heights.empty() && !(height > heights.back()))
+      scan.refuse(
+          fmt::format("the level at {} does not lie above the one before it, at {}", height, heights.back()));
+    heights.push_back(height);
+  }
+  if (heights.size() < 2)
+    scan.refuse(fmt::format("{} heights; a mesh is drawn out between two levels or more", heights.size()));
+  return heights;
+}
+
+/// Checks what the command line says together.
+void require_one_way(const ExtrudeArguments& arguments) {
+  const bool even = arguments.layers > 0 || arguments.thickness > 0;
+  if (even == !arguments.heights.empty())
+    throw UsageError("extrude wants either --layers N and --thickness T, or --heights FILE");
+  if (even && (arguments.layers == 0 || arguments.thickness == 0))
+    throw UsageError("extrude wants both --layers N and --thickness T, the thickness of all layers together");
+}
+
+/// The same on every rank. *Collective.*
+std::vector<double> heights_of(const Communicator& comm, const ExtrudeArguments& arguments) {
+  if (arguments.heights.empty()) return even_heights(arguments.layers, arguments.thickness);
+  std::vector<double> heights;
+  comm.together([&] {
+    if (comm.is_root()) heights = read_heights(arguments.heights);
+  });
+  comm.broadcast(heights);
+  return heights;
+}
+
+/// The plane mesh spread over the ranks in the order of its file, and its solution.
+struct Plane {
+  Mesh mesh;
+  std::optional<Field> solution;
+};
+
+/// What the root read, its inner boundaries left out; the others get an empty one. *Collective.*
+LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments,
+                std::vector<std::string>& warnings) {
+  LoadedMesh whole;
+  context.comm.together([&] {
+    require_readable_suffix(arguments.input);
+    require_solid_suffix(arguments.output);
+    if (!context.comm.is_root()) return;
+    if (read_solid(arguments.input))
+      throw InputError(arguments.input + ": is a 3D mesh already; give one of two dimensions");
+    whole = read_mesh(arguments.input);
+    require_valid_input(whole, arguments.input);
+    warnings = whole.warnings;
+    for (std::string& loss : drop_interfaces(whole, arguments.output)) warnings.push_back(std::move(loss));
+  });
+  return whole;
+}
+
+/// *Collective.*
+Plane spread(const Communicator& comm, LoadedMesh whole) {
+  if (comm.size() == 1) return {std::move(whole.mesh), std::move(whole.solution)};
+  const MeshOrder order = comm.is_root() ? own_order(whole.mesh) : MeshOrder{};
+  Plane plane{scatter_mesh(comm, whole.mesh, order), std::nullopt};
+  whole.mesh = {};  // before the 3D mesh streams
+  if (comm.any(whole.solution.has_value()))
+    plane.solution = scatter_field(comm, whole.solution.value_or(Field{}), plane.mesh, order);
+  return plane;
+}
+
+Figures figures_of(const ExtrudedCounts& counts, const ExtrudedMesh& mesh, double area) {
+  Figures figures;
+  figures.add("nodes", counts.nodes);
+  figures.add("prisms", counts.prisms);
+  figures.add("hexahedra", counts.hexahedra);
+  figures.add("layers", mesh.layers());
+  figures.add("height", mesh.height(), "{:.6g}");
+  figures.add("volume", area * mesh.height(), "{:.6g}");
+  return figures;
+}
+
+/// *Collective.*
+void run_extrude(const CommandContext& context, const ExtrudeArguments& arguments) {
+  const Communicator& comm = context.comm;
+  require_one_way(arguments);
+  std::vector<std::string> warnings;
+  std::vector<double> heights = heights_of(comm, arguments);
+  LoadedMesh whole = load(context, arguments, warnings);
+  const double area = comm.is_root() ? area_of(whole.mesh) : 0;
+  const Plane plane = spread(comm, std::move(whole));
+  const ExtrudedMesh mesh =
+      extruded(plane.mesh, std::move(heights), arguments.axis == "y" ? ExtrusionAxis::y : ExtrusionAxis::z,
+               plane.solution ? &*plane.solution : nullptr);
+  const ExtrudedCounts counts(comm, mesh);
+  for (std::string& loss : losses_in(mesh, arguments.output)) warnings.push_back(std::move(loss));
+  OutputSet outputs(comm);
+  write_solid(outputs, mesh, arguments.output);
+  outputs.commit();
+  context.warn(warnings);
+  if (!comm.is_root()) return;
+  const Figures figures = figures_of(counts, mesh, area);
+  context.record.figures = figures.record();
+  context.record.files = {arguments.output};
+  if (context.shows_table()) std::cout << figures.table() << "  wrote " << arguments.output << "\n";
+}
+
+void add_options(CLI::App& command, ExtrudeArguments& arguments) {
+  command.add_option("input", arguments.input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
+      ->required()
+      ->type_name("IN");
+  command
+      .add_option(
+          "-o,--output", arguments.output,
+          "the 3D mesh, in the format of its suffix (" + suffixes_for({Content::solid}) + ", a folder)")
+      ->required()
+      ->type_name("OUT");
+  command.add_option("--layers", arguments.layers, "how many layers of cells, of the same thickness")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t{1}, most_layers));
+  command.add_option("--thickness", arguments.thickness, "of all of them together")
+      ->type_name("T")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--heights", arguments.heights,
+                  "in their place: the coordinates of the levels along the axis, two or more, ascending")
+      ->type_name("FILE");
+  command
+      .add_option("--axis", arguments.axis,
+                  "the axis along which it is drawn out: z (the default), or y: the plane's y becomes z")
+      ->type_name("AXIS")
+      ->check(one_of({"y", "z"}));
+}
+
+}  // namespace
+
+void add_extrude_command(CLI::App& app, CommandContext& context) {
+  auto arguments = std::make_shared<ExtrudeArguments>();
+  CLI::App* command =
+      app.add_subcommand("extrude", "draw a mesh out into prisms and hexahedra, with its solution");
+  add_options(*command, *arguments);
+  command->callback(
+      [&context, arguments] { context.run = [&context, arguments] { run_extrude(context, *arguments); }; });
+}
+
+}  // namespace quadloop

@@ -1,0 +1,98 @@
+#include "app/report/solid_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "app/report/figures.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::size_t most_listed = 20;
+constexpr const char* number = "{:.6g}";
+
+std::vector<double> coordinates(Point3 p) { return {p.x, p.y, p.z}; }
+
+std::string place_text(Point3 p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
+
+std::string patches_text(const std::vector<PatchFigures>& patches, std::size_t most) {
+  std::string text;
+  for (std::size_t n = 0; n < std::min(patches.size(), most); ++n)
+    text +=
+        fmt::format("    {:<22}{:>12}  area {:.6g}\n", patches[n].name, patches[n].faces, patches[n].area);
+  if (patches.size() > most)
+    text += fmt::format("    {} more; --verbose or --json shows them\n", patches.size() - most);
+  return text;
+}
+
+std::string patches_json(const std::vector<PatchFigures>& patches) {
+  JsonObject all;
+  for (const PatchFigures& patch : patches) {
+    JsonObject one;
+    one.add("faces", patch.faces);
+    one.add("area", patch.area);
+    all.add(patch.name, one);
+  }
+  return all.text();
+}
+
+Figures figures_of(const SolidMesh& mesh, const SolidFigures& found, std::size_t most) {
+  Figures figures;
+  figures.add("nodes", std::ssize(mesh.points));
+  figures.add("prisms", std::ssize(mesh.prisms));
+  figures.add("hexahedra", std::ssize(mesh.hexahedra));
+  if (!mesh.tetrahedra.empty()) figures.add("tetrahedra", std::ssize(mesh.tetrahedra));
+  if (!mesh.pyramids.empty()) figures.add("pyramids", std::ssize(mesh.pyramids));
+  figures.add("volume", found.volume, number);
+  figures.add("least cell volume", found.least_volume, number);
+  figures.add_member("least_place", json_of(coordinates(found.least_place)));
+  figures.add("patches", std::ssize(mesh.patches));
+  figures.add_lines(patches_text(found.patches, most));
+  figures.add_member("patch_figures", patches_json(found.patches));
+  return figures;
+}
+
+std::string fault_text(const SolidFault& fault) {
+  return fmt::format("{}: {} at {}", name_of(fault.rule), fault.what, place_text(fault.place));
+}
+
+}  // namespace
+
+std::string solid_text(const SolidMesh& mesh, const SolidFigures& figures, bool verbose) {
+  const std::size_t most = verbose ? std::numeric_limits<std::size_t>::max() : most_listed;
+  std::string text = figures_of(mesh, figures, most).table(24, 16);
+  for (const SolidFault& fault : figures.faults) text += "  BROKEN " + fault_text(fault) + "\n";
+  const std::int64_t more = figures.all_faults - std::ssize(figures.faults);
+  if (more > 0) text += fmt::format("  BROKEN: {} more faults\n", more);
+  return text + (figures.faults.empty() ? "  valid\n" : "  INVALID\n");
+}
+
+JsonObject solid_record(const std::string& file, const SolidMesh& mesh, const SolidFigures& figures) {
+  JsonObject json;
+  json.add("valid", figures.faults.empty());
+  json.add("file", file);
+  json.add("dimensions", std::int64_t{3});
+  std::vector<JsonObject> faults;
+  for (const SolidFault& fault : figures.faults) {
+    JsonObject& row = faults.emplace_back();
+    row.add("rule", name_of(fault.rule));
+    row.add("what", fault.what);
+    row.add("place", coordinates(fault.place));
+  }
+  json.add("faults", faults);
+  json.append(figures_of(mesh, figures, most_listed).record());
+  return json;
+}
+
+void refuse_invalid_solid(const std::string& file, const SolidFigures& figures) {
+  const std::int64_t more = figures.all_faults - 1;
+  throw InputError(
+      fmt::format("{}: invalid mesh: {}{}", file, fault_text(figures.faults.front()),
+                  more == 0 ? "" : fmt::format("; {} fault{} more", more, more == 1 ? "" : "s")));
+}
+
+}  // namespace quadloop

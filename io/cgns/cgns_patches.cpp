@@ -1,0 +1,67 @@
+#include "io/cgns/cgns_patches.hpp"
+
+#include <vector>
+
+#include "io/cgns/cgns_names.hpp"
+#include "io/cgns/cgns_sink.hpp"
+#include "io/loaded/layers_text.hpp"
+
+namespace quadloop {
+
+namespace {
+
+std::int64_t nodes_of(ElementType_t type) { return type == BAR_2 ? 2 : type == TRI_3 ? 3 : 4; }
+
+}  // namespace
+
+CgnsPatches::CgnsPatches(const StagedFile& staged, std::int64_t first_element)
+    : nodes_{staged},
+      base_{nodes_.at(CgnsSink::base_path)},
+      zone_{nodes_.at(CgnsSink::zone_path)},
+      next_{static_cast<cgsize_t>(first_element)} {}
+
+void CgnsPatches::begin_section(const std::string& name, ElementType_t type, std::int64_t elements) {
+  const std::array<cgsize_t, 2> range{next_, next_ + static_cast<cgsize_t>(elements) - 1};
+  next_ = range[1] + 1;
+  const std::array<std::int32_t, 2> type_and_parents{type, 0};
+  const CgnsNodes::Node section = nodes_.add_integers(zone_, name, "Elements_t", type_and_parents);
+  nodes_.add_integers(section, "ElementRange", "IndexRange_t", range);
+  elements_.emplace(
+      nodes_.add_array(section, "ElementConnectivity", "DataArray_t", nodes_of(type) * elements));
+}
+
+void CgnsPatches::put_condition(const std::string& name, const BoundaryEdges& boundary,
+                                GridLocation_t location) {
+  const std::array<cgsize_t, 2> range{first_, next_ - 1};
+  const std::string type = cg_BCTypeName(static_cast<BCType_t>(cgns_condition(boundary.condition)));
+  const CgnsNodes::Node family = nodes_.add(base_, name, "Family_t");
+  nodes_.add_text(family, "FamBC", "FamilyBC_t", type);
+  if (!conditions_.valid()) conditions_ = nodes_.add(zone_, "ZoneBC", "ZoneBC_t");
+  const CgnsNodes::Node condition =
+      nodes_.add_text(conditions_, name, "BC_t", cg_BCTypeName(FamilySpecified));
+  nodes_.add_integers(condition, "PointRange", "IndexRange_t", range, 1);
+  nodes_.add_text(condition, "GridLocation", "GridLocation_t", cg_GridLocationName(location));
+  nodes_.add_text(condition, "FamilyName", "FamilyName_t", name);
+  if (name != boundary.name) nodes_.add_text(condition, full_name_descriptor, "Descriptor_t", boundary.name);
+  if (boundary.layers.count > 0)
+    nodes_.add_text(condition, layers_descriptor, "Descriptor_t", text_of_layers(boundary.layers));
+}
+
+void CgnsPatches::put(std::span<const BoundaryStream::Edge> edges) {
+  std::vector<cgsize_t> ends;
+  ends.reserve(2 * edges.size());
+  for (const auto& [from, to] : edges) {
+    ends.push_back(static_cast<cgsize_t>(from + 1));
+    ends.push_back(static_cast<cgsize_t>(to + 1));
+  }
+  put(std::span<const cgsize_t>(ends));
+}
+
+void CgnsPatches::close() {
+  elements_.reset();
+  for (CgnsNodes::Node* node : {&base_, &zone_, &conditions_})
+    *node = {};  // HDF5 keeps a file open as long as anything in it is
+  nodes_.close();
+}
+
+}  // namespace quadloop

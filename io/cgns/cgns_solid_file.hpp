@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/files/output_file.hpp"
+#include "mesher/solid/extruded_mesh.hpp"
+#include "mesher/solid/solid_mesh.hpp"
+
+namespace quadloop {
+
+/// Writes the mesh as 3D CGNS: one zone "domain" with sections PENTA_6 and HEXA_8, and for each patch a
+/// section of quads, or one of quads and one of triangles, with BC and family as write_cgns() has them, at
+/// FaceCenter; the solution at the vertices. *Collective.* Throws OutputError on all ranks, also where the
+/// library's sizes cannot count the mesh.
+void write_cgns_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path);
+
+/// Reads the one zone of a 3D CGNS file on the calling rank alone: sections of TETRA_4, PYRA_5, PENTA_6,
+/// HEXA_8, TRI_3 and QUAD_4; nothing where its cells have another dimension. Throws InputError.
+std::optional<SolidMesh> read_cgns_solid(const std::string& path);
+
+}  // namespace quadloop

@@ -1,0 +1,70 @@
+#include "io/foam/foam_cells.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace quadloop {
+
+namespace {
+
+using Face = SolidPatch::Face;
+
+std::size_t width_of(const Face& face) { return face[3] == SolidPatch::no_node ? 3 : 4; }
+
+/// The face's nodes counter-clockwise as seen from inside the cell.
+std::vector<std::int32_t> seen_from_inside(const CellSide& side) {
+  std::vector<std::int32_t> nodes(side.nodes.begin(), side.nodes.begin() + width_of(side.nodes));
+  if (side.looks_out) std::ranges::reverse(nodes);
+  return nodes;
+}
+
+/// The node that a side has beside `node` and that is not of the base; -1 where there is none.
+std::int32_t opposite(std::span<const CellSide> sides, const std::vector<std::int32_t>& base,
+                      std::int32_t node) {
+  for (const CellSide& side : sides) {
+    const std::size_t width = width_of(side.nodes);
+    for (std::size_t k = 0; k < width; ++k) {
+      if (side.nodes[k] != node) continue;
+      for (const std::size_t next : {(k + 1) % width, (k + width - 1) % width}) {
+        if (std::ranges::count(base, side.nodes[next]) == 0) return side.nodes[next];
+      }
+    }
+  }
+  return SolidPatch::no_node;
+}
+
+template <std::size_t width>
+std::string add(std::vector<std::array<std::int32_t, width>>& cells, const std::vector<std::int32_t>& nodes) {
+  if (nodes.size() != width || std::ranges::count(nodes, SolidPatch::no_node) > 0)
+    return "has faces that do not fit together";
+  std::copy(nodes.begin(), nodes.end(), cells.emplace_back().begin());
+  return {};
+}
+
+}  // namespace
+
+std::string add_cell(SolidMesh& mesh, std::span<const CellSide> sides) {
+  const auto quads =
+      std::ranges::count_if(sides, [](const CellSide& side) { return width_of(side.nodes) == 4; });
+  const auto triangles = std::ssize(sides) - quads;
+  const bool prism = triangles == 2 && quads == 3, pyramid = triangles == 4 && quads == 1;
+  const bool tetrahedron = triangles == 4 && quads == 0, hexahedron = triangles == 0 && quads == 6;
+  if (!prism && !pyramid && !tetrahedron && !hexahedron)
+    return "has " + std::to_string(triangles) + " triangles and " + std::to_string(quads) +
+           " quads, and is no tetrahedron, pyramid, prism or hexahedron";
+  const std::size_t of_base = prism || tetrahedron ? 3 : 4;
+  const auto base =
+      std::ranges::find_if(sides, [&](const CellSide& side) { return width_of(side.nodes) == of_base; });
+  const std::vector<std::int32_t> first = seen_from_inside(*base);
+  std::vector<std::int32_t> nodes = first;
+  for (const std::int32_t node : first) {
+    nodes.push_back(opposite(sides, first, node));
+    if (tetrahedron || pyramid) break;  // one apex
+  }
+  if (tetrahedron) return add(mesh.tetrahedra, nodes);
+  if (pyramid) return add(mesh.pyramids, nodes);
+  if (prism) return add(mesh.prisms, nodes);
+  return add(mesh.hexahedra, nodes);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,150 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "io/foam/foam_cells.hpp"
+#include "io/foam/foam_file.hpp"
+#include "io/foam/foam_scanner.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+class FoamReader {
+ public:
+  explicit FoamReader(std::string path) : path_{std::move(path)} {}
+
+  SolidMesh read() {
+    if (!std::filesystem::is_directory(path_)) throw InputError(path_ + ": is no folder of an OpenFOAM mesh");
+    read_points();
+    read_faces();
+    owner_ = read_labels("owner");
+    neighbour_ = read_labels("neighbour");
+    if (owner_.size() != faces_.size() || neighbour_.size() > faces_.size())
+      throw InputError(fmt::format("{}: {} faces have {} owners and {} neighbours", path_, faces_.size(),
+                                   owner_.size(), neighbour_.size()));
+    make_cells();
+    read_patches();
+    return std::move(mesh_);
+  }
+
+ private:
+  std::string file(const char* name) const { return (std::filesystem::path(path_) / name).string(); }
+
+  void read_points() {
+    FoamScanner scan(file("points"));
+    for (std::size_t left = scan.begin_list("points", 7); left > 0; --left) {
+      scan.expect("(");
+      Point3& p = mesh_.points.emplace_back();
+      for (double* coordinate : {&p.x, &p.y, &p.z}) *coordinate = scan.real("a coordinate");
+      scan.expect(")");
+    }
+    scan.end_file();
+  }
+
+  void read_faces() {
+    FoamScanner scan(file("faces"));
+    for (std::size_t left = scan.begin_list("faces", 8); left > 0; --left) {
+      const std::int64_t width = scan.integer("the number of a face's points");
+      if (width != 3 && width != 4)
+        scan.refuse(fmt::format("a face of {} points; only triangles and quads can be read", width));
+      SolidPatch::Face& face = faces_.emplace_back();
+      face.fill(SolidPatch::no_node);
+      scan.expect("(");
+      for (std::int64_t k = 0; k < width; ++k) {
+        const std::int64_t node = scan.integer("a point of a face");
+        if (node < 0 || node >= std::ssize(mesh_.points))
+          scan.refuse(fmt::format("point {} is none of the points 0 to {}", node, mesh_.points.size() - 1));
+        face[k] = static_cast<std::int32_t>(node);
+      }
+      scan.expect(")");
+    }
+    scan.end_file();
+  }
+
+  std::vector<std::int32_t> read_labels(const char* name) const {
+    FoamScanner scan(file(name));
+    std::vector<std::int32_t> labels;
+    for (std::size_t left = scan.begin_list("cells of faces", 2); left > 0; --left) {
+      const std::int64_t cell = scan.integer("the number of a cell");
+      if (cell < 0 || cell >= 2 * std::ssize(faces_))
+        scan.refuse(fmt::format("cell {} cannot be one of a mesh with {} faces", cell, faces_.size()));
+      labels.push_back(static_cast<std::int32_t>(cell));
+    }
+    scan.end_file();
+    return labels;
+  }
+
+  /// Sides of each cell, one cell's after the other's, from owners and neighbours.
+  void make_cells() {
+    std::vector<std::int64_t> ends;
+    const auto count = [&](const std::vector<std::int32_t>& labels) {
+      for (const std::int32_t cell : labels) {
+        if (cell >= std::ssize(ends)) ends.resize(cell + 1, 0);
+        ++ends[cell];
+      }
+    };
+    count(owner_);
+    count(neighbour_);
+    std::int64_t total = 0;
+    for (std::int64_t& end : ends) total += std::exchange(end, total);
+    std::vector<CellSide> sides(total);
+    for (std::size_t face = 0; face < faces_.size(); ++face) {
+      sides[ends[owner_[face]]++] = {faces_[face], true};
+      if (face < neighbour_.size()) sides[ends[neighbour_[face]]++] = {faces_[face], false};
+    }
+    std::int64_t begin = 0;
+    for (std::size_t cell = 0; cell < ends.size(); ++cell) {
+      const std::string fault = add_cell(mesh_, std::span(sides).subspan(begin, ends[cell] - begin));
+      if (!fault.empty()) throw InputError(fmt::format("{}: cell {} {}", path_, cell, fault));
+      begin = ends[cell];
+    }
+  }
+
+  void read_patches() {
+    FoamScanner scan(file("boundary"));
+    for (std::size_t left = scan.begin_list("patches", 4); left > 0; --left) read_patch(scan);
+    scan.end_file();
+  }
+
+  void read_patch(FoamScanner& scan) {
+    SolidPatch& patch = mesh_.patches.emplace_back();
+    patch.name = scan.token("the name of a patch");
+    std::int64_t faces = -1, start = -1;
+    scan.expect("{");
+    for (std::string key(scan.token("}")); key != "}"; key = scan.token("}")) {
+      if (key == "nFaces") {
+        faces = scan.integer("a number of faces");
+      } else if (key == "startFace") {
+        start = scan.integer("the number of a face");
+      } else if (key == "type") {
+        patch.condition = condition_of(scan.token("the type of a patch"));
+      }
+      while (scan.token(";") != ";") {
+      }
+    }
+    if (faces < 0 || start < std::ssize(neighbour_) || start + faces > std::ssize(faces_))
+      scan.refuse(fmt::format("patch {} is of {} faces from {} on, of which there are {}", patch.name, faces,
+                              start, faces_.size()));
+    patch.faces.assign(faces_.begin() + start, faces_.begin() + start + faces);
+  }
+
+  static std::string condition_of(std::string_view type) {
+    if (type == "wall") return "wall";
+    return type.starts_with("symmetry") || type == "empty" ? "symmetry" : "none";
+  }
+
+  std::string path_;
+  std::vector<SolidPatch::Face> faces_;
+  std::vector<std::int32_t> owner_, neighbour_;
+  SolidMesh mesh_;
+};
+
+}  // namespace
+
+std::optional<SolidMesh> read_foam(const std::string& path) { return FoamReader(path).read(); }
+
+}  // namespace quadloop

@@ -1,0 +1,82 @@
+#include "io/solid_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "io/formats.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+const FileFormat* solid_format(const std::string& path) {
+  const FileFormat* format = format_of(path);
+  return format != nullptr && format->holds(Content::solid) ? format : nullptr;
+}
+
+}  // namespace
+
+void require_solid_suffix(const std::string& path) {
+  if (solid_format(path) != nullptr) return;
+  throw InputError(path + ": no 3D mesh is written in this format; name a " + suffixes_for({Content::solid}) +
+                   " (a folder)");
+}
+
+void write_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path) {
+  const FileFormat* format = solid_format(path);
+  QUADLOOP_REQUIRE(format != nullptr, "a 3D mesh is written in a format that holds none");
+  format->write_solid(outputs, mesh, path);
+}
+
+std::optional<SolidMesh> read_solid(const std::string& path) {
+  const FileFormat* format = solid_format(path);
+  std::error_code failure;
+  const bool in_place =
+      format != nullptr && (std::filesystem::is_regular_file(path, failure) || !format->holds(Content::mesh));
+  return in_place ? format->read_solid(path) : std::nullopt;
+}
+
+std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& path) {
+  if (whole.blocks < 2) return {};
+  const EdgeTable table(whole.mesh);
+  std::size_t dropped = 0;
+  for (BoundaryEdges& boundary : whole.mesh.boundaries) {
+    dropped += std::erase_if(boundary.edges, [&](const std::array<NodeId, 2>& edge) {
+      return table.cell_left_of(edge[0], edge[1]) >= 0 && table.cell_left_of(edge[1], edge[0]) >= 0;
+    });
+  }
+  std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
+  std::vector<std::string> losses{path + ": the blocks are written as one"};
+  if (dropped > 0) losses.back() += fmt::format("; the {} edges between them are no patch", dropped);
+  return losses;
+}
+
+std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& path) {
+  const FileFormat* format = solid_format(path);
+  if (format == nullptr) return {};
+  std::vector<std::string> losses;
+  for (const auto& [name, wanted] : {std::pair{&mesh.back, "back"}, std::pair{&mesh.front, "front"}}) {
+    if (*name != wanted)
+      losses.push_back(
+          fmt::format("{}: a boundary is named '{}'; that end of the 3D mesh is '{}'", path, wanted, *name));
+  }
+  if (mesh.solution != nullptr && !format->solution_in_solid)
+    losses.push_back(path + ": this format has no place for the solution, which is left out");
+  if (format->patch_names == nullptr) return losses;
+  std::vector<std::string> names;
+  for (const BoundaryEdges& boundary : mesh.plane.boundaries) names.push_back(boundary.name);
+  const std::vector<std::string> written = format->patch_names(names);
+  const auto first = std::ranges::mismatch(names, written);
+  if (first.in1 != names.end())
+    losses.push_back(
+        fmt::format("{}: this format cannot hold every boundary's name; the first, '{}', is '{}' there", path,
+                    *first.in1, *first.in2));
+  return losses;
+}
+
+}  // namespace quadloop

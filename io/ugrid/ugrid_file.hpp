@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/files/output_file.hpp"
+#include "mesher/solid/extruded_mesh.hpp"
+#include "mesher/solid/solid_mesh.hpp"
+
+namespace quadloop {
+
+/// Writes the mesh as UGRID, the bytes of its numbers in the order that the suffix tells (.b8.ugrid: most
+/// significant first; .lb8.ugrid: least), and beside it a .mapbc with the number, condition and name of each
+/// patch. Faces are counter-clockwise as seen from outside. The bytes are the same on any number of ranks.
+/// *Collective.* Throws OutputError on all ranks, also where 4-byte integers cannot count the mesh.
+void write_ugrid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path);
+
+/// The file of patches that goes with a mesh: "a.b8.ugrid" has "a.mapbc".
+std::string mapbc_path(const std::string& path);
+
+/// The names of patches in a .mapbc: letters, digits and "_-.+".
+std::vector<std::string> mapbc_names(const std::vector<std::string>& names);
+
+/// The number of FUN3D's boundary condition for Boundary::condition, 0 where nothing is said; `axis` is that
+/// to which the patch is normal ('x', 'y', 'z'), where it is known. And back, "none" for any other.
+int mapbc_condition(const std::string& condition, char axis = ' ');
+std::string condition_of_mapbc(int number);
+
+/// Reads such a file on the calling rank alone; patches without a .mapbc are "patch_1" and so on. What
+/// follows the mesh is passed over, with a warning. Throws InputError.
+std::optional<SolidMesh> read_ugrid(const std::string& path);
+
+}  // namespace quadloop

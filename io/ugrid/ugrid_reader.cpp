@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+#include "io/files/binary_output.hpp"
+#include "io/files/input_file.hpp"
+#include "io/text/text_scanner.hpp"
+#include "io/ugrid/ugrid_file.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+struct PatchName {
+  std::string name, condition;
+};
+
+/// By number, from the .mapbc beside the mesh, where there is one.
+std::map<std::int32_t, PatchName> read_mapbc(const std::string& path) {
+  std::map<std::int32_t, PatchName> names;
+  if (!std::filesystem::exists(path)) return names;
+  TextScanner scan(path);
+  for (std::size_t left = scan.count("patches", 2); left > 0; --left) {
+    const std::int64_t number = scan.integer("the number of a patch");
+    const std::int64_t condition = scan.integer("the number of a boundary condition");
+    const std::string name(scan.rest_of_line());
+    names[static_cast<std::int32_t>(number)] = {
+        name.empty() ? fmt::format("patch_{}", number) : name.substr(0, name.find_first_of(" \t")),
+        condition_of_mapbc(static_cast<int>(condition))};
+  }
+  return names;
+}
+
+template <std::endian order>
+class UgridReader {
+ public:
+  explicit UgridReader(const std::string& path) : path_{path}, bytes_{read_input(path)} {}
+
+  SolidMesh read() {
+    const auto head = take<std::int32_t, 7>("its seven counts");
+    check_counts(head);
+    points_ = head[0];
+    for (std::int32_t i = 0; i < head[0]; ++i) {
+      const auto p = take<double, 3>("coordinates");
+      if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+        throw InputError(fmt::format("{}: node {} has a coordinate that is not finite", path_, i + 1));
+      mesh_.points.push_back({p[0], p[1], p[2]});
+    }
+    read_faces(head[1], head[2]);
+    read_cells(mesh_.tetrahedra, head[3]);
+    read_cells(mesh_.pyramids, head[4]);
+    for (auto& n : mesh_.pyramids) n = {n[0], n[3], n[4], n[1], n[2]};  // there the third is the apex
+    read_cells(mesh_.prisms, head[5]);
+    read_cells(mesh_.hexahedra, head[6]);
+    if (at_ < bytes_.size())
+      mesh_.warnings.push_back(
+          fmt::format("{}: {} bytes after the mesh are passed over", path_, bytes_.size() - at_));
+    return std::move(mesh_);
+  }
+
+ private:
+  template <class Number, std::size_t width>
+  std::array<Number, width> take(const char* what) {
+    std::array<Number, width> values;
+    if (bytes_.size() - at_ < sizeof values)
+      throw InputError(
+          fmt::format("{}: the file ends where {} should follow; it is cut short, or its counts are "
+                      "wrong",
+                      path_, what));
+    std::memcpy(values.data(), bytes_.data() + at_, sizeof values);
+    at_ += sizeof values;
+    return in_order<order>(values);
+  }
+
+  /// What they promise must fit the file.
+  void check_counts(const std::array<std::int32_t, 7>& head) const {
+    constexpr std::array<std::uint64_t, 7> widths{24, 16, 20, 16, 20, 24, 32};
+    std::uint64_t bytes = 0;
+    for (std::size_t k = 0; k < head.size(); ++k) {
+      if (head[k] < 0)
+        throw InputError(
+            fmt::format("{}: one of its counts is negative: {}; is the order of its bytes another "
+                        "(.b8.ugrid, .lb8.ugrid)?",
+                        path_, head[k]));
+      bytes += widths[k] * head[k];
+    }
+    if (bytes > bytes_.size() - at_)
+      throw InputError(
+          fmt::format("{}: its counts ask for {} bytes, where {} follow; it is cut short, or the "
+                      "order of its bytes is another (.b8.ugrid, .lb8.ugrid)",
+                      path_, bytes, bytes_.size() - at_));
+  }
+
+  std::int32_t node(std::int32_t number) const {
+    if (number < 1 || number > points_)
+      throw InputError(
+          fmt::format("{}: an element names node {}, which is none of 1 to {}", path_, number, points_));
+    return number - 1;
+  }
+
+  template <std::size_t width>
+  void read_cells(std::vector<std::array<std::int32_t, width>>& cells, std::int32_t count) {
+    for (std::int32_t i = 0; i < count; ++i) {
+      cells.push_back(take<std::int32_t, width>("the nodes of a cell"));
+      for (std::int32_t& n : cells.back()) n = node(n);
+    }
+  }
+
+  void read_faces(std::int32_t triangles, std::int32_t quads) {
+    std::vector<SolidPatch::Face> faces;
+    for (std::int32_t i = 0; i < triangles; ++i) {
+      const auto n = take<std::int32_t, 3>("the nodes of a face");
+      faces.push_back({node(n[0]), node(n[1]), node(n[2]), SolidPatch::no_node});
+    }
+    for (std::int32_t i = 0; i < quads; ++i) {
+      const auto n = take<std::int32_t, 4>("the nodes of a face");
+      faces.push_back({node(n[0]), node(n[1]), node(n[2]), node(n[3])});
+    }
+    const std::map<std::int32_t, PatchName> names = read_mapbc(mapbc_path(path_));
+    std::map<std::int32_t, SolidPatch> patches;
+    for (const SolidPatch::Face& face : faces)
+      patches[take<std::int32_t, 1>("the patch of a face")[0]].faces.push_back(face);
+    for (auto& [number, patch] : patches) {
+      const auto named = names.find(number);
+      patch.name = named == names.end() ? fmt::format("patch_{}", number) : named->second.name;
+      if (named != names.end()) patch.condition = named->second.condition;
+      mesh_.patches.push_back(std::move(patch));
+    }
+  }
+
+  std::string path_, bytes_;
+  std::size_t at_ = 0;
+  std::int32_t points_ = 0;
+  SolidMesh mesh_;
+};
+
+}  // namespace
+
+std::optional<SolidMesh> read_ugrid(const std::string& path) {
+  if (path.ends_with(".lb8.ugrid")) return UgridReader<std::endian::little>(path).read();
+  return UgridReader<std::endian::big>(path).read();
+}
+
+}  // namespace quadloop

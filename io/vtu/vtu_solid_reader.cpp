@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "io/vtu/vtu_arrays.hpp"
+#include "io/vtu/vtu_solid_file.hpp"
+
+namespace quadloop {
+
+namespace {
+
+enum VtkCell : std::int64_t {
+  triangle = 5,
+  quad = 9,
+  tetrahedron = 10,
+  voxel = 11,
+  hexahedron = 12,
+  wedge = 13,
+  pyramid = 14
+};
+
+bool is_solid(std::int64_t type) { return type >= tetrahedron; }
+
+class VtuSolidReader {
+ public:
+  explicit VtuSolidReader(const std::string& path)
+      : scan_{path, TextScanner::no_comments}, document_{parse_vtu(scan_)}, numbers_{scan_, document_} {}
+
+  std::optional<SolidMesh> read() {
+    if (document_.points > std::numeric_limits<std::int32_t>::max() ||
+        document_.cells > std::numeric_limits<std::int32_t>::max())
+      scan_.refuse_at(document_.piece_place, "more than 2^31 - 1 points or cells cannot be read on one rank");
+    types_ = numbers_.integers(needed("Cells", "types"), document_.cells);
+    if (std::ranges::none_of(types_, is_solid)) return std::nullopt;
+    read_points();
+    read_patches();
+    read_cells();
+    std::erase_if(mesh_.patches, [](const SolidPatch& patch) { return patch.faces.empty(); });
+    return std::move(mesh_);
+  }
+
+ private:
+  const VtuArray& needed(const std::string& section, const std::string& name) const {
+    for (const VtuArray& array : document_.arrays) {
+      if (array.section == section && (name.empty() || array.name == name)) return array;
+    }
+    scan_.refuse_at(document_.piece_place,
+                    "this piece has no array '" + (name.empty() ? section : name) + "' in " + section);
+  }
+
+  void read_points() {
+    const VtuArray& array = needed("Points", "");
+    if (array.components != 3)
+      scan_.refuse_at(array.place, "points have three coordinates, not " + std::to_string(array.components));
+    const std::vector<double> values = numbers_.reals(array, 3 * document_.points);
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+      const Point3 p{values[i], values[i + 1], values[i + 2]};
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        scan_.refuse_at(array.place, fmt::format("'{}' is not finite at node {}", array.name, i / 3 + 1));
+      mesh_.points.push_back(p);
+    }
+  }
+
+  /// Those that the file names; others are added as faces name them.
+  void read_patches() {
+    if (const VtuArray* array = document_.find("FieldData", "boundary_names")) {
+      for (const std::string& name : numbers_.texts(*array)) mesh_.patches.push_back({name, "none", {}});
+    }
+    const VtuArray* array = document_.find("CellData", "boundary");
+    if (array != nullptr && array->components == 1 && !array->type.starts_with("Float"))
+      patch_of_ = numbers_.integers(*array, document_.cells);
+  }
+
+  void read_cells() {
+    const VtuArray& connectivity = needed("Cells", "connectivity");
+    const VtuArray& offsets_array = needed("Cells", "offsets");
+    const std::vector<std::int64_t> offsets = numbers_.integers(offsets_array, document_.cells);
+    const std::vector<std::int64_t> nodes = numbers_.integers(connectivity, offsets.back());
+    place_ = connectivity.place;
+    std::int64_t begin = 0;
+    for (std::size_t cell = 0; cell < types_.size(); ++cell) {
+      const std::int64_t end = offsets[cell];
+      if (end < begin || end > std::ssize(nodes))
+        scan_.refuse_at(offsets_array.place,
+                        fmt::format("the offset of cell {} is {}, after {}", cell + 1, end, begin));
+      add(cell, std::span(nodes).subspan(begin, end - begin));
+      begin = end;
+    }
+  }
+
+  template <std::size_t width>
+  std::array<std::int32_t, width> nodes_of(std::size_t cell, std::span<const std::int64_t> nodes) const {
+    if (nodes.size() != width)
+      scan_.refuse_at(place_, fmt::format("cell {} has {} nodes, not {}", cell + 1, nodes.size(), width));
+    std::array<std::int32_t, width> result;
+    for (std::size_t k = 0; k < width; ++k) {
+      if (nodes[k] < 0 || nodes[k] >= document_.points)
+        scan_.refuse_at(place_, fmt::format("cell {} names point {}, which is none of the points 0 to {}",
+                                            cell + 1, nodes[k], document_.points - 1));
+      result[k] = static_cast<std::int32_t>(nodes[k]);
+    }
+    return result;
+  }
+
+  void add(std::size_t cell, std::span<const std::int64_t> nodes) {
+    switch (types_[cell]) {
+      case tetrahedron: mesh_.tetrahedra.push_back(nodes_of<4>(cell, nodes)); break;
+      case pyramid: mesh_.pyramids.push_back(nodes_of<5>(cell, nodes)); break;
+      case wedge: {
+        const auto n = nodes_of<6>(cell, nodes);  // its first triangle looks outwards
+        mesh_.prisms.push_back({n[0], n[2], n[1], n[3], n[5], n[4]});
+        break;
+      }
+      case voxel: {
+        const auto n = nodes_of<8>(cell, nodes);
+        mesh_.hexahedra.push_back({n[0], n[1], n[3], n[2], n[4], n[5], n[7], n[6]});
+        break;
+      }
+      case hexahedron: mesh_.hexahedra.push_back(nodes_of<8>(cell, nodes)); break;
+      case triangle: {
+        const auto n = nodes_of<3>(cell, nodes);
+        patch_of(cell).faces.push_back({n[0], n[1], n[2], SolidPatch::no_node});
+        break;
+      }
+      case quad: patch_of(cell).faces.push_back(nodes_of<4>(cell, nodes)); break;
+      default:
+        if (types_[cell] < triangle) break;  // points and lines
+        scan_.refuse_at(place_,
+                        fmt::format("cell {} is of VTK type {}; only tetrahedra (10), voxels (11), "
+                                    "hexahedra (12), wedges (13), pyramids (14), triangles (5) and quads "
+                                    "(9) can be read of three dimensions",
+                                    cell + 1, types_[cell]));
+    }
+  }
+
+  SolidPatch& patch_of(std::size_t cell) {
+    const std::int64_t number = patch_of_.empty() ? 0 : patch_of_[cell];
+    if (number >= 1 && number <= std::ssize(mesh_.patches)) return mesh_.patches[number - 1];
+    const std::string name = number <= 0 ? "boundary" : "boundary_" + std::to_string(number);
+    const auto found = std::ranges::find(mesh_.patches, name, &SolidPatch::name);
+    return found != mesh_.patches.end() ? *found : mesh_.patches.emplace_back(SolidPatch{name, "none", {}});
+  }
+
+  TextScanner scan_;
+  VtuDocument document_;
+  VtuNumbers numbers_;
+  SolidMesh mesh_;
+  std::vector<std::int64_t> types_, patch_of_;
+  std::size_t place_ = 0;  ///< of the nodes of cells, for a refusal
+};
+
+}  // namespace
+
+std::optional<SolidMesh> read_vtu_solid(const std::string& path) { return VtuSolidReader(path).read(); }
+
+}  // namespace quadloop

@@ -1,0 +1,257 @@
+#include "mesher/solid/check_solid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "mesher/solid/cell_faces.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::ptrdiff_t most_kept = 20;  // faults of one rule
+
+/// The sum of many values of one sign, with what rounding loses (Neumaier 1974).
+class LongSum {
+ public:
+  void add(double value) {
+    const double next = sum_ + value;
+    lost_ += std::abs(sum_) >= std::abs(value) ? (sum_ - next) + value : (value - next) + sum_;
+    sum_ = next;
+  }
+  double value() const { return sum_ + lost_; }
+
+ private:
+  double sum_ = 0, lost_ = 0;
+};
+
+class SolidCheck {
+ public:
+  explicit SolidCheck(const SolidMesh& mesh) : mesh_{mesh} {}
+
+  SolidFigures run() {
+    check_indices();
+    if (!figures_.faults.empty()) return std::move(figures_);
+    measure_cells();
+    measure_patches();
+    check_faces();
+    return std::move(figures_);
+  }
+
+ private:
+  void report(SolidRule rule, const std::string& what, Point3 place) {
+    ++figures_.all_faults;
+    const auto same = std::ranges::count(figures_.faults, rule, &SolidFault::rule);
+    if (same < most_kept) figures_.faults.push_back({rule, what, place});
+  }
+
+  std::int64_t cell_count() const {
+    return std::ssize(mesh_.tetrahedra) + std::ssize(mesh_.pyramids) + std::ssize(mesh_.prisms) +
+           std::ssize(mesh_.hexahedra);
+  }
+
+  /// Of the cell with this number over all kinds: "prism 17", each kind counted from 1.
+  std::string cell_name(std::int64_t cell) const {
+    std::string name;
+    const auto take = [&]<std::size_t width>(const std::vector<std::array<std::int32_t, width>>& cells) {
+      if (name.empty() && cell < std::ssize(cells))
+        name = std::string(CellFaces<width>::name) + " " + std::to_string(cell + 1);
+      cell -= std::ssize(cells);
+    };
+    take(mesh_.tetrahedra);
+    take(mesh_.pyramids);
+    take(mesh_.prisms);
+    take(mesh_.hexahedra);
+    return name;
+  }
+
+  Point3 middle(std::span<const std::int32_t> nodes) const {
+    Point3 sum;
+    double count = 0;
+    for (const std::int32_t node : nodes) {
+      if (node < 0 || node >= std::ssize(mesh_.points)) continue;
+      sum = sum + mesh_.points[node];
+      ++count;
+    }
+    return (1 / std::max(count, 1.0)) * sum;
+  }
+
+  /// Whether a list of nodes names existing ones, none twice.
+  bool is_sound(std::span<const std::int32_t> nodes) const {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (nodes[i] < 0 || nodes[i] >= std::ssize(mesh_.points)) return false;
+      for (std::size_t j = 0; j < i; ++j) {
+        if (nodes[i] == nodes[j]) return false;
+      }
+    }
+    return true;
+  }
+
+  static std::span<const std::int32_t> corners(const SolidPatch::Face& face) {
+    return std::span(face).first(face[3] == SolidPatch::no_node ? 3 : 4);
+  }
+
+  void check_indices() {
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+      const Point3 p = mesh_.points[i];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        report(SolidRule::indices, "node " + std::to_string(i + 1) + " has a coordinate that is not finite",
+               {});
+    }
+    if (cell_count() == 0) report(SolidRule::indices, "there are no cells", {});
+    for_each_cell(mesh_, [&](const auto& nodes, std::int64_t cell) {
+      if (!is_sound(nodes))
+        report(SolidRule::indices, cell_name(cell) + " names a node twice, or one that is none",
+               middle(nodes));
+    });
+    for (const SolidPatch& patch : mesh_.patches) {
+      for (const SolidPatch::Face& face : patch.faces) {
+        if (!is_sound(corners(face)))
+          report(SolidRule::indices, "a face of " + patch.name + " names a node twice, or one that is none",
+                 middle(corners(face)));
+      }
+    }
+  }
+
+  /// Twice the area vector; of a quad from its diagonals.
+  Point3 twice_area(const SolidPatch::Face& face) const {
+    const auto at = [&](std::size_t i) { return mesh_.points[face[i]]; };
+    if (face[3] == SolidPatch::no_node) return cross(at(1) - at(0), at(2) - at(0));
+    return cross(at(2) - at(0), at(3) - at(1));
+  }
+
+  template <std::size_t width>
+  double volume_of(const std::array<std::int32_t, width>& cell) const {
+    const Point3 origin = mesh_.points[cell[0]];
+    const auto six_times = [&](std::int8_t a, std::int8_t b, std::int8_t c) {
+      return dot(mesh_.points[cell[a]] - origin,
+                 cross(mesh_.points[cell[b]] - origin, mesh_.points[cell[c]] - origin));
+    };
+    double sum = 0;
+    for (const LocalFace& face : CellFaces<width>::faces) {
+      sum += six_times(face[0], face[1], face[2]);
+      if (face[3] >= 0) sum += six_times(face[0], face[2], face[3]);
+    }
+    return sum / 6;
+  }
+
+  void measure_cells() {
+    LongSum sum;
+    figures_.least_volume = std::numeric_limits<double>::infinity();
+    for_each_cell(mesh_, [&](const auto& nodes, std::int64_t cell) {
+      const double volume = volume_of(nodes);
+      sum.add(volume);
+      if (volume < figures_.least_volume) {
+        figures_.least_volume = volume;
+        figures_.least_place = middle(nodes);
+      }
+      if (!(volume > 0))
+        report(SolidRule::positive, cell_name(cell) + " has no positive volume", middle(nodes));
+    });
+    figures_.volume = sum.value();
+  }
+
+  void measure_patches() {
+    for (const SolidPatch& patch : mesh_.patches) {
+      LongSum area;
+      for (const SolidPatch::Face& face : patch.faces) area.add(0.5 * length(twice_area(face)));
+      figures_.patches.push_back({patch.name, std::ssize(patch.faces), area.value()});
+    }
+  }
+
+  /// A face without its lowest node: the others ascending (the last is none in a triangle), and whose it is:
+  /// that of a cell, or below 0 of patch -1 - owner.
+  struct FaceEntry {
+    std::array<std::int32_t, 3> others;
+    std::int32_t owner;
+    friend auto operator<=>(const FaceEntry&, const FaceEntry&) = default;
+  };
+
+  template <class Visit>
+  void for_each_face(const Visit& visit) const {
+    for_each_cell(mesh_,
+                  [&]<std::size_t width>(const std::array<std::int32_t, width>& nodes, std::int64_t cell) {
+                    for (const LocalFace& local : CellFaces<width>::faces)
+                      visit(face_of(nodes, local), static_cast<std::int32_t>(cell));
+                  });
+    for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+      for (const SolidPatch::Face& face : mesh_.patches[p].faces)
+        visit(face, -1 - static_cast<std::int32_t>(p));
+    }
+  }
+
+  /// Faces are put together by their lowest node.
+  void check_faces() {
+    std::vector<std::int64_t> ends(mesh_.points.size() + 1, 0);
+    for_each_face(
+        [&](const SolidPatch::Face& face, std::int32_t) { ++ends[std::ranges::min(corners(face))]; });
+    std::int64_t total = 0;
+    for (std::int64_t& end : ends) total += std::exchange(end, total);
+    std::vector<FaceEntry> entries(total);
+    for_each_face([&](SolidPatch::Face face, std::int32_t owner) {
+      const bool triangle = face[3] == SolidPatch::no_node;
+      std::sort(face.begin(), face.end() - (triangle ? 1 : 0));
+      entries[ends[face[0]]++] = {{face[1], face[2], face[3]}, owner};
+    });
+    std::int64_t begin = 0;
+    for (std::size_t node = 0; node < mesh_.points.size(); ++node) {
+      check_faces_at(static_cast<std::int32_t>(node), std::span(entries).subspan(begin, ends[node] - begin));
+      begin = ends[node];
+    }
+  }
+
+  void check_faces_at(std::int32_t lowest, std::span<FaceEntry> entries) {
+    std::ranges::sort(entries);
+    for (std::size_t i = 0; i < entries.size();) {
+      std::size_t end = i;
+      while (end < entries.size() && entries[end].others == entries[i].others) ++end;
+      judge_face(lowest, entries.subspan(i, end - i));
+      i = end;
+    }
+  }
+
+  /// All whose one face is; patches come first.
+  void judge_face(std::int32_t lowest, std::span<const FaceEntry> same) {
+    const auto patches = std::ranges::count_if(same, [](const FaceEntry& entry) { return entry.owner < 0; });
+    const auto cells = std::ssize(same) - patches;
+    if ((cells == 2 && patches == 0) || (cells == 1 && patches == 1)) return;
+    const auto& others = same.front().others;
+    const Point3 place = middle(std::array{lowest, others[0], others[1], others[2]});
+    const auto patch = [&] { return mesh_.patches[-1 - same.front().owner].name; };
+    std::string what;
+    if (cells == 0) {
+      what = "a face of " + patch() + " is that of no cell";
+    } else if (cells > 2) {
+      what = "a face of " + cell_name(same.back().owner) + " belongs to " + std::to_string(cells) + " cells";
+    } else if (patches == 0) {
+      what = "a face of " + cell_name(same.back().owner) + " has no other cell and is on no patch";
+    } else if (cells == 2) {
+      what = "a face inside, of " + cell_name(same.back().owner) + ", is on " + patch();
+    } else {
+      what = "a face of " + cell_name(same.back().owner) + " is on patches " + std::to_string(patches) +
+             " times, first on " + patch();
+    }
+    report(SolidRule::conforming, what, place);
+  }
+
+  const SolidMesh& mesh_;
+  SolidFigures figures_;
+};
+
+}  // namespace
+
+const char* name_of(SolidRule rule) {
+  switch (rule) {
+    case SolidRule::indices: return "indices";
+    case SolidRule::positive: return "positive";
+    case SolidRule::conforming: return "conforming";
+  }
+  return "";
+}
+
+SolidFigures check_solid(const SolidMesh& mesh) { return SolidCheck(mesh).run(); }
+
+}  // namespace quadloop

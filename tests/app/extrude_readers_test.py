@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Other programs read our 3D meshes: the same counts, patches by their names. What is not installed is skipped, with the reason.
+
+    extrude_readers_test.py QUADLOOP MPIRUN CASES
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+from program import ProgramTest
+
+CASES = Path(sys.argv[3]).resolve()
+FOAM = "/usr/share/openfoam"
+CONTROL = """FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }
+application none; startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1; writeControl timeStep; writeInterval 1;
+"""
+SCHEMES = """FoamFile { version 2.0; format ascii; class dictionary; object fvSchemes; }
+ddtSchemes{} gradSchemes{} divSchemes{} laplacianSchemes{} interpolationSchemes{} snGradSchemes{}
+"""
+
+
+def module(name):
+    try:
+        return __import__(name)
+    except ImportError:
+        return None
+
+
+def program(name):
+    return unittest.skipUnless(shutil.which(name), f"{name} is not installed")
+
+
+class Readers(ProgramTest):
+    def extruded(self, output, layers=2, case="naca0012", axis="z"):
+        self.done("mesh", str(CASES / case / "case.toml"), "-o", case, "-q")
+        (self.folder / output).parent.mkdir(parents=True, exist_ok=True)
+        self.done("extrude", f"{case}.mesh", "-o", output, "--layers", str(layers), "--thickness", "0.2", "--axis", axis, "-q")
+        lines = (self.folder / f"{case}.mesh").read_text().split("\n")
+        number = {title: int(lines[lines.index(title) + 1]) for title in
+                  ("#Number of grid points", "#Number of triangular elements", "#Number of quadrilateral elements")}
+        nodes, triangles, quads = number.values()
+        return (layers + 1) * nodes, layers * triangles, layers * quads
+
+    def tool(self, *command, **options):
+        return subprocess.run(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options).stdout
+
+    @program("checkMesh")
+    def test_openfoam_finds_nothing_wrong(self):
+        for case in ("naca0012", "three_element", "ring", "naca0012_layers"):
+            for layers in (1, 2):
+                with self.subTest(case=case, layers=layers):
+                    nodes, prisms, hexahedra = self.extruded(f"{case}{layers}/constant/polyMesh", layers, case)
+                    (self.folder / f"{case}{layers}/system").mkdir()
+                    for name, text in (("controlDict", CONTROL), ("fvSchemes", SCHEMES), ("fvSolution", SCHEMES.replace("fvSchemes", "fvSolution"))):
+                        self.write(f"{case}{layers}/system/{name}", text)
+                    said = self.tool("checkMesh", "-case", f"{case}{layers}", env={**os.environ, "WM_PROJECT_DIR": FOAM})
+                    complaints = [line for line in said.split("\n") if line.lstrip().startswith("***") and "aspect ratio" not in line]
+                    self.assertEqual(complaints, [], said)
+                    if case != "naca0012_layers":
+                        self.assertIn("Mesh OK.", said)
+                    found = {key: int(re.search(rf"{key}:\s+(\d+)", said)[1]) for key in ("points", "prisms", "hexahedra")}
+                    self.assertEqual(found, {"points": nodes, "prisms": prisms, "hexahedra": hexahedra})
+                    for patch in ("back", "front"):
+                        self.assertRegex(said, rf"\n\s+{patch}\s+\d+")
+
+    @unittest.skipUnless(module("vtk"), "python3-vtk9 is not installed")
+    def test_vtk_reads_cells_and_patches(self):
+        import vtk
+        from vtk.util.numpy_support import vtk_to_numpy
+        nodes, prisms, hexahedra = self.extruded("a.vtu")
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(self.folder / "a.vtu"))
+        reader.Update()
+        grid = reader.GetOutput()
+        types = vtk_to_numpy(grid.GetCellTypesArray()).tolist()
+        self.assertEqual((grid.GetNumberOfPoints(), types.count(13), types.count(12)), (nodes, prisms, hexahedra))
+        names = bytes(vtk_to_numpy(grid.GetFieldData().GetArray("boundary_names"))).decode().split("\0")[:-1]
+        self.assertEqual(names[-2:], ["back", "front"])
+        patch = vtk_to_numpy(grid.GetCellData().GetArray("boundary"))
+        self.assertEqual((patch == len(names)).sum() * 2, prisms + hexahedra)
+        quality = vtk.vtkCellSizeFilter()
+        quality.SetInputData(grid)
+        quality.Update()
+        volumes = vtk_to_numpy(quality.GetOutput().GetCellData().GetArray("Volume"))[patch == 0]
+        self.assertGreater(volumes.min(), 0)
+
+    @unittest.skipUnless(module("meshio"), "python3-meshio is not installed")
+    def test_meshio_reads_vtu_su2_and_ugrid(self):
+        import meshio
+        for name in ("a.vtu", "a.su2", "a.b8.ugrid", "a.lb8.ugrid"):
+            with self.subTest(name=name):
+                nodes, prisms, hexahedra = self.extruded(name)
+                mesh = meshio.read(self.folder / name)
+                counts = {}
+                for block in mesh.cells:
+                    counts[block.type] = counts.get(block.type, 0) + len(block.data)
+                self.assertEqual((len(mesh.points), counts["wedge"], counts["hexahedron"]), (nodes, prisms, hexahedra))
+
+    @program("cgnscheck")
+    def test_cgnscheck_finds_no_error(self):
+        nodes, prisms, hexahedra = self.extruded("a.cgns", axis="y")
+        said = self.tool("cgnscheck", "-v", "a.cgns")
+        self.assertNotIn("ERROR", said)
+        self.assertIn(f"Vertex Size=[{nodes}]", said)
+        self.assertIn(f"Cell Size=[{prisms + hexahedra}]", said)
+        for name in ("airfoil", "back", "front", "PENTA_6", "HEXA_8"):
+            self.assertIn(name, said)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["extrude_readers_test.py"])
