@@ -153,7 +153,7 @@ void add_options(CLI::App& command, ExtrudeArguments& arguments) {
       ->check(CLI::Range(std::int64_t{1}, most_layers));
   command.add_option("--thickness", arguments.thickness, "of all of them together")
       ->type_name("T")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       .add_option("--heights", arguments.heights,
                   "in their place: the coordinates of the levels along the axis, two or more, ascending")

@@ -96,6 +96,16 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
       all);
 }
 
+CLI::Validator positive_number() {
+  return CLI::Validator(
+      [](std::string& word) {
+        double number = 0;
+        const bool is_positive = CLI::detail::lexical_cast(word, number) && number > 0;
+        return is_positive ? std::string() : fmt::format("'{}' is not a number above 0", word);
+      },
+      "");
+}
+
 void add_case_argument(CLI::App& command, std::string& case_path) {
   command.add_option("case", case_path, "the case file (TOML)")->required()->type_name("CASE.toml");
 }
@@ -111,7 +121,7 @@ void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells) {
       .add_option("--max-cells", max_cells,
                   "the most cells that a mesh may have by estimate; without it as many as free memory holds")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
 }
 
 }  // namespace quadloop
