@@ -19,7 +19,7 @@ constexpr double hybrid_cells_of_leaf = 1.12, triangles_of_leaf = 2.05;
 // Peak memory of meshing, smoothing and writing, in bytes; a cut leaf's is of those that the estimate counts.
 constexpr double of_leaf = 90, of_cut_leaf = 1400, of_hybrid_cell = 80, of_delaunay_triangle = 200;
 // On every rank, the program itself too.
-constexpr double of_segment = 210, of_program = 45 * 0x1p20;
+constexpr double of_segment = 210, of_program = 28 * 0x1p20;
 
 /// Points that the mesh must keep: each beyond the first of a leaf makes a triangle more.
 double kept_points(const Geometry& geometry) {

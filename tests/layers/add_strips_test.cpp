@@ -136,5 +136,19 @@ TEST(LayerFront, LinesThatMeetSomethingAreRefused) {
   EXPECT_NE(says({wake(), across}).find("[[wake]] or [[layer_line]] meet"), std::string::npos);
 }
 
+TEST(LayerFront, LinesOverABodyOrOutsideTheDomainAreRefused) {
+  const Geometry g = test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
+                                       {{"speck", {{-2.99, -5}, {-3, -5.01}, {-3.01, -5}, {-3, -4.99}}}}});
+  const auto says = [&](const LayerLine& line) { return test::refusal([&] { layer_front(g, {}, {line}); }); };
+  EXPECT_NE(says(free_line()).find("run over boundary speck at (-"), std::string::npos);
+  LayerLine outside = free_line();
+  for (Point& p : outside.path) p.x -= 10;
+  EXPECT_NE(says(outside).find("lies outside of the domain, at (-"), std::string::npos);
+  outside.path = {{-3.002, -5}, {-2.998, -5}};
+  outside.spacing = 0.001;
+  outside.layers = LayerSpec{1e-4, 1.2, 1.2, 3};
+  EXPECT_NE(says(outside).find("lies outside of the domain"), std::string::npos) << "within a body";
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/box_tree.hpp"
@@ -38,8 +39,10 @@ class OuterOutline {
         lines_{lines},
         fitting_{fitting},
         curvature_{curvature},
-        first_of_segment_(g_.points().size(), WallLine::none) {
+        first_of_segment_(g_.points().size(), WallLine::none),
+        covered_(g_.points().size(), 0) {
     bases_ = bases_of(g_, lines_);
+    cover_ends();
     for (std::int32_t i = line_.size() - 1; i >= 0; --i) {
       if (begins(i)) first_of_segment_[line_[i].segment] = i;
     }
@@ -72,11 +75,12 @@ class OuterOutline {
   void add_segment(std::int32_t s) {
     if (const std::int32_t first = first_of_segment_[s]; first != WallLine::none) {
       add_front(first, s);
-    } else if (!begins_below(s) && !is_base(s)) {
+    } else if (!begins_below(s) && !is_base(s) && !covered_[s]) {
       add_vertex(g_.point(s), g_.boundary_of(s), WallLine::none, g_.spacing_of(s), g_.kept(s),
                  g_.bend_degrees(s));
     }
   }
+  void cover_ends();
   void add_front(std::int32_t first, std::int32_t s);
   void add_wake(std::int32_t i);
   /// The station on the right of a wake's root.
@@ -117,6 +121,7 @@ class OuterOutline {
   const FittingColumns& fitting_;
   std::optional<double> curvature_;
   std::vector<std::int32_t> first_of_segment_;
+  std::vector<char> covered_;  ///< vertices on which a run's last column lies
   std::vector<Point> points_;
   std::vector<std::int32_t> starts_{0};
   std::vector<BoundaryId> boundary_;
@@ -127,6 +132,16 @@ class OuterOutline {
   std::vector<LayerStrip> strips_;
   std::vector<std::int32_t> bases_;  ///< segments
 };
+
+void OuterOutline::cover_ends() {
+  for (std::int32_t i = 0; i < line_.size(); ++i) {
+    if (!ends_run(i) || line_[i].at_wake) continue;
+    const double column = length(fitting_.front[i] - line_[i].wall);
+    line_.walk_end(i, [&](std::int32_t vertex, double distance) {
+      if (distance <= column) covered_[vertex] = 1;
+    });
+  }
+}
 
 /// The stations of segment s from the first one on; where the run ends, the rest of the boundary that it ends
 /// on.
@@ -237,6 +252,46 @@ WallLine wall_line(const Geometry& geometry, const std::vector<PlacedLine>& plac
   return line;
 }
 
+/// Whether a closed polyline goes round a point.
+bool goes_round(std::span<const Point> ring, Point p) {
+  bool inside = false;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Point a = ring[k], b = ring[(k + 1) % ring.size()];
+    if ((a.y > p.y) != (b.y > p.y) && (cross(b - a, p - a) > 0) == (b.y > a.y)) inside = !inside;
+  }
+  return inside;
+}
+
+bool is_in_domain(const Geometry& g, Point p) {
+  bool inside = false;
+  for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
+    const std::int32_t begin = g.loop_start(loop);
+    if (goes_round(g.points().subspan(begin, g.loop_start(loop + 1) - begin), p)) inside = !inside;
+  }
+  return inside;
+}
+
+/// No strip has a body within it, and free lines lie in the domain; what crosses a strip's front is told by
+/// require_disjoint().
+void require_room(const LayerFront& front) {
+  const Geometry& g = front.line.geometry();
+  for (const LayerStrip& strip : front.strips) {
+    if (!strip.root && !is_in_domain(g, strip.front[0]))
+      throw InputError(
+          fmt::format("a [[layer_line]] lies outside of the domain, at ({}, {}); lead it elsewhere",
+                      strip.front[0].x, strip.front[0].y));
+    const std::int32_t own = strip.root ? g.loop_of(front.line[strip.root->station].segment) : -1;
+    for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
+      const Point p = g.point(g.loop_start(loop));
+      if (loop == own || !goes_round(strip.front, p)) continue;
+      throw InputError(
+          fmt::format("the layers of a [[wake]] or [[layer_line]] run over boundary {} at ({}, {}); lead it "
+                      "elsewhere, or make it shorter",
+                      g.boundary(g.boundary_of(g.loop_start(loop))).name, p.x, p.y));
+    }
+  }
+}
+
 /// The fronts of strips keep away from everything else, and from themselves: two segments meet where one
 /// follows the other alone.
 void require_disjoint(const LayerFront& front) {
@@ -287,6 +342,7 @@ LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature
   FittingColumns fitting = fit_thickness(line);
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}};
   OuterOutline(front.line, fitting, placed, curvature).build(front);
+  require_room(front);
   require_disjoint(front);
   front.thickness = std::move(fitting.thickness);
   front.columns = std::move(fitting.columns);

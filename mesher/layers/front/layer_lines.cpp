@@ -90,7 +90,8 @@ PlacedLine placed(const Geometry& g, const LayerLine& line) {
     return {PlacedLine::nowhere, PlacedLine::nowhere, line.path, line.spacing, *line.layers};
   const auto [first, last] = edge_of(g, line.from);
   std::vector<Point> path{first == last ? g.point(first) : 0.5 * (g.point(first) + g.point(last))};
-  path.insert(path.end(), line.path.begin(), line.path.end());
+  const bool repeats_edge = !line.path.empty() && line.path[0] == path[0];
+  path.insert(path.end(), line.path.begin() + (repeats_edge ? 1 : 0), line.path.end());
   if (line.path.empty()) {
     const Point on = unit(direction_of_segment(g, g.previous(first)) - direction_of_segment(g, last));
     path.push_back(path[0] + line.length * on);

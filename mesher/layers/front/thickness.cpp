@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace quadloop {
 
 namespace {
 
+constexpr double share_of_end = 0.9;  // of the straight part of the boundary on which a run ends
 constexpr double shrink = 0.85, steepest = 0.35;
 constexpr double clearance = 0.75;     // of a column's length, kept free beyond its end
 constexpr double share_of_gap = 0.36;  // two walls' columns with their clearance then just miss each other
@@ -116,7 +118,7 @@ class Fitting {
  public:
   explicit Fitting(const WallLine& line)
       : line_{line}, vicinity_{line}, h_(line.size()), meets_(line.size()), columns_on_wall_{line} {
-    for (std::int32_t i = 0; i < line_.size(); ++i) h_[i] = line_.asked(i);
+    for (std::int32_t i = 0; i < line_.size(); ++i) h_[i] = std::min(line_.asked(i), room_at(i));
     gather_walls();
   }
 
@@ -138,6 +140,15 @@ class Fitting {
   }
 
  private:
+  /// A run's last column lies on the boundary on which the run ends: within its first straight part.
+  double room_at(std::int32_t i) const {
+    const Station& end = line_[i];
+    if (end.shape != Station::Shape::end || end.at_wake) return std::numeric_limits<double>::infinity();
+    double straight = 0;
+    line_.walk_end(i, [&](std::int32_t, double distance) { straight = distance; });
+    return share_of_end * straight * dot(end.direction, left_of(end.after));
+  }
+
   /// Notes which stations' fronts have moved: only these need to be looked at again.
   void renew_columns() {
     columns_ = columns_on_wall_.fit(h_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -71,6 +72,10 @@ class WallLine {
     return followed_.empty() ? *geometry_->boundary(stations_[i].layers).layers : followed_[i];
   }
   const Geometry& geometry() const { return *geometry_; }
+  /// Calls `visit(vertex, distance)` for the vertices of the boundary on which a run ends at station i, as
+  /// far as it is straight and that one boundary, with their distances from the wall.
+  template <class Visit>
+  void walk_end(std::int32_t i, const Visit& visit) const;
 
   /// Calls `visit(station, distance)` for the stations that follow i, or that lead to it, as far as `reach`
   /// along the wall and once each; i itself is not among them. Distances are summed from i on, so that a
@@ -115,6 +120,22 @@ class WallLine {
   std::vector<double> width_, asked_;
   std::vector<LayerSpec> followed_;
 };
+
+template <class Visit>
+void WallLine::walk_end(std::int32_t i, const Visit& visit) const {
+  constexpr double straight_sine = 1e-9;
+  const Geometry& g = *geometry_;
+  const bool first = previous_[i] == none;
+  const std::int32_t wall = first ? stations_[i].segment : g.next(stations_[i].segment);
+  const std::int32_t on = first ? g.previous(wall) : wall;
+  for (std::int32_t s = on; g.boundary_of(s) == g.boundary_of(on); s = first ? g.previous(s) : g.next(s)) {
+    const std::int32_t vertex = first ? s : g.next(s);
+    const Point way = g.point(vertex) - stations_[i].wall;
+    const double distance = length(way);
+    if (vertex == wall || std::abs(cross(stations_[i].direction, way)) > straight_sine * distance) return;
+    visit(vertex, distance);
+  }
+}
 
 /// Left of a direction: into the domain.
 constexpr Point left_of(Point direction) { return {-direction.y, direction.x}; }

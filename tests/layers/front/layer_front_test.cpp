@@ -138,5 +138,23 @@ TEST(LayerFront, OfASymmetricBodyIsSymmetric) {
   }
 }
 
+/// The side on which a floor's last column lies has points of its own below the column's end.
+TEST(LayerFront, TheLastColumnTakesThePlaceOfPointsOnTheBoundaryBelowIt) {
+  const double thickness = layers_thickness(layers);
+  std::vector<Point> rest{{8, 0}, {8, 4}, {0, 4}};
+  for (double y = 3.9; y > 0.05; y -= 0.1) rest.push_back({0, y});
+  const LayerFront front = layer_front(test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", rest}}}));
+  EXPECT_NEAR(test::loop_area(front.outer, 0), 8 * (4 - thickness), 1e-12);
+  for (const Point p : front.outer.points()) EXPECT_GE(p.y, thickness - 1e-12);
+}
+
+TEST(LayerFront, LayersAreNoThickerAtAnEndThanTheBoundaryThereIsStraight) {
+  const Geometry g = test::outline_of(
+      {{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {8, 4}, {-0.5, 4}, {-0.5, 0.4}, {0, 0.2}}}}});
+  const LayerFront front = layer_front(g);
+  EXPECT_NEAR(front.thickness[0], 0.18, 1e-12);
+  EXPECT_NEAR(front.thickness[front.line.size() - 1], layers_thickness(layers), 1e-12);
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -53,6 +53,8 @@ TEST(PlaceLines, APathIsFollowedAsItIsGiven) {
   wake.path = {{3, 0.1}, {5, 0.5}};
   const std::vector<Point> wanted{{2, 0}, {3, 0.1}, {5, 0.5}};
   EXPECT_EQ(place_lines(wedge(0.1), {wake})[0].path, wanted);
+  wake.path.insert(wake.path.begin(), {2, 0});
+  EXPECT_EQ(place_lines(wedge(0.1), {wake})[0].path, wanted) << "the edge may be named again";
   LayerLine free;
   free.path = {{-6, -6}, {-5, -6}};
   free.layers = layers;
