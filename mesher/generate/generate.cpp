@@ -187,6 +187,23 @@ void add_dropped(const MeshReport& dropped, MeshReport& report) {
   }
 }
 
+/// Cells outside that are much larger than those of a strip's end are joined to it by thin triangles.
+std::vector<std::string> warnings_of_strips(const LayerFront& front, double min) {
+  std::vector<std::string> warnings;
+  for (const LayerStrip& strip : front.strips) {
+    const auto least = std::ranges::min_element(strip.spacing);
+    if (*least >= min) continue;
+    const Point at =
+        strip.front[std::min<std::size_t>(least - strip.spacing.begin(), strip.front.size() - 1)];
+    warnings.push_back(fmt::format(
+        "the layers of a [[wake]] or [[layer_line]] want cells of {:.3g} beside them at ({:.6g}, {:.6g}), "
+        "smaller than spacing.min = {:.6g}: triangles there will be thin; make spacing.min smaller, "
+        "or the layers thicker or fewer",
+        *least, at.x, at.y, min));
+  }
+  return warnings;
+}
+
 GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
                                const DemandedSplits& demanded, const MeasuredWall& measured) {
   StageTimes times;
@@ -201,6 +218,8 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   times.begin("layers");
   generated.layers = report_layers(comm, front, generated.result.mesh);
   for (std::string& warning : warnings_of(generated.layers))
+    generated.result.report.warnings.push_back(std::move(warning));
+  for (std::string& warning : warnings_of_strips(front, input.mesh.size.min))
     generated.result.report.warnings.push_back(std::move(warning));
   fill_layers(comm, input, front, generated.result);
   if (wants_y_plus(input.geometry)) generated.result.tree.measured_wall = measured;
