@@ -10,8 +10,12 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, 2> settings{
-    {{"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_pml", "ob1"}}};
+// Without the daemon all such processes would share one folder of Open MPI's in /tmp, which the first to end
+// takes away from the others: so they have none.
+constexpr std::array<std::pair<const char*, const char*>, 3> settings{
+    {{"OMPI_MCA_ess_singleton_isolated", "1"},
+     {"OMPI_MCA_orte_create_session_dirs", "0"},
+     {"OMPI_MCA_pml", "ob1"}}};
 
 }  // namespace
 

@@ -3,10 +3,11 @@
 
     command_line_test.py QUADLOOP MPIRUN
 """
+import subprocess
 import sys
 import unittest
 
-from program import ProgramTest
+from program import QUADLOOP, ProgramTest
 
 GEOMETRY = "2\nbox\n4\n0 0\n8 0\n8 8\n0 8\nmy.wall=1\n4\n3 3\n3 4\n4 4\n4 3\n"
 CASE = '[geometry]\nfile = "a.geom"\n[spacing]\nmin = 0.125\nmax = 2\n[smooth]\nsweeps = 0\n'
@@ -30,6 +31,13 @@ class Assignments(ProgramTest):
         self.assertNotEqual(wanted, self.mesh_of("a.toml"))
         self.assertEqual(self.mesh_of("--set", *assignments, "a.toml"), wanted)
         self.assertEqual(self.mesh_of("a.toml", f"--set={assignments[0]}", *assignments[1:]), wanted)
+
+    def test_many_start_and_end_at_once(self):
+        for _ in range(4):
+            started = [subprocess.Popen([QUADLOOP, "--version"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE) for _ in range(16)]
+            for process in started:
+                _, said = process.communicate()
+                self.assertEqual((process.returncode, said), (0, b""))
 
     def test_a_key_without_a_dot(self):
         self.as_in_file('[[source]]\nbox = [0, 2, 0, 2]\nspacing = 0.25\n[[source]]\ndisc = [6, 6, 1]\nspacing = 0.5\n', "smooth.sweeps=0",

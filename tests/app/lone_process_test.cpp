@@ -14,6 +14,7 @@ namespace quadloop {
 namespace {
 
 constexpr const char* daemon = "OMPI_MCA_ess_singleton_isolated";
+constexpr const char* folder = "OMPI_MCA_orte_create_session_dirs";
 constexpr const char* network = "OMPI_MCA_pml";
 
 std::string value_of(const char* name) {
@@ -29,7 +30,7 @@ class LoneProcessTest : public testing::Test {
  private:
   /// Also of what MPI_Init has set in the test itself.
   static void forget() {
-    std::vector<std::string> names{daemon, network};
+    std::vector<std::string> names{daemon, folder, network};
     for (char** entry = environ; *entry != nullptr; ++entry) {
       const std::string name = std::string(*entry).substr(0, std::string(*entry).find('='));
       if (set_by_launcher(name)) names.push_back(name);
@@ -42,9 +43,11 @@ TEST_F(LoneProcessTest, NeedsNeitherADaemonNorANetworkAndLeavesNoSettings) {
   {
     const LoneProcess settings;
     EXPECT_EQ(value_of(daemon), "1");
+    EXPECT_EQ(value_of(folder), "0");
     EXPECT_EQ(value_of(network), "ob1");
   }
   EXPECT_EQ(value_of(daemon), "none");
+  EXPECT_EQ(value_of(folder), "none");
   EXPECT_EQ(value_of(network), "none");
 }
 
