@@ -19,7 +19,8 @@ namespace quadloop {
   DO(GDALClose)                                                                                           \
   DO(GDALDatasetGetLayer)                                                                                 \
   DO(GDALDatasetGetLayerCount)                                                                            \
-  DO(GDALOpenEx) DO(OGR_F_Destroy) DO(OGR_F_GetFID) DO(OGR_F_GetFieldAsString) DO(OGR_F_GetFieldIndex)    \
+  DO(GDALOpenEx)                                                                                          \
+  DO(OGR_F_Destroy) DO(OGR_F_GetFID) DO(OGR_F_GetFieldAsString) DO(OGR_F_GetFieldIndex)                   \
       DO(OGR_F_GetGeometryRef) DO(OGR_F_IsFieldSetAndNotNull) DO(OGR_G_Clone) DO(OGR_G_DestroyGeometry)   \
           DO(OGR_G_GetGeometryCount) DO(OGR_G_GetGeometryRef) DO(OGR_G_GetGeometryType)                   \
               DO(OGR_G_GetLinearGeometry) DO(OGR_G_GetPointCount) DO(OGR_G_GetX) DO(OGR_G_GetY)           \

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "mesher/geometry/proximity.hpp"
 #include "mesher/geometry/shifted_outline.hpp"
 #include "mesher/lattice/lattice.hpp"
 #include "mesher/lattice/size_options.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
+#include "mesher/sizes/proximity.hpp"
 
 namespace quadloop {
 

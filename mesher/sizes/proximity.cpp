@@ -1,4 +1,4 @@
-#include "mesher/geometry/proximity.hpp"
+#include "mesher/sizes/proximity.hpp"
 
 #include <algorithm>
 
