@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "io/cgns/cgns_bars.hpp"
+#include "io/cgns/cgns_condition.hpp"
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_handle.hpp"
 #include "io/cgns/cgns_names.hpp"
@@ -218,30 +219,14 @@ class ZoneReader {
   /// A BC that names nodes instead of edges is passed over: its edges, if the file has them, come as a
   /// section.
   void read_boundary(int boundary) {
-    Name name{};
-    BCType_t type = BCTypeNull;
-    PointSetType_t set = PointSetTypeNull;
-    cgsize_t count = 0, normals = 0;
-    std::array<int, 3> normal{};
-    DataType_t normal_type = DataTypeNull;
-    int datasets = 0;
-    file_.check(cg_boco_info(file_.id(), base_, zone_, boundary, name.data(), &type, &set, &count,
-                             normal.data(), &normals, &normal_type, &datasets));
-    GridLocation_t location = Vertex;
-    file_.check(cg_boco_gridlocation_read(file_.id(), base_, zone_, boundary, &location));
-    const bool of_elements = set == ElementRange || set == ElementList || location != Vertex;
-    if (!of_elements) return;
-    const bool is_range = set == PointRange || set == ElementRange;
-    const std::string full = descriptor(boundary, full_name_descriptor).value_or(name.data());
-    if (count < 0 || (is_range && count != 2)) {
-      refuse("boundary " + full + " has " + std::to_string(count) + " numbers where " +
-             (is_range ? "a range has 2" : "a list is"));
-    }
-    std::vector<cgsize_t> elements(count);
-    file_.check(cg_boco_read(file_.id(), base_, zone_, boundary, elements.data(), nullptr));
-    BoundaryEdges& edges = boundaries_.named(loaded_.mesh, full, condition_of(boundary, type));
+    const auto condition =
+        read_condition(file_, base_, zone_, boundary, [this](const std::string& s) { refuse(s); });
+    if (!condition) return;
+    const std::vector<cgsize_t>& elements = condition->elements;
+    const std::string full = descriptor(boundary, full_name_descriptor).value_or(condition->name.data());
+    BoundaryEdges& edges = boundaries_.named(loaded_.mesh, full, condition_of(boundary, condition->type));
     if (const auto layers = descriptor(boundary, layers_descriptor)) edges.layers = layers_of_text(*layers);
-    if (is_range) return take_range(elements[0], elements[1], edges);
+    if (condition->is_range) return take_range(elements[0], elements[1], edges);
     for (const cgsize_t element : elements) take_bar(element, edges);
   }
 

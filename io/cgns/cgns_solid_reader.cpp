@@ -5,6 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "io/cgns/cgns_condition.hpp"
 #include "io/cgns/cgns_handle.hpp"
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_solid_file.hpp"
@@ -146,34 +147,24 @@ class CgnsSolidReader {
   void read_conditions() {
     int count = 0;
     file_.check(cg_nbocos(file_.id(), 1, 1, &count));
-    for (int condition = 1; condition <= count; ++condition) read_condition(condition);
+    for (int condition = 1; condition <= count; ++condition) read_face_condition(condition);
   }
 
   /// A BC that names nodes instead of faces is passed over.
-  void read_condition(int number) {
-    Name name{};
-    BCType_t type = BCTypeNull;
-    PointSetType_t set = PointSetTypeNull;
-    cgsize_t count = 0, normals = 0;
-    std::array<int, 3> normal{};
-    DataType_t normal_type = DataTypeNull;
-    int datasets = 0;
-    file_.check(cg_boco_info(file_.id(), 1, 1, number, name.data(), &type, &set, &count, normal.data(),
-                             &normals, &normal_type, &datasets));
-    GridLocation_t location = Vertex;
-    file_.check(cg_boco_gridlocation_read(file_.id(), 1, 1, number, &location));
-    if (set != ElementRange && set != ElementList && location == Vertex) return;
-    const bool is_range = set == PointRange || set == ElementRange;
-    if (count < 0 || (is_range && count != 2))
-      refuse("boundary " + std::string(name.data()) + " has no range");
-    std::vector<cgsize_t> elements(count);
-    file_.check(cg_boco_read(file_.id(), 1, 1, number, elements.data(), nullptr));
-    SolidPatch& patch = patch_named(full_name(number, name.data()), condition_of(number, type));
-    if (is_range) {
-      for (std::int64_t element = elements[0]; element <= elements[1]; ++element) take(element, patch);
-    } else {
+  void read_face_condition(int number) {
+    const auto condition = read_condition(file_, 1, 1, number, [this](const std::string& s) { refuse(s); });
+    if (!condition) return;
+    SolidPatch& patch =
+        patch_named(full_name(number, condition->name.data()), condition_of(number, condition->type));
+    const std::vector<cgsize_t>& elements = condition->elements;
+    if (!condition->is_range) {
       for (const cgsize_t element : elements) take(element, patch);
+      return;
     }
+    if (elements[1] < elements[0])
+      refuse("boundary " + patch.name + " is of the elements " + std::to_string(elements[0]) + " to " +
+             std::to_string(elements[1]) + ", which is no range");
+    for (std::int64_t element = elements[0]; element <= elements[1]; ++element) take(element, patch);
   }
 
   void take(std::int64_t element, SolidPatch& patch) {

@@ -29,14 +29,14 @@ class CgnsSolidWriter {
       : stream_{outputs.communicator(), mesh}, mesh_{mesh} {
     refuse_too_large(path);
     staged_ = outputs.stage(path);
-    on_root([&] {
+    stream_.on_root([&] {
       sink_ = std::make_unique<CgnsSink>(staged_, 3);
       sink_->begin_zone(stream_.counts().nodes, stream_.counts().cells());
     });
   }
 
   void write() {
-    on_root([&] { sink_->begin_rows(); });
+    stream_.on_root([&] { sink_->begin_rows(); });
     stream_.rows(
         mesh_.point_rows(),
         [&](std::int64_t i) {
@@ -53,13 +53,6 @@ class CgnsSolidWriter {
   }
 
  private:
-  template <class Action>
-  void on_root(const Action& action) {
-    stream_.communicator().together([&] {
-      if (stream_.communicator().is_root()) action();
-    });
-  }
-
   void refuse_too_large(const std::string& path) const {
     const ExtrudedCounts& counts = stream_.counts();
     const std::int64_t elements = counts.cells() + stream_.patch_triangles() + stream_.patch_quads();
@@ -79,7 +72,7 @@ class CgnsSolidWriter {
   void write_cells(const std::string& name, ElementType_t type, std::int64_t rows, std::int64_t all,
                    const Nodes& nodes) {
     if (all == 0) return;
-    on_root([&] { sink_->begin_section(name, type, all); });
+    stream_.on_root([&] { sink_->begin_section(name, type, all); });
     stream_.rows(
         rows, [&](std::int64_t i) { return as<cgsize_t>(nodes(i), 1); },
         [&](auto some) {
@@ -94,7 +87,7 @@ class CgnsSolidWriter {
     for (const ExtrudedVariable& variable : variables) names.push_back(variable.name);
     names = cgns_variable_names(names);
     const std::size_t width = mesh_.solution->width(), wide = variables.size();
-    on_root([&] {
+    stream_.on_root([&] {
       sink_->begin_solution();
       sink_->begin_rows();
     });
@@ -117,7 +110,7 @@ class CgnsSolidWriter {
 
   /// Last of all: libcgns is done with the file.
   void write_patches() {
-    on_root([&] {
+    stream_.on_root([&] {
       sink_->close();
       patches_ = std::make_unique<CgnsPatches>(staged_, stream_.counts().cells() + 1);
       std::vector<std::string> wanted = stream_.patch_names();
@@ -126,7 +119,7 @@ class CgnsSolidWriter {
     });
     stream_.sides([&](std::size_t n) { begin(n, 0, stream_.patches()[n].quads); }, number_nodes, put());
     for (const bool front : {false, true}) write_end(front);
-    on_root([&] { patches_->close(); });
+    stream_.on_root([&] { patches_->close(); });
   }
 
   /// A patch, on rank 0: its section of quads, after it one of triangles.
@@ -140,10 +133,10 @@ class CgnsSolidWriter {
   void write_end(bool front) {
     const std::size_t patch = stream_.sides() + (front ? 1 : 0);
     const ExtrudedPatch& about = stream_.patches()[patch];
-    on_root([&] { begin(patch, about.triangles, about.quads); });
+    stream_.on_root([&] { begin(patch, about.triangles, about.quads); });
     if (about.quads > 0) stream_.end(mesh_.plane.quads, front, number_nodes, put());
     if (about.triangles == 0) return;
-    on_root([&] {
+    stream_.on_root([&] {
       patches_->begin_section(about.quads > 0 ? names_[patch + 2] : names_[patch], TRI_3, about.triangles);
       patches_->put_condition(names_[patch], {about.name, about.condition, {}}, FaceCenter);
     });

@@ -37,6 +37,14 @@ class ExtrudedStream {
   std::int64_t patch_triangles() const { return 2 * counts_.triangles; }  ///< of all patches
   std::int64_t patch_quads() const;
 
+  /// Runs `action` on rank 0; if it throws, all ranks do.
+  template <class Action>
+  void on_root(const Action& action) const {
+    comm_.together([&] {
+      if (comm_.is_root()) action();
+    });
+  }
+
   /// The ranks' rows, an array or a number each: `make(i)` is this rank's row i, `put(span of rows)` gets
   /// them on rank 0.
   template <class Make, class Put>

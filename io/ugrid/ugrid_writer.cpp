@@ -17,7 +17,7 @@ class UgridWriter {
       : stream_{outputs.communicator(), mesh} {
     refuse_too_large(path);
     const StagedFile staged = outputs.stage(path), names = outputs.stage(mapbc_path(path));
-    on_root([&] {
+    stream_.on_root([&] {
       file_ = std::make_unique<OutputFile>(staged);
       write_names(names);
       write_head();
@@ -34,17 +34,10 @@ class UgridWriter {
     write_face_patches();
     put_rows(mesh.prism_rows(), [&](std::int64_t i) { return as<std::int32_t>(mesh.prism(i), 1); });
     put_rows(mesh.hexahedron_rows(), [&](std::int64_t i) { return as<std::int32_t>(mesh.hexahedron(i), 1); });
-    on_root([&] { file_->close(); });
+    stream_.on_root([&] { file_->close(); });
   }
 
  private:
-  template <class Action>
-  void on_root(const Action& action) {
-    stream_.communicator().together([&] {
-      if (stream_.communicator().is_root()) action();
-    });
-  }
-
   void refuse_too_large(const std::string& path) const {
     constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
     const ExtrudedCounts& counts = stream_.counts();
@@ -96,7 +89,7 @@ class UgridWriter {
 
   /// The patch of each face, from 1, in the order of the faces: the ends' triangles, then all quads.
   void write_face_patches() {
-    on_root([&] {
+    stream_.on_root([&] {
       const auto& patches = stream_.patches();
       const auto put = [&](std::int64_t count, std::size_t patch) {
         const std::vector<std::int32_t> numbers(std::min(count, most_numbers),

@@ -6,22 +6,13 @@
 
 #include "io/loaded/foreign_mesh.hpp"
 #include "io/vtu/vtu_arrays.hpp"
+#include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_layers.hpp"
 
 namespace quadloop {
 
 namespace {
-
-enum VtkCell : std::int64_t {
-  vertex = 1,
-  poly_vertex = 2,
-  line = 3,
-  triangle = 5,
-  polygon = 7,
-  pixel = 8,
-  quad = 9
-};
 
 class VtuReader {
  public:
@@ -161,19 +152,19 @@ class VtuReader {
 
   void add_cell(std::int64_t type, std::span<const std::int64_t> nodes, std::int64_t boundary,
                 std::int64_t block) {
-    if (type == vertex || type == poly_vertex) return;
-    if (type == line) {
+    if (type == vtk_vertex || type == vtk_poly_vertex) return;
+    if (type == vtk_line) {
       foreign_.edges.push_back(
           {nodes_of<2>(nodes),
            foreign_.boundary_named(name_of(boundary_names_, boundary, "boundary", "boundary")), place_});
       return;
     }
     const std::int32_t to_block = foreign_.block_named(name_of(block_names_, block, "block", "domain"));
-    if (type == triangle || (type == polygon && nodes.size() == 3)) {
+    if (type == vtk_triangle || (type == vtk_polygon && nodes.size() == 3)) {
       foreign_.add_triangle(nodes_of<3>(nodes), to_block);
-    } else if (type == quad || type == pixel || (type == polygon && nodes.size() == 4)) {
+    } else if (type == vtk_quad || type == vtk_pixel || (type == vtk_polygon && nodes.size() == 4)) {
       auto corners = nodes_of<4>(nodes);
-      if (type == pixel) std::swap(corners[2], corners[3]);
+      if (type == vtk_pixel) std::swap(corners[2], corners[3]);
       foreign_.add_quad(corners, to_block);
     } else {
       scan_.refuse_at(place_, fmt::format("cell {} is of VTK type {} with {} nodes; only triangles (5), "

@@ -6,23 +6,14 @@
 #include <span>
 
 #include "io/vtu/vtu_arrays.hpp"
+#include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
 
 namespace quadloop {
 
 namespace {
 
-enum VtkCell : std::int64_t {
-  triangle = 5,
-  quad = 9,
-  tetrahedron = 10,
-  voxel = 11,
-  hexahedron = 12,
-  wedge = 13,
-  pyramid = 14
-};
-
-bool is_solid(std::int64_t type) { return type >= tetrahedron; }
+bool is_solid(std::int64_t type) { return type >= vtk_tetrahedron; }
 
 class VtuSolidReader {
  public:
@@ -107,27 +98,27 @@ class VtuSolidReader {
 
   void add(std::size_t cell, std::span<const std::int64_t> nodes) {
     switch (types_[cell]) {
-      case tetrahedron: mesh_.tetrahedra.push_back(nodes_of<4>(cell, nodes)); break;
-      case pyramid: mesh_.pyramids.push_back(nodes_of<5>(cell, nodes)); break;
-      case wedge: {
+      case vtk_tetrahedron: mesh_.tetrahedra.push_back(nodes_of<4>(cell, nodes)); break;
+      case vtk_pyramid: mesh_.pyramids.push_back(nodes_of<5>(cell, nodes)); break;
+      case vtk_wedge: {
         const auto n = nodes_of<6>(cell, nodes);  // its first triangle looks outwards
         mesh_.prisms.push_back({n[0], n[2], n[1], n[3], n[5], n[4]});
         break;
       }
-      case voxel: {
+      case vtk_voxel: {
         const auto n = nodes_of<8>(cell, nodes);
         mesh_.hexahedra.push_back({n[0], n[1], n[3], n[2], n[4], n[5], n[7], n[6]});
         break;
       }
-      case hexahedron: mesh_.hexahedra.push_back(nodes_of<8>(cell, nodes)); break;
-      case triangle: {
+      case vtk_hexahedron: mesh_.hexahedra.push_back(nodes_of<8>(cell, nodes)); break;
+      case vtk_triangle: {
         const auto n = nodes_of<3>(cell, nodes);
         patch_of(cell).faces.push_back({n[0], n[1], n[2], SolidPatch::no_node});
         break;
       }
-      case quad: patch_of(cell).faces.push_back(nodes_of<4>(cell, nodes)); break;
+      case vtk_quad: patch_of(cell).faces.push_back(nodes_of<4>(cell, nodes)); break;
       default:
-        if (types_[cell] < triangle) break;  // points and lines
+        if (types_[cell] < vtk_triangle) break;  // points and lines
         scan_.refuse_at(place_,
                         fmt::format("cell {} is of VTK type {}; only tetrahedra (10), voxels (11), "
                                     "hexahedra (12), wedges (13), pyramids (14), triangles (5) and quads "

@@ -2,14 +2,13 @@
 
 #include "io/files/binary_output.hpp"
 #include "io/solid/extruded_stream.hpp"
+#include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
 #include "io/vtu/vtu_text.hpp"
 
 namespace quadloop {
 
 namespace {
-
-constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9, vtk_hexahedron = 12, vtk_wedge = 13;
 
 /// The wedge of VTK: its first triangle looks outwards.
 std::array<SolidNode, 6> as_wedge(const std::array<SolidNode, 6>& prism) {
@@ -31,7 +30,7 @@ class VtuSolidWriter {
     if (mesh.solution != nullptr) variables_ = extruded_variables(*mesh.solution, mesh.axis);
     list_runs();
     const StagedFile staged = outputs.stage(path);
-    on_root([&] {
+    stream_.on_root([&] {
       file_ = std::make_unique<OutputFile>(staged);
       write_head();
     });
@@ -40,26 +39,19 @@ class VtuSolidWriter {
   void write() {
     write_points();
     write_connectivity();
-    on_root([&] {
+    stream_.on_root([&] {
       write_offsets();
       write_of_runs<std::uint8_t>([](const Run& run) { return run.type; });
       write_of_runs<std::int32_t>([](const Run& run) { return run.patch; });
     });
     for (const ExtrudedVariable& variable : variables_) write_variable(variable);
-    on_root([&] {
+    stream_.on_root([&] {
       file_->write("\n</AppendedData>\n</VTKFile>\n");
       file_->close();
     });
   }
 
  private:
-  template <class Action>
-  void on_root(const Action& action) {
-    stream_.communicator().together([&] {
-      if (stream_.communicator().is_root()) action();
-    });
-  }
-
   /// In the order of the file: cells, then of each patch its triangles and its quads.
   void list_runs() {
     const ExtrudedCounts& counts = stream_.counts();
@@ -123,7 +115,7 @@ class VtuSolidWriter {
   }
 
   void write_points() {
-    on_root([&] { begin_array(24 * stream_.counts().nodes); });
+    stream_.on_root([&] { begin_array(24 * stream_.counts().nodes); });
     put_rows(stream_.mesh().point_rows(), [&](std::int64_t i) {
       const Point3 p = stream_.mesh().point(i);
       return std::array{p.x, p.y, p.z};
@@ -134,7 +126,7 @@ class VtuSolidWriter {
     const ExtrudedMesh& mesh = stream_.mesh();
     const auto make = [](const auto& nodes) { return in_order<std::endian::little>(nodes); };
     const auto write = [&](auto rows) { file_->write(bytes_of(rows)); };
-    on_root([&] { begin_array(8 * entries_); });
+    stream_.on_root([&] { begin_array(8 * entries_); });
     put_rows(mesh.prism_rows(), [&](std::int64_t i) { return as_wedge(mesh.prism(i)); });
     put_rows(mesh.hexahedron_rows(), [&](std::int64_t i) { return mesh.hexahedron(i); });
     stream_.sides([](std::size_t) {}, make, write);
@@ -177,7 +169,7 @@ class VtuSolidWriter {
   void write_variable(const ExtrudedVariable& variable) {
     const ExtrudedMesh& mesh = stream_.mesh();
     const std::size_t width = mesh.solution->width();
-    on_root([&] { begin_array(8 * stream_.counts().nodes); });
+    stream_.on_root([&] { begin_array(8 * stream_.counts().nodes); });
     put_rows(mesh.point_rows(), [&](std::int64_t i) {
       const bool zero = variable.column == ExtrudedVariable::zero;
       return std::array{zero ? 0.0 : mesh.solution->values[i / mesh.levels() * width + variable.column]};

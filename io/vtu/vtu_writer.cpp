@@ -1,6 +1,7 @@
 #include <span>
 
 #include "io/text/text_output.hpp"
+#include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_layers.hpp"
 #include "io/vtu/vtu_text.hpp"
@@ -9,8 +10,6 @@
 namespace quadloop {
 
 namespace {
-
-constexpr int vtk_line = 3, vtk_triangle = 5, vtk_quad = 9;
 
 std::string array_tag(const std::string& type, const std::string& name, int components = 1) {
   std::string tag = "<DataArray type=\"" + type + "\" Name=\"" + xml_escaped(name) + "\"";
@@ -83,8 +82,8 @@ class VtuWriter {
   /// `visit(rows, type)` for each kind of cell; the boundaries' edges follow them.
   template <class Visit>
   void for_each_kind(const Visit& visit) const {
-    visit(mesh_.triangles, vtk_triangle);
-    visit(mesh_.quads, vtk_quad);
+    visit(mesh_.triangles, int{vtk_triangle});
+    visit(mesh_.quads, int{vtk_quad});
   }
 
   void write_cells() {
@@ -106,7 +105,7 @@ class VtuWriter {
     file_.write("</DataArray>\n" + array_tag("UInt8", "types"));
     for_each_kind([&](const auto& rows, int type) { write_repeated(rows.size(), type); });
     file_.write_root_rows(boundaries_.all_edges(), 1,
-                          [](TextRows& text, std::size_t) { text.put(vtk_line, '\n'); });
+                          [](TextRows& text, std::size_t) { text.put(int{vtk_line}, '\n'); });
     file_.write("</DataArray>\n</Cells>\n");
   }
 

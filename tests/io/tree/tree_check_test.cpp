@@ -125,13 +125,19 @@ TEST(TreeAttributes, ArePossible) {
   EXPECT_NE(fault([](TreeAttributes& a) { a.nodes = -1; }), "");
 }
 
-TEST(TreeFile, AHandMadeTreeComesBackWhole) {
-  const test::TemporaryFolder folder;
+/// Its leaves are all on rank 0.
+TreeRecord hand_made_tree() {
   TreeRecord tree;
   tree.attributes.trees_x = 2;
   tree.attributes.tree_edge = 0.5;
   tree.attributes.quads = 8;
   if (world().is_root()) tree.leaves = leaves();
+  return tree;
+}
+
+TEST(TreeFile, AHandMadeTreeComesBackWhole) {
+  const test::TemporaryFolder folder;
+  TreeRecord tree = hand_made_tree();
   write_tree(world(), tree, folder.file("a.tree.h5"));
   const TreeRecord read = read_tree(world(), folder.file("a.tree.h5"));
   EXPECT_EQ(read.attributes.tree_edge, 0.5);
@@ -147,11 +153,7 @@ TEST(TreeFile, AHandMadeTreeComesBackWhole) {
 
 TEST(TreeFile, AMeasuredWallComesBackOnEveryRank) {
   const test::TemporaryFolder folder;
-  TreeRecord tree;
-  tree.attributes.trees_x = 2;
-  tree.attributes.tree_edge = 0.5;
-  tree.attributes.quads = 8;
-  if (world().is_root()) tree.leaves = leaves();
+  TreeRecord tree = hand_made_tree();
   write_tree(world(), tree, folder.file("without.tree.h5"));
   EXPECT_TRUE(read_tree(world(), folder.file("without.tree.h5")).measured_wall.empty());
   tree.measured_wall = {{{0, 1}, {0.1, 1.5}, 1e5, 2e5}, {{0.1, 1.5}, {0.25, 2}, 2e5, 0}};
