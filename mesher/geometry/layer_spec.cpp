@@ -9,43 +9,55 @@ namespace {
 constexpr int layers_before_rise = 5;
 constexpr double rise = 1.05;
 
-/// Visits the heights over the first one, when the excess of each growth is scaled by `share`.
+/// Visits the heights over the first one, when the excess of each growth is scaled by `share`, and how fast
+/// they rise with it.
 template <class Visit>
 void for_relative_heights(const LayerSpec& spec, double share, const Visit& visit) {
-  double height = 1, growth = spec.growth;
+  double height = 1, slope = 0, growth = spec.growth;
   for (int layer = 0; layer < spec.count; ++layer) {
     if (layer >= spec.equal) {
-      height *= 1 + share * (growth - 1);
+      const double ratio = 1 + share * (growth - 1);
+      slope = slope * ratio + height * (growth - 1);
+      height *= ratio;
       if (layer - spec.equal + 1 >= layers_before_rise) growth = std::min(spec.growth_to, rise * growth);
     }
-    visit(height);
+    visit(height, slope);
   }
 }
 
 std::vector<double> relative_heights(const LayerSpec& spec, double share) {
   std::vector<double> heights;
   heights.reserve(spec.count);
-  for_relative_heights(spec, share, [&](double height) { heights.push_back(height); });
+  for_relative_heights(spec, share, [&](double height, double) { heights.push_back(height); });
   return heights;
 }
 
-double relative_thickness(const LayerSpec& spec, double share) {
-  double sum = 0;
-  for_relative_heights(spec, share, [&](double height) { sum += height; });
-  return sum;
+/// All layers over the first one, and how fast that rises with the share.
+struct Thickness {
+  double sum = 0, slope = 0;
+};
+
+Thickness relative_thickness(const LayerSpec& spec, double share) {
+  Thickness all;
+  for_relative_heights(spec, share, [&](double height, double slope) {
+    all.sum += height;
+    all.slope += slope;
+  });
+  return all;
 }
 
-/// The share of the growths by which the layers are so many times as thick as the first one.
+/// The share of the growths by which the layers are so many times as thick as the first one: Newton's method
+/// from 1 on, which comes down to it from above, as the thickness is a polynomial of the share with no
+/// negative coefficient.
 double share_for(const LayerSpec& spec, double thickness) {
-  if (relative_thickness(spec, 1) <= thickness) return 1;
-  constexpr int halvings = 80;
-  double low = 0, high = 1;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;  // no double between them: nothing would change any more
-    (relative_thickness(spec, middle) <= thickness ? low : high) = middle;
+  double share = 1;
+  for (;;) {
+    const auto [sum, slope] = relative_thickness(spec, share);
+    if (sum <= thickness || slope == 0) return share;
+    const double next = std::max(0.0, share - (sum - thickness) / slope);
+    if (next >= share) return share;
+    share = next;
   }
-  return low;
 }
 
 }  // namespace
@@ -56,7 +68,7 @@ std::vector<double> layer_heights(const LayerSpec& spec) {
   return heights;
 }
 
-double layers_thickness(const LayerSpec& spec) { return spec.first * relative_thickness(spec, 1); }
+double layers_thickness(const LayerSpec& spec) { return spec.first * relative_thickness(spec, 1).sum; }
 
 int layers_within(const LayerSpec& spec, double thickness, int most) {
   LayerSpec one_more = spec;
@@ -96,7 +108,7 @@ ColumnHeights column_heights(const LayerSpec& spec, double first, double length)
   const double share = share_for(spec, length / column.first);
   const std::vector<double> heights = relative_heights(spec, share);
   column.growth = 1 + share * (spec.growth - 1);
-  const double unit = length / relative_thickness(spec, share);  // takes away what bisection has left over
+  const double unit = length / relative_thickness(spec, share).sum;  // takes away what rounding has left over
   double reached = 0;
   for (const double height : heights) {
     reached += unit * height;

@@ -196,7 +196,7 @@ std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objec
   Star::Batch x, y;
   for (std::size_t k = 0; k < moved.size(); ++k) {
     const double step = k < shares.size() ? shares[k] * ahead : -shares[k - shares.size()] * back;
-    moved[k] = {places.at.loop, places.at.arc + step};
+    if (outlined) moved[k] = outline_->moved(places.at, step);
     const Point to = outlined ? outline_->point_at(moved[k]) : point(rail.before) + (back + step) * direction;
     x[k] = to.x;
     y[k] = to.y;
@@ -217,16 +217,16 @@ bool BoundarySlide::lies_on(NodeId node, std::span<const double> heights) const 
   // From the middle of one edge to that of the other: a neighbour at an end of the flagged segments lies on
   // one that is not.
   const double back = outline_->way(places.before, places.at), ahead = outline_->way(places.at, places.after);
-  const auto between = outline_->segments_between({places.at.loop, places.at.arc - back / 2},
-                                                  {places.at.loop, places.at.arc + ahead / 2});
+  const auto between = outline_->segments_between(outline_->moved(places.at, -back / 2),
+                                                  outline_->moved(places.at, ahead / 2));
   return !between.empty() && std::ranges::all_of(between, [&](std::int32_t s) { return heights[s] > 0; });
 }
 
 double BoundarySlide::height_at(const HaloEdge& edge, std::span<const double> heights) const {
   const auto chord = chord_of(edge);
   if (!chord) return 0;
-  const OutlinePlace middle{chord->from.loop, chord->from.arc + outline_->way(chord->from, chord->to) / 2};
-  return heights[outline_->segments_between(middle, middle).front()];
+  const double half_way = outline_->way(chord->from, chord->to) / 2;
+  return heights[outline_->moved(chord->from, half_way).segment];
 }
 
 double BoundarySlide::unevenness(NodeId node) const {
@@ -261,7 +261,7 @@ std::optional<Point> BoundarySlide::towards_middle(NodeId node, const Star& star
   if (beyond_ahead > 0) middle = std::max(middle, back + ahead - std::sqrt(beyond_ahead * back));
   const double step = step_to_middle * 2 * (middle - back);
   if (std::abs(step) <= even_enough * (ahead + back)) return std::nullopt;
-  const OutlinePlace moved{places.at.loop, places.at.arc + step};
+  const OutlinePlace moved = outline_->moved(places.at, step);
   const Point to = outline_->point_at(moved);
   const StarCost<1> now = star.cost(point(node), Objective::power), then = star.cost(to, Objective::power);
   const double flattest = std::max(cotangent_of_28, now.largest_cotangent[0]);

@@ -12,6 +12,7 @@ namespace quadloop {
 namespace {
 
 constexpr std::size_t most_vertices = 1000;  ///< that one chord may stand for
+constexpr int short_walk = 8;                ///< in segments: what lies farther off is searched
 
 }  // namespace
 
@@ -42,12 +43,32 @@ std::int32_t OutlinePath::segment_at(std::int32_t loop, double arc) const {
   return static_cast<std::int32_t>(std::upper_bound(first + 1, last, arc) - arc_.begin()) - 1;
 }
 
+bool OutlinePath::holds(std::int32_t segment, double arc) const {
+  const bool ends_loop = segment + 1 == geometry_.loop_start(geometry_.loop_of(segment) + 1);
+  return arc_[segment] <= arc && (ends_loop || arc < arc_[segment + 1]);
+}
+
+OutlinePlace OutlinePath::place_at(std::int32_t loop, double arc) const {
+  const double inside = within(loop, arc);
+  return {loop, inside, segment_at(loop, inside)};
+}
+
+OutlinePlace OutlinePath::moved(OutlinePlace from, double step) const {
+  const double arc = within(from.loop, from.arc + step);
+  std::int32_t s = from.segment;
+  for (int walked = 0; walked < short_walk; ++walked) {
+    if (holds(s, arc)) return {from.loop, arc, s};
+    s = step < 0 ? geometry_.previous(s) : geometry_.next(s);
+  }
+  return place_at(from.loop, arc);
+}
+
 /// The nearest segment of that boundary, the lowest of several; none where it is farther than `within`.
 OutlinePath::Nearest OutlinePath::nearest(Point p, const std::string& boundary, double within) const {
   Nearest found{-1, within};
   const Point reach{within, within};
   segments_.for_each_meeting({p - reach, p + reach}, [&](std::int32_t s) {
-    if (geometry_.boundary(geometry_.boundary_of(s)).name != boundary) return;
+    if (!is_of(s, boundary)) return;
     const double distance = distance_to_segment(p, geometry_.point(s), geometry_.point(geometry_.next(s)));
     if (distance > found.distance || (distance == found.distance && found.segment >= 0 && s > found.segment))
       return;
@@ -75,14 +96,13 @@ OutlinePlace OutlinePath::locate(Point p, const std::string& boundary, bool also
   }
   const Point a = geometry_.point(segment), b = geometry_.point(geometry_.next(segment));
   const std::int32_t loop = geometry_.loop_of(segment);
-  return {loop, within(loop, arc_[segment] + place_on_segment(p, a, b).parameter * length(b - a))};
+  const OutlinePlace start{loop, arc_[segment], segment};
+  return moved(start, place_on_segment(p, a, b).parameter * length(b - a));
 }
 
 Point OutlinePath::point_at(OutlinePlace place) const {
-  const double arc = within(place.loop, place.arc);
-  const std::int32_t s = segment_at(place.loop, arc);
-  const Point a = geometry_.point(s), b = geometry_.point(geometry_.next(s));
-  const double whole = length(b - a), along = arc - arc_[s];
+  const Point a = geometry_.point(place.segment), b = geometry_.point(geometry_.next(place.segment));
+  const double whole = length(b - a), along = place.arc - arc_[place.segment];
   return along >= whole ? b : a + (along / whole) * (b - a);
 }
 
@@ -91,32 +111,39 @@ double OutlinePath::way(OutlinePlace from, OutlinePlace to) const {
 }
 
 double OutlinePath::deviation(OutlinePlace from, Point a, OutlinePlace to, Point b) const {
-  const double end = way(from, to), start = within(from.loop, from.arc);
+  const double end = way(from, to);
   double deviation = 0;
-  std::int32_t v = geometry_.next(segment_at(from.loop, start));
+  std::int32_t v = geometry_.next(from.segment);
   for (std::size_t passed = 0; passed < most_vertices; ++passed, v = geometry_.next(v)) {
-    const double arc = way({from.loop, start}, {from.loop, arc_[v]});
+    const double arc = within(from.loop, arc_[v] - from.arc);
     if (arc >= end || (arc == 0 && passed > 0)) return deviation;
     deviation = std::max(deviation, distance_to_segment(geometry_.point(v), a, b));
   }
   return std::numeric_limits<double>::infinity();
 }
 
-/// Whether a segment is a part of the way between two places, or touches its ends a and b there.
-bool OutlinePath::belongs(std::int32_t segment, OutlinePlace from, Point a, OutlinePlace to, Point b) const {
-  if (geometry_.loop_of(segment) != from.loop) return false;
-  const std::int32_t first = segment_at(from.loop, within(from.loop, from.arc)),
-                     last = segment_at(to.loop, within(to.loop, to.arc));
-  if (segment == first || segment == last) return true;
-  if (segment == geometry_.previous(first) && length(geometry_.point(first) - a) <= tolerance_) return true;
-  if (segment == geometry_.next(last) && length(geometry_.point(segment) - b) <= tolerance_) return true;
-  return way(from, {from.loop, arc_[segment]}) <= way(from, to);
+OutlinePath::Part OutlinePath::part_of(const Chord& chord) const {
+  Part part;
+  part.way = way(chord.from, chord.to);
+  const std::int32_t first = chord.from.segment, after = geometry_.next(chord.to.segment);
+  if (length(geometry_.point(first) - chord.a) <= tolerance_) part.before = geometry_.previous(first);
+  if (length(geometry_.point(after) - chord.b) <= tolerance_) part.after = after;
+  return part;
+}
+
+/// Whether a segment is of the part that the chord stands for, or touches the chord's ends there.
+bool OutlinePath::belongs(std::int32_t segment, const Chord& chord, const Part& part) const {
+  if (segment == chord.from.segment || segment == chord.to.segment) return true;
+  if (segment == part.before || segment == part.after) return true;
+  const std::int32_t loop = chord.from.loop;
+  return geometry_.loop_of(segment) == loop && within(loop, arc_[segment] - chord.from.arc) <= part.way;
 }
 
 std::vector<std::int32_t> OutlinePath::met_elsewhere(const Chord& chord) const {
   std::vector<std::int32_t> met;
+  const Part part = part_of(chord);
   segments_.for_each_meeting(box_of(chord.a, chord.b), [&](std::int32_t s) {
-    if (belongs(s, chord.from, chord.a, chord.to, chord.b)) return;
+    if (belongs(s, chord, part)) return;
     if (segments_meet(chord.a, chord.b, geometry_.point(s), geometry_.point(geometry_.next(s))))
       met.push_back(s);
   });
@@ -127,25 +154,23 @@ bool OutlinePath::sweeps_over(const Chord& chord, Point apex) const {
   const Point a = chord.a, b = chord.b, c = apex;
   Box around = box_of(a, b);
   around.include(c);
+  const Part part = part_of(chord);
   return segments_.any_meeting(around, [&](std::int32_t s) {
     const Point v = geometry_.point(s);
+    if (!around.contains(v) || belongs(s, chord, part)) return false;
     const std::array<int, 3> turns{orientation(a, b, v), orientation(b, c, v), orientation(c, a, v)};
     const auto [least, most] = std::minmax_element(turns.begin(), turns.end());
-    const bool in_triangle = *least * *most >= 0 && (*least != 0 || *most != 0);
-    return in_triangle && !belongs(s, chord.from, a, chord.to, b);
+    return *least * *most >= 0 && (*least != 0 || *most != 0);
   });
 }
 
 std::vector<std::int32_t> OutlinePath::segments_between(OutlinePlace from, OutlinePlace to) const {
   std::vector<std::int32_t> segments;
-  const double start = within(from.loop, from.arc), end = within(to.loop, to.arc);
-  const std::int32_t last = segment_at(to.loop, end);
-  bool goes_round =
-      end < start;  // on the way over the loop's first vertex, perhaps back to the segment where it begins
-  for (std::int32_t s = segment_at(from.loop, start); segments.size() < most_vertices;
-       s = geometry_.next(s)) {
+  // On the way over the loop's first vertex, perhaps back to the segment where it begins.
+  const bool goes_round = to.arc < from.arc;
+  for (std::int32_t s = from.segment; segments.size() < most_vertices; s = geometry_.next(s)) {
     segments.push_back(s);
-    if (s == last && !(goes_round && segments.size() == 1)) return segments;
+    if (s == to.segment && !(goes_round && segments.size() == 1)) return segments;
   }
   return {};
 }

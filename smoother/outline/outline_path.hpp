@@ -10,10 +10,12 @@
 
 namespace quadloop {
 
-/// A place on the outline: a loop and the length walked along it from its first vertex.
+/// A place on the outline: a loop, the length walked along it from its first vertex, and the segment that
+/// holds it. OutlinePath makes them.
 struct OutlinePlace {
   std::int32_t loop = -1;
   double arc = 0;
+  std::int32_t segment = -1;
   bool valid() const { return loop >= 0; }
 };
 
@@ -35,7 +37,10 @@ class OutlinePath {
   /// The length that `on_outline` stands for.
   double tolerance() const { return tolerance_; }
 
-  /// The point at an arc, which may lie beyond the loop's ends by less than its length.
+  /// The place at an arc, which may lie beyond the loop's ends by less than its length.
+  OutlinePlace place_at(std::int32_t loop, double arc) const;
+  /// The place so far ahead of another, or behind it; quick for short steps.
+  OutlinePlace moved(OutlinePlace from, double step) const;
   Point point_at(OutlinePlace place) const;
 
   /// The way from one place to another of the same loop, walked with the domain to the left.
@@ -67,8 +72,18 @@ class OutlinePath {
   Nearest nearest(Point p, const std::string& boundary, double within) const;
   double loop_length(std::int32_t loop) const { return length_[loop]; }
   std::int32_t segment_at(std::int32_t loop, double arc) const;
+  bool holds(std::int32_t segment, double arc) const;
   double within(std::int32_t loop, double arc) const;
-  bool belongs(std::int32_t segment, OutlinePlace from, Point a, OutlinePlace to, Point b) const;
+  /// The part of the outline that a chord stands for.
+  struct Part {
+    std::int32_t before = -1, after = -1;  ///< segments that touch its ends, if any
+    double way = 0;                        ///< its length
+  };
+  Part part_of(const Chord& chord) const;
+  bool belongs(std::int32_t segment, const Chord& chord, const Part& part) const;
+  bool is_of(std::int32_t segment, const std::string& boundary) const {
+    return geometry_.boundary(geometry_.boundary_of(segment)).name == boundary;
+  }
 
   const Geometry& geometry_;
   std::vector<double> arc_;     ///< of each vertex, from its loop's first

@@ -80,7 +80,7 @@ TEST_F(OnABoxWithAHole, LocatesKeptVerticesOnlyWhenAsked) {
 
 TEST_F(OnABoxWithAHole, FindsThePointAtAnArc) {
   const auto expect_point = [&](double arc, Point expected) {
-    EXPECT_LT(length(path.point_at({0, arc}) - expected), rounding) << arc;
+    EXPECT_LT(length(path.point_at(path.place_at(0, arc)) - expected), rounding) << arc;
   };
   expect_point(0, {2, -0.2});
   expect_point(slope_length + 1.5, {4, 1.5});
@@ -88,14 +88,26 @@ TEST_F(OnABoxWithAHole, FindsThePointAtAnArc) {
   expect_point(-slope_length / 2, before);
   expect_point(box_length + slope_length / 2, after);
   expect_point(box_length, {2, -0.2});
-  EXPECT_EQ(path.point_at({1, 3.5}), (Point{1.5, 1}));
+  EXPECT_EQ(path.point_at(path.place_at(1, 3.5)), (Point{1.5, 1}));
 }
 
 TEST_F(OnABoxWithAHole, ComesBackToEachPlace) {
   constexpr int steps = 500;
   for (int k = 0; k < steps; ++k) {
-    const OutlinePlace place{0, box_length * (k + 0.5) / steps};
+    const OutlinePlace place = path.place_at(0, box_length * (k + 0.5) / steps);
     expect_place(box(path.point_at(place)), 0, place.arc);
+  }
+}
+
+TEST_F(OnABoxWithAHole, MovesToTheSegmentThatHoldsTheArc) {
+  for (int k = 0; k < 40; ++k) {
+    const OutlinePlace from = path.place_at(0, box_length * k / 40);
+    for (const double share : {-0.9, -0.2, -0.01, 0.0, 0.01, 0.2, 0.9}) {
+      const OutlinePlace to = path.moved(from, share * box_length);
+      const OutlinePlace expected = path.place_at(0, from.arc + share * box_length);
+      EXPECT_EQ(to.arc, expected.arc);
+      EXPECT_EQ(to.segment, expected.segment) << from.arc << " moved by " << share * box_length;
+    }
   }
 }
 
