@@ -68,7 +68,7 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
                        flow.alpha);
   ChosenSolver solver =
       chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
-  if (const auto* command = std::get_if<CommandSolver>(&solver)) require_solver_files(arguments, *command);
+  if (const CommandSolver* const command = command_of(solver)) require_solver_files(arguments, *command);
   AdaptiveCase adaptive{std::move(*input.mesh), adapt, std::move(solver), settings.formats, settings.values};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;

@@ -77,9 +77,10 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
     require_outputs(arguments.output);
     problem.settings = read_settings(arguments.case_path, arguments.assignments);
     if (problem.settings.solver.kind != SolverSettings::Kind::euler) {
-      throw InputError(arguments.case_path +
-                       ": 'solver.kind' is 'command', but 'quadloop solve' runs the built-in solver alone; "
-                       "set kind = \"euler\"");
+      throw InputError(
+          arguments.case_path +
+          ": 'solver.kind' is another program's, but 'quadloop solve' runs the built-in solver alone; "
+          "set kind = \"euler\"");
     }
     if (!context.comm.is_root()) return;
     require_possible_output(arguments.output);

@@ -10,6 +10,7 @@
 #include "io/msh/msh_file.hpp"
 #include "io/native/native_file.hpp"
 #include "io/su2/su2_csv_file.hpp"
+#include "io/su2/su2_dat_file.hpp"
 #include "io/su2/su2_file.hpp"
 #include "io/su2/su2_solid_file.hpp"
 #include "io/ugrid/ugrid_file.hpp"
@@ -99,7 +100,12 @@ const std::vector<FileFormat>& file_formats() {
                                                 .program = "SU2",
                                                 .places = {solution},
                                                 .read_solution = read_su2_csv,
-                                                .write_solution = write_su2_csv}};
+                                                .write_solution = write_su2_csv},
+                                               {.name = "dat",
+                                                .program = "SU2",
+                                                .places = {solution},
+                                                .read_solution = read_su2_dat,
+                                                .write_solution = write_su2_dat}};
   return formats;
 }
 

@@ -66,8 +66,10 @@ std::string CommandSolver::state() const {
   const FileFormat* format = format_of(mesh);
   const bool holds_state = format != nullptr && format->holds(Content::solution);
   if (holds_state) return mesh;
-  const auto& alone = *std::ranges::find_if(
-      file_formats(), [](const FileFormat& row) { return row.write_solution != nullptr; });
+  const auto writes_alone = [](const FileFormat& row) { return row.write_solution != nullptr; };
+  const FileFormat* const left = format_of(solution);
+  const FileFormat& alone =
+      left != nullptr && writes_alone(*left) ? *left : *std::ranges::find_if(file_formats(), writes_alone);
   return std::filesystem::path(mesh).replace_extension(alone.name).string();
 }
 

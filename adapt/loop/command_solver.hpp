@@ -19,8 +19,8 @@ struct CommandSolver {
   std::string case_folder;
   double gamma = 1.4;  ///< ratio of specific heats of the starting state, where its format wants it
 
-  /// The file that the starting state stands in: that of the mesh where its format has a place for it, else a
-  /// .csv beside it.
+  /// The file that the starting state stands in: that of the mesh where its format has a place for it, else
+  /// one beside it that holds nothing else, of the solution's format where that is such a one, or a .csv.
   std::string state() const;
 };
 

@@ -32,7 +32,7 @@ std::vector<std::string> all_formats(const std::vector<std::string>& of_case) {
 
 CycleFileOptions file_options(const AdaptiveCase& adaptive) {
   CycleFileOptions options{all_formats(adaptive.formats), {}, 1.4, record_of_case(adaptive)};
-  if (const auto* command = std::get_if<CommandSolver>(&adaptive.solver)) {
+  if (const CommandSolver* const command = command_of(adaptive.solver)) {
     options.read_by_solver = {command->mesh};
     options.gamma = command->gamma;
   } else {
@@ -43,8 +43,9 @@ CycleFileOptions file_options(const AdaptiveCase& adaptive) {
 
 FlowSolver solver_in(const CycleFolders& folders, const ChosenSolver& chosen) {
   if (const auto* options = std::get_if<EulerOptions>(&chosen)) return euler_solver(*options);
-  return command_solver(std::get<CommandSolver>(chosen),
-                        [&folders](int cycle) { return folders.under_way(cycle); });
+  const auto folder_of = [&folders](int cycle) { return folders.under_way(cycle); };
+  if (const auto* su2 = std::get_if<Su2Solver>(&chosen)) return su2_solver(*su2, folder_of);
+  return command_solver(std::get<CommandSolver>(chosen), folder_of);
 }
 
 /// What an earlier run's last whole cycle came to, by its files. A finished run is looked at too: whoever

@@ -56,6 +56,28 @@ void read_euler_keys(const CaseTable& table, EulerOptions& options) {
       table.number("reference_length", Range::positive()).value_or(options.reference_length);
 }
 
+SolverSettings::Kind kind_of(const CaseTable& table) {
+  const auto kind = table.choice("kind", {"euler", "command", "su2"});
+  if (kind == "command") return SolverSettings::Kind::command;
+  return kind == "su2" ? SolverSettings::Kind::su2 : SolverSettings::Kind::euler;
+}
+
+/// The user's configuration; its mesh and its solution have names of ours.
+void read_su2_keys(const CaseTable& table, SolverSettings& settings) {
+  if (settings.kind != SolverSettings::Kind::su2) {
+    if (table.has("template")) table.refuse("template", "does nothing here; it belongs to kind = \"su2\"");
+    return;
+  }
+  settings.config = table.text("template").value_or("");
+  if (settings.config.empty())
+    table.refuse("template",
+                 "is missing; kind = \"su2\" needs the configuration to run, as in template = \"flow.cfg\"");
+  for (const char* const key : {"mesh", "solution"}) {
+    if (table.has(key))
+      table.refuse(key, "does nothing here: with kind = \"su2\" both files have names of their own");
+  }
+}
+
 void read_command_keys(const CaseTable& table, SolverSettings& settings) {
   CommandSolver& command = settings.command;
   command.ranks = whole_number(table, "ranks", command.ranks);
@@ -80,9 +102,10 @@ void read_solver_table(const CaseTable& root, SolverSettings& settings) {
   const auto table = root.table("solver");
   if (!table) return;
   settings.given = true;
-  if (table->choice("kind", {"euler", "command"}) == "command") settings.kind = SolverSettings::Kind::command;
+  settings.kind = kind_of(*table);
   read_euler_keys(*table, settings.euler);
   read_command_keys(*table, settings);
+  read_su2_keys(*table, settings);
   table->finish();
 }
 
@@ -143,7 +166,10 @@ ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<Bou
   }
   CommandSolver solver = settings.command;
   solver.gamma = settings.euler.gamma;
-  solver.case_folder = std::filesystem::absolute(case_path).parent_path().string();
+  const std::filesystem::path folder = std::filesystem::absolute(case_path).parent_path();
+  solver.case_folder = folder.string();
+  if (settings.kind == SolverSettings::Kind::su2)
+    return su2_solver_of((folder / settings.config).string(), std::move(solver));
   return solver;
 }
 

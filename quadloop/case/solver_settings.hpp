@@ -26,12 +26,13 @@ struct WallTemperature {
 
 /// The case's table [solver], and what its boundary tables say to the solver alone.
 struct SolverSettings {
-  enum class Kind { euler, command };
+  enum class Kind { euler, command, su2 };
 
   Kind kind = Kind::euler;
   bool given = false;     ///< the case has the table
   EulerOptions euler;     ///< without the boundaries
   CommandSolver command;  ///< without the case's folder
+  std::string config;     ///< of SU2, as the case names it
   std::vector<OutflowPressure> pressures;
   std::vector<WallTemperature> wall_temperatures;
 };

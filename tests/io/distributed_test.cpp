@@ -12,6 +12,7 @@
 #include "io/native/native_file.hpp"
 #include "io/solution_file.hpp"
 #include "io/su2/su2_csv_file.hpp"
+#include "io/su2/su2_dat_file.hpp"
 #include "io/su2/su2_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "io/vtu/vtu_file.hpp"
@@ -130,6 +131,19 @@ TEST(Su2Csv, SameBytesOnAnyNumberOfRanksAndComesBack) {
   EXPECT_EQ(loaded.points, sample.mesh.points);
   EXPECT_EQ(loaded.solution.names, sample.solution.names);
   EXPECT_EQ(loaded.solution.values, sample.solution.values);
+}
+
+TEST(Su2Dat, SameBytesOnAnyNumberOfRanks) {
+  const TemporaryFolder folder;
+  const Sample sample;
+  OutputSet many(world());
+  write_su2_dat(many, sample.own, folder.file("many.dat"), sample.own_solution);
+  many.commit();
+  if (!world().is_root()) return;
+  OutputSet one(sample.alone);
+  write_su2_dat(one, sample.mesh, folder.file("one.dat"), sample.solution);
+  one.commit();
+  EXPECT_TRUE(test::bytes_of(folder.file("many.dat")) == test::bytes_of(folder.file("one.dat")));
 }
 
 TEST(CgnsFile, ComesBackAsTheNativeFileDoes) {

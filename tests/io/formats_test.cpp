@@ -13,7 +13,7 @@ using Names = std::vector<std::string>;
 
 TEST(Formats, AreListedByWhatTheyHold) {
   EXPECT_EQ(formats_for({}),
-            (Names{"mesh", "cgns", "vtu", "su2", "msh", "b8.ugrid", "lb8.ugrid", "polyMesh", "csv"}));
+            (Names{"mesh", "cgns", "vtu", "su2", "msh", "b8.ugrid", "lb8.ugrid", "polyMesh", "csv", "dat"}));
   EXPECT_EQ(formats_for({Content::solid}),
             (Names{"cgns", "vtu", "su2", "b8.ugrid", "lb8.ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh}), (Names{"mesh", "cgns", "vtu", "su2", "msh"}));
@@ -25,7 +25,7 @@ TEST(Formats, AreListedByWhatTheyHold) {
 
 TEST(Formats, StandInASentenceBySuffix) {
   EXPECT_EQ(suffixes_for({Content::mesh}), ".mesh, .cgns, .vtu, .su2 or .msh");
-  EXPECT_EQ(suffixes_for({Content::solution}, "and"), ".mesh, .cgns, .vtu and .csv");
+  EXPECT_EQ(suffixes_for({Content::solution}, "and"), ".mesh, .cgns, .vtu, .csv and .dat");
   EXPECT_EQ(suffixes_for({Content::conditions}), ".cgns");
 }
 

@@ -153,6 +153,13 @@ TEST(RunInFolder, AnotherCaseIsNotGoneOnWith) {
   EXPECT_THROW(heard.run(longer, folder.file("run"), false), InputError) << "the folder is not empty";
 }
 
+TEST(CommandSolver, TheStartingStateIsOfTheSolutionsFormatWhereItStandsAlone) {
+  CommandSolver solver;
+  solver.mesh = "a.su2";
+  solver.solution = "restart.dat";
+  EXPECT_EQ(solver.state(), "a.dat");
+}
+
 TEST(CommandSolver, TheStartingStateStandsWhereTheFormatHasAPlaceForIt) {
   CommandSolver solver;
   EXPECT_EQ(solver.state(), "mesh.mesh");

@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""The loop with SU2 as its solver, by a program that stands in for it (su2_stand_in.py): both kinds of restart files, a start from the flow carried over,
+forces from the history, the same files on any number of ranks; and the cases for SU2 ask for conditions on the boundaries that their meshes have.
+
+    run_su2.py --quadloop PROGRAM
+"""
+import argparse
+import json
+import sys
+import tempfile
+from pathlib import Path
+
+from adapt_runs import adapt, attempt, require, require_same_folders
+from quadloop_runs import ROOT
+
+STAND_IN = Path(__file__).resolve().parent / "su2_stand_in.py"
+CONFIG = """% A comment
+SOLVER= EULER
+MARKER_EULER= ( wedge, lid )
+MARKER_SUPERSONIC_INLET= ( inlet, 1.0 )
+MARKER_OUTLET= ( outlet, 1.0 )
+MESH_FILENAME= other.su2   % to be replaced
+OUTPUT_FILES= ( {files} )
+GAMMA_VALUE= 1.4
+"""
+
+
+def wedge_case(folder, files):
+    """The wedge with SU2 in the place of the built-in solver, few cycles."""
+    folder.mkdir()
+    given = ROOT / "cases" / "wedge"
+    for outline in given.glob("*.geom"):
+        (folder / outline.name).write_text(outline.read_text())
+    text = (given / "case.toml").read_text()
+    head = text[:text.index("[solver]")].replace("cycles = 5", "cycles = 3")
+    names = [line.split("[boundary.")[1].split("]")[0] for line in head.splitlines() if line.startswith("[boundary.")]
+    (folder / "flow.cfg").write_text(CONFIG.format(files=files).replace("( wedge, lid )", "( " + ", ".join(names) + " )"))
+    case = folder / "case.toml"
+    case.write_text(head + f"""[solver]
+kind = "su2"
+template = "flow.cfg"
+command = ["{sys.executable}", "{STAND_IN}", "su2.cfg"]
+""")
+    return case
+
+
+def check_cycles(made, restart, cycles):
+    records = [json.loads((made / f"cycle_{k:02d}" / "record.json").read_text()) for k in range(cycles + 1)]
+    require(records[-1]["nodes"] > 1.5 * records[0]["nodes"], f"the shock did not refine: {[r['nodes'] for r in records]}")
+    for k, record in enumerate(records):
+        folder = made / f"cycle_{k:02d}"
+        require(abs(record["cl"] - 0.301) < 1e-12 and abs(record["cd"] - 0.021) < 1e-12, f"cycle {k}: forces are not those of the history: {record}")
+        require(abs(record["residual"] / 1e-3 - 1) < 1e-12, f"cycle {k}: residual {record['residual']}")
+        require((folder / restart).exists(), f"cycle {k} has no {restart}")
+        log = (folder / "solver.log").read_text()
+        require(log == ("started from nothing\n" if k == 0 else "started from Density Momentum_x Momentum_y Energy\n"), f"cycle {k}: {log}")
+        head = next(line for line in (folder / "mesh.mesh").read_text().splitlines() if line.startswith("#names"))
+        require(head.split()[1:] == ["Density", "Momentum_x", "Momentum_y", "Energy", "x_velocity", "y_velocity", "pressure", "mach"], head)
+
+
+def check_refusals(program, folder):
+    case = wedge_case(folder / "refused", "PARAVIEW")
+    status, said = attempt(program, "adapt", case, "-o", folder / "out")
+    require(status == 1 and "flow.cfg: OUTPUT_FILES names neither RESTART" in said, f"{status} {said}")
+    config = folder / "refused" / "flow.cfg"
+    config.write_text("SOLVER= EULER\nSOLVER= RANS\n")
+    status, said = attempt(program, "adapt", case, "-o", folder / "out")
+    require(status == 1 and "flow.cfg:2: SOLVER is there twice" in said, f"{status} {said}")
+    config.unlink()
+    status, said = attempt(program, "adapt", case, "-o", folder / "out")
+    require(status == 1 and "flow.cfg" in said, f"{status} {said}")
+    text = case.read_text()
+    case.write_text(text.replace('template = "flow.cfg"\n', ""))
+    status, said = attempt(program, "adapt", case, "-o", folder / "out")
+    require(status == 1 and "'solver.template' is missing" in said, f"{status} {said}")
+    config.write_text(CONFIG.format(files="RESTART"))
+    case.write_text(text)
+    status, said = attempt(program, "adapt", case, "-o", folder / "out")
+    require(status == 3 and "has no condition" in said, f"a marker without a condition: {status} {said}")
+
+
+def check_cases(program, folder):
+    """Their configurations on their first meshes."""
+    for given in sorted((ROOT / "cases").glob("su2_*")):
+        command = json.dumps([sys.executable, str(STAND_IN), "su2.cfg"])
+        adapt(program, given / "case.toml", folder / given.name, options=["--cycles", "0", "--set", f"solver.command={command}"])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quadloop", type=Path, required=True)
+    program = parser.parse_args().quadloop.resolve()
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        for files, restart in (("RESTART, PARAVIEW", "restart.dat"), ("RESTART_ASCII", "restart.csv")):
+            case = wedge_case(folder / restart, files)
+            made = folder / f"made_{restart}"
+            adapt(program, case, made)
+            check_cycles(made, restart, 3)
+            adapt(program, case, folder / f"on_3_{restart}", ranks=3)
+            require_same_folders(made, folder / f"on_3_{restart}", "on 3 ranks")
+        check_refusals(program, folder)
+        check_cases(program, folder)
+    print("the loop with SU2's stand-in: both kinds of restart files, 1 and 3 ranks, refusals, cases")
+
+
+main()

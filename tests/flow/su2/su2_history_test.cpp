@@ -1,0 +1,35 @@
+// Forces and residual from SU2's history.
+#include "flow/su2/su2_history.hpp"
+
+#include <gtest/gtest.h>
+
+namespace quadloop {
+namespace {
+
+TEST(Su2History, ItsLastRowHasTheForces) {
+  const Su2End end = end_of_history(
+      "\"Inner_Iter\",   \"rms[Rho]\"   ,\"rms[P]\",   \"CD\"  ,  \"CL\"\n"
+      "0, -1.5, -3, 0.5, 0.25\n"
+      "1, -2.5, -4, 0.125, 0.375\n"
+      "2, -5.5, -9, 0.0625, 0.3125\n");
+  EXPECT_EQ(end.cl, 0.3125);
+  EXPECT_EQ(end.cd, 0.0625);
+  ASSERT_TRUE(end.residual);
+  EXPECT_NEAR(*end.residual, 1e-4, 1e-18) << "of the density where there are two";
+}
+
+TEST(Su2History, WithoutADensityThePressureTells) {
+  EXPECT_NEAR(end_of_history("rms[P]\n-1\n-3\n").residual.value_or(0), 1e-2, 1e-16);
+}
+
+TEST(Su2History, LeavesOutWhatItCannotRead) {
+  EXPECT_EQ(end_of_history("").cl, std::nullopt);
+  EXPECT_EQ(end_of_history("\"CL\"\n").cl, std::nullopt);
+  const Su2End end = end_of_history("\"CL\",\"CD\"\n1,2\n3,nan\n7\n");
+  EXPECT_EQ(end.cl, 3) << "of the last whole row";
+  EXPECT_EQ(end.cd, std::nullopt);
+  EXPECT_EQ(end.residual, std::nullopt);
+}
+
+}  // namespace
+}  // namespace quadloop
