@@ -46,7 +46,7 @@ std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& nam
   DistinctNames distinct;
   for (const char* used :
        {"", ".", "..", "ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "PENTA_6", "HEXA_8", "ZoneBC",
-        "ZoneGridConnectivity", "FlowSolution", "domain", "DataClass", "DimensionalUnits"}) {
+        "ZoneGridConnectivity", "FlowSolution", "domain", "DataClass", "DimensionalUnits", strips_descriptor}) {
     distinct.reserve(used);
   }
   std::vector<std::string> result;

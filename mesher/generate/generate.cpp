@@ -196,10 +196,10 @@ std::vector<std::string> warnings_of_strips(const LayerFront& front, double min)
     const Point at =
         strip.front[std::min<std::size_t>(least - strip.spacing.begin(), strip.front.size() - 1)];
     warnings.push_back(fmt::format(
-        "the layers of a [[wake]] or [[layer_line]] want cells of {:.3g} beside them at ({:.6g}, {:.6g}), "
+        "{}the layers of {} want cells of {:.3g} beside them at ({:.6g}, {:.6g}), "
         "smaller than spacing.min = {:.6g}: triangles there will be thin; make spacing.min smaller, "
         "or the layers thicker or fewer",
-        *least, at.x, at.y, min));
+        strip.place, strip.name, *least, at.x, at.y, min));
   }
   return warnings;
 }

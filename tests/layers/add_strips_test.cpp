@@ -9,6 +9,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/shape_statistics.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/layer_nodes.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/geometry/outlines.hpp"
 #include "tests/layers/walls.hpp"
@@ -34,7 +35,7 @@ Geometry body(double base) {
 
 LayerLine wake(const std::string& from = "body") {
   LayerLine line;
-  line.from = from;
+  line.from = {from};
   line.length = 3;
   line.spacing = 0.2;
   return line;
@@ -100,6 +101,53 @@ TEST(AddStrips, MeshesAreTheSameOnAnyNumberOfRanks) {
   }
 }
 
+TEST(AddStrips, TheMeshKnowsThemByTheirNames) {
+  const std::vector<Trial> all = trials();
+  for (const Trial& trial : all) {
+    for (const bool divided : {false, true}) {
+      const Made made(world(), trial.geometry, trial.lines, divided);
+      const std::vector<StripLayers>& strips = made.mesh.strips;
+      ASSERT_EQ(strips.size(), trial.lines.size());
+      for (std::size_t s = 0; s < strips.size(); ++s) {
+        const LayerStrip& strip = made.front.strips[s];
+        EXPECT_EQ(strips[s].name, strip.root ? "wake" : "layer_line");
+        EXPECT_EQ(strips[s].layers.count, layers.count);
+        EXPECT_NEAR(strips[s].layers.thickness, layers_thickness(layers), 1e-15);
+        ASSERT_EQ(strips[s].columns(), size32(strip.columns));
+        const Mesh whole = gather_whole(world(), made.mesh);
+        for (std::int32_t column = 0; world().is_root() && column < strips[s].columns(); ++column) {
+          for (std::int32_t row = 0; row < strips[s].across; ++row)
+            EXPECT_EQ(whole.points[strips[s].node(column, row).value()], strip.columns[column][row])
+                << column << ", " << row;
+        }
+      }
+    }
+  }
+}
+
+TEST(AddStrips, TheirCellsAreThoseOfLayersAndABaseIsTheWakes) {
+  for (const auto& [geometry, lines] : trials()) {
+    const Made made(world(), geometry, lines, false);
+    const LayerPlaces places = layer_places(world(), made.mesh);
+    std::int64_t cells = 0, feet = 0, strip_cells = 0, base_nodes = 0;
+    for (const auto& quad : made.mesh.quads) cells += is_layer_cell(places, quad) ? 1 : 0;
+    for (const auto& triangle : made.mesh.triangles) cells += is_layer_cell(places, triangle) ? 1 : 0;
+    for (const NodeId node : ids_below(NodeId{made.mesh.owned_nodes})) {
+      const LayerPlace& place = places[node];
+      feet += place.strip < 0 && on_layered_wall(made.mesh, place) ? 1 : 0;
+      base_nodes += place.strip >= 0 && made.mesh.point(node).x == 2 && made.mesh.point(node).y < 0.05 ? 1 : 0;
+    }
+    for (const StripLayers& strip : made.mesh.strips)
+      strip_cells += std::int64_t{strip.columns() - 1} * (strip.across - 1);
+    const Mesh whole = gather_whole(world(), made.mesh);
+    if (lines[0].from.empty() || lines.size() > 1) continue;
+    const int core = made.front.strips[0].core;
+    EXPECT_EQ(world().sum(base_nodes), std::max(0, core - 1));
+    EXPECT_GE(world().sum(cells), strip_cells + (world().sum(feet) - 2) * layers.count);
+    EXPECT_LE(world().sum(cells), strip_cells + (world().sum(feet) + 20) * layers.count);
+  }
+}
+
 TEST(AddStrips, WakesTakeAwayTheJumpsOfAreasAtEdges) {
   const Communicator self(MPI_COMM_SELF);
   const auto jump = [&](const std::vector<LayerLine>& lines) {
@@ -133,7 +181,7 @@ TEST(LayerFront, LinesThatMeetSomethingAreRefused) {
   EXPECT_NE(says({through}).find("meet boundary box"), std::string::npos);
   LayerLine across = free_line();
   across.path = {{3, -1}, {3, 1}};
-  EXPECT_NE(says({wake(), across}).find("[[wake]] or [[layer_line]] meet"), std::string::npos);
+  EXPECT_NE(says({wake(), across}).find("meet those of"), std::string::npos);
 }
 
 TEST(LayerFront, LinesOverABodyOrOutsideTheDomainAreRefused) {

@@ -45,6 +45,9 @@ class Strip {
  public:
   Strip(const PlacedLine& line, const std::optional<WakeRoot>& root)
       : line_{line}, path_{line.path}, thickness_{layers_thickness(line.layers)} {
+    strip_.name = line.name;
+    strip_.place = line.place;
+    strip_.asked = thickness_;
     strip_.root = root;
     strip_.layers = line.layers.count;
     if (!root) return;
