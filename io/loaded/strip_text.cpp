@@ -92,8 +92,8 @@ StripsInText strips_in_comments(std::string_view comments, std::int32_t nodes_of
   std::optional<Unfinished> under_way;
   const auto end = [&](bool damaged) {
     if (!under_way) return;
+    const bool good = !damaged && under_way->is_whole() && is_sound(under_way->strip, nodes_of_mesh);
     StripLayers strip = std::move(under_way->strip);
-    const bool good = !damaged && under_way->is_whole() && is_sound(strip, nodes_of_mesh);
     under_way.reset();
     if (good)
       found.strips.push_back(std::move(strip));
@@ -119,7 +119,8 @@ StripsInText strips_in_comments(std::string_view comments, std::int32_t nodes_of
 
 bool is_sound(const StripLayers& strip, std::int64_t nodes_of_mesh) {
   if (strip.layers.count < 1 || strip.across < 1 || strip.columns() < 2) return false;
-  if ((strip.across - 1) / 2 < strip.layers.count || std::ssize(strip.nodes) % strip.across != 0) return false;
+  if ((strip.across - 1) / 2 < strip.layers.count || std::ssize(strip.nodes) % strip.across != 0)
+    return false;
   std::vector<GlobalNodeId> sorted = strip.nodes;
   std::ranges::sort(sorted);
   return sorted.front().value() >= 0 && sorted.back().value() < nodes_of_mesh &&

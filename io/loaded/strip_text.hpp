@@ -8,9 +8,9 @@
 
 namespace quadloop {
 
-/// A strip as comments of a .mesh file tell of it: `# strip NAME COUNT THICKNESS ACROSS COLUMNS wake`, or `line`
-/// where it does not begin at a wall, then `# nodes 7-67 5 4` and so on: the nodes of its columns from 1 on, runs
-/// of numbers that follow each other upwards or downwards by their ends.
+/// A strip as comments of a .mesh file tell of it: `# strip NAME COUNT THICKNESS ACROSS COLUMNS wake`, or
+/// `line` where it does not begin at a wall, then `# nodes 7-67 5 4` and so on: the nodes of its columns from
+/// 1 on, runs of numbers that follow each other upwards or downwards by their ends.
 std::string comments_of(const StripLayers& strip);
 
 struct StripsInText {

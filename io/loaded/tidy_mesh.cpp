@@ -29,7 +29,9 @@ void move_row(Field& solution, std::size_t from, std::size_t to) {
 
 /// A strip with a node of no cell is none.
 void renumber_strips(const IdVector<NodeId, NodeId>& new_id, std::vector<StripLayers>& strips) {
-  const auto number = [&](GlobalNodeId node) { return new_id[NodeId{static_cast<std::int32_t>(node.value())}]; };
+  const auto number = [&](GlobalNodeId node) {
+    return new_id[NodeId{static_cast<std::int32_t>(node.value())}];
+  };
   std::erase_if(strips, [&](const StripLayers& strip) {
     return std::ranges::any_of(strip.nodes, [&](GlobalNodeId node) { return !number(node).valid(); });
   });

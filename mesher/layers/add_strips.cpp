@@ -346,8 +346,11 @@ GlobalNodeId StripBuilder::wall_node(const FilledStrip& strip, bool left, std::i
 StripLayers StripBuilder::layers_of(std::size_t s) const {
   const FilledStrip& filled = strips_[s];
   const LayerStrip& strip = filled.strip();
-  StripLayers layers{strip.name, {strip.layers, strip.asked}, strip.root.has_value(),
-                     static_cast<std::int32_t>(filled.rows() + 1), {}};
+  StripLayers layers{strip.name,
+                     {strip.layers, strip.asked},
+                     strip.root.has_value(),
+                     static_cast<std::int32_t>(filled.rows() + 1),
+                     {}};
   for (std::size_t column = 0; column < filled.columns(); ++column) {
     for (std::size_t row = 0; row <= filled.rows(); ++row)
       layers.nodes.push_back(node(s, {false, column, row}).id);

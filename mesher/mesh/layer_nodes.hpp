@@ -24,9 +24,9 @@ using LayerPlaces = IdVector<NodeId, LayerPlace>;  ///< of each node, copies too
 bool has_layers(const Mesh& mesh);
 
 /// The nodes of strips, and those of layers on walls, as edges alone tell: at most as many edges away from
-/// the wall as it has layers. The wall is that of the boundaries with layers, and of the boundaries which follow them up to
-/// the first corner of 45 to 135 degrees, as layers are made. Linear, but that each rank holds all boundary
-/// edges for a while. *Collective.*
+/// the wall as it has layers. The wall is that of the boundaries with layers, and of the boundaries which
+/// follow them up to the first corner of 45 to 135 degrees, as layers are made. Linear, but that each rank
+/// holds all boundary edges for a while. *Collective.*
 LayerPlaces layer_places(const Communicator& comm, const Mesh& mesh);
 
 /// The layers of the boundary or the strip in which a valid place is.

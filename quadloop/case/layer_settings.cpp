@@ -74,9 +74,10 @@ LayerLine read_wake(const CaseTable& table) {
   wake.from = table.texts("from");
   std::erase(wake.from, "");
   if (wake.from.empty())
-    table.refuse("from",
-                 "is missing: the boundary whose edge, sharp or blunt, the wake begins at, or a list of those "
-                 "that meet there");
+    table.refuse(
+        "from",
+        "is missing: the boundary whose edge, sharp or blunt, the wake begins at, or a list of those "
+        "that meet there");
   wake.path = read_path(table);
   const auto length = table.number("length", Range::positive());
   if (length.has_value() != wake.path.empty())

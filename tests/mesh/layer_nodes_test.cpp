@@ -52,7 +52,8 @@ Mesh with_strip(const LayeredStrip& grid) {
   Mesh mesh = grid.mesh();
   StripLayers strip{"wake", {1, 0.5}, false, 3, {}};
   for (std::int32_t i = 1; i <= 4; ++i) {
-    for (std::int32_t j = 0; j < 3; ++j) strip.nodes.push_back(mesh.global(grid.node(i, grid.layers + 1 + j)));
+    for (std::int32_t j = 0; j < 3; ++j)
+      strip.nodes.push_back(mesh.global(grid.node(i, grid.layers + 1 + j)));
   }
   mesh.strips = {strip};
   return mesh;

@@ -168,8 +168,8 @@ void OuterOutline::add_wake(std::int32_t i) {
   const double spacing = std::min(spacing_after(before), spacing_after(right));
   PlacedLine wake = *at;
   wake.layers = line_.spec(i).first < line_.spec(right).first ? line_.spec(i) : line_.spec(right);
-  strips_.push_back(
-      layer_strip(wake, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(*at), spacing, g_.boundary_of(at->edge)}));
+  strips_.push_back(layer_strip(wake, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(*at),
+                                               spacing, g_.boundary_of(at->edge)}));
   add_vertex(fitting_.front[i], strip_boundary(), WallLine::none, strips_.back().spacing[0], true, 0);
   add_front_of(strips_.back());
 }
@@ -277,9 +277,8 @@ void require_room(const LayerFront& front) {
   const Geometry& g = front.line.geometry();
   for (const LayerStrip& strip : front.strips) {
     if (!strip.root && !is_in_domain(g, strip.front[0]))
-      throw InputError(
-          fmt::format("{}{} lies outside of the domain, at ({}, {}); lead it elsewhere", strip.place, strip.name,
-                      strip.front[0].x, strip.front[0].y));
+      throw InputError(fmt::format("{}{} lies outside of the domain, at ({}, {}); lead it elsewhere",
+                                   strip.place, strip.name, strip.front[0].x, strip.front[0].y));
     const std::int32_t own = strip.root ? g.loop_of(front.line[strip.root->station].segment) : -1;
     for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
       const Point p = g.point(g.loop_start(loop));
@@ -304,9 +303,10 @@ const LayerStrip& strip_at(const LayerFront& front, std::int32_t s) {
   const LayerStrip& strip = strip_at(front, s);
   const BoundaryId boundary = front.outer.boundary_of(other);
   const bool itself = boundary == front.strip_boundary() && &strip_at(front, other) == &strip;
-  const std::string what = itself                                 ? "themselves"
-                           : boundary == front.strip_boundary() ? "those of " + strip_at(front, other).name
-                                                                  : "boundary " + front.outer.boundary(boundary).name;
+  const std::string what = itself ? "themselves"
+                           : boundary == front.strip_boundary()
+                               ? "those of " + strip_at(front, other).name
+                               : "boundary " + front.outer.boundary(boundary).name;
   throw InputError(fmt::format(
       "{}the layers of {} meet {} at ({}, {}); lead it elsewhere, or make it shorter or its spacing smaller",
       strip.place, strip.name, what, front.outer.point(s).x, front.outer.point(s).y));

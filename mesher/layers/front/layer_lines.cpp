@@ -34,8 +34,7 @@ class WakeWall {
       if (found == g.boundaries().end())
         throw InputError(fmt::format("{}: the geometry has no boundary '{}'", said, name));
       if (!found->layers)
-        throw InputError(
-            fmt::format("{}: boundary '{}' has no layers to go on; give it some", said, name));
+        throw InputError(fmt::format("{}: boundary '{}' has no layers to go on; give it some", said, name));
       has_[BoundaryId{size32(std::vector<char>(found - g.boundaries().begin()))}] = 1;
     }
   }
@@ -94,11 +93,11 @@ Edge edge_of(const Geometry& g, const WakeWall& wall, const std::string& said) {
   const std::vector<Edge> edges = edges_of(g, wall);
   if (edges.size() == 1) return edges[0];
   if (edges.empty())
-    throw InputError(
-        fmt::format("{}: there is no edge, sharp (a turn of more than 120 degrees) or blunt (two of more than "
-                    "50 close together); where several boundaries meet at it, name them all: from = [\"a\", "
-                    "\"b\"]",
-                    said));
+    throw InputError(fmt::format(
+        "{}: there is no edge, sharp (a turn of more than 120 degrees) or blunt (two of more than "
+        "50 close together); where several boundaries meet at it, name them all: from = [\"a\", "
+        "\"b\"]",
+        said));
   const Point one = g.point(edges[0].first), other = g.point(edges[1].first);
   throw InputError(
       fmt::format("{}: there are {} edges, at ({}, {}) and ({}, {}) for two; give each a boundary of its own",
@@ -132,7 +131,8 @@ void place_wake(const Geometry& g, const LayerLine& line, PlacedLine& placed) {
   placed.base_end = last;
   placed.path = std::move(path);
   placed.layers = *g.boundary(g.boundary_of(first)).layers;
-  const Boundary &before = g.boundary(g.boundary_of(g.previous(first))), &after = g.boundary(g.boundary_of(last));
+  const Boundary &before = g.boundary(g.boundary_of(g.previous(first))),
+                 &after = g.boundary(g.boundary_of(last));
   if (before.layers->count != after.layers->count)
     throw InputError(fmt::format("{}: boundary {} asks for {} layers and {} for {}; give them one count",
                                  said(placed, line), before.name, before.layers->count, after.name,

@@ -69,8 +69,7 @@ std::vector<Point> places_between(Point from, Point to, double thickness, double
     for (int part = 1; part < parts; ++part) places.push_back(lerp(from, to, part, parts));
     return places;
   }
-  const std::vector<double> distances =
-      widening_distances(whole / 2, thickness, spacing / stations_per_cell);
+  const std::vector<double> distances = widening_distances(whole / 2, thickness, spacing / stations_per_cell);
   const std::size_t half = distances.size() - 1;
   for (std::size_t k = 0; k < half; ++k) places.push_back(from + (distances[k] / whole) * (to - from));
   places.push_back(0.5 * (from + to));

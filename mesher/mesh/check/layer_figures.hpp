@@ -17,9 +17,10 @@ struct Spread {
   double least = 0, median = 0, largest = 0;
 };
 
-/// The layers of one boundary or strip, measured. A column is the nodes above a node of the wall, the nearest first
-/// and then the straightest on; at a sharp edge, where many rise, one of them. A strip's column counts once and is measured on both
-/// sides of its line, behind a blunt edge of the lines on which the rows between its sides end.
+/// The layers of one boundary or strip, measured. A column is the nodes above a node of the wall, the nearest
+/// first and then the straightest on; at a sharp edge, where many rise, one of them. A strip's column counts
+/// once and is measured on both sides of its line, behind a blunt edge of the lines on which the rows between
+/// its sides end.
 struct LayerFigures {
   std::string boundary;  ///< or the strip's name
   std::int32_t count = 0;

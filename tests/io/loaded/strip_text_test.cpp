@@ -18,8 +18,7 @@ StripLayers strip_of(const std::string& name, bool from_wall) {
 TEST(StripText, ReadsBackWhatItWrites) {
   const StripLayers wake = strip_of("wake_1", true), line = strip_of("layer_line", false);
   const std::string text = comments_of(wake);
-  EXPECT_EQ(text,
-            "# strip wake_1 2 0.30000000000000004 5 2 wake\n# nodes 8-6 21-22 11 31-33 41\n");
+  EXPECT_EQ(text, "# strip wake_1 2 0.30000000000000004 5 2 wake\n# nodes 8-6 21-22 11 31-33 41\n");
   const StripsInText found = strips_in_comments("# another comment\n" + text + comments_of(line), 41);
   EXPECT_EQ(found.strips, (std::vector{wake, line}));
   EXPECT_TRUE(found.damaged.empty());

@@ -57,9 +57,9 @@ TEST(TidyMesh, DropsNodesOfNoCellWithTheirRows) {
   loaded.solution = Field{{"a", "b"}, {}, {}};
   for (int i = 0; i < 22; ++i) loaded.solution->values.push_back(i);
   const auto strip = [](std::vector<int> nodes) {
-    StripLayers strip{"wake", {1, 0.5}, false, 3, {}};
-    for (const int node : nodes) strip.nodes.emplace_back(node);
-    return strip;
+    StripLayers made{"wake", {1, 0.5}, false, 3, {}};
+    for (const int node : nodes) made.nodes.emplace_back(node);
+    return made;
   };
   mesh.strips = {strip({0, 1, 3, 4, 5, 6}), strip({0, 1, 2, 4, 5, 6})};
   tidy_mesh(loaded, "m.mesh");

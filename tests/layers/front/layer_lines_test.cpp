@@ -30,7 +30,8 @@ LayerLine wake_of(const std::string& name) {
 TEST(PlaceLines, AWakeGoesStraightOnFromASharpEdge) {
   const Geometry g = test::rhombus_with_layers(layers, 0.25);
   LayerLine wake = wake_of("body");
-  EXPECT_NE(test::refusal([&] { place_lines(g, {wake}); }).find("there are 2 edges, at ("), std::string::npos);
+  EXPECT_NE(test::refusal([&] { place_lines(g, {wake}); }).find("there are 2 edges, at ("),
+            std::string::npos);
   const std::vector<PlacedLine> placed = place_lines(wedge(0), {wake_of("wedge")});
   ASSERT_EQ(placed.size(), 1U);
   ASSERT_EQ(placed[0].path.size(), 2U);
@@ -65,16 +66,18 @@ TEST(PlaceLines, APathIsFollowedAsItIsGiven) {
 
 /// That body as two boundaries, which meet at its edge.
 Geometry halves(double base) {
-  std::vector<Point> upper{{-1, 0.5}, {0, 0.5}, {2, base / 2}}, lower{{0, -0.5}, {-1, -0.5}};
-  if (base > 0) lower.insert(lower.begin(), {2, -base / 2});
-  return test::outline_of(
-      {{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}}, {{"upper", upper, layers}, {"lower", lower, layers}}});
+  std::vector<Point> upper{{-1, 0.5}, {0, 0.5}};
+  if (base > 0) upper.push_back({2, base / 2});
+  const std::vector<Point> lower{{2, -base / 2}, {0, -0.5}, {-1, -0.5}};
+  return test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
+                           {{"upper", upper, layers}, {"lower", lower, layers}}});
 }
 
 TEST(PlaceLines, AWakeMayBeginWhereTwoBoundariesMeet) {
   LayerLine wake = wake_of("upper");
-  EXPECT_NE(test::refusal([&] { place_lines(halves(0), {wake}); }).find("name them all: from = [\"a\", \"b\"]"),
-            std::string::npos);
+  EXPECT_NE(
+      test::refusal([&] { place_lines(halves(0), {wake}); }).find("name them all: from = [\"a\", \"b\"]"),
+      std::string::npos);
   wake.from = {"upper", "lower"};
   for (const double base : {0.0, 0.1}) {
     const Geometry g = halves(base);
@@ -101,8 +104,9 @@ TEST(PlaceLines, LinesAreNamedByTheirKindAndNumber) {
 TEST(PlaceLines, OneEdgeHasOneWake) {
   LayerLine second = wake_of("wedge");
   second.where = "case.toml:9";
-  EXPECT_EQ(test::refusal([&] { place_lines(wedge(0.1), {wake_of("wedge"), second}); })
-                .find("case.toml:9: wake_2 begins at the edge at (2, 0), and so does wake_1"),
+  EXPECT_EQ(test::refusal([&] {
+              place_lines(wedge(0.1), {wake_of("wedge"), second});
+            }).find("case.toml:9: wake_2 begins at the edge at (2, 0), and so does wake_1"),
             0U);
 }
 

@@ -155,7 +155,8 @@ TEST_F(SettingsTest, AMisspeltKeyThatIsNeededIsUnknownAndNotMissing) {
             "case.toml:4: unknown key 'boundary.box.layers.cuont'; do you mean 'count'?");
   EXPECT_EQ(refused("[[wake]]\nfrom = \"box\"\nlenght = 3\nspacing = 1\n"),
             "case.toml:5: unknown key 'wake.0.lenght'; do you mean 'length'?");
-  EXPECT_EQ(refused("[[wake]]\nfrm = \"box\"\n"), "case.toml:4: unknown key 'wake.0.frm'; do you mean 'from'?");
+  EXPECT_EQ(refused("[[wake]]\nfrm = \"box\"\n"),
+            "case.toml:4: unknown key 'wake.0.frm'; do you mean 'from'?");
 }
 
 TEST_F(SettingsTest, ReadsWakesAndFreeLinesWithLayers) {
