@@ -204,6 +204,16 @@ std::vector<std::string> warnings_of_strips(const LayerFront& front, double min)
   return warnings;
 }
 
+/// The estimate is of the mesh outside: with the cells of strips, which are known by now.
+void add_strips_to(const LayerFront& front, bool divided, MeshEstimate& estimate) {
+  for (const LayerStrip& strip : front.strips) {
+    const double cells =
+        static_cast<double>(strip.columns.size() - 1) * (2.0 * strip.layers + strip.core) * (divided ? 2 : 1);
+    estimate.cells += cells;
+    estimate.layer_cells += cells;
+  }
+}
+
 GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
                                const DemandedSplits& demanded, const MeasuredWall& measured) {
   StageTimes times;
@@ -214,6 +224,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   times.end();
   GeneratedMesh generated = OutsideMesh(comm, input, demanded, front).made();
   add_dropped(dropped, generated.result.report);
+  add_strips_to(front, input.mesh.type == MeshType::delaunay, generated.result.report.estimate);
   times.append(generated.times);
   times.begin("layers");
   generated.layers = report_layers(comm, front, generated.result.mesh);

@@ -235,6 +235,11 @@ class Strip {
 
 }  // namespace
 
+StripSize least_size(const PlacedLine& line) {
+  const double columns = std::ceil(Path(line.path).length() / line.spacing);  // none is wider
+  return {columns, columns * 2 * line.layers.count};
+}
+
 LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root) {
   return Strip(line, root).built();
 }

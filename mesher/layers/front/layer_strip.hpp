@@ -38,6 +38,12 @@ struct LayerStrip {
   std::array<std::size_t, 4> corners{};
 };
 
+/// How many cells a line's strip has at least, and how many columns: known without building it.
+struct StripSize {
+  double columns = 0, cells = 0;
+};
+StripSize least_size(const PlacedLine& line);
+
 /// Layers open downstream of a wake's root, by 1.15 from column to column at the line itself and by a tenth
 /// of the distance in all, and towards free ends, where they are as high as they are wide; columns are
 /// `spacing` apart where they are far from ends.
