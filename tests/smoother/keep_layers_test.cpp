@@ -139,5 +139,22 @@ TEST(BlocksForFlips, AreOneEachInLayersAndAsTheyWereElsewhere) {
   for (const std::int32_t block : all) EXPECT_LT(block, 0);
 }
 
+TEST(BlocksForFlips, AreOneEachBesideStripsToo) {
+  Mesh whole = triangles.mesh();
+  StripLayers strip{"wake", {1, 2}, false, 3, {}};
+  for (std::int32_t i = 2; i <= 6; ++i) {
+    for (std::int32_t j = 4; j <= 6; ++j) strip.nodes.push_back(whole.global(triangles.node(i, j)));
+  }
+  whole.strips = {strip};
+  const Mesh mesh = spread(whole);
+  const LayerPlaces places = layer_places(world(), mesh);
+  const std::vector<std::int32_t> blocks = blocks_for_flips(world(), mesh, places, {});
+  for (std::size_t t = 0; t < blocks.size(); ++t) {
+    const auto& nodes = mesh.triangles[t];
+    const bool beside = std::ranges::any_of(nodes, [&](NodeId n) { return places[n].strip >= 0; });
+    EXPECT_EQ(blocks[t] < 0, beside || is_layer_cell(places, nodes)) << t;
+  }
+}
+
 }  // namespace
 }  // namespace quadloop
