@@ -184,6 +184,16 @@ TEST(AddStrips, ABaseIsDividedByRowsOfItsOwn) {
   EXPECT_NEAR(std::accumulate(lengths.begin(), lengths.end(), 0.0), 0.1, 1e-12);
 }
 
+TEST(AddStrips, ABendTooSharpForTheLayersIsRefusedByName) {
+  LayerLine bent = free_line();
+  bent.path = {{-5, -5}, {-4.13, -5}, {-4.13, -4.28}};
+  bent.layers = LayerSpec{0.0072, 1.25, 1.25, 16};
+  bent.where = "case.toml:9";
+  const std::string message = test::refusal([&] { Made(world(), body(0), {bent}, false); });
+  EXPECT_EQ(message.find("case.toml:9: layer_line, near (-"), 0U) << message;
+  EXPECT_NE(message.find("gentler bends"), std::string::npos) << message;
+}
+
 TEST(LayerFront, LinesThatMeetSomethingAreRefused) {
   LayerLine through = wake();
   through.length = 20;
