@@ -11,6 +11,7 @@
 
 #include "io/formats.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/layer_nodes.hpp"
 
 namespace quadloop {
 
@@ -38,8 +39,7 @@ void append_losses(const FileFormat& format, const Mesh& mesh, const Field* solu
       std::any_of(boundaries.begin(), boundaries.end(),
                   [](const BoundaryEdges& b) { return b.condition != "none"; }))
     losses.push_back(path + ": this format has no place for boundary conditions, which are left out");
-  if (!format.holds(Content::layers) &&
-      std::ranges::any_of(boundaries, [](const BoundaryEdges& b) { return b.layers.count > 0; }))
+  if (!format.holds(Content::layers) && has_layers(mesh))
     losses.push_back(path + ": this format has no place for the number of layers, which is left out");
 }
 

@@ -20,8 +20,18 @@ bool is_stretched(const Mesh& mesh, const Nodes& nodes) {
   return longest > stretched_like_layers * shortest;
 }
 
+/// A file of an earlier version does not tell of strips.
+bool may_have_unnamed_strips(const Mesh& mesh) { return has_layers(mesh) && mesh.strips.empty(); }
+
+/// The triangles that join a strip to the cells outside are none that flips would make.
+bool touches_strip(const LayerPlaces& places, const std::array<NodeId, 3>& nodes) {
+  return std::ranges::any_of(nodes, [&](NodeId node) { return places[node].strip >= 0; });
+}
+
 /// The nodes of this rank's stretched cells. *Collective.*
 NodeFlags nodes_of_stretched(const Communicator& comm, const Mesh& mesh) {
+  NodeFlags flags(mesh.points.size(), 0);
+  if (!may_have_unnamed_strips(mesh)) return flags;
   std::vector<GlobalNodeId> nodes;
   const auto look_at = [&](const auto& cell) {
     if (!is_stretched(mesh, cell)) return;
@@ -29,7 +39,6 @@ NodeFlags nodes_of_stretched(const Communicator& comm, const Mesh& mesh) {
   };
   for (const auto& cell : mesh.triangles) look_at(cell);
   for (const auto& cell : mesh.quads) look_at(cell);
-  NodeFlags flags(mesh.points.size(), 0);
   flag_at_owners(comm, NodeOwners(comm, mesh.first_node), nodes, flags);
   return flags;
 }
@@ -40,12 +49,14 @@ std::vector<std::int32_t> blocks_for_flips(const Communicator& comm, const Mesh&
                                            const LayerPlaces& places,
                                            const std::vector<std::int32_t>& given) {
   constexpr std::int64_t different = std::numeric_limits<std::int32_t>::max();
-  const bool any = has_layers(mesh);
+  const bool looks_at_shapes = may_have_unnamed_strips(mesh);
   std::vector<std::int32_t> blocks = given;
   blocks.resize(mesh.triangles.size(), 0);
   std::int64_t number = comm.exclusive_sum(std::ssize(mesh.triangles));
   for (std::size_t t = 0; t < blocks.size(); ++t, ++number) {
-    if (is_layer_cell(places, mesh.triangles[t]) || (any && is_stretched(mesh, mesh.triangles[t])))
+    const auto& nodes = mesh.triangles[t];
+    if (is_layer_cell(places, nodes) || touches_strip(places, nodes) ||
+        (looks_at_shapes && is_stretched(mesh, nodes)))
       blocks[t] = static_cast<std::int32_t>(-1 - number % different);
   }
   return blocks;

@@ -14,7 +14,7 @@ void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, co
 /// Throws InputError on all ranks unless the mesh can be the one that the tree was saved with: as many nodes
 /// and cells, and each leaf's cells within two leaf sizes of it, which snapping, flips and smoothing keep;
 /// but for cells in layers, which belong to leaves on the front, and nodes that all lie where they lay will
-/// do there, as layers behind walls are not told from the strips of wakes. Elsewhere bytes do not count:
+/// do there, as files of earlier versions do not tell of the strips of wakes. Elsewhere bytes do not count:
 /// other formats round. `shown` names the mesh, `tree` the tree. *Collective.*
 void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,
                       const std::string& tree);

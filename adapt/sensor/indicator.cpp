@@ -18,7 +18,7 @@ T change(std::span<const T> of_nodes, NodeId from, NodeId to) {
 }
 
 /// The edges that tell whether a leaf is to be split: not those across layers, which stay as high as the case
-/// asks for, however narrow their columns get.
+/// asks for, however narrow their columns get, and none within strips, whose columns stay too.
 class TellingEdges {
  public:
   /// *Collective.*
@@ -28,7 +28,8 @@ class TellingEdges {
   bool tells(NodeId from, NodeId to) const {
     if (places_.empty()) return true;
     const LayerPlace &a = places_[from], &b = places_[to];
-    return !a.valid() || !b.valid() || a.left == b.left;
+    if (!a.valid() || !b.valid()) return true;
+    return a.left == b.left && (a.strip < 0 || b.strip < 0);
   }
 
  private:

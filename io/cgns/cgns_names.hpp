@@ -9,6 +9,8 @@ namespace quadloop {
 inline constexpr const char* full_name_descriptor = "FullName";
 /// And of that with the number and thickness of a boundary's layers.
 inline constexpr const char* layers_descriptor = "Layers";
+/// And of that of a zone which tells of strips, as comments_of() does.
+inline constexpr const char* strips_descriptor = "Strips";
 
 /// For each name one that CGNS can hold: at most 32 characters, no '/', none twice and none that the zone or
 /// the base already uses. The same names always give the same answer.

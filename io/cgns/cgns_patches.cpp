@@ -5,6 +5,7 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_sink.hpp"
 #include "io/loaded/layers_text.hpp"
+#include "io/loaded/strip_text.hpp"
 
 namespace quadloop {
 
@@ -55,6 +56,12 @@ void CgnsPatches::put(std::span<const BoundaryStream::Edge> edges) {
     ends.push_back(static_cast<cgsize_t>(to + 1));
   }
   put(std::span<const cgsize_t>(ends));
+}
+
+void CgnsPatches::put_strips(const std::vector<StripLayers>& strips) {
+  std::string text;
+  for (const StripLayers& strip : strips) text += comments_of(strip);
+  if (!text.empty()) nodes_.add_text(zone_, strips_descriptor, "Descriptor_t", text);
 }
 
 void CgnsPatches::close() {

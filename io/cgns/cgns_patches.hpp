@@ -33,6 +33,9 @@ class CgnsPatches {
   void put(std::span<const cgsize_t> nodes) { elements_->put(nodes); }
   void put(std::span<const BoundaryStream::Edge> edges);
 
+  /// Strips by their nodes, as a descriptor of the zone.
+  void put_strips(const std::vector<StripLayers>& strips);
+
   void close();
 
  private:

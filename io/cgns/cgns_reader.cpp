@@ -14,6 +14,7 @@
 #include "io/files/separate_reader.hpp"
 #include "io/loaded/layers_text.hpp"
 #include "io/loaded/pass_mesh.hpp"
+#include "io/loaded/strip_text.hpp"
 #include "io/text/name_index.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
@@ -77,6 +78,7 @@ class ZoneReader {
     loaded_.triangle_to_block.resize(loaded_.mesh.triangles.size(), block);
     loaded_.quad_to_block.resize(loaded_.mesh.quads.size(), block);
     read_boundaries();
+    read_strips(block);
     read_solution();
   }
 
@@ -247,10 +249,21 @@ class ZoneReader {
     edges.edges.push_back(*edge);
   }
 
-  /// The text of the boundary's last descriptor of this name, if it has one.
+  /// Meshes of several zones have none.
+  void read_strips(std::int32_t block) {
+    file_.check(cg_goto(file_.id(), base_, "Zone_t", zone_, "end"));
+    const auto text = block > 0 ? std::nullopt : descriptor_here(strips_descriptor);
+    loaded_.mesh.strips = strips_in_comments(text.value_or(""), static_cast<std::int32_t>(nodes_)).strips;
+  }
+
   std::optional<std::string> descriptor(int boundary, const std::string& name) const {
-    int descriptors = 0;
     file_.check(cg_goto(file_.id(), base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", boundary, "end"));
+    return descriptor_here(name);
+  }
+
+  /// The text of the last descriptor of this name below the node that was gone to, if it has one.
+  std::optional<std::string> descriptor_here(const std::string& name) const {
+    int descriptors = 0;
     file_.check(cg_ndescriptors(&descriptors));
     std::optional<std::string> result;
     for (int d = 1; d <= descriptors; ++d) {

@@ -88,7 +88,10 @@ class CgnsWriter {
           sink->put_condition(name, *boundary, EdgeCenter);
         },
         [&](std::span<const BoundaryStream::Edge> edges) { sink->put(edges); });
-    on_root([&] { sink->close(); });
+    on_root([&] {
+      sink->put_strips(mesh_.strips);
+      sink->close();
+    });
   }
 
  private:

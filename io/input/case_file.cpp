@@ -269,7 +269,21 @@ std::string CaseTable::full_name(const std::string& key) const {
 }
 
 void CaseTable::refuse(const std::string& key, const std::string& message) const {
+  if (!as_table(table_).contains(key)) refuse_slip_for(key);
   throw InputError(fmt::format("{}: '{}' {}", place(key), full_name(key), message));
+}
+
+/// The key that is missing may stand there misspelt.
+void CaseTable::refuse_slip_for(const std::string& key) const {
+  std::vector<std::string> unasked;
+  for (const auto& [name, node] : as_table(table_)) {
+    if (std::ranges::find(*known_, name.str()) == known_->end()) unasked.emplace_back(name.str());
+  }
+  for (const std::string& name : unasked) {
+    if (nearest_word(name, {key}).empty()) continue;
+    throw InputError(
+        fmt::format("{}: unknown key '{}'{}", place(name), full_name(name), guess_for(name, {key})));
+  }
 }
 
 CaseTable read_case(const std::string& path, const std::vector<std::string>& assignments) {

@@ -64,9 +64,12 @@ class CaseTable {
   std::vector<std::pair<std::string, std::string>> values(const std::vector<std::string>& without) const;
   /// The dotted name of a key.
   std::string full_name(const std::string& key) const;
+  /// Of a key that is absent, if one that nobody has asked for is a slip for it: that this is unknown.
   [[noreturn]] void refuse(const std::string& key, const std::string& message) const;
 
  private:
+  void refuse_slip_for(const std::string& key) const;
+
   std::shared_ptr<Data> data_;
   const void* table_;
   std::string path_;

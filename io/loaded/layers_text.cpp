@@ -8,18 +8,13 @@
 
 namespace quadloop {
 
-namespace {
-
-/// The next word of the text, which loses it.
 std::string_view next_word(std::string_view& text) {
-  const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
+  const std::size_t begin = std::min(text.find_first_not_of(" \t\r"), text.size());
   text.remove_prefix(begin);
-  const std::string_view word = text.substr(0, text.find_first_of(" \t"));
+  const std::string_view word = text.substr(0, text.find_first_of(" \t\r"));
   text.remove_prefix(word.size());
   return word;
 }
-
-}  // namespace
 
 std::string text_of_layers(const WallLayers& layers) {
   std::array<char, 32> number{};

@@ -7,6 +7,9 @@
 
 namespace quadloop {
 
+/// The next word of the text, which loses it; empty at its end.
+std::string_view next_word(std::string_view& text);
+
 /// Count and thickness as files keep them, "30 0.0118": the shortest text that reads back to the same double.
 std::string text_of_layers(const WallLayers& layers);
 

@@ -10,10 +10,15 @@ void pass_fields(Pipe& pipe, BoundaryEdges& boundary) {
   pass(pipe, boundary.name, boundary.condition, boundary.edges, boundary.layers);
 }
 
+template <class Pipe>
+void pass_fields(Pipe& pipe, StripLayers& strip) {
+  pass(pipe, strip.name, strip.layers, strip.from_wall, strip.across, strip.nodes);
+}
+
 /// A whole mesh: without copies of other ranks' nodes.
 template <class Pipe>
 void pass_fields(Pipe& pipe, Mesh& mesh) {
-  pass(pipe, mesh.points, mesh.owned_nodes, mesh.triangles, mesh.quads, mesh.boundaries);
+  pass(pipe, mesh.points, mesh.owned_nodes, mesh.triangles, mesh.quads, mesh.boundaries, mesh.strips);
 }
 
 template <class Pipe>

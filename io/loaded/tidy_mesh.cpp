@@ -27,6 +27,19 @@ void move_row(Field& solution, std::size_t from, std::size_t to) {
     std::copy_n(solution.values.begin() + from * width, width, solution.values.begin() + to * width);
 }
 
+/// A strip with a node of no cell is none.
+void renumber_strips(const IdVector<NodeId, NodeId>& new_id, std::vector<StripLayers>& strips) {
+  const auto number = [&](GlobalNodeId node) {
+    return new_id[NodeId{static_cast<std::int32_t>(node.value())}];
+  };
+  std::erase_if(strips, [&](const StripLayers& strip) {
+    return std::ranges::any_of(strip.nodes, [&](GlobalNodeId node) { return !number(node).valid(); });
+  });
+  for (StripLayers& strip : strips) {
+    for (GlobalNodeId& node : strip.nodes) node = GlobalNodeId{number(node).value()};
+  }
+}
+
 /// A node that a boundary edge alone names is kept: that edge is a fault, not the node.
 std::size_t drop_unused_nodes(LoadedMesh& loaded) {
   Mesh& mesh = loaded.mesh;
@@ -42,6 +55,7 @@ std::size_t drop_unused_nodes(LoadedMesh& loaded) {
   const std::size_t dropped = mesh.points.size() - kept;
   if (dropped == 0) return 0;
   for_each_named_node(mesh, [&](NodeId& node) { node = new_id[node]; });
+  renumber_strips(new_id, mesh.strips);
   mesh.points.resize(kept);
   mesh.owned_nodes = kept;
   if (loaded.solution) loaded.solution->values.resize(kept * loaded.solution->names.size());

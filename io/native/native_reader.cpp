@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "io/loaded/layers_text.hpp"
+#include "io/loaded/strip_text.hpp"
 #include "io/native/native_file.hpp"
 #include "io/text/name_index.hpp"
 #include "io/text/text_scanner.hpp"
@@ -19,6 +20,7 @@ class NativeReader {
     read_nodes();
     read_blocks();
     read_boundaries();
+    read_strips();
     if (!scan_.at_end()) read_solution();
     if (!scan_.at_end()) {
       const std::string found(scan_.token("").substr(0, 40));
@@ -101,6 +103,17 @@ class NativeReader {
     const std::string head = "# layers " + name + " ";
     const std::string_view comment = scan_.last_comment_with(head);
     return comment.starts_with(head) ? layers_of_text(comment.substr(head.size())) : WallLayers{};
+  }
+
+  /// From comments behind the boundaries.
+  void read_strips() {
+    scan_.forget_comments();
+    scan_.at_end();
+    const StripsInText found = strips_in_comments(scan_.passed_over(), loaded_.mesh.owned_nodes);
+    loaded_.mesh.strips = found.strips;
+    for (const std::string& name : found.damaged)
+      loaded_.warnings.push_back(scan_.path() + ": the comment '# strip " + name +
+                                 "' does not list the nodes of a strip; its cells are taken for others");
   }
 
   /// What stands in the brackets of "#Number of edges for boundary 1 (name)".

@@ -1,6 +1,7 @@
 #include <span>
 
 #include "io/loaded/layers_text.hpp"
+#include "io/loaded/strip_text.hpp"
 #include "io/native/native_file.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/mesh/variable_names.hpp"
@@ -92,6 +93,7 @@ class NativeWriter {
           text.put(edge[0] + 1, ' ');
           text.put(edge[1] + 1, '\n');
         });
+    for (const StripLayers& strip : mesh_.strips) file_.write(comments_of(strip));
   }
 
   static std::string layers_text(const BoundaryEdges& boundary) {

@@ -44,6 +44,8 @@ class TextScanner {
   /// The comment passed over last that contains `text`, since the last forget_comments(); empty where there
   /// was none.
   std::string_view last_comment_with(std::string_view text) const;
+  /// All that was passed over since then: comments alone, if no token was read.
+  std::string_view passed_over() const { return {comments_begin_, at_}; }
   void forget_comments() { comments_begin_ = at_; }
 
   /// Refuses with the line of the token read last.

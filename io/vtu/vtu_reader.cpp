@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "io/loaded/foreign_mesh.hpp"
+#include "io/loaded/strip_text.hpp"
 #include "io/vtu/vtu_arrays.hpp"
 #include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_file.hpp"
@@ -108,6 +109,14 @@ class VtuReader {
     for (const std::string& name : boundary_names_) foreign_.boundary_named(name);  // in their order
     for (const std::string& name : block_names_) foreign_.block_named(name);
     read_layers();
+    if (const VtuArray* array = document_.find("FieldData", vtu_strips)) read_strips(*array);
+  }
+
+  void read_strips(const VtuArray& array) {
+    std::string texts;
+    for (const std::string& text : numbers_.texts(array)) texts += text + "\n";
+    foreign_.loaded.mesh.strips =
+        strips_in_comments(texts, static_cast<std::int32_t>(document_.points)).strips;
   }
 
   /// Of our own files; numbers that are no counts are passed over.

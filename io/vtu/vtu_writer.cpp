@@ -1,5 +1,6 @@
 #include <span>
 
+#include "io/loaded/strip_text.hpp"
 #include "io/text/text_output.hpp"
 #include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_file.hpp"
@@ -66,7 +67,13 @@ class VtuWriter {
     const std::vector<char> first = counts.take(), second = thicknesses.take();
     return tag("Int32", vtu_layer_counts) + std::string(first.begin(), first.end()) + "</DataArray>\n" +
            tag("Float64", vtu_layer_thicknesses) + std::string(second.begin(), second.end()) +
-           "</DataArray>\n";
+           "</DataArray>\n" + strip_array();
+  }
+
+  std::string strip_array() const {
+    std::vector<std::string> texts;
+    for (const StripLayers& strip : mesh_.strips) texts.push_back(comments_of(strip));
+    return texts.empty() ? std::string() : vtu_text_array(vtu_strips, texts);
   }
 
   void write_points() {
@@ -151,7 +158,7 @@ class VtuWriter {
       return on_layered_wall(mesh_, places[NodeId{static_cast<std::int32_t>(i)}]);
     };
     write_reals(vtu_layer_height_asked, [&](std::size_t i) {
-      return at_wall(i) ? mesh_.boundaries[places.begin()[i].boundary].layers.thickness : 0;
+      return at_wall(i) ? layers_at(mesh_, places.begin()[i]).thickness : 0;
     });
     write_reals(vtu_layer_height, [&](std::size_t i) { return at_wall(i) ? heights.begin()[i] : 0; });
   }

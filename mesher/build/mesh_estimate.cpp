@@ -20,12 +20,21 @@ constexpr double hybrid_cells_of_leaf = 1.12, triangles_of_leaf = 2.05;
 constexpr double of_leaf = 90, of_cut_leaf = 1400, of_hybrid_cell = 80, of_delaunay_triangle = 200;
 // On every rank, the program itself too.
 constexpr double of_segment = 210, of_program = 28 * 0x1p20;
+constexpr double of_station = 300;  // a segment of a front, beside that
 
 /// Points that the mesh must keep: each beyond the first of a leaf makes a triangle more.
 double kept_points(const Geometry& geometry) {
   double kept = 0;
   for (std::int32_t v = 0; v < geometry.size(); ++v) kept += geometry.kept(v) ? 1 : 0;
   return kept;
+}
+
+/// Segments of a front, from each of which a column could rise.
+double stations_of(const Geometry& geometry) {
+  double stations = 0;
+  for (std::int32_t s = 0; s < geometry.size(); ++s)
+    stations += geometry.boundary(geometry.boundary_of(s)).layers ? 1 : 0;
+  return stations;
 }
 
 /// Cells of the layers that are to stand below the front: a column on each of its edges, which are as long as
@@ -57,7 +66,7 @@ MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain&
   estimate.cells += estimate.layer_cells;
   estimate.bytes = of_leaf * leaves.all() + of_cut_leaf * leaves.cut +
                    (delaunay ? of_delaunay_triangle : of_hybrid_cell) * estimate.cells;
-  estimate.bytes_of_rank = of_program + of_segment * geometry.size();
+  estimate.bytes_of_rank = of_program + of_segment * geometry.size() + of_station * stations_of(geometry);
   return estimate;
 }
 

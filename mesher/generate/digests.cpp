@@ -1,5 +1,8 @@
 #include "mesher/generate/digests.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <bit>
 #include <optional>
 #include <variant>
@@ -41,7 +44,8 @@ class WordDigest {
     }
   }
   void add(const LayerLine& line) {
-    const auto& [from, path, length, spacing, layers] = line;
+    const auto& [names, path, length, spacing, layers, where] = line;
+    const std::string from = fmt::format("{}", fmt::join(names, "\n"));
     add(from.size());
     for (const unsigned char byte : from) add(std::uint64_t{byte});
     add(path.size());

@@ -196,12 +196,22 @@ std::vector<std::string> warnings_of_strips(const LayerFront& front, double min)
     const Point at =
         strip.front[std::min<std::size_t>(least - strip.spacing.begin(), strip.front.size() - 1)];
     warnings.push_back(fmt::format(
-        "the layers of a [[wake]] or [[layer_line]] want cells of {:.3g} beside them at ({:.6g}, {:.6g}), "
+        "{}the layers of {} want cells of {:.3g} beside them at ({:.6g}, {:.6g}), "
         "smaller than spacing.min = {:.6g}: triangles there will be thin; make spacing.min smaller, "
         "or the layers thicker or fewer",
-        *least, at.x, at.y, min));
+        strip.place, strip.name, *least, at.x, at.y, min));
   }
   return warnings;
+}
+
+/// The estimate is of the mesh outside: with the cells of strips, which are known by now.
+void add_strips_to(const LayerFront& front, bool divided, MeshEstimate& estimate) {
+  for (const LayerStrip& strip : front.strips) {
+    const double cells =
+        static_cast<double>(strip.columns.size() - 1) * (2.0 * strip.layers + strip.core) * (divided ? 2 : 1);
+    estimate.cells += cells;
+    estimate.layer_cells += cells;
+  }
 }
 
 GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
@@ -214,6 +224,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   times.end();
   GeneratedMesh generated = OutsideMesh(comm, input, demanded, front).made();
   add_dropped(dropped, generated.result.report);
+  add_strips_to(front, input.mesh.type == MeshType::delaunay, generated.result.report.estimate);
   times.append(generated.times);
   times.begin("layers");
   generated.layers = report_layers(comm, front, generated.result.mesh);

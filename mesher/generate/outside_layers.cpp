@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
 
+#include "mesher/base/error.hpp"
 #include "mesher/build/islands.hpp"
+#include "mesher/build/mesh_estimate.hpp"
 #include "mesher/build/outline_losses.hpp"
 
 namespace quadloop {
@@ -28,7 +33,32 @@ Geometry geometry_with_layers(const MeshInput& input, MeshReport& dropped) {
   return kept;
 }
 
+namespace {
+
+/// Before they are built. Their nodes are on every rank for a while.
+void require_strips_within(const std::vector<PlacedLine>& lines, const MeshLimit& limit) {
+  constexpr double of_cell = 200, of_cell_on_rank = 100;  // bytes
+  constexpr double most = std::numeric_limits<std::int32_t>::max() / 4.0;
+  for (const PlacedLine& line : lines) {
+    const auto [columns, cells] = least_size(line);
+    const double bytes = (of_cell + limit.ranks * of_cell_on_rank) * cells;
+    if (cells <= std::min(limit.cells, most) && bytes <= limit.bytes) continue;
+    const std::string allowed = cells > limit.cells   ? fmt::format("--max-cells allows {:.0f}", limit.cells)
+                                : bytes > limit.bytes ? text_of_bytes(limit.bytes) + " are free"
+                                                      : "no mesh holds so many";
+    throw TooManyCells(
+        fmt::format("{}the layers of {} would have {} cells or more, in {} columns, {} of memory, but {}; "
+                    "make it shorter, "
+                    "or its spacing of {:g} larger",
+                    line.place, line.name, text_of_cells(cells), text_of_cells(columns), text_of_bytes(bytes),
+                    allowed, line.spacing));
+  }
+}
+
+}  // namespace
+
 LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredWall& measured) {
+  require_strips_within(place_lines(geometry, input.lines), input.mesh.limit);
   return layer_front(geometry, input.mesh.size.curvature, input.lines, measured);
 }
 

@@ -16,7 +16,8 @@ bool wants_y_plus(const Geometry& geometry);
 /// `dropped`. Throws InputError where a boundary that may not vanish does.
 Geometry geometry_with_layers(const MeshInput& input, MeshReport& dropped);
 
-/// The front of an input's layers on such a geometry, which must outlive it.
+/// The front of an input's layers on such a geometry, which must outlive it. Throws TooManyCells, naming the
+/// line, where strips would have more cells than the input allows.
 LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredWall& measured);
 
 /// The same input for the domain outside the layers, in the same root.

@@ -201,6 +201,7 @@ class StripBuilder {
       }
     });
     mesh_.boundaries.pop_back();
+    for (std::size_t s = 0; s < strips_.size(); ++s) mesh_.strips.push_back(layers_of(s));
   }
 
  private:
@@ -216,6 +217,7 @@ class StripBuilder {
   void exchange_numbers();
   GrownNode node(std::size_t strip, const FilledStrip::Corner& c) const;
   static GlobalNodeId wall_node(const FilledStrip& strip, bool left, std::int32_t ring);
+  StripLayers layers_of(std::size_t s) const;
   void add_base(std::size_t s);
   void add_cells(std::size_t s);
 
@@ -340,12 +342,28 @@ GlobalNodeId StripBuilder::wall_node(const FilledStrip& strip, bool left, std::i
   return GlobalNodeId{top.value() + (left || strip.strip().core > 0 ? 1 + ring : ring)};
 }
 
+/// As the mesh keeps it.
+StripLayers StripBuilder::layers_of(std::size_t s) const {
+  const FilledStrip& filled = strips_[s];
+  const LayerStrip& strip = filled.strip();
+  StripLayers layers{strip.name,
+                     {strip.layers, strip.asked},
+                     strip.root.has_value(),
+                     static_cast<std::int32_t>(filled.rows() + 1),
+                     {}};
+  for (std::size_t column = 0; column < filled.columns(); ++column) {
+    for (std::size_t row = 0; row <= filled.rows(); ++row)
+      layers.nodes.push_back(node(s, {false, column, row}).id);
+  }
+  return layers;
+}
+
 /// The wall's edges behind a blunt edge.
 void StripBuilder::add_base(std::size_t s) {
   const FilledStrip& strip = strips_[s];
   const FrontEdge& edge = strip.front()[strip.anchor(0)];
   if (strip.strip().core == 0 || edge.rank != comm_.rank()) return;
-  const BoundaryId wall = front_.line[strip.strip().root->station].layers;
+  const BoundaryId wall = strip.strip().root->base_boundary;
   for (std::size_t row = strip.rows() - strip.strip().layers;
        row > static_cast<std::size_t>(strip.strip().layers); --row)
     grown_->add_edge(wall.value(), edge.leaf, node(s, {false, 0, row}), node(s, {false, 0, row - 1}));
@@ -353,6 +371,8 @@ void StripBuilder::add_base(std::size_t s) {
 
 void StripBuilder::add_cells(std::size_t s) {
   const FilledStrip& strip = strips_[s];
+  grown_->begin_cells_of(strip.strip().place + strip.strip().name + ", ",
+                         "lead it in gentler bends, or ask for thinner layers");
   const auto has = [&](std::int32_t edge) { return strip.front()[edge].rank == comm_.rank(); };
   for (std::size_t k = 0; k + 1 < strip.columns(); ++k) {
     const FrontEdge& edge = strip.front()[strip.anchor(k + 1)];

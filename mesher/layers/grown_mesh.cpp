@@ -41,7 +41,7 @@ void GrownMesh::add_cell(std::int32_t leaf, std::span<const GrownNode> corners) 
   for (std::size_t k = 0; k < n; ++k) {
     use(corners[k]);
     const Point a = corners[k].point, b = corners[(k + 1) % n].point, c = corners[(k + 2) % n].point;
-    if (orientation(a, b, c) <= 0 && !bad_) bad_ = b;
+    if (orientation(a, b, c) <= 0 && !bad_) bad_ = {b, whose_, cure_};
   }
   if (n == 3) return add_triangle(leaf, corners[0], corners[1], corners[2]);
   if (!divide_) {
@@ -70,9 +70,8 @@ void GrownMesh::keep_edge(std::size_t boundary, std::int32_t leaf, const std::ar
 void GrownMesh::refuse_bad_cells() const {
   comm_.together([&] {
     if (bad_)
-      throw InputError(fmt::format(
-          "near ({}, {}): a cell of the layers would be inverted; ask for a smaller spacing there", bad_->x,
-          bad_->y));
+      throw InputError(fmt::format("{}near ({}, {}): a cell of the layers would be inverted; {}", bad_->whose,
+                                   bad_->corner.x, bad_->corner.y, bad_->cure));
   });
 }
 

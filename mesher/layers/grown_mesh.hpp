@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
@@ -38,6 +39,8 @@ class GrownMesh {
   /// The first of the nodes behind it; the others follow.
   GlobalNodeId first_behind(NodeId before) const { return GlobalNodeId{after_[before].value() + 1}; }
 
+  /// What the refusal of a bad cell begins with, and what it advises, of those added from now on.
+  void begin_cells_of(const std::string& whose, const std::string& cure) { whose_ = whose, cure_ = cure; }
   /// Of three corners or four, counter-clockwise.
   void add_cell(std::int32_t leaf, std::span<const GrownNode> corners);
   void add_edge(std::size_t boundary, std::int32_t leaf, const GrownNode& from, const GrownNode& to);
@@ -83,7 +86,12 @@ class GrownMesh {
   std::vector<OfLeaf<3>> triangles_;
   std::vector<OfLeaf<4>> quads_;
   std::vector<std::vector<OfLeaf<2>>> edges_;
-  std::optional<Point> bad_;
+  struct BadCell {
+    Point corner;
+    std::string whose, cure;
+  };
+  std::string whose_, cure_ = "ask for a smaller spacing there";
+  std::optional<BadCell> bad_;
 };
 
 }  // namespace quadloop

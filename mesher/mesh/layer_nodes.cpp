@@ -90,7 +90,9 @@ class BestOfAll {
   NodeExchange exchange_;
 };
 
+/// A node in a strip stays there.
 bool deeper(const LayerPlace& a, const LayerPlace& b) {
+  if (b.strip >= 0) return false;
   return a.left != b.left ? a.left > b.left : a.boundary < b.boundary;
 }
 
@@ -106,6 +108,30 @@ void spread(const Neighbours& neighbours, std::vector<NodeId> from, LayerPlaces&
       if (!deeper(beyond, places[other])) continue;
       places[other] = beyond;
       from.push_back(other);
+    }
+  }
+}
+
+/// The nodes of strips that this rank has; those of a wall's own columns are the wall's.
+void place_strips(const Mesh& mesh, LayerPlaces& places) {
+  if (mesh.strips.empty()) return;
+  std::unordered_map<GlobalNodeId, NodeId> copies;
+  for (const NodeId node : ids_between(NodeId{mesh.owned_nodes}, NodeId{size32(mesh.points)}))
+    copies.emplace(mesh.global(node), node);
+  const auto local = [&](GlobalNodeId node) {
+    const std::int64_t offset = node.value() - mesh.first_node;
+    if (0 <= offset && offset < mesh.owned_nodes) return NodeId{static_cast<std::int32_t>(offset)};
+    const auto found = copies.find(node);
+    return found == copies.end() ? NodeId{} : found->second;
+  };
+  for (std::int32_t s = 0; s < size32(mesh.strips); ++s) {
+    const StripLayers& strip = mesh.strips[s];
+    for (std::int32_t column = 0; column < strip.columns(); ++column) {
+      for (std::int32_t row = 0; row < strip.across; ++row) {
+        if (strip.is_walls(column, row)) continue;
+        const NodeId node = local(strip.node(column, row));
+        if (node.valid()) places[node] = {std::min(row, strip.across - 1 - row), -1, s};
+      }
     }
   }
 }
@@ -137,7 +163,8 @@ std::vector<NodeId> from_front(const LayerPlaces& places) {
 }  // namespace
 
 bool has_layers(const Mesh& mesh) {
-  return std::ranges::any_of(mesh.boundaries, [](const BoundaryEdges& b) { return b.layers.count > 0; });
+  return !mesh.strips.empty() ||
+         std::ranges::any_of(mesh.boundaries, [](const BoundaryEdges& b) { return b.layers.count > 0; });
 }
 
 LayerPlaces layer_places(const Communicator& comm, const Mesh& mesh) {
@@ -145,6 +172,7 @@ LayerPlaces layer_places(const Communicator& comm, const Mesh& mesh) {
   if (!has_layers(mesh)) return places;
   const Neighbours neighbours(mesh);
   const BestOfAll<LayerPlace> best(comm, mesh, deeper);
+  place_strips(mesh, places);
   for (std::vector<NodeId> news = wall_nodes(comm, mesh, places);;) {
     spread(neighbours, news, places);
     news = best.share(places);
@@ -165,7 +193,8 @@ IdVector<NodeId, double> heights_to_front(const Communicator& comm, const Mesh& 
   const auto edge = [&](NodeId a, NodeId b) { return length(points[b.value()] - points[a.value()]); };
   do {
     for (const NodeId node : nodes) {
-      const LayerPlace beyond{places[node].left - 1, places[node].boundary};
+      const LayerPlace& place = places[node];
+      const LayerPlace beyond{place.left - 1, place.boundary, place.strip};
       if (!beyond.valid()) heights[node] = 0;
       for (const NodeId other : neighbours.of(node)) {
         if (places[other] != beyond) continue;

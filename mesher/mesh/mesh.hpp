@@ -26,6 +26,28 @@ struct BoundaryEdges {
   WallLayers layers = {};
 };
 
+/// Layers on both sides of a line within the domain, as a wake has them: the nodes of the columns across it,
+/// the same on every rank.
+struct StripLayers {
+  std::string name;
+  WallLayers layers;       ///< on either side of the line
+  bool from_wall = false;  ///< the line begins at a wall: its first column is made of two of the wall's own
+  /// Nodes of a column: 2 layers.count + 1, and behind a blunt edge one more for each row between both sides.
+  std::int32_t across = 0;
+  std::vector<GlobalNodeId> nodes;  ///< column after column along the line, each from its right to its left
+
+  std::int32_t columns() const { return across > 0 ? size32(nodes) / across : 0; }
+  GlobalNodeId node(std::int32_t column, std::int32_t row) const {
+    return nodes[static_cast<std::size_t>(column) * across + row];
+  }
+  /// Whether the node there is one of the wall's own column.
+  bool is_walls(std::int32_t column, std::int32_t row) const {
+    return from_wall && column == 0 && (row <= layers.count || row >= across - 1 - layers.count);
+  }
+
+  friend bool operator==(const StripLayers&, const StripLayers&) = default;
+};
+
 using NodeFlags = IdVector<NodeId, char>;  ///< for each node 1 or 0
 
 /// One rank's part of a mesh of triangles and quadrilaterals. Cells are counter-clockwise. Nodes are owned by
@@ -43,6 +65,7 @@ struct Mesh {
   std::vector<std::array<NodeId, 3>> triangles;
   std::vector<std::array<NodeId, 4>> quads;
   std::vector<BoundaryEdges> boundaries;
+  std::vector<StripLayers> strips;
 
   bool owns(NodeId node) const { return node.value() < owned_nodes; }
   const Point& point(NodeId node) const { return points[node.value()]; }

@@ -112,6 +112,35 @@ std::vector<BoundaryEdges> broadcast_boundaries(const Communicator& comm, const 
   return boundaries;
 }
 
+/// The root's strips on every rank, their nodes by their numbers in the order.
+std::vector<StripLayers> broadcast_strips(const Communicator& comm, const Mesh& whole,
+                                          const NodeNumbers& numbers) {
+  struct Shape {
+    WallLayers layers;
+    std::int32_t across = 0;
+    bool from_wall = false;
+  };
+  std::vector<std::string> names;
+  std::vector<Shape> shapes;
+  for (const StripLayers& strip : whole.strips) {
+    names.push_back(strip.name);
+    shapes.push_back({strip.layers, strip.across, strip.from_wall});
+  }
+  names = broadcast_words(comm, names);
+  comm.broadcast(shapes);
+  std::vector<StripLayers> strips;
+  for (std::size_t s = 0; s < shapes.size(); ++s) {
+    StripLayers strip{names[s], shapes[s].layers, shapes[s].from_wall, shapes[s].across, {}};
+    if (comm.is_root()) {
+      for (const GlobalNodeId node : whole.strips[s].nodes)
+        strip.nodes.push_back(numbers[NodeId{static_cast<std::int32_t>(node.value())}]);
+    }
+    comm.broadcast(strip.nodes);
+    strips.push_back(std::move(strip));
+  }
+  return strips;
+}
+
 /// Makes a rank's part from what it was sent: its nodes, and cells that name nodes over all ranks.
 class PartBuilder {
  public:
@@ -212,6 +241,7 @@ Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& 
   builder.add_cells(scatter_cells(comm, whole.quads, order.quads, numbers), builder.part().quads);
   builder.part().boundaries = broadcast_boundaries(comm, whole);
   builder.add_edges(scatter_edges(comm, whole, numbers));
+  builder.part().strips = broadcast_strips(comm, whole, numbers);
   return builder.finish(comm);
 }
 
@@ -259,6 +289,7 @@ Mesh gather_whole(const Communicator& comm, const Mesh& part) {
     const auto edges = gather_cells(comm, part, boundary.edges);
     whole.boundaries.push_back({boundary.name, boundary.condition, whole_cells(edges), boundary.layers});
   }
+  whole.strips = part.strips;
   return whole;
 }
 

@@ -50,8 +50,8 @@ Field gather_field(const Communicator& comm, const Field& field, const MeshOrder
 /// Puts the parts' positions and cells back into their places in the whole mesh on the root. *Collective.*
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole);
 
-/// A distributed mesh whole on the root, nodes and cells in their global order, with its boundaries;
-/// elsewhere one without nodes. *Collective.*
+/// A distributed mesh whole on the root, nodes and cells in their global order, with its boundaries and
+/// strips; elsewhere one without nodes. *Collective.*
 Mesh gather_whole(const Communicator& comm, const Mesh& part);
 
 /// Even shares of the root's values, in the order of ranks. *Collective.*

@@ -70,8 +70,14 @@ double read_line_spacing(const CaseTable& table) {
 
 LayerLine read_wake(const CaseTable& table) {
   LayerLine wake;
-  wake.from = table.text("from").value_or("");
-  if (wake.from.empty()) table.refuse("from", "is missing: the boundary whose sharp edge the wake begins at");
+  wake.where = table.place();
+  wake.from = table.texts("from");
+  std::erase(wake.from, "");
+  if (wake.from.empty())
+    table.refuse(
+        "from",
+        "is missing: the boundary whose edge, sharp or blunt, the wake begins at, or a list of those "
+        "that meet there");
   wake.path = read_path(table);
   const auto length = table.number("length", Range::positive());
   if (length.has_value() != wake.path.empty())
@@ -142,6 +148,7 @@ LayerSpec LayerSettings::read_keys(const CaseTable& layers) {
 
 LayerLine LayerSettings::read_layer_line(const CaseTable& table) {
   LayerLine line;
+  line.where = table.place();
   line.path = read_path(table);
   if (line.path.size() < 2) table.refuse("path", "must have two points at least");
   line.spacing = read_line_spacing(table);

@@ -142,6 +142,26 @@ TEST(Generate, LayersStandOnTheWallsThatAskForThem) {
   }
 }
 
+TEST(Generate, StripsOfAbsurdSizeAreRefusedBeforeTheyAreBuilt) {
+  MeshInput input = layered_disc();
+  input.lines = {{{}, {{-0.9, -0.9}, {0.9, -0.9}}, 0, 1e-12, LayerSpec{1e-3, 1.2, 1.2, 5}, "case.toml:7"}};
+  const auto says = [&] {
+    try {
+      generate_mesh(world(), input);
+    } catch (const TooManyCells& error) {
+      return std::string(error.what());
+    }
+    return std::string("no refusal");
+  };
+  EXPECT_EQ(says().find("case.toml:7: the layers of layer_line would have 1.8e+13 cells or more"), 0U)
+      << says();
+  input.lines[0].spacing = 0.01;
+  input.mesh.limit.cells = 1700;
+  EXPECT_NE(says().find("but --max-cells allows 1700"), std::string::npos) << says();
+  input.mesh.limit = {MeshLimit::none, 1e4, 1};
+  EXPECT_NE(says().find("are free"), std::string::npos) << says();
+}
+
 TEST(Generate, LayersAreTheSameOnAnyNumberOfRanks) {
   const Communicator self(MPI_COMM_SELF);
   for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {

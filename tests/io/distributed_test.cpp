@@ -40,6 +40,7 @@ void expect_same_mesh(const LoadedMesh& loaded, const Mesh& mesh) {
     EXPECT_EQ(loaded.mesh.boundaries[b].edges, mesh.boundaries[b].edges);
     EXPECT_EQ(loaded.mesh.boundaries[b].layers, mesh.boundaries[b].layers);
   }
+  EXPECT_EQ(loaded.mesh.strips, mesh.strips);
   EXPECT_TRUE(validate(loaded.mesh).empty());
 }
 
@@ -50,6 +51,7 @@ void expect_same_solution(const LoadedMesh& loaded, const Field& solution) {
 
 Mesh layered(Mesh mesh) {
   mesh.boundaries[0].layers = {1, 0.7};
+  mesh.strips = {test::strip_across(mesh, columns)};
   return mesh;
 }
 
@@ -86,6 +88,7 @@ TEST(Su2File, SameBytesOnAnyNumberOfRanksAndComesBack) {
   EXPECT_TRUE(test::bytes_of(folder.file("many.su2")) == test::bytes_of(folder.file("one.su2")));
   sample.mesh.boundaries.at(1).name = "far_field";  // SU2 takes no blanks
   sample.mesh.boundaries[0].layers = {};            // nor layers
+  sample.mesh.strips = {};
   expect_same_mesh(read_su2(folder.file("many.su2")), sample.mesh);
 }
 
@@ -98,6 +101,7 @@ TEST(MshFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   EXPECT_TRUE(test::bytes_of(folder.file("many.msh")) == test::bytes_of(folder.file("one.msh")));
   const LoadedMesh loaded = read_msh(folder.file("many.msh"));
   sample.mesh.boundaries[0].layers = {};  // it has no place for them
+  sample.mesh.strips = {};
   expect_same_mesh(loaded, sample.mesh);
   EXPECT_EQ(loaded.block_names, std::vector<std::string>{"domain"});
   EXPECT_TRUE(loaded.warnings.empty());

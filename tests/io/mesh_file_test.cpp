@@ -27,6 +27,7 @@ LoadedMesh sample(Kind kind, bool solved) {
   for (Point& p : mesh.points) p = {p.x / 3 + 1e-17, std::sqrt(p.y) - 1e-300};
   mesh.boundaries[1].name = "far-field";
   mesh.boundaries[0].layers = {1, 1 / 3.0};
+  mesh.strips = {test::strip_across(mesh, 7)};
   if (kind == Kind::triangles) {
     for (const auto& [a, b, c, d] : mesh.quads) {
       mesh.triangles.push_back({a, b, c});
@@ -74,6 +75,7 @@ void convert_and_compare(const LoadedMesh& loaded, const std::string& first, con
   }
   const bool layers_carried = format_named(first)->holds(Content::layers);
   const bool layers_kept = layers_carried && format_named(second)->holds(Content::layers);
+  EXPECT_EQ(back.mesh.strips, layers_kept ? loaded.mesh.strips : std::vector<StripLayers>{});
   EXPECT_EQ(back.mesh.boundaries[0].layers, layers_kept ? loaded.mesh.boundaries[0].layers : WallLayers{});
   const std::string condition = first == "cgns" && second == "cgns" ? "wall" : "none";
   EXPECT_EQ(back.mesh.boundaries[0].condition, condition);

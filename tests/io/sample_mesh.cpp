@@ -79,6 +79,14 @@ Mesh sample_mesh(std::int32_t columns) {
   return mesh;
 }
 
+StripLayers strip_across(const Mesh& mesh, std::int32_t columns) {
+  StripLayers strip{"wake_2", {1, 1 / 3.0}, true, 3, {}};
+  for (std::int32_t i = 1; i <= 3; ++i) {
+    for (std::int32_t j = 0; j <= 2; ++j) strip.nodes.push_back(mesh.global(NodeId{j * (columns + 1) + i}));
+  }
+  return strip;
+}
+
 Field sample_solution(const Mesh& mesh) {
   Field solution{{"density", "pressure"}, {}, {12, 0.1, -3e-300}};
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
@@ -102,6 +110,7 @@ Mesh share_of(const Mesh& whole, int rank, int ranks) {
     part.boundaries.push_back(
         {boundary.name, boundary.condition, localise.rows(boundary.edges, rank, ranks), boundary.layers});
   }
+  part.strips = whole.strips;
   return part;
 }
 

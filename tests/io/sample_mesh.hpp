@@ -15,6 +15,9 @@ namespace quadloop::test {
 /// triangles; the boundaries "wall" (below and above) and "far field" (the sides). Whole on this rank.
 Mesh sample_mesh(std::int32_t columns);
 
+/// A strip of that mesh: the columns of its nodes at x = 1 to 3, upwards.
+StripLayers strip_across(const Mesh& mesh, std::int32_t columns);
+
 /// Two variables with rows that need all digits, and three constants.
 Field sample_solution(const Mesh& mesh);
 

@@ -9,6 +9,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/shape_statistics.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/layer_nodes.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/geometry/outlines.hpp"
 #include "tests/layers/walls.hpp"
@@ -34,7 +35,7 @@ Geometry body(double base) {
 
 LayerLine wake(const std::string& from = "body") {
   LayerLine line;
-  line.from = from;
+  line.from = {from};
   line.length = 3;
   line.spacing = 0.2;
   return line;
@@ -60,6 +61,10 @@ struct Made {
     if (divided) divide = [](Point p) { return tie_rank({0, 0}, p); };
     add_layers(comm, front, outside.edge_leaves, divide, mesh, leaves);
     add_strips(comm, front, outside.edge_leaves, divide, mesh, leaves);
+    for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+      if (geometry.boundaries()[b].layers)
+        mesh.boundaries[b].layers = {layers.count, layers_thickness(layers)};
+    }
   }
   LayerFront front;
   Mesh mesh;
@@ -100,6 +105,61 @@ TEST(AddStrips, MeshesAreTheSameOnAnyNumberOfRanks) {
   }
 }
 
+TEST(AddStrips, TheMeshKnowsThemByTheirNames) {
+  const std::vector<Trial> all = trials();
+  for (const Trial& trial : all) {
+    for (const bool divided : {false, true}) {
+      const Made made(world(), trial.geometry, trial.lines, divided);
+      const std::vector<StripLayers>& strips = made.mesh.strips;
+      ASSERT_EQ(strips.size(), trial.lines.size());
+      for (std::size_t s = 0; s < strips.size(); ++s) {
+        const LayerStrip& strip = made.front.strips[s];
+        EXPECT_EQ(strips[s].name, strip.root ? "wake" : "layer_line");
+        EXPECT_EQ(strips[s].layers.count, layers.count);
+        EXPECT_NEAR(strips[s].layers.thickness, layers_thickness(layers), 1e-15);
+        ASSERT_EQ(strips[s].columns(), size32(strip.columns));
+        const Mesh whole = gather_whole(world(), made.mesh);
+        for (std::int32_t column = 0; world().is_root() && column < strips[s].columns(); ++column) {
+          for (std::int32_t row = 0; row < strips[s].across; ++row) {
+            const Point p = whole.points[strips[s].node(column, row).value()];
+            const double off = length(p - strip.columns[column][row]);
+            EXPECT_LE(off, strips[s].is_walls(column, row) ? 1e-14 : 0) << column << ", " << row;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(AddStrips, TheirCellsAreThoseOfLayersAndABaseIsTheWakes) {
+  for (const auto& [geometry, lines] : trials()) {
+    const Made made(world(), geometry, lines, false);
+    const LayerPlaces places = layer_places(world(), made.mesh);
+    const auto in_strip = [&](const auto& nodes) {
+      return is_layer_cell(places, nodes) &&
+             std::ranges::any_of(nodes, [&](NodeId node) { return places[node].strip >= 0; });
+    };
+    const std::int64_t cells = std::ranges::count_if(made.mesh.quads, in_strip) +
+                               std::ranges::count_if(made.mesh.triangles, in_strip);
+    std::int64_t in_strips = 0, wanted = 0, base_nodes = 0;
+    for (const NodeId node : ids_below(NodeId{made.mesh.owned_nodes})) {
+      const Point p = made.mesh.point(node);
+      in_strips += places[node].strip >= 0 ? 1 : 0;
+      base_nodes += places[node].strip >= 0 && p.x == 2 && std::abs(p.y) < 0.05 ? 1 : 0;
+    }
+    std::int64_t nodes = 0;
+    for (const StripLayers& strip : made.mesh.strips) {
+      wanted += std::int64_t{strip.columns() - 1} * (strip.across - 1);
+      nodes += strip.columns() * std::int64_t{strip.across};
+      if (strip.from_wall) nodes -= strip.across - std::max(0, strip.across - 2 - 2 * strip.layers.count);
+    }
+    EXPECT_EQ(world().sum(cells), wanted);
+    EXPECT_EQ(world().sum(in_strips), nodes) << "all but those of the wall's columns";
+    const LayerStrip& first = made.front.strips[0];
+    EXPECT_EQ(world().sum(base_nodes), first.root ? std::max(0, first.core - 1) : 0);
+  }
+}
+
 TEST(AddStrips, WakesTakeAwayTheJumpsOfAreasAtEdges) {
   const Communicator self(MPI_COMM_SELF);
   const auto jump = [&](const std::vector<LayerLine>& lines) {
@@ -124,6 +184,16 @@ TEST(AddStrips, ABaseIsDividedByRowsOfItsOwn) {
   EXPECT_NEAR(std::accumulate(lengths.begin(), lengths.end(), 0.0), 0.1, 1e-12);
 }
 
+TEST(AddStrips, ABendTooSharpForTheLayersIsRefusedByName) {
+  LayerLine bent = free_line();
+  bent.path = {{-5, -5}, {-4.13, -5}, {-4.13, -4.28}};
+  bent.layers = LayerSpec{0.0072, 1.25, 1.25, 16};
+  bent.where = "case.toml:9";
+  const std::string message = test::refusal([&] { Made(world(), body(0), {bent}, false); });
+  EXPECT_EQ(message.find("case.toml:9: layer_line, near (-"), 0U) << message;
+  EXPECT_NE(message.find("gentler bends"), std::string::npos) << message;
+}
+
 TEST(LayerFront, LinesThatMeetSomethingAreRefused) {
   LayerLine through = wake();
   through.length = 20;
@@ -133,7 +203,7 @@ TEST(LayerFront, LinesThatMeetSomethingAreRefused) {
   EXPECT_NE(says({through}).find("meet boundary box"), std::string::npos);
   LayerLine across = free_line();
   across.path = {{3, -1}, {3, 1}};
-  EXPECT_NE(says({wake(), across}).find("[[wake]] or [[layer_line]] meet"), std::string::npos);
+  EXPECT_NE(says({wake(), across}).find("meet those of"), std::string::npos);
 }
 
 TEST(LayerFront, LinesOverABodyOrOutsideTheDomainAreRefused) {

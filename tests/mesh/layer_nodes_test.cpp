@@ -47,6 +47,79 @@ TEST(LayerNodes, AreAsManyEdgesFromTheFrontAsThereAreLayersLeft) {
   }
 }
 
+/// The grid above the wall's layers with a strip of two rows in it, along x = 1 to 4, of columns upwards.
+Mesh with_strip(const LayeredStrip& grid) {
+  Mesh mesh = grid.mesh();
+  StripLayers strip{"wake", {1, 0.5}, false, 3, {}};
+  for (std::int32_t i = 1; i <= 4; ++i) {
+    for (std::int32_t j = 0; j < 3; ++j)
+      strip.nodes.push_back(mesh.global(grid.node(i, grid.layers + 1 + j)));
+  }
+  mesh.strips = {strip};
+  return mesh;
+}
+
+TEST(LayerNodes, OfAStripAreThoseThatItLists) {
+  for (const bool triangles : {false, true}) {
+    const LayeredStrip grid{6, 3, 2, triangles};
+    const Mesh mesh = spread(with_strip(grid));
+    ASSERT_EQ(mesh.strips.size(), 1U);
+    const LayerPlaces places = layer_places(world(), mesh);
+    for (const NodeId node : places.ids()) {
+      const auto row = row_of(grid, mesh.point(node)) - grid.layers - 1;
+      const double x = mesh.point(node).x;
+      const bool listed = row >= 0 && row < 3 && x >= 1 && x <= 4;
+      EXPECT_EQ(places[node].strip, listed ? 0 : -1) << x << " in row " << row;
+      if (listed) {
+        EXPECT_EQ(places[node].left, row == 1 ? 1 : 0);
+        EXPECT_EQ(on_layered_wall(mesh, places[node]), row == 1);
+        EXPECT_EQ(layers_at(mesh, places[node]).thickness, 0.5);
+      }
+    }
+    const auto in_layers = [&](const auto& nodes) { return is_layer_cell(places, nodes); };
+    const std::int64_t cells =
+        std::ranges::count_if(mesh.triangles, in_layers) + std::ranges::count_if(mesh.quads, in_layers);
+    EXPECT_EQ(world().sum(cells), (std::int64_t{grid.columns} * grid.layers + 6) * (triangles ? 2 : 1));
+    const IdVector<NodeId, double> heights = heights_to_front(world(), mesh, places);
+    for (const NodeId node : heights.ids()) {
+      if (places[node].strip >= 0) {
+        EXPECT_EQ(heights[node], places[node].left) << "rows are of height 1";
+      }
+    }
+  }
+}
+
+TEST(LayerNodes, OfAWallStayWhereAStripBeginsAtIt) {
+  const LayeredStrip grid{6, 3, 0, false};
+  Mesh whole = grid.mesh();
+  StripLayers strip{"wake", {3, 0.7}, true, 7, {}};
+  for (std::int32_t i = 2; i <= 4; ++i) {
+    for (std::int32_t j = 0; j < 7; ++j) strip.nodes.push_back(whole.global(grid.node(i, j)));
+  }
+  whole.strips = {strip};
+  const Mesh mesh = spread(whole);
+  const LayerPlaces places = layer_places(world(), mesh);
+  for (const NodeId node : places.ids()) {
+    const double x = mesh.point(node).x;
+    EXPECT_EQ(places[node].strip, x == 3 || x == 4 ? 0 : -1) << "its first column, at 2, is the wall's";
+  }
+}
+
+TEST(LayerNodes, OfStripsGoWithThemToOneRankAndBack) {
+  const LayeredStrip grid{6, 3, 2, false};
+  const Mesh whole = with_strip(grid), part = spread(whole), back = gather_whole(world(), part);
+  ASSERT_EQ(back.strips.size(), 1U);
+  EXPECT_EQ(back.strips, part.strips) << "the same on every rank";
+  if (!world().is_root()) return;
+  EXPECT_EQ(back.strips[0].layers, whole.strips[0].layers);
+  for (std::int32_t column = 0; column < 4; ++column) {
+    for (std::int32_t row = 0; row < 3; ++row) {
+      const auto at = [&](const Mesh& mesh) { return mesh.points[mesh.strips[0].node(column, row).value()]; };
+      EXPECT_EQ(at(back), at(whole));
+    }
+  }
+}
+
 TEST(LayerNodes, AreNoneWhereNoBoundarySaysSo) {
   Mesh whole = LayeredStrip{}.mesh();
   for (BoundaryEdges& boundary : whole.boundaries) boundary.layers = {};

@@ -59,6 +59,36 @@ TEST(KeepLayers, TheirNodesStayToTheBit) {
   expect_layers_kept(quads, mesh, before);
 }
 
+TEST(KeepLayers, StripsStayAndWhatIsStretchedBesideThemMoves) {
+  Mesh whole = quads.mesh();
+  StripLayers strip{"wake", {1, 2}, false, 3, {}};
+  for (std::int32_t i = 2; i <= 6; ++i) {
+    for (std::int32_t j = 4; j <= 6; ++j) strip.nodes.push_back(whole.global(quads.node(i, j)));
+  }
+  const NodeId beside = quads.node(9, 5);
+  whole.points[beside.value()].x += 0.95;  // a sliver to its right
+  const auto pinned = [&](const Mesh& of) {
+    const Mesh mesh = spread(of);
+    SmoothOptions options;
+    keep_layers(world(), mesh, options);
+    std::vector<GlobalNodeId> own;
+    for (const NodeId node : ids_below(NodeId{mesh.owned_nodes})) {
+      if (options.pinned[node] != 0) own.push_back(mesh.global(node));
+    }
+    return world().all_gather_values(std::span<const GlobalNodeId>(own));
+  };
+  const auto has = [](const std::vector<GlobalNodeId>& nodes, NodeId node) {
+    return std::ranges::find(nodes, GlobalNodeId{node.value()}) != nodes.end();
+  };
+  const std::vector<GlobalNodeId> unnamed = pinned(whole);
+  EXPECT_TRUE(has(unnamed, beside)) << "a file that names no strips: shapes alone tell";
+  EXPECT_FALSE(has(unnamed, quads.node(4, 5)));
+  whole.strips = {strip};
+  const std::vector<GlobalNodeId> named = pinned(whole);
+  EXPECT_FALSE(has(named, beside));
+  for (std::int32_t i = 2; i <= 6; ++i) EXPECT_TRUE(has(named, quads.node(i, 5))) << i;
+}
+
 TEST(KeepLayers, WhatIsPinnedStaysSoAndNothingIsAskedWithoutLayers) {
   Mesh mesh = spread(quads.mesh());
   SmoothOptions options;
@@ -107,6 +137,23 @@ TEST(BlocksForFlips, AreOneEachInLayersAndAsTheyWereElsewhere) {
   EXPECT_EQ(all.size(), 72U);
   EXPECT_EQ(std::set(all.begin(), all.end()).size(), 72U);
   for (const std::int32_t block : all) EXPECT_LT(block, 0);
+}
+
+TEST(BlocksForFlips, AreOneEachBesideStripsToo) {
+  Mesh whole = triangles.mesh();
+  StripLayers strip{"wake", {1, 2}, false, 3, {}};
+  for (std::int32_t i = 2; i <= 6; ++i) {
+    for (std::int32_t j = 4; j <= 6; ++j) strip.nodes.push_back(whole.global(triangles.node(i, j)));
+  }
+  whole.strips = {strip};
+  const Mesh mesh = spread(whole);
+  const LayerPlaces places = layer_places(world(), mesh);
+  const std::vector<std::int32_t> blocks = blocks_for_flips(world(), mesh, places, {});
+  for (std::size_t t = 0; t < blocks.size(); ++t) {
+    const auto& nodes = mesh.triangles[t];
+    const bool beside = std::ranges::any_of(nodes, [&](NodeId n) { return places[n].strip >= 0; });
+    EXPECT_EQ(blocks[t] < 0, beside || is_layer_cell(places, nodes)) << t;
+  }
 }
 
 }  // namespace

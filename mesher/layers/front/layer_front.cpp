@@ -57,7 +57,7 @@ class OuterOutline {
       if (line.edge == PlacedLine::nowhere) add_free_strip(line);
     }
     std::vector<Boundary> boundaries(g_.boundaries().begin(), g_.boundaries().end());
-    if (!strips_.empty()) boundaries.push_back({.name = "[[wake]] or [[layer_line]]", .corner_degrees = 180});
+    if (!strips_.empty()) boundaries.push_back({.name = "wakes and free lines", .corner_degrees = 180});
     into.strips = std::move(strips_);
     into.outer = Geometry(std::move(boundaries), std::move(points_), std::move(starts_), std::move(boundary_))
                      .with({std::move(spacing_), std::move(kept_), std::move(bend_)});
@@ -168,8 +168,8 @@ void OuterOutline::add_wake(std::int32_t i) {
   const double spacing = std::min(spacing_after(before), spacing_after(right));
   PlacedLine wake = *at;
   wake.layers = line_.spec(i).first < line_.spec(right).first ? line_.spec(i) : line_.spec(right);
-  strips_.push_back(
-      layer_strip(wake, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(*at), spacing}));
+  strips_.push_back(layer_strip(wake, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(*at),
+                                               spacing, g_.boundary_of(at->edge)}));
   add_vertex(fitting_.front[i], strip_boundary(), WallLine::none, strips_.back().spacing[0], true, 0);
   add_front_of(strips_.back());
 }
@@ -277,19 +277,39 @@ void require_room(const LayerFront& front) {
   const Geometry& g = front.line.geometry();
   for (const LayerStrip& strip : front.strips) {
     if (!strip.root && !is_in_domain(g, strip.front[0]))
-      throw InputError(
-          fmt::format("a [[layer_line]] lies outside of the domain, at ({}, {}); lead it elsewhere",
-                      strip.front[0].x, strip.front[0].y));
+      throw InputError(fmt::format("{}{} lies outside of the domain, at ({}, {}); lead it elsewhere",
+                                   strip.place, strip.name, strip.front[0].x, strip.front[0].y));
     const std::int32_t own = strip.root ? g.loop_of(front.line[strip.root->station].segment) : -1;
     for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
       const Point p = g.point(g.loop_start(loop));
       if (loop == own || !goes_round(strip.front, p)) continue;
       throw InputError(
-          fmt::format("the layers of a [[wake]] or [[layer_line]] run over boundary {} at ({}, {}); lead it "
-                      "elsewhere, or make it shorter",
-                      g.boundary(g.boundary_of(g.loop_start(loop))).name, p.x, p.y));
+          fmt::format("{}the layers of {} run over boundary {} at ({}, {}); lead it elsewhere, or make it "
+                      "shorter",
+                      strip.place, strip.name, g.boundary(g.boundary_of(g.loop_start(loop))).name, p.x, p.y));
     }
   }
+}
+
+/// The strip on whose front a segment of the outer outline lies.
+const LayerStrip& strip_at(const LayerFront& front, std::int32_t s) {
+  const Point p = front.outer.point(s);
+  return *std::ranges::find_if(front.strips, [&](const LayerStrip& strip) {
+    return (strip.root && strip.root->left == p) || std::ranges::find(strip.front, p) != strip.front.end();
+  });
+}
+
+[[noreturn]] void refuse_meeting(const LayerFront& front, std::int32_t s, std::int32_t other) {
+  const LayerStrip& strip = strip_at(front, s);
+  const BoundaryId boundary = front.outer.boundary_of(other);
+  const bool itself = boundary == front.strip_boundary() && &strip_at(front, other) == &strip;
+  const std::string what = itself ? "themselves"
+                           : boundary == front.strip_boundary()
+                               ? "those of " + strip_at(front, other).name
+                               : "boundary " + front.outer.boundary(boundary).name;
+  throw InputError(fmt::format(
+      "{}the layers of {} meet {} at ({}, {}); lead it elsewhere, or make it shorter or its spacing smaller",
+      strip.place, strip.name, what, front.outer.point(s).x, front.outer.point(s).y));
 }
 
 /// The fronts of strips keep away from everything else, and from themselves: two segments meet where one
@@ -306,11 +326,7 @@ void require_disjoint(const LayerFront& front) {
     tree.for_each_meeting(boxes[s], [&](std::int32_t t) {
       if (t == s || t == g.next(s) || t == g.previous(s)) return;
       if (!segments_meet(a, b, g.point(t), g.point(g.next(t)))) return;
-      throw InputError(
-          fmt::format("the layers of a [[wake]] or [[layer_line]] meet boundary {} at ({}, {}); lead it "
-                      "elsewhere, or make "
-                      "it shorter or its spacing smaller",
-                      g.boundary(g.boundary_of(t)).name, a.x, a.y));
+      refuse_meeting(front, s, t);
     });
   }
 }

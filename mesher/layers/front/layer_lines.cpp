@@ -1,12 +1,14 @@
 #include "mesher/layers/front/layer_lines.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/id_vector.hpp"
 #include "mesher/layers/front/wall_line.hpp"
 
 namespace quadloop {
@@ -17,15 +19,32 @@ Point direction_of_segment(const Geometry& g, std::int32_t s) {
   return direction_of(g.point(s), g.point(g.next(s)));
 }
 
-BoundaryId boundary_named(const Geometry& g, const std::string& name) {
-  const auto found = std::ranges::find(g.boundaries(), name, &Boundary::name);
-  if (found == g.boundaries().end())
-    throw InputError(fmt::format("[[wake]] from = \"{}\": the geometry has no boundary of that name", name));
-  if (!found->layers)
-    throw InputError(
-        fmt::format("[[wake]] from = \"{}\": that boundary has no layers to go on; give it some", name));
-  return BoundaryId{size32(std::vector<char>(found - g.boundaries().begin()))};
+/// As messages name it: `case.toml:12: wake_2, from = "wing",`.
+std::string said(const PlacedLine& line, const LayerLine& asked) {
+  return fmt::format("{}{}, from = \"{}\"", line.place, line.name, fmt::join(asked.from, "\", \""));
 }
+
+/// The boundaries that a wake begins at, as a flag for each of the geometry's.
+class WakeWall {
+ public:
+  WakeWall(const Geometry& g, const LayerLine& line, const std::string& said)
+      : g_{g}, has_(g.boundaries().size(), 0) {
+    for (const std::string& name : line.from) {
+      const auto found = std::ranges::find(g.boundaries(), name, &Boundary::name);
+      if (found == g.boundaries().end())
+        throw InputError(fmt::format("{}: the geometry has no boundary '{}'", said, name));
+      if (!found->layers)
+        throw InputError(fmt::format("{}: boundary '{}' has no layers to go on; give it some", said, name));
+      has_[BoundaryId{size32(std::vector<char>(found - g.boundaries().begin()))}] = 1;
+    }
+  }
+  /// Whether a segment is of one of them.
+  bool has(std::int32_t segment) const { return has_[g_.boundary_of(segment)] != 0; }
+
+ private:
+  const Geometry& g_;
+  IdVector<BoundaryId, char> has_;
+};
 
 /// By how much the wall turns away from the domain: the cosine; 1 where it does not.
 double cosine_of_turn(const Geometry& g, std::int32_t before, std::int32_t after) {
@@ -37,7 +56,7 @@ double cosine_of_turn(const Geometry& g, std::int32_t before, std::int32_t after
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
 /// The base that begins at a corner, if there is one.
-std::optional<Edge> base_from(const Geometry& g, std::int32_t v, double longest) {
+std::optional<Edge> base_from(const Geometry& g, const WakeWall& wall, std::int32_t v, double longest) {
   constexpr double cosine_of_corner = 0.64278760968653933;  // 50 degrees
   if (cosine_of_turn(g, g.previous(v), v) > cosine_of_corner) return std::nullopt;
   double way = 0;
@@ -48,47 +67,59 @@ std::optional<Edge> base_from(const Geometry& g, std::int32_t v, double longest)
     if (cosine_of_turn(g, s, end) > cosine_of_corner) continue;
     const bool turns_back =
         dot(direction_of_segment(g, g.previous(v)), direction_of_segment(g, end)) < cosine_of_sharp_edge;
-    return turns_back && g.boundary_of(end) == g.boundary_of(v) ? std::optional(Edge{v, end}) : std::nullopt;
+    return turns_back && wall.has(end) ? std::optional(Edge{v, end}) : std::nullopt;
   }
 }
 
-std::vector<Edge> edges_of(const Geometry& g, BoundaryId boundary) {
+std::vector<Edge> edges_of(const Geometry& g, const WakeWall& wall) {
   constexpr double base_over_box = 0.05;
   std::vector<Edge> sharp, blunt;
   double low = g.box().high.x, high = g.box().low.x, bottom = g.box().high.y, top = g.box().low.y;
   for (std::int32_t v = 0; v < g.size(); ++v) {
-    if (g.boundary_of(v) != boundary) continue;
+    if (!wall.has(v)) continue;
     low = std::min(low, g.point(v).x), high = std::max(high, g.point(v).x);
     bottom = std::min(bottom, g.point(v).y), top = std::max(top, g.point(v).y);
   }
   const double longest_base = base_over_box * std::max(high - low, top - bottom);
   for (std::int32_t v = 0; v < g.size(); ++v) {
-    if (g.boundary_of(v) != boundary || g.boundary_of(g.previous(v)) != boundary) continue;
+    if (!wall.has(v) || !wall.has(g.previous(v))) continue;
     if (cosine_of_turn(g, g.previous(v), v) < cosine_of_sharp_edge) sharp.push_back({v, v});
-    if (const auto base = base_from(g, v, longest_base)) blunt.push_back(*base);
+    if (const auto base = base_from(g, wall, v, longest_base)) blunt.push_back(*base);
   }
   return sharp.empty() ? blunt : sharp;
 }
 
-Edge edge_of(const Geometry& g, const std::string& name) {
-  const std::vector<Edge> edges = edges_of(g, boundary_named(g, name));
+Edge edge_of(const Geometry& g, const WakeWall& wall, const std::string& said) {
+  const std::vector<Edge> edges = edges_of(g, wall);
   if (edges.size() == 1) return edges[0];
   if (edges.empty())
-    throw InputError(
-        fmt::format("[[wake]] from = \"{}\": the boundary has no edge, sharp (a turn of more than 120 "
-                    "degrees) or blunt (two of more than 50 close together)",
-                    name));
+    throw InputError(fmt::format(
+        "{}: there is no edge, sharp (a turn of more than 120 degrees) or blunt (two of more than "
+        "50 close together); where several boundaries meet at it, name them all: from = [\"a\", "
+        "\"b\"]",
+        said));
   const Point one = g.point(edges[0].first), other = g.point(edges[1].first);
-  throw InputError(fmt::format(
-      "[[wake]] from = \"{}\": the boundary has {} edges, at ({}, {}) and ({}, {}) for two; give each a "
-      "boundary of its own",
-      name, edges.size(), one.x, one.y, other.x, other.y));
+  throw InputError(
+      fmt::format("{}: there are {} edges, at ({}, {}) and ({}, {}) for two; give each a boundary of its own",
+                  said, edges.size(), one.x, one.y, other.x, other.y));
 }
 
-PlacedLine placed(const Geometry& g, const LayerLine& line) {
-  if (line.from.empty())
-    return {PlacedLine::nowhere, PlacedLine::nowhere, line.path, line.spacing, *line.layers};
-  const auto [first, last] = edge_of(g, line.from);
+/// With its name and place alone.
+PlacedLine named(const std::vector<LayerLine>& lines, std::size_t number) {
+  const LayerLine& line = lines[number];
+  const auto same_kind = [&](const LayerLine& other) { return other.from.empty() == line.from.empty(); };
+  PlacedLine placed;
+  placed.name = line.from.empty() ? "layer_line" : "wake";
+  if (std::ranges::count_if(lines, same_kind) > 1)
+    placed.name += fmt::format("_{}", 1 + std::count_if(lines.begin(), lines.begin() + number, same_kind));
+  if (!line.where.empty()) placed.place = line.where + ": ";
+  placed.spacing = line.spacing;
+  return placed;
+}
+
+void place_wake(const Geometry& g, const LayerLine& line, PlacedLine& placed) {
+  const WakeWall wall(g, line, said(placed, line));
+  const auto [first, last] = edge_of(g, wall, said(placed, line));
   std::vector<Point> path{first == last ? g.point(first) : 0.5 * (g.point(first) + g.point(last))};
   const bool repeats_edge = !line.path.empty() && line.path[0] == path[0];
   path.insert(path.end(), line.path.begin() + (repeats_edge ? 1 : 0), line.path.end());
@@ -96,14 +127,42 @@ PlacedLine placed(const Geometry& g, const LayerLine& line) {
     const Point on = unit(direction_of_segment(g, g.previous(first)) - direction_of_segment(g, last));
     path.push_back(path[0] + line.length * on);
   }
-  return {first, last, std::move(path), line.spacing, *g.boundary(g.boundary_of(first)).layers};
+  placed.edge = first;
+  placed.base_end = last;
+  placed.path = std::move(path);
+  placed.layers = *g.boundary(g.boundary_of(first)).layers;
+  const Boundary &before = g.boundary(g.boundary_of(g.previous(first))),
+                 &after = g.boundary(g.boundary_of(last));
+  if (before.layers->count != after.layers->count)
+    throw InputError(fmt::format("{}: boundary {} asks for {} layers and {} for {}; give them one count",
+                                 said(placed, line), before.name, before.layers->count, after.name,
+                                 after.layers->count));
+}
+
+void require_edge_of_its_own(const std::vector<PlacedLine>& before, const PlacedLine& wake) {
+  const auto same = std::ranges::find(before, wake.edge, &PlacedLine::edge);
+  if (wake.edge == PlacedLine::nowhere || same == before.end()) return;
+  throw InputError(fmt::format(
+      "{}{} begins at the edge at ({}, {}), and so does {}; an edge has one wake: leave one of them out",
+      wake.place, wake.name, wake.path[0].x, wake.path[0].y, same->name));
 }
 
 }  // namespace
 
 std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines) {
   std::vector<PlacedLine> all;
-  for (const LayerLine& line : lines) all.push_back(placed(geometry, line));
+  for (std::size_t number = 0; number < lines.size(); ++number) {
+    const LayerLine& line = lines[number];
+    PlacedLine placed = named(lines, number);
+    if (line.from.empty()) {
+      placed.path = line.path;
+      placed.layers = *line.layers;
+    } else {
+      place_wake(geometry, line, placed);
+      require_edge_of_its_own(all, placed);
+    }
+    all.push_back(std::move(placed));
+  }
   return all;
 }
 

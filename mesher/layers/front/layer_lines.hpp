@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
@@ -12,13 +13,20 @@ namespace quadloop {
 /// A line within the domain with layers on both sides, as a case asks for it: a wake, which goes on from the
 /// sharp edge of a wall and takes over its layers, or a free line with layers of its own.
 struct LayerLine {
-  std::string from;                 ///< of a wake: the boundary with the edge; empty for a free line
+  /// Of a wake: the boundary with the edge, or those that meet there; empty for a free line.
+  std::vector<std::string> from;
   std::vector<Point> path;          ///< of a wake: where it leads after the edge, or none for straight on
   double length = 0;                ///< of a wake without a path
   double spacing = 0;               ///< length wanted of the cells along it; above 0
   std::optional<LayerSpec> layers;  ///< of a free line
+  std::string where = {};           ///< its place in the case file, "case.toml:12", for messages alone
 
-  friend bool operator==(const LayerLine&, const LayerLine&) = default;
+  friend bool operator==(const LayerLine& a, const LayerLine& b) {
+    const auto made_of = [](const LayerLine& l) {
+      return std::tie(l.from, l.path, l.length, l.spacing, l.layers);
+    };
+    return made_of(a) == made_of(b);
+  }
 };
 
 /// Where it lies.
@@ -31,13 +39,15 @@ struct PlacedLine {
   std::vector<Point> path;  ///< two points at least, the first one the edge or the middle of the base
   double spacing = 0;
   LayerSpec layers;
+  std::string name = {};   ///< "wake" or "layer_line"; of several "wake_1", "wake_2" ...
+  std::string place = {};  ///< what a message about it begins with: "case.toml:12: ", or nothing
 };
 
-/// Finds the edges at which wakes begin: the only vertex of its boundary at which the wall turns away from
-/// the domain by more than 120 degrees; or else the only base, between two corners of more than 50 degrees
-/// and shorter than a twentieth of the boundary's box, which together turn by more than 120. A wake without a
-/// path goes straight on, half way between the walls that meet there. Throws InputError for a boundary that
-/// is none, has no layers, no such edge or several.
+/// Finds the edges at which wakes begin: the only vertex of its boundaries at which the wall turns away from
+/// the domain by more than 120 degrees; or else the only base, of one boundary, between two corners of more
+/// than 50 degrees and shorter than a twentieth of the boundaries' box, which together turn by more than 120.
+/// A wake without a path goes straight on, half way between the walls that meet there. Throws InputError for
+/// a boundary that is none or has no layers, for no such edge or several, and for two wakes from one.
 std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines);
 
 }  // namespace quadloop

@@ -45,6 +45,9 @@ class Strip {
  public:
   Strip(const PlacedLine& line, const std::optional<WakeRoot>& root)
       : line_{line}, path_{line.path}, thickness_{layers_thickness(line.layers)} {
+    strip_.name = line.name;
+    strip_.place = line.place;
+    strip_.asked = thickness_;
     strip_.root = root;
     strip_.layers = line.layers.count;
     if (!root) return;
@@ -231,6 +234,11 @@ class Strip {
 };
 
 }  // namespace
+
+StripSize least_size(const PlacedLine& line) {
+  const double columns = std::ceil(Path(line.path).length() / line.spacing);  // none is wider
+  return {columns, columns * 2 * line.layers.count};
+}
 
 LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root) {
   return Strip(line, root).built();

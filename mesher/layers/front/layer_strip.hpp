@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "mesher/layers/front/layer_lines.hpp"
@@ -16,11 +17,14 @@ struct WakeRoot {
   Point left, right;         ///< their ends on the front
   std::vector<Point> base;   ///< of a blunt edge: the wall from the left column to the right one
   double spacing = 0;        ///< wanted along the wall there
+  BoundaryId base_boundary = {};
 };
 
 /// Layers on both sides of a line, as columns across it whose nodes are given: so both sides have the same
 /// ones. Between its last rows and its front lie triangles, and the cells outside need not match.
 struct LayerStrip {
+  std::string name, place;       ///< those of the PlacedLine
+  double asked = 0;              ///< thickness of the layers on either side as they are asked for
   std::optional<WakeRoot> root;  ///< its first column is the wall's two
   int layers = 0;                ///< on either side
   int core = 0;                  ///< rows between them, behind a blunt edge; even
@@ -33,6 +37,12 @@ struct LayerStrip {
   /// Of `front`: the corners at the end, left and right, and at the beginning of a free line, right and left.
   std::array<std::size_t, 4> corners{};
 };
+
+/// How many cells a line's strip has at least, and how many columns: known without building it.
+struct StripSize {
+  double columns = 0, cells = 0;
+};
+StripSize least_size(const PlacedLine& line);
 
 /// Layers open downstream of a wake's root, by 1.15 from column to column at the line itself and by a tenth
 /// of the distance in all, and towards free ends, where they are as high as they are wide; columns are

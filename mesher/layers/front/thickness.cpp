@@ -309,6 +309,7 @@ class Fitting {
   }
 
   void mark_crossing_fronts();
+  bool ends_on(std::int32_t i, std::int32_t segment) const;
   bool fronts_meet(std::int32_t i, std::int32_t k) const;
 
   [[noreturn]] void refuse() const {
@@ -335,10 +336,22 @@ class Fitting {
   std::vector<Point> front_;
 };
 
+/// Whether the front at a station lies on a segment of a boundary without layers: the run ends there.
+bool Fitting::ends_on(std::int32_t i, std::int32_t segment) const {
+  if (line_[i].shape != Station::Shape::end) return false;
+  if (line_[i].at_wake) return true;
+  const Geometry& g = line_.geometry();
+  const bool first = line_.previous(i) == WallLine::none;
+  bool found = false;
+  line_.walk_end(i, [&](std::int32_t vertex, double) {
+    found = found || segment == (first ? vertex : g.previous(vertex));
+  });
+  return found;
+}
+
 /// Fronts with each other, and with boundaries that have no layers; where a front ends on one they touch.
 /// Those that have not moved did not meet before.
 void Fitting::mark_crossing_fronts() {
-  const auto is_end = [&](std::int32_t i) { return line_[i].shape == Station::Shape::end; };
   for (std::int32_t i = 0; i < line_.size(); ++i) {
     if (!place_exists(i) || !front_moved(i)) continue;
     const std::int32_t j = line_.next(i);
@@ -346,10 +359,10 @@ void Fitting::mark_crossing_fronts() {
     fronts_.for_each_meeting(box, [&](std::int32_t k) {
       if (k != i && fronts_meet(i, k)) meets_[i] = meets_[j] = meets_[k] = meets_[line_.next(k)] = 1;
     });
-    if (is_end(i) || is_end(j)) continue;
     wall_tree_.for_each_meeting(box, [&](std::int32_t w) {
-      if (w >= line_.size() && segments_meet(front(i), front(j), walls_[w].from, walls_[w].to))
-        meets_[i] = meets_[j] = 1;
+      if (w < line_.size() || !segments_meet(front(i), front(j), walls_[w].from, walls_[w].to)) return;
+      const std::int32_t segment = other_segments_[w - line_.size()];
+      if (!ends_on(i, segment) && !ends_on(j, segment)) meets_[i] = meets_[j] = 1;
     });
   }
 }

@@ -9,6 +9,7 @@ namespace quadloop {
 namespace {
 
 constexpr double stations_per_thickness = 8;
+constexpr double even_thicknesses = 8;  // from either end of a segment stations stand evenly
 constexpr double cosine_of_concave = 0.96592582628906831;  // a corner where it turns in by more than 15
 constexpr int fan_halvings = 4;
 
@@ -39,6 +40,41 @@ Point lerp(Point a, Point b, int part, int parts) {
   const double share = part / static_cast<double>(parts), rest = (parts - part) / static_cast<double>(parts);
   if (2 * part == parts) return 0.5 * (a + b);
   return 2 * part < parts ? a + share * (b - a) : b + rest * (a - b);
+}
+
+/// Distances from the end of a segment to its middle, that among them, where stations stand: an eighth of the
+/// thickness apart near the end, where columns may lean, from there on wider and wider.
+std::vector<double> widening_distances(double middle, double thickness, double widest) {
+  constexpr double growth = 0.125;  // of the width, over the distance from where it begins to grow
+  const double least = thickness / stations_per_thickness, even = even_thicknesses * thickness;
+  std::vector<double> distances;
+  for (double reached = 0; reached < middle;) {
+    const double wider = least + growth * std::max(0.0, reached - even);
+    reached += std::min(wider, std::max(widest, least));
+    distances.push_back(reached);
+  }
+  const double excess = distances.back() / middle;
+  for (double& distance : distances) distance /= excess;
+  return distances;
+}
+
+/// Where stations stand inside a segment whose neighbours ask for cells of a length of `spacing`. A mirror
+/// image, or the same segment walked the other way, has the same ones to the last bit.
+std::vector<Point> places_between(Point from, Point to, double thickness, double spacing) {
+  constexpr double stations_per_cell = 4;
+  const double whole = length(to - from);
+  std::vector<Point> places;
+  if (whole <= 2 * even_thicknesses * thickness) {
+    const int parts = std::max(1, static_cast<int>(std::ceil(stations_per_thickness * whole / thickness)));
+    for (int part = 1; part < parts; ++part) places.push_back(lerp(from, to, part, parts));
+    return places;
+  }
+  const std::vector<double> distances = widening_distances(whole / 2, thickness, spacing / stations_per_cell);
+  const std::size_t half = distances.size() - 1;
+  for (std::size_t k = 0; k < half; ++k) places.push_back(from + (distances[k] / whole) * (to - from));
+  places.push_back(0.5 * (from + to));
+  for (std::size_t k = half; k-- > 0;) places.push_back(to + (distances[k] / whole) * (from - to));
+  return places;
 }
 
 }  // namespace
@@ -128,15 +164,13 @@ void WallLine::add_between(const WallRun& run, std::size_t k) {
   const std::int32_t s = run.segments[k];
   const Point from = g.point(s), to = g.point(g.next(s));
   const double thickness = layers_thickness(*g.boundary(run.layers[k]).layers);
-  const int parts =
-      std::max(1, static_cast<int>(std::ceil(stations_per_thickness * length(to - from) / thickness)));
   Station station;
   station.before = station.after = direction_of(from, to);
   station.segment = s;
   station.layers = run.layers[k];
   station.direction = left_of(station.after);
-  for (int part = 1; part < parts; ++part) {
-    station.wall = lerp(from, to, part, parts);
+  for (const Point p : places_between(from, to, thickness, g.spacing_of(s))) {
+    station.wall = p;
     stations_.push_back(station);
   }
 }

@@ -41,8 +41,11 @@ struct WakeStart {
   Point direction;                   ///< of the wake, of length 1
 };
 
-/// The walls that carry layers, as stations no farther apart than an eighth of the layers' thickness. Flat:
-/// the stations of all runs one after another, a place between two stations has the number of the first one.
+/// The walls that carry layers, as stations: on each segment an eighth of the layers' thickness apart within
+/// eight thicknesses of its ends, and farther from them wider, by an eighth of the distance and up to a
+/// quarter of the spacing wanted there. So a segment has as many more stations as the logarithm of how thin
+/// its layers are, which on it are straight. Flat: the stations of all runs one after another, a place
+/// between two stations has the number of the first one.
 class WallLine {
  public:
   static constexpr std::int32_t none = -1;

@@ -103,6 +103,68 @@ struct Tally {
   }
 };
 
+/// One strip's columns, on both sides of its line.
+class StripColumns {
+ public:
+  StripColumns(const Mesh& whole, const StripLayers& strip) : mesh_{whole}, strip_{strip} {}
+
+  Tally tally() const {
+    Tally tally;
+    for (std::int32_t column = 0; column < strip_.columns(); ++column) {
+      ++tally.columns;
+      add_side(column, strip_.layers.count, -1, tally);
+      add_side(column, strip_.across - 1 - strip_.layers.count, 1, tally);
+    }
+    return tally;
+  }
+
+ private:
+  Point at(std::int32_t column, std::int32_t row) const {
+    return mesh_.points[strip_.node(column, row).value()];
+  }
+
+  /// The layers from one row on.
+  void add_side(std::int32_t column, std::int32_t foot, std::int32_t step, Tally& tally) const {
+    double whole = 0, before = 0;
+    for (std::int32_t layer = 1; layer <= strip_.layers.count; ++layer) {
+      const Point low = at(column, foot + step * (layer - 1)), high = at(column, foot + step * layer);
+      const double height = length(high - low);
+      if (layer == 1)
+        tally.first.push_back(distance_from_line(column, foot, high));
+      else
+        tally.growth.push_back(height / before);
+      whole += before = height;
+    }
+    tally.thickness.push_back(whole);
+  }
+
+  /// From the row's edges on either side of the column.
+  double distance_from_line(std::int32_t column, std::int32_t row, Point p) const {
+    const Point foot = at(column, row);
+    double most = 0;
+    for (const std::int32_t other : {column - 1, column + 1}) {
+      if (other < 0 || other >= strip_.columns()) continue;
+      const Point along = at(other, row) - foot;
+      most = std::max(most, std::abs(cross(along, p - foot)) / length(along));
+    }
+    return most;
+  }
+
+  const Mesh& mesh_;
+  const StripLayers& strip_;
+};
+
+LayerFigures figures_of(const Mesh& whole, const StripLayers& strip) {
+  Tally tally = StripColumns(whole, strip).tally();
+  return {strip.name,
+          strip.layers.count,
+          tally.columns,
+          spread_of(std::move(tally.first)),
+          spread_of(std::move(tally.growth)),
+          spread_of(std::move(tally.thickness)),
+          strip.layers.thickness};
+}
+
 /// The mesh with cells for which `takes` holds alone.
 template <class Takes>
 Mesh with_cells(const Mesh& mesh, const Takes& takes) {
@@ -121,7 +183,8 @@ std::vector<LayerFigures> layer_figures(const Mesh& whole, const LayerPlaces& pl
   const Columns columns(whole, places);
   std::vector<Tally> tallies(whole.boundaries.size());
   for (const NodeId node : places.ids()) {
-    if (on_layered_wall(whole, places[node])) tallies[places[node].boundary].add(whole, columns, node);
+    if (places[node].strip < 0 && on_layered_wall(whole, places[node]))
+      tallies[places[node].boundary].add(whole, columns, node);
   }
   std::vector<LayerFigures> figures;
   for (std::size_t b = 0; b < tallies.size(); ++b) {
@@ -132,6 +195,7 @@ std::vector<LayerFigures> layer_figures(const Mesh& whole, const LayerPlaces& pl
                        spread_of(std::move(tally.growth)), spread_of(std::move(tally.thickness)),
                        boundary.layers.thickness});
   }
+  for (const StripLayers& strip : whole.strips) figures.push_back(figures_of(whole, strip));
   return figures;
 }
 

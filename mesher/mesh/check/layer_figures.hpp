@@ -17,10 +17,12 @@ struct Spread {
   double least = 0, median = 0, largest = 0;
 };
 
-/// The layers of one boundary, measured. A column is the nodes above a node of the wall, the nearest first
-/// and then the straightest on; at a sharp edge, where many rise, one of them.
+/// The layers of one boundary or strip, measured. A column is the nodes above a node of the wall, the nearest
+/// first and then the straightest on; at a sharp edge, where many rise, one of them. A strip's column counts
+/// once and is measured on both sides of its line, behind a blunt edge of the lines on which the rows between
+/// its sides end.
 struct LayerFigures {
-  std::string boundary;
+  std::string boundary;  ///< or the strip's name
   std::int32_t count = 0;
   std::int64_t columns = 0;
   Spread first;      ///< heights of the layer at the wall, normal to it
@@ -29,7 +31,7 @@ struct LayerFigures {
   double asked = 0;  ///< of that what was asked for; 0: not known
 };
 
-/// Those of all boundaries with layers, of a mesh that this rank holds whole.
+/// Those of all boundaries with layers, then of all strips, of a mesh that this rank holds whole.
 std::vector<LayerFigures> layer_figures(const Mesh& whole, const LayerPlaces& places);
 
 /// Shapes of the cells in layers, and of the others.

@@ -208,7 +208,7 @@ MeshInput wedge(bool with_wake) {
   MeshInput input{{{box, body}, points, {0, 4, 8}, of_segment}, {}, {}, 0};
   input.mesh.size.min = 0.02;
   input.mesh.size.max = 1;
-  if (with_wake) input.lines = {{"body", {}, 3, 0.1, {}}};
+  if (with_wake) input.lines = {{{"body"}, {}, 3, 0.1, {}}};
   return input;
 }
 

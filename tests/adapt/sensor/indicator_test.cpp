@@ -195,5 +195,25 @@ TEST(Indicator, EdgesAcrossLayersDoNotCount) {
   }
 }
 
+TEST(Indicator, EdgesWithinStripsDoNotCount) {
+  const test::LayeredStrip grid{.columns = 4, .layers = 2, .from = 0};
+  Mesh mesh = grid.mesh();
+  for (BoundaryEdges& boundary : mesh.boundaries) boundary.layers = {};
+  StripLayers strip{"wake", {1, 1}, false, 3, {}};
+  for (std::int32_t i = 0; i <= 4; ++i) {
+    for (std::int32_t j = 1; j <= 3; ++j) strip.nodes.push_back(mesh.global(grid.node(i, j)));
+  }
+  mesh.strips = {strip};
+  const Leaves leaves(16, test::leaf_with(0, 1));  // from below, column after column
+  Field field{{"q"}, {}, {}};
+  for (const Point p : mesh.points) field.values.push_back(p.x);
+  const Values along =
+      leaf_indicator(Communicator(MPI_COMM_SELF), mesh, leaves, field, Indicator::difference);
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+    const bool within = leaf % 4 == 1 || leaf % 4 == 2;
+    EXPECT_NEAR(along[leaf], within ? 0 : 0.25, 1e-12) << leaf;
+  }
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -73,6 +73,21 @@ TEST(ColumnPlaces, NodesOutsideLayersAndThoseOfTheSameWallStay) {
   EXPECT_GE(moved, 3U * 6U);
 }
 
+TEST(ColumnPlaces, NodesOfStripsStay) {
+  const Mesh old_mesh = bent(6);
+  Mesh finer = bent(12);
+  const auto node = [](std::int32_t i, std::int32_t j) { return NodeId{13 * j + i}; };
+  StripLayers strip{"wake", {1, 1}, false, 3, {}};
+  for (std::int32_t i = 3; i <= 9; ++i) {
+    for (std::int32_t j = 0; j <= 2; ++j) strip.nodes.push_back(finer.global(node(i, j)));
+  }
+  finer.strips = {strip};
+  const std::vector<Point> places = column_places(Communicator(MPI_COMM_SELF), old_mesh, finer);
+  for (const GlobalNodeId listed : strip.nodes)
+    EXPECT_EQ(places[listed.value()], finer.points[listed.value()]);
+  EXPECT_NE(places[node(1, 1).value()], finer.point(node(1, 1))) << "in the wall's layers";
+}
+
 TEST(ColumnPlaces, AreTheSameOnAnyNumberOfRanks) {
   const Communicator self(MPI_COMM_SELF);
   const Mesh old_whole = bent(6), new_whole = bent(10);

@@ -56,7 +56,14 @@ TEST(TidyMesh, DropsNodesOfNoCellWithTheirRows) {
   for (BoundaryEdges& b : mesh.boundaries) one_later(b.edges);
   loaded.solution = Field{{"a", "b"}, {}, {}};
   for (int i = 0; i < 22; ++i) loaded.solution->values.push_back(i);
+  const auto strip = [](std::vector<int> nodes) {
+    StripLayers made{"wake", {1, 0.5}, false, 3, {}};
+    for (const int node : nodes) made.nodes.emplace_back(node);
+    return made;
+  };
+  mesh.strips = {strip({0, 1, 3, 4, 5, 6}), strip({0, 1, 2, 4, 5, 6})};
   tidy_mesh(loaded, "m.mesh");
+  EXPECT_EQ(mesh.strips, std::vector{strip({0, 1, 2, 3, 4, 5})}) << "one with a node of no cell is none";
   expect_same(mesh, square().mesh);
   EXPECT_EQ(loaded.solution->values,
             (std::vector<double>{0, 1, 2, 3, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19}));

@@ -51,6 +51,18 @@ void expect_refusal(const std::string& text, const std::string& begins, const st
   EXPECT_NE(found.find(says), std::string::npos) << found;
 }
 
+TEST(NativeReader, ReadsStripsFromCommentsAndTellsOfDamagedOnes) {
+  const std::string strip = "# strip wake 1 0.5 3 2 line\n";
+  const LoadedMesh damaged = read_text(square + strip + "# nodes 1-3\n" + solution);
+  EXPECT_TRUE(damaged.mesh.strips.empty());
+  ASSERT_EQ(damaged.warnings.size(), 1U);
+  EXPECT_NE(damaged.warnings[0].find("'# strip wake' does not list"), std::string::npos)
+      << damaged.warnings[0];
+  EXPECT_TRUE(damaged.solution.has_value());
+  const LoadedMesh narrow = read_text(square + "# strip wake 1 0.5 3 2 line\n# nodes 1-3 4\n# nodes 2 1\n");
+  EXPECT_TRUE(narrow.mesh.strips.empty()) << "a node twice";
+}
+
 TEST(NativeReader, ReadsMeshAndSolution) {
   const LoadedMesh loaded = read_text(square + solution);
   EXPECT_EQ(loaded.mesh.points.size(), 4U);

@@ -21,7 +21,7 @@ Geometry wedge(double base, const std::optional<LayerSpec>& of_wedge = layers) {
 
 LayerLine wake_of(const std::string& name) {
   LayerLine wake;
-  wake.from = name;
+  wake.from = {name};
   wake.length = 3;
   wake.spacing = 0.1;
   return wake;
@@ -30,7 +30,8 @@ LayerLine wake_of(const std::string& name) {
 TEST(PlaceLines, AWakeGoesStraightOnFromASharpEdge) {
   const Geometry g = test::rhombus_with_layers(layers, 0.25);
   LayerLine wake = wake_of("body");
-  EXPECT_NE(test::refusal([&] { place_lines(g, {wake}); }).find("has 2 edges, at ("), std::string::npos);
+  EXPECT_NE(test::refusal([&] { place_lines(g, {wake}); }).find("there are 2 edges, at ("),
+            std::string::npos);
   const std::vector<PlacedLine> placed = place_lines(wedge(0), {wake_of("wedge")});
   ASSERT_EQ(placed.size(), 1U);
   ASSERT_EQ(placed[0].path.size(), 2U);
@@ -63,14 +64,60 @@ TEST(PlaceLines, APathIsFollowedAsItIsGiven) {
   EXPECT_EQ(placed.path, free.path);
 }
 
+/// That body as two boundaries, which meet at its edge.
+Geometry halves(double base) {
+  std::vector<Point> upper{{-1, 0.5}, {0, 0.5}};
+  if (base > 0) upper.push_back({2, base / 2});
+  const std::vector<Point> lower{{2, -base / 2}, {0, -0.5}, {-1, -0.5}};
+  return test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
+                           {{"upper", upper, layers}, {"lower", lower, layers}}});
+}
+
+TEST(PlaceLines, AWakeMayBeginWhereTwoBoundariesMeet) {
+  LayerLine wake = wake_of("upper");
+  EXPECT_NE(
+      test::refusal([&] { place_lines(halves(0), {wake}); }).find("name them all: from = [\"a\", \"b\"]"),
+      std::string::npos);
+  wake.from = {"upper", "lower"};
+  for (const double base : {0.0, 0.1}) {
+    const Geometry g = halves(base);
+    const PlacedLine placed = place_lines(g, {wake})[0];
+    EXPECT_EQ(g.point(placed.edge), (Point{2, base / 2}));
+    EXPECT_EQ(g.point(placed.base_end), (Point{2, -base / 2}));
+    EXPECT_EQ(placed.path[0], (Point{2, 0}));
+  }
+}
+
+TEST(PlaceLines, LinesAreNamedByTheirKindAndNumber) {
+  LayerLine free;
+  free.path = {{-6, -6}, {-5, -6}};
+  free.layers = layers;
+  free.where = "case.toml:7";
+  std::vector<PlacedLine> placed = place_lines(wedge(0), {free, wake_of("wedge"), free});
+  EXPECT_EQ(placed[0].name, "layer_line_1");
+  EXPECT_EQ(placed[1].name, "wake");
+  EXPECT_EQ(placed[2].name, "layer_line_2");
+  EXPECT_EQ(placed[0].place, "case.toml:7: ");
+  EXPECT_EQ(placed[1].place, "");
+}
+
+TEST(PlaceLines, OneEdgeHasOneWake) {
+  LayerLine second = wake_of("wedge");
+  second.where = "case.toml:9";
+  EXPECT_EQ(test::refusal([&] {
+              place_lines(wedge(0.1), {wake_of("wedge"), second});
+            }).find("case.toml:9: wake_2 begins at the edge at (2, 0), and so does wake_1"),
+            0U);
+}
+
 TEST(PlaceLines, AWakeNeedsAnEdgeOfABoundaryWithLayers) {
   const auto says = [](const Geometry& g, const std::string& name, const std::string& wanted) {
     const std::string message = test::refusal([&] { place_lines(g, {wake_of(name)}); });
     EXPECT_NE(message.find(wanted), std::string::npos) << message;
   };
-  says(wedge(0.1), "wing", "no boundary of that name");
+  says(wedge(0.1), "wing", "the geometry has no boundary 'wing'");
   says(wedge(0.1, std::nullopt), "wedge", "has no layers");
-  says(wedge(0.8), "wedge", "has no edge");
+  says(wedge(0.8), "wedge", "there is no edge");
 }
 
 }  // namespace

@@ -45,6 +45,17 @@ TEST(FitThickness, IsAsAskedWhereThereIsRoom) {
   }
 }
 
+TEST(FitThickness, LayersThickerThanAChannelStayWithinIt) {
+  for (const double asked : {1.87, 5.6, 20.0, 400.0}) {
+    const Fitted f(test::outline_of(
+        {{{"floor", {{0, 0}}, test::equal_layers(asked, 20)}, {"rest", {{4, 0}, {4, 1}, {0, 1}}}}}));
+    for (std::int32_t i = 0; i < f.line.size(); ++i) {
+      EXPECT_LT(f.fitting.front[i].y, 1) << asked << " at " << f.line[i].wall.x;
+      EXPECT_GT(f.fitting.front[i].y, 0.2);
+    }
+  }
+}
+
 TEST(FitThickness, WallsThatFaceEachOtherShareTheirGap) {
   const double gap = 0.6;
   const Fitted f(two_bars(gap));

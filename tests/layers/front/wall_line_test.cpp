@@ -49,6 +49,40 @@ TEST(WallLine, StationsAreAnEighthOfTheThicknessApart) {
   EXPECT_EQ(floor.line.width(128), 0);
 }
 
+/// A floor of a length of 4 between sides, with layers so thin.
+Geometry long_floor(double thickness, double spacing) {
+  return test::outline_of(
+      {{{"floor", {{-2, 0}}, test::equal_layers(thickness, 4)}, {"rest", {{2, 0}, {2, 2}, {-2, 2}}}}},
+      spacing);
+}
+
+TEST(WallLine, FarFromCornersStationsStandWider) {
+  const Wall floor(long_floor(0.01, 1));
+  const WallLine &line = floor.line;
+  EXPECT_LT(line.size(), 400) << "not 3200";
+  for (std::int32_t i = 0; i + 1 < line.size(); ++i) {
+    const double near = std::min(2 + line[i].wall.x, 2 - line[i + 1].wall.x);
+    if (near < 0.07) {
+      EXPECT_NEAR(line.width(i), 0.01 / 8, 2e-4) << near;
+    }
+    EXPECT_LE(line.width(i), 0.01 / 8 + near / 8 + 1e-12);
+    EXPECT_LE(line.width(i), 0.25);
+    if (i > 0) {
+      EXPECT_LT(line.width(i), 1.2 * line.width(i - 1));
+    }
+    const std::int32_t mirrored = line.size() - 1 - i;
+    EXPECT_EQ(line[i].wall.x, -line[mirrored].wall.x);
+  }
+}
+
+TEST(WallLine, ThinLayersTakeFewStations) {
+  const std::int32_t thin = Wall(long_floor(1e-6, 1)).line.size(),
+                     thinner = Wall(long_floor(1e-9, 1)).line.size();
+  EXPECT_LT(thin, 400);
+  EXPECT_LT(thinner, 600);
+  EXPECT_GT(Wall(long_floor(1e-6, 0.01)).line.size(), 1600) << "four for each cell along the wall";
+}
+
 TEST(WallLine, ARunEndsOnTheSideThatIsMetThere) {
   const Wall slanted(test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{4, 0}, {3, 2}, {-1, 2}}}}}));
   const Station &first = slanted.line[0], &last = slanted.line[slanted.line.size() - 1];

@@ -37,6 +37,42 @@ TEST(LayerFigures, MeasureColumnsOfQuadsAndOfTriangles) {
   }
 }
 
+TEST(LayerFigures, OfStripsAreMeasuredOnBothSidesOfTheirLine) {
+  const LayeredStrip grid{6, 2, 2, false};
+  Mesh mesh = grid.mesh();
+  StripLayers strip{"wake", {1, 0.5}, false, 3, {}};
+  for (std::int32_t i = 1; i <= 4; ++i) {
+    for (std::int32_t j = 2; j <= 4; ++j) strip.nodes.push_back(mesh.global(grid.node(i, j)));
+  }
+  mesh.strips = {strip};
+  mesh.points[grid.node(2, 4).value()].y += 0.25;
+  mesh.points[grid.node(3, 2).value()].x += 0.1;  // that column leans
+  const std::vector<LayerFigures> figures = figures_of(mesh);
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_EQ(figures[0].boundary, "wall");
+  EXPECT_EQ(figures[1].boundary, "wake");
+  EXPECT_EQ(figures[1].count, 1);
+  EXPECT_EQ(figures[1].columns, 4);
+  EXPECT_NEAR(figures[1].first.least, 1, 1e-12);
+  EXPECT_NEAR(figures[1].first.largest, 1.25, 1e-12);
+  EXPECT_NEAR(figures[1].thickness.largest, 1.25, 1e-12);
+  EXPECT_EQ(figures[1].asked, 0.5);
+}
+
+TEST(LayerFigures, OfABluntEdgesStripBeginAtItsOuterLines) {
+  const LayeredStrip grid{6, 3, 0, false};  // heights .1, .3, .7, 1.7, 2.7, 3.7
+  Mesh mesh = grid.mesh();
+  StripLayers strip{"wake", {1, 0.5}, false, 7, {}};
+  for (std::int32_t i = 1; i <= 4; ++i) {
+    for (std::int32_t j = 0; j <= 6; ++j) strip.nodes.push_back(mesh.global(grid.node(i, j)));
+  }
+  mesh.strips = {strip};
+  const LayerFigures wake = figures_of(mesh).back();
+  EXPECT_NEAR(wake.first.least, 0.1, 1e-12);
+  EXPECT_NEAR(wake.first.largest, 1, 1e-12);
+  EXPECT_NEAR(wake.thickness.largest, 1, 1e-12) << "the rows between are no layers of either side";
+}
+
 TEST(LayerFigures, FirstHeightsAreNormalToTheWallAndSpreadIsSeen) {
   const LayeredStrip strip;
   Mesh mesh = strip.mesh();

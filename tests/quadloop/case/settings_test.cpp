@@ -148,6 +148,17 @@ TEST_F(SettingsTest, RefusesBadLayers) {
             0u);
 }
 
+TEST_F(SettingsTest, AMisspeltKeyThatIsNeededIsUnknownAndNotMissing) {
+  EXPECT_EQ(refused("[boundary.box]\nlayers = { frist = 1, count = 3 }\n"),
+            "case.toml:4: unknown key 'boundary.box.layers.frist'; do you mean 'first'?");
+  EXPECT_EQ(refused("[boundary.box]\nlayers = { first = 1, cuont = 3 }\n"),
+            "case.toml:4: unknown key 'boundary.box.layers.cuont'; do you mean 'count'?");
+  EXPECT_EQ(refused("[[wake]]\nfrom = \"box\"\nlenght = 3\nspacing = 1\n"),
+            "case.toml:5: unknown key 'wake.0.lenght'; do you mean 'length'?");
+  EXPECT_EQ(refused("[[wake]]\nfrm = \"box\"\n"),
+            "case.toml:4: unknown key 'wake.0.frm'; do you mean 'from'?");
+}
+
 TEST_F(SettingsTest, ReadsWakesAndFreeLinesWithLayers) {
   EXPECT_TRUE(read("").lines.empty());
   const Settings settings = read(
@@ -155,9 +166,13 @@ TEST_F(SettingsTest, ReadsWakesAndFreeLinesWithLayers) {
       "[[wake]]\nfrom = \"box\"\npath = [[2, 0], [4, 1]]\nspacing = 0.2\n"
       "[[layer_line]]\npath = [[0, 0], [1, 1]]\nspacing = 0.3\nfirst = 1e-3\ncount = 5\n");
   ASSERT_EQ(settings.lines.size(), 3U);
-  EXPECT_EQ(settings.lines[0], (LayerLine{"box", {}, 3, 0.1, {}}));
-  EXPECT_EQ(settings.lines[1], (LayerLine{"box", {{2, 0}, {4, 1}}, 0, 0.2, {}}));
-  EXPECT_EQ(settings.lines[2], (LayerLine{"", {{0, 0}, {1, 1}}, 0, 0.3, LayerSpec{1e-3, 1.2, 1.2, 5, 1}}));
+  EXPECT_TRUE(settings.lines[0].where.ends_with("/case.toml:3")) << settings.lines[0].where;
+  EXPECT_TRUE(settings.lines[2].where.ends_with("/case.toml:11")) << settings.lines[2].where;
+  const auto both = read("[[wake]]\nfrom = [\"upper\", \"lower\"]\nlength = 1\nspacing = 1\n").lines;
+  EXPECT_EQ(both[0].from, (std::vector<std::string>{"upper", "lower"}));
+  EXPECT_EQ(settings.lines[0], (LayerLine{{"box"}, {}, 3, 0.1, {}}));
+  EXPECT_EQ(settings.lines[1], (LayerLine{{"box"}, {{2, 0}, {4, 1}}, 0, 0.2, {}}));
+  EXPECT_EQ(settings.lines[2], (LayerLine{{}, {{0, 0}, {1, 1}}, 0, 0.3, LayerSpec{1e-3, 1.2, 1.2, 5, 1}}));
 }
 
 TEST_F(SettingsTest, RefusesBadWakesAndFreeLines) {
