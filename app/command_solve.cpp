@@ -92,9 +92,10 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
 }
 
 /// Puts the flow into the whole mesh on the root and writes it. *Collective.*
-void write(const Communicator& comm, Problem& problem, const EulerResult& result, const std::string& path) {
+void write(const Communicator& comm, Problem& problem, const Mesh& part, const EulerResult& result,
+           const std::string& path) {
   Field solution =
-      gather_field(comm, flow_with_constants(result, problem.settings.solver.euler), problem.order);
+      gather_field(comm, flow_with_constants(result, problem.settings.solver.euler), part, problem.order);
   comm.together([&] {
     if (!comm.is_root()) return;
     if (!format_of(path)->holds(Content::constants)) solution.constants.clear();
@@ -144,7 +145,7 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   times.begin("solve");
   const EulerResult result = solve(comm, problem, part);
   times.begin("write");
-  write(comm, problem, result, arguments.output);
+  write(comm, problem, part, result, arguments.output);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   const std::int64_t nodes = comm.sum(part.owned_nodes);
