@@ -45,7 +45,8 @@ CellShape shape_of(std::span<const Point> corners) {
   for (const Point corner : corners)
     mean = mean + (1.0 / static_cast<double>(corners.size())) * (corner - origin);
   const double area = 0.5 * twice_area;
-  return {area, origin + (area > 0 ? (1 / (3 * twice_area)) * moment : mean)};
+  const Point from_first = area > 0 ? (1 / (3 * twice_area)) * moment : mean;
+  return {area, origin + from_first, from_first};
 }
 
 std::vector<CellShape> cell_shapes(const Mesh& mesh) {

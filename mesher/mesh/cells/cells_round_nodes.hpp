@@ -12,6 +12,7 @@ namespace quadloop {
 struct CellShape {
   double area = 0;
   Point centroid;
+  Point from_first;  ///< the centroid from the first corner: far from the origin it has more digits
 };
 CellShape shape_of(std::span<const Point> corners);
 
