@@ -78,7 +78,7 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
     problem.settings = read_settings(arguments.case_path, arguments.assignments);
     if (problem.settings.solver.kind != SolverSettings::Kind::euler) {
       throw InputError(arguments.case_path +
-                       ": 'solver.kind' is 'command', but 'quadloop solve' runs the built-in solver alone; "
+                       ": 'solver.kind' is not 'euler', but 'quadloop solve' runs the built-in solver alone; "
                        "set kind = \"euler\"");
     }
     if (!context.comm.is_root()) return;

@@ -93,7 +93,7 @@ FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
   comm.together([&] {
     chosen = chosen_solver(input.settings.solver, input.settings.outline.rules, input.mesh->geometry, path);
     if (!std::holds_alternative<EulerOptions>(*chosen))
-      throw InputError(path + ": 'solver.kind' is 'command', not the built-in solver; set kind = \"euler\"");
+      throw InputError(path + ": 'solver.kind' is not the built-in solver; set kind = \"euler\"");
   });
   return euler_solver(std::get<EulerOptions>(*chosen));
 }

@@ -35,16 +35,18 @@ CycleFileOptions file_options(const AdaptiveCase& adaptive) {
   if (const auto* command = std::get_if<CommandSolver>(&adaptive.solver)) {
     options.read_by_solver = {command->mesh};
     options.gamma = command->gamma;
-  } else {
-    options.gamma = std::get<EulerOptions>(adaptive.solver).gamma;
+  } else if (const auto* euler = std::get_if<EulerOptions>(&adaptive.solver)) {
+    options.gamma = euler->gamma;
   }
   return options;
 }
 
 FlowSolver solver_in(const CycleFolders& folders, const ChosenSolver& chosen) {
   if (const auto* options = std::get_if<EulerOptions>(&chosen)) return euler_solver(*options);
-  return command_solver(std::get<CommandSolver>(chosen),
-                        [&folders](int cycle) { return folders.under_way(cycle); });
+  const auto folder_of = [&folders](int cycle) { return folders.under_way(cycle); };
+  if (const auto* openfoam = std::get_if<OpenfoamSolver>(&chosen))
+    return openfoam_solver(*openfoam, folder_of);
+  return command_solver(std::get<CommandSolver>(chosen), folder_of);
 }
 
 /// What an earlier run's last whole cycle came to, by its files. A finished run is looked at too: whoever

@@ -80,7 +80,12 @@ void read_solver_table(const CaseTable& root, SolverSettings& settings) {
   const auto table = root.table("solver");
   if (!table) return;
   settings.given = true;
-  if (table->choice("kind", {"euler", "command"}) == "command") settings.kind = SolverSettings::Kind::command;
+  if (const auto word = table->choice("kind", words_of(SolverSettings::kind_words)))
+    settings.kind = *value_of(SolverSettings::kind_words, *word);
+  settings.case_template = table->text("template").value_or("");
+  if (settings.kind == SolverSettings::Kind::openfoam && settings.case_template.empty())
+    table->refuse("template",
+                  "is missing; kind = \"openfoam\" needs the folder of a case, relative to the case file");
   read_euler_keys(*table, settings.euler);
   read_command_keys(*table, settings);
   table->finish();
@@ -141,9 +146,14 @@ ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<Bou
       named.boundaries.push_back({boundary.name, boundary.condition, {}});
     return euler_options(settings, rules, named);
   }
+  const std::filesystem::path case_folder = std::filesystem::absolute(case_path).parent_path();
+  if (settings.kind == SolverSettings::Kind::openfoam) {
+    return OpenfoamSolver{(case_folder / settings.case_template).lexically_normal().string(),
+                          settings.command.ranks, settings.command.command.timeout};
+  }
   CommandSolver solver = settings.command;
   solver.gamma = settings.euler.gamma;
-  solver.case_folder = std::filesystem::absolute(case_path).parent_path().string();
+  solver.case_folder = case_folder.string();
   return solver;
 }
 

@@ -5,6 +5,7 @@
 
 #include "adapt/loop/chosen_solver.hpp"
 #include "io/input/case_file.hpp"
+#include "mesher/base/word_table.hpp"
 #include "mesher/geometry/assemble/boundary_rules.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -26,12 +27,15 @@ struct WallTemperature {
 
 /// The case's table [solver], and what its boundary tables say to the solver alone.
 struct SolverSettings {
-  enum class Kind { euler, command };
+  enum class Kind { euler, command, openfoam };
+  static constexpr WordTable<Kind, 3> kind_words{
+      {{"euler", Kind::euler}, {"command", Kind::command}, {"openfoam", Kind::openfoam}}};
 
   Kind kind = Kind::euler;
-  bool given = false;     ///< the case has the table
-  EulerOptions euler;     ///< without the boundaries
-  CommandSolver command;  ///< without the case's folder
+  bool given = false;         ///< the case has the table
+  EulerOptions euler;         ///< without the boundaries
+  CommandSolver command;      ///< without the case's folder
+  std::string case_template;  ///< for kinds other than these two, as the case has it
   std::vector<OutflowPressure> pressures;
   std::vector<WallTemperature> wall_temperatures;
 };
