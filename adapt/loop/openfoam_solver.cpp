@@ -74,17 +74,28 @@ constexpr const char* script_head =
     "  export WM_PROJECT_DIR=/usr/share/openfoam\n"
     "fi\n";
 
+/// The solver, by controlDict.start first where there is one.
+constexpr const char* script_run =
+    "application=$(sed -n 's/^ *application *\\([A-Za-z0-9_]*\\) *;.*/\\1/p' system/controlDict)\n"
+    "if [ -f system/controlDict.start ]; then\n"
+    "  mv system/controlDict system/controlDict.then\n"
+    "  cp system/controlDict.start system/controlDict\n"
+    "  solve\n"
+    "  mv system/controlDict.then system/controlDict\n"
+    "fi\n"
+    "solve\n";
+
 std::string script(bool has_allrun, int ranks) {
   std::string text = std::string(script_head) + "cd " + OpenfoamSolver::folder_name + "\n";
   if (has_allrun) {
     text += fmt::format("./Allrun {}\n", ranks);
+  } else if (ranks == 1) {
+    text += std::string("solve() { \"$application\"; }\n") + script_run;
   } else {
-    text += "application=$(sed -n 's/^ *application *\\([A-Za-z0-9_]*\\) *;.*/\\1/p' system/controlDict)\n";
-    text += ranks == 1 ? std::string("\"$application\"\n")
-                       : fmt::format(
-                             "decomposePar\nmpirun -n {} \"$application\" -parallel\n"
-                             "reconstructPar -latestTime\n",
-                             ranks);
+    text += fmt::format(
+        "solve() {{ mpirun -n {} \"$application\" -parallel; }}\ndecomposePar\n{}"
+        "reconstructPar -latestTime\n",
+        ranks, script_run);
   }
   return text + "cd ..\necho done > " + done_name + "\n";
 }
