@@ -69,6 +69,8 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   ChosenSolver solver =
       chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const CommandSolver* const command = command_of(solver)) require_solver_files(arguments, *command);
+  if (const auto* openfoam = std::get_if<OpenfoamSolver>(&solver))
+    require_openfoam_template(openfoam->case_template);
   AdaptiveCase adaptive{std::move(*input.mesh), adapt, std::move(solver), settings.formats, settings.values};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;

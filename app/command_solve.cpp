@@ -77,10 +77,9 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
     require_outputs(arguments.output);
     problem.settings = read_settings(arguments.case_path, arguments.assignments);
     if (problem.settings.solver.kind != SolverSettings::Kind::euler) {
-      throw InputError(
-          arguments.case_path +
-          ": 'solver.kind' is another program's, but 'quadloop solve' runs the built-in solver alone; "
-          "set kind = \"euler\"");
+      throw InputError(arguments.case_path +
+                       ": 'solver.kind' is not 'euler', but 'quadloop solve' runs the built-in solver alone; "
+                       "set kind = \"euler\"");
     }
     if (!context.comm.is_root()) return;
     require_possible_output(arguments.output);
@@ -93,9 +92,10 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
 }
 
 /// Puts the flow into the whole mesh on the root and writes it. *Collective.*
-void write(const Communicator& comm, Problem& problem, const EulerResult& result, const std::string& path) {
+void write(const Communicator& comm, Problem& problem, const Mesh& part, const EulerResult& result,
+           const std::string& path) {
   Field solution =
-      gather_field(comm, flow_with_constants(result, problem.settings.solver.euler), problem.order);
+      gather_field(comm, flow_with_constants(result, problem.settings.solver.euler), part, problem.order);
   comm.together([&] {
     if (!comm.is_root()) return;
     if (!format_of(path)->holds(Content::constants)) solution.constants.clear();
@@ -145,7 +145,7 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   times.begin("solve");
   const EulerResult result = solve(comm, problem, part);
   times.begin("write");
-  write(comm, problem, result, arguments.output);
+  write(comm, problem, part, result, arguments.output);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   const std::int64_t nodes = comm.sum(part.owned_nodes);

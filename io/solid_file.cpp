@@ -67,6 +67,8 @@ std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& 
   }
   if (mesh.solution != nullptr && !format->solution_in_solid)
     losses.push_back(path + ": this format has no place for the solution, which is left out");
+  if (mesh.solution != nullptr && mesh.solution->cells.width() > 0)
+    losses.push_back(path + ": the values of cells are not drawn out and are left out");
   if (format->patch_names == nullptr) return losses;
   std::vector<std::string> names;
   for (const BoundaryEdges& boundary : mesh.plane.boundaries) names.push_back(boundary.name);

@@ -18,20 +18,21 @@ namespace quadloop {
 namespace {
 
 void require_values(const LoadedMesh& loaded, const std::string& path) {
-  if (loaded.solution && !loaded.solution->names.empty()) return;
+  if (loaded.solution && !loaded.solution->empty()) return;
   throw InputError(path + ": holds a mesh without a solution; " + format_of(path)->without_values);
 }
 
 /// Finite, and so small that differences, squares and integrals over the mesh are finite too.
-void require_usable(const Field& solution, const std::string& path) {
+void require_usable(const std::vector<std::string>& names, const std::vector<double>& values,
+                    const std::string& place, const std::string& path) {
   constexpr double largest = 1e150;
-  const std::size_t width = solution.names.size();
-  for (std::size_t i = 0; i < solution.values.size(); ++i) {
-    const double value = solution.values[i];
+  const std::size_t width = names.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = values[i];
     if (std::fabs(value) <= largest) continue;
     const std::string fault = std::isfinite(value) ? fmt::format("is beyond {}", largest) : "is not finite";
-    throw InputError(fmt::format("{}: {} {} at node {}: {}", path, solution.names[i % width], fault,
-                                 i / width + 1, value));
+    throw InputError(
+        fmt::format("{}: {} {} at {} {}: {}", path, names[i % width], fault, place, i / width + 1, value));
   }
 }
 
@@ -85,8 +86,11 @@ LoadedSolution read_solution(const std::string& path) {
   require_solution_suffix(path);
   const auto read_solution_alone = format_of(path)->read_solution;
   LoadedSolution result = read_solution_alone != nullptr ? read_solution_alone(path) : read_with_mesh(path);
-  result.solution.names = distinct_words(result.solution.names, path);
-  require_usable(result.solution, path);
+  Field& solution = result.solution;
+  solution.names = distinct_words(solution.names, path);
+  solution.cells.names = distinct_words(solution.cells.names, path);
+  require_usable(solution.names, solution.values, "node", path);
+  require_usable(solution.cells.names, solution.cells.values, "cell", path);
   return result;
 }
 

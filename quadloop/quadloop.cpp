@@ -47,6 +47,12 @@ void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field
     throw InputError(fmt::format("the field has {} values on rank {}, but {} variables at {} nodes",
                                  field.values.size(), comm.rank(), field.width(), mesh.owned_nodes));
   });
+  const std::size_t cells = mesh.triangles.size() + mesh.quads.size();
+  comm.together([&] {
+    if (field.cells.values.size() == field.cells.width() * cells) return;
+    throw InputError(fmt::format("the field has {} cell values on rank {}, but {} variables in {} cells",
+                                 field.cells.values.size(), comm.rank(), field.cells.width(), cells));
+  });
 }
 
 }  // namespace
@@ -87,7 +93,7 @@ FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
   comm.together([&] {
     chosen = chosen_solver(input.settings.solver, input.settings.outline.rules, input.mesh->geometry, path);
     if (!std::holds_alternative<EulerOptions>(*chosen))
-      throw InputError(path + ": 'solver.kind' is 'command', not the built-in solver; set kind = \"euler\"");
+      throw InputError(path + ": 'solver.kind' is not the built-in solver; set kind = \"euler\"");
   });
   return euler_solver(std::get<EulerOptions>(*chosen));
 }
@@ -151,7 +157,7 @@ std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const
   require_writable_suffix(path);
   require_rows(comm, mesh, field);
   OutputSet outputs(comm);
-  const Field* solution = field.width() > 0 ? &field : nullptr;
+  const Field* solution = !field.empty() ? &field : nullptr;
   write_mesh(outputs, mesh, path, solution);
   outputs.commit();
   return losses_in(mesh, solution, path);
@@ -160,7 +166,7 @@ std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const
 void write_solved(const Communicator& comm, const SolvedMesh& solved, const std::string& stem) {
   require_rows(comm, solved.mesh, solved.solution);
   OutputSet outputs(comm);
-  write_mesh(outputs, solved.mesh, stem + ".mesh", solved.solution.width() > 0 ? &solved.solution : nullptr);
+  write_mesh(outputs, solved.mesh, stem + ".mesh", !solved.solution.empty() ? &solved.solution : nullptr);
   write_tree(outputs, solved.tree, stem + tree_suffix);
   outputs.commit();
 }

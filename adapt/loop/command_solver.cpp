@@ -33,7 +33,7 @@ SolverFiles files_in(const std::string& folder, const CommandSolver& solver, int
 void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, const SolverFiles& files,
                double gamma) {
   OutputSet outputs(comm);
-  const Field* state = start.width() > 0 ? &start : nullptr;
+  const Field* state = !start.empty() ? &start : nullptr;
   if (files.mesh != CyclePaths{files.folder}.native_mesh()) write_mesh(outputs, mesh, files.mesh, state);
   if (files.state != files.mesh) write_mesh(outputs, mesh, files.state, state, gamma);
   outputs.commit();

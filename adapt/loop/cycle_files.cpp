@@ -49,7 +49,7 @@ void CycleFiles::begin(int cycle) {
 }
 
 void CycleFiles::meshed(const MeshResult& mesh, const Field& start) {
-  starts_afresh_ = start.width() == 0;
+  starts_afresh_ = start.empty();
   const CyclePaths paths{folders_.under_way(cycle_)};
   OutputSet outputs(comm_);
   write_mesh(outputs, mesh.mesh, paths.native_mesh(), starts_afresh_ ? nullptr : &start);

@@ -35,8 +35,8 @@ CycleFileOptions file_options(const AdaptiveCase& adaptive) {
   if (const CommandSolver* const command = command_of(adaptive.solver)) {
     options.read_by_solver = {command->mesh};
     options.gamma = command->gamma;
-  } else {
-    options.gamma = std::get<EulerOptions>(adaptive.solver).gamma;
+  } else if (const auto* euler = std::get_if<EulerOptions>(&adaptive.solver)) {
+    options.gamma = euler->gamma;
   }
   return options;
 }
@@ -45,6 +45,8 @@ FlowSolver solver_in(const CycleFolders& folders, const ChosenSolver& chosen) {
   if (const auto* options = std::get_if<EulerOptions>(&chosen)) return euler_solver(*options);
   const auto folder_of = [&folders](int cycle) { return folders.under_way(cycle); };
   if (const auto* su2 = std::get_if<Su2Solver>(&chosen)) return su2_solver(*su2, folder_of);
+  if (const auto* openfoam = std::get_if<OpenfoamSolver>(&chosen))
+    return openfoam_solver(*openfoam, folder_of);
   return command_solver(std::get<CommandSolver>(chosen), folder_of);
 }
 

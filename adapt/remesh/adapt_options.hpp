@@ -8,6 +8,7 @@
 #include "adapt/sensor/indicator.hpp"
 #include "adapt/sensor/measured_friction.hpp"
 #include "adapt/sensor/thresholds.hpp"
+#include "adapt/transfer/transfer.hpp"
 #include "mesher/base/word_table.hpp"
 
 namespace quadloop {
@@ -30,6 +31,7 @@ struct AdaptOptions {
   std::optional<std::int64_t> max_nodes;  ///< a cap; the target for Threshold::nodes
   /// Leaf size that adaptation may reach, in the geometry's unit; none: that of the case.
   std::optional<double> min;
+  TransferKind transfer = TransferKind::linear;
   /// Where first heights of layers are to follow the wall shear of a solution.
   std::optional<WallFlow> wall_flow;
 };

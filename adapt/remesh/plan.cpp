@@ -144,6 +144,7 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
                                const SolvedMesh& solved) {
   const MarkFamily family = family_of(comm, options, solved);
   AdaptationPlan plan;
+  plan.transfer = options.transfer;
   plan.measured_wall = wall_to_follow(comm, input, options, solved);
   plan.new_heights = other_heights(input, solved.tree.measured_wall, plan.measured_wall);
   const NodeSearch search(comm, input, plan.measured_wall, solved, family, finest_level(input, options));

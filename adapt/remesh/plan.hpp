@@ -19,6 +19,7 @@ struct AdaptationPlan {
   std::int64_t refined = 0, coarsened = 0;
   MeasuredWall measured_wall;  ///< that first heights of layers are to follow; the same on every rank
   bool new_heights = false;    ///< they differ from those of the last mesh
+  TransferKind transfer = TransferKind::linear;
   std::vector<std::string> warnings;
 
   /// Without a mark that takes effect, or new heights, the next mesh would be the last one again.

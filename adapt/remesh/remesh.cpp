@@ -1,5 +1,7 @@
 #include "adapt/remesh/remesh.hpp"
 
+#include <algorithm>
+
 #include "adapt/remesh/restart.hpp"
 #include "io/loaded/loaded_mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -16,6 +18,10 @@ SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, Tree
 std::vector<std::pair<std::string, double>> CarriedMesh::drifts() const {
   std::vector<std::pair<std::string, double>> named;
   for (std::size_t i = 0; i < start.width(); ++i) named.emplace_back(start.names[i], report.drift[i]);
+  for (std::size_t i = 0; i < start.cells.width(); ++i)
+    named.emplace_back(
+        (std::ranges::count(start.names, start.cells.names[i]) > 0 ? "cell_" : "") + start.cells.names[i],
+        report.drift[start.width() + i]);
   return named;
 }
 
@@ -25,7 +31,8 @@ CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const A
   carried.generated = generate_mesh(comm, input, DemandedSplits(comm, plan.demands), plan.measured_wall);
   carried.times.append(carried.generated.times);
   carried.times.begin("transfer");
-  Transferred transferred = transfer(comm, old.mesh, old.solution, carried.generated.result.mesh);
+  Transferred transferred =
+      transfer(comm, old.mesh, old.solution, carried.generated.result.mesh, plan.transfer);
   carried.start = std::move(transferred.field);
   carried.report = std::move(transferred.report);
   carried.times.end();

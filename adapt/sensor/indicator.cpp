@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapt/sensor/cell_jumps.hpp"
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/node_gradients.hpp"
-#include "mesher/mesh/layer_nodes.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
@@ -16,25 +16,6 @@ template <class T>
 T change(std::span<const T> of_nodes, NodeId from, NodeId to) {
   return of_nodes[to.value()] - of_nodes[from.value()];
 }
-
-/// The edges that tell whether a leaf is to be split: not those across layers, which stay as high as the case
-/// asks for, however narrow their columns get, and none within strips, whose columns stay too.
-class TellingEdges {
- public:
-  /// *Collective.*
-  TellingEdges(const Communicator& comm, const Mesh& mesh) {
-    if (has_layers(mesh)) places_ = layer_places(comm, mesh);
-  }
-  bool tells(NodeId from, NodeId to) const {
-    if (places_.empty()) return true;
-    const LayerPlace &a = places_[from], &b = places_[to];
-    if (!a.valid() || !b.valid()) return true;
-    return a.left == b.left && (a.strip < 0 || b.strip < 0);
-  }
-
- private:
-  LayerPlaces places_;
-};
 
 /// Raises each cell's value to the largest of its edges that tell. `of_edge(from, to)` must have the same
 /// bits as `of_edge(to, from)`: the cells on both sides of an edge see it in different directions, and so do
@@ -93,6 +74,13 @@ std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
     const ScaledField scaled = scaled_by_range(comm, shared.column(variable));
     if (!scaled.constant) raise_by_field(comm, mesh, edges, scaled, kind, of_cells);
   }
+  if (field.cells.width() > 0) {
+    const CellJumps jumps(comm, mesh, edges, kind);
+    for (std::size_t variable = 0; variable < field.cells.width(); ++variable) {
+      const ScaledField scaled = scaled_by_range(comm, field.cells.column(variable));
+      if (!scaled.constant) jumps.raise(scaled, of_cells);
+    }
+  }
   return cells_of_leaves.largest(comm, of_cells);
 }
 
@@ -100,6 +88,7 @@ std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh,
                                 std::span<const LeafRecord> leaves, const Field& error) {
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
   check_field(comm, mesh, error, FieldSign::not_negative);
+  if (error.cells.width() > 0) return cells_of_leaves.largest(comm, error.cells.column(0));
   const std::vector<double> values = with_copies(comm, mesh, error).column(0);
   std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(), 0);
   for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t cell) {

@@ -12,11 +12,13 @@
 namespace quadloop {
 
 /// What is taken of a variable q, divided by its range, along an edge dx of the mesh (g: gradient at the
-/// nodes).
+/// nodes). Of a variable of the cells dq is the jump across an edge, between two cells, and dx goes from the
+/// centroid of one to that of the other; g comes from the cells round a node by least squares, and where
+/// these lie on one line (at corners of the domain) there is none.
 enum class Indicator {
   difference,  ///< |dq|
   gradient,    ///< |dq| / |dx|, in 1 / length
-  hessian      ///< |dg . dx|: 0 where q is linear
+  hessian      ///< |dg . dx| along an edge: 0 where q is linear
 };
 
 inline constexpr WordTable<Indicator, 3> indicator_words{{{"difference", Indicator::difference},
@@ -24,7 +26,8 @@ inline constexpr WordTable<Indicator, 3> indicator_words{{{"difference", Indicat
                                                           {"hessian", Indicator::hessian}}};
 
 /// For each leaf of this rank's share the largest indicator of any variable of the field on any edge of the
-/// leaf's cells; 0 for leaves without cells. An edge counts for the leaves of both its cells, but
+/// leaf's cells; 0 for leaves without cells. Variables of cells count by the edges between two cells, as
+/// above. An edge counts for the leaves of both its cells, but
 /// not one that crosses layers at a wall: these keep their heights when a leaf is split. A constant
 /// variable adds nothing; what may be rounding of q (ScaledField::rounding) counts as 0 in the differences of
 /// `difference`, `gradient` and in `hessian`. The mesh must be valid. The same bits on any number of ranks,
@@ -34,7 +37,8 @@ std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
                                    std::span<const LeafRecord> leaves, const Field& field, Indicator kind);
 
 /// For each leaf the largest of the solver's own error estimates, the field's only variable, at the nodes of
-/// its cells; 0 for leaves without cells. Throws InputError as above, and for a negative error. *Collective.*
+/// its cells, or in them; 0 for leaves without cells. Throws InputError as above, and for a negative error.
+/// *Collective.*
 std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh,
                                 std::span<const LeafRecord> leaves, const Field& error);
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/cells/cell_owners.hpp"
 
 namespace quadloop {
 
@@ -21,17 +22,32 @@ const char* fault_of(double value, FieldSign sign) {
   return nullptr;
 }
 
+/// `place` is "node" or "cell"; `number` counts from 1.
+void check_value(const std::string& name, const char* place, std::int64_t number, Point p, double value,
+                 FieldSign sign) {
+  const char* fault = fault_of(value, sign);
+  if (fault == nullptr) return;
+  std::ostringstream message;
+  message.precision(12);
+  message << "variable '" << name << "': " << place << " " << number << " at (" << p.x << ", " << p.y
+          << ") has the value " << value << ", " << fault;
+  throw InputError(message.str());
+}
+
 void check_variable(const Mesh& mesh, const Field& field, std::size_t variable, FieldSign sign) {
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
-    const double value = field.row(NodeId{node})[variable];
-    const char* fault = fault_of(value, sign);
-    if (fault == nullptr) continue;
-    const Point p = mesh.point(NodeId{node});
-    std::ostringstream message;
-    message.precision(12);
-    message << "variable '" << field.names[variable] << "': node " << mesh.first_node + node + 1 << " at ("
-            << p.x << ", " << p.y << ") has the value " << value << ", " << fault;
-    throw InputError(message.str());
+    check_value(field.names[variable], "node", mesh.first_node + node + 1, mesh.point(NodeId{node}),
+                field.row(NodeId{node})[variable], sign);
+  }
+}
+
+/// Of one kind of cells, triangles or quads; a cell's place is its first corner.
+template <class Cells>
+void check_cells(const Mesh& mesh, const Cells& cells, const CellValues& values, std::size_t first_row,
+                 std::int64_t first_number, std::size_t variable, FieldSign sign) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    check_value(values.names[variable], "cell", first_number + static_cast<std::int64_t>(i) + 1,
+                mesh.point(cells[i][0]), values.values[(first_row + i) * values.width() + variable], sign);
   }
 }
 
@@ -42,6 +58,16 @@ void check_field(const Communicator& comm, const Mesh& mesh, const Field& field,
     comm.together([&] {  // nodes are numbered in the order of ranks, so that the lowest rank that throws has
                          // the first node
       check_variable(mesh, field, variable, sign);
+    });
+  }
+  if (field.cells.width() == 0) return;
+  const CellOwners owners(comm, mesh);
+  const auto triangles = std::ssize(mesh.triangles);
+  for (std::size_t variable = 0; variable < field.cells.width(); ++variable) {
+    comm.together(
+        [&] { check_cells(mesh, mesh.triangles, field.cells, 0, owners.number(0), variable, sign); });
+    comm.together([&] {
+      check_cells(mesh, mesh.quads, field.cells, triangles, owners.number(triangles), variable, sign);
     });
   }
 }

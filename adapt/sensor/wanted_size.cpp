@@ -14,6 +14,7 @@ std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::
                                const Field& size) {
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
   check_field(comm, mesh, size, FieldSign::positive);
+  if (size.cells.width() > 0) return cells_of_leaves.smallest(comm, size.cells.column(0));
   const std::vector<double> values = with_copies(comm, mesh, size).column(0);
   std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(),
                                std::numeric_limits<double>::infinity());

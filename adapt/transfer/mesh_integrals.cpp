@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mesher/base/parallel/reproducible_sum.hpp"
+#include "mesher/mesh/cells/cells_round_nodes.hpp"
 
 namespace quadloop {
 
@@ -55,6 +56,21 @@ std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh,
   for (std::size_t k = 0; k < integrals.size(); ++k) {
     if (!has_negative(comm, field, k)) continue;
     integrals[k] = integral(comm, mesh, triangles, [&](NodeId node) { return std::abs(field.row(node)[k]); });
+  }
+  return integrals;
+}
+
+CellIntegrals integrate_cells(const Communicator& comm, const Mesh& mesh, const CellValues& cells) {
+  const std::vector<CellShape> shapes = cell_shapes(mesh);
+  CellIntegrals integrals;
+  for (std::size_t k = 0; k < cells.width(); ++k) {
+    std::vector<double> terms(shapes.size()), sizes(shapes.size());
+    for (std::size_t cell = 0; cell < shapes.size(); ++cell) {
+      terms[cell] = shapes[cell].area * cells.values[cell * cells.width() + k];
+      sizes[cell] = std::abs(terms[cell]);
+    }
+    integrals.values.push_back(reproducible_sum(comm, terms));
+    integrals.sizes.push_back(reproducible_sum(comm, sizes));
   }
   return integrals;
 }

@@ -19,4 +19,12 @@ std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh,
                                     std::span<const CellTriangle> triangles, const Field& field,
                                     const std::vector<double>& of_values);
 
+/// For each variable of the cells area times mean, and area times its absolute value, summed over the cells
+/// of all ranks; the same bits on any number of ranks.
+struct CellIntegrals {
+  std::vector<double> values, sizes;
+};
+/// *Collective.*
+CellIntegrals integrate_cells(const Communicator& comm, const Mesh& mesh, const CellValues& cells);
+
 }  // namespace quadloop

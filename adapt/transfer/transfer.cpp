@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "adapt/transfer/column_places.hpp"
+#include "adapt/transfer/conservative.hpp"
 #include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "adapt/transfer/locate/curve_shares.hpp"
@@ -13,6 +14,10 @@
 #include "adapt/transfer/locate/triangle_piece.hpp"
 #include "adapt/transfer/mesh_integrals.hpp"
 #include "mesher/base/parallel/exchange.hpp"
+#include "mesher/mesh/cells/cell_owners.hpp"
+#include "mesher/mesh/cells/cells_round_nodes.hpp"
+#include "mesher/mesh/cells/edge_cells.hpp"
+#include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop {
 
@@ -156,15 +161,72 @@ void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Fi
   }
 }
 
+/// The new mesh with its nodes at these places. *Collective.*
+Mesh moved_to(const Communicator& comm, const Mesh& mesh, const std::vector<Point>& places) {
+  Mesh moved = mesh;
+  std::ranges::copy(places, moved.points.begin());
+  NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.copies).update(moved.points);
+  return moved;
+}
+
+/// Cells outside the old mesh take the values of the cell at the nearest of its boundary edges. *Collective.*
+void take_from_boundary_cells(const Communicator& comm, const Mesh& old_mesh, const CellValues& old_cells,
+                              const Mesh& new_mesh, CarriedCells& carried) {
+  const NearestBoundary boundary(comm, old_mesh);
+  const std::vector<CellShape> shapes = cell_shapes(new_mesh);
+  std::vector<std::int32_t> edges;
+  std::vector<int> ranks;
+  for (const std::int64_t cell : carried.outside) {
+    const BoundaryPlace place = boundary.nearest(shapes[cell].centroid);
+    edges.push_back(place.edge);
+    ranks.push_back(place.rank);
+  }
+  const Exchange questions(comm, ranks);
+  const std::vector<std::int64_t> of_boundary = edge_cells(comm, old_mesh).of_boundary;
+  std::vector<std::int64_t> cells;
+  for (const std::int32_t edge : questions.deliver(edges)) cells.push_back(of_boundary[edge]);
+  cells = questions.answer(cells);
+  const std::size_t width = old_cells.width();
+  const std::vector<double> rows = rows_of_cells(
+      comm, CellOwners(comm, old_mesh), std::span<const std::int64_t>(cells), old_cells.values, width);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    std::copy_n(rows.begin() + i * width, width, carried.values.begin() + carried.outside[i] * width);
+}
+
+/// *Collective.*
+CellValues carried_cells(const Communicator& comm, const CurveShares& shares, const TransferSide& old_side,
+                         const CellValues& old_cells, const TransferSide& new_side, TransferReport& report) {
+  CarriedCells carried = carry_cells(comm, shares, old_side, old_cells, new_side);
+  report.cells_outside = comm.sum(std::ssize(carried.outside));
+  if (report.cells_outside > 0)
+    take_from_boundary_cells(comm, old_side.mesh, old_cells, new_side.mesh, carried);
+  return {old_cells.names, std::move(carried.values)};
+}
+
 /// What the old mesh had of each variable: its integral, and that of its absolute value.
 struct OldIntegrals {
   std::vector<double> of_values, of_sizes;
 };
 
+OldIntegrals integrals_of(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles,
+                          const Field& field) {
+  OldIntegrals integrals{integrate(comm, mesh, triangles, field), {}};
+  integrals.of_sizes = integrate_sizes(comm, mesh, triangles, field, integrals.of_values);
+  if (field.cells.width() == 0) return integrals;
+  const CellIntegrals of_cells = integrate_cells(comm, mesh, field.cells);
+  integrals.of_values.insert(integrals.of_values.end(), of_cells.values.begin(), of_cells.values.end());
+  integrals.of_sizes.insert(integrals.of_sizes.end(), of_cells.sizes.begin(), of_cells.sizes.end());
+  return integrals;
+}
+
 void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& field,
                   const OldIntegrals& before, TransferReport& report) {
   const auto triangles = cell_triangles(comm, new_mesh, centre_of_nodes(comm, new_mesh));
-  const std::vector<double> after = integrate(comm, new_mesh, triangles, with_copies(comm, new_mesh, field));
+  std::vector<double> after = integrate(comm, new_mesh, triangles, with_copies(comm, new_mesh, field));
+  if (field.cells.width() > 0) {
+    const CellIntegrals of_cells = integrate_cells(comm, new_mesh, field.cells);
+    after.insert(after.end(), of_cells.values.begin(), of_cells.values.end());
+  }
   for (std::size_t k = 0; k < after.size(); ++k) {
     report.drift.push_back(after[k] - before.of_values[k]);
     report.relative_drift.push_back(before.of_sizes[k] > 0 ? report.drift[k] / before.of_sizes[k] : 0);
@@ -174,19 +236,29 @@ void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& f
 }  // namespace
 
 Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
-                     const Mesh& new_mesh) {
+                     const Mesh& new_mesh, TransferKind kind) {
   const Field old = with_copies(comm, old_mesh, old_field);
-  const auto triangles = cell_triangles(comm, old_mesh, centre_of_nodes(comm, old_mesh));
+  const TransferSide old_side{old_mesh, cell_triangles(comm, old_mesh, centre_of_nodes(comm, old_mesh))};
   const CurveShares shares(comm, owned_points(old_mesh), owned_points(new_mesh));
   const std::vector<Point> at = column_places(comm, old_mesh, new_mesh);
-  NewRows rows = ask(comm, {old_mesh, old, triangles, shares}, at);
   Transferred transferred;
-  transferred.report.outside = comm.sum(std::ssize(rows.outside));
-  if (transferred.report.outside > 0) take_from_boundary(comm, old_mesh, old, at, rows);
+  TransferReport& report = transferred.report;
+  NewRows rows;
+  if (old.width() > 0) rows = ask(comm, {old_mesh, old, old_side.triangles, shares}, at);
+  report.outside = comm.sum(std::ssize(rows.outside));
+  if (report.outside > 0) take_from_boundary(comm, old_mesh, old, at, rows);
   transferred.field = {old.names, std::move(rows.values), old.constants};
-  OldIntegrals before{integrate(comm, old_mesh, triangles, old), {}};
-  before.of_sizes = integrate_sizes(comm, old_mesh, triangles, old, before.of_values);
-  report_drift(comm, new_mesh, transferred.field, before, transferred.report);
+  const bool conserves = kind == TransferKind::conservative && old.width() > 0;
+  if (conserves || old.cells.width() > 0) {
+    const Mesh moved = moved_to(comm, new_mesh, at);
+    const TransferSide new_side{moved, cell_triangles(comm, moved, centre_of_nodes(comm, new_mesh))};
+    if (conserves)
+      conserve_at_nodes(comm, shares, old_side, old, new_side, new_mesh, transferred.field.values);
+    if (old.cells.width() > 0)
+      transferred.field.cells = carried_cells(comm, shares, old_side, old.cells, new_side, report);
+  }
+  report_drift(comm, new_mesh, transferred.field, integrals_of(comm, old_mesh, old_side.triangles, old),
+               report);
   return transferred;
 }
 

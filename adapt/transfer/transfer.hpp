@@ -4,35 +4,47 @@
 #include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
+#include "mesher/base/word_table.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
 
+/// How values at nodes are carried over; those of cells always keep their integrals.
+enum class TransferKind { linear, conservative };
+
+inline constexpr WordTable<TransferKind, 2> transfer_words{
+    {{"linear", TransferKind::linear}, {"conservative", TransferKind::conservative}}};
+
 /// What a transfer did to the variables, the same on every rank.
 struct TransferReport {
-  std::int64_t outside = 0;   ///< nodes of the new mesh outside the old one
-  std::vector<double> drift;  ///< of each variable: its integral over the new mesh less that over the old one
+  std::int64_t outside = 0;  ///< nodes of the new mesh outside the old one; of nodal values alone
+  std::int64_t cells_outside =
+      0;                      ///< its cells of which the old one covers nothing; of values of cells alone
+  std::vector<double> drift;  ///< of each variable, those at nodes first: its integral over the new mesh
+                              ///< less that over the old one
   std::vector<double> relative_drift;  ///< the same as a share of the old mesh's integral of its absolute
                                        ///< value; 0 where that is 0
 };
 
 struct Transferred {
-  Field field;  ///< with a row for each owned node of the new mesh, and the old one's constants
+  Field field;  ///< rows for the new mesh's owned nodes and for its cells; the old one's constants
   TransferReport report;
 };
 
-/// Carries values from the nodes of one mesh to those of another. A node inside an old triangle, or in half
-/// of a quad (split_quad), takes the values interpolated linearly there: those of an old node at the same
-/// place bit for bit, linear fields to rounding. Of several triangles that it lies in it is the one of the
-/// lowest number over all ranks. A node outside the old mesh takes the values at the nearest point of its
-/// boundary edges, of several edges as near those of the lowest number. In layers at walls nodes go by their
-/// height above the wall (column_places). So no value leaves the range of the
-/// nodes that it is made from, and the bits depend on the two meshes alone, not on how they are spread over
-/// the ranks. `old_field` holds a row of finite numbers for each owned node. Each rank works on a
+/// Carries values from the nodes and cells of one mesh to those of another. Linear: a node inside an old
+/// triangle, or in half of a quad (split_quad), takes the values interpolated linearly there: those of an old
+/// node at the same place bit for bit, linear fields to rounding. Of several triangles that it lies in it is
+/// the one of the lowest number over all ranks. A node outside the old mesh takes the values at the nearest
+/// point of its boundary edges, of several edges as near those of the lowest number. In layers at walls nodes
+/// go by their height above the wall (column_places). So no value leaves the range of the nodes that it is
+/// made from, and the bits depend on the two meshes alone, not on how they are spread over the ranks.
+/// Conservative: that, changed so that integrals are kept (conserve_at_nodes()). Values of cells go as
+/// carry_cells() says; a cell outside the old mesh takes those of the old cell at the nearest of its boundary
+/// edges. `old_field` holds a row of finite numbers for each owned node and each cell. Each rank works on a
 /// share of the old triangles and new nodes, told by place; the old boundary edges are gathered on all ranks
 /// if some node is outside. *Collective.*
 Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
-                     const Mesh& new_mesh);
+                     const Mesh& new_mesh, TransferKind kind = TransferKind::linear);
 
 }  // namespace quadloop

@@ -11,9 +11,9 @@ namespace quadloop {
 
 /// Writes the mesh as CGNS (HDF5) into the set: one zone "domain" with sections TRI_3 and QUAD_4 and one
 /// BAR_2 section, BC and family for each boundary that has edges. A boundary's name is cut to what CGNS can
-/// hold; the full one is kept beside it. `solution`, where given, becomes a FlowSolution_t at the vertices.
-/// The library is serial, so all passes through rank 0 in bounded pieces; a mesh with more entries than its
-/// sizes can count is refused. *Collective.* Throws OutputError on all ranks.
+/// hold; the full one is kept beside it. `solution`, where given, becomes a FlowSolution_t at the vertices,
+/// and one in the cells. The library is serial, so all passes through rank 0 in bounded pieces; a mesh with
+/// more entries than its sizes can count is refused. *Collective.* Throws OutputError on all ranks.
 void write_cgns(OutputSet& outputs, const Mesh& mesh, const std::string& path,
                 const Field* solution = nullptr);
 

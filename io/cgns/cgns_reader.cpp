@@ -96,6 +96,7 @@ class ZoneReader {
     loaded_.block_names.emplace_back(name.data());
     if (type != Unstructured) refuse("only unstructured zones can be read");
     nodes_ = size[0];
+    cells_ = size[1];
     if (nodes_ < 1) refuse("it is said to have " + std::to_string(nodes_) + " nodes");
     first_node_ = loaded_.mesh.points.size();
     if (first_node_ + nodes_ > std::numeric_limits<std::int32_t>::max())
@@ -143,8 +144,10 @@ class ZoneReader {
   void add_element(int type, std::int64_t element, const cgsize_t* numbers) {
     if (type == TRI_3) {
       loaded_.mesh.triangles.push_back(row_at<3>(numbers));
+      triangle_elements_.push_back(element);
     } else if (type == QUAD_4) {
       loaded_.mesh.quads.push_back(row_at<4>(numbers));
+      quad_elements_.push_back(element);
     } else {
       bars_.add(element, row_at<2>(numbers));
     }
@@ -286,46 +289,99 @@ class ZoneReader {
 
   void read_solution() {
     int solutions = 0;
+    bool has_nodal = false, has_cells = false;
     file_.check(cg_nsols(file_.id(), base_, zone_, &solutions));
     for (int s = 1; s <= solutions; ++s) {
       Name name{};
       GridLocation_t location = Vertex;
       file_.check(cg_sol_info(file_.id(), base_, zone_, s, name.data(), &location));
-      if (location == Vertex) return read_fields(s);
+      if (location == Vertex && !has_nodal) {
+        read_fields(s);
+        has_nodal = true;
+      }
+      if (location == CellCenter && !has_cells) {
+        read_cell_fields(s);
+        has_cells = true;
+      }
     }
   }
 
-  void read_fields(int solution) {
+  /// The variables of a solution, `rows` values of each, one variable after the other. `names` are those of
+  /// the zones before.
+  std::vector<double> read_columns(int solution, cgsize_t rows, std::vector<std::string>& names) {
     int fields = 0;
     file_.check(cg_nfields(file_.id(), base_, zone_, solution, &fields));
-    if (!loaded_.solution) loaded_.solution.emplace();
-    Field& result = *loaded_.solution;
-    const std::size_t width = fields;
-    if (first_node_ > 0 && result.names.size() != width)
+    if (first_node_ > 0 && std::ssize(names) != fields)
       refuse("its solution has other variables than the first zone's");
-    result.values.resize((first_node_ + nodes_) * width);
-    std::vector<double> column(nodes_);
+    std::vector<double> columns(fields * std::size_t(rows));
     for (int f = 1; f <= fields; ++f) {
       Name name{};
       DataType_t type = RealDouble;
       const cgsize_t first = 1;
       file_.check(cg_field_info(file_.id(), base_, zone_, solution, f, &type, name.data()));
-      file_.check(cg_field_read(file_.id(), base_, zone_, solution, name.data(), RealDouble, &first, &nodes_,
-                                column.data()));
-      if (first_node_ == 0) result.names.push_back(variable_name_of_cgns(name.data()));
-      for (std::size_t i = 0; i < column.size(); ++i)
-        result.values[(first_node_ + i) * width + f - 1] = column[i];
+      file_.check(cg_field_read(file_.id(), base_, zone_, solution, name.data(), RealDouble, &first, &rows,
+                                columns.data() + (f - 1) * std::size_t(rows)));
+      if (first_node_ == 0) names.push_back(variable_name_of_cgns(name.data()));
     }
+    return columns;
+  }
+
+  void read_fields(int solution) {
+    if (!loaded_.solution) loaded_.solution.emplace();
+    Field& result = *loaded_.solution;
+    const std::size_t rows = nodes_;
+    const std::vector<double> columns = read_columns(solution, nodes_, result.names);
+    for (std::size_t i = 0; i < rows; ++i) append_row(columns, rows, i, result.values);
+  }
+
+  /// Rows stand in the order of the elements; those of the triangles of all zones go before the quads'.
+  void read_cell_fields(int solution) {
+    if (!loaded_.solution) loaded_.solution.emplace();
+    CellValues& result = loaded_.solution->cells;
+    if (std::ssize(triangle_elements_) + std::ssize(quad_elements_) != cells_) {
+      refuse("it is said to have " + std::to_string(cells_) + " cells, its sections hold " +
+             std::to_string(triangle_elements_.size() + quad_elements_.size()));
+    }
+    const std::vector<double> columns = read_columns(solution, cells_, result.names);
+    std::vector<std::int64_t> sorted = triangle_elements_;
+    sorted.insert(sorted.end(), quad_elements_.begin(), quad_elements_.end());
+    std::ranges::sort(sorted);
+    std::vector<double> of_triangles, of_quads;
+    for (const auto& [elements, rows] :
+         {std::pair(&triangle_elements_, &of_triangles), {&quad_elements_, &of_quads}}) {
+      for (const std::int64_t element : *elements)
+        append_row(columns, cells_, std::ranges::lower_bound(sorted, element) - sorted.begin(), *rows);
+    }
+    const std::size_t before = loaded_.mesh.triangles.size() - triangle_elements_.size();
+    result.values.insert(result.values.begin() + before * result.width(), of_triangles.begin(),
+                         of_triangles.end());
+    result.values.insert(result.values.end(), of_quads.begin(), of_quads.end());
+  }
+
+  static void append_row(const std::vector<double>& columns, std::size_t rows, std::size_t row,
+                         std::vector<double>& values) {
+    for (std::size_t at = row; at < columns.size(); at += rows) values.push_back(columns[at]);
   }
 
   const File& file_;
   int base_, zone_;
   LoadedMesh& loaded_;
   CgnsBoundaries& boundaries_;
-  cgsize_t nodes_ = 0;
+  cgsize_t nodes_ = 0, cells_ = 0;
+  std::vector<std::int64_t> triangle_elements_, quad_elements_;  ///< their numbers in the zone
   std::size_t first_node_ = 0;
   CgnsBars bars_;
 };
+
+void require_whole_solution(const LoadedMesh& loaded, const std::string& path) {
+  if (!loaded.solution) return;
+  const Mesh& mesh = loaded.mesh;
+  const auto& [names, values, constants, cells] = *loaded.solution;
+  if (values.size() == names.size() * mesh.points.size() &&
+      cells.values.size() == cells.width() * (mesh.triangles.size() + mesh.quads.size()))
+    return;
+  throw InputError(path + ": some of its zones have a solution, others none");
+}
 
 LoadedMesh read_here(const std::string& path) {
   const File file(path, path, CG_MODE_READ);
@@ -343,6 +399,7 @@ LoadedMesh read_here(const std::string& path) {
   for (int zone = 1; zone <= zones; ++zone) ZoneReader(file, 1, zone, loaded, boundaries).read();
   if (zones == 0) throw InputError(path + ": holds no zone");
   loaded.mesh.owned_nodes = size32(loaded.mesh.points);
+  require_whole_solution(loaded, path);
   return loaded;
 }
 

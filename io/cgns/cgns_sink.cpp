@@ -24,8 +24,9 @@ void CgnsSink::put_coordinates(std::span<const double> rows) {
   }
 }
 
-void CgnsSink::begin_solution() {
-  file_->check(cg_sol_write(id(), base_, zone_, "FlowSolution", Vertex, &solution_));
+void CgnsSink::begin_solution(GridLocation_t location) {
+  const char* const name = location == CellCenter ? "CellSolution" : "FlowSolution";
+  file_->check(cg_sol_write(id(), base_, zone_, name, location, &solution_));
   file_->check(cg_goto(id(), base_, "Zone_t", zone_, "FlowSolution_t", solution_, "end"));
   file_->check(cg_dataclass_write(NondimensionalParameter));
 }

@@ -28,7 +28,8 @@ class CgnsSink {
   void begin_rows() { next_row_ = 1; }
   /// Of so many coordinates for each node as the space has dimensions.
   void put_coordinates(std::span<const double> rows);
-  void begin_solution();
+  /// At the vertices, or in the cells: each place has a solution of its own.
+  void begin_solution(GridLocation_t location = Vertex);
   void put_solution(std::span<const double> rows, const std::vector<std::string>& names);
 
   void begin_section(const std::string& name, ElementType_t type, std::int64_t elements);

@@ -52,20 +52,11 @@ class CgnsWriter {
   }
 
   void write_solution(const Field& solution) {
-    const std::size_t width = solution.names.size();
-    if (width == 0) return;
-    const std::vector<std::string> names = cgns_variable_names(solution.names);
-    on_root([&] {
-      sink_->begin_solution();
-      sink_->begin_rows();
-    });
-    const RowStream rows{comm_, mesh_.owned_nodes, rows_per_piece};
-    rows.run<double>(
-        [&](std::int64_t begin, std::int64_t end) {
-          const auto values = solution.values.begin();
-          return std::vector<double>(values + begin * width, values + end * width);
-        },
-        [&](std::span<const double> values) { sink_->put_solution(values, names); });
+    write_fields(Vertex, solution.names, {{mesh_.owned_nodes, solution.values.data()}});
+    const double* const of_cells = solution.cells.values.data();
+    write_fields(CellCenter, solution.cells.names,
+                 {{size_of(mesh_.triangles), of_cells},
+                  {size_of(mesh_.quads), of_cells + mesh_.triangles.size() * solution.cells.width()}});
   }
 
   /// Last of all: libcgns is done with the file.
@@ -95,6 +86,31 @@ class CgnsWriter {
   }
 
  private:
+  /// This rank's rows of one kind.
+  struct Rows {
+    std::int64_t count;
+    const double* values;
+  };
+
+  /// All ranks' rows of a kind, then those of the next.
+  void write_fields(GridLocation_t location, const std::vector<std::string>& variables,
+                    std::initializer_list<Rows> kinds) {
+    const std::size_t width = variables.size();
+    if (width == 0) return;
+    const std::vector<std::string> names = cgns_variable_names(variables);
+    on_root([&] {
+      sink_->begin_solution(location);
+      sink_->begin_rows();
+    });
+    for (const Rows& rows : kinds) {
+      RowStream{comm_, rows.count, rows_per_piece}.run<double>(
+          [&](std::int64_t begin, std::int64_t end) {
+            return std::vector<double>(rows.values + begin * width, rows.values + end * width);
+          },
+          [&](std::span<const double> values) { sink_->put_solution(values, names); });
+    }
+  }
+
   template <class Rows>
   static std::int64_t size_of(const Rows& rows) {
     return std::ssize(rows);

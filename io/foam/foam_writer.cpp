@@ -5,7 +5,7 @@
 #include "io/solid/extruded_stream.hpp"
 #include "io/text/plain_names.hpp"
 #include "io/text/text_output.hpp"
-#include "mesher/solid/edge_cells.hpp"
+#include "mesher/mesh/cells/edge_cells.hpp"
 
 namespace quadloop {
 

@@ -13,8 +13,10 @@ namespace quadloop {
 
 namespace {
 
+/// With the rows of `width` values that begin at `rows`.
 template <class Cells>
-void sort_by_block(Cells& cells, std::vector<std::int32_t>& cell_to_block) {
+void sort_by_block(Cells& cells, std::vector<std::int32_t>& cell_to_block, std::vector<double>::iterator rows,
+                   std::size_t width) {
   if (std::is_sorted(cell_to_block.begin(), cell_to_block.end())) return;
   std::vector<std::size_t> order(cells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -24,6 +26,10 @@ void sort_by_block(Cells& cells, std::vector<std::int32_t>& cell_to_block) {
   sorted.reserve(cells.size());
   for (const std::size_t cell : order) sorted.push_back(cells[cell]);
   cells = std::move(sorted);
+  std::vector<double> sorted_rows;
+  for (const std::size_t cell : order)
+    sorted_rows.insert(sorted_rows.end(), rows + cell * width, rows + (cell + 1) * width);
+  std::ranges::copy(sorted_rows, rows);
   std::sort(cell_to_block.begin(), cell_to_block.end());
 }
 
@@ -183,8 +189,13 @@ LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
   mesh.owned_nodes = size32(mesh.points);
   drop_empty_blocks(loaded);
   const std::int64_t turned = orient_cells(mesh);
-  sort_by_block(mesh.triangles, loaded.triangle_to_block);
-  sort_by_block(mesh.quads, loaded.quad_to_block);
+  if (!loaded.solution) loaded.solution.emplace();
+  CellValues& values = loaded.solution->cells;
+  const std::size_t width = values.width();
+  sort_by_block(mesh.triangles, loaded.triangle_to_block, values.values.begin(), width);
+  sort_by_block(mesh.quads, loaded.quad_to_block, values.values.begin() + mesh.triangles.size() * width,
+                width);
+  if (loaded.solution->empty()) loaded.solution.reset();
   const std::int64_t inside = place_edges(foreign, scan);
   std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   if (mesh.boundaries.empty()) add_outer_boundary(mesh);

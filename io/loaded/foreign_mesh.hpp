@@ -47,11 +47,11 @@ void drop_repeated(ForeignMesh& foreign, const std::string& path);
 void drop_unused_nodes(ForeignMesh& foreign, const std::string& path);
 
 /// What this program calls a mesh: cells counter-clockwise as their neighbours have it (orient_cells;
-/// inverted ones are validate()'s), the cells of a block one after another, each boundary edge with its cell
-/// to the left, or between two blocks the one with the smaller number. Edges inside a block, and boundaries
-/// without edges, are left out; where no boundary is left, all edges of one cell make up the boundary
-/// "boundary". What was changed is said in the result's warnings. Refuses a mesh without cells, and by place
-/// an edge that no cell has.
+/// inverted ones are validate()'s), the cells of a block one after another with their values, each boundary
+/// edge with its cell to the left, or between two blocks the one with the smaller number. Edges inside a
+/// block, and boundaries without edges, are left out; where no boundary is left, all edges of one cell make
+/// up the boundary "boundary". What was changed is said in the result's warnings. Refuses a mesh without
+/// cells, and by place an edge that no cell has.
 LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan);
 
 }  // namespace quadloop

@@ -23,7 +23,8 @@ void pass_fields(Pipe& pipe, Mesh& mesh) {
 
 template <class Pipe>
 void pass_fields(Pipe& pipe, Field& solution) {
-  pass(pipe, solution.constants, solution.names, solution.values);
+  pass(pipe, solution.constants, solution.names, solution.values, solution.cells.names,
+       solution.cells.values);
 }
 
 template <class Pipe>

@@ -134,16 +134,26 @@ class NativeReader {
       if (!solution.constants.empty()) loaded_.solution = std::move(solution);
       return;
     }
-    const std::size_t variables = scan_.count("variables", 1);
-    scan_.forget_comments();
-    const bool more = !scan_.at_end();
-    solution.names = names_in(more ? scan_.last_comment_with("names:") : "", variables);
-    solution.values = read_values(solution.names);
+    solution.names = read_names("variables");
+    solution.values = read_values(solution.names, loaded_.mesh.points.size(), "node");
+    if (!scan_.at_end()) {
+      const std::size_t cells = loaded_.mesh.triangles.size() + loaded_.mesh.quads.size();
+      solution.cells.names = read_names("cell variables");
+      solution.cells.values = read_values(solution.cells.names, cells, "cell");
+    }
     loaded_.solution = std::move(solution);
   }
 
-  std::vector<double> read_values(const std::vector<std::string>& names) {
-    const std::size_t rows = loaded_.mesh.points.size(), variables = names.size();
+  std::vector<std::string> read_names(const std::string& of) {
+    const std::size_t variables = scan_.count(of, 1);
+    scan_.forget_comments();
+    const bool more = !scan_.at_end();
+    return names_in(more ? scan_.last_comment_with("names:") : "", variables);
+  }
+
+  std::vector<double> read_values(const std::vector<std::string>& names, std::size_t rows,
+                                  const std::string& place) {
+    const std::size_t variables = names.size();
     if (variables > 0 && 2 * rows > (scan_.bytes_left() + 1) / variables) {
       scan_.refuse("the file ends before the " + std::to_string(rows) + " rows of " +
                    std::to_string(variables) + " variables");
@@ -153,7 +163,7 @@ class NativeReader {
     try {
       for (; at < values.size(); ++at) values[at] = scan_.real("a value of the solution");
     } catch (const InputError& fault) {
-      throw InputError(std::string(fault.what()) + "; it is " + names[at % variables] + " at node " +
+      throw InputError(std::string(fault.what()) + "; it is " + names[at % variables] + " at " + place + " " +
                        std::to_string(at / variables + 1));
     }
     return values;

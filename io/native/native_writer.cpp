@@ -42,7 +42,8 @@ class NativeWriter {
     head += "#Number of variables\n" + std::to_string(solution.names.size()) + "\n#names:";
     for (const std::string& name : solution.names) head += " " + word_of(name);
     file_.write(head + "\n");
-    write_real_rows(solution.values.data(), solution.names.size());
+    write_real_rows(mesh_.owned_nodes, solution.values.data(), solution.names.size());
+    if (solution.cells.width() > 0) write_cell_values(solution.cells);
   }
 
   void close() { file_.close(); }
@@ -62,10 +63,19 @@ class NativeWriter {
     });
   }
 
-  /// One row of `width` numbers for each owned node.
-  void write_real_rows(const double* values, std::size_t width) {
+  void write_cell_values(const CellValues& cells) {
+    std::string head = "#Number of cell variables\n" + std::to_string(cells.width()) + "\n#names:";
+    for (const std::string& name : cells.names) head += " " + word_of(name);
+    file_.write(head + "\n");
+    const std::size_t triangles = mesh_.triangles.size();
+    write_real_rows(triangles, cells.values.data(), cells.width());
+    write_real_rows(mesh_.quads.size(), cells.values.data() + triangles * cells.width(), cells.width());
+  }
+
+  /// `rows` of this rank, each of `width` numbers.
+  void write_real_rows(std::size_t rows, const double* values, std::size_t width) {
     if (width == 0) return;
-    file_.write_rows(mesh_.owned_nodes, width, [&](TextRows& text, std::size_t i) {
+    file_.write_rows(rows, width, [&](TextRows& text, std::size_t i) {
       for (std::size_t k = 0; k < width; ++k) text.put(values[i * width + k], k + 1 < width ? ' ' : '\n');
     });
   }

@@ -84,11 +84,20 @@ CellPaint paint_quality(const LoadedMesh& loaded, const std::vector<std::size_t>
   return paint_values(values, {"quality", 0, 1, quality_colour});
 }
 
+/// Whether it is a variable of the cells and of no node.
+bool is_of_cells(const LoadedMesh& loaded, const std::string& field) {
+  return loaded.solution && std::ranges::count(loaded.solution->names, field) == 0 &&
+         std::ranges::count(loaded.solution->cells.names, field) > 0;
+}
+
 std::size_t column_of(const LoadedMesh& loaded, const std::string& field) {
-  if (!loaded.solution || loaded.solution->names.empty())
+  if (!loaded.solution || loaded.solution->empty())
     throw InputError("there is no field '" + field +
                      "': the file holds no solution; plot it without --field");
-  const std::vector<std::string>& names = loaded.solution->names;
+  std::vector<std::string> names =
+      is_of_cells(loaded, field) ? std::vector<std::string>{} : loaded.solution->names;
+  const std::vector<std::string>& of_cells = loaded.solution->cells.names;
+  names.insert(names.end(), of_cells.begin(), of_cells.end());
   const auto found = std::find(names.begin(), names.end(), field);
   if (found != names.end()) return found - names.begin();
   std::string there;
@@ -98,15 +107,19 @@ std::size_t column_of(const LoadedMesh& loaded, const std::string& field) {
 
 CellPaint paint_field(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
                       const std::string& field) {
-  const std::size_t column = column_of(loaded, field), columns = loaded.solution->names.size();
+  const std::size_t column = column_of(loaded, field);
+  const std::vector<double> of_nodes =
+      is_of_cells(loaded, field) ? std::vector<double>{} : loaded.solution->column(column);
+  const std::vector<double> of_cells =
+      is_of_cells(loaded, field) ? loaded.solution->cells.column(column) : std::vector<double>{};
   ColourBar bar{field, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
                 perceptual_colour};
   std::vector<double> values;
   for (const std::size_t cell : cells) {
-    double sum = 0;
     const std::span<const NodeId> nodes = cell_nodes(loaded.mesh, cell);
-    for (const NodeId node : nodes) sum += loaded.solution->values[node.value() * columns + column];
-    values.push_back(sum / size32(nodes));
+    double sum = 0;
+    for (const NodeId node : nodes) sum += of_nodes.empty() ? of_cells[cell] : of_nodes[node.value()];
+    values.push_back(of_nodes.empty() ? of_cells[cell] : sum / size32(nodes));
     if (!std::isfinite(values.back())) continue;
     bar.low = std::min(bar.low, values.back());
     bar.high = std::max(bar.high, values.back());

@@ -27,9 +27,8 @@ class VtuReader {
     }
     read_points();
     read_cells();
-    LoadedMesh loaded = finish(std::move(foreign_), scan_);
-    read_solution(loaded);
-    return loaded;
+    read_solution();
+    return finish(std::move(foreign_), scan_);
   }
 
  private:
@@ -58,12 +57,13 @@ class VtuReader {
                     "this piece has no array '" + (name.empty() ? section : name) + "' in " + section);
   }
 
-  std::vector<double> finite_reals(const VtuArray& array, std::int64_t count, std::size_t width) const {
+  std::vector<double> finite_reals(const VtuArray& array, std::int64_t count, std::size_t width,
+                                   const char* place = "node") const {
     std::vector<double> values = numbers_.reals(array, count);
     const auto bad =
         std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
     if (bad != values.end()) {
-      scan_.refuse_at(array.place, fmt::format("'{}' is not finite at node {}", array.name,
+      scan_.refuse_at(array.place, fmt::format("'{}' is not finite at {} {}", array.name, place,
                                                (bad - values.begin()) / width + 1));
     }
     return values;
@@ -171,10 +171,12 @@ class VtuReader {
     const std::int32_t to_block = foreign_.block_named(name_of(block_names_, block, "block", "domain"));
     if (type == vtk_triangle || (type == vtk_polygon && nodes.size() == 3)) {
       foreign_.add_triangle(nodes_of<3>(nodes), to_block);
+      triangle_cells_.push_back(cell_ - 1);
     } else if (type == vtk_quad || type == vtk_pixel || (type == vtk_polygon && nodes.size() == 4)) {
       auto corners = nodes_of<4>(nodes);
       if (type == vtk_pixel) std::swap(corners[2], corners[3]);
       foreign_.add_quad(corners, to_block);
+      quad_cells_.push_back(cell_ - 1);
     } else {
       scan_.refuse_at(place_, fmt::format("cell {} is of VTK type {} with {} nodes; only triangles (5), "
                                           "quads (9) and lines (3) can be read",
@@ -182,37 +184,42 @@ class VtuReader {
     }
   }
 
-  void read_solution(LoadedMesh& loaded) const {
-    std::vector<std::string> names;
-    std::vector<std::vector<double>> columns;
+  void read_solution() {
+    Field solution;
+    std::vector<std::vector<double>> at_points, in_cells;
     for (const VtuArray& array : document_.arrays) {
       if (array.section == "PointData" && array.type != "String" && !is_layer_height(array))
-        add_columns(array, names, columns);
+        add_columns(array, document_.points, "node", solution.names, at_points);
+      if (array.section == "CellData" && array.type.starts_with("Float"))  // whole numbers are marks
+        add_columns(array, document_.cells, "cell", solution.cells.names, in_cells);
     }
-    if (names.empty()) return;
-    Field solution{names, {}, {}};
-    solution.values.resize(names.size() * loaded.mesh.points.size());
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      for (std::size_t i = 0; i < columns[k].size(); ++i)
-        solution.values[i * names.size() + k] = columns[k][i];
+    if (solution.empty()) return;
+    for (std::int64_t i = 0; i < document_.points; ++i) append_row(at_points, i, solution.values);
+    for (const auto* cells : {&triangle_cells_, &quad_cells_}) {
+      for (const std::int64_t cell : *cells) append_row(in_cells, cell, solution.cells.values);
     }
-    loaded.solution = std::move(solution);
+    foreign_.loaded.solution = std::move(solution);
+  }
+
+  static void append_row(const std::vector<std::vector<double>>& columns, std::int64_t row,
+                         std::vector<double>& values) {
+    for (const std::vector<double>& column : columns) values.push_back(column[row]);
   }
 
   bool is_layer_height(const VtuArray& array) const {
     return has_layers_ && (array.name == vtu_layer_height_asked || array.name == vtu_layer_height);
   }
 
-  void add_columns(const VtuArray& array, std::vector<std::string>& names,
-                   std::vector<std::vector<double>>& columns) const {
-    const std::size_t width = array.components, count = document_.points;
+  void add_columns(const VtuArray& array, std::int64_t count, const char* place,
+                   std::vector<std::string>& names, std::vector<std::vector<double>>& columns) const {
+    const std::size_t width = array.components;
     if (array.components > 9)
       scan_.refuse_at(array.place,
                       fmt::format("'{}' has {} components; at most 9 can be read", array.name, width));
-    const std::vector<double> values = finite_reals(array, document_.points * array.components, width);
+    const std::vector<double> values = finite_reals(array, count * array.components, width, place);
     for (std::size_t k = 0; k < width; ++k) {
       std::vector<double> column(count);
-      for (std::size_t i = 0; i < count; ++i) column[i] = values[i * width + k];
+      for (std::int64_t i = 0; i < count; ++i) column[i] = values[i * width + k];
       if (k == 2 && width == 3 &&
           std::all_of(column.begin(), column.end(), [](double value) { return value == 0; }))
         continue;
@@ -233,7 +240,8 @@ class VtuReader {
   ForeignMesh foreign_;
   std::vector<std::string> boundary_names_, block_names_;
   bool has_layers_ = false;
-  std::size_t place_ = 0, cell_ = 0;  ///< of the cell under way, for a refusal
+  std::vector<std::int64_t> triangle_cells_, quad_cells_;  ///< their places among all of the file's cells
+  std::size_t place_ = 0, cell_ = 0;                       ///< of the cell under way, for a refusal
 };
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <bit>
 #include <span>
 
 #include "io/loaded/strip_text.hpp"
@@ -6,6 +7,8 @@
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_layers.hpp"
 #include "io/vtu/vtu_text.hpp"
+#include "mesher/mesh/cells/cell_owners.hpp"
+#include "mesher/mesh/cells/edge_cells.hpp"
 #include "mesher/mesh/layer_nodes.hpp"
 
 namespace quadloop {
@@ -31,6 +34,7 @@ class VtuWriter {
     file_.write("<CellData>\n");
     write_boundary_numbers();
     if (blocks != nullptr) write_block_numbers(*blocks);
+    if (solution != nullptr && solution->cells.width() > 0) write_cell_values(solution->cells);
     file_.write("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     file_.close();
   }
@@ -184,6 +188,38 @@ class VtuWriter {
     }
     file_.write_root_rows(boundaries_.all_edges(), 1, [](TextRows& text, std::size_t) { text.put(0, '\n'); });
     file_.write("</DataArray>\n");
+  }
+
+  /// A boundary's line has the values of the cell beside it.
+  void write_cell_values(const CellValues& cells) {
+    const std::vector<std::int64_t> beside = edge_cells(comm_, mesh_).of_boundary;
+    const std::size_t width = cells.width();
+    const std::vector<double> at_lines = rows_of_cells(
+        comm_, CellOwners(comm_, mesh_), std::span<const std::int64_t>(beside), cells.values, width);
+    for (std::size_t k = 0; k < width; ++k) {
+      file_.write(array_tag("Float64", cells.names[k]));
+      std::size_t first = 0;
+      for (const std::size_t rows : {mesh_.triangles.size(), mesh_.quads.size()}) {
+        file_.write_rows(rows, 1, [&](TextRows& text, std::size_t i) {
+          text.put(cells.values[(first + i) * width + k], '\n');
+        });
+        first += rows;
+      }
+      write_line_values(at_lines, width, k);
+      file_.write("</DataArray>\n");
+    }
+  }
+
+  /// They go the way of the edges' nodes, as their bits.
+  void write_line_values(const std::vector<double>& at_lines, std::size_t width, std::size_t k) {
+    std::vector<BoundaryStream::Edge> bits;
+    for (std::size_t i = k; i < at_lines.size(); i += width)
+      bits.push_back({std::bit_cast<std::int64_t>(at_lines[i]), 0});
+    file_.write_boundaries(
+        BoundaryStream(comm_, mesh_, std::move(bits)), 1, [](std::size_t) { return std::string(); },
+        [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
+          text.put(std::bit_cast<double>(edge[0]), '\n');
+        });
   }
 
   const Communicator& comm_;

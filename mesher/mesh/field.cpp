@@ -8,26 +8,58 @@
 
 namespace quadloop {
 
-std::vector<double> Field::column(std::size_t variable) const {
-  QUADLOOP_REQUIRE(variable < width(), "a field has a column for each of its variables");
+namespace {
+
+std::vector<double> column_of(const std::vector<double>& rows, std::size_t width, std::size_t variable) {
+  QUADLOOP_REQUIRE(variable < width, "a field has a column for each of its variables");
   std::vector<double> column;
-  column.reserve(values.size() / width());
-  for (std::size_t i = variable; i < values.size(); i += width()) column.push_back(values[i]);
+  column.reserve(rows.size() / width);
+  for (std::size_t i = variable; i < rows.size(); i += width) column.push_back(rows[i]);
   return column;
+}
+
+std::vector<double> columns_of(const std::vector<double>& rows, std::size_t width,
+                               std::span<const std::size_t> columns) {
+  std::vector<double> chosen;
+  if (columns.empty()) return chosen;
+  chosen.reserve(rows.size() / width * columns.size());
+  for (std::size_t row = 0; row < rows.size(); row += width) {
+    for (const std::size_t column : columns) chosen.push_back(rows[row + column]);
+  }
+  return chosen;
+}
+
+/// An index among the names at nodes, or, after those, among the names of cells.
+std::size_t variable_of(const Field& field, const std::string& wanted, const std::string& where) {
+  if (!variables_like(field.names, wanted).empty()) return variable(field.names, wanted, where);
+  if (!variables_like(field.cells.names, wanted).empty())
+    return field.width() + variable(field.cells.names, wanted, where);
+  std::vector<std::string> all = field.names;
+  all.insert(all.end(), field.cells.names.begin(), field.cells.names.end());
+  return variable(all, wanted, where);  // throws, with a list of them
+}
+
+}  // namespace
+
+std::vector<double> Field::column(std::size_t variable) const { return column_of(values, width(), variable); }
+
+std::vector<double> CellValues::column(std::size_t variable) const {
+  return column_of(values, width(), variable);
 }
 
 Field selected(const Field& field, std::span<const std::string> wanted, const std::string& where) {
   Field chosen;
-  std::vector<std::size_t> columns;
+  std::vector<std::size_t> at_nodes, in_cells;
   for (const std::string& name : wanted) {
-    columns.push_back(variable(field.names, name, where));
-    chosen.names.push_back(field.names[columns.back()]);
+    const std::size_t found = variable_of(field, name, where);
+    const bool is_nodal = found < field.width();
+    (is_nodal ? at_nodes : in_cells).push_back(is_nodal ? found : found - field.width());
+    (is_nodal ? chosen.names : chosen.cells.names)
+        .push_back(is_nodal ? field.names[found] : field.cells.names[found - field.width()]);
   }
   chosen.constants = field.constants;
-  chosen.values.reserve(field.values.size() / std::max(field.width(), std::size_t{1}) * wanted.size());
-  for (std::size_t row = 0; row < field.values.size(); row += field.width()) {
-    for (const std::size_t column : columns) chosen.values.push_back(field.values[row + column]);
-  }
+  chosen.values = columns_of(field.values, field.width(), at_nodes);
+  chosen.cells.values = columns_of(field.cells.values, field.cells.width(), in_cells);
   return chosen;
 }
 

@@ -218,6 +218,36 @@ std::vector<Point> gather_points(const Communicator& comm, const Mesh& part) {
   return gather_at_root(comm, std::span(part.points).first(part.owned_nodes));
 }
 
+/// Rows of `width` values of the whole mesh on the root, in the order given, `count` of them for this rank.
+/// *Collective.*
+std::vector<double> scatter_rows(const Communicator& comm, std::span<const double> of_whole,
+                                 std::size_t width, std::span<const std::int32_t> order, std::size_t count) {
+  const std::vector<std::int64_t> counts = comm.all_gather(static_cast<std::int64_t>(count * width));
+  std::vector<double> rows;
+  for (std::size_t i = 0; !of_whole.empty() && i < order.size(); ++i) {
+    const auto row = of_whole.subspan(order[i] * width, width);
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+  return scatter_from_root(comm, rows, counts);
+}
+
+/// The way back. *Collective.*
+std::vector<double> gather_rows(const Communicator& comm, std::span<const double> rows, std::size_t width,
+                                std::span<const std::int32_t> order) {
+  const std::vector<double> by_rank = gather_at_root(comm, rows);
+  std::vector<double> whole(by_rank.size());
+  for (std::size_t i = 0; i < order.size() && comm.is_root(); ++i)
+    std::copy_n(by_rank.begin() + i * width, width, whole.begin() + order[i] * width);
+  return whole;
+}
+
+/// The rows of the triangles, and those of the quads after them.
+template <class Values>
+std::array<std::span<Values>, 2> by_kind(std::span<Values> rows, std::size_t triangles, std::size_t width) {
+  const std::size_t middle = std::min(triangles * width, rows.size());
+  return {rows.first(middle), rows.subspan(middle)};
+}
+
 }  // namespace
 
 MeshOrder space_filling_order(const Mesh& whole) {
@@ -249,26 +279,26 @@ Field scatter_field(const Communicator& comm, const Field& of_whole, const Mesh&
                     const MeshOrder& order) {
   Field field{broadcast_words(comm, of_whole.names), {}, of_whole.constants};
   comm.broadcast(field.constants);
-  const std::int64_t width = std::ssize(field.names);
-  const std::vector<std::int64_t> counts = comm.all_gather(part.owned_nodes * width);
-  std::vector<double> rows;
-  for (std::size_t i = 0; width > 0 && i < order.nodes.size(); ++i) {
-    const auto row = of_whole.row(NodeId{order.nodes[i]});
-    rows.insert(rows.end(), row.begin(), row.end());
-  }
-  field.values = scatter_from_root(comm, rows, counts);
+  field.values = scatter_rows(comm, of_whole.values, field.width(), order.nodes, part.owned_nodes);
+  field.cells.names = broadcast_words(comm, of_whole.cells.names);
+  const std::size_t width = field.cells.width();
+  if (width == 0) return field;
+  const auto [triangles, quads] = by_kind(std::span(of_whole.cells.values), order.triangles.size(), width);
+  field.cells.values = scatter_rows(comm, triangles, width, order.triangles, part.triangles.size());
+  const std::vector<double> of_quads = scatter_rows(comm, quads, width, order.quads, part.quads.size());
+  field.cells.values.insert(field.cells.values.end(), of_quads.begin(), of_quads.end());
   return field;
 }
 
-Field gather_field(const Communicator& comm, const Field& field, const MeshOrder& order) {
-  const std::vector<double> by_rank = gather_at_root(comm, field.values);
-  Field whole{field.names, by_rank, field.constants};
-  auto from = by_rank.begin();
-  for (std::size_t i = 0; i < order.nodes.size() && comm.is_root(); ++i) {
-    const auto row = whole.row(NodeId{order.nodes[i]});
-    std::copy_n(from, row.size(), row.begin());
-    from += std::ssize(row);
-  }
+Field gather_field(const Communicator& comm, const Field& field, const Mesh& part, const MeshOrder& order) {
+  Field whole{field.names, {}, field.constants, {field.cells.names, {}}};
+  whole.values = gather_rows(comm, field.values, field.width(), order.nodes);
+  const std::size_t width = field.cells.width();
+  if (width == 0) return whole;
+  const auto [triangles, quads] = by_kind(std::span(field.cells.values), part.triangles.size(), width);
+  whole.cells.values = gather_rows(comm, triangles, width, order.triangles);
+  const std::vector<double> of_quads = gather_rows(comm, quads, width, order.quads);
+  whole.cells.values.insert(whole.cells.values.end(), of_quads.begin(), of_quads.end());
   return whole;
 }
 

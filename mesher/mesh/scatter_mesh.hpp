@@ -45,7 +45,7 @@ Field scatter_field(const Communicator& comm, const Field& of_whole, const Mesh&
 
 /// The way back: on the root the field on the whole mesh, elsewhere one without values. Rows of copies must
 /// not stand in `field`. *Collective.*
-Field gather_field(const Communicator& comm, const Field& field, const MeshOrder& order);
+Field gather_field(const Communicator& comm, const Field& field, const Mesh& part, const MeshOrder& order);
 
 /// Puts the parts' positions and cells back into their places in the whole mesh on the root. *Collective.*
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole);

@@ -56,25 +56,23 @@ void read_euler_keys(const CaseTable& table, EulerOptions& options) {
       table.number("reference_length", Range::positive()).value_or(options.reference_length);
 }
 
-SolverSettings::Kind kind_of(const CaseTable& table) {
-  const auto kind = table.choice("kind", {"euler", "command", "su2"});
-  if (kind == "command") return SolverSettings::Kind::command;
-  return kind == "su2" ? SolverSettings::Kind::su2 : SolverSettings::Kind::euler;
-}
-
-/// The user's configuration; its mesh and its solution have names of ours.
-void read_su2_keys(const CaseTable& table, SolverSettings& settings) {
-  if (settings.kind != SolverSettings::Kind::su2) {
-    if (table.has("template")) table.refuse("template", "does nothing here; it belongs to kind = \"su2\"");
+/// The user's case for SU2 or OpenFOAM; mesh and solution have names of ours there.
+void read_template(const CaseTable& table, SolverSettings& settings) {
+  using enum SolverSettings::Kind;
+  settings.case_template = table.text("template").value_or("");
+  if (settings.kind != su2 && settings.kind != openfoam) {
+    if (table.has("template"))
+      table.refuse("template", "does nothing here; it belongs to kind = \"su2\" or \"openfoam\"");
     return;
   }
-  settings.config = table.text("template").value_or("");
-  if (settings.config.empty())
+  if (settings.case_template.empty()) {
     table.refuse("template",
-                 "is missing; kind = \"su2\" needs the configuration to run, as in template = \"flow.cfg\"");
+                 settings.kind == su2
+                     ? "is missing; kind = \"su2\" needs the configuration to run, relative to the case file"
+                     : "is missing; kind = \"openfoam\" needs the folder of a case, relative to the case file");
+  }
   for (const char* const key : {"mesh", "solution"}) {
-    if (table.has(key))
-      table.refuse(key, "does nothing here: with kind = \"su2\" both files have names of their own");
+    if (table.has(key)) table.refuse(key, "does nothing here: both files have names of their own");
   }
 }
 
@@ -102,10 +100,11 @@ void read_solver_table(const CaseTable& root, SolverSettings& settings) {
   const auto table = root.table("solver");
   if (!table) return;
   settings.given = true;
-  settings.kind = kind_of(*table);
+  if (const auto word = table->choice("kind", words_of(SolverSettings::kind_words)))
+    settings.kind = *value_of(SolverSettings::kind_words, *word);
   read_euler_keys(*table, settings.euler);
   read_command_keys(*table, settings);
-  read_su2_keys(*table, settings);
+  read_template(*table, settings);
   table->finish();
 }
 
@@ -164,12 +163,16 @@ ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<Bou
       named.boundaries.push_back({boundary.name, boundary.condition, {}});
     return euler_options(settings, rules, named);
   }
+  const std::filesystem::path case_folder = std::filesystem::absolute(case_path).parent_path();
+  if (settings.kind == SolverSettings::Kind::openfoam) {
+    return OpenfoamSolver{(case_folder / settings.case_template).lexically_normal().string(),
+                          settings.command.ranks, settings.command.command.timeout};
+  }
   CommandSolver solver = settings.command;
   solver.gamma = settings.euler.gamma;
-  const std::filesystem::path folder = std::filesystem::absolute(case_path).parent_path();
-  solver.case_folder = folder.string();
+  solver.case_folder = case_folder.string();
   if (settings.kind == SolverSettings::Kind::su2)
-    return su2_solver_of((folder / settings.config).string(), std::move(solver));
+    return su2_solver_of((case_folder / settings.case_template).string(), std::move(solver));
   return solver;
 }
 

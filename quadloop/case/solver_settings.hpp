@@ -5,6 +5,7 @@
 
 #include "adapt/loop/chosen_solver.hpp"
 #include "io/input/case_file.hpp"
+#include "mesher/base/word_table.hpp"
 #include "mesher/geometry/assemble/boundary_rules.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -26,13 +27,15 @@ struct WallTemperature {
 
 /// The case's table [solver], and what its boundary tables say to the solver alone.
 struct SolverSettings {
-  enum class Kind { euler, command, su2 };
+  enum class Kind { euler, command, su2, openfoam };
+  static constexpr WordTable<Kind, 4> kind_words{
+      {{"euler", Kind::euler}, {"command", Kind::command}, {"su2", Kind::su2}, {"openfoam", Kind::openfoam}}};
 
   Kind kind = Kind::euler;
-  bool given = false;     ///< the case has the table
-  EulerOptions euler;     ///< without the boundaries
-  CommandSolver command;  ///< without the case's folder
-  std::string config;     ///< of SU2, as the case names it
+  bool given = false;         ///< the case has the table
+  EulerOptions euler;         ///< without the boundaries
+  CommandSolver command;      ///< without the case's folder
+  std::string case_template;  ///< of SU2's configuration or OpenFOAM's case, as the case has it
   std::vector<OutflowPressure> pressures;
   std::vector<WallTemperature> wall_temperatures;
 };

@@ -70,10 +70,41 @@ TEST(Field, IsScatteredWithItsMeshAndGathered) {
       EXPECT_EQ(field.names, of_whole.names);
       EXPECT_EQ(field.constants, of_whole.constants);
       EXPECT_EQ(field.values, field_at(part, static_cast<std::size_t>(part.owned_nodes)).values);
-      const Field back = gather_field(world(), field, order);
+      const Field back = gather_field(world(), field, part, order);
       EXPECT_EQ(back.values, world().is_root() ? of_whole.values : std::vector<double>{});
     }
   }
+}
+
+TEST(Field, OfCellsIsScatteredWithItsMeshAndGathered) {
+  const Mesh whole = test::Grid{7}.mesh();
+  for (const MeshOrder& order :
+       {own_order(whole), space_filling_order(whole), test::shuffled_order(whole, 3)}) {
+    const Mesh part = scatter_mesh(world(), whole, order);
+    Field of_whole{{}, {}, {}, {{"a", "b"}, {}}};
+    const std::size_t cells = whole.triangles.size() + whole.quads.size();
+    for (std::size_t i = 0; i < 2 * cells; ++i) of_whole.cells.values.push_back(static_cast<double>(i));
+    const Field field = scatter_field(world(), world().is_root() ? of_whole : Field{}, part, order);
+    EXPECT_EQ(field.cells.names, of_whole.cells.names);
+    ASSERT_EQ(field.cells.values.size(), 2 * (part.triangles.size() + part.quads.size()));
+    if (!part.triangles.empty()) {
+      EXPECT_LT(field.cells.values[0] / 2, static_cast<double>(whole.triangles.size()));
+    }
+    const Field back = gather_field(world(), field, part, order);
+    EXPECT_EQ(back.cells.values, world().is_root() ? of_whole.cells.values : std::vector<double>{});
+  }
+}
+
+TEST(Field, SelectsVariablesOfCellsWhereNodesHaveNone) {
+  const Field field{{"rho"}, {1, 2}, {}, {{"rho", "p", "T"}, {3, 4, 5, 6, 7, 8}}};
+  const std::vector<std::string> wanted{"pressure", "density"};
+  const Field chosen = selected(field, wanted, "here");
+  EXPECT_EQ(chosen.names, (std::vector<std::string>{"rho"}));
+  EXPECT_EQ(chosen.values, (std::vector<double>{1, 2}));
+  EXPECT_EQ(chosen.cells.names, (std::vector<std::string>{"p"}));
+  EXPECT_EQ(chosen.cells.values, (std::vector<double>{4, 7}));
+  const std::vector<std::string> unknown{"mach"};
+  EXPECT_THROW(selected(field, unknown, "here"), InputError);
 }
 
 TEST(Field, WithoutVariablesThereIsNothingToScatter) {

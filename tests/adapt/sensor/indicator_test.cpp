@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "tests/adapt/sensor/shared_leaves.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/mesh/layered_strip.hpp"
@@ -109,6 +110,56 @@ TEST(Indicator, LinearFieldsHaveNoHessianAndOneGradient) {
       for (const double value : leaf_indicator(world(), pieces.part, own, linear, Indicator::gradient))
         EXPECT_LE(value, std::sqrt(13.0) / 5 * (1 + 1e-9));
     }
+  });
+}
+
+/// What all leaves of two_squares get from a variable of its cells: two triangles, then the quad.
+Values of_cells_of_two_squares(const Values& cells, Indicator kind) {
+  const Mesh mesh = two_squares(), part = test::Pieces(mesh, own_order(mesh)).part;
+  const Field field = scatter_field(world(), {{}, {}, {}, {{"q"}, cells}}, part, own_order(mesh));
+  const Leaves own = test::share_of(leaves_of_two_squares(), test::Sharing::uneven);
+  return test::joined(world(), leaf_indicator(world(), part, own, field, kind));
+}
+
+TEST(Indicator, OfCellsIsTheLargestJumpToANeighbour) {
+  EXPECT_EQ(of_cells_of_two_squares({0, 4, 1}, Indicator::difference), (Values{0.75, 0, 1, 1}));
+  EXPECT_EQ(of_cells_of_two_squares({2, 2, 2}, Indicator::difference), (Values{0, 0, 0, 0}));
+  EXPECT_EQ(of_cells_of_two_squares({0, 0, 8}, Indicator::difference), (Values{1, 0, 0, 1}));
+  const Values slopes = of_cells_of_two_squares({0, 0, 8}, Indicator::gradient);
+  const double distance = length(Point{4.0 / 3, 2.0 / 3} - Point{0.5, 0.5});
+  EXPECT_NEAR(slopes[0], 1 / distance, 1e-14);
+  EXPECT_EQ(slopes[0], slopes[3]);
+  EXPECT_EQ(of_cells_of_two_squares({0, 4, 1}, Indicator::hessian), (Values{0, 0, 0, 0}));
+}
+
+/// The sensors of a function's values at the centroids.
+Values of_cells(const test::Pieces& pieces, const std::function<double(Point)>& value, Indicator kind) {
+  Field field{{}, {}, {}, {{"q"}, {}}};
+  for (const CellShape& shape : cell_shapes(pieces.part)) field.cells.values.push_back(value(shape.centroid));
+  const Leaves own = test::share_of(test::leaves_of(pieces.whole, 4), test::Sharing::uneven);
+  return test::joined(world(), leaf_indicator(world(), pieces.part, own, field, kind));
+}
+
+TEST(Indicator, OfCellsHasTheSameBitsOnAnyNumberOfRanks) {
+  test::for_each_distribution([](const test::Pieces& pieces) {
+    Field field{{}, {}, {}, {{"q"}, {}}};
+    for (const CellShape& shape : cell_shapes(pieces.whole))
+      field.cells.values.push_back(wave(0, shape.centroid));
+    const Communicator alone(MPI_COMM_SELF);
+    for (const Indicator kind : all_kinds) {
+      const Values whole = leaf_indicator(alone, pieces.whole, test::leaves_of(pieces.whole, 4), field, kind);
+      EXPECT_EQ(of_cells(
+                    pieces, [](Point p) { return wave(0, p); }, kind),
+                whole);
+    }
+  });
+}
+
+TEST(Indicator, OfCellsSeesNoHessianInALinearFunction) {
+  test::for_each_distribution([](const test::Pieces& pieces) {
+    for (const double value : of_cells(
+             pieces, [](Point p) { return 3 * p.x - p.y; }, Indicator::hessian))
+      EXPECT_LT(value, 1e-11);
   });
 }
 

@@ -1,5 +1,5 @@
 // The cells on both sides of each edge, on any number of ranks as on one.
-#include "mesher/solid/edge_cells.hpp"
+#include "mesher/mesh/cells/edge_cells.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mesher/solid/edge_cells.hpp"
+#include "mesher/mesh/cells/edge_cells.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,187 @@
+#include "adapt/loop/openfoam_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <utility>
+
+#include "adapt/loop/cycle_paths.hpp"
+#include "flow/command/solver_command.hpp"
+#include "io/files/output_file.hpp"
+#include "io/foam/foam_fields.hpp"
+#include "io/foam/foam_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+
+namespace quadloop {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* script_name = "openfoam.sh";
+constexpr const char* done_name = "openfoam.done";
+
+/// Of what the solver left, and of earlier meshes, nothing is copied.
+bool is_result(const fs::path& path) {
+  const std::string name = path.filename();
+  const bool is_time =
+      name != "0" && !name.empty() && name.find_first_not_of("0123456789.e-+") == std::string::npos;
+  return is_time || name.starts_with("processor") || name.starts_with("log.") || name == "postProcessing" ||
+         name == "polyMesh";
+}
+
+void copy_template(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to);
+  for (const fs::directory_entry& entry : fs::directory_iterator(from)) {
+    if (is_result(entry.path())) continue;
+    const fs::path target = to / entry.path().filename();
+    if (entry.is_directory()) {
+      copy_template(entry.path(), target);
+    } else {
+      fs::copy_file(entry.path(), target, fs::copy_options::overwrite_existing);
+    }
+  }
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file) throw OutputError(path.string() + ": cannot be written");
+}
+
+/// Slices along x.
+std::string decompose_dict(int ranks) {
+  return fmt::format(
+      "FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class dictionary;\n    object "
+      "decomposeParDict;\n"
+      "}}\n\nnumberOfSubdomains {0};\nmethod simple;\nsimpleCoeffs\n{{\n    n ({0} 1 1);\n    delta "
+      "0.001;\n}}\n",
+      ranks);
+}
+
+/// Debian's package needs but this variable to be set; elsewhere the user has OpenFOAM's own environment.
+constexpr const char* script_head =
+    "#!/bin/sh\n"
+    "# What this cycle runs, in the folder above its case; written by quadloop.\n"
+    "set -e\n"
+    "if [ -z \"$WM_PROJECT_DIR\" ] && [ -d /usr/share/openfoam ]; then\n"
+    "  export WM_PROJECT_DIR=/usr/share/openfoam\n"
+    "fi\n";
+
+/// The solver, by controlDict.start first where there is one.
+constexpr const char* script_run =
+    "application=$(sed -n 's/^ *application *\\([A-Za-z0-9_]*\\) *;.*/\\1/p' system/controlDict)\n"
+    "if [ -f system/controlDict.start ]; then\n"
+    "  mv system/controlDict system/controlDict.then\n"
+    "  cp system/controlDict.start system/controlDict\n"
+    "  solve\n"
+    "  mv system/controlDict.then system/controlDict\n"
+    "fi\n"
+    "solve\n";
+
+std::string script(bool has_allrun, int ranks) {
+  std::string text = std::string(script_head) + "cd " + OpenfoamSolver::folder_name + "\n";
+  if (has_allrun) {
+    text += fmt::format("./Allrun {}\n", ranks);
+  } else if (ranks == 1) {
+    text += std::string("solve() { \"$application\"; }\n") + script_run;
+  } else {
+    text += fmt::format(
+        "solve() {{ mpirun -n {} \"$application\" -parallel; }}\ndecomposePar\n{}"
+        "reconstructPar -latestTime\n",
+        ranks, script_run);
+  }
+  return text + "cd ..\necho done > " + done_name + "\n";
+}
+
+/// The case beside the cycle's files; on the root alone.
+void make_case(const OpenfoamSolver& solver, const fs::path& folder, int ranks, const CellValues& start) {
+  require_openfoam_template(solver.case_template);
+  const fs::path own = folder / OpenfoamSolver::folder_name;
+  fs::remove_all(own);
+  copy_template(solver.case_template, own);
+  if (!fs::exists(own / "0")) fs::rename(own / "0.orig", own / "0");
+  if (start.width() > 0) set_foam_fields((own / "0").string(), start);
+  if (ranks > 1 && !fs::exists(own / "system/decomposeParDict"))
+    write_text(own / "system/decomposeParDict", decompose_dict(ranks));
+  write_text(folder / script_name, script(fs::exists(own / "Allrun"), ranks));
+}
+
+MeshOrder order_of(const Communicator& comm, const MeshCounts& counts) {
+  MeshOrder order;
+  if (!comm.is_root()) return order;
+  order.triangles.resize(counts.triangles);
+  order.quads.resize(counts.quads);
+  std::iota(order.triangles.begin(), order.triangles.end(), 0);
+  std::iota(order.quads.begin(), order.quads.end(), 0);
+  return order;
+}
+
+/// What the solver left, spread over the ranks. *Collective.*
+Field read_left(const Communicator& comm, const Mesh& mesh, const MeshCounts& counts,
+                const SolverCommand& command, const SolverFiles& files) {
+  Field whole;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    try {
+      const std::string own = (fs::path(files.folder) / OpenfoamSolver::folder_name).string();
+      const std::string time = latest_foam_time(own);
+      if (time.empty()) throw InputError(own + ": has no folder of a time above 0");
+      whole.cells = read_foam_fields(time, counts.triangles + counts.quads);
+      if (whole.cells.names.empty()) throw InputError(time + ": holds no field of cells");
+    } catch (const InputError& fault) {
+      throw SolverError(
+          solver_message(command, files, std::string("left no solution for its mesh: ") + fault.what()));
+    }
+  });
+  return scatter_field(comm, whole, mesh, order_of(comm, counts));
+}
+
+/// *Collective.*
+void write_mesh_of(const Communicator& comm, const Mesh& mesh, const std::string& folder) {
+  OutputSet outputs(comm);
+  write_foam(outputs, extruded(mesh, even_heights(1, 1), ExtrusionAxis::z, nullptr),
+             folder + "/" + OpenfoamSolver::folder_name + "/constant/polyMesh");
+  outputs.commit();
+}
+
+}  // namespace
+
+void require_openfoam_template(const std::string& folder) {
+  const fs::path path = folder;
+  if (!fs::is_regular_file(path / "system/controlDict"))
+    throw InputError(folder + ": is no case of OpenFOAM: it has no system/controlDict");
+  if (!fs::is_directory(path / "0") && !fs::is_directory(path / "0.orig"))
+    throw InputError(folder + ": has no folder 0 or 0.orig with the fields to begin with");
+}
+
+FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int cycle)> folder_of) {
+  return [solver = std::move(solver), folder_of = std::move(folder_of)](
+             const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
+    SolverFiles files;
+    files.folder = fs::absolute(folder_of(cycle)).string();
+    files.mesh = (fs::path(files.folder) / OpenfoamSolver::folder_name).string();
+    files.solution = (fs::path(files.folder) / done_name).string();
+    files.ranks = solver.ranks > 0 ? solver.ranks : comm.size();
+    files.cycle = cycle;
+    const MeshCounts counts = count(comm, mesh);
+    const Field whole = gather_field(comm, {{}, {}, {}, start.cells}, mesh, order_of(comm, counts));
+    comm.together([&] {
+      if (comm.is_root()) make_case(solver, files.folder, files.ranks, whole.cells);
+    });
+    write_mesh_of(comm, mesh, files.folder);
+    const SolverCommand command{{"/bin/sh", script_name}, solver.timeout};
+    run_solver(comm, command, files);
+    SolvedFlow flow;
+    flow.solution = read_left(comm, mesh, counts, command, files);
+    return flow;
+  };
+}
+
+}  // namespace quadloop

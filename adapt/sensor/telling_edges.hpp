@@ -1,0 +1,36 @@
+#pragma once
+
+#include "mesher/mesh/layer_nodes.hpp"
+
+namespace quadloop {
+
+/// The edges that tell whether a leaf is to be split: not those across layers, which stay as high as the case
+/// asks for, however narrow their columns get, and none within strips, whose columns stay too.
+class TellingEdges {
+ public:
+  /// *Collective.*
+  TellingEdges(const Communicator& comm, const Mesh& mesh) {
+    if (has_layers(mesh)) places_ = layer_places(comm, mesh);
+  }
+
+  /// Of a change along the edge.
+  bool tells(NodeId from, NodeId to) const {
+    if (places_.empty()) return true;
+    const LayerPlace &a = places_[from], &b = places_[to];
+    if (!a.valid() || !b.valid()) return true;
+    return a.left == b.left && (a.strip < 0 || b.strip < 0);
+  }
+  /// Of a change from the cell on one side of the edge to the one on the other.
+  bool tells_across(NodeId from, NodeId to) const {
+    if (places_.empty()) return true;
+    const LayerPlace &a = places_[from], &b = places_[to];
+    if (!a.valid() || !b.valid()) return true;
+    const bool ends_layers = a.left == 0 && b.left == 0;
+    return ends_layers || (a.left != b.left && (a.strip < 0 || b.strip < 0));
+  }
+
+ private:
+  LayerPlaces places_;
+};
+
+}  // namespace quadloop

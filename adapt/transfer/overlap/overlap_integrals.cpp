@@ -1,0 +1,220 @@
+#include "adapt/transfer/overlap/overlap_integrals.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "adapt/transfer/overlap/triangle_overlap.hpp"
+#include "mesher/base/parallel/exchange.hpp"
+#include "mesher/geometry/box_tree.hpp"
+
+namespace quadloop {
+
+namespace {
+
+using Triangle = std::array<Point, 3>;
+
+/// Overlaps that are this much smaller than the smaller triangle may come from rounding: their values bound
+/// nothing.
+constexpr double sliver = 1e-12;
+
+Box box_of_triangle(const Triangle& triangle) {
+  Box box;
+  for (const Point p : triangle) box.include(p);
+  return box;
+}
+
+double area_of(const Triangle& t) { return 0.5 * cross(t[1] - t[0], t[2] - t[0]); }
+
+/// Triangles and what goes with them, sent to all ranks whose pieces of the plane they meet.
+class ToShares {
+ public:
+  ToShares(const Communicator& comm, const CurveShares& shares, std::span<const Triangle> triangles)
+      : exchange_{comm, find_ranks(shares, triangles)} {}
+
+  template <class Rows>
+  auto deliver(const Rows& rows, std::size_t width = 1) const {
+    std::vector<std::ranges::range_value_t<Rows>> out;
+    for (const std::size_t triangle : items_) {
+      const auto row = rows.begin() + triangle * width;
+      out.insert(out.end(), row, row + width);
+    }
+    return exchange_.deliver(out, width);
+  }
+  std::span<const Exchange::Source> sources() const { return exchange_.sources(); }
+
+ private:
+  std::vector<int> find_ranks(const CurveShares& shares, std::span<const Triangle> triangles) {
+    std::vector<int> ranks, meeting;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      shares.ranks_meeting(box_of_triangle(triangles[i]), meeting);
+      ranks.insert(ranks.end(), meeting.begin(), meeting.end());
+      items_.insert(items_.end(), meeting.size(), i);
+    }
+    return ranks;
+  }
+
+  std::vector<std::size_t> items_;  ///< before the exchange, which fills it
+  Exchange exchange_;
+};
+
+/// An area and values as they are added up; the row of doubles that travels.
+struct Sum {
+  double area = 0;
+  std::vector<CoveredValue> values;
+
+  explicit Sum(std::size_t width) : values(width, nothing) {}
+
+  void add(double more, std::span<const CoveredValue> others) {
+    area += more;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      CoveredValue& value = values[k];
+      value.integral += others[k].integral;
+      value.slope = value.slope + others[k].slope;
+      value.smallest = std::min(value.smallest, others[k].smallest);
+      value.largest = std::max(value.largest, others[k].largest);
+    }
+  }
+
+  static constexpr double none = std::numeric_limits<double>::infinity();
+  static constexpr CoveredValue nothing{0, {}, none, -none};
+};
+
+/// Part of what lies over a new triangle, on its way to the rank that has it.
+struct PartHeader {
+  std::int64_t item = 0;    ///< the new triangle, as its rank counts
+  std::int64_t number = 0;  ///< of the old triangle; 0 where all that lie over the new one are together
+  double area = 0;
+};
+
+struct Parts {
+  std::vector<PartHeader> headers;
+  std::vector<CoveredValue> values;
+  std::vector<int> ranks;
+
+  void add(const PartHeader& header, std::span<const CoveredValue> of_part, int rank) {
+    headers.push_back(header);
+    values.insert(values.end(), of_part.begin(), of_part.end());
+    ranks.push_back(rank);
+  }
+};
+
+/// The old triangles that meet this rank's piece of the plane.
+class OldPiece {
+ public:
+  /// *Collective.*
+  OldPiece(const Communicator& comm, const CurveShares& shares, const BrokenField& field)
+      : rank_{comm.rank()}, shares_{shares} {
+    const ToShares to_shares(comm, shares, field.triangles);
+    field_.width = field.width;
+    field_.triangles = to_shares.deliver(field.triangles);
+    field_.numbers = to_shares.deliver(field.numbers);
+    field_.at_corners = to_shares.deliver(field.at_corners, 3 * field.width);
+    std::vector<Box> boxes;
+    for (const Triangle& triangle : field_.triangles) boxes.push_back(box_of_triangle(triangle));
+    tree_ = BoxTree(boxes);
+  }
+
+  /// What lies over a new triangle in this rank's piece of the plane.
+  void cut(const Triangle& triangle, std::int64_t item, int rank, Parts& parts) {
+    const Box box = box_of_triangle(triangle);
+    shares_.ranks_meeting(box, meeting_);
+    const bool all_here = meeting_.size() == 1;
+    Sum sum(field_.width);
+    for (const std::int32_t old : meeting(box)) {
+      if (!is_mine(box, box_of_triangle(field_.triangles[old]))) continue;
+      const TriangleOverlap overlap = overlap_of(triangle, field_.triangles[old]);
+      if (!(overlap.area > 0)) continue;
+      fill(old, triangle, overlap, std::min(area_of(triangle), area_of(field_.triangles[old])));
+      if (all_here)
+        sum.add(overlap.area, row_);
+      else
+        parts.add({item, field_.numbers[old], overlap.area}, row_, rank);
+    }
+    if (sum.area > 0) parts.add({item, 0, sum.area}, sum.values, rank);
+  }
+
+ private:
+  /// By their numbers.
+  const std::vector<std::int32_t>& meeting(const Box& box) {
+    candidates_.clear();
+    tree_.for_each_meeting(box, [&](std::int32_t old) { candidates_.push_back(old); });
+    std::ranges::sort(candidates_, {}, [&](std::int32_t old) { return field_.numbers[old]; });
+    return candidates_;
+  }
+
+  bool is_mine(const Box& a, const Box& b) const {
+    return shares_.rank_of({std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}) == rank_;
+  }
+
+  /// The old triangle's values over the overlap, into row_.
+  void fill(std::size_t old, const Triangle& cut, const TriangleOverlap& overlap, double smaller_area) {
+    const auto& [a, b, c] = field_.triangles[old];
+    const Point first = b - a, second = c - a, off = overlap.centroid + (cut[0] - a);
+    const double twice_area = cross(first, second);
+    const bool bounds = overlap.area > sliver * smaller_area;
+    row_.assign(field_.width, Sum::nothing);
+    for (std::size_t k = 0; k < field_.width; ++k) {
+      const double at_a = field_.row(old, 0)[k], at_b = field_.row(old, 1)[k], at_c = field_.row(old, 2)[k];
+      const double d_first = at_b - at_a, d_second = at_c - at_a;
+      const Point gradient{(d_first * second.y - d_second * first.y) / twice_area,
+                           (d_second * first.x - d_first * second.x) / twice_area};
+      const auto [low, high] = std::minmax({at_a, at_b, at_c});
+      const double share_b = cross(off, second) / twice_area, share_c = cross(first, off) / twice_area;
+      const double value = std::clamp(at_a + share_b * d_first + share_c * d_second, low, high);
+      row_[k] = {overlap.area * value, overlap.area * gradient, bounds ? low : Sum::none,
+                 bounds ? high : -Sum::none};
+    }
+  }
+
+  int rank_;
+  const CurveShares& shares_;
+  BrokenField field_;
+  BoxTree tree_;
+  std::vector<std::int32_t> candidates_;
+  std::vector<int> meeting_;
+  std::vector<CoveredValue> row_;
+};
+
+/// All parts of this rank's new triangles, added up by the numbers of the old ones. *Collective.*
+OverlapIntegrals add_up(const Communicator& comm, const Parts& parts, std::size_t width,
+                        std::size_t triangles) {
+  const Exchange exchange(comm, parts.ranks);
+  const std::vector<PartHeader> headers = exchange.deliver(parts.headers);
+  const std::vector<CoveredValue> values = exchange.deliver(parts.values, width);
+  std::vector<std::size_t> order(headers.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return std::tuple(headers[i].item, headers[i].number); });
+  OverlapIntegrals integrals{width, std::vector<double>(triangles, 0),
+                             std::vector<CoveredValue>(triangles * width)};
+  for (std::size_t i = 0; i < order.size();) {
+    const std::int64_t item = headers[order[i]].item;
+    Sum sum(width);
+    for (; i < order.size() && headers[order[i]].item == item; ++i)
+      sum.add(headers[order[i]].area, std::span(values).subspan(order[i] * width, width));
+    integrals.areas[item] = sum.area;
+    std::ranges::copy(sum.values, integrals.values.begin() + item * width);
+  }
+  return integrals;
+}
+
+}  // namespace
+
+OverlapIntegrals integrate_overlaps(const Communicator& comm, const CurveShares& shares,
+                                    const BrokenField& old_field, std::span<const Triangle> new_triangles) {
+  OldPiece old_piece(comm, shares, old_field);
+  const ToShares to_shares(comm, shares, new_triangles);
+  std::vector<std::int64_t> items(new_triangles.size());
+  std::iota(items.begin(), items.end(), std::int64_t{0});
+  const std::vector<Triangle> triangles = to_shares.deliver(new_triangles);
+  items = to_shares.deliver(items);
+  Parts parts;
+  for (const Exchange::Source& source : to_shares.sources()) {
+    for (std::size_t i = source.begin; i < source.end; ++i)
+      old_piece.cut(triangles[i], items[i], source.rank, parts);
+  }
+  return add_up(comm, parts, old_field.width, new_triangles.size());
+}
+
+}  // namespace quadloop

@@ -1,0 +1,56 @@
+#include "adapt/transfer/overlap/triangle_overlap.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "mesher/geometry/predicates.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// At most six corners, and a seventh while rounding has its way.
+struct Polygon {
+  std::array<Point, 12> corners;
+  std::size_t count = 0;
+
+  void add(Point p) {
+    if (count < corners.size()) corners[count++] = p;
+  }
+};
+
+/// The part to the left of the line from a to b.
+Polygon left_part(const Polygon& polygon, Point a, Point b) {
+  Polygon left;
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    const Point from = polygon.corners[k], to = polygon.corners[(k + 1) % polygon.count];
+    const int side_from = orientation(a, b, from), side_to = orientation(a, b, to);
+    if (side_from >= 0) left.add(from);
+    if (side_from * side_to >= 0) continue;
+    const double height_from = cross(b - a, from - a), height_to = cross(b - a, to - a);
+    const double share = std::clamp(height_from / (height_from - height_to), 0.0, 1.0);
+    left.add(from + share * (to - from));
+  }
+  return left;
+}
+
+}  // namespace
+
+TriangleOverlap overlap_of(const std::array<Point, 3>& clipped, const std::array<Point, 3>& by) {
+  const Point origin = clipped[0];  // differences of near points lose nothing
+  Polygon polygon;
+  for (const Point p : clipped) polygon.add(p - origin);
+  for (std::size_t k = 0; k < 3 && polygon.count > 0; ++k)
+    polygon = left_part(polygon, by[k] - origin, by[(k + 1) % 3] - origin);
+  double twice_area = 0;
+  Point moment;
+  for (std::size_t k = 1; k + 1 < polygon.count; ++k) {
+    const Point a = polygon.corners[k] - polygon.corners[0], b = polygon.corners[k + 1] - polygon.corners[0];
+    twice_area += cross(a, b);
+    moment = moment + cross(a, b) * (a + b);
+  }
+  if (!(twice_area > 0)) return {};
+  return {0.5 * twice_area, polygon.corners[0] + (1 / (3 * twice_area)) * moment};
+}
+
+}  // namespace quadloop

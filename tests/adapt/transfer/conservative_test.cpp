@@ -1,0 +1,168 @@
+// What a conservative transfer owes: integrals to rounding where the new mesh covers the same ground, linear
+// functions, no new extrema, and the same bits however the meshes are spread.
+#include "adapt/transfer/conservative.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapt/transfer/overlap/triangle_overlap.hpp"
+#include "adapt/transfer/transfer.hpp"
+#include "mesher/mesh/cells/cells_round_nodes.hpp"
+#include "tests/mesh/grid_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::Grid;
+using test::scattered;
+using test::world;
+
+/// A whole mesh and the order in which it is spread.
+struct Whole {
+  Mesh mesh;
+  MeshOrder order;
+
+  Mesh part(const Communicator& comm) const { return scatter_mesh(comm, mesh, order); }
+};
+
+Whole jittered(const Grid& grid, std::uint64_t seed, Point by = {}) {
+  Whole whole{grid.mesh(), {}};
+  test::jitter(grid, 0.2, seed, whole.mesh);
+  for (Point& p : whole.mesh.points) p = p + by;
+  whole.order = test::shuffled_order(whole.mesh, seed);
+  return whole;
+}
+
+double linear(Point p) { return 1 + 2 * p.x - 3 * p.y; }
+double step(Point p) { return p.x + 0.3 * p.y > 0.6 ? 1e5 : 1; }
+
+/// Two variables in the cells, one at the nodes: a function's and numbers without a pattern.
+template <class Function>
+Field field_of(const Mesh& part, const Function& function) {
+  Field field{{"q"}, {}, {3}, {{"a", "b"}, {}}};
+  for (std::int32_t node = 0; node < part.owned_nodes; ++node)
+    field.values.push_back(function(part.point(NodeId{node})));
+  for (const CellShape& shape : cell_shapes(part)) {
+    field.cells.values.push_back(function(shape.centroid));
+    const double x = 1e3 * shape.centroid.x;
+    field.cells.values.push_back(scattered(5, static_cast<std::int64_t>(x * 1e6), 0));
+  }
+  return field;
+}
+
+std::vector<double> gathered(const std::vector<double>& values) {
+  return world().all_gather_values(std::span<const double>(values));
+}
+
+TEST(TriangleOverlap, OfTrianglesThatCrossOrTouch) {
+  const std::array<Point, 3> a{{{0, 0}, {2, 0}, {0, 2}}};
+  const TriangleOverlap half = overlap_of(a, {{{1, -1}, {4, -1}, {1, 4}}});
+  EXPECT_DOUBLE_EQ(half.area, 0.5);
+  EXPECT_NEAR(half.centroid.x, 4.0 / 3, 1e-15);
+  EXPECT_NEAR(half.centroid.y, 1.0 / 3, 1e-15);
+  EXPECT_DOUBLE_EQ(overlap_of(a, a).area, 2);
+  EXPECT_NEAR(overlap_of({{{0.1, 0.1}, {0.2, 0.1}, {0.1, 0.2}}}, a).area, 0.005, 1e-16);
+  EXPECT_NEAR(overlap_of(a, {{{0.1, 0.1}, {0.2, 0.1}, {0.1, 0.2}}}).area, 0.005, 1e-16);
+  EXPECT_EQ(overlap_of(a, {{{2, 0}, {2, 2}, {0, 2}}}).area, 0);
+  EXPECT_EQ(overlap_of(a, {{{5, 5}, {6, 5}, {5, 6}}}).area, 0);
+  const std::array<Point, 3> star{{{1, 1.5}, {-1, 0.25}, {1.5, -0.5}}};
+  EXPECT_NEAR(overlap_of(a, star).area, overlap_of(star, a).area, 1e-15);
+}
+
+TEST(ConservativeTransfer, KeepsIntegralsAndExtrema) {
+  for (const bool quads : {true, false}) {
+    const Whole old_whole = jittered({13, {1, 1}, quads}, 3, {1e4, -7}),
+                new_whole = jittered({19, {1, 1}, quads}, 4, {1e4, -7});
+    const Mesh old_mesh = old_whole.part(world()), new_mesh = new_whole.part(world());
+    const Field old_field = field_of(old_mesh, [](Point p) { return step(p - Point{1e4, -7}); });
+    const Transferred result = transfer(world(), old_mesh, old_field, new_mesh, TransferKind::conservative);
+    EXPECT_EQ(result.report.outside, 0);
+    EXPECT_EQ(result.report.cells_outside, 0);
+    ASSERT_EQ(result.report.relative_drift.size(), 3U);
+    for (const double drift : result.report.relative_drift) EXPECT_NEAR(drift, 0, 2e-13);
+    for (const double value : result.field.values) {
+      EXPECT_GE(value, 1);
+      EXPECT_LE(value, 1e5);
+    }
+    ASSERT_EQ(result.field.cells.values.size(), 2 * (new_mesh.triangles.size() + new_mesh.quads.size()));
+    const std::vector<double> noise = old_field.cells.column(1);
+    const double low = world().minimum(noise.empty() ? 1 : std::ranges::min(noise)),
+                 high = world().maximum(noise.empty() ? -1 : std::ranges::max(noise));
+    for (std::size_t i = 0; i < result.field.cells.values.size(); i += 2) {
+      EXPECT_GE(result.field.cells.values[i], 1);
+      EXPECT_LE(result.field.cells.values[i], 1e5);
+      EXPECT_GE(result.field.cells.values[i + 1], low);
+      EXPECT_LE(result.field.cells.values[i + 1], high);
+    }
+    EXPECT_EQ(result.field.constants, old_field.constants);
+  }
+}
+
+TEST(ConservativeTransfer, LinearFunctionsAreExactInside) {
+  const Mesh old_mesh = jittered({13, {1, 1}, true}, 3).part(world()),
+             new_mesh = jittered({17, {1, 1}, true}, 4).part(world());
+  const Transferred result =
+      transfer(world(), old_mesh, field_of(old_mesh, linear), new_mesh, TransferKind::conservative);
+  const std::vector<CellShape> shapes = cell_shapes(new_mesh);
+  const auto inside = [](Point p) { return std::min({p.x, p.y, 1 - p.x, 1 - p.y}) > 0.2; };
+  for (std::size_t cell = 0; cell < shapes.size(); ++cell) {
+    const Point p = shapes[cell].centroid;
+    EXPECT_NEAR(result.field.cells.values[2 * cell], linear(p), inside(p) ? 1e-13 : 0.3);
+  }
+  // Nodes of new triangles whose own range old triangles bound: all but those at the boundary.
+  for (std::int32_t node = 0; node < new_mesh.owned_nodes; ++node) {
+    const Point p = new_mesh.point(NodeId{node});
+    EXPECT_NEAR(result.field.values[node], linear(p), 1e-12);
+  }
+}
+
+TEST(ConservativeTransfer, OfTheSameMeshChangesNothing) {
+  const Mesh mesh = jittered({11, {2, 1}, true}, 5).part(world());
+  const Field field = field_of(mesh, step);
+  const Transferred result = transfer(world(), mesh, field, mesh);
+  for (std::size_t i = 0; i < field.cells.values.size(); ++i)
+    EXPECT_NEAR(result.field.cells.values[i], field.cells.values[i], 1e-9) << i;
+}
+
+TEST(ConservativeTransfer, HasTheSameBitsOnAnyNumberOfRanks) {
+  const Communicator alone(MPI_COMM_SELF);
+  const Whole old_whole = jittered({12, {1, 1}, true}, 6), new_whole = jittered({15, {1.1, 1}, true}, 8);
+  const auto carried = [&](const Communicator& comm) {
+    const Mesh old_mesh = old_whole.part(comm);
+    return transfer(comm, old_mesh, field_of(old_mesh, step), new_whole.part(comm),
+                    TransferKind::conservative);
+  };
+  const Transferred one = carried(alone), many = carried(world());
+  EXPECT_GT(one.report.cells_outside, 0);
+  EXPECT_EQ(one.report.cells_outside, many.report.cells_outside);
+  EXPECT_EQ(gathered(many.field.values), one.field.values);
+  EXPECT_EQ(many.report.drift, one.report.drift);
+  const std::size_t triangles = new_whole.part(world()).triangles.size();
+  std::vector<double> of_triangles(
+      many.field.cells.values.begin(),
+      many.field.cells.values.begin() + static_cast<std::ptrdiff_t>(2 * triangles)),
+      of_quads(many.field.cells.values.begin() + static_cast<std::ptrdiff_t>(2 * triangles),
+               many.field.cells.values.end());
+  std::vector<double> all = gathered(of_triangles);
+  const std::vector<double> quads = gathered(of_quads);
+  all.insert(all.end(), quads.begin(), quads.end());
+  EXPECT_EQ(all, one.field.cells.values);
+}
+
+TEST(ConservativeTransfer, OutsideTakesTheNearestCell) {
+  const Mesh old_mesh = Whole{Grid{4}.mesh(), own_order(Grid{4}.mesh())}.part(world());
+  Mesh new_whole = Grid{4}.mesh();
+  for (Point& p : new_whole.points) p = p + Point{3, 0};
+  const Mesh new_mesh = scatter_mesh(world(), new_whole, own_order(new_whole));
+  const Field field = field_of(old_mesh, [](Point p) { return p.x > 0.75 ? 8.0 : 1.0; });
+  const Transferred result = transfer(world(), old_mesh, field, new_mesh);
+  EXPECT_EQ(result.report.cells_outside, std::ssize(new_whole.triangles) + std::ssize(new_whole.quads));
+  for (std::size_t i = 0; i < result.field.cells.values.size(); i += 2)
+    EXPECT_EQ(result.field.cells.values[i], 8);
+}
+
+}  // namespace
+}  // namespace quadloop
