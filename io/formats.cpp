@@ -39,7 +39,8 @@ FileFormat ugrid_row(const std::string& name) {
           .places = {Content::solid},
           .write_solid = write_ugrid,
           .read_solid = read_ugrid,
-          .patch_names = mapbc_names};
+          .patch_names = mapbc_names,
+          .conditions_in_solid = true};
 }
 
 }  // namespace
@@ -62,7 +63,8 @@ const std::vector<FileFormat>& file_formats() {
                                                 .write_solid = write_cgns_solid,
                                                 .read_solid = read_cgns_solid,
                                                 .patch_names = cgns_boundary_names,
-                                                .solution_in_solid = true},
+                                                .solution_in_solid = true,
+                                                .conditions_in_solid = true},
                                                {.name = "vtu",
                                                 .places = {mesh, solution, blocks, layers, solid},
                                                 .without_values = save,
@@ -94,6 +96,7 @@ const std::vector<FileFormat>& file_formats() {
                                                 .write_solid = write_foam,
                                                 .read_solid = read_foam,
                                                 .patch_names = foam_patch_names,
+                                                .conditions_in_solid = true,
                                                 .is_folder = true},
                                                {.name = "csv",
                                                 .program = "SU2",

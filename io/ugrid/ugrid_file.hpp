@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/files/output_file.hpp"
-#include "mesher/solid/extruded_mesh.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
@@ -14,7 +14,7 @@ namespace quadloop {
 /// significant first; .lb8.ugrid: least), and beside it a .mapbc with the number, condition and name of each
 /// patch. Faces are counter-clockwise as seen from outside. The bytes are the same on any number of ranks.
 /// *Collective.* Throws OutputError on all ranks, also where 4-byte integers cannot count the mesh.
-void write_ugrid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path);
+void write_ugrid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
 
 /// The file of patches that goes with a mesh: "a.b8.ugrid" has "a.mapbc".
 std::string mapbc_path(const std::string& path);
