@@ -79,6 +79,9 @@ const FileFormat& native_format();
 /// The names of those that are written by default, in the order of the table: the program's own first.
 std::vector<std::string> default_formats();
 
+/// The names of those in which a plane mesh, or its solution, is written.
+std::vector<std::string> written_formats();
+
 /// The names of all formats that have a place for each of these, in the order of the table.
 std::vector<std::string> formats_for(std::initializer_list<Content> contents);
 

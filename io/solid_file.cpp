@@ -1,6 +1,7 @@
 #include "io/solid_file.hpp"
 
 #include <fmt/format.h>
+#include <mpi.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -59,11 +60,22 @@ void write_solid(OutputSet& outputs, const SolidMesh& mesh, const std::string& p
   write_stream(outputs, SolidStream(outputs.communicator(), mesh), path, format);
 }
 
+void write_solid_of_root(const Communicator& comm, const SolidMesh& mesh, const std::string& path,
+                         const std::string& format) {
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    const Communicator alone(MPI_COMM_SELF);
+    OutputSet outputs(alone);
+    write_solid(outputs, mesh, path, format);
+    outputs.commit();
+  });
+}
+
 std::optional<SolidMesh> read_solid(const std::string& path) {
   const FileFormat* format = solid_format(path);
   std::error_code failure;
-  const bool in_place =
-      format != nullptr && (std::filesystem::is_regular_file(path, failure) || !format->holds(Content::mesh));
+  const bool in_place = format != nullptr && (std::filesystem::is_regular_file(path, failure) ||
+                                              format->is_folder || !format->holds(Content::mesh));
   return in_place ? format->read_solid(path) : std::nullopt;
 }
 

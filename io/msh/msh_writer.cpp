@@ -2,13 +2,12 @@
 #include <span>
 
 #include "io/msh/msh_file.hpp"
+#include "io/msh/msh_text.hpp"
 #include "io/text/text_output.hpp"
 
 namespace quadloop {
 
 namespace {
-
-constexpr int msh_line = 1, msh_triangle = 2, msh_quad = 3;
 
 std::string quoted(const std::string& name) { return '"' + msh_group_name(name) + '"'; }
 

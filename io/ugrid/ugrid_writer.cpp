@@ -59,14 +59,10 @@ class UgridWriter {
 
   void write_names(const StagedFile& staged) const {
     OutputFile file(staged);
-    const std::vector<std::string> names = mapbc_names(stream_.patch_names());
-    std::string text = std::to_string(names.size()) + "\n";
-    for (std::size_t n = 0; n < names.size(); ++n) {
-      const StreamedPatch& patch = stream_.patches()[n];
-      text += std::to_string(n + 1) + " " + std::to_string(mapbc_condition(patch.condition, patch.axis)) +
-              " " + names[n] + "\n";
-    }
-    file.write(text);
+    std::vector<MapbcPatch> patches;
+    for (const StreamedPatch& patch : stream_.patches())
+      patches.push_back({patch.name, mapbc_condition(patch.condition, patch.axis)});
+    file.write(mapbc_text(patches));
     file.close();
   }
 
@@ -118,12 +114,12 @@ class UgridWriter {
 
 }  // namespace
 
+template <std::endian order>
 void write_ugrid(OutputSet& outputs, const SolidStream& mesh, const std::string& path) {
-  if (path.ends_with(".lb8.ugrid")) {
-    UgridWriter<std::endian::little>(mesh, outputs, path).write();
-  } else {
-    UgridWriter<std::endian::big>(mesh, outputs, path).write();
-  }
+  UgridWriter<order>(mesh, outputs, path).write();
 }
+
+template void write_ugrid<std::endian::little>(OutputSet&, const SolidStream&, const std::string&);
+template void write_ugrid<std::endian::big>(OutputSet&, const SolidStream&, const std::string&);
 
 }  // namespace quadloop

@@ -202,8 +202,8 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
   if (table->has("formats")) {
     settings.formats.clear();
     for (const std::string& format : table->texts("formats")) {
-      if (format_named(format) == nullptr) {
-        const std::vector<std::string> known = formats_for({});
+      const std::vector<std::string> known = written_formats();
+      if (std::ranges::count(known, format) == 0) {
         table->refuse("formats", fmt::format("holds '{}', but this version writes: {}{}", format,
                                              fmt::join(known, ", "), guess_for(format, known)));
       }
