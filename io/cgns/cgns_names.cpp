@@ -90,10 +90,8 @@ std::string condition_of_cgns(int type) {
     if (type == type_named(cgns_type)) return word;
   }
   switch (type) {
-    case BCWallInviscid:
-    case BCWallViscous:
     case BCWallViscousHeatFlux:
-    case BCWallViscousIsothermal: return "wall";
+    case BCWallViscousIsothermal: return "viscous_wall";
     case BCInflowSubsonic:
     case BCInflowSupersonic:
     case BCTunnelInflow: return "inflow";

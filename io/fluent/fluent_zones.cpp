@@ -13,7 +13,7 @@ struct FluentZone {
 };
 
 /// Of each condition the first is what is written.
-constexpr std::array<FluentZone, 12> zones{{{"wall", 3, "wall"},
+constexpr std::array<FluentZone, 14> zones{{{"wall", 3, "wall"},
                                             {"farfield", 9, "pressure-far-field"},
                                             {"inflow", 10, "velocity-inlet"},
                                             {"inflow", 4, "pressure-inlet"},
@@ -24,6 +24,8 @@ constexpr std::array<FluentZone, 12> zones{{{"wall", 3, "wall"},
                                             {"symmetry", 37, "axis"},
                                             {"interface", fluent_interior, "interior"},
                                             {"interface", 24, "interface"},
+                                            {"viscous_wall", 3, "wall"},
+                                            {"inviscid_wall", 3, "wall"},
                                             {"none", 3, "wall"}}};
 
 const FluentZone& zone_for(const std::string& condition) {

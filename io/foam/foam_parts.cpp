@@ -1,6 +1,7 @@
 #include "io/foam/foam_parts.hpp"
 
 #include "io/foam/foam_file.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 
 namespace quadloop {
 
@@ -17,7 +18,8 @@ std::string foam_counts_note(const SolidCounts& counts, std::int64_t faces, std:
 }
 
 std::string foam_patch_type(const std::string& condition) {
-  return condition == "wall" || condition == "symmetry" ? condition : "patch";
+  if (is_wall(condition)) return "wall";
+  return condition == "symmetry" ? condition : "patch";
 }
 
 void write_foam_boundary(const Communicator& comm, const StagedFile& staged,

@@ -13,9 +13,10 @@ void require_conforming(const Communicator& comm, const Mesh& mesh, const EdgeCe
   const std::int64_t outer = std::ranges::count(cells.across, EdgeCells::none);
   const std::int64_t without_cell = std::ranges::count(cells.of_boundary, EdgeCells::none);
   if (comm.sum(outer) == comm.sum(on_boundaries) && comm.sum(without_cell) == 0) return;
-  throw OutputError(path +
-                    ": this format needs each edge between two cells, or of one cell and on one boundary; this "
-                    "mesh has others (`quadloop check` says where)");
+  throw OutputError(
+      path +
+      ": this format needs each edge between two cells, or of one cell and on one boundary; this "
+      "mesh has others (`quadloop check` says where)");
 }
 
 }  // namespace quadloop

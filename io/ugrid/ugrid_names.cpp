@@ -12,8 +12,13 @@ namespace {
 
 /// FUN3D's: viscous wall, Riemann invariants, subsonic inflow by total pressure, subsonic outflow by
 /// pressure, tangency.
-constexpr std::array<std::pair<const char*, int>, 5> conditions{
-    {{"wall", 4000}, {"farfield", 5000}, {"inflow", 7011}, {"outflow", 7012}, {"symmetry", 3000}}};
+constexpr std::array<std::pair<const char*, int>, 7> conditions{{{"wall", 4000},
+                                                                 {"farfield", 5000},
+                                                                 {"inflow", 7011},
+                                                                 {"outflow", 7012},
+                                                                 {"symmetry", 3000},
+                                                                 {"viscous_wall", 4000},
+                                                                 {"inviscid_wall", 3000}}};
 constexpr int symmetry_x = 6661;  // and y, z after it: the plane normal to the axis
 
 }  // namespace

@@ -101,6 +101,11 @@ void read_rules(const CaseTable& root, LayerSettings& layer_settings, Settings& 
                      "needs bc = \"wall\" in the same table; elsewhere there is none to set");
       settings.solver.wall_temperatures.push_back({name, *temperature});
     }
+    if (const auto wall = table.choice("wall", wall_words())) {
+      if (rule.condition != "wall")
+        table.refuse("wall", "needs bc = \"wall\" in the same table; elsewhere there is none to describe");
+      rule.condition = *wall + "_wall";
+    }
     table.finish();
     settings.outline.rules.push_back(std::move(rule));
   }
