@@ -52,10 +52,17 @@ struct ConvertInput {
   std::optional<SolidMesh> solid;
 };
 
+[[noreturn]] void refuse_solid(const ConvertArguments& arguments, const FileFormat& output) {
+  throw InputError(fmt::format("{}: holds a 3D mesh, which the format {} has no place for; {} have", arguments.input,
+                               output.name, suffixes_for({Content::solid}, "and")));
+}
+
 /// A 3D mesh that is one cell thick is a plane one where the output has a place for those.
 ConvertInput read_convert_input(const ConvertArguments& arguments) {
   const FileFormat& output = output_format(arguments);
-  if (!is_of_meshes(format_of(arguments.input))) require_readable_suffix(arguments.input);
+  const FileFormat* const format = format_of(arguments.input);
+  if (!is_of_meshes(format)) require_readable_suffix(arguments.input);
+  if (!format->holds(Content::mesh) && !output.holds(Content::solid)) refuse_solid(arguments, output);
   ConvertInput input;
   input.solid = read_solid(arguments.input);
   if (input.solid && output.holds(Content::mesh) && is_one_cell_thick(*input.solid)) {
@@ -64,9 +71,7 @@ ConvertInput read_convert_input(const ConvertArguments& arguments) {
   } else if (!input.solid) {
     input.whole = read_mesh(arguments.input);
   }
-  if (input.solid && !output.holds(Content::solid))
-    throw InputError(fmt::format("{}: holds a 3D mesh, which the format {} has no place for; {} have",
-                                 arguments.input, output.name, suffixes_for({Content::solid}, "and")));
+  if (input.solid && !output.holds(Content::solid)) refuse_solid(arguments, output);
   if (!input.solid && !output.holds(Content::mesh))
     throw InputError(
         fmt::format("{}: holds a plane mesh, and the format {} those of three dimensions alone; "
