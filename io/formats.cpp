@@ -18,6 +18,7 @@
 #include "io/su2/su2_solid_file.hpp"
 #include "io/ugrid/ugrid_file.hpp"
 #include "io/ugrid/ugrid_plane_file.hpp"
+#include "io/vtu/pvtu_file.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
 
@@ -92,6 +93,13 @@ const std::vector<FileFormat>& file_formats() {
                                                 .write_solid = write_vtu_solid,
                                                 .read_solid = read_vtu_solid,
                                                 .solution_in_solid = true},
+                                               {.name = "pvtu",
+                                                .program = "VTK",
+                                                .places = {mesh, solution, blocks, layers},
+                                                .without_values = save,
+                                                .read_mesh = read_pvtu,
+                                                .write_mesh = write_pvtu,
+                                                .write_blocks = write_pvtu},
                                                {.name = "su2",
                                                 .places = {mesh, solid},
                                                 .read_mesh = read_su2,

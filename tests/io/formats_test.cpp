@@ -15,21 +15,22 @@ namespace {
 using Names = std::vector<std::string>;
 
 TEST(Formats, AreListedByWhatTheyHold) {
-  EXPECT_EQ(formats_for({}), (Names{"mesh", "cgns", "vtu", "su2", "fluent.msh", "msh", "b8.ugrid",
+  EXPECT_EQ(formats_for({}), (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "b8.ugrid",
                                     "lb8.ugrid", "ugrid", "polyMesh", "csv"}));
   EXPECT_EQ(formats_for({Content::solid}),
             (Names{"cgns", "vtu", "su2", "msh", "b8.ugrid", "lb8.ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh}),
-            (Names{"mesh", "cgns", "vtu", "su2", "fluent.msh", "msh", "ugrid", "polyMesh"}));
-  EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "cgns", "vtu"}));
+            (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "ugrid", "polyMesh"}));
+  EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "cgns", "vtu", "pvtu"}));
   EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh"}));
   EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), Names{"fluent.msh"});
-  EXPECT_EQ(formats_for({Content::layers}), (Names{"mesh", "cgns", "vtu"}));
+  EXPECT_EQ(formats_for({Content::layers}), (Names{"mesh", "cgns", "vtu", "pvtu"}));
 }
 
 TEST(Formats, StandInASentenceBySuffix) {
-  EXPECT_EQ(suffixes_for({Content::mesh}), ".mesh, .cgns, .vtu, .su2, .fluent.msh, .msh, .ugrid or polyMesh");
-  EXPECT_EQ(suffixes_for({Content::solution}, "and"), ".mesh, .cgns, .vtu and .csv");
+  EXPECT_EQ(suffixes_for({Content::mesh}),
+            ".mesh, .cgns, .vtu, .pvtu, .su2, .fluent.msh, .msh, .ugrid or polyMesh");
+  EXPECT_EQ(suffixes_for({Content::solution}, "and"), ".mesh, .cgns, .vtu, .pvtu and .csv");
   EXPECT_EQ(suffixes_for({Content::conditions}), ".cgns, .fluent.msh, .ugrid or polyMesh");
 }
 
@@ -96,7 +97,7 @@ TEST(Formats, EachReadsWhatItWrites) {
 
 TEST(Formats, OfPlaneMeshesAreWritten) {
   EXPECT_EQ(written_formats(),
-            (Names{"mesh", "cgns", "vtu", "su2", "fluent.msh", "msh", "ugrid", "polyMesh", "csv"}));
+            (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "ugrid", "polyMesh", "csv"}));
 }
 
 TEST(Formats, AreWrittenBlockByBlockWhereBlocksHaveAPlace) {

@@ -18,7 +18,7 @@ namespace {
 enum class Kind { hybrid, triangles };
 
 bool holds_solution(const std::string& format) {
-  return format == "mesh" || format == "cgns" || format == "vtu";
+  return format == "mesh" || format == "cgns" || format == "vtu" || format == "pvtu";
 }
 
 /// A mesh with coordinates that need all digits, as a file gives it.
