@@ -53,8 +53,8 @@ struct ConvertInput {
 };
 
 [[noreturn]] void refuse_solid(const ConvertArguments& arguments, const FileFormat& output) {
-  throw InputError(fmt::format("{}: holds a 3D mesh, which the format {} has no place for; {} have", arguments.input,
-                               output.name, suffixes_for({Content::solid}, "and")));
+  throw InputError(fmt::format("{}: holds a 3D mesh, which the format {} has no place for; {} have",
+                               arguments.input, output.name, suffixes_for({Content::solid}, "and")));
 }
 
 /// A 3D mesh that is one cell thick is a plane one where the output has a place for those.

@@ -90,8 +90,9 @@ class VtuSolidWriter {
     std::string head =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n" +
-        vtu_text_array("boundary_names", stream_.patch_names()) + "</FieldData>\n<Piece NumberOfPoints=\"" +
-        std::to_string(nodes) + "\" NumberOfCells=\"" + std::to_string(elements_) + "\">\n<Points>\n";
+        vtu_text_array("boundary_names", stream_.patch_names()) + vtu_name_arrays(stream_.patch_names(), 2) +
+        "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(nodes) + "\" NumberOfCells=\"" +
+        std::to_string(elements_) + "\">\n<Points>\n";
     head += array_tag("Float64", "Points", 24 * nodes, 3);  // one after another: each moves the offset on
     head += "</Points>\n<Cells>\n" + array_tag("Int64", "connectivity", 8 * entries_);
     head += array_tag("Int64", "offsets", 8 * elements_);

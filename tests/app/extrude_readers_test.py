@@ -159,6 +159,53 @@ class Readers(ProgramTest):
         volumes = vtk_to_numpy(quality.GetOutput().GetCellData().GetArray("Volume"))[patch == 0]
         self.assertGreater(volumes.min(), 0)
 
+    @unittest.skipUnless(module("vtk"), "python3-vtk9 is not installed")
+    def test_vtk_reads_pieces_and_writes_them(self):
+        import numpy
+        import vtk
+        from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+        wanted = self.plane()
+        self.done("convert", "naca0012.cgns", "a.pvtu", "-q")
+        reader = vtk.vtkXMLPUnstructuredGridReader()
+        reader.SetFileName(str(self.folder / "a.pvtu"))
+        reader.Update()
+        grid = reader.GetOutput()
+        self.assertEqual(grid.GetNumberOfPoints(), wanted["points"] // 2)
+        boundary = vtk_to_numpy(grid.GetCellData().GetArray("boundary"))
+        part = numpy.where(boundary == 0, numpy.arange(len(boundary)) * 3 // len(boundary), -1)  # cells alone, in three pieces
+        array = numpy_to_vtk(part, deep=True)
+        array.SetName("part")
+        grid.GetCellData().AddArray(array)
+        names = []
+        for n in range(3):
+            cells = vtk.vtkThreshold()
+            cells.SetInputData(grid)
+            cells.SetInputArrayToProcess(0, 0, 0, 1, "part")
+            cells.SetThresholdFunction(vtk.vtkThreshold.THRESHOLD_BETWEEN)
+            cells.SetLowerThreshold(n)
+            cells.SetUpperThreshold(n)
+            writer = vtk.vtkXMLUnstructuredGridWriter()
+            names.append(f"part_{n}.vtu")
+            writer.SetFileName(str(self.folder / names[-1]))
+            writer.SetInputConnection(cells.GetOutputPort())
+            writer.SetDataModeToAppended()
+            writer.EncodeAppendedDataOff()
+            writer.Write()
+        self.write("parts.pvtu", "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid>" +
+                   "".join(f"<Piece Source=\"{name}\"/>" for name in names) + "</PUnstructuredGrid></VTKFile>")
+        table = self.done("convert", "parts.pvtu", "back.cgns")[0]
+        self.assertRegex(table, rf"(?s)nodes +{wanted['points'] // 2}\n.*triangles +{wanted['prisms']}\n.*quads +{wanted['hexahedra']}\n")
+        self.done("check", "back.cgns", "-q")
+
+    @unittest.skipUnless(module("meshio"), "python3-meshio is not installed")
+    def test_meshio_finds_boundaries_by_name(self):
+        import meshio
+        self.extruded("a.vtu")
+        self.done("convert", "naca0012.mesh", "plane.vtu", "-q")
+        for name, dimension in (("a.vtu", 2), ("plane.vtu", 1)):
+            mesh = meshio.read(self.folder / name)
+            self.assertEqual(mesh.field_data["airfoil"].tolist(), [1, dimension])
+
     @unittest.skipUnless(module("meshio"), "python3-meshio is not installed")
     def test_meshio_reads_vtu_su2_and_ugrid(self):
         import meshio

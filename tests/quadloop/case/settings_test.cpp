@@ -226,8 +226,9 @@ TEST_F(SettingsTest, RefusesEveryBadKey) {
                 .find("case.toml:3: [boundary.hull]: no boundary of the geometry matches 'hull'"),
             0u);
   EXPECT_EQ(refused("[boundary.box]\nbc = \"wal\"\n").find("case.toml:4: 'boundary.box.bc' is 'wal'"), 0u);
-  EXPECT_EQ(refused("[output]\nformats = [\"b8.ugrid\"]\n").find("case.toml:4: 'output.formats' holds 'b8.ugrid'"),
-            0u);
+  EXPECT_EQ(
+      refused("[output]\nformats = [\"b8.ugrid\"]\n").find("case.toml:4: 'output.formats' holds 'b8.ugrid'"),
+      0u);
   EXPECT_EQ(refused("[[source]]\nspacing = 1\n").find("case.toml:3: a [[source]] needs exactly one"), 0u);
   EXPECT_EQ(refused("[[source]]\ndisc = [0, 0, 1]\n").find("case.toml:3: 'source.0.spacing' is missing"), 0u);
   EXPECT_EQ(refused("far_field = 1\n").find("case.toml:3: 'geometry.far_field': a far field of half width 1"),
