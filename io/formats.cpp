@@ -50,6 +50,24 @@ std::optional<SolidMesh> read_msh_solid_or_none(const std::string& path) {
   return holds_fluent(path) ? std::nullopt : read_msh_solid(path);
 }
 
+/// One for each version that is written; both are read under either name.
+template <MshVersion version>
+FileFormat msh_row(const std::string& name) {
+  return {.name = name,
+          .program = "Gmsh",
+          .places = {Content::mesh, Content::blocks, Content::solid},
+          .read_mesh = read_msh_or_fluent,
+          .write_mesh = [](OutputSet& outputs, const Mesh& mesh, const std::string& path,
+                           const Field*) { write_msh(outputs, mesh, path, version); },
+          .write_blocks = [](OutputSet& outputs, const LoadedMesh& whole,
+                             const std::string& path) { write_msh(outputs, whole, path, version); },
+          .boundary_names = msh_group_names,
+          .write_solid = [](OutputSet& outputs, const SolidStream& mesh,
+                            const std::string& path) { write_msh_solid(outputs, mesh, path, version); },
+          .read_solid = read_msh_solid_or_none,
+          .patch_names = msh_group_names};
+}
+
 /// One for each order of bytes.
 template <std::endian order>
 FileFormat ugrid_row(const std::string& name) {
@@ -115,16 +133,8 @@ const std::vector<FileFormat>& file_formats() {
                                                 .write_mesh = write_mesh_alone<write_fluent>,
                                                 .write_blocks = write_fluent,
                                                 .boundary_names = fluent_zone_names},
-                                               {.name = "msh",
-                                                .program = "Gmsh",
-                                                .places = {mesh, blocks, solid},
-                                                .read_mesh = read_msh_or_fluent,
-                                                .write_mesh = write_mesh_alone<write_msh>,
-                                                .write_blocks = write_msh,
-                                                .boundary_names = msh_group_names,
-                                                .write_solid = write_msh_solid,
-                                                .read_solid = read_msh_solid_or_none,
-                                                .patch_names = msh_group_names},
+                                               msh_row<MshVersion::msh_2_2>("msh"),
+                                               msh_row<MshVersion::msh_4_1>("msh41"),
                                                ugrid_row<std::endian::big>("b8.ugrid"),
                                                ugrid_row<std::endian::little>("lb8.ugrid"),
                                                {.name = "ugrid",

@@ -134,7 +134,13 @@ class Readers(ProgramTest):
         self.assertNotRegex(said, "Error|Warning")
         self.tool("gmsh", "a.msh", "-0", "-format", "msh41", "-o", "b.msh")
         self.assertTrue((self.folder / "b.msh").read_text().startswith("$MeshFormat\n4.1"))
-        self.done("convert", "a.msh", "a.lb8.ugrid", "-q")
+        for source in ("a.msh", "naca0012.mesh"):  # of three dimensions and of two
+            self.done("convert", source, "new.msh", "--format", "msh41", "-q")
+            said = self.tool("gmsh", "-check", "new.msh")
+            self.assertNotRegex(said, "Error|Warning")
+            self.tool("gmsh", "new.msh", "-0", "-format", "msh22", "-o", "old.msh")
+            self.assertIn('"airfoil"', (self.folder / "old.msh").read_text())
+            self.done("check", "new.msh", "-q")
         table = self.done("check", "b.msh")[0]  # Gmsh puts elements in an order of its own
         self.assertRegex(table, rf"(?s)nodes +{nodes}\n.*prisms +{prisms}\n.*hexahedra +{hexahedra}\n.*airfoil +\d+")
 

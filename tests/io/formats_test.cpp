@@ -15,12 +15,12 @@ namespace {
 using Names = std::vector<std::string>;
 
 TEST(Formats, AreListedByWhatTheyHold) {
-  EXPECT_EQ(formats_for({}), (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "b8.ugrid",
-                                    "lb8.ugrid", "ugrid", "polyMesh", "csv"}));
+  EXPECT_EQ(formats_for({}), (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
+                                    "b8.ugrid", "lb8.ugrid", "ugrid", "polyMesh", "csv"}));
   EXPECT_EQ(formats_for({Content::solid}),
-            (Names{"cgns", "vtu", "su2", "msh", "b8.ugrid", "lb8.ugrid", "polyMesh"}));
+            (Names{"cgns", "vtu", "su2", "msh", "msh41", "b8.ugrid", "lb8.ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh}),
-            (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "ugrid", "polyMesh"}));
+            (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41", "ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "cgns", "vtu", "pvtu"}));
   EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh"}));
   EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), Names{"fluent.msh"});
@@ -29,7 +29,7 @@ TEST(Formats, AreListedByWhatTheyHold) {
 
 TEST(Formats, StandInASentenceBySuffix) {
   EXPECT_EQ(suffixes_for({Content::mesh}),
-            ".mesh, .cgns, .vtu, .pvtu, .su2, .fluent.msh, .msh, .ugrid or polyMesh");
+            ".mesh, .cgns, .vtu, .pvtu, .su2, .fluent.msh, .msh, .msh41, .ugrid or polyMesh");
   EXPECT_EQ(suffixes_for({Content::solution}, "and"), ".mesh, .cgns, .vtu, .pvtu and .csv");
   EXPECT_EQ(suffixes_for({Content::conditions}), ".cgns, .fluent.msh, .ugrid or polyMesh");
 }
@@ -96,8 +96,8 @@ TEST(Formats, EachReadsWhatItWrites) {
 }
 
 TEST(Formats, OfPlaneMeshesAreWritten) {
-  EXPECT_EQ(written_formats(),
-            (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "ugrid", "polyMesh", "csv"}));
+  EXPECT_EQ(written_formats(), (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
+                                      "ugrid", "polyMesh", "csv"}));
 }
 
 TEST(Formats, AreWrittenBlockByBlockWhereBlocksHaveAPlace) {

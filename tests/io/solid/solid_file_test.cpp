@@ -111,7 +111,8 @@ TEST(SolidFile, PlaneMeshesAreNone) {
 }
 
 TEST(SolidFile, NamesOfFormatsStandInSentences) {
-  EXPECT_EQ(suffixes_for({Content::solid}), ".cgns, .vtu, .su2, .msh, .b8.ugrid, .lb8.ugrid or polyMesh");
+  EXPECT_EQ(suffixes_for({Content::solid}),
+            ".cgns, .vtu, .su2, .msh, .msh41, .b8.ugrid, .lb8.ugrid or polyMesh");
   EXPECT_EQ(format_of("a/constant/polyMesh/")->name, "polyMesh");
   EXPECT_EQ(format_of("a/b.polyMesh")->name, "polyMesh");
   EXPECT_EQ(format_of("a.lb8.ugrid")->name, "lb8.ugrid");
