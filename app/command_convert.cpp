@@ -8,9 +8,13 @@
 #include "app/command_line.hpp"
 #include "app/report/figures.hpp"
 #include "app/report/refusals.hpp"
+#include "app/report/solid_report.hpp"
+#include "io/foam/foam_plane_file.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/solid_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/solid/plane_of_solid.hpp"
 
 namespace quadloop {
 
@@ -20,13 +24,86 @@ struct ConvertArguments {
   std::string input, output, format;
 };
 
-void require_format(const ConvertArguments& arguments) {
-  const FileFormat* format = format_of(arguments.output);
-  if (!arguments.format.empty() || (format != nullptr && format->holds(Content::mesh))) return;
+std::vector<std::string> formats_of_meshes() {
+  std::vector<std::string> names;
+  for (const FileFormat& format : file_formats()) {
+    if (format.holds(Content::mesh) || format.holds(Content::solid)) names.push_back(format.name);
+  }
+  return names;
+}
+
+bool is_of_meshes(const FileFormat* format) {
+  return format != nullptr && (format->holds(Content::mesh) || format->holds(Content::solid));
+}
+
+const FileFormat& output_format(const ConvertArguments& arguments) {
+  const FileFormat* format =
+      arguments.format.empty() ? format_of(arguments.output) : format_named(arguments.format);
+  if (is_of_meshes(format)) return *format;
   throw InputError(
       fmt::format("{}: its suffix names none of the formats that meshes are written in; end it in .{}, or "
                   "give --format NAME",
-                  arguments.output, fmt::join(formats_for({Content::mesh}), ", .")));
+                  arguments.output, fmt::join(formats_of_meshes(), ", .")));
+}
+
+/// A mesh of two dimensions, or of three.
+struct ConvertInput {
+  LoadedMesh whole;
+  std::optional<SolidMesh> solid;
+};
+
+[[noreturn]] void refuse_solid(const ConvertArguments& arguments, const FileFormat& output) {
+  throw InputError(fmt::format("{}: holds a 3D mesh, which the format {} has no place for; {} have",
+                               arguments.input, output.name, suffixes_for({Content::solid}, "and")));
+}
+
+/// A 3D mesh that is one cell thick is a plane one where the output has a place for those.
+ConvertInput read_convert_input(const ConvertArguments& arguments) {
+  const FileFormat& output = output_format(arguments);
+  const FileFormat* const format = format_of(arguments.input);
+  if (!is_of_meshes(format)) require_readable_suffix(arguments.input);
+  if (!format->holds(Content::mesh) && !output.holds(Content::solid)) refuse_solid(arguments, output);
+  ConvertInput input;
+  input.solid = read_solid(arguments.input);
+  if (input.solid && output.holds(Content::mesh) && is_one_cell_thick(*input.solid)) {
+    input.whole = loaded_plane(*input.solid, arguments.input);
+    input.solid.reset();
+  } else if (!input.solid) {
+    input.whole = read_mesh(arguments.input);
+  }
+  if (input.solid && !output.holds(Content::solid)) refuse_solid(arguments, output);
+  if (!input.solid && !output.holds(Content::mesh))
+    throw InputError(
+        fmt::format("{}: holds a plane mesh, and the format {} those of three dimensions alone; "
+                    "`quadloop extrude` draws it out",
+                    arguments.input, output.name));
+  return input;
+}
+
+/// What was left out on reading, what is wrong with it, what is lost on writing.
+std::vector<std::string> warnings_of(const ConvertInput& input, const ConvertArguments& arguments) {
+  std::vector<std::string> warnings = input.solid ? input.solid->warnings : input.whole.warnings;
+  const auto append = [&](const std::vector<std::string>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
+  append(input.solid ? doubts_about(*input.solid, arguments.input)
+                     : doubts_about(input.whole, arguments.input));
+  append(input.solid ? losses_in(*input.solid, arguments.output, arguments.format)
+                     : losses_in(input.whole, arguments.output, arguments.format));
+  return warnings;
+}
+
+Figures figures_of(const SolidMesh& mesh) {
+  const auto count = [](const auto& rows) { return std::ssize(rows); };
+  Figures figures;
+  figures.add("nodes", count(mesh.points));
+  figures.add("tetrahedra", count(mesh.tetrahedra));
+  figures.add("pyramids", count(mesh.pyramids));
+  figures.add("prisms", count(mesh.prisms));
+  figures.add("hexahedra", count(mesh.hexahedra));
+  figures.add("boundaries", count(mesh.patches));
+  figures.add("variables", mesh.solution ? count(mesh.solution->names) : 0);
+  return figures;
 }
 
 Figures figures_of(const LoadedMesh& whole) {
@@ -45,22 +122,22 @@ Figures figures_of(const LoadedMesh& whole) {
 /// want of a place. *Collective.*
 void run_convert(const CommandContext& context, const ConvertArguments& arguments) {
   const Communicator& comm = context.comm;
-  LoadedMesh whole;
+  ConvertInput input;
   std::vector<std::string> warnings;
   comm.together([&] {
-    require_readable_suffix(arguments.input);
-    require_format(arguments);
+    output_format(arguments);
     if (!comm.is_root()) return;
-    whole = read_mesh(arguments.input);
-    warnings = whole.warnings;
-    for (std::string& warning : doubts_about(whole, arguments.input)) warnings.push_back(std::move(warning));
-    for (std::string& loss : losses_in(whole, arguments.output, arguments.format))
-      warnings.push_back(std::move(loss));
+    input = read_convert_input(arguments);
+    warnings = warnings_of(input, arguments);
   });
-  write_mesh_of_root(comm, whole, arguments.output, arguments.format);
+  if (comm.any(input.solid.has_value())) {
+    write_solid_of_root(comm, input.solid.value_or(SolidMesh{}), arguments.output, arguments.format);
+  } else {
+    write_mesh_of_root(comm, input.whole, arguments.output, arguments.format);
+  }
   context.warn(warnings);
   if (!comm.is_root()) return;
-  const Figures figures = figures_of(whole);
+  const Figures figures = input.solid ? figures_of(*input.solid) : figures_of(input.whole);
   context.record.figures = figures.record();
   context.record.files = {arguments.output};
   if (context.shows_table()) std::cout << figures.table() << "  wrote " << arguments.output << "\n";
@@ -73,7 +150,8 @@ void add_convert_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand("convert", "write a mesh, as it is, in another format");
   command
       ->add_option("input", arguments->input,
-                   "the mesh (" + suffixes_for({Content::mesh}) + "), with a solution where it has one")
+                   "the mesh, of two dimensions (" + suffixes_for({Content::mesh}) + ") or three (" +
+                       suffixes_for({Content::solid}) + "), with a solution where it has one")
       ->required()
       ->type_name("IN");
   command
@@ -83,7 +161,7 @@ void add_convert_command(CLI::App& app, CommandContext& context) {
       ->type_name("OUT");
   command->add_option("--format", arguments->format, "the format to write, whatever OUT ends in")
       ->type_name("NAME")
-      ->check(one_of(formats_for({Content::mesh})));
+      ->check(one_of(formats_of_meshes()));
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_convert(context, *arguments); }; });
 }

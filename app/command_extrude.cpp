@@ -18,6 +18,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/solid/plane_of_solid.hpp"
 
 namespace quadloop {
 
@@ -81,7 +82,7 @@ LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments
     require_readable_suffix(arguments.input);
     require_solid_suffix(arguments.output);
     if (!context.comm.is_root()) return;
-    if (read_solid(arguments.input))
+    if (const auto solid = read_solid(arguments.input); solid && !is_one_cell_thick(*solid))
       throw InputError(arguments.input + ": is a 3D mesh already; give one of two dimensions");
     whole = read_mesh(arguments.input);
     require_valid_input(whole, arguments.input);

@@ -2,18 +2,24 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_solid_file.hpp"
+#include "io/fluent/fluent_file.hpp"
 #include "io/foam/foam_file.hpp"
+#include "io/foam/foam_plane_file.hpp"
 #include "io/msh/msh_file.hpp"
+#include "io/msh/msh_solid_file.hpp"
 #include "io/native/native_file.hpp"
 #include "io/su2/su2_csv_file.hpp"
 #include "io/su2/su2_dat_file.hpp"
 #include "io/su2/su2_file.hpp"
 #include "io/su2/su2_solid_file.hpp"
 #include "io/ugrid/ugrid_file.hpp"
+#include "io/ugrid/ugrid_plane_file.hpp"
+#include "io/vtu/pvtu_file.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
 
@@ -33,14 +39,46 @@ std::vector<std::string> msh_group_names(const std::vector<std::string>& boundar
   return names;
 }
 
+/// Gmsh's and Fluent's files have the same suffix; what comes through a pipe is Gmsh's.
+bool holds_fluent(const std::string& path) {
+  std::error_code failure;
+  return std::filesystem::is_regular_file(path, failure) && is_fluent(path);
+}
+LoadedMesh read_msh_or_fluent(const std::string& path) {
+  return holds_fluent(path) ? read_fluent(path) : read_msh(path);
+}
+std::optional<SolidMesh> read_msh_solid_or_none(const std::string& path) {
+  return holds_fluent(path) ? std::nullopt : read_msh_solid(path);
+}
+
+/// One for each version that is written; both are read under either name.
+template <MshVersion version>
+FileFormat msh_row(const std::string& name) {
+  return {.name = name,
+          .program = "Gmsh",
+          .places = {Content::mesh, Content::blocks, Content::solid},
+          .read_mesh = read_msh_or_fluent,
+          .write_mesh = [](OutputSet& outputs, const Mesh& mesh, const std::string& path,
+                           const Field*) { write_msh(outputs, mesh, path, version); },
+          .write_blocks = [](OutputSet& outputs, const LoadedMesh& whole,
+                             const std::string& path) { write_msh(outputs, whole, path, version); },
+          .boundary_names = msh_group_names,
+          .write_solid = [](OutputSet& outputs, const SolidStream& mesh,
+                            const std::string& path) { write_msh_solid(outputs, mesh, path, version); },
+          .read_solid = read_msh_solid_or_none,
+          .patch_names = msh_group_names};
+}
+
 /// One for each order of bytes.
+template <std::endian order>
 FileFormat ugrid_row(const std::string& name) {
   return {.name = name,
           .program = "AFLR3",
           .places = {Content::solid},
-          .write_solid = write_ugrid,
-          .read_solid = read_ugrid,
-          .patch_names = mapbc_names};
+          .write_solid = write_ugrid<order>,
+          .read_solid = read_ugrid<order>,
+          .patch_names = mapbc_names,
+          .conditions_in_solid = true};
 }
 
 }  // namespace
@@ -63,7 +101,8 @@ const std::vector<FileFormat>& file_formats() {
                                                 .write_solid = write_cgns_solid,
                                                 .read_solid = read_cgns_solid,
                                                 .patch_names = cgns_boundary_names,
-                                                .solution_in_solid = true},
+                                                .solution_in_solid = true,
+                                                .conditions_in_solid = true},
                                                {.name = "vtu",
                                                 .places = {mesh, solution, blocks, layers, solid},
                                                 .without_values = save,
@@ -73,6 +112,13 @@ const std::vector<FileFormat>& file_formats() {
                                                 .write_solid = write_vtu_solid,
                                                 .read_solid = read_vtu_solid,
                                                 .solution_in_solid = true},
+                                               {.name = "pvtu",
+                                                .program = "VTK",
+                                                .places = {mesh, solution, blocks, layers},
+                                                .without_values = save,
+                                                .read_mesh = read_pvtu,
+                                                .write_mesh = write_pvtu,
+                                                .write_blocks = write_pvtu},
                                                {.name = "su2",
                                                 .places = {mesh, solid},
                                                 .read_mesh = read_su2,
@@ -81,20 +127,33 @@ const std::vector<FileFormat>& file_formats() {
                                                 .write_solid = write_su2_solid,
                                                 .read_solid = read_su2_solid,
                                                 .patch_names = su2_marker_names},
-                                               {.name = "msh",
-                                                .places = {mesh, blocks},
-                                                .read_mesh = read_msh,
-                                                .write_mesh = write_mesh_alone<write_msh>,
-                                                .write_blocks = write_msh,
-                                                .boundary_names = msh_group_names},
-                                               ugrid_row("b8.ugrid"),
-                                               ugrid_row("lb8.ugrid"),
+                                               {.name = "fluent.msh",
+                                                .program = "Fluent",
+                                                .places = {mesh, blocks, conditions},
+                                                .read_mesh = read_fluent,
+                                                .write_mesh = write_mesh_alone<write_fluent>,
+                                                .write_blocks = write_fluent,
+                                                .boundary_names = fluent_zone_names},
+                                               msh_row<MshVersion::msh_2_2>("msh"),
+                                               msh_row<MshVersion::msh_4_1>("msh41"),
+                                               ugrid_row<std::endian::big>("b8.ugrid"),
+                                               ugrid_row<std::endian::little>("lb8.ugrid"),
+                                               {.name = "ugrid",
+                                                .program = "AFLR2",
+                                                .places = {mesh, conditions},
+                                                .read_mesh = read_ugrid_plane,
+                                                .write_mesh = write_mesh_alone<write_ugrid_plane>,
+                                                .boundary_names = mapbc_names},
                                                {.name = "polyMesh",
                                                 .program = "OpenFOAM",
-                                                .places = {solid},
+                                                .places = {mesh, conditions, solid},
+                                                .read_mesh = read_foam_plane,
+                                                .write_mesh = write_mesh_alone<write_foam_plane>,
+                                                .boundary_names = foam_patch_names,
                                                 .write_solid = write_foam,
                                                 .read_solid = read_foam,
                                                 .patch_names = foam_patch_names,
+                                                .conditions_in_solid = true,
                                                 .is_folder = true},
                                                {.name = "csv",
                                                 .program = "SU2",
@@ -133,6 +192,14 @@ std::vector<std::string> default_formats() {
   std::vector<std::string> names;
   for (const FileFormat& format : file_formats()) {
     if (format.by_default) names.push_back(format.name);
+  }
+  return names;
+}
+
+std::vector<std::string> written_formats() {
+  std::vector<std::string> names;
+  for (const FileFormat& format : file_formats()) {
+    if (format.write_mesh != nullptr || format.write_solution != nullptr) names.push_back(format.name);
   }
   return names;
 }

@@ -8,7 +8,7 @@
 #include "io/files/output_file.hpp"
 #include "io/loaded/loaded_mesh.hpp"
 #include "io/loaded/loaded_solution.hpp"
-#include "mesher/solid/extruded_mesh.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
@@ -51,15 +51,15 @@ struct FileFormat {
   void (*write_solution)(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                          double gamma) = nullptr;
 
-  /// A 3D mesh by extrusion, with its solution where there is a place for one. *Collective.* Throws
-  /// OutputError.
-  void (*write_solid)(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path) = nullptr;
+  /// A 3D mesh, with its solution where there is a place for one. *Collective.* Throws OutputError.
+  void (*write_solid)(OutputSet& outputs, const SolidStream& mesh, const std::string& path) = nullptr;
   /// A 3D mesh on the calling rank alone; nothing where the file holds one of two dimensions. Throws
   /// InputError.
   std::optional<SolidMesh> (*read_solid)(const std::string& path) = nullptr;
   /// The names of its patches as a file has them; null: as they are.
   std::vector<std::string> (*patch_names)(const std::vector<std::string>& names) = nullptr;
   bool solution_in_solid = false;  ///< whether a 3D mesh has a place for one
+  bool conditions_in_solid = false;
   bool is_folder = false;
 
   bool holds(Content content) const;
@@ -78,6 +78,9 @@ const FileFormat& native_format();
 
 /// The names of those that are written by default, in the order of the table: the program's own first.
 std::vector<std::string> default_formats();
+
+/// The names of those in which a plane mesh, or its solution, is written.
+std::vector<std::string> written_formats();
 
 /// The names of all formats that have a place for each of these, in the order of the table.
 std::vector<std::string> formats_for(std::initializer_list<Content> contents);

@@ -1,6 +1,7 @@
 #include "io/solid_file.hpp"
 
 #include <fmt/format.h>
+#include <mpi.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,9 +15,31 @@ namespace quadloop {
 
 namespace {
 
-const FileFormat* solid_format(const std::string& path) {
-  const FileFormat* format = format_of(path);
+/// The one that is named, else that of the suffix; null where it holds no 3D mesh.
+const FileFormat* solid_format(const std::string& path, const std::string& name = {}) {
+  const FileFormat* format = name.empty() ? format_of(path) : format_named(name);
   return format != nullptr && format->holds(Content::solid) ? format : nullptr;
+}
+
+void write_stream(OutputSet& outputs, const SolidStream& stream, const std::string& path,
+                  const std::string& name) {
+  const FileFormat* format = solid_format(path, name);
+  QUADLOOP_REQUIRE(format != nullptr, "a 3D mesh is written in a format that holds none");
+  format->write_solid(outputs, stream, path);
+}
+
+/// A line on the solution and one on names of patches, where the format cannot hold them.
+void append_losses(const FileFormat& format, const std::vector<std::string>& names, bool has_solution,
+                   const std::string& path, std::vector<std::string>& losses) {
+  if (has_solution && !format.solution_in_solid)
+    losses.push_back(path + ": this format has no place for the solution, which is left out");
+  if (format.patch_names == nullptr) return;
+  const std::vector<std::string> written = format.patch_names(names);
+  const auto first = std::ranges::mismatch(names, written);
+  if (first.in1 == names.end()) return;
+  losses.push_back(
+      fmt::format("{}: this format cannot hold every boundary's name; the first, '{}', is '{}' there", path,
+                  *first.in1, *first.in2));
 }
 
 }  // namespace
@@ -27,17 +50,32 @@ void require_solid_suffix(const std::string& path) {
                    " (a folder)");
 }
 
-void write_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path) {
-  const FileFormat* format = solid_format(path);
-  QUADLOOP_REQUIRE(format != nullptr, "a 3D mesh is written in a format that holds none");
-  format->write_solid(outputs, mesh, path);
+void write_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path,
+                 const std::string& format) {
+  write_stream(outputs, SolidStream(outputs.communicator(), mesh), path, format);
+}
+
+void write_solid(OutputSet& outputs, const SolidMesh& mesh, const std::string& path,
+                 const std::string& format) {
+  write_stream(outputs, SolidStream(outputs.communicator(), mesh), path, format);
+}
+
+void write_solid_of_root(const Communicator& comm, const SolidMesh& mesh, const std::string& path,
+                         const std::string& format) {
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    const Communicator alone(MPI_COMM_SELF);
+    OutputSet outputs(alone);
+    write_solid(outputs, mesh, path, format);
+    outputs.commit();
+  });
 }
 
 std::optional<SolidMesh> read_solid(const std::string& path) {
   const FileFormat* format = solid_format(path);
   std::error_code failure;
-  const bool in_place =
-      format != nullptr && (std::filesystem::is_regular_file(path, failure) || !format->holds(Content::mesh));
+  const bool in_place = format != nullptr && (std::filesystem::is_regular_file(path, failure) ||
+                                              format->is_folder || !format->holds(Content::mesh));
   return in_place ? format->read_solid(path) : std::nullopt;
 }
 
@@ -65,19 +103,23 @@ std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& 
       losses.push_back(
           fmt::format("{}: a boundary is named '{}'; that end of the 3D mesh is '{}'", path, wanted, *name));
   }
-  if (mesh.solution != nullptr && !format->solution_in_solid)
-    losses.push_back(path + ": this format has no place for the solution, which is left out");
   if (mesh.solution != nullptr && mesh.solution->cells.width() > 0)
     losses.push_back(path + ": the values of cells are not drawn out and are left out");
-  if (format->patch_names == nullptr) return losses;
   std::vector<std::string> names;
   for (const BoundaryEdges& boundary : mesh.plane.boundaries) names.push_back(boundary.name);
-  const std::vector<std::string> written = format->patch_names(names);
-  const auto first = std::ranges::mismatch(names, written);
-  if (first.in1 != names.end())
-    losses.push_back(
-        fmt::format("{}: this format cannot hold every boundary's name; the first, '{}', is '{}' there", path,
-                    *first.in1, *first.in2));
+  append_losses(*format, names, mesh.solution != nullptr, path, losses);
+  return losses;
+}
+
+std::vector<std::string> losses_in(const SolidMesh& mesh, const std::string& path, const std::string& name) {
+  const FileFormat* format = solid_format(path, name);
+  if (format == nullptr) return {};
+  std::vector<std::string> names, losses;
+  for (const SolidPatch& patch : mesh.patches) names.push_back(patch.name);
+  append_losses(*format, names, mesh.solution.has_value(), path, losses);
+  const auto has_condition = [](const SolidPatch& patch) { return patch.condition != "none"; };
+  if (!format->conditions_in_solid && std::ranges::any_of(mesh.patches, has_condition))
+    losses.push_back(path + ": this format has no place for boundary conditions, which are left out");
   return losses;
 }
 

@@ -14,8 +14,18 @@ namespace quadloop {
 /// Throws InputError unless the suffix is that of a format which 3D meshes are written in.
 void require_solid_suffix(const std::string& path);
 
-/// Writes it in the format of the suffix. *Collective.* Throws OutputError on all ranks.
-void write_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path);
+/// Writes it in the format of that name, or else of the suffix. *Collective.* Throws OutputError on all
+/// ranks.
+void write_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path,
+                 const std::string& format = {});
+
+/// The same for one that the set's only rank holds whole.
+void write_solid(OutputSet& outputs, const SolidMesh& mesh, const std::string& path,
+                 const std::string& format = {});
+
+/// The same for the mesh that the root rank of `comm` holds, as the only output of a set. *Collective.*
+void write_solid_of_root(const Communicator& comm, const SolidMesh& mesh, const std::string& path,
+                         const std::string& format = {});
 
 /// The 3D mesh in a file, on the calling rank alone; nothing where the format has none, or the file holds a
 /// plane one. What comes through a pipe is taken for a plane one. Throws InputError.
@@ -28,5 +38,9 @@ std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& p
 /// What the format of the suffix has no place for and the mesh has: one line each, with the file's name; that
 /// an end has another name than "front" or "back" among them. The same on every rank.
 std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& path);
+
+/// The same for one that is held, in the format of that name, or else of the suffix.
+std::vector<std::string> losses_in(const SolidMesh& mesh, const std::string& path,
+                                   const std::string& format = {});
 
 }  // namespace quadloop

@@ -60,6 +60,12 @@ std::string fault_text(const SolidFault& fault) {
   return fmt::format("{}: {} at {}", name_of(fault.rule), fault.what, place_text(fault.place));
 }
 
+/// "; 2 faults more"
+std::string more_faults(const SolidFigures& figures) {
+  const std::int64_t more = figures.all_faults - 1;
+  return more == 0 ? "" : fmt::format("; {} fault{} more", more, more == 1 ? "" : "s");
+}
+
 }  // namespace
 
 std::string solid_text(const SolidMesh& mesh, const SolidFigures& figures, bool verbose) {
@@ -89,10 +95,15 @@ JsonObject solid_record(const std::string& file, const SolidMesh& mesh, const So
 }
 
 void refuse_invalid_solid(const std::string& file, const SolidFigures& figures) {
-  const std::int64_t more = figures.all_faults - 1;
   throw InputError(
-      fmt::format("{}: invalid mesh: {}{}", file, fault_text(figures.faults.front()),
-                  more == 0 ? "" : fmt::format("; {} fault{} more", more, more == 1 ? "" : "s")));
+      fmt::format("{}: invalid mesh: {}{}", file, fault_text(figures.faults.front()), more_faults(figures)));
+}
+
+std::vector<std::string> doubts_about(const SolidMesh& mesh, const std::string& file) {
+  const SolidFigures figures = check_solid(mesh);
+  if (figures.faults.empty()) return {};
+  return {fmt::format("{}: is not valid, and is passed on as it is: {}{}", file,
+                      fault_text(figures.faults.front()), more_faults(figures))};
 }
 
 }  // namespace quadloop

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "mesher/base/json.hpp"
 #include "mesher/solid/check_solid.hpp"
@@ -14,5 +15,8 @@ JsonObject solid_record(const std::string& file, const SolidMesh& mesh, const So
 
 /// Throws InputError with the first fault, its place, and how many more there are.
 [[noreturn]] void refuse_invalid_solid(const std::string& file, const SolidFigures& figures);
+
+/// A warning where a 3D mesh that is passed on as it is is not valid, with its first fault; otherwise empty.
+std::vector<std::string> doubts_about(const SolidMesh& mesh, const std::string& file);
 
 }  // namespace quadloop

@@ -44,9 +44,9 @@ std::string shortened(const std::string& name, std::size_t length) {
 std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names) {
   // Sections stand in the zone and families in the base, beside these nodes.
   DistinctNames distinct;
-  for (const char* used : {"", ".", "..", "ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "PENTA_6",
-                           "HEXA_8", "ZoneBC", "ZoneGridConnectivity", "FlowSolution", "domain", "DataClass",
-                           "DimensionalUnits", strips_descriptor}) {
+  for (const char* used : {"", ".", "..", "ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "TETRA_4",
+                           "PYRA_5", "PENTA_6", "HEXA_8", "ZoneBC", "ZoneGridConnectivity", "FlowSolution",
+                           "domain", "DataClass", "DimensionalUnits", strips_descriptor}) {
     distinct.reserve(used);
   }
   std::vector<std::string> result;
@@ -90,10 +90,8 @@ std::string condition_of_cgns(int type) {
     if (type == type_named(cgns_type)) return word;
   }
   switch (type) {
-    case BCWallInviscid:
-    case BCWallViscous:
     case BCWallViscousHeatFlux:
-    case BCWallViscousIsothermal: return "wall";
+    case BCWallViscousIsothermal: return "viscous_wall";
     case BCInflowSubsonic:
     case BCInflowSupersonic:
     case BCTunnelInflow: return "inflow";

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/files/output_file.hpp"
-#include "mesher/solid/extruded_mesh.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
@@ -14,7 +14,7 @@ namespace quadloop {
 /// section of quads, or one of quads and one of triangles, with BC and family as write_cgns() has them, at
 /// FaceCenter; the solution at the vertices. *Collective.* Throws OutputError on all ranks, also where the
 /// library's sizes cannot count the mesh.
-void write_cgns_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path);
+void write_cgns_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
 
 /// Reads the one zone of a 3D CGNS file on the calling rank alone: sections of TETRA_4, PYRA_5, PENTA_6,
 /// HEXA_8, TRI_3 and QUAD_4; nothing where its cells have another dimension. Throws InputError.

@@ -38,6 +38,7 @@ class CgnsSolidReader {
     for (int section = 1; section <= sections; ++section) read_section(section);
     read_conditions();
     take_loose();
+    read_solution();
     return std::move(mesh_);
   }
 
@@ -216,6 +217,37 @@ class CgnsSolidReader {
   void take_loose() {
     for (const LooseFace& face : faces_) {
       if (!face.taken) patch_named(sections_[face.section], "none").faces.push_back(face.nodes);
+    }
+  }
+
+  /// The first at the vertices.
+  void read_solution() {
+    int solutions = 0;
+    file_.check(cg_nsols(file_.id(), 1, 1, &solutions));
+    for (int s = 1; s <= solutions && !mesh_.solution; ++s) {
+      Name name{};
+      GridLocation_t location = Vertex;
+      file_.check(cg_sol_info(file_.id(), 1, 1, s, name.data(), &location));
+      if (location == Vertex) read_fields(s);
+    }
+  }
+
+  void read_fields(int solution) {
+    int fields = 0;
+    file_.check(cg_nfields(file_.id(), 1, 1, solution, &fields));
+    Field& result = mesh_.solution.emplace();
+    const std::size_t width = fields;
+    result.values.resize(mesh_.points.size() * width);
+    std::vector<double> column(nodes_);
+    for (int f = 1; f <= fields; ++f) {
+      Name name{};
+      DataType_t type = RealDouble;
+      const cgsize_t first = 1;
+      file_.check(cg_field_info(file_.id(), 1, 1, solution, f, &type, name.data()));
+      file_.check(
+          cg_field_read(file_.id(), 1, 1, solution, name.data(), RealDouble, &first, &nodes_, column.data()));
+      result.names.push_back(variable_name_of_cgns(name.data()));
+      for (std::size_t i = 0; i < column.size(); ++i) result.values[i * width + f - 1] = column[i];
     }
   }
 

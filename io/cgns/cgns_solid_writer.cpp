@@ -2,13 +2,12 @@
 #include <array>
 #include <limits>
 #include <memory>
-#include <tuple>
 
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_patches.hpp"
 #include "io/cgns/cgns_sink.hpp"
 #include "io/cgns/cgns_solid_file.hpp"
-#include "io/solid/extruded_stream.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -25,8 +24,7 @@ std::span<const Number> flat(std::span<const std::array<Number, width>> rows) {
 
 class CgnsSolidWriter {
  public:
-  CgnsSolidWriter(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path)
-      : stream_{outputs.communicator(), mesh}, mesh_{mesh} {
+  CgnsSolidWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path) : stream_{stream} {
     refuse_too_large(path);
     staged_ = outputs.stage(path);
     stream_.on_root([&] {
@@ -38,27 +36,22 @@ class CgnsSolidWriter {
   void write() {
     stream_.on_root([&] { sink_->begin_rows(); });
     stream_.rows(
-        mesh_.point_rows(),
+        stream_.point_rows(),
         [&](std::int64_t i) {
-          const Point3 p = mesh_.point(i);
+          const Point3 p = stream_.point(i);
           return std::array{p.x, p.y, p.z};
         },
         [&](auto rows) { sink_->put_coordinates(flat<double>(rows)); });
-    write_cells("PENTA_6", PENTA_6, mesh_.prism_rows(), stream_.counts().prisms,
-                [&](std::int64_t i) { return mesh_.prism(i); });
-    write_cells("HEXA_8", HEXA_8, mesh_.hexahedron_rows(), stream_.counts().hexahedra,
-                [&](std::int64_t i) { return mesh_.hexahedron(i); });
-    if (mesh_.solution != nullptr) write_solution();
+    for_each_kind_of_cell([&]<std::size_t width>() { write_cells<width>(); });
+    if (!stream_.variables().empty()) write_solution();
     write_patches();
   }
 
  private:
   void refuse_too_large(const std::string& path) const {
-    const ExtrudedCounts& counts = stream_.counts();
+    const SolidCounts& counts = stream_.counts();
     const std::int64_t elements = counts.cells() + stream_.patch_triangles() + stream_.patch_quads();
-    if (counts.nodes <= largest_size && elements <= largest_size && 6 * counts.prisms <= largest_size &&
-        8 * counts.hexahedra <= largest_size)
-      return;
+    if (elements <= largest_size && counts.largest_array() <= largest_size) return;
     throw OutputError(path + ": " + std::to_string(counts.nodes) + " nodes and " + std::to_string(elements) +
                       " elements are more than this CGNS library can count (32-bit sizes); write a .vtu file "
                       "instead");
@@ -68,40 +61,38 @@ class CgnsSolidWriter {
     return [this](auto faces) { patches_->put(flat<cgsize_t>(faces)); };
   }
 
-  template <class Nodes>
-  void write_cells(const std::string& name, ElementType_t type, std::int64_t rows, std::int64_t all,
-                   const Nodes& nodes) {
+  template <std::size_t width>
+  static constexpr ElementType_t type_of_cells = width == 4   ? TETRA_4
+                                                 : width == 5 ? PYRA_5
+                                                 : width == 6 ? PENTA_6
+                                                              : HEXA_8;
+
+  template <std::size_t width>
+  void write_cells() {
+    const std::int64_t all = stream_.all_cells<width>();
     if (all == 0) return;
-    stream_.on_root([&] { sink_->begin_section(name, type, all); });
+    const ElementType_t type = type_of_cells<width>;
+    stream_.on_root([&] { sink_->begin_section(cg_ElementTypeName(type), type, all); });
     stream_.rows(
-        rows, [&](std::int64_t i) { return as<cgsize_t>(nodes(i), 1); },
-        [&](auto some) {
-          sink_->put_elements(flat<cgsize_t>(some), std::tuple_size_v<typename decltype(some)::value_type>);
-        });
+        stream_.cell_rows<width>(), [&](std::int64_t i) { return as<cgsize_t>(stream_.cell<width>(i), 1); },
+        [&](auto some) { sink_->put_elements(flat<cgsize_t>(some), width); });
   }
 
   void write_solution() {
-    const std::vector<ExtrudedVariable> variables = extruded_variables(*mesh_.solution, mesh_.axis);
-    if (variables.empty()) return;
-    std::vector<std::string> names;
-    for (const ExtrudedVariable& variable : variables) names.push_back(variable.name);
-    names = cgns_variable_names(names);
-    const std::size_t width = mesh_.solution->width(), wide = variables.size();
+    const std::vector<std::string> names = cgns_variable_names(stream_.variables());
+    const std::size_t wide = names.size();
     stream_.on_root([&] {
       sink_->begin_solution();
       sink_->begin_rows();
     });
-    const RowStream rows{stream_.communicator(), mesh_.point_rows(),
+    const RowStream rows{stream_.communicator(), stream_.point_rows(),
                          std::max<std::int64_t>(1, numbers_per_piece / static_cast<std::int64_t>(wide))};
     rows.run<double>(
         [&](std::int64_t begin, std::int64_t end) {
           std::vector<double> values;
           values.reserve((end - begin) * wide);
           for (std::int64_t i = begin; i < end; ++i) {
-            for (const auto& [name, column] : variables)
-              values.push_back(column == ExtrudedVariable::zero
-                                   ? 0
-                                   : mesh_.solution->values[i / mesh_.levels() * width + column]);
+            for (std::size_t k = 0; k < wide; ++k) values.push_back(stream_.value(i, k));
           }
           return values;
         },
@@ -114,50 +105,53 @@ class CgnsSolidWriter {
       sink_->close();
       patches_ = std::make_unique<CgnsPatches>(staged_, stream_.counts().cells() + 1);
       std::vector<std::string> wanted = stream_.patch_names();
-      for (const std::string& end : {mesh_.back, mesh_.front}) wanted.push_back(end + "_triangles");
+      for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n)
+        wanted.push_back(wanted[n] + "_triangles");
       names_ = cgns_boundary_names(wanted);
     });
     stream_.sides([&](std::size_t n) { begin(n, 0, stream_.patches()[n].quads); }, number_nodes, put());
-    for (const bool front : {false, true}) write_end(front);
+    for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) write_patch(n);
     stream_.on_root([&] { patches_->close(); });
   }
 
   /// A patch, on rank 0: its section of quads, after it one of triangles.
   void begin(std::size_t patch, std::int64_t triangles, std::int64_t quads) {
-    const ExtrudedPatch& about = stream_.patches()[patch];
+    const StreamedPatch& about = stream_.patches()[patch];
     patches_->begin_patch();
     if (quads > 0) patches_->begin_section(names_[patch], QUAD_4, quads);
     if (triangles == 0) patches_->put_condition(names_[patch], {about.name, about.condition, {}}, FaceCenter);
   }
 
-  void write_end(bool front) {
-    const std::size_t patch = stream_.sides() + (front ? 1 : 0);
-    const ExtrudedPatch& about = stream_.patches()[patch];
+  /// One that is none of the sides.
+  void write_patch(std::size_t patch) {
+    const StreamedPatch& about = stream_.patches()[patch];
+    if (about.faces() == 0) return;
     stream_.on_root([&] { begin(patch, about.triangles, about.quads); });
-    if (about.quads > 0) stream_.end(mesh_.plane.quads, front, number_nodes, put());
+    if (about.quads > 0) stream_.faces<4>(patch, number_nodes, put());
     if (about.triangles == 0) return;
+    const std::size_t more = stream_.patches().size() - stream_.side_patches();
     stream_.on_root([&] {
-      patches_->begin_section(about.quads > 0 ? names_[patch + 2] : names_[patch], TRI_3, about.triangles);
+      patches_->begin_section(names_[patch + (about.quads > 0 ? more : 0)], TRI_3, about.triangles);
       patches_->put_condition(names_[patch], {about.name, about.condition, {}}, FaceCenter);
     });
-    stream_.end(mesh_.plane.triangles, front, number_nodes, put());
+    stream_.faces<3>(patch, number_nodes, put());
   }
 
   static constexpr auto number_nodes = [](const auto& nodes) { return as<cgsize_t>(nodes, 1); };
   static constexpr std::int64_t numbers_per_piece = std::int64_t{1} << 17;
 
-  ExtrudedStream stream_;
-  const ExtrudedMesh& mesh_;
+  const SolidStream& stream_;
   StagedFile staged_;
-  std::vector<std::string> names_;  ///< of patches, then of the ends' triangles; these three on rank 0 only
+  std::vector<std::string>
+      names_;  ///< of patches, then of the triangles of those that are no sides; these three on rank 0 only
   std::unique_ptr<CgnsSink> sink_;
   std::unique_ptr<CgnsPatches> patches_;
 };
 
 }  // namespace
 
-void write_cgns_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path) {
-  CgnsSolidWriter(outputs, mesh, path).write();
+void write_cgns_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path) {
+  CgnsSolidWriter(mesh, outputs, path).write();
 }
 
 }  // namespace quadloop

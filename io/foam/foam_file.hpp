@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/files/output_file.hpp"
-#include "mesher/solid/extruded_mesh.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
@@ -15,7 +15,7 @@ namespace quadloop {
 /// upper-triangular order. Of one layer the two ends are of the type "empty", else "symmetryPlane"; walls are
 /// "wall", boundaries of symmetry "symmetry", all others "patch". *Collective.* Throws OutputError on all
 /// ranks.
-void write_foam(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path);
+void write_foam(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
 
 /// The names of patches there: plain_words().
 std::vector<std::string> foam_patch_names(const std::vector<std::string>& names);

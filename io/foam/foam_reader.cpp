@@ -121,7 +121,9 @@ class FoamReader {
       } else if (key == "startFace") {
         start = scan.integer("the number of a face");
       } else if (key == "type") {
-        patch.condition = condition_of(scan.token("the type of a patch"));
+        const std::string type(scan.token("the type of a patch"));
+        patch.condition = condition_of(type);
+        patch.is_empty = type == "empty";
       }
       while (scan.token(";") != ";") {
       }

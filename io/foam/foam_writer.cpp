@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "io/foam/foam_file.hpp"
-#include "io/solid/extruded_stream.hpp"
+#include "io/foam/foam_parts.hpp"
 #include "io/text/plain_names.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
@@ -10,13 +10,6 @@
 namespace quadloop {
 
 namespace {
-
-std::string head_of(const std::string& type, const std::string& object, const std::string& note = {}) {
-  std::string head =
-      "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       " + type + ";\n";
-  if (!note.empty()) head += "    note        \"" + note + "\";\n";
-  return head + "    location    \"constant/polyMesh\";\n    object      " + object + ";\n}\n\n";
-}
 
 /// Cells of the plane by the edges of which they have one: the neighbours with higher numbers, ascending,
 /// each with the place of the edge in the cell.
@@ -40,23 +33,23 @@ struct HigherNeighbours {
 
 class FoamWriter {
  public:
-  FoamWriter(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path)
+  FoamWriter(OutputSet& outputs, const SolidStream& stream, const std::string& path)
       : comm_{outputs.communicator()},
-        stream_{comm_, mesh},
-        mesh_{mesh},
-        staged_{outputs.stage_folder(path, {"points", "faces", "owner", "neighbour", "boundary"})},
-        cells_{edge_cells(comm_, mesh.plane)} {
+        stream_{stream},
+        mesh_{*stream.extruded()},
+        staged_{outputs.stage_folder(path, foam_files)},
+        cells_{edge_cells(comm_, mesh_.plane)} {
     const auto inner = comm_.sum(std::ranges::count_if(cells_.across, [](std::int64_t cell) {
       return cell != EdgeCells::none;
     })) / 2;
     internal_faces_ =
-        inner * mesh.layers() + (stream_.counts().triangles + stream_.counts().quads) * (mesh.layers() - 1);
+        inner * mesh_.layers() + stream_.counts().cells() / mesh_.layers() * (mesh_.layers() - 1);
     faces_ = internal_faces_;
-    for (const ExtrudedPatch& patch : stream_.patches()) faces_ += patch.faces();
+    for (const StreamedPatch& patch : stream_.patches()) faces_ += patch.faces();
   }
 
   void write() {
-    write_points();
+    write_foam_points(stream_, staged_[0]);
     write_faces();
     write_owner();
     write_neighbour();
@@ -64,28 +57,6 @@ class FoamWriter {
   }
 
  private:
-  void write_points() {
-    TextOutput file(comm_, staged_[0]);
-    file.write(head_of("vectorField", "points") + std::to_string(stream_.counts().nodes) + "\n(\n");
-    file.write_rows(mesh_.point_rows(), 4, [&](TextRows& text, std::int64_t i) {
-      const Point3 p = mesh_.point(i);
-      text.mark('(');
-      text.put(p.x, ' ');
-      text.put(p.y, ' ');
-      text.put(p.z, ')');
-      text.mark('\n');
-    });
-    file.write(")\n");
-    file.close();
-  }
-
-  template <std::size_t width>
-  static void put_face(TextRows& text, const std::array<SolidNode, width>& nodes) {
-    text.put(width, '(');
-    for (std::size_t i = 0; i < width; ++i) text.put(nodes[i], i + 1 < width ? ' ' : ')');
-    text.mark('\n');
-  }
-
   /// `first_edge` is the place of the first of this rank's cell edges that are of such cells, `number` that
   /// of the cell.
   template <std::size_t width>
@@ -121,15 +92,15 @@ class FoamWriter {
 
   void write_faces() {
     TextOutput file(comm_, staged_[1]);
-    file.write(head_of("faceList", "faces") + std::to_string(faces_) + "\n(\n");
+    file.write(foam_head("faceList", "faces") + std::to_string(faces_) + "\n(\n");
     write_internal(
         file, 5,
         [&](TextRows& text, const auto& nodes, std::int64_t, std::int64_t layer) {
-          put_face(text, mesh_.face_at(nodes, layer + 1));
+          put_foam_face(text, mesh_.face_at(nodes, layer + 1));
         },
         [&](TextRows& text, const auto& nodes, std::int64_t, std::int64_t layer, const auto& neighbour) {
           const NodeId from = nodes[neighbour.edge], to = nodes[(neighbour.edge + 1) % nodes.size()];
-          put_face(text, mesh_.side(mesh_.plane.global(from), mesh_.plane.global(to), layer));
+          put_foam_face(text, mesh_.side(mesh_.plane.global(from), mesh_.plane.global(to), layer));
         });
     write_patch_faces(file);
     file.write(")\n");
@@ -138,15 +109,15 @@ class FoamWriter {
 
   void write_patch_faces(TextOutput& file) const {
     file.write_boundaries(
-        stream_.boundaries(), 5 * mesh_.layers(), [](std::size_t) { return std::string(); },
+        *stream_.boundaries(), 5 * mesh_.layers(), [](std::size_t) { return std::string(); },
         [&](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
           for (std::int64_t layer = 0; layer < mesh_.layers(); ++layer)
-            put_face(text, mesh_.side(GlobalNodeId{edge[0]}, GlobalNodeId{edge[1]}, layer));
+            put_foam_face(text, mesh_.side(GlobalNodeId{edge[0]}, GlobalNodeId{edge[1]}, layer));
         });
     for (const bool front : {false, true}) {
       const auto write_end = [&](const auto& cells) {
         file.write_rows(std::ssize(cells), 5, [&](TextRows& text, std::int64_t i) {
-          put_face(text, front ? mesh_.front_face(cells[i]) : mesh_.back_face(cells[i]));
+          put_foam_face(text, front ? mesh_.front_face(cells[i]) : mesh_.back_face(cells[i]));
         });
       };
       write_end(mesh_.plane.triangles);
@@ -154,16 +125,12 @@ class FoamWriter {
     }
   }
 
-  std::string counts_note() const {
-    return "nPoints:" + std::to_string(stream_.counts().nodes) +
-           "  nCells:" + std::to_string(stream_.counts().cells()) + "  nFaces:" + std::to_string(faces_) +
-           "  nInternalFaces:" + std::to_string(internal_faces_);
-  }
+  std::string counts_note() const { return foam_counts_note(stream_.counts(), faces_, internal_faces_); }
 
   /// Of the face's cells that with the lower number.
   void write_owner() {
     TextOutput file(comm_, staged_[2]);
-    file.write(head_of("labelList", "owner", counts_note()) + std::to_string(faces_) + "\n(\n");
+    file.write(foam_head("labelList", "owner", counts_note()) + std::to_string(faces_) + "\n(\n");
     const auto put_own = [&](TextRows& text, const auto&, std::int64_t own, std::int64_t layer,
                              const auto&...) { text.put(own * mesh_.layers() + layer, '\n'); };
     write_internal(file, 1, put_own, put_own);
@@ -191,7 +158,8 @@ class FoamWriter {
 
   void write_neighbour() {
     TextOutput file(comm_, staged_[3]);
-    file.write(head_of("labelList", "neighbour", counts_note()) + std::to_string(internal_faces_) + "\n(\n");
+    file.write(foam_head("labelList", "neighbour", counts_note()) + std::to_string(internal_faces_) +
+               "\n(\n");
     write_internal(
         file, 1,
         [&](TextRows& text, const auto&, std::int64_t own, std::int64_t layer) {
@@ -204,30 +172,16 @@ class FoamWriter {
     file.close();
   }
 
-  std::string type_of(std::size_t patch) const {
-    const std::string& condition = stream_.patches()[patch].condition;
-    if (patch >= stream_.sides()) return mesh_.layers() == 1 ? "empty" : "symmetryPlane";
-    return condition == "wall" || condition == "symmetry" ? condition : "patch";
-  }
-
   void write_boundary() {
-    const std::vector<std::string> names = foam_patch_names(stream_.patch_names());
-    std::string text = head_of("polyBoundaryMesh", "boundary") + std::to_string(names.size()) + "\n(\n";
-    std::int64_t start = internal_faces_;
-    for (std::size_t n = 0; n < names.size(); ++n) {
-      const std::int64_t faces = stream_.patches()[n].faces();
-      text += "    " + names[n] + "\n    {\n        type            " + type_of(n) +
-              ";\n        nFaces          " + std::to_string(faces) + ";\n        startFace       " +
-              std::to_string(start) + ";\n    }\n";
-      start += faces;
-    }
-    TextOutput file(comm_, staged_[4]);
-    file.write(text + ")\n");
-    file.close();
+    std::vector<std::string> types;
+    for (const StreamedPatch& patch : stream_.patches()) types.push_back(foam_patch_type(patch.condition));
+    for (std::size_t end = stream_.side_patches(); end < types.size(); ++end)
+      types[end] = mesh_.layers() == 1 ? "empty" : "symmetryPlane";
+    write_foam_boundary(comm_, staged_[4], stream_.patches(), types, internal_faces_);
   }
 
   const Communicator& comm_;
-  ExtrudedStream stream_;
+  const SolidStream& stream_;
   const ExtrudedMesh& mesh_;
   std::vector<StagedFile> staged_;
   EdgeCells cells_;
@@ -240,7 +194,8 @@ std::vector<std::string> foam_patch_names(const std::vector<std::string>& names)
   return plain_words(names);
 }
 
-void write_foam(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path) {
+void write_foam(OutputSet& outputs, const SolidStream& mesh, const std::string& path) {
+  if (mesh.held() != nullptr) return write_foam_held(outputs, mesh, path);
   FoamWriter(outputs, mesh, path).write();
 }
 

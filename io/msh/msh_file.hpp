@@ -9,17 +9,22 @@
 
 namespace quadloop {
 
-/// Writes the mesh as Gmsh's MSH 2.2 text into the set; the bytes are the same on any number of ranks. Each
+/// Which text of Gmsh's is written.
+enum class MshVersion { msh_2_2, msh_4_1 };
+
+/// Writes the mesh as Gmsh's MSH text into the set; the bytes are the same on any number of ranks. Each
 /// boundary with edges is a physical curve of its name, the cells are the physical surface "domain". A double
 /// quote in a name becomes a single one. *Collective.* Throws OutputError on all ranks.
-void write_msh(OutputSet& outputs, const Mesh& mesh, const std::string& path);
+void write_msh(OutputSet& outputs, const Mesh& mesh, const std::string& path,
+               MshVersion version = MshVersion::msh_2_2);
 
 /// The same as an output of its own, in place when the function returns. *Collective.*
 void write_msh(const Communicator& comm, const Mesh& mesh, const std::string& path);
 
 /// Writes a mesh that the set's only rank holds whole; its blocks are the physical surfaces. Throws
 /// OutputError.
-void write_msh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
+void write_msh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path,
+               MshVersion version = MshVersion::msh_2_2);
 
 /// The name of the physical curve for a boundary of this name.
 std::string msh_group_name(std::string boundary);

@@ -13,7 +13,7 @@ namespace quadloop {
 /// and surfaces in them.
 class MshGroups {
  public:
-  /// Of dimension 1 (curves) or 2 (surfaces); the tag's sign says nothing but a direction.
+  /// Of dimension 1 (curves), 2 (surfaces) or 3 (volumes); the tag's sign says nothing but a direction.
   void name_physical(int dimension, std::int64_t physical, std::string name);
   void put_in_physical(int dimension, std::int64_t entity, std::int64_t physical);
 
@@ -25,14 +25,14 @@ class MshGroups {
   std::int32_t boundary_of(ForeignMesh& foreign, std::int64_t physical, std::int64_t entity);
   std::int32_t block_of(ForeignMesh& foreign, std::int64_t physical);
 
+  /// The name of a physical group; "physical_<tag>" where the file gives none.
+  std::string name_of(int dimension, std::int64_t physical) const;
+
   /// How many boundaries are curves of no physical group.
   std::int64_t curves_without_group() const;
 
  private:
   using Key = std::pair<std::int64_t, std::int64_t>;
-
-  /// The name of a physical group; "physical_<tag>" where the file gives none.
-  std::string name_of(int dimension, std::int64_t physical) const;
 
   std::map<Key, std::string> names_;           ///< by dimension and tag
   std::map<Key, std::int64_t> entity_groups_;  ///< by dimension and tag

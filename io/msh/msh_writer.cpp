@@ -2,125 +2,99 @@
 #include <span>
 
 #include "io/msh/msh_file.hpp"
-#include "io/text/text_output.hpp"
+#include "io/msh/msh_output.hpp"
+#include "io/msh/msh_text.hpp"
 
 namespace quadloop {
 
 namespace {
 
-constexpr int msh_line = 1, msh_triangle = 2, msh_quad = 3;
+std::string block_name(const LoadedMesh* whole, std::int32_t blocks, std::int32_t block) {
+  const std::size_t b = block;
+  if (whole != nullptr && b < whole->block_names.size()) return whole->block_names[b];
+  return blocks == 1 ? "domain" : "block_" + std::to_string(block + 1);
+}
 
-std::string quoted(const std::string& name) { return '"' + msh_group_name(name) + '"'; }
+/// Groups: the boundaries, then the blocks.
+std::vector<MshOutputGroup> groups_of(const BoundaryStream& boundaries, const LoadedMesh* whole,
+                                      std::int32_t blocks) {
+  std::vector<MshOutputGroup> groups;
+  for (const BoundaryEdges* boundary : boundaries.present()) groups.push_back({1, boundary->name});
+  for (std::int32_t block = 0; block < blocks; ++block)
+    groups.push_back({2, block_name(whole, blocks, block)});
+  return groups;
+}
 
-/// Groups are numbered 1, 2, ... over curves and surface together, as some readers know them by number alone.
 class MshWriter {
  public:
   /// `whole`, where given, is the mesh with its blocks, on one rank.
-  MshWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path, const LoadedMesh* whole = nullptr)
-      : comm_{outputs.communicator()},
-        mesh_{mesh},
+  MshWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path, MshVersion version,
+            const LoadedMesh* whole = nullptr)
+      : mesh_{mesh},
         whole_{whole},
-        boundaries_{comm_, mesh},
-        file_{outputs, path} {}
+        boundaries_{outputs.communicator(), mesh},
+        output_{outputs, path, version, groups_of(boundaries_, whole, blocks())} {}
 
   void write_mesh() {
-    file_.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
-    write_names();
-    write_nodes();
-    write_all_elements();
-    file_.close();
+    output_.write_nodes(mesh_.owned_nodes, [&](std::int64_t i) {
+      return Point3{mesh_.points[i].x, mesh_.points[i].y, 0};
+    });
+    const std::int64_t edges = boundaries_.all_edges();
+    output_.begin_elements(std::ssize(boundaries_.present()) + blocks_of_cells(),
+                           edges + total(mesh_.triangles) + total(mesh_.quads));
+    output_.write_on_boundaries<2>(boundaries_, msh_line, 1,
+                                   [](const BoundaryStream::Edge& edge, std::int64_t) { return edge; });
+    for (std::int32_t block = 0; block < blocks(); ++block) {
+      write_cells(msh_triangle, block, triangles_of(block));
+      write_cells(msh_quad, block, quads_of(block));
+    }
+    output_.end_elements();
   }
 
  private:
-  std::int64_t total(const auto& rows) const { return comm_.sum(std::ssize(rows)); }
+  std::int64_t total(const auto& rows) const { return output_.communicator().sum(std::ssize(rows)); }
   std::int32_t blocks() const { return whole_ != nullptr ? whole_->blocks : 1; }
-  std::int64_t surface(std::int32_t block) const { return std::ssize(boundaries_.present()) + 1 + block; }
-  std::string block_name(std::int32_t block) const {
-    const std::size_t b = block;
-    if (whole_ != nullptr && b < whole_->block_names.size()) return whole_->block_names[b];
-    return blocks() == 1 ? "domain" : "block_" + std::to_string(block + 1);
-  }
-
-  void write_names() {
-    std::string text = "$PhysicalNames\n" + std::to_string(surface(blocks() - 1)) + "\n";
-    std::int64_t group = 0;
-    for (const BoundaryEdges* boundary : boundaries_.present())
-      text += "1 " + std::to_string(++group) + " " + quoted(boundary->name) + "\n";
-    for (std::int32_t block = 0; block < blocks(); ++block)
-      text += "2 " + std::to_string(surface(block)) + " " + quoted(block_name(block)) + "\n";
-    file_.write(text + "$EndPhysicalNames\n");
-  }
-
-  void write_nodes() {
-    file_.write("$Nodes\n" + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\n");
-    file_.write_rows(mesh_.owned_nodes, 4, [&](TextRows& text, std::int64_t i) {
-      text.put(mesh_.first_node + i + 1, ' ');
-      text.put(mesh_.points[i].x, ' ');
-      text.put(mesh_.points[i].y, ' ');
-      text.put(0, '\n');
-    });
-    file_.write("$EndNodes\n");
-  }
-
-  void write_all_elements() {
-    const std::int64_t elements = total(mesh_.triangles) + total(mesh_.quads) + boundaries_.all_edges();
-    file_.write("$Elements\n" + std::to_string(elements) + "\n");
-    write_edges();
-    for (std::int32_t block = 0; block < blocks(); ++block) {
-      write_elements(msh_triangle, surface(block),
-                     cells_of(mesh_.triangles, &LoadedMesh::triangle_to_block, block));
-      write_elements(msh_quad, surface(block), cells_of(mesh_.quads, &LoadedMesh::quad_to_block, block));
-    }
-    file_.write("$EndElements\n");
-  }
 
   template <class Cells>
-  std::span<const typename Cells::value_type> cells_of(const Cells& cells,
+  std::span<const typename Cells::value_type> cells_in(const Cells& cells,
                                                        std::vector<std::int32_t> LoadedMesh::*cell_to_block,
                                                        std::int32_t block) const {
     if (whole_ == nullptr) return std::span(cells);
     return cells_of_block(cells, whole_->*cell_to_block, block);
   }
 
-  void write_edges() {
-    std::int64_t number = next_element_;
-    file_.write_boundaries(
-        boundaries_, 7, [](std::size_t) { return std::string(); },
-        [&](TextRows& text, std::int64_t n, const BoundaryStream::Edge& edge) {
-          put_head(text, number++, msh_line, n + 1);
-          text.put(edge[0] + 1, ' ');
-          text.put(edge[1] + 1, '\n');
-        });
-    next_element_ += boundaries_.all_edges();
+  std::span<const std::array<NodeId, 3>> triangles_of(std::int32_t block) const {
+    return cells_in(mesh_.triangles, &LoadedMesh::triangle_to_block, block);
+  }
+  std::span<const std::array<NodeId, 4>> quads_of(std::int32_t block) const {
+    return cells_in(mesh_.quads, &LoadedMesh::quad_to_block, block);
   }
 
-  /// Number, type, two tags: the group, and the curve or surface of the same number. The nodes follow.
-  static void put_head(TextRows& text, std::int64_t number, int type, std::int64_t group) {
-    text.put(number, ' ');
-    text.put(type, ' ');
-    text.put(2, ' ');
-    text.put(group, ' ');
-    text.put(group, ' ');
+  /// How many kinds of cells there are in all blocks.
+  std::int64_t blocks_of_cells() const {
+    std::int64_t count = 0;
+    for (std::int32_t block = 0; block < blocks(); ++block) {
+      if (total(triangles_of(block)) > 0) ++count;
+      if (total(quads_of(block)) > 0) ++count;
+    }
+    return count;
   }
 
   template <std::size_t width>
-  void write_elements(int type, std::int64_t group, std::span<const std::array<NodeId, width>> rows) {
-    const auto own = std::ssize(rows);
-    const std::int64_t number = next_element_ + comm_.exclusive_sum(own);
-    next_element_ += comm_.sum(own);
-    file_.write_rows(rows.size(), 5 + width, [&](TextRows& text, std::int64_t i) {
-      put_head(text, number + i, type, group);
-      for (std::size_t k = 0; k < width; ++k)
-        text.put(mesh_.global(rows[i][k]).value() + 1, k + 1 < width ? ' ' : '\n');
+  void write_cells(int type, std::int32_t block, std::span<const std::array<NodeId, width>> cells) {
+    const std::int64_t group = std::ssize(boundaries_.present()) + 1 + block;
+    output_.write_elements<width>(type, group, std::ssize(cells), [&](std::int64_t i) {
+      std::array<std::int64_t, width> nodes;
+      std::ranges::transform(cells[i], nodes.begin(),
+                             [&](NodeId node) { return mesh_.global(node).value(); });
+      return nodes;
     });
   }
 
-  const Communicator& comm_;
   const Mesh& mesh_;
   const LoadedMesh* whole_;
   BoundaryStream boundaries_;
-  TextOutput file_;
-  std::int64_t next_element_ = 1;
+  MshOutput output_;
 };
 
 }  // namespace
@@ -133,12 +107,12 @@ std::string msh_group_name(std::string boundary) {
   return boundary;
 }
 
-void write_msh(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
-  MshWriter(outputs, mesh, path).write_mesh();
+void write_msh(OutputSet& outputs, const Mesh& mesh, const std::string& path, MshVersion version) {
+  MshWriter(outputs, mesh, path, version).write_mesh();
 }
 
-void write_msh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
-  MshWriter(outputs, whole.mesh, path, &whole).write_mesh();
+void write_msh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path, MshVersion version) {
+  MshWriter(outputs, whole.mesh, path, version, &whole).write_mesh();
 }
 
 void write_msh(const Communicator& comm, const Mesh& mesh, const std::string& path) {

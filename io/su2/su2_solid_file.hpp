@@ -4,7 +4,7 @@
 #include <string>
 
 #include "io/files/output_file.hpp"
-#include "mesher/solid/extruded_mesh.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
@@ -12,7 +12,7 @@ namespace quadloop {
 /// Writes the mesh as SU2 text of three dimensions; the bytes are the same on any number of ranks. Patches
 /// become markers (su2_marker_names()). SU2 turns the angle of attack in the x-z plane: draw the mesh out
 /// along y for it. *Collective.* Throws OutputError on all ranks.
-void write_su2_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path);
+void write_su2_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
 
 /// Reads a 3D SU2 mesh on the calling rank alone: tetrahedra, pyramids, prisms, hexahedra, markers of
 /// triangles and quads; nothing where the file says that it has other dimensions. Throws InputError

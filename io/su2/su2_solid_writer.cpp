@@ -1,4 +1,4 @@
-#include "io/solid/extruded_stream.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "io/su2/su2_file.hpp"
 #include "io/su2/su2_solid_file.hpp"
 #include "io/text/text_output.hpp"
@@ -7,7 +7,14 @@ namespace quadloop {
 
 namespace {
 
-constexpr int vtk_triangle = 5, vtk_quad = 9, vtk_hexahedron = 12, vtk_prism = 13;
+/// VTK's numbers of kinds of cells, by how many nodes they have.
+template <std::size_t width>
+constexpr int vtk_solid = width == 4   ? 10
+                          : width == 5 ? 14
+                          : width == 6 ? 13
+                                       : 12;
+template <std::size_t width>
+constexpr int vtk_face = width == 3 ? 5 : 9;
 
 template <std::size_t width>
 void put_element(TextRows& text, int type, const std::array<SolidNode, width>& nodes) {
@@ -17,15 +24,15 @@ void put_element(TextRows& text, int type, const std::array<SolidNode, width>& n
 
 class Su2SolidWriter {
  public:
-  Su2SolidWriter(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path)
-      : stream_{outputs.communicator(), mesh}, mesh_{mesh}, file_{outputs, path} {}
+  Su2SolidWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path)
+      : stream_{stream}, file_{outputs, path} {}
 
   void write() {
     file_.write("NDIME= 3\nNELEM= " + std::to_string(stream_.counts().cells()) + "\n");
-    file_.write_rows(mesh_.prism_rows(), 7,
-                     [&](TextRows& text, std::int64_t i) { put_element(text, vtk_prism, mesh_.prism(i)); });
-    file_.write_rows(mesh_.hexahedron_rows(), 9, [&](TextRows& text, std::int64_t i) {
-      put_element(text, vtk_hexahedron, mesh_.hexahedron(i));
+    for_each_kind_of_cell([&]<std::size_t width>() {
+      file_.write_rows(stream_.cell_rows<width>(), width + 1, [&](TextRows& text, std::int64_t i) {
+        put_element(text, vtk_solid<width>, stream_.cell<width>(i));
+      });
     });
     write_points();
     write_markers();
@@ -35,8 +42,8 @@ class Su2SolidWriter {
  private:
   void write_points() {
     file_.write("NPOIN= " + std::to_string(stream_.counts().nodes) + "\n");
-    file_.write_rows(mesh_.point_rows(), 3, [&](TextRows& text, std::int64_t i) {
-      const Point3 p = mesh_.point(i);
+    file_.write_rows(stream_.point_rows(), 3, [&](TextRows& text, std::int64_t i) {
+      const Point3 p = stream_.point(i);
       text.put(p.x, ' ');
       text.put(p.y, ' ');
       text.put(p.z, '\n');
@@ -50,36 +57,34 @@ class Su2SolidWriter {
              "\n";
     };
     file_.write("NMARK= " + std::to_string(names.size()) + "\n");
-    file_.write_boundaries(stream_.boundaries(), 5 * mesh_.layers(), head,
-                           [&](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
-                             for (std::int64_t layer = 0; layer < mesh_.layers(); ++layer) {
-                               put_element(text, vtk_quad,
-                                           mesh_.side(GlobalNodeId{edge[0]}, GlobalNodeId{edge[1]}, layer));
-                             }
-                           });
-    for (const bool front : {false, true}) {
-      file_.write(head(stream_.sides() + (front ? 1 : 0)));
-      write_end(vtk_triangle, mesh_.plane.triangles, front);
-      write_end(vtk_quad, mesh_.plane.quads, front);
+    if (stream_.boundaries() != nullptr)
+      file_.write_boundaries(*stream_.boundaries(), 5 * stream_.layers(), head,
+                             [&](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
+                               for (std::int64_t layer = 0; layer < stream_.layers(); ++layer)
+                                 put_element(text, vtk_face<4>, stream_.side(edge, layer));
+                             });
+    for (std::size_t n = stream_.side_patches(); n < names.size(); ++n) {
+      file_.write(head(n));
+      write_faces<3>(n);
+      write_faces<4>(n);
     }
   }
 
-  template <class Cells>
-  void write_end(int type, const Cells& cells, bool front) {
-    file_.write_rows(std::ssize(cells), 5, [&](TextRows& text, std::int64_t i) {
-      put_element(text, type, front ? mesh_.front_face(cells[i]) : mesh_.back_face(cells[i]));
+  template <std::size_t width>
+  void write_faces(std::size_t patch) {
+    file_.write_rows(stream_.face_rows<width>(patch), width + 1, [&](TextRows& text, std::int64_t i) {
+      put_element(text, vtk_face<width>, stream_.face<width>(patch, i));
     });
   }
 
-  ExtrudedStream stream_;
-  const ExtrudedMesh& mesh_;
+  const SolidStream& stream_;
   TextOutput file_;
 };
 
 }  // namespace
 
-void write_su2_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path) {
-  Su2SolidWriter(outputs, mesh, path).write();
+void write_su2_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path) {
+  Su2SolidWriter(mesh, outputs, path).write();
 }
 
 }  // namespace quadloop

@@ -30,6 +30,12 @@ class TextRows {
     *end = after;
     used_ += end - begin + 1;
   }
+  void put_hexadecimal(std::int64_t value, char after) {
+    char* const begin = text_.data() + used_;
+    char* const end = std::to_chars(begin, begin + longest_number, value, 16).ptr;
+    *end = after;
+    used_ += end - begin + 1;
+  }
   /// One sign more; rows must have asked for enough numbers that there is room for it.
   void mark(char sign) { text_[used_++] = sign; }
   std::vector<char> take() {

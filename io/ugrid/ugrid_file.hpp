@@ -1,23 +1,38 @@
 #pragma once
 
+#include <bit>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "io/files/output_file.hpp"
-#include "mesher/solid/extruded_mesh.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
 
-/// Writes the mesh as UGRID, the bytes of its numbers in the order that the suffix tells (.b8.ugrid: most
-/// significant first; .lb8.ugrid: least), and beside it a .mapbc with the number, condition and name of each
-/// patch. Faces are counter-clockwise as seen from outside. The bytes are the same on any number of ranks.
-/// *Collective.* Throws OutputError on all ranks, also where 4-byte integers cannot count the mesh.
-void write_ugrid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path);
+/// Writes the mesh as UGRID, the bytes of its numbers in the order `order` (.b8.ugrid: most significant
+/// first; .lb8.ugrid: least), and beside it a .mapbc with the number, condition and name of each patch. Faces
+/// are counter-clockwise as seen from outside. The bytes are the same on any number of ranks. *Collective.*
+/// Throws OutputError on all ranks, also where 4-byte integers cannot count the mesh.
+template <std::endian order>
+void write_ugrid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
 
 /// The file of patches that goes with a mesh: "a.b8.ugrid" has "a.mapbc".
 std::string mapbc_path(const std::string& path);
+
+/// A patch as a .mapbc has it.
+struct MapbcPatch {
+  std::string name;
+  int condition = 0;  ///< FUN3D's number
+};
+
+/// The text of a .mapbc: the patches numbered from 1, their names as mapbc_names() has them.
+std::string mapbc_text(const std::vector<MapbcPatch>& patches);
+/// The patches of such a file by number; none where there is no file. Throws InputError.
+std::map<std::int32_t, MapbcPatch> read_mapbc(const std::string& path);
 
 /// The names of patches in a .mapbc: letters, digits and "_-.+".
 std::vector<std::string> mapbc_names(const std::vector<std::string>& names);
@@ -29,6 +44,7 @@ std::string condition_of_mapbc(int number);
 
 /// Reads such a file on the calling rank alone; patches without a .mapbc are "patch_1" and so on. What
 /// follows the mesh is passed over, with a warning. Throws InputError.
+template <std::endian order>
 std::optional<SolidMesh> read_ugrid(const std::string& path);
 
 }  // namespace quadloop

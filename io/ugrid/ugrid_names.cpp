@@ -1,7 +1,9 @@
 #include <array>
+#include <filesystem>
 #include <utility>
 
 #include "io/text/plain_names.hpp"
+#include "io/text/text_scanner.hpp"
 #include "io/ugrid/ugrid_file.hpp"
 
 namespace quadloop {
@@ -10,21 +12,51 @@ namespace {
 
 /// FUN3D's: viscous wall, Riemann invariants, subsonic inflow by total pressure, subsonic outflow by
 /// pressure, tangency.
-constexpr std::array<std::pair<const char*, int>, 5> conditions{
-    {{"wall", 4000}, {"farfield", 5000}, {"inflow", 7011}, {"outflow", 7012}, {"symmetry", 3000}}};
+constexpr std::array<std::pair<const char*, int>, 7> conditions{{{"wall", 4000},
+                                                                 {"farfield", 5000},
+                                                                 {"inflow", 7011},
+                                                                 {"outflow", 7012},
+                                                                 {"symmetry", 3000},
+                                                                 {"viscous_wall", 4000},
+                                                                 {"inviscid_wall", 3000}}};
 constexpr int symmetry_x = 6661;  // and y, z after it: the plane normal to the axis
 
 }  // namespace
 
 std::string mapbc_path(const std::string& path) {
-  std::string stem = path.substr(0, path.size() - std::string(".ugrid").size());
-  for (const char* ending : {".b8", ".lb8"}) {
-    if (stem.ends_with(ending)) return stem.substr(0, stem.size() - std::string(ending).size()) + ".mapbc";
+  std::string stem = path;
+  for (const std::string ending : {".ugrid", ".b8", ".lb8"}) {
+    if (stem.ends_with(ending)) stem.resize(stem.size() - ending.size());
   }
   return stem + ".mapbc";
 }
 
 std::vector<std::string> mapbc_names(const std::vector<std::string>& names) { return plain_names(names); }
+
+std::string mapbc_text(const std::vector<MapbcPatch>& patches) {
+  std::vector<std::string> names;
+  for (const MapbcPatch& patch : patches) names.push_back(patch.name);
+  names = mapbc_names(names);
+  std::string text = std::to_string(names.size()) + "\n";
+  for (std::size_t n = 0; n < names.size(); ++n)
+    text += std::to_string(n + 1) + " " + std::to_string(patches[n].condition) + " " + names[n] + "\n";
+  return text;
+}
+
+std::map<std::int32_t, MapbcPatch> read_mapbc(const std::string& path) {
+  std::map<std::int32_t, MapbcPatch> patches;
+  if (!std::filesystem::exists(path)) return patches;
+  TextScanner scan(path);
+  for (std::size_t left = scan.count("patches", 2); left > 0; --left) {
+    const std::int64_t number = scan.integer("the number of a patch");
+    const std::int64_t condition = scan.integer("the number of a boundary condition");
+    const std::string name(scan.rest_of_line());
+    patches[static_cast<std::int32_t>(number)] = {
+        name.empty() ? "patch_" + std::to_string(number) : name.substr(0, name.find_first_of(" \t")),
+        static_cast<int>(condition)};
+  }
+  return patches;
+}
 
 int mapbc_condition(const std::string& condition, char axis) {
   if (condition == "symmetry" && axis >= 'x' && axis <= 'z') return symmetry_x + (axis - 'x');

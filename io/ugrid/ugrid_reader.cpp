@@ -3,38 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <map>
 
 #include "io/files/binary_output.hpp"
 #include "io/files/input_file.hpp"
-#include "io/text/text_scanner.hpp"
 #include "io/ugrid/ugrid_file.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
 
 namespace {
-
-struct PatchName {
-  std::string name, condition;
-};
-
-/// By number, from the .mapbc beside the mesh, where there is one.
-std::map<std::int32_t, PatchName> read_mapbc(const std::string& path) {
-  std::map<std::int32_t, PatchName> names;
-  if (!std::filesystem::exists(path)) return names;
-  TextScanner scan(path);
-  for (std::size_t left = scan.count("patches", 2); left > 0; --left) {
-    const std::int64_t number = scan.integer("the number of a patch");
-    const std::int64_t condition = scan.integer("the number of a boundary condition");
-    const std::string name(scan.rest_of_line());
-    names[static_cast<std::int32_t>(number)] = {
-        name.empty() ? fmt::format("patch_{}", number) : name.substr(0, name.find_first_of(" \t")),
-        condition_of_mapbc(static_cast<int>(condition))};
-  }
-  return names;
-}
 
 template <std::endian order>
 class UgridReader {
@@ -121,14 +99,14 @@ class UgridReader {
       const auto n = take<std::int32_t, 4>("the nodes of a face");
       faces.push_back({node(n[0]), node(n[1]), node(n[2]), node(n[3])});
     }
-    const std::map<std::int32_t, PatchName> names = read_mapbc(mapbc_path(path_));
+    const std::map<std::int32_t, MapbcPatch> names = read_mapbc(mapbc_path(path_));
     std::map<std::int32_t, SolidPatch> patches;
     for (const SolidPatch::Face& face : faces)
       patches[take<std::int32_t, 1>("the patch of a face")[0]].faces.push_back(face);
     for (auto& [number, patch] : patches) {
       const auto named = names.find(number);
       patch.name = named == names.end() ? fmt::format("patch_{}", number) : named->second.name;
-      if (named != names.end()) patch.condition = named->second.condition;
+      if (named != names.end()) patch.condition = condition_of_mapbc(named->second.condition);
       mesh_.patches.push_back(std::move(patch));
     }
   }
@@ -141,9 +119,12 @@ class UgridReader {
 
 }  // namespace
 
+template <std::endian order>
 std::optional<SolidMesh> read_ugrid(const std::string& path) {
-  if (path.ends_with(".lb8.ugrid")) return UgridReader<std::endian::little>(path).read();
-  return UgridReader<std::endian::big>(path).read();
+  return UgridReader<order>(path).read();
 }
+
+template std::optional<SolidMesh> read_ugrid<std::endian::little>(const std::string&);
+template std::optional<SolidMesh> read_ugrid<std::endian::big>(const std::string&);
 
 }  // namespace quadloop

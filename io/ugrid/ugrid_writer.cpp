@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "io/files/binary_output.hpp"
-#include "io/solid/extruded_stream.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "io/ugrid/ugrid_file.hpp"
 #include "mesher/base/error.hpp"
 
@@ -10,11 +10,17 @@ namespace quadloop {
 
 namespace {
 
+/// There the third node of a pyramid is its apex.
+template <std::size_t width>
+std::array<SolidNode, width> as_ugrid(const std::array<SolidNode, width>& cell) {
+  if constexpr (width == 5) return {cell[0], cell[3], cell[4], cell[1], cell[2]};
+  return cell;
+}
+
 template <std::endian order>
 class UgridWriter {
  public:
-  UgridWriter(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path)
-      : stream_{outputs.communicator(), mesh} {
+  UgridWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path) : stream_{stream} {
     refuse_too_large(path);
     const StagedFile staged = outputs.stage(path), names = outputs.stage(mapbc_path(path));
     stream_.on_root([&] {
@@ -25,24 +31,26 @@ class UgridWriter {
   }
 
   void write() {
-    const ExtrudedMesh& mesh = stream_.mesh();
-    put_rows(mesh.point_rows(), [&](std::int64_t i) {
-      const Point3 p = mesh.point(i);
+    put_rows(stream_.point_rows(), [&](std::int64_t i) {
+      const Point3 p = stream_.point(i);
       return std::array{p.x, p.y, p.z};
     });
     write_faces();
     write_face_patches();
-    put_rows(mesh.prism_rows(), [&](std::int64_t i) { return as<std::int32_t>(mesh.prism(i), 1); });
-    put_rows(mesh.hexahedron_rows(), [&](std::int64_t i) { return as<std::int32_t>(mesh.hexahedron(i), 1); });
+    for_each_kind_of_cell([&]<std::size_t width>() {
+      put_rows(stream_.cell_rows<width>(),
+               [&](std::int64_t i) { return as<std::int32_t>(as_ugrid(stream_.cell<width>(i)), 1); });
+    });
     stream_.on_root([&] { file_->close(); });
   }
 
  private:
   void refuse_too_large(const std::string& path) const {
     constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    const ExtrudedCounts& counts = stream_.counts();
-    if (counts.nodes <= most && counts.prisms <= most && counts.hexahedra <= most &&
-        stream_.patch_quads() <= most && stream_.patch_triangles() <= most)
+    const SolidCounts& counts = stream_.counts();
+    if (counts.nodes <= most && counts.tetrahedra <= most && counts.pyramids <= most &&
+        counts.prisms <= most && counts.hexahedra <= most && stream_.patch_quads() <= most &&
+        stream_.patch_triangles() <= most)
       return;
     throw OutputError(
         path + ": " + std::to_string(counts.nodes) + " nodes and " + std::to_string(counts.cells()) +
@@ -51,22 +59,18 @@ class UgridWriter {
 
   void write_names(const StagedFile& staged) const {
     OutputFile file(staged);
-    const std::vector<std::string> names = mapbc_names(stream_.patch_names());
-    std::string text = std::to_string(names.size()) + "\n";
-    for (std::size_t n = 0; n < names.size(); ++n) {
-      const char axis = n < stream_.sides() ? ' ' : stream_.mesh().axis == ExtrusionAxis::y ? 'y' : 'z';
-      text += std::to_string(n + 1) + " " +
-              std::to_string(mapbc_condition(stream_.patches()[n].condition, axis)) + " " + names[n] + "\n";
-    }
-    file.write(text);
+    std::vector<MapbcPatch> patches;
+    for (const StreamedPatch& patch : stream_.patches())
+      patches.push_back({patch.name, mapbc_condition(patch.condition, patch.axis)});
+    file.write(mapbc_text(patches));
     file.close();
   }
 
   void write_head() {
-    const ExtrudedCounts& counts = stream_.counts();
+    const SolidCounts& counts = stream_.counts();
     const auto head = in_order<order>(as<std::int32_t>(
-        std::array<SolidNode, 7>{counts.nodes, stream_.patch_triangles(), stream_.patch_quads(), 0, 0,
-                                 counts.prisms, counts.hexahedra}));
+        std::array<SolidNode, 7>{counts.nodes, stream_.patch_triangles(), stream_.patch_quads(),
+                                 counts.tetrahedra, counts.pyramids, counts.prisms, counts.hexahedra}));
     file_->write(bytes_of(std::span<const std::int32_t>(head)));
   }
 
@@ -81,13 +85,13 @@ class UgridWriter {
   void write_faces() {
     const auto make = [](const auto& face) { return in_order<order>(as<std::int32_t>(face, 1)); };
     const auto put = [&](auto faces) { file_->write(bytes_of(faces)); };
-    const Mesh& plane = stream_.mesh().plane;
-    for (const bool front : {false, true}) stream_.end(plane.triangles, front, make, put);
+    const std::size_t first = stream_.side_patches(), all = stream_.patches().size();
+    for (std::size_t n = first; n < all; ++n) stream_.faces<3>(n, make, put);
     stream_.sides([](std::size_t) {}, make, put);
-    for (const bool front : {false, true}) stream_.end(plane.quads, front, make, put);
+    for (std::size_t n = first; n < all; ++n) stream_.faces<4>(n, make, put);
   }
 
-  /// The patch of each face, from 1, in the order of the faces: the ends' triangles, then all quads.
+  /// The patch of each face, from 1, in the order of the faces: all triangles, then all quads.
   void write_face_patches() {
     stream_.on_root([&] {
       const auto& patches = stream_.patches();
@@ -104,18 +108,18 @@ class UgridWriter {
 
   static constexpr std::int64_t most_numbers = std::int64_t{1} << 18;
 
-  ExtrudedStream stream_;
+  const SolidStream& stream_;
   std::unique_ptr<OutputFile> file_;  ///< on rank 0 only
 };
 
 }  // namespace
 
-void write_ugrid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path) {
-  if (path.ends_with(".lb8.ugrid")) {
-    UgridWriter<std::endian::little>(outputs, mesh, path).write();
-  } else {
-    UgridWriter<std::endian::big>(outputs, mesh, path).write();
-  }
+template <std::endian order>
+void write_ugrid(OutputSet& outputs, const SolidStream& mesh, const std::string& path) {
+  UgridWriter<order>(mesh, outputs, path).write();
 }
+
+template void write_ugrid<std::endian::little>(OutputSet&, const SolidStream&, const std::string&);
+template void write_ugrid<std::endian::big>(OutputSet&, const SolidStream&, const std::string&);
 
 }  // namespace quadloop

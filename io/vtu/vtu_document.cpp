@@ -148,6 +148,38 @@ class Builder {
   std::optional<Refusal> refusal_;
 };
 
+/// The list of pieces.
+class PieceList {
+ public:
+  explicit PieceList(XML_Parser parser) : parser_{parser} {
+    XML_SetUserData(parser, this);
+    XML_SetStartElementHandler(parser, [](void* self, const XML_Char* name, const XML_Char** attributes) {
+      static_cast<PieceList*>(self)->start(name, attributes);
+    });
+  }
+
+  const std::optional<Refusal>& refusal() const { return refusal_; }
+  const std::vector<std::string>& sources() const { return sources_; }
+
+ private:
+  void start(std::string_view name, const XML_Char** attributes) {
+    if (name == "VTKFile" && attribute(attributes, "type") != "PUnstructuredGrid")
+      refuse("holds VTK data of type '" + attribute(attributes, "type") +
+             "'; save it as an unstructured grid");
+    if (name != "Piece") return;
+    sources_.push_back(attribute(attributes, "Source"));
+    if (sources_.back().empty()) refuse("a piece names no file (Source)");
+  }
+  void refuse(const std::string& message) {
+    if (!refusal_) refusal_ = Refusal{static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_)), message};
+    XML_StopParser(parser_, XML_FALSE);
+  }
+
+  XML_Parser parser_;
+  std::vector<std::string> sources_;
+  std::optional<Refusal> refusal_;
+};
+
 /// The tag's end and the underscore; raw data are no XML, so expat sees nothing of them.
 void find_appended(const TextScanner& scan, std::size_t tag, VtuDocument& document) {
   const std::string_view text = scan.text();
@@ -161,6 +193,7 @@ void find_appended(const TextScanner& scan, std::size_t tag, VtuDocument& docume
   document.appended_end = end == std::string_view::npos || end < underscore ? text.size() : end;
 }
 
+template <class Builder>
 void feed(const TextScanner& scan, XML_Parser parser, std::string_view text, bool whole,
           const Builder& builder) {
   constexpr std::size_t largest_piece = std::size_t{1} << 26;
@@ -184,6 +217,15 @@ const VtuArray* VtuDocument::find(const std::string& section, const std::string&
   const auto found = std::find_if(arrays.begin(), arrays.end(),
                                   [&](const VtuArray& a) { return a.section == section && a.name == name; });
   return found == arrays.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> parse_pvtu(const TextScanner& scan) {
+  const Parser parser(XML_ParserCreate(nullptr), &XML_ParserFree);
+  QUADLOOP_REQUIRE(parser != nullptr, "no memory for reading XML");
+  const PieceList list(parser.get());
+  feed(scan, parser.get(), scan.text(), true, list);
+  if (list.sources().empty()) scan.refuse_at(0, "the grid has no piece, and so no cells");
+  return list.sources();
 }
 
 VtuDocument parse_vtu(const TextScanner& scan) {

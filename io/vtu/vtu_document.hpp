@@ -32,7 +32,12 @@ struct VtuDocument {
   const VtuArray* find(const std::string& section, const std::string& name) const;
 };
 
-/// The one door to expat. Refuses what is no XML, no unstructured grid, or has not exactly one piece.
+/// The files of a parallel grid's pieces, as it names them; at least one. Refuses what is no XML or no such
+/// grid.
+std::vector<std::string> parse_pvtu(const TextScanner& scan);
+
+/// The one door to expat, with parse_pvtu(). Refuses what is no XML, no unstructured grid, or has not exactly
+/// one piece.
 VtuDocument parse_vtu(const TextScanner& scan);
 
 }  // namespace quadloop

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "io/files/output_file.hpp"
-#include "mesher/solid/extruded_mesh.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
@@ -14,7 +14,7 @@ namespace quadloop {
 /// field data "boundary_names" are as in write_vtu(). VTK has the first triangle of a wedge look outwards, so
 /// that the two last nodes of each of its triangles change places. The solution becomes point data.
 /// *Collective.* Throws OutputError on all ranks.
-void write_vtu_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path);
+void write_vtu_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
 
 /// Reads one piece of a VTK XML unstructured grid of tetrahedra, pyramids, wedges, hexahedra and voxels, on
 /// the calling rank alone; nothing where it holds none of these. Triangles and quads belong to the patch that

@@ -29,6 +29,7 @@ class VtuSolidReader {
     read_points();
     read_patches();
     read_cells();
+    read_solution();
     std::erase_if(mesh_.patches, [](const SolidPatch& patch) { return patch.faces.empty(); });
     return std::move(mesh_);
   }
@@ -133,6 +134,30 @@ class VtuSolidReader {
     const std::string name = number <= 0 ? "boundary" : "boundary_" + std::to_string(number);
     const auto found = std::ranges::find(mesh_.patches, name, &SolidPatch::name);
     return found != mesh_.patches.end() ? *found : mesh_.patches.emplace_back(SolidPatch{name, "none", {}});
+  }
+
+  /// Point data of real numbers; of several components each is a variable.
+  void read_solution() {
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> columns;
+    for (const VtuArray& array : document_.arrays) {
+      if (array.section != "PointData" || array.type == "String" || array.components > 9) continue;
+      const std::size_t width = array.components;
+      const std::vector<double> values = numbers_.reals(array, document_.points * array.components);
+      for (std::size_t k = 0; k < width; ++k) {
+        names.push_back(width == 1 ? array.name
+                                   : array.name + "_" +
+                                         (width <= 3 ? std::string(1, "xyz"[k]) : std::to_string(k + 1)));
+        std::vector<double>& column = columns.emplace_back();
+        for (std::size_t i = k; i < values.size(); i += width) column.push_back(values[i]);
+      }
+    }
+    if (names.empty()) return;
+    Field& solution = mesh_.solution.emplace();
+    solution.names = std::move(names);
+    for (std::int64_t i = 0; i < document_.points; ++i) {
+      for (const std::vector<double>& column : columns) solution.values.push_back(column[i]);
+    }
   }
 
   TextScanner scan_;

@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "io/files/binary_output.hpp"
-#include "io/solid/extruded_stream.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
 #include "io/vtu/vtu_text.hpp"
@@ -10,10 +10,18 @@ namespace quadloop {
 
 namespace {
 
-/// The wedge of VTK: its first triangle looks outwards.
-std::array<SolidNode, 6> as_wedge(const std::array<SolidNode, 6>& prism) {
-  return {prism[0], prism[2], prism[1], prism[3], prism[5], prism[4]};
+/// In the order of VTK: of a wedge the first triangle looks outwards.
+template <std::size_t width>
+std::array<SolidNode, width> as_vtk(const std::array<SolidNode, width>& cell) {
+  if constexpr (width == 6) return {cell[0], cell[2], cell[1], cell[3], cell[5], cell[4]};
+  return cell;
 }
+
+template <std::size_t width>
+constexpr std::uint8_t vtk_solid = width == 4   ? vtk_tetrahedron
+                                   : width == 5 ? vtk_pyramid
+                                   : width == 6 ? vtk_wedge
+                                                : vtk_hexahedron;
 
 /// Cells or faces of one type that follow each other in the file.
 struct Run {
@@ -25,9 +33,7 @@ struct Run {
 
 class VtuSolidWriter {
  public:
-  VtuSolidWriter(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path)
-      : stream_{outputs.communicator(), mesh} {
-    if (mesh.solution != nullptr) variables_ = extruded_variables(*mesh.solution, mesh.axis);
+  VtuSolidWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path) : stream_{stream} {
     list_runs();
     const StagedFile staged = outputs.stage(path);
     stream_.on_root([&] {
@@ -44,7 +50,7 @@ class VtuSolidWriter {
       write_of_runs<std::uint8_t>([](const Run& run) { return run.type; });
       write_of_runs<std::int32_t>([](const Run& run) { return run.patch; });
     });
-    for (const ExtrudedVariable& variable : variables_) write_variable(variable);
+    for (std::size_t k = 0; k < stream_.variables().size(); ++k) write_variable(k);
     stream_.on_root([&] {
       file_->write("\n</AppendedData>\n</VTKFile>\n");
       file_->close();
@@ -54,10 +60,11 @@ class VtuSolidWriter {
  private:
   /// In the order of the file: cells, then of each patch its triangles and its quads.
   void list_runs() {
-    const ExtrudedCounts& counts = stream_.counts();
-    runs_ = {{vtk_wedge, 6, counts.prisms, 0}, {vtk_hexahedron, 8, counts.hexahedra, 0}};
+    for_each_kind_of_cell([&]<std::size_t width>() {
+      runs_.push_back({vtk_solid<width>, width, stream_.all_cells<width>(), 0});
+    });
     std::int32_t number = 0;
-    for (const ExtrudedPatch& patch : stream_.patches()) {
+    for (const StreamedPatch& patch : stream_.patches()) {
       ++number;
       runs_.push_back({vtk_triangle, 3, patch.triangles, number});
       runs_.push_back({vtk_quad, 4, patch.quads, number});
@@ -83,17 +90,17 @@ class VtuSolidWriter {
     std::string head =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n" +
-        vtu_text_array("boundary_names", stream_.patch_names()) + "</FieldData>\n<Piece NumberOfPoints=\"" +
-        std::to_string(nodes) + "\" NumberOfCells=\"" + std::to_string(elements_) + "\">\n<Points>\n";
+        vtu_text_array("boundary_names", stream_.patch_names()) + vtu_name_arrays(stream_.patch_names(), 2) +
+        "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(nodes) + "\" NumberOfCells=\"" +
+        std::to_string(elements_) + "\">\n<Points>\n";
     head += array_tag("Float64", "Points", 24 * nodes, 3);  // one after another: each moves the offset on
     head += "</Points>\n<Cells>\n" + array_tag("Int64", "connectivity", 8 * entries_);
     head += array_tag("Int64", "offsets", 8 * elements_);
     head += array_tag("UInt8", "types", elements_);
     head += "</Cells>\n<CellData>\n" + array_tag("Int32", "boundary", 4 * elements_) + "</CellData>\n";
-    if (!variables_.empty()) {
+    if (!stream_.variables().empty()) {
       head += "<PointData>\n";
-      for (const ExtrudedVariable& variable : variables_)
-        head += array_tag("Float64", variable.name, 8 * nodes);
+      for (const std::string& name : stream_.variables()) head += array_tag("Float64", name, 8 * nodes);
       head += "</PointData>\n";
     }
     file_->write(head + "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
@@ -116,23 +123,23 @@ class VtuSolidWriter {
 
   void write_points() {
     stream_.on_root([&] { begin_array(24 * stream_.counts().nodes); });
-    put_rows(stream_.mesh().point_rows(), [&](std::int64_t i) {
-      const Point3 p = stream_.mesh().point(i);
+    put_rows(stream_.point_rows(), [&](std::int64_t i) {
+      const Point3 p = stream_.point(i);
       return std::array{p.x, p.y, p.z};
     });
   }
 
   void write_connectivity() {
-    const ExtrudedMesh& mesh = stream_.mesh();
     const auto make = [](const auto& nodes) { return in_order<std::endian::little>(nodes); };
     const auto write = [&](auto rows) { file_->write(bytes_of(rows)); };
     stream_.on_root([&] { begin_array(8 * entries_); });
-    put_rows(mesh.prism_rows(), [&](std::int64_t i) { return as_wedge(mesh.prism(i)); });
-    put_rows(mesh.hexahedron_rows(), [&](std::int64_t i) { return mesh.hexahedron(i); });
+    for_each_kind_of_cell([&]<std::size_t width>() {
+      put_rows(stream_.cell_rows<width>(), [&](std::int64_t i) { return as_vtk(stream_.cell<width>(i)); });
+    });
     stream_.sides([](std::size_t) {}, make, write);
-    for (const bool front : {false, true}) {
-      stream_.end(mesh.plane.triangles, front, make, write);
-      stream_.end(mesh.plane.quads, front, make, write);
+    for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) {
+      stream_.faces<3>(n, make, write);
+      stream_.faces<4>(n, make, write);
     }
   }
 
@@ -166,18 +173,12 @@ class VtuSolidWriter {
     flush();
   }
 
-  void write_variable(const ExtrudedVariable& variable) {
-    const ExtrudedMesh& mesh = stream_.mesh();
-    const std::size_t width = mesh.solution->width();
+  void write_variable(std::size_t variable) {
     stream_.on_root([&] { begin_array(8 * stream_.counts().nodes); });
-    put_rows(mesh.point_rows(), [&](std::int64_t i) {
-      const bool zero = variable.column == ExtrudedVariable::zero;
-      return std::array{zero ? 0.0 : mesh.solution->values[i / mesh.levels() * width + variable.column]};
-    });
+    put_rows(stream_.point_rows(), [&](std::int64_t i) { return std::array{stream_.value(i, variable)}; });
   }
 
-  ExtrudedStream stream_;
-  std::vector<ExtrudedVariable> variables_;
+  const SolidStream& stream_;
   std::vector<Run> runs_;
   std::int64_t elements_ = 0, entries_ = 0, offset_ = 0;
   std::unique_ptr<OutputFile> file_;  ///< on rank 0 only
@@ -185,8 +186,8 @@ class VtuSolidWriter {
 
 }  // namespace
 
-void write_vtu_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path) {
-  VtuSolidWriter(outputs, mesh, path).write();
+void write_vtu_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path) {
+  VtuSolidWriter(mesh, outputs, path).write();
 }
 
 }  // namespace quadloop

@@ -1,5 +1,11 @@
 #include "io/vtu/vtu_text.hpp"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "io/vtu/vtu_layers.hpp"
+
 namespace quadloop {
 
 std::string xml_escaped(const std::string& text) {
@@ -14,6 +20,19 @@ std::string xml_escaped(const std::string& text) {
     }
   }
   return result;
+}
+
+std::string vtu_name_arrays(const std::vector<std::string>& names, int dimension) {
+  const std::array<std::string_view, 4> ours{"boundary_names", "block_names", vtu_layer_counts,
+                                             vtu_layer_thicknesses};
+  std::string text;
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    if (names[n].empty() || std::ranges::count(ours, names[n]) > 0) continue;
+    text += "<DataArray type=\"Int32\" Name=\"" + xml_escaped(names[n]) +
+            "\" NumberOfTuples=\"2\" format=\"ascii\">\n" + std::to_string(n + 1) + " " +
+            std::to_string(dimension) + "\n</DataArray>\n";
+  }
+  return text;
 }
 
 std::string vtu_text_array(const std::string& name, const std::vector<std::string>& texts) {

@@ -12,4 +12,8 @@ std::string xml_escaped(const std::string& text);
 /// numbers, since not every reader knows strings. A whole DataArray.
 std::string vtu_text_array(const std::string& name, const std::vector<std::string>& texts);
 
+/// For each boundary an array of its own name, so that people, and meshio, see them: its number, from 1, and
+/// the dimension of its edges or faces. Left out are names that field data of ours have.
+std::string vtu_name_arrays(const std::vector<std::string>& names, int dimension);
+
 }  // namespace quadloop

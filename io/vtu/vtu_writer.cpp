@@ -52,6 +52,7 @@ class VtuWriter {
     head += "<UnstructuredGrid>\n<FieldData>\n" + vtu_text_array("boundary_names", names);
     if (blocks != nullptr) head += vtu_text_array("block_names", blocks->block_names);
     if (has_layers(mesh_)) head += layer_arrays();
+    head += vtu_name_arrays(names, 1);
     head += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(comm_.sum(mesh_.owned_nodes)) +
             "\" NumberOfCells=\"" + std::to_string(cells) + "\">\n";
     file_.write(head);

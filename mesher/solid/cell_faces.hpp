@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "mesher/solid/solid_mesh.hpp"
 
@@ -51,6 +52,11 @@ void for_each_cell(const SolidMesh& mesh, const Visit& visit) {
   visit_all(mesh.pyramids);
   visit_all(mesh.prisms);
   visit_all(mesh.hexahedra);
+}
+
+inline bool is_triangle(const SolidPatch::Face& face) { return face[3] == SolidPatch::no_node; }
+inline std::span<const std::int32_t> corners_of(const SolidPatch::Face& face) {
+  return std::span(face).first(is_triangle(face) ? 3 : 4);
 }
 
 /// A cell's face by the mesh's nodes.

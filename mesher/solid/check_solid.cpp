@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesher/solid/cell_faces.hpp"
+#include "mesher/solid/solid_faces.hpp"
 
 namespace quadloop {
 
@@ -37,7 +38,8 @@ class SolidCheck {
     if (!figures_.faults.empty()) return std::move(figures_);
     measure_cells();
     measure_patches();
-    check_faces();
+    for_each_face(
+        mesh_, [this](std::int32_t lowest, std::span<const FaceMention> same) { judge_face(lowest, same); });
     return std::move(figures_);
   }
 
@@ -90,10 +92,6 @@ class SolidCheck {
     return true;
   }
 
-  static std::span<const std::int32_t> corners(const SolidPatch::Face& face) {
-    return std::span(face).first(face[3] == SolidPatch::no_node ? 3 : 4);
-  }
-
   void check_indices() {
     for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
       const Point3 p = mesh_.points[i];
@@ -109,9 +107,9 @@ class SolidCheck {
     });
     for (const SolidPatch& patch : mesh_.patches) {
       for (const SolidPatch::Face& face : patch.faces) {
-        if (!is_sound(corners(face)))
+        if (!is_sound(corners_of(face)))
           report(SolidRule::indices, "a face of " + patch.name + " names a node twice, or one that is none",
-                 middle(corners(face)));
+                 middle(corners_of(face)));
       }
     }
   }
@@ -119,7 +117,7 @@ class SolidCheck {
   /// Twice the area vector; of a quad from its diagonals.
   Point3 twice_area(const SolidPatch::Face& face) const {
     const auto at = [&](std::size_t i) { return mesh_.points[face[i]]; };
-    if (face[3] == SolidPatch::no_node) return cross(at(1) - at(0), at(2) - at(0));
+    if (is_triangle(face)) return cross(at(1) - at(0), at(2) - at(0));
     return cross(at(2) - at(0), at(3) - at(1));
   }
 
@@ -162,60 +160,9 @@ class SolidCheck {
     }
   }
 
-  /// A face without its lowest node: the others ascending (the last is none in a triangle), and whose it is:
-  /// that of a cell, or below 0 of patch -1 - owner.
-  struct FaceEntry {
-    std::array<std::int32_t, 3> others;
-    std::int32_t owner;
-    friend auto operator<=>(const FaceEntry&, const FaceEntry&) = default;
-  };
-
-  template <class Visit>
-  void for_each_face(const Visit& visit) const {
-    for_each_cell(mesh_,
-                  [&]<std::size_t width>(const std::array<std::int32_t, width>& nodes, std::int64_t cell) {
-                    for (const LocalFace& local : CellFaces<width>::faces)
-                      visit(face_of(nodes, local), static_cast<std::int32_t>(cell));
-                  });
-    for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-      for (const SolidPatch::Face& face : mesh_.patches[p].faces)
-        visit(face, -1 - static_cast<std::int32_t>(p));
-    }
-  }
-
-  /// Faces are put together by their lowest node.
-  void check_faces() {
-    std::vector<std::int64_t> ends(mesh_.points.size() + 1, 0);
-    for_each_face(
-        [&](const SolidPatch::Face& face, std::int32_t) { ++ends[std::ranges::min(corners(face))]; });
-    std::int64_t total = 0;
-    for (std::int64_t& end : ends) total += std::exchange(end, total);
-    std::vector<FaceEntry> entries(total);
-    for_each_face([&](SolidPatch::Face face, std::int32_t owner) {
-      const bool triangle = face[3] == SolidPatch::no_node;
-      std::sort(face.begin(), face.end() - (triangle ? 1 : 0));
-      entries[ends[face[0]]++] = {{face[1], face[2], face[3]}, owner};
-    });
-    std::int64_t begin = 0;
-    for (std::size_t node = 0; node < mesh_.points.size(); ++node) {
-      check_faces_at(static_cast<std::int32_t>(node), std::span(entries).subspan(begin, ends[node] - begin));
-      begin = ends[node];
-    }
-  }
-
-  void check_faces_at(std::int32_t lowest, std::span<FaceEntry> entries) {
-    std::ranges::sort(entries);
-    for (std::size_t i = 0; i < entries.size();) {
-      std::size_t end = i;
-      while (end < entries.size() && entries[end].others == entries[i].others) ++end;
-      judge_face(lowest, entries.subspan(i, end - i));
-      i = end;
-    }
-  }
-
   /// All whose one face is; patches come first.
-  void judge_face(std::int32_t lowest, std::span<const FaceEntry> same) {
-    const auto patches = std::ranges::count_if(same, [](const FaceEntry& entry) { return entry.owner < 0; });
+  void judge_face(std::int32_t lowest, std::span<const FaceMention> same) {
+    const auto patches = std::ranges::count_if(same, [](const FaceMention& face) { return face.owner < 0; });
     const auto cells = std::ssize(same) - patches;
     if ((cells == 2 && patches == 0) || (cells == 1 && patches == 1)) return;
     const auto& others = same.front().others;

@@ -101,6 +101,11 @@ void read_rules(const CaseTable& root, LayerSettings& layer_settings, Settings& 
                      "needs bc = \"wall\" in the same table; elsewhere there is none to set");
       settings.solver.wall_temperatures.push_back({name, *temperature});
     }
+    if (const auto wall = table.choice("wall", wall_words())) {
+      if (rule.condition != "wall")
+        table.refuse("wall", "needs bc = \"wall\" in the same table; elsewhere there is none to describe");
+      rule.condition = *wall + "_wall";
+    }
     table.finish();
     settings.outline.rules.push_back(std::move(rule));
   }
@@ -202,8 +207,8 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
   if (table->has("formats")) {
     settings.formats.clear();
     for (const std::string& format : table->texts("formats")) {
-      if (format_named(format) == nullptr) {
-        const std::vector<std::string> known = formats_for({});
+      const std::vector<std::string> known = written_formats();
+      if (std::ranges::count(known, format) == 0) {
         table->refuse("formats", fmt::format("holds '{}', but this version writes: {}{}", format,
                                              fmt::join(known, ", "), guess_for(format, known)));
       }

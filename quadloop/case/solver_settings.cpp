@@ -66,10 +66,11 @@ void read_template(const CaseTable& table, SolverSettings& settings) {
     return;
   }
   if (settings.case_template.empty()) {
-    table.refuse("template",
-                 settings.kind == su2
-                     ? "is missing; kind = \"su2\" needs the configuration to run, relative to the case file"
-                     : "is missing; kind = \"openfoam\" needs the folder of a case, relative to the case file");
+    table.refuse(
+        "template",
+        settings.kind == su2
+            ? "is missing; kind = \"su2\" needs the configuration to run, relative to the case file"
+            : "is missing; kind = \"openfoam\" needs the folder of a case, relative to the case file");
   }
   for (const char* const key : {"mesh", "solution"}) {
     if (table.has(key)) table.refuse(key, "does nothing here: both files have names of their own");

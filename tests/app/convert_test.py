@@ -79,6 +79,52 @@ class Convert(ProgramTest):
             self.assertEqual(self.converted(first, second), "")
         self.assertEqual(self.bytes_of("back.mesh"), text.encode())
 
+    def test_formats_of_other_programs(self):
+        """Names and conditions too; a cell of Fluent's begins with another of its nodes."""
+        text = self.mesh("hybrid")
+        self.converted("a.mesh", "a.cgns")
+        for first, second in itertools.pairwise(("a.cgns", "a.ugrid", "constant.polyMesh", "b.cgns", "back.mesh")):
+            self.assertEqual(self.converted(first, second), "")
+        self.assertEqual(self.bytes_of("back.mesh"), text.encode())
+        self.converted("a.mesh", "a.fluent.msh")
+        self.assertIn("boundary conditions", self.converted("a.fluent.msh", "b.mesh"))  # walls are, where nothing is said
+        self.converted("a.mesh", "c.fluent.msh")
+        self.assertEqual(self.bytes_of("a.fluent.msh"), self.bytes_of("c.fluent.msh"))
+        cells = [sorted(line.split()) for line in (self.folder / "b.mesh").read_text().split("\n") if line[:1] != "#"]
+        self.assertEqual(cells, [sorted(line.split()) for line in text.split("\n") if line[:1] != "#"])
+
+    def test_three_dimensions(self):
+        self.write("a.mesh", with_solution(self.mesh("hybrid")))
+        self.done("extrude", "a.mesh", "-o", "a.cgns", "--layers", "2", "--thickness", "0.5", "-q")
+        self.done("extrude", "a.mesh", "-o", "a.vtu", "--layers", "2", "--thickness", "0.5", "-q")
+        for first, second in itertools.pairwise(("a.cgns", "b.vtu", "b.cgns", "c.vtu")):
+            self.converted(first, second)
+        self.assertEqual(self.bytes_of("c.vtu"), self.bytes_of("a.vtu"))  # the solution with it
+        for name in ("su2", "msh", "b8.ugrid", "lb8.ugrid"):
+            self.done("extrude", "a.mesh", "-o", f"a.{name}", "--layers", "2", "--thickness", "0.5", "-q")
+            self.assertIn("no place for the solution", self.converted("c.vtu", f"c.{name}"))
+            self.assertEqual(self.bytes_of(f"c.{name}"), self.bytes_of(f"a.{name}"))
+        self.converted("c.msh", "polyMesh")
+        self.done("check", "polyMesh", "-q")
+        table, _ = self.done("convert", "polyMesh", "d.su2")
+        self.assertRegex(table, r"(?s)prisms +\d+\n.*hexahedra +\d+\n.*wrote d.su2")
+        self.refused(1, ["polyMesh: holds a 3D mesh", "format mesh"], "convert", "polyMesh", "d.mesh")
+        self.refused(1, ["a.mesh: holds a plane mesh", "quadloop extrude"], "convert", "a.mesh", "d.b8.ugrid")
+
+    def test_a_case_of_one_cell_is_a_plane_mesh(self):
+        text = self.mesh("hybrid")
+        for axis in ("y", "z"):
+            self.done("extrude", "a.mesh", "-o", "polyMesh", "--layers", "1", "--thickness", "0.5", "--axis", axis, "-q")
+            self.converted("polyMesh", "back.mesh")
+            self.assertEqual(self.bytes_of("back.mesh"), text.encode())
+        self.done("check", "polyMesh", "-q")
+        self.done("extrude", "polyMesh", "-o", "b.su2", "--layers", "3", "--thickness", "1", "-q")
+        self.converted("polyMesh", "b.lb8.ugrid")  # which has three dimensions alone
+        self.assertIn("prisms", self.done("check", "b.lb8.ugrid")[0])
+        boundary = self.folder / "polyMesh/boundary"
+        boundary.write_text(boundary.read_text().replace("empty", "patch", 1))
+        self.refused(1, ["polyMesh: cell 0 does not have two faces"], "convert", "polyMesh", "b.mesh")
+
     def test_hybrid_meshes(self):
         self.chains("hybrid")
 
@@ -119,7 +165,7 @@ class Convert(ProgramTest):
 
     def test_the_same_bytes_on_ranks(self):
         self.write("first.mesh", with_solution(self.mesh("hybrid")))
-        for name in ("mesh", "vtu", "su2", "msh"):
+        for name in ("mesh", "vtu", "su2", "msh", "fluent.msh", "ugrid"):
             self.converted("first.mesh", f"a.{name}")
             self.done("convert", "first.mesh", f"b.{name}", "-q", ranks=3)
             self.assertEqual(self.bytes_of(f"a.{name}"), self.bytes_of(f"b.{name}"))

@@ -146,6 +146,8 @@ TEST(DamagedFile, OfTheNativeFormat) { damage_written("m.mesh"); }
 TEST(DamagedFile, OfVtk) { damage_written("m.vtu"); }
 TEST(DamagedFile, OfSu2) { damage_written("m.su2"); }
 TEST(DamagedFile, OfGmsh) { damage_written("m.msh"); }
+TEST(DamagedFile, OfFluent) { damage_written("m.fluent.msh"); }
+TEST(DamagedFile, OfUgrid) { damage_written("m.ugrid"); }
 
 TEST(DamagedFile, OfGmshsNewFormat) {
   const TemporaryFolder folder;

@@ -16,7 +16,7 @@ namespace {
 
 /// What the solver makes of a word of boundary_conditions; none where it cannot use it.
 Condition condition_named(std::string_view word) {
-  if (word == "wall") return Condition::wall;
+  if (is_wall(word)) return Condition::wall;
   if (word == "farfield") return Condition::farfield;
   if (word == "inflow") return Condition::inflow;
   if (word == "outflow") return Condition::outflow;

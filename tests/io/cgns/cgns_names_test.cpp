@@ -61,7 +61,8 @@ TEST(CgnsNames, ConditionsComeBack) {
     EXPECT_STREQ(cg_BCTypeName(static_cast<BCType_t>(type)), cgns_type);
     EXPECT_EQ(condition_of_cgns(type), type == BCTypeUserDefined ? "none" : word);
   }
-  EXPECT_EQ(condition_of_cgns(BCWallViscousIsothermal), "wall");
+  EXPECT_EQ(condition_of_cgns(BCWallViscousIsothermal), "viscous_wall");
+  EXPECT_TRUE(is_wall(condition_of_cgns(BCWallViscousHeatFlux)));
   EXPECT_EQ(condition_of_cgns(BCTunnelOutflow), "outflow");
   EXPECT_EQ(condition_of_cgns(-3), "none");
 }

@@ -272,5 +272,19 @@ TEST(VtuFile, ComesBackWithBlocksBoundariesAndSolution) {
   EXPECT_TRUE(loaded.warnings.empty());
 }
 
+TEST(VtuWriter, NamesBoundariesForPeople) {
+  const TemporaryFolder folder;
+  Mesh mesh = test::sample_mesh(3);
+  mesh.boundaries[0].name = "boundary_names";  // one of our own arrays
+  mesh.boundaries[1].name = "a \"wet\" wall";
+  write_vtu(test::world(), mesh, folder.file("m.vtu"));
+  const std::string bytes = test::bytes_of(folder.file("m.vtu"));
+  EXPECT_NE(bytes.find("Name=\"a &quot;wet&quot; wall\" NumberOfTuples=\"2\" format=\"ascii\">\n2 1\n"),
+            std::string::npos);
+  const LoadedMesh loaded = read_vtu(folder.file("m.vtu"));
+  EXPECT_EQ(loaded.mesh.boundaries[0].name, "boundary_names");
+  EXPECT_EQ(loaded.mesh.boundaries[1].name, "a \"wet\" wall");
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -27,6 +27,14 @@ class SettingsTest : public ::testing::Test {
   test::InputFolder folder_;
 };
 
+TEST_F(SettingsTest, AWallMayBeViscousOrInviscid) {
+  for (const std::string wall : {"viscous", "inviscid"}) {
+    const Geometry geometry =
+        load(read("[spacing]\nmin = 0.5\nmax = 1\n[boundary.box]\nbc = \"wall\"\nwall = \"" + wall + "\"\n"));
+    EXPECT_EQ(geometry.boundaries()[0].condition, wall + "_wall");
+  }
+}
+
 TEST_F(SettingsTest, ReadsEveryKey) {
   const Settings s = read(R"(far_field = 10
 scale = 2
@@ -223,12 +231,19 @@ TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(refused("[mesh]\nsnap = 0.5\n").find("case.toml:4: 'mesh.snap' is 0.5"), 0u);
   EXPECT_EQ(refused("[mesh]\ntype = \"voronoi\"\n").find("case.toml:4: 'mesh.type' "), 0u);
   EXPECT_EQ(refused("[mesh]\nroot = [0, 0, 1, 1.5, 1]\n").find("case.toml:4: 'mesh.root' must be"), 0u);
+  EXPECT_EQ(refused("[boundary.box]\nwall = \"viscous\"\n").find("case.toml:4: 'boundary.box.wall' needs bc"),
+            0u);
+  EXPECT_EQ(refused("[boundary.box]\nbc = \"wall\"\nwall = \"wet\"\n")
+                .find("case.toml:5: 'boundary.box.wall' is 'wet'"),
+            0u);
+  EXPECT_EQ(refused("[boundary.box]\nbc = \"viscous_wall\"\n").find("case.toml:4: 'boundary.box.bc' is"), 0u);
   EXPECT_EQ(refused("[boundary.hull]\nbc = \"wall\"\n")
                 .find("case.toml:3: [boundary.hull]: no boundary of the geometry matches 'hull'"),
             0u);
   EXPECT_EQ(refused("[boundary.box]\nbc = \"wal\"\n").find("case.toml:4: 'boundary.box.bc' is 'wal'"), 0u);
-  EXPECT_EQ(refused("[output]\nformats = [\"ugrid\"]\n").find("case.toml:4: 'output.formats' holds 'ugrid'"),
-            0u);
+  EXPECT_EQ(
+      refused("[output]\nformats = [\"b8.ugrid\"]\n").find("case.toml:4: 'output.formats' holds 'b8.ugrid'"),
+      0u);
   EXPECT_EQ(refused("[[source]]\nspacing = 1\n").find("case.toml:3: a [[source]] needs exactly one"), 0u);
   EXPECT_EQ(refused("[[source]]\ndisc = [0, 0, 1]\n").find("case.toml:3: 'source.0.spacing' is missing"), 0u);
   EXPECT_EQ(refused("far_field = 1\n").find("case.toml:3: 'geometry.far_field': a far field of half width 1"),

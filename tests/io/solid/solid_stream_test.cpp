@@ -1,5 +1,5 @@
 // The patches of an extruded mesh and how many faces they have.
-#include "io/solid/extruded_stream.hpp"
+#include "io/solid/solid_stream.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@
 namespace quadloop {
 namespace {
 
-TEST(ExtrudedStream, ListsBoundariesThenTheEnds) {
+TEST(SolidStream, ListsBoundariesThenTheEnds) {
   const Communicator& comm = test::world();
   const Mesh part = test::share_of(test::sample_mesh(5), comm.rank(), comm.size());
   const ExtrudedMesh mesh = extruded(part, {0, 1, 2}, ExtrusionAxis::z);
-  const ExtrudedStream stream(comm, mesh);
+  const SolidStream stream(comm, mesh);
   EXPECT_EQ(stream.patch_names(), (std::vector<std::string>{"wall", "far field", "back", "front"}));
-  EXPECT_EQ(stream.sides(), 2);
+  EXPECT_EQ(stream.side_patches(), 2);
   EXPECT_EQ(stream.patches()[0].quads, 20);
   EXPECT_EQ(stream.patches()[2].triangles, 10);
   EXPECT_EQ(stream.patch_quads(), 20 + 8 + 2 * 5);

@@ -1,0 +1,283 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <set>
+#include <span>
+
+#include "io/fluent/fluent_file.hpp"
+#include "io/fluent/fluent_zones.hpp"
+#include "io/solid/require_conforming.hpp"
+#include "io/text/plain_names.hpp"
+#include "io/text/text_output.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/cells/edge_cells.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+std::string hexadecimal(std::int64_t number) {
+  std::string text(16, '0');
+  text.resize(std::to_chars(text.data(), text.data() + text.size(), number, 16).ptr - text.data());
+  return text;
+}
+
+/// Zones: 1 the nodes, 2, 3, ... the cells of each block, then the faces inside, then the boundaries.
+class FluentWriter {
+ public:
+  /// `whole`, where given, is the mesh with its blocks, on one rank.
+  FluentWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path,
+               const LoadedMesh* whole = nullptr)
+      : comm_{outputs.communicator()},
+        mesh_{mesh},
+        whole_{whole != nullptr && whole->blocks > 1 ? whole : nullptr},
+        file_{outputs, path},
+        boundaries_{comm_, mesh},
+        cells_{edge_cells(comm_, mesh)},
+        triangles_{comm_.sum(std::ssize(mesh.triangles))},
+        quads_{comm_.sum(std::ssize(mesh.quads))} {
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    if (comm_.sum(mesh_.owned_nodes) >= most || triangles_ + quads_ >= most)
+      throw OutputError(path +
+                        ": the mesh has more nodes or cells than this format can count (32-bit numbers)");
+    if (whole_ != nullptr) number_by_block();
+    require_conforming(comm_, mesh, cells_, std::ssize(between_), path);
+  }
+
+  void write() {
+    write_nodes();
+    write_cells();
+    write_faces();
+    write_names();
+    file_.close();
+  }
+
+ private:
+  std::int32_t blocks() const { return whole_ != nullptr ? whole_->blocks : 1; }
+  std::int64_t inner_zone() const { return 2 + blocks(); }
+
+  /// Numbers of cells from 1; those of a block follow each other.
+  std::int64_t number(std::int64_t cell) const { return (number_.empty() ? cell : number_[cell]) + 1; }
+
+  /// Also finds the edges between blocks, which are faces of their boundaries.
+  void number_by_block() {
+    number_.resize(triangles_ + quads_);
+    std::int64_t next = 0;
+    for (std::int32_t block = 0; block < blocks(); ++block) {
+      for (std::int64_t cell = 0; cell < triangles_ + quads_; ++cell) {
+        if (block_of(cell) == block) number_[cell] = next++;
+      }
+    }
+    const EdgeTable table(mesh_);
+    for (const BoundaryEdges& boundary : mesh_.boundaries) {
+      for (const auto& [from, to] : boundary.edges) {
+        if (table.cell_left_of(from, to) >= 0 && table.cell_left_of(to, from) >= 0)
+          between_.insert(key_of(from, to));
+      }
+    }
+  }
+  std::int32_t block_of(std::int64_t cell) const {
+    return cell < triangles_ ? whole_->triangle_to_block[cell] : whole_->quad_to_block[cell - triangles_];
+  }
+
+  void write_nodes() {
+    const std::string nodes = hexadecimal(comm_.sum(mesh_.owned_nodes));
+    file_.write("(0 \"quadloop\")\n(2 2)\n(10 (0 1 " + nodes + " 0 2))\n(10 (1 1 " + nodes + " 1 2)(\n");
+    file_.write_rows(mesh_.owned_nodes, 2, [&](TextRows& text, std::int64_t i) {
+      text.put(mesh_.points[i].x, ' ');
+      text.put(mesh_.points[i].y, '\n');
+    });
+    file_.write("))\n");
+  }
+
+  /// A zone of both kinds lists the kind of each cell.
+  void write_cells() {
+    constexpr int triangle = 1, quad = 3;
+    file_.write("(12 (0 1 " + hexadecimal(triangles_ + quads_) + " 0))\n");
+    std::int64_t first = 1;
+    for (std::int32_t block = 0; block < blocks(); ++block) {
+      const std::int64_t triangles = count_in(block, &LoadedMesh::triangle_to_block, triangles_),
+                         quads = count_in(block, &LoadedMesh::quad_to_block, quads_);
+      const int kind = quads == 0 ? triangle : triangles == 0 ? quad : 0;
+      file_.write("(12 (" + hexadecimal(2 + block) + " " + hexadecimal(first) + " " +
+                  hexadecimal(first + triangles + quads - 1) + " 1 " + std::to_string(kind) + ")");
+      if (kind == 0) {
+        file_.write("(\n");
+        file_.write_root_rows(triangles, 1, [](TextRows& text, std::int64_t) { text.put(triangle, ' '); });
+        file_.write_root_rows(quads, 1, [](TextRows& text, std::int64_t) { text.put(quad, ' '); });
+        file_.write("\n)");
+      }
+      file_.write(")\n");
+      first += triangles + quads;
+    }
+  }
+
+  std::int64_t count_in(std::int32_t block, std::vector<std::int32_t> LoadedMesh::*cell_to_block,
+                        std::int64_t all) const {
+    return whole_ == nullptr ? all : std::ranges::count(whole_->*cell_to_block, block);
+  }
+
+  static void put_face(TextRows& text, std::int64_t from, std::int64_t to, std::int64_t left,
+                       std::int64_t right) {
+    text.put_hexadecimal(from + 1, ' ');
+    text.put_hexadecimal(to + 1, ' ');
+    text.put_hexadecimal(left, ' ');
+    text.put_hexadecimal(right, '\n');
+  }
+
+  void write_faces() {
+    std::int64_t inner = 0;
+    std::size_t edge = 0;
+    for_each_cell_edge(mesh_, [&](NodeId from, NodeId to, std::int32_t cell) {
+      if (cells_.across[edge++] > global(cell) && !is_between(from, to)) ++inner;
+    });
+    inner = comm_.sum(inner);
+    has_inner_ = inner > 0;
+    file_.write("(13 (0 1 " + hexadecimal(inner + boundaries_.all_edges()) + " 0))\n");
+    if (has_inner_) {
+      file_.write("(13 (" + hexadecimal(inner_zone()) + " 1 " + hexadecimal(inner) + " 2 2)(\n");
+      write_inner();
+      file_.write("))\n");
+    }
+    write_boundaries(inner + 1);
+  }
+
+  static std::pair<std::int32_t, std::int32_t> key_of(NodeId from, NodeId to) {
+    return {std::min(from.value(), to.value()), std::max(from.value(), to.value())};
+  }
+  bool is_between(NodeId from, NodeId to) const {
+    return !between_.empty() && between_.contains(key_of(from, to));
+  }
+
+  std::int64_t global(std::int64_t cell) const {
+    const std::int64_t own = std::ssize(mesh_.triangles);
+    return cell < own ? cells_.first_triangle + cell : cells_.first_quad + cell - own;
+  }
+
+  /// Each with the cell of the lower number to its left.
+  void write_inner() {
+    const auto write_of = [&]<std::size_t width>(const std::vector<std::array<NodeId, width>>& cells,
+                                                 std::size_t first_edge, std::int64_t first) {
+      file_.write_rows(std::ssize(cells), 4 * width, [&](TextRows& text, std::int64_t i) {
+        for (std::size_t k = 0; k < width; ++k) {
+          const NodeId from = cells[i][k], to = cells[i][(k + 1) % width];
+          const std::int64_t across = cells_.across[first_edge + i * width + k];
+          if (across > first + i && !is_between(from, to))
+            put_face(text, mesh_.global(from).value(), mesh_.global(to).value(), number(first + i),
+                     number(across));
+        }
+      });
+    };
+    write_of(mesh_.triangles, 0, cells_.first_triangle);
+    write_of(mesh_.quads, 3 * mesh_.triangles.size(), cells_.first_quad);
+  }
+
+  void write_boundaries(std::int64_t first) {
+    bool is_open = false;
+    file_.write_boundaries(
+        BoundaryStream(comm_, mesh_, packed_edges()), 4,
+        [&](std::size_t n) {
+          const std::int64_t last = first + boundaries_.edges_of(n) - 1;
+          const std::string head = std::string(is_open ? "))\n" : "") + "(13 (" +
+                                   hexadecimal(inner_zone() + 1 + static_cast<std::int64_t>(n)) + " " +
+                                   hexadecimal(first) + " " + hexadecimal(last) + " " +
+                                   hexadecimal(type_of(n)) + " 2)(\n";
+          first = last + 1;
+          is_open = true;
+          return head;
+        },
+        [&](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
+          const auto [from, to] = unpacked(edge[0]);
+          const auto [left, right] = unpacked(edge[1]);
+          put_face(text, from, to, left, right);
+        });
+    if (boundaries_.all_edges() > 0) file_.write("))\n");
+  }
+
+  /// Two numbers below 2^31 as one, and back.
+  static std::int64_t packed(std::int64_t first, std::int64_t second) { return first << 32 | second; }
+  static std::array<std::int64_t, 2> unpacked(std::int64_t both) { return {both >> 32, both & 0xffffffff}; }
+
+  /// Of this rank's boundary edges: the two nodes; the numbers of the cells to the left and to the right, 0
+  /// for none.
+  std::vector<BoundaryStream::Edge> packed_edges() const {
+    std::vector<BoundaryStream::Edge> edges;
+    const std::optional<EdgeTable> table = between_.empty() ? std::nullopt : std::optional<EdgeTable>(mesh_);
+    auto left = cells_.of_boundary.begin();
+    for (const BoundaryEdges& boundary : mesh_.boundaries) {
+      for (const auto& [from, to] : boundary.edges) {
+        const std::int32_t right = table ? table->cell_left_of(to, from) : -1;
+        edges.push_back({packed(mesh_.global(from).value(), mesh_.global(to).value()),
+                         packed(number(*left++), right < 0 ? 0 : number(right))});
+      }
+    }
+    return edges;
+  }
+
+  bool is_interface(const BoundaryEdges& boundary) const {
+    return !boundary.edges.empty() && is_between(boundary.edges[0][0], boundary.edges[0][1]);
+  }
+  std::int64_t type_of(std::size_t n) const {
+    const BoundaryEdges& boundary = *boundaries_.present()[n];
+    return is_interface(boundary) ? fluent_interior : fluent_number(outer_condition(boundary));
+  }
+  /// An interface that has no other side here is no interface there.
+  static std::string outer_condition(const BoundaryEdges& boundary) {
+    return boundary.condition == "interface" ? "none" : boundary.condition;
+  }
+
+  void write_names() {
+    std::vector<std::string> names;
+    for (const BoundaryEdges* boundary : boundaries_.present()) names.push_back(boundary->name);
+    names = fluent_zone_names(names);
+    std::string text;
+    for (std::int32_t block = 0; block < blocks(); ++block)
+      text += "(45 (" + std::to_string(2 + block) + " fluid " + block_name(block) + ")())\n";
+    if (has_inner_) text += "(45 (" + std::to_string(inner_zone()) + " interior interior-faces)())\n";
+    for (std::size_t n = 0; n < names.size(); ++n) {
+      const BoundaryEdges& boundary = *boundaries_.present()[n];
+      text += "(45 (" + std::to_string(inner_zone() + 1 + static_cast<std::int64_t>(n)) + " " +
+              fluent_word(is_interface(boundary) ? "interface" : outer_condition(boundary)) + " " + names[n] +
+              ")())\n";
+    }
+    file_.write(text);
+  }
+
+  std::string block_name(std::int32_t block) const {
+    if (whole_ == nullptr) return "domain";
+    std::vector<std::string> names = whole_->block_names;
+    for (std::int32_t b = static_cast<std::int32_t>(names.size()); b < blocks(); ++b)
+      names.push_back("block_" + std::to_string(b + 1));
+    return fluent_zone_names(names)[block];
+  }
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  const LoadedMesh* whole_;
+  TextOutput file_;
+  BoundaryStream boundaries_;
+  EdgeCells cells_;
+  std::int64_t triangles_, quads_;  ///< over all ranks
+  bool has_inner_ = false;
+  std::vector<std::int64_t> number_;                         ///< of each cell, where there are blocks
+  std::set<std::pair<std::int32_t, std::int32_t>> between_;  ///< edges between blocks
+};
+
+}  // namespace
+
+std::vector<std::string> fluent_zone_names(const std::vector<std::string>& names) {
+  return plain_names(names);
+}
+
+void write_fluent(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
+  FluentWriter(outputs, mesh, path).write();
+}
+
+void write_fluent(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
+  FluentWriter(outputs, whole.mesh, path, &whole).write();
+}
+
+}  // namespace quadloop

@@ -1,0 +1,50 @@
+#include "io/fluent/fluent_zones.hpp"
+
+#include <array>
+
+namespace quadloop {
+
+namespace {
+
+struct FluentZone {
+  const char* condition;
+  std::int64_t number;
+  const char* word;
+};
+
+/// Of each condition the first is what is written.
+constexpr std::array<FluentZone, 14> zones{{{"wall", 3, "wall"},
+                                            {"farfield", 9, "pressure-far-field"},
+                                            {"inflow", 10, "velocity-inlet"},
+                                            {"inflow", 4, "pressure-inlet"},
+                                            {"inflow", 20, "mass-flow-inlet"},
+                                            {"outflow", 5, "pressure-outlet"},
+                                            {"outflow", 36, "outflow"},
+                                            {"symmetry", 7, "symmetry"},
+                                            {"symmetry", 37, "axis"},
+                                            {"interface", fluent_interior, "interior"},
+                                            {"interface", 24, "interface"},
+                                            {"viscous_wall", 3, "wall"},
+                                            {"inviscid_wall", 3, "wall"},
+                                            {"none", 3, "wall"}}};
+
+const FluentZone& zone_for(const std::string& condition) {
+  for (const FluentZone& zone : zones) {
+    if (condition == zone.condition) return zone;
+  }
+  return zones.back();
+}
+
+}  // namespace
+
+std::int64_t fluent_number(const std::string& condition) { return zone_for(condition).number; }
+std::string fluent_word(const std::string& condition) { return zone_for(condition).word; }
+
+std::string condition_of_fluent(std::int64_t number) {
+  for (const FluentZone& zone : zones) {
+    if (number == zone.number) return zone.condition;
+  }
+  return "none";
+}
+
+}  // namespace quadloop

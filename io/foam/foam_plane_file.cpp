@@ -1,0 +1,63 @@
+#include "io/foam/foam_plane_file.hpp"
+
+#include "io/foam/foam_file.hpp"
+#include "io/solid/require_conforming.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/cells/edge_cells.hpp"
+#include "mesher/solid/extruded_mesh.hpp"
+#include "mesher/solid/plane_of_solid.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Without the boundary edges that have cells on both sides. *Collective.*
+Mesh without_interfaces(const Communicator& comm, const Mesh& mesh) {
+  Mesh result = mesh;
+  for (BoundaryEdges& boundary : result.boundaries) {
+    for (auto& [from, to] : boundary.edges) std::swap(from, to);
+  }
+  const std::vector<std::int64_t> right = edge_cells(comm, result).of_boundary;
+  auto at = right.begin();
+  for (std::size_t b = 0; b < result.boundaries.size(); ++b) {
+    auto& edges = result.boundaries[b].edges;
+    edges.clear();
+    for (const auto& edge : mesh.boundaries[b].edges) {
+      if (*at++ == EdgeCells::none) edges.push_back(edge);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void write_foam_plane(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
+  const Communicator& comm = outputs.communicator();
+  const Mesh plane = without_interfaces(comm, mesh);
+  require_conforming(comm, plane, edge_cells(comm, plane), 0, path);
+  const ExtrudedMesh layer = extruded(plane, even_heights(1, 1), ExtrusionAxis::z);
+  write_foam(outputs, SolidStream(comm, layer), path);
+}
+
+LoadedMesh read_foam_plane(const std::string& path) {
+  const std::optional<SolidMesh> solid = read_foam(path);
+  if (!is_one_cell_thick(*solid))
+    throw InputError(path +
+                     ": holds a 3D mesh: none of its patches is of the type empty, between which a plane "
+                     "mesh is one cell thick");
+  return loaded_plane(*solid, path);
+}
+
+LoadedMesh loaded_plane(const SolidMesh& solid, const std::string& path) {
+  LoadedMesh loaded;
+  PlaneOfSolid plane = plane_of_solid(solid, path);
+  loaded.mesh = std::move(plane.mesh);
+  loaded.solution = std::move(plane.solution);
+  loaded.triangle_to_block.assign(loaded.mesh.triangles.size(), 0);
+  loaded.quad_to_block.assign(loaded.mesh.quads.size(), 0);
+  loaded.block_names = {"domain"};
+  loaded.warnings = solid.warnings;
+  return loaded;
+}
+
+}  // namespace quadloop

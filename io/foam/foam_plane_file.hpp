@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "io/files/output_file.hpp"
+#include "io/loaded/loaded_mesh.hpp"
+#include "mesher/mesh/mesh.hpp"
+#include "mesher/solid/solid_mesh.hpp"
+
+namespace quadloop {
+
+/// Writes a plane mesh as a polyMesh of one layer of thickness 1 along z, its ends "back" and "front" empty
+/// (write_foam()). Boundary edges between two cells are no patch. *Collective.* Throws OutputError on all
+/// ranks.
+void write_foam_plane(OutputSet& outputs, const Mesh& mesh, const std::string& path);
+
+/// Reads a polyMesh that is one cell thick between patches of the type empty, on the calling rank alone, as
+/// plane_of_solid() says. Throws InputError.
+LoadedMesh read_foam_plane(const std::string& path);
+
+/// The plane mesh of one that was read whole.
+LoadedMesh loaded_plane(const SolidMesh& solid, const std::string& path);
+
+}  // namespace quadloop

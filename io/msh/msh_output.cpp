@@ -1,0 +1,46 @@
+#include "io/msh/msh_output.hpp"
+
+#include <charconv>
+
+namespace quadloop {
+
+namespace {
+
+std::string shortest(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+}  // namespace
+
+void MshOutput::write_head(const Box& box) {
+  std::string text = std::string("$MeshFormat\n") + (is_new_ ? "4.1" : "2.2") +
+                     " 0 8\n$EndMeshFormat\n$PhysicalNames\n" + std::to_string(groups_.size()) + "\n";
+  std::array<std::int64_t, 4> of_dimension{};
+  std::string entities;
+  for (std::size_t n = 0; n < groups_.size(); ++n) {
+    const std::string number = std::to_string(n + 1);
+    text += std::to_string(groups_[n].dimension) + " " + number + " \"" + msh_group_name(groups_[n].name) +
+            "\"\n";
+    ++of_dimension[groups_[n].dimension];
+    entities += number;
+    for (const double bound : box) entities += " " + shortest(bound);
+    entities += " 1 " + number + " 0\n";
+  }
+  text += "$EndPhysicalNames\n";
+  if (is_new_) {
+    text += "$Entities\n";
+    for (const std::int64_t count : of_dimension)
+      text += std::to_string(count) + (&count == &of_dimension[3] ? "\n" : " ");
+    text += entities + "$EndEntities\n";
+  }
+  file_.write(text);
+}
+
+std::string MshOutput::new_nodes_head(std::int64_t all) const {
+  const std::string count = std::to_string(all);
+  return "$Nodes\n1 " + count + " 1 " + count + "\n" + std::to_string(groups_.back().dimension) + " " +
+         std::to_string(groups_.size()) + " 0 " + count + "\n";
+}
+
+}  // namespace quadloop

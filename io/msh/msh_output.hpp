@@ -1,0 +1,150 @@
+#pragma once
+
+// Inside io/msh only: what the writers of both dimensions share.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "io/msh/msh_file.hpp"
+#include "io/text/text_output.hpp"
+#include "mesher/solid/point3.hpp"
+
+namespace quadloop {
+
+/// A physical group and the one curve, surface or volume in it, of the same number.
+struct MshOutputGroup {
+  int dimension;
+  std::string name;
+};
+
+/// An MSH file under way, in either version. Groups are numbered 1, 2, ... over all dimensions together, as
+/// some readers know them by number alone; elements as they come. All of it is *collective*.
+class MshOutput {
+ public:
+  MshOutput(OutputSet& outputs, const std::string& path, MshVersion version,
+            std::vector<MshOutputGroup> groups)
+      : file_{outputs, path}, is_new_{version == MshVersion::msh_4_1}, groups_{std::move(groups)} {}
+
+  const Communicator& communicator() const { return file_.communicator(); }
+
+  /// This rank's nodes, `point(i)` each; their numbers follow those of the ranks before. In the new version
+  /// they are nodes of the last group.
+  template <class PointOf>
+  void write_nodes(std::int64_t rows, const PointOf& point) {
+    const std::int64_t first = communicator().exclusive_sum(rows) + 1, all = communicator().sum(rows);
+    write_head(box_of(rows, point));
+    file_.write(is_new_ ? new_nodes_head(all) : "$Nodes\n" + std::to_string(all) + "\n");
+    if (is_new_)
+      file_.write_rows(rows, 1, [&](TextRows& text, std::int64_t i) { text.put(first + i, '\n'); });
+    file_.write_rows(rows, 4, [&](TextRows& text, std::int64_t i) {
+      const Point3 p = point(i);
+      if (!is_new_) text.put(first + i, ' ');
+      text.put(p.x, ' ');
+      text.put(p.y, ' ');
+      text.put(p.z, '\n');
+    });
+    file_.write("$EndNodes\n");
+  }
+
+  /// `blocks` is how often begin_block() follows.
+  void begin_elements(std::int64_t blocks, std::int64_t all) {
+    file_.write(is_new_ ? "$Elements\n" + std::to_string(blocks) + " " + std::to_string(all) + " 1 " +
+                              std::to_string(all) + "\n"
+                        : "$Elements\n" + std::to_string(all) + "\n");
+  }
+
+  /// What stands before elements of one type and group, so many over all ranks.
+  std::string block_head(int type, std::int64_t group, std::int64_t count) const {
+    if (!is_new_) return {};
+    return std::to_string(groups_[group - 1].dimension) + " " + std::to_string(group) + " " +
+           std::to_string(type) + " " + std::to_string(count) + "\n";
+  }
+
+  /// A block of them, this rank's rows: `nodes(i)` are numbers from 0.
+  template <std::size_t width, class Nodes>
+  void write_elements(int type, std::int64_t group, std::int64_t rows, const Nodes& nodes) {
+    const std::int64_t all = communicator().sum(rows);
+    if (all == 0) return;
+    const std::int64_t first = next_ + communicator().exclusive_sum(rows);
+    next_ += all;
+    file_.write(block_head(type, group, all));
+    file_.write_rows(rows, 5 + width, [&](TextRows& text, std::int64_t i) {
+      put_element<width>(text, first + i, type, group, nodes(i));
+    });
+  }
+
+  /// Elements on the edges of boundaries, `on_each` of them on each edge, made by `nodes(edge, k)`; boundary
+  /// n is group n + 1.
+  template <std::size_t width, class Nodes>
+  void write_on_boundaries(const BoundaryStream& boundaries, int type, std::int64_t on_each,
+                           const Nodes& nodes) {
+    std::int64_t number = next_;
+    file_.write_boundaries(
+        boundaries, (5 + width) * on_each,
+        [&](std::int64_t n) { return block_head(type, n + 1, boundaries.edges_of(n) * on_each); },
+        [&](TextRows& text, std::int64_t n, const BoundaryStream::Edge& edge) {
+          for (std::int64_t k = 0; k < on_each; ++k)
+            put_element<width>(text, number++, type, n + 1, nodes(edge, k));
+        });
+    next_ += boundaries.all_edges() * on_each;
+  }
+
+  void end_elements() {
+    file_.write("$EndElements\n");
+    file_.close();
+  }
+
+ private:
+  using Box = std::array<double, 6>;  ///< the smallest x, y and z, then the largest
+
+  template <class PointOf>
+  Box box_of(std::int64_t rows, const PointOf& point) const {
+    if (!is_new_) return {};
+    Box box;
+    const auto none = std::numeric_limits<double>::infinity();
+    box.fill(none);
+    std::fill(box.begin() + 3, box.end(), -none);
+    for (std::int64_t i = 0; i < rows; ++i) {
+      const Point3 p = point(i);
+      const std::array<double, 3> at{p.x, p.y, p.z};
+      for (std::size_t k = 0; k < 3; ++k) {
+        box[k] = std::min(box[k], at[k]);
+        box[k + 3] = std::max(box[k + 3], at[k]);
+      }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      box[k] = communicator().minimum(box[k]);
+      box[k + 3] = communicator().maximum(box[k + 3]);
+    }
+    return box;
+  }
+
+  /// Version, names, and in the new version entities, each with the box of the whole mesh.
+  void write_head(const Box& box);
+  std::string new_nodes_head(std::int64_t all) const;
+
+  /// In the old version number, type, two tags, the group and the entity, nodes; in the new one number and
+  /// nodes.
+  template <std::size_t width, class Nodes>
+  void put_element(TextRows& text, std::int64_t number, int type, std::int64_t group,
+                   const Nodes& nodes) const {
+    text.put(number, ' ');
+    if (!is_new_) {
+      text.put(type, ' ');
+      text.put(2, ' ');
+      text.put(group, ' ');
+      text.put(group, ' ');
+    }
+    for (std::size_t k = 0; k < width; ++k) text.put(nodes[k] + 1, k + 1 < width ? ' ' : '\n');
+  }
+
+  TextOutput file_;
+  bool is_new_;
+  std::vector<MshOutputGroup> groups_;
+  std::int64_t next_ = 1;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,275 @@
+#include "io/msh/msh_text.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "mesher/base/ids.hpp"
+
+namespace quadloop {
+
+namespace {
+
+std::string element_name(std::int64_t type) {
+  switch (type) {
+    case 4: return "4 (tetrahedron)";
+    case 5: return "5 (hexahedron)";
+    case 6: return "6 (prism)";
+    case 7: return "7 (pyramid)";
+    case 8: return "8 (line of second order)";
+    case 9: return "9 (triangle of second order)";
+    case 10: return "10 (quadrilateral of second order, 9 nodes)";
+    case 16: return "16 (quadrilateral of second order, 8 nodes)";
+    default: return std::to_string(type);
+  }
+}
+
+const char* cure_of(std::int64_t type) {
+  const bool solid = type >= msh_tetrahedron && type <= msh_pyramid;
+  return solid ? "save the surface's cells only" : "mesh it with Mesh.ElementOrder = 1";
+}
+
+/// Nodes of an element; 0 for a type that is not read.
+std::size_t width_of(std::int64_t type) {
+  switch (type) {
+    case msh_point: return 1;
+    case msh_line: return 2;
+    case msh_triangle: return 3;
+    case msh_quad:
+    case msh_tetrahedron: return 4;
+    case msh_pyramid: return 5;
+    case msh_prism: return 6;
+    case msh_hexahedron: return 8;
+    default: return 0;
+  }
+}
+
+}  // namespace
+
+void MshText::read(const PutPoint& put_point, const PutElement& put_element) {
+  put_point_ = &put_point;
+  put_element_ = &put_element;
+  is_old_ = read_format();
+  read_names();
+  if (is_old_) {
+    read_old_nodes();
+    read_old_elements();
+  } else {
+    read_entities();
+    read_nodes();
+    read_elements();
+  }
+}
+
+bool MshText::go_to_section(const std::string& name) {
+  const std::string_view text = scan_.text();
+  const std::string head = "$" + name;
+  std::size_t found = text.size();
+  for (std::size_t at = text.find(head); at != std::string_view::npos; at = text.find(head, at + 1)) {
+    if (!is_line(text, at, head.size())) continue;
+    if (found != text.size()) scan_.refuse_at(at, "a second section " + head + "; only one can be read");
+    found = at;
+  }
+  if (found == text.size()) return false;
+  scan_.go_to(found);
+  scan_.token("");
+  return true;
+}
+
+bool MshText::is_line(std::string_view text, std::size_t at, std::size_t length) {
+  const std::size_t before = at == 0 ? std::string_view::npos : text.find_last_not_of(" \t", at - 1);
+  const bool begins = before == std::string_view::npos || text[before] == '\n';
+  return begins && (at + length == text.size() ||
+                    std::string_view(" \t\r\n").find(text[at + length]) != std::string_view::npos);
+}
+
+void MshText::go_to_needed(const std::string& name) {
+  if (go_to_section(name)) return;
+  scan_.refuse_at(scan_.text().size(),
+                  "the file ends without a section $" + name + "; it is cut short, or no mesh");
+}
+
+void MshText::end_section(const std::string& name) {
+  const std::string found(scan_.token("$End" + name).substr(0, 40));
+  if (found != "$End" + name)
+    scan_.refuse("expected $End" + name + ", found \"" + found + "\"; a row too many, or a count too small");
+}
+
+bool MshText::read_format() {
+  if (!go_to_section("MeshFormat")) scan_.refuse("is no MSH file of Gmsh: it has no section $MeshFormat");
+  const double version = scan_.real("the format's version");
+  const std::string written(scan_.text().substr(scan_.place(), 8));
+  if (version != 2.2 && version != 4.1) {
+    scan_.refuse("MSH version " + written.substr(0, written.find_first_of(" \t\r\n")) +
+                 "; only 2.2 and 4.1 can be read: save it again from Gmsh");
+  }
+  if (scan_.integer("the file's type") != 0)
+    scan_.refuse("a binary file; save it as ASCII (in Gmsh: Mesh.Binary = 0)");
+  scan_.integer("the size of a number");
+  end_section("MeshFormat");
+  if (go_to_section("PartitionedEntities")) scan_.refuse("a partitioned mesh; save it without partitions");
+  return version == 2.2;
+}
+
+std::int64_t MshText::physical_tag() {
+  const std::int64_t tag = scan_.integer("the tag of a physical group");
+  if (tag != static_cast<std::int32_t>(tag))
+    scan_.refuse("no physical group has the tag " + std::to_string(tag));
+  return tag;
+}
+
+void MshText::read_names() {
+  if (!go_to_section("PhysicalNames")) return;
+  const std::size_t count = scan_.count("physical names", 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto dimension = static_cast<int>(scan_.integer("the dimension of a physical group"));
+    const std::int64_t physical = physical_tag();
+    std::string_view name = scan_.rest_of_line();
+    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    groups_.name_physical(dimension, physical, std::string(name));
+  }
+  end_section("PhysicalNames");
+}
+
+void MshText::read_entities() {
+  if (!go_to_section("Entities")) return;
+  const std::size_t points = scan_.count("points", 5), curves = scan_.count("curves", 9),
+                    surfaces = scan_.count("surfaces", 9), volumes = scan_.count("volumes", 9);
+  for (std::size_t i = 0; i < points; ++i) {
+    scan_.integer("the tag of a point");
+    scan_.rest_of_line();
+  }
+  for (std::size_t i = 0; i < curves; ++i) read_entity(1, "the tag of a curve");
+  for (std::size_t i = 0; i < surfaces; ++i) read_entity(2, "the tag of a surface");
+  for (std::size_t i = 0; i < volumes; ++i) read_entity(3, "the tag of a volume");
+}
+
+void MshText::read_entity(int dimension, const char* expected) {
+  const std::int64_t entity = scan_.integer(expected);
+  for (int k = 0; k < 6; ++k) scan_.token("a bound of its box");
+  const std::size_t groups = scan_.count("physical groups", 1);
+  for (std::size_t k = 0; k < groups; ++k) {
+    const std::int64_t physical = physical_tag();
+    if (k == 0) groups_.put_in_physical(dimension, entity, physical);
+  }
+  const std::size_t bounds = scan_.count("bounding entities", 1);
+  for (std::size_t k = 0; k < bounds; ++k) scan_.integer("the tag of a bounding entity");
+}
+
+void MshText::read_point(std::int64_t tag) {
+  const double x = scan_.real("an x coordinate"), y = scan_.real("a y coordinate"),
+               z = scan_.real("a z coordinate");
+  tags_.add(tag);
+  ++points_;
+  (*put_point_)(tag, {x, y, z});
+}
+
+void MshText::end_nodes() {
+  const std::int64_t twice = tags_.sort();
+  if (twice != 0) scan_.refuse("two nodes have the tag " + std::to_string(twice));
+  end_section("Nodes");
+}
+
+std::int64_t MshText::node_tag() {
+  const std::int64_t tag = scan_.integer("the tag of a node");
+  if (tag < 1) scan_.refuse("the tag of a node is " + std::to_string(tag) + "; tags begin with 1");
+  return tag;
+}
+
+void MshText::read_old_nodes() {
+  go_to_needed("Nodes");
+  const std::size_t count = scan_.count("nodes", 4);
+  tags_.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) read_point(node_tag());
+  end_nodes();
+}
+
+void MshText::read_nodes() {
+  go_to_needed("Nodes");
+  const std::size_t blocks = scan_.count("blocks of nodes", 4), count = scan_.count("nodes", 4);
+  scan_.integer("the smallest tag");
+  scan_.integer("the largest tag");
+  tags_.reserve(count);
+  std::vector<std::int64_t> tags;
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const std::int64_t dimension = scan_.integer("the dimension of a block");
+    scan_.integer("the entity of a block");
+    const bool parametric = scan_.integer("whether a block has parameters") != 0;
+    tags.resize(scan_.count("nodes of this block", 4));
+    for (std::int64_t& tag : tags) tag = node_tag();
+    for (const std::int64_t tag : tags) {
+      read_point(tag);
+      for (std::int64_t k = 0; parametric && k < std::min<std::int64_t>(dimension, 3); ++k)
+        scan_.real("a parameter of a node");
+    }
+  }
+  if (points_ != count)
+    scan_.refuse("the blocks hold " + std::to_string(points_) + " nodes, not " + std::to_string(count));
+  end_nodes();
+}
+
+void MshText::refuse_unknown(std::int64_t type) const {
+  const bool solid = type >= msh_tetrahedron && type <= msh_pyramid;
+  if (width_of(type) > 0 && (dimension_ == 3 || !solid)) return;
+  scan_.refuse("an element of type " + element_name(type) + "; only points, lines, triangles" +
+               (dimension_ == 3 ? ", quadrilaterals and 3D elements of first order can be read: "
+                                : " and quadrilaterals can be read: ") +
+               cure_of(type));
+}
+
+void MshText::read_element(std::int64_t type, std::int64_t physical, std::int64_t entity) {
+  MshElement element{type, physical, entity, {}, scan_.place()};
+  for (std::size_t k = 0; k < width_of(type); ++k) {
+    const std::int64_t tag = scan_.integer("a node of this element");
+    const NodeId node = tags_.node_of(tag);
+    if (!node.valid()) scan_.refuse("node " + std::to_string(tag) + " is none of the nodes");
+    element.nodes[k] = node.value();
+  }
+  (*put_element_)(element);
+}
+
+void MshText::read_old_elements() {
+  go_to_needed("Elements");
+  const std::size_t count = scan_.count("elements", 4);
+  for (std::size_t i = 0; i < count; ++i) {
+    scan_.integer("the number of an element");
+    const std::int64_t type = scan_.integer("the type of an element");
+    refuse_unknown(type);
+    const std::size_t tags = scan_.count("tags", 1);
+    std::int64_t physical = 0, entity = 0;
+    for (std::size_t k = 0; k < tags; ++k) {
+      const std::int64_t tag = k == 0 ? physical_tag() : scan_.integer("a tag of this element");
+      if (k == 0) physical = tag;
+      if (k == 1) entity = tag;
+    }
+    read_element(type, physical, entity);
+  }
+  end_section("Elements");
+}
+
+void MshText::read_elements() {
+  go_to_needed("Elements");
+  const std::size_t blocks = scan_.count("blocks of elements", 4), count = scan_.count("elements", 2);
+  scan_.integer("the smallest tag");
+  scan_.integer("the largest tag");
+  std::size_t found = 0;
+  for (std::size_t block = 0; block < blocks; ++block) found += read_element_block();
+  if (found != count)
+    scan_.refuse("the blocks hold " + std::to_string(found) + " elements, not " + std::to_string(count));
+  end_section("Elements");
+}
+
+std::size_t MshText::read_element_block() {
+  const auto dimension = static_cast<int>(scan_.integer("the dimension of a block"));
+  const std::int64_t entity = scan_.integer("the entity of a block");
+  const std::int64_t type = scan_.integer("the type of the elements of a block");
+  refuse_unknown(type);
+  const std::int64_t physical = groups_.physical_of(dimension, entity);
+  const std::size_t count = scan_.count("elements of this block", 2);
+  for (std::size_t i = 0; i < count; ++i) {
+    scan_.integer("the tag of an element");
+    read_element(type, physical, entity);
+  }
+  return count;
+}
+
+}  // namespace quadloop

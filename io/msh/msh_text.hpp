@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "io/msh/msh_groups.hpp"
+#include "io/msh/msh_nodes.hpp"
+#include "io/text/text_scanner.hpp"
+#include "mesher/solid/point3.hpp"
+
+namespace quadloop {
+
+/// The numbers by which Gmsh names kinds of elements.
+enum MshType : std::uint8_t {
+  msh_line = 1,
+  msh_triangle = 2,
+  msh_quad = 3,
+  msh_tetrahedron = 4,
+  msh_hexahedron = 5,
+  msh_prism = 6,
+  msh_pyramid = 7,
+  msh_point = 15
+};
+
+/// An element of an MSH file.
+struct MshElement {
+  std::int64_t type = 0;
+  std::int64_t physical = 0, entity = 0;  ///< its groups: 0 for none
+  std::array<std::int32_t, 8> nodes{};    ///< as many as the type has, by their places among the points
+  std::size_t place = 0;                  ///< in the file's text, for a refusal
+
+  /// The first ones, as whatever the caller has for nodes.
+  template <class Node, std::size_t width>
+  std::array<Node, width> as() const {
+    std::array<Node, width> result;
+    for (std::size_t k = 0; k < width; ++k) result[k] = Node{nodes[k]};
+    return result;
+  }
+};
+
+/// The text of an MSH file, version 2.2 or 4.1, whatever its dimension: its points and elements one after
+/// another. Refusals are InputErrors "file:line: ...".
+class MshText {
+ public:
+  using PutPoint = std::function<void(std::int64_t tag, Point3 point)>;
+  using PutElement = std::function<void(const MshElement& element)>;
+
+  /// Elements of more than `dimension` dimensions are refused.
+  MshText(const std::string& path, int dimension)
+      : scan_{path, TextScanner::no_comments}, dimension_{dimension} {}
+
+  /// All points, then all elements.
+  void read(const PutPoint& put_point, const PutElement& put_element);
+
+  /// Whether an element that belongs to several groups stands there once for each (version 2.2).
+  bool may_repeat() const { return is_old_; }
+  const TextScanner& scan() const { return scan_; }
+  MshGroups& groups() { return groups_; }
+
+ private:
+  /// Goes behind the line "$name"; false where the file has no such section.
+  bool go_to_section(const std::string& name);
+  /// Whether the word of that length stands at the beginning of its line, alone.
+  static bool is_line(std::string_view text, std::size_t at, std::size_t length);
+  void go_to_needed(const std::string& name);
+  void end_section(const std::string& name);
+  /// True for version 2.2, false for 4.1.
+  bool read_format();
+  std::int64_t physical_tag();
+  void read_names();
+  void read_entities();
+  /// Tag, six numbers of a box, the physical groups, and what bounds it.
+  void read_entity(int dimension, const char* expected);
+  void read_point(std::int64_t tag);
+  void end_nodes();
+  std::int64_t node_tag();
+  void read_old_nodes();
+  /// Blocks, all nodes, smallest and largest tag; then blocks of nodes on one entity, first their tags, then
+  /// their coordinates.
+  void read_nodes();
+  void refuse_unknown(std::int64_t type) const;
+  void read_element(std::int64_t type, std::int64_t physical, std::int64_t entity);
+  /// Each row: number, type, tags (the first the physical group, the second the entity), nodes.
+  void read_old_elements();
+  /// Blocks, all elements, smallest and largest tag; then blocks of elements of one type on one entity.
+  void read_elements();
+  std::size_t read_element_block();
+
+  TextScanner scan_;
+  int dimension_;
+  bool is_old_ = false;
+  MshGroups groups_;
+  NodeTags tags_;
+  std::size_t points_ = 0;
+  const PutPoint* put_point_ = nullptr;
+  const PutElement* put_element_ = nullptr;
+};
+
+}  // namespace quadloop

@@ -1,0 +1,216 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/files/boundary_stream.hpp"
+#include "io/files/row_stream.hpp"
+#include "mesher/solid/extruded_mesh.hpp"
+#include "mesher/solid/solid_mesh.hpp"
+
+namespace quadloop {
+
+/// A patch of a 3D mesh on its way into a file.
+struct StreamedPatch {
+  std::string name, condition;
+  std::int64_t triangles = 0, quads = 0;
+  char axis = ' ';  ///< the one that it is normal to: 'x', 'y', 'z', where it is known
+
+  std::int64_t faces() const { return triangles + quads; }
+};
+
+/// Numbers over all ranks.
+struct SolidCounts {
+  std::int64_t nodes = 0, tetrahedra = 0, pyramids = 0, prisms = 0, hexahedra = 0;
+
+  std::int64_t cells() const { return tetrahedra + pyramids + prisms + hexahedra; }
+  /// The length of the longest array: of the nodes, or of the nodes of a kind of cells.
+  std::int64_t largest_array() const;
+};
+
+/// A 3D mesh as it passes through rank 0 into a file, in bounded pieces: an extruded one, of which each rank
+/// makes its own rows, or one that the only rank holds. Rows are this rank's, from 0. All members that say so
+/// are *collective*.
+class SolidStream {
+ public:
+  /// The mesh must outlive it. *Collective.*
+  SolidStream(const Communicator& comm, const ExtrudedMesh& mesh);
+  /// `comm` has one rank.
+  SolidStream(const Communicator& comm, const SolidMesh& mesh);
+
+  const Communicator& communicator() const { return comm_; }
+  /// The one that it streams; null for the other.
+  const ExtrudedMesh* extruded() const { return extruded_; }
+  const SolidMesh* held() const { return held_; }
+  const SolidCounts& counts() const { return counts_; }
+  /// Of an extruded mesh boundaries with edges in their order, the back, the front.
+  const std::vector<StreamedPatch>& patches() const { return patches_; }
+  /// How many patches come first that sides() streams, all quads: those of an extruded mesh but its ends. The
+  /// others have face_rows().
+  std::size_t side_patches() const { return side_patches_; }
+  std::vector<std::string> patch_names() const;
+  std::int64_t patch_triangles() const;  ///< of all patches
+  std::int64_t patch_quads() const;
+
+  std::int64_t point_rows() const {
+    return held_ != nullptr ? std::ssize(held_->points) : extruded_->point_rows();
+  }
+  Point3 point(std::int64_t row) const {
+    return held_ != nullptr ? held_->points[row] : extruded_->point(row);
+  }
+
+  /// Cells of so many nodes: tetrahedra, pyramids, prisms, hexahedra.
+  template <std::size_t width>
+  std::int64_t all_cells() const {
+    return width == 4   ? counts_.tetrahedra
+           : width == 5 ? counts_.pyramids
+           : width == 6 ? counts_.prisms
+                        : counts_.hexahedra;
+  }
+  template <std::size_t width>
+  std::int64_t cell_rows() const {
+    if (held_ != nullptr) return std::ssize(cells_of<width>(*held_));
+    return width == 6 ? extruded_->prism_rows() : width == 8 ? extruded_->hexahedron_rows() : 0;
+  }
+  template <std::size_t width>
+  std::array<SolidNode, width> cell(std::int64_t row) const {
+    if (held_ != nullptr) return widened(cells_of<width>(*held_)[row]);
+    if constexpr (width == 6) return extruded_->prism(row);
+    if constexpr (width == 8) return extruded_->hexahedron(row);
+    return {};
+  }
+
+  /// Triangles (width 3), or quads (4), of a patch that is none of the sides.
+  template <std::size_t width>
+  std::int64_t face_rows(std::size_t patch) const {
+    if (held_ != nullptr) return std::ssize(held_faces<width>(patch));
+    return std::ssize(plane_cells<width>());
+  }
+  template <std::size_t width>
+  std::array<SolidNode, width> face(std::size_t patch, std::int64_t row) const {
+    if (held_ != nullptr) return first_of<width>(held_->patches[patch].faces[held_faces<width>(patch)[row]]);
+    const auto& cell = plane_cells<width>()[row];
+    return patch == side_patches_ ? extruded_->back_face(cell) : extruded_->front_face(cell);
+  }
+
+  /// For text, in the place of sides(): the edges of an extruded mesh's boundaries, null for one that is
+  /// held; on each edge one face of each layer.
+  const BoundaryStream* boundaries() const { return boundaries_ ? &*boundaries_ : nullptr; }
+  std::int64_t layers() const { return extruded_ != nullptr ? extruded_->layers() : 0; }
+  std::array<SolidNode, 4> side(const BoundaryStream::Edge& edge, std::int64_t layer) const {
+    return extruded_->side(GlobalNodeId{edge[0]}, GlobalNodeId{edge[1]}, layer);
+  }
+
+  /// The solution at the nodes: names, and the value of a variable at a row's point.
+  const std::vector<std::string>& variables() const { return variables_; }
+  double value(std::int64_t row, std::size_t variable) const {
+    if (held_ != nullptr) return held_->solution->values[row * variables_.size() + variable];
+    const std::int64_t column = columns_[variable];
+    if (column == ExtrudedVariable::zero) return 0;
+    const Field& plane = *extruded_->solution;
+    return plane.values[row / extruded_->levels() * plane.width() + column];
+  }
+
+  /// Runs `action` on rank 0; if it throws, all ranks do. *Collective.*
+  template <class Action>
+  void on_root(const Action& action) const {
+    comm_.together([&] {
+      if (comm_.is_root()) action();
+    });
+  }
+
+  /// The ranks' rows, an array or a number each: `make(i)` is this rank's row i, `put(span of rows)` gets
+  /// them on rank 0. *Collective.*
+  template <class Make, class Put>
+  void rows(std::int64_t count, const Make& make, const Put& put) const {
+    using Row = decltype(make(std::int64_t{0}));
+    const RowStream stream{comm_, count, bytes_per_piece / std::int64_t{sizeof(Row)}};
+    stream.run<Row>(
+        [&](std::int64_t begin, std::int64_t end) {
+          std::vector<Row> made;
+          made.reserve(end - begin);
+          for (std::int64_t i = begin; i < end; ++i) made.push_back(make(i));
+          return made;
+        },
+        put);
+  }
+
+  /// Faces of the sides: `begin(patch)`, then pieces of its faces, made by `make(nodes)`, go to `put`; all on
+  /// rank 0. *Collective.*
+  template <class Begin, class Make, class Put>
+  void sides(const Begin& begin, const Make& make, const Put& put) const {
+    using Row = decltype(make(std::array<SolidNode, 4>{}));
+    constexpr std::size_t most = bytes_per_piece / sizeof(Row);
+    std::vector<Row> made;
+    if (!boundaries_) return;
+    boundaries_->run(begin, [&](std::span<const BoundaryStream::Edge> edges) {
+      for (const BoundaryStream::Edge& edge : edges) {
+        for (std::int64_t layer = 0; layer < layers(); ++layer) {
+          made.push_back(make(side(edge, layer)));
+          if (made.size() < most) continue;
+          put(std::span<const Row>(made));
+          made.clear();
+        }
+      }
+      put(std::span<const Row>(made));
+      made.clear();
+    });
+  }
+
+  /// Triangles, or quads, of a patch that is none of the sides. *Collective.*
+  template <std::size_t width, class Make, class Put>
+  void faces(std::size_t patch, const Make& make, const Put& put) const {
+    rows(
+        face_rows<width>(patch), [&](std::int64_t i) { return make(face<width>(patch, i)); }, put);
+  }
+
+ private:
+  template <std::size_t width>
+  static std::array<SolidNode, width> widened(const std::array<std::int32_t, width>& nodes) {
+    std::array<SolidNode, width> result;
+    for (std::size_t i = 0; i < width; ++i) result[i] = nodes[i];
+    return result;
+  }
+  template <std::size_t width>
+  static std::array<SolidNode, width> first_of(const SolidPatch::Face& face) {
+    std::array<SolidNode, width> result;
+    for (std::size_t i = 0; i < width; ++i) result[i] = face[i];
+    return result;
+  }
+  template <std::size_t width>
+  const std::vector<std::int32_t>& held_faces(std::size_t patch) const {
+    return width == 3 ? held_triangles_[patch] : held_quads_[patch];
+  }
+  template <std::size_t width>
+  const auto& plane_cells() const {
+    if constexpr (width == 3) return extruded_->plane.triangles;
+    if constexpr (width == 4) return extruded_->plane.quads;
+  }
+
+  static constexpr std::int64_t bytes_per_piece = std::int64_t{1} << 20;
+
+  const Communicator& comm_;
+  const ExtrudedMesh* extruded_ = nullptr;  ///< this or the next
+  const SolidMesh* held_ = nullptr;
+  SolidCounts counts_;
+  std::optional<BoundaryStream> boundaries_;                            ///< of an extruded mesh
+  std::vector<std::vector<std::int32_t>> held_triangles_, held_quads_;  ///< of each patch: which of its faces
+  std::vector<StreamedPatch> patches_;
+  std::size_t side_patches_ = 0;
+  std::vector<std::string> variables_;
+  std::vector<std::int64_t> columns_;  ///< of an extruded mesh: of each variable
+};
+
+/// A row in another type of number, `more` added to each.
+template <class Number, std::size_t width>
+std::array<Number, width> as(const std::array<SolidNode, width>& nodes, SolidNode more = 0) {
+  std::array<Number, width> result;
+  for (std::size_t i = 0; i < width; ++i) result[i] = static_cast<Number>(nodes[i] + more);
+  return result;
+}
+
+}  // namespace quadloop

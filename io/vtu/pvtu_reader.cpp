@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "io/loaded/foreign_mesh.hpp"
+#include "io/vtu/pvtu_file.hpp"
+#include "io/vtu/vtu_document.hpp"
+#include "io/vtu/vtu_file.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+class PvtuReader {
+ public:
+  explicit PvtuReader(const std::string& path) : scan_{path, TextScanner::no_comments} {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    for (const std::string& source : parse_pvtu(scan_))
+      add_piece(read_vtu((folder / source).string()), source);
+  }
+
+  LoadedMesh read() {
+    if (points_.size() > std::numeric_limits<std::int32_t>::max())
+      scan_.refuse("its pieces have more than 2^31 - 1 nodes, which cannot be read on one rank");
+    unite_nodes();
+    drop_cuts();
+    drop_repeated(foreign_, scan_.path());
+    const bool has_solution = !names_.empty();
+    std::vector<double> values = std::move(values_);
+    LoadedMesh loaded = finish(std::move(foreign_), scan_);
+    if (has_solution) loaded.solution = Field{names_, std::move(values), {}};
+    return loaded;
+  }
+
+ private:
+  /// Its nodes after those of the pieces before.
+  void add_piece(const LoadedMesh& piece, const std::string& source) {
+    const auto first = static_cast<std::int32_t>(points_.size());
+    take_solution(piece, source);
+    points_.insert(points_.end(), piece.mesh.points.begin(), piece.mesh.points.end());
+    const auto moved = [&](auto nodes) {
+      for (NodeId& node : nodes) node = NodeId{node.value() + first};
+      return nodes;
+    };
+    const auto block = [&](std::int32_t b) { return foreign_.block_named(piece.block_names[b]); };
+    for (std::size_t i = 0; i < piece.mesh.triangles.size(); ++i)
+      foreign_.add_triangle(moved(piece.mesh.triangles[i]), block(piece.triangle_to_block[i]));
+    for (std::size_t i = 0; i < piece.mesh.quads.size(); ++i)
+      foreign_.add_quad(moved(piece.mesh.quads[i]), block(piece.quad_to_block[i]));
+    for (const BoundaryEdges& boundary : piece.mesh.boundaries) {
+      const std::int32_t number = foreign_.boundary_named(boundary.name);
+      foreign_.loaded.mesh.boundaries[number].layers = boundary.layers;
+      for (const auto& edge : boundary.edges) foreign_.edges.push_back({moved(edge), number, 0});
+    }
+    auto& warnings = foreign_.loaded.warnings;
+    warnings.insert(warnings.end(), piece.warnings.begin(), piece.warnings.end());
+  }
+
+  void take_solution(const LoadedMesh& piece, const std::string& source) {
+    const Field solution = piece.solution.value_or(Field{});
+    if (points_.empty()) names_ = solution.names;
+    if (solution.names != names_)
+      scan_.refuse("the point data of the piece " + source + " are not those of the first piece");
+    values_.insert(values_.end(), solution.values.begin(), solution.values.end());
+  }
+
+  /// Of nodes at the same place the first stays, with its values.
+  void unite_nodes() {
+    std::vector<std::int32_t> order(points_.size()), first_of(points_.size()), new_id(points_.size(), -1);
+    std::iota(order.begin(), order.end(), 0);
+    const auto place = [&](std::int32_t i) { return std::tuple(points_[i].x, points_[i].y); };
+    std::ranges::stable_sort(order, {}, place);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const bool again = k > 0 && place(order[k]) == place(order[k - 1]);
+      first_of[order[k]] = again ? first_of[order[k - 1]] : order[k];
+    }
+    std::vector<Point>& kept = foreign_.loaded.mesh.points;
+    const std::size_t width = names_.size();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (first_of[i] != static_cast<std::int32_t>(i)) continue;
+      std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(i * width), width,
+                  values_.begin() + static_cast<std::ptrdiff_t>(kept.size() * width));
+      new_id[i] = static_cast<std::int32_t>(kept.size());
+      kept.push_back(points_[i]);
+    }
+    values_.resize(kept.size() * width);
+    const auto renumber = [&](auto& nodes) {
+      for (NodeId& node : nodes) node = NodeId{new_id[first_of[node.value()]]};
+    };
+    std::ranges::for_each(foreign_.loaded.mesh.triangles, renumber);
+    std::ranges::for_each(foreign_.loaded.mesh.quads, renumber);
+    std::ranges::for_each(foreign_.edges, [&](ForeignEdge& edge) { renumber(edge.nodes); });
+  }
+
+  /// A piece without lines comes with a boundary "boundary" all round, cuts between pieces too.
+  void drop_cuts() {
+    const EdgeTable table(foreign_.loaded.mesh);
+    std::erase_if(foreign_.edges, [&](const ForeignEdge& edge) {
+      return foreign_.loaded.mesh.boundaries[edge.boundary].name == "boundary" &&
+             table.cell_left_of(edge.nodes[0], edge.nodes[1]) >= 0 &&
+             table.cell_left_of(edge.nodes[1], edge.nodes[0]) >= 0;
+    });
+  }
+
+  TextScanner scan_;
+  ForeignMesh foreign_;
+  std::vector<Point> points_;  ///< of all pieces
+  std::vector<std::string> names_;
+  std::vector<double> values_;  ///< rows for the points
+};
+
+}  // namespace
+
+LoadedMesh read_pvtu(const std::string& path) { return PvtuReader(path).read(); }
+
+}  // namespace quadloop

@@ -1,0 +1,137 @@
+// 3D meshes that are held, from each format to each: points, cells in their order, patches, and the solution
+// where both hold it. On one rank alone.
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <cmath>
+
+#include "io/formats.hpp"
+#include "io/solid_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/solid/check_solid.hpp"
+#include "tests/io/sample_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+constexpr std::int32_t none = SolidPatch::no_node;
+
+/// Two cubes, a prism on the right, a pyramid on the first's top and a tetrahedron beside it, with
+/// coordinates that need all digits.
+SolidMesh sample() {
+  SolidMesh mesh;
+  mesh.points = {{0, 0, 0},  {1, 0, 0},  {1, 1, 0},  {0, 1, 0}, {0, 0, 1},     {1, 0, 1},
+                 {1, 1, 1},  {0, 1, 1},  {2, 0, 0},  {2, 0, 1}, {0.5, 0.5, 2}, {2, 0.5, 2},
+                 {-1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}, {-1, 1, 1}};
+  for (Point3& p : mesh.points) p = {p.x / 3 + 1e-17, p.y / 7, p.z * std::sqrt(2.0)};
+  mesh.hexahedra = {{0, 1, 2, 3, 4, 5, 6, 7}, {12, 0, 3, 13, 14, 4, 7, 15}};
+  mesh.prisms = {{1, 8, 2, 5, 9, 6}};
+  mesh.pyramids = {{4, 5, 6, 7, 10}};
+  mesh.tetrahedra = {{5, 11, 6, 10}};
+  mesh.patches = {{"floor", "wall", {{3, 2, 1, 0}, {13, 3, 0, 12}, {1, 2, 8, none}}},
+                  {"top-left", "symmetry", {{14, 4, 7, 15}}},
+                  {"rest", "none", {}}};
+  mesh.patches[2].faces = {{0, 1, 5, 4},      {2, 3, 7, 6},     {12, 13, 15, 14}, {12, 0, 4, 14},
+                           {3, 13, 15, 7},    {1, 8, 9, 5},     {8, 2, 6, 9},     {5, 9, 6, none},
+                           {4, 5, 10, none},  {6, 7, 10, none}, {7, 4, 10, none}, {5, 11, 10, none},
+                           {11, 6, 10, none}, {5, 6, 11, none}};
+  mesh.solution.emplace();
+  mesh.solution->names = {"density", "x_velocity"};
+  for (int i = 0; i < std::ssize(mesh.points); ++i)
+    mesh.solution->values.insert(mesh.solution->values.end(), {(i + 1) / 7.0, -1.0 / (i + 3)});
+  return mesh;
+}
+
+SolidMesh through_file(const SolidMesh& mesh, const std::string& path) {
+  write_solid_of_root(Communicator(MPI_COMM_SELF), mesh, path);
+  std::optional<SolidMesh> back = read_solid(path);
+  EXPECT_TRUE(back);
+  EXPECT_TRUE(back->warnings.empty());
+  return std::move(*back);
+}
+
+/// A polyMesh tells the faces of cells, not with which node they begin.
+bool keeps_first_nodes(const std::string& format) { return format != "polyMesh"; }
+
+void expect_same(const SolidMesh& back, const SolidMesh& mesh, bool to_the_node) {
+  EXPECT_EQ(back.points, mesh.points);
+  for_each_kind_of_cell([&]<std::size_t width>() {
+    auto found = cells_of<width>(back), wanted = cells_of<width>(mesh);
+    if (!to_the_node) {
+      for (auto& cell : found) std::ranges::sort(cell);
+      for (auto& cell : wanted) std::ranges::sort(cell);
+    }
+    EXPECT_EQ(found, wanted);
+  });
+  ASSERT_EQ(back.patches.size(), mesh.patches.size());
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    EXPECT_EQ(back.patches[p].name, mesh.patches[p].name);
+    EXPECT_EQ(back.patches[p].faces.size(), mesh.patches[p].faces.size());
+  }
+  const SolidFigures figures = check_solid(back);
+  EXPECT_TRUE(figures.faults.empty()) << figures.faults.front().what;
+}
+
+TEST(ConvertSolid, EveryPairOfFormatsKeepsTheMesh) {
+  if (!test::world().is_root()) return;
+  const test::TemporaryFolder folder;
+  const SolidMesh mesh = sample();
+  for (const std::string& first : formats_for({Content::solid})) {
+    for (const std::string& second : formats_for({Content::solid})) {
+      SCOPED_TRACE(first + " to " + second);
+      const SolidMesh between = through_file(mesh, folder.file("a." + first));
+      const SolidMesh back = through_file(between, folder.file("b." + second));
+      expect_same(back, mesh, keeps_first_nodes(first) && keeps_first_nodes(second));
+      const FileFormat &from = *format_named(first), &to = *format_named(second);
+      const bool carried = from.solution_in_solid && to.solution_in_solid;
+      ASSERT_EQ(back.solution.has_value(), carried);
+      if (carried) {
+        EXPECT_EQ(back.solution->names, mesh.solution->names);
+        EXPECT_EQ(back.solution->values, mesh.solution->values);
+      }
+      const bool conditions = from.conditions_in_solid && to.conditions_in_solid;
+      EXPECT_EQ(back.patches[0].condition, conditions ? "wall" : "none");
+      EXPECT_EQ(back.patches[1].condition, conditions ? "symmetry" : "none");
+      const std::size_t losses = (from.solution_in_solid && !to.solution_in_solid ? 1U : 0U) +
+                                 (from.conditions_in_solid && !to.conditions_in_solid ? 1U : 0U);
+      EXPECT_EQ(losses_in(between, folder.file("b." + second)).size(), losses);
+    }
+  }
+}
+
+TEST(ConvertSolid, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {
+  if (!test::world().is_root()) return;
+  const test::TemporaryFolder folder;
+  const Communicator alone(MPI_COMM_SELF);
+  for (const char* name : {"su2", "lb8.ugrid", "msh"}) {
+    write_solid_of_root(alone, sample(), folder.file(std::string("a.") + name));
+    write_solid_of_root(alone, sample(), folder.file("b.x"), name);
+    EXPECT_EQ(test::bytes_of(folder.file("b.x")), test::bytes_of(folder.file(std::string("a.") + name)));
+  }
+}
+
+TEST(ConvertSolid, EmptyPatchesComeThroughAPolyMesh) {
+  if (!test::world().is_root()) return;
+  const test::TemporaryFolder folder;
+  SolidMesh mesh = sample();
+  mesh.patches[2].is_empty = true;
+  const SolidMesh back = through_file(mesh, folder.file("a.polyMesh"));
+  EXPECT_FALSE(back.patches[0].is_empty);
+  EXPECT_TRUE(back.patches[2].is_empty);
+}
+
+TEST(ConvertSolid, APolyMeshNeedsEachFaceOnce) {
+  if (!test::world().is_root()) return;
+  const test::TemporaryFolder folder;
+  const Communicator alone(MPI_COMM_SELF);
+  SolidMesh open = sample(), twice = sample(), stray = sample();
+  open.patches[1].faces.clear();
+  twice.patches[1].faces.push_back(twice.patches[0].faces[0]);
+  stray.patches[1].faces.push_back({0, 2, 5, none});
+  for (const SolidMesh* mesh : {&open, &twice, &stray})
+    EXPECT_THROW(write_solid_of_root(alone, *mesh, folder.file("a.polyMesh")), OutputError);
+}
+
+}  // namespace
+}  // namespace quadloop
