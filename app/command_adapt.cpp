@@ -69,7 +69,8 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   ChosenSolver solver =
       chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const auto* command = std::get_if<CommandSolver>(&solver)) require_solver_files(arguments, *command);
-  AdaptiveCase adaptive{std::move(*input.mesh), adapt, std::move(solver), settings.formats, settings.values};
+  AdaptiveCase adaptive{std::move(*input.mesh), adapt,           std::move(solver),
+                        settings.formats,       settings.values, settings.fields};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }

@@ -20,7 +20,8 @@ std::vector<ChangedSetting> changed_settings(const CaseSettings& before, const C
 }
 
 bool may_change_in_a_run(const std::string& key) {
-  return key == "solver.command" || key == "solver.iterations" || key == "output.formats";
+  return key == "solver.command" || key == "solver.iterations" || key == "output.formats" ||
+         key == "output.fields";
 }
 
 std::uint64_t run_digest(const CaseSettings& settings, std::uint64_t geometry_digest) {
