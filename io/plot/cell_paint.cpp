@@ -84,7 +84,49 @@ CellPaint paint_quality(const LoadedMesh& loaded, const std::vector<std::size_t>
   return paint_values(values, {"quality", 0, 1, quality_colour});
 }
 
-std::size_t column_of(const LoadedMesh& loaded, const std::string& field) {
+/// The range that is asked for; else the values', or one round a value that is the same all over.
+void settle_range(ColourBar& bar, const PlotOptions& options) {
+  if (options.range) {
+    bar.low = (*options.range)[0];
+    bar.high = (*options.range)[1];
+    return;
+  }
+  if (bar.low > bar.high) bar.low = bar.high = 0;
+  const double least = 1e-9 * std::max(std::abs(bar.low), std::abs(bar.high));
+  if (bar.high - bar.low > least) return;
+  const double around = least > 0 ? 1e-3 * std::abs(bar.low) : 1;
+  bar.low -= around;
+  bar.high += around;
+}
+
+CellPaint paint_field(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
+                      const PlotOptions& options) {
+  const std::size_t column = field_column(loaded, options.field), columns = loaded.solution->names.size();
+  ColourBar bar{options.field, std::numeric_limits<double>::infinity(),
+                -std::numeric_limits<double>::infinity(), options.map};
+  std::vector<double> values;
+  for (const std::size_t cell : cells) {
+    double sum = 0;
+    const std::span<const NodeId> nodes = cell_nodes(loaded.mesh, cell);
+    for (const NodeId node : nodes) {
+      const double value = loaded.solution->values[node.value() * columns + column];
+      sum += value;
+      if (!options.smooth || !std::isfinite(value)) continue;
+      bar.low = std::min(bar.low, value);
+      bar.high = std::max(bar.high, value);
+    }
+    values.push_back(sum / size32(nodes));
+    if (options.smooth || !std::isfinite(values.back())) continue;
+    bar.low = std::min(bar.low, values.back());
+    bar.high = std::max(bar.high, values.back());
+  }
+  settle_range(bar, options);
+  return paint_values(values, bar);
+}
+
+}  // namespace
+
+std::size_t field_column(const LoadedMesh& loaded, const std::string& field) {
   if (!loaded.solution || loaded.solution->names.empty())
     throw InputError("there is no field '" + field +
                      "': the file holds no solution; plot it without --field");
@@ -96,33 +138,6 @@ std::size_t column_of(const LoadedMesh& loaded, const std::string& field) {
   throw InputError("there is no field '" + field + "'; there are: " + there + guess_for(field, names));
 }
 
-CellPaint paint_field(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
-                      const std::string& field) {
-  const std::size_t column = column_of(loaded, field), columns = loaded.solution->names.size();
-  ColourBar bar{field, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                perceptual_colour};
-  std::vector<double> values;
-  for (const std::size_t cell : cells) {
-    double sum = 0;
-    const std::span<const NodeId> nodes = cell_nodes(loaded.mesh, cell);
-    for (const NodeId node : nodes) sum += loaded.solution->values[node.value() * columns + column];
-    values.push_back(sum / size32(nodes));
-    if (!std::isfinite(values.back())) continue;
-    bar.low = std::min(bar.low, values.back());
-    bar.high = std::max(bar.high, values.back());
-  }
-  if (bar.low > bar.high) bar.low = bar.high = 0;
-  const double least = 1e-9 * std::max(std::abs(bar.low), std::abs(bar.high));
-  if (bar.high - bar.low <= least) {  // one value all over
-    const double around = least > 0 ? 1e-3 * std::abs(bar.low) : 1;
-    bar.low -= around;
-    bar.high += around;
-  }
-  return paint_values(values, bar);
-}
-
-}  // namespace
-
 std::size_t cell_count(const Mesh& mesh) { return mesh.triangles.size() + mesh.quads.size(); }
 
 std::span<const NodeId> cell_nodes(const Mesh& mesh, std::size_t cell) {
@@ -132,7 +147,7 @@ std::span<const NodeId> cell_nodes(const Mesh& mesh, std::size_t cell) {
 
 CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
                       const PlotOptions& options) {
-  if (!options.field.empty()) return paint_field(loaded, cells, options.field);
+  if (!options.field.empty()) return paint_field(loaded, cells, options);
   if (options.colouring == PlotColouring::quality) return paint_quality(loaded, cells);
   return options.colouring == PlotColouring::block ? paint_blocks(loaded, cells) : paint_types(loaded, cells);
 }

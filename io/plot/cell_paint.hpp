@@ -24,6 +24,9 @@ struct CellPaint {
   std::optional<ColourBar> bar;
 };
 
+/// The index of a variable among those of the solution. Throws InputError where there is none of that name.
+std::size_t field_column(const LoadedMesh& loaded, const std::string& field);
+
 /// Colours `cells` (numbers as for cell_nodes). Throws InputError where the field is not there.
 CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
                       const PlotOptions& options);
