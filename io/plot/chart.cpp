@@ -133,7 +133,7 @@ class ChartPicture {
     const Scale y(panel.y, values_of(&Point::y, std::span(&panel, 1)));
     const auto across = [&](double value) { return frame.low.x + x_.at(value) * frame.width(); };
     const auto up = [&](double value) { return frame.high.y - y.at(value) * frame.height(); };
-    const Ticks x_ticks = x_.ticks(frame.width() / 110), y_ticks = y.ticks(frame.height() / 50);
+    const Ticks x_ticks = x_.ticks(frame.width() / 85), y_ticks = y.ticks(frame.height() / 36);
     for (const double value : x_ticks.values)
       canvas_.add_line({across(value), frame.low.y}, {across(value), frame.high.y});
     for (const double value : y_ticks.values)

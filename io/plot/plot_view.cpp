@@ -112,12 +112,12 @@ void PlotView::draw_axes(Canvas& canvas, const std::string& x_title, const std::
   const Box& f = frame_;
   const std::array<Point, 4> corners{f.low, Point{f.high.x, f.low.y}, f.high, Point{f.low.x, f.high.y}};
   canvas.add_polygon(corners);
-  const Ticks along_x = round_ticks(window_.low.x, window_.high.x, f.width() / 110);
+  const Ticks along_x = round_ticks(window_.low.x, window_.high.x, f.width() / 90);
   for (std::size_t i = 0; i < along_x.values.size(); ++i) {
     const double x = pixel({along_x.values[i], window_.low.y}).x;
     canvas.add_line({x, f.high.y}, {x, f.high.y + 7});
   }
-  const Ticks along_y = round_ticks(window_.low.y, window_.high.y, f.height() / 75);
+  const Ticks along_y = round_ticks(window_.low.y, window_.high.y, f.height() / 60);
   for (std::size_t i = 0; i < along_y.values.size(); ++i) {
     const double y = pixel({window_.low.x, along_y.values[i]}).y;
     canvas.add_line({f.low.x - 7, y}, {f.low.x, y});
@@ -166,7 +166,7 @@ void PlotView::draw_bar(Canvas& canvas, const ColourBar& bar) const {
   }
   add_part(0, 1);
   canvas.stroke(ink, 1, 1);
-  const Ticks ticks = round_ticks(bar.low, bar.high, (low - high) / 70);
+  const Ticks ticks = round_ticks(bar.low, bar.high, (low - high) / 45);
   for (std::size_t i = 0; i < ticks.values.size(); ++i) {
     const double y = at((ticks.values[i] - bar.low) / (bar.high - bar.low));
     canvas.add_line({x + wide, y}, {x + wide + 5, y});
