@@ -71,7 +71,8 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   if (const CommandSolver* const command = command_of(solver)) require_solver_files(arguments, *command);
   if (const auto* openfoam = std::get_if<OpenfoamSolver>(&solver))
     require_openfoam_template(openfoam->case_template);
-  AdaptiveCase adaptive{std::move(*input.mesh), adapt, std::move(solver), settings.formats, settings.values};
+  AdaptiveCase adaptive{std::move(*input.mesh), adapt,           std::move(solver),
+                        settings.formats,       settings.values, settings.fields};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -6,23 +7,42 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "adapt/loop/cycle_paths.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "flow/euler/scheme/euler_options.hpp"
+#include "flow/quantities/flow_quantities.hpp"
+#include "flow/quantities/history.hpp"
+#include "flow/quantities/wall_table.hpp"
 #include "io/files/output_file.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/plot/flow_charts.hpp"
 #include "io/plot/mesh_plot.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop {
 
 namespace {
 
 struct PlotArguments {
-  std::string input, output, window, field, colouring = "type";
-  int size = 1600;
+  std::string input, output, window, field, colouring = "type", range, map = "viridis", shading = "smooth",
+                                            lines, size = "1600";
+  int contours = 0, streamlines = 0;
+  bool walls = false, history = false;
+};
+
+enum class Subject { mesh, walls, history };
+
+/// What is drawn, and how.
+struct PlotTask {
+  Subject subject = Subject::mesh;
+  PlotFormat format = PlotFormat::png;
+  PlotOptions options;
 };
 
 PlotFormat picture_format_of(const std::string& path) {
@@ -34,57 +54,162 @@ PlotFormat picture_format_of(const std::string& path) {
                    "'; end its name in .png, .svg or .pdf");
 }
 
-/// X0,X1,Y0,Y1. Four numbers that span no area are left to draw_mesh.
-Box window_of(const std::string& text) {
-  std::array<double, 4> numbers{};
+/// So many numbers with a sign between them.
+template <std::size_t count>
+std::array<double, count> numbers_in(const std::string& text, char between, const std::string& refusal) {
+  std::array<double, count> numbers{};
   const char* at = text.data();
   const char* const end = at + text.size();
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const auto [rest, error] = std::from_chars(at, end, numbers[i]);
-    const bool ends_well = i + 1 == numbers.size() ? rest == end : rest != end && *rest == ',';
+    const bool ends_well = i + 1 == count ? rest == end : rest != end && *rest == between;
     if (error != std::errc() || !ends_well || !std::isfinite(numbers[i]))
-      throw UsageError("--window takes four numbers X0,X1,Y0,Y1, not '" + text + "'");
+      throw UsageError(refusal + ", not '" + text + "'");
     at = rest == end ? end : rest + 1;
   }
+  return numbers;
+}
+
+/// X0,X1,Y0,Y1. Four numbers that span no area are left to draw_mesh.
+Box window_of(const std::string& text) {
+  const auto numbers = numbers_in<4>(text, ',', "--window takes four numbers X0,X1,Y0,Y1");
   return {{numbers[0], numbers[2]}, {numbers[1], numbers[3]}};
+}
+
+/// Pixels, or WIDTHxHEIGHT in cm.
+void read_size(const std::string& text, PlotOptions& options) {
+  const std::string refusal =
+      "--size takes pixels along the longer side, from 400 to 20000, or WIDTHxHEIGHT in cm, from 5 to 200 "
+      "each";
+  if (text.find('x') == std::string::npos) {
+    const double pixels = numbers_in<1>(text, ',', refusal)[0];
+    if (!(pixels >= 400 && pixels <= 20000 && pixels == std::floor(pixels)))
+      throw UsageError(refusal + ", not '" + text + "'");
+    options.size = pixels;
+    return;
+  }
+  const auto [width, height] = numbers_in<2>(text, 'x', refusal);
+  const auto is_possible = [](double side) { return side >= 5 && side <= 200; };
+  if (!is_possible(width) || !is_possible(height)) throw UsageError(refusal + ", not '" + text + "'");
+  options.centimetres = Point{width, height};
 }
 
 PlotOptions options_of(const PlotArguments& arguments) {
   PlotOptions options;
   if (!arguments.window.empty()) options.window = window_of(arguments.window);
   options.field = arguments.field;
-  options.size = arguments.size;
+  read_size(arguments.size, options);
   if (arguments.colouring == "rank")
     throw UsageError("--colour-by rank: a mesh file holds no ranks; colour by block, quality or type");
   if (arguments.colouring == "quality") options.colouring = PlotColouring::quality;
   if (arguments.colouring == "block") options.colouring = PlotColouring::block;
+  if (!arguments.range.empty()) {
+    const std::string refusal = "--range takes two numbers A,B, the first below the second";
+    options.range = numbers_in<2>(arguments.range, ',', refusal);
+    if (!((*options.range)[0] < (*options.range)[1]))
+      throw UsageError(refusal + ", not '" + arguments.range + "'");
+  }
+  options.map = colour_map_named(arguments.map);
+  options.smooth = arguments.shading == "smooth";
+  if (!arguments.lines.empty()) options.lines = arguments.lines == "on";
+  options.contours = arguments.contours;
+  options.streamlines = arguments.streamlines;
   return options;
 }
 
-std::string picture(const PlotArguments& arguments, const PlotOptions& options, PlotFormat format) {
-  const LoadedMesh loaded = read_mesh(arguments.input);
+Subject subject_of(const PlotArguments& arguments) {
+  if (arguments.walls || arguments.input.ends_with(wall_table_suffix)) return Subject::walls;
+  if (arguments.history || arguments.input.ends_with(history_suffix)) return Subject::history;
+  return Subject::mesh;
+}
+
+PlotTask task_of(const PlotArguments& arguments) {
+  PlotTask task{subject_of(arguments), PlotFormat::png, {}};
+  if (task.subject == Subject::mesh) require_readable_suffix(arguments.input);
+  task.format = picture_format_of(arguments.output);
+  task.options = options_of(arguments);
+  const PlotOptions& options = task.options;
+  const bool is_of_field = options.range || options.contours > 0 || arguments.shading != "smooth";
+  if (task.subject == Subject::mesh && is_of_field && options.field.empty())
+    throw UsageError("--range, --contours and --shading tell how a field is shown; name it with --field");
+  return task;
+}
+
+/// Mach number, pressure coefficient: where the file has none, they are made of its flow.
+void add_quantity(LoadedMesh& loaded, const std::string& field) {
+  constexpr std::size_t of_solve = 7, mach_number = 2;  // of the constants that quadloop leaves
+  if (!loaded.solution || std::ranges::find(quantity_names(), field) == quantity_names().end()) return;
+  Field& solution = *loaded.solution;
+  if (std::ranges::find(solution.names, field) != solution.names.end()) return;
+  for (const char* name : euler_names) {
+    if (variables_like(solution.names, name).size() != 1) return;
+  }
+  FreeStream stream;
+  if (field == pressure_coefficient_name) {
+    if (solution.constants.size() != of_solve) return;
+    stream.speed = solution.constants[mach_number];
+  }
+  solution = with_quantities(solution, {field}, stream);
+}
+
+std::string picture_of_mesh(const PlotArguments& arguments, const PlotTask& task) {
+  LoadedMesh loaded = read_mesh(arguments.input);
   try {
-    return draw_mesh(loaded, options, format);
+    add_quantity(loaded, task.options.field);
+    return draw_mesh(loaded, task.options, task.format);
   } catch (const InputError& error) {
     throw InputError(arguments.input + ": " + error.what());
   }
 }
 
+/// The table itself, or that beside a mesh with a flow.
+std::string table_of(const std::string& input, const char* suffix) {
+  if (input.ends_with(".csv")) return input;
+  const std::string table = std::filesystem::path(input).replace_extension().string() + suffix;
+  if (!std::filesystem::exists(table))
+    throw InputError(table + ": is not there; 'quadloop solve' writes it beside the flow");
+  return table;
+}
+
+/// A history, or those of a run's cycles.
+std::vector<PlotTable> histories_of(const std::string& input) {
+  if (!std::filesystem::is_directory(input)) return {read_plot_table(table_of(input, history_suffix))};
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(input)) {
+    const std::string path = CyclePaths{entry.path()}.history();
+    const bool is_cycle = entry.path().filename().string().starts_with("cycle_");
+    if (is_cycle && entry.path().extension().empty() && std::filesystem::exists(path)) paths.push_back(path);
+  }
+  std::ranges::sort(paths);
+  if (paths.empty())
+    throw InputError(input + ": holds no cycle with a history; name the folder of 'quadloop adapt'");
+  std::vector<PlotTable> histories;
+  for (const std::string& path : paths) histories.push_back(read_plot_table(path));
+  return histories;
+}
+
+std::string picture(const PlotArguments& arguments, const PlotTask& task) {
+  const PlotOptions& options = task.options;
+  if (task.subject == Subject::mesh) return picture_of_mesh(arguments, task);
+  if (task.subject == Subject::history)
+    return draw_chart(history_chart(histories_of(arguments.input)), options.size, options.centimetres,
+                      task.format);
+  const PlotTable walls = read_plot_table(table_of(arguments.input, wall_table_suffix));
+  const std::string column = options.field.empty() ? "Cp" : options.field;
+  return draw_chart(wall_chart(walls, column, options.window), options.size, options.centimetres,
+                    task.format);
+}
+
 /// The root rank alone reads and draws; what it cannot do is the same error everywhere.
 void run_plot(const CommandContext& context, const PlotArguments& arguments) {
   const Communicator& comm = context.comm;
-  PlotOptions options;
-  PlotFormat format = PlotFormat::png;
-  comm.together([&] {
-    require_readable_suffix(arguments.input);
-    format = picture_format_of(arguments.output);
-    options = options_of(arguments);
-  });
+  PlotTask task;
+  comm.together([&] { task = task_of(arguments); });
   OutputSet outputs(comm);
   const StagedFile staged = outputs.stage(arguments.output);
   comm.together([&] {
     if (!comm.is_root()) return;
-    const std::string bytes = picture(arguments, options, format);
+    const std::string bytes = picture(arguments, task);
     log::detail("writing " + arguments.output);
     OutputFile file(staged);
     file.write(bytes);
@@ -94,32 +219,75 @@ void run_plot(const CommandContext& context, const PlotArguments& arguments) {
   context.record.files = {arguments.output};
 }
 
+void add_field_options(CLI::App& command, PlotArguments& arguments) {
+  CLI::Option* field =
+      command
+          .add_option("--field", arguments.field,
+                      "a variable of the solution, mach or pressure_coefficient, as colours; with --walls a "
+                      "column of the table")
+          ->type_name("NAME");
+  command
+      .add_option("--colour-by,--color-by", arguments.colouring,
+                  "what the cells' colours tell: block, quality or type (the default); rank is refused, as "
+                  "a mesh file holds no ranks")
+      ->type_name("WHAT")
+      ->check(one_of({"block", "quality", "type", "rank"}))
+      ->excludes(field);
+  command.add_option("--range", arguments.range, "what the colours of a field span: the values shown")
+      ->type_name("A,B");
+  command.add_option("--map", arguments.map, "the colours of a field: viridis, coolwarm, grey or plasma")
+      ->type_name("NAME")
+      ->check(one_of(colour_map_names()));
+  command
+      .add_option("--shading", arguments.shading,
+                  "of a field: smooth (linear over triangles, bilinear over quads) or flat")
+      ->type_name("HOW")
+      ->check(one_of({"smooth", "flat"}));
+  command.add_option("--lines", arguments.lines, "the mesh's lines, on or off: off where a field is shown")
+      ->type_name("on|off")
+      ->check(one_of({"on", "off"}));
+  command.add_option("--contours", arguments.contours, "lines of equal values of the field, so many: 0")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000));
+  command
+      .add_option("--streamlines", arguments.streamlines,
+                  "streamlines, about so many across the picture's shorter side: 0")
+      ->type_name("N")
+      ->check(CLI::Range(0, 200));
+}
+
+void add_chart_options(CLI::App& command, PlotArguments& arguments) {
+  CLI::Option* walls = command.add_flag("--walls", arguments.walls,
+                                        "Cp over x along the walls, from the table .walls.csv beside IN");
+  command
+      .add_flag("--history", arguments.history,
+                "residual and forces over steps, from the table .history.csv beside IN, or in the cycles of "
+                "IN, the folder of an adaptive run")
+      ->excludes(walls);
+}
+
 }  // namespace
 
 void add_plot_command(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* command = app.add_subcommand("plot", "draw a mesh, or a field on it");
-  command->add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
+  CLI::App* command =
+      app.add_subcommand("plot", "draw a mesh, a field on it, the flow along walls, or a history");
+  command
+      ->add_option("input", arguments->input,
+                   "the mesh (" + suffixes_for({Content::mesh}) + "); or a table .walls.csv or .history.csv")
       ->required()
       ->type_name("IN");
   command->add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")
       ->required()
       ->type_name("OUT");
-  command->add_option("--window", arguments->window, "the part of the plane to show")
+  command->add_option("--window", arguments->window, "the part of the plane, or of the axes, to show")
       ->type_name("X0,X1,Y0,Y1");
-  CLI::Option* field =
-      command->add_option("--field", arguments->field, "a variable of the solution, as colours")
-          ->type_name("NAME");
   command
-      ->add_option("--colour-by,--color-by", arguments->colouring,
-                   "what the cells' colours tell: block, quality or type (the default); rank is refused, as "
-                   "a mesh file holds no ranks")
-      ->type_name("WHAT")
-      ->check(one_of({"block", "quality", "type", "rank"}))
-      ->excludes(field);
-  command->add_option("--size", arguments->size, "pixels along the longer side: 1600")
-      ->type_name("N")
-      ->check(CLI::Range(400, 20000));
+      ->add_option("--size", arguments->size,
+                   "pixels along the longer side, 1600, or width and height in cm: 16x10")
+      ->type_name("N|WxH");
+  add_field_options(*command, *arguments);
+  add_chart_options(*command, *arguments);
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_plot(context, *arguments); }; });
 }

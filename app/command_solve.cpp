@@ -3,17 +3,22 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
+#include "adapt/loop/record.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/summary.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "flow/euler/shortfall.hpp"
+#include "flow/quantities/flow_quantities.hpp"
+#include "flow/quantities/wall_table.hpp"
 #include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/text/text_output.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
@@ -91,11 +96,32 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
   return problem;
 }
 
-/// Puts the flow into the whole mesh on the root and writes it. *Collective.*
+/// The tables beside the mesh with the flow.
+struct TableFiles {
+  std::string walls, history;
+};
+
+TableFiles tables_beside(const std::string& output) {
+  const std::string prefix = std::filesystem::path(output).replace_extension().string();
+  return {prefix + wall_table_suffix, prefix + history_suffix};
+}
+
+void write_text(OutputSet& outputs, const std::string& path, const std::string& text) {
+  TextOutput file(outputs, path);
+  file.write(text);
+  file.close();
+}
+
+/// Puts the flow into the whole mesh on the root and writes it, and the tables beside it. *Collective.*
 void write(const Communicator& comm, Problem& problem, const Mesh& part, const EulerResult& result,
            const std::string& path) {
-  Field solution =
-      gather_field(comm, flow_with_constants(result, problem.settings.solver.euler), part, problem.order);
+  const EulerOptions& options = problem.settings.solver.euler;
+  const FreeStream stream = free_stream_of(options);
+  std::vector<std::string> wall_names;
+  for (const BoundaryForce& force : result.forces) wall_names.push_back(force.boundary);
+  const std::string walls = wall_table(comm, part, result.flow, stream, wall_names);
+  const Field flow = with_quantities(flow_with_constants(result, options), problem.settings.fields, stream);
+  Field solution = gather_field(comm, flow, part, problem.order);
   comm.together([&] {
     if (!comm.is_root()) return;
     if (!format_of(path)->holds(Content::constants)) solution.constants.clear();
@@ -104,6 +130,8 @@ void write(const Communicator& comm, Problem& problem, const Mesh& part, const E
     const Communicator alone(MPI_COMM_SELF);
     OutputSet outputs(alone);
     write_mesh(outputs, problem.whole, path);
+    write_text(outputs, tables_beside(path).walls, walls);
+    write_text(outputs, tables_beside(path).history, history_table(result.history));
     outputs.commit();
   });
 }
@@ -133,6 +161,14 @@ Figures result_figures(std::int64_t nodes, const EulerResult& result, const Eule
     figures.add("cd friction", result.cd_friction, "{:.6f}");
     figures.add("cl friction", result.cl_friction, "{:.6f}");
   }
+  std::string lines;
+  for (const BoundaryForce& force : result.forces) {
+    const auto& [name, cl, cd, cl_friction, cd_friction] = force;
+    lines += fmt::format("  forces on {}: cl {:.6f}, cd {:.6f}", name, cl, cd);
+    lines += options.viscosity > 0 ? fmt::format(", cd friction {:.6f}\n", cd_friction) : "\n";
+  }
+  figures.add_member("forces", record_of(result.forces).text());
+  figures.add_lines(lines);
   return figures;
 }
 
@@ -156,9 +192,11 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   context.record.figures = figures.record();
   context.record.figures.add("converged", result.converged);
   context.record.figures.add("seconds", record_of(stages));
-  context.record.files = {arguments.output};
+  const TableFiles tables = tables_beside(arguments.output);
+  context.record.files = {arguments.output, tables.walls, tables.history};
   if (context.shows_table())
-    std::cout << figures.table() << stage_table(stages) << "  wrote " << arguments.output << "\n";
+    std::cout << figures.table() << stage_table(stages) << "  wrote " << arguments.output << ", "
+              << tables.walls << ", " << tables.history << "\n";
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "flow/quantities/boundary_forces.hpp"
+#include "flow/quantities/free_stream.hpp"
+#include "flow/quantities/history.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -16,6 +19,9 @@ struct SolvedFlow {
   Field solution;                            ///< a row for each owned node
   std::optional<double> cl, cd, residual;    ///< where the solver knows them
   std::vector<std::string> notes, warnings;  ///< for the cycle's log; for the user too
+  std::optional<FreeStream> stream;          ///< where the solver knows it
+  std::vector<BoundaryForce> forces;         ///< of each boundary that feels a force
+  std::vector<HistoryRow> history;
 };
 
 /// Any flow solver: `start` is the state to begin with, a row for each of the mesh's owned nodes, or without

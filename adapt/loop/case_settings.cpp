@@ -21,7 +21,7 @@ std::vector<ChangedSetting> changed_settings(const CaseSettings& before, const C
 
 bool may_change_in_a_run(const std::string& key) {
   return key == "solver.command" || key == "solver.template" || key == "solver.iterations" ||
-         key == "output.formats";
+         key == "output.formats" || key == "output.fields";
 }
 
 std::uint64_t run_digest(const CaseSettings& settings, std::uint64_t geometry_digest) {

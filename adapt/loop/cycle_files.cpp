@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "adapt/loop/cycle_paths.hpp"
+#include "flow/quantities/flow_quantities.hpp"
+#include "flow/quantities/wall_table.hpp"
 #include "io/mesh_file.hpp"
 #include "io/text/text_output.hpp"
 #include "io/tree/tree_file.hpp"
@@ -21,6 +23,17 @@ void write_text(const Communicator& comm, const std::string& path, const std::st
   file.write(text);
   file.close();
   outputs.commit();
+}
+
+/// What users look at beside the solution, of a solver that tells it. *Collective.*
+void write_tables(const Communicator& comm, const Mesh& mesh, const SolvedFlow& flow,
+                  const CyclePaths& paths) {
+  if (flow.stream) {
+    std::vector<std::string> walls;
+    for (const BoundaryForce& force : flow.forces) walls.push_back(force.boundary);
+    write_text(comm, paths.walls(), wall_table(comm, mesh, flow.solution, *flow.stream, walls));
+  }
+  if (!flow.history.empty()) write_text(comm, paths.history(), history_table(flow.history));
 }
 
 std::string log_text(const CycleRecord& record, const std::vector<std::string>& notes,
@@ -57,12 +70,20 @@ void CycleFiles::meshed(const MeshResult& mesh, const Field& start) {
   outputs.commit();
 }
 
-std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const Field& flow) {
+std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const SolvedFlow& flow) {
   const CyclePaths paths{folders_.under_way(cycle_)};
+  Field shown;
+  if (flow.stream && !options_.fields.empty()) {
+    comm_.together([&] { shown = with_quantities(flow.solution, options_.fields, *flow.stream); });
+  }
   OutputSet outputs(comm_);
-  for (const std::string& format : options_.formats)
-    write_mesh(outputs, mesh, paths.mesh(format), &flow, options_.gamma);
+  for (const std::string& format : options_.formats) {
+    const bool is_gone_on_from = format == native_format().name;
+    write_mesh(outputs, mesh, paths.mesh(format),
+               shown.width() == 0 || is_gone_on_from ? &flow.solution : &shown, options_.gamma);
+  }
   outputs.commit();
+  write_tables(comm_, mesh, flow, paths);
   return starts_afresh_ ? renames(mesh) : std::vector<std::string>{};  // said of the first cycle alone
 }
 

@@ -14,6 +14,7 @@ struct CycleFileOptions {
   std::vector<std::string> formats;         ///< names of those that its mesh is written in
   std::vector<std::string> read_by_solver;  ///< names of further mesh files that are written, for warnings
   double gamma = 1.4;                       ///< ratio of specific heats, where a format wants it
+  std::vector<std::string> fields;          ///< of quantity_names(), beside the solution
   CycleRecord of_case;                      ///< its digests and settings alone count
 };
 
@@ -29,7 +30,7 @@ class CycleFiles final : public CycleObserver {
 
   void begin(int cycle) override;
   void meshed(const MeshResult& mesh, const Field& start) override;
-  std::vector<std::string> solved(const Mesh& mesh, const Field& flow) override;
+  std::vector<std::string> solved(const Mesh& mesh, const SolvedFlow& flow) override;
   void finished(CycleRecord record, const std::vector<std::string>& notes,
                 const std::vector<std::string>& warnings) override;
   std::string place_of_solution(int cycle) const override;

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "flow/quantities/history.hpp"
+#include "flow/quantities/wall_table.hpp"
 #include "io/formats.hpp"
 #include "io/tree/tree_file.hpp"
 
@@ -19,6 +21,8 @@ struct CyclePaths {
   /// The one that a run goes on from.
   std::string native_mesh() const { return mesh(native_format().name); }
   std::string tree() const { return folder + "/" + mesh_stem + tree_suffix; }
+  std::string walls() const { return folder + "/" + mesh_stem + wall_table_suffix; }
+  std::string history() const { return folder + "/" + mesh_stem + history_suffix; }
   std::string record() const { return folder + "/record.json"; }
   std::string log() const { return folder + "/log.txt"; }
 };

@@ -51,7 +51,7 @@ class Loop {
     SolvedFlow flow = solver_(comm_, result.mesh, carried.start, cycle);
     times.begin("write");
     std::vector<std::string> warnings = result.report.warnings;
-    append(warnings, observer_.solved(result.mesh, flow.solution));
+    append(warnings, observer_.solved(result.mesh, flow));
     times.begin("adapt");
     CycleEnd end{{std::move(result.mesh), std::move(result.tree), std::move(flow.solution),
                   observer_.place_of_solution(cycle)},
@@ -90,6 +90,7 @@ class Loop {
     record.cl = flow.cl;
     record.cd = flow.cd;
     record.residual = flow.residual;
+    record.forces = flow.forces;
     for (const BoundaryLayerReport& row : carried.generated.layers) {
       if (row.y_plus > 0)
         record.first_heights.push_back({row.boundary, row.first_asked, row.first_asked_most});

@@ -30,7 +30,7 @@ class CycleObserver {
   /// The mesh is made, and the state that the solver starts from, without variables in the first cycle.
   virtual void meshed(const MeshResult& /*mesh*/, const Field& /*start*/) {}
   /// The solver is done. What is returned joins the cycle's warnings.
-  virtual std::vector<std::string> solved(const Mesh& /*mesh*/, const Field& /*flow*/) { return {}; }
+  virtual std::vector<std::string> solved(const Mesh& /*mesh*/, const SolvedFlow& /*flow*/) { return {}; }
   /// The cycle is done: its figures, what the solver noted, and what the user is to be told.
   virtual void finished(CycleRecord /*record*/, const std::vector<std::string>& /*notes*/,
                         const std::vector<std::string>& /*warnings*/) {}

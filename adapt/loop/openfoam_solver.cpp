@@ -13,6 +13,7 @@
 #include "io/files/output_file.hpp"
 #include "io/foam/foam_fields.hpp"
 #include "io/foam/foam_file.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -146,7 +147,8 @@ Field read_left(const Communicator& comm, const Mesh& mesh, const MeshCounts& co
 /// *Collective.*
 void write_mesh_of(const Communicator& comm, const Mesh& mesh, const std::string& folder) {
   OutputSet outputs(comm);
-  write_foam(outputs, extruded(mesh, even_heights(1, 1), ExtrusionAxis::z, nullptr),
+  const ExtrudedMesh one_thick = extruded(mesh, even_heights(1, 1), ExtrusionAxis::z, nullptr);
+  write_foam(outputs, SolidStream(comm, one_thick),
              folder + "/" + OpenfoamSolver::folder_name + "/constant/polyMesh");
   outputs.commit();
 }

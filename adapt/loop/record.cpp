@@ -77,10 +77,22 @@ JsonObject figures_of(const CycleRecord& record) {
        {std::pair{"cl", record.cl}, {"cd", record.cd}, {"residual", record.residual}}) {
     if (value) json.add(name, *value);
   }
+  if (!record.forces.empty()) json.add("forces", record_of(record.forces));
   JsonObject heights;
   for (const auto& [boundary, least, largest] : record.first_heights)
     heights.add(boundary, std::vector{least, largest});
   if (!record.first_heights.empty()) json.add("first_heights", heights);
+  return json;
+}
+
+JsonObject record_of(const std::vector<BoundaryForce>& forces) {
+  JsonObject json;
+  for (const BoundaryForce& force : forces) {
+    json.add(force.boundary, object({{"cl", force.cl},
+                                     {"cd", force.cd},
+                                     {"cl_friction", force.cl_friction},
+                                     {"cd_friction", force.cd_friction}}));
+  }
   return json;
 }
 

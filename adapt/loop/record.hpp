@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adapt/loop/case_settings.hpp"
+#include "flow/quantities/boundary_forces.hpp"
 #include "mesher/base/json.hpp"
 
 namespace quadloop {
@@ -31,6 +32,7 @@ struct CycleRecord {
   /// How far each variable's integral drifted in the transfer into this cycle.
   std::vector<std::pair<std::string, double>> drift;
   std::optional<double> cl, cd, residual;
+  std::vector<BoundaryForce> forces;  ///< of each boundary that feels a force
   /// Of boundaries that want a y+: the least and the largest first height that their layers were asked for.
   std::vector<FirstHeights> first_heights;
   std::vector<std::pair<std::string, double>> seconds;
@@ -39,6 +41,9 @@ struct CycleRecord {
 /// What the cycle came to, without its case and the seconds that it took.
 JsonObject figures_of(const CycleRecord& record);
 JsonObject seconds_of(const CycleRecord& record);
+
+/// {boundary: {"cl": ..., "cd": ..., "cl_friction": ..., "cd_friction": ...}}
+JsonObject record_of(const std::vector<BoundaryForce>& forces);
 
 /// One JSON object, a member a line; numbers are the shortest that read back as they are.
 std::string json_text(const CycleRecord& record);

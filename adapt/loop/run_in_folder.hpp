@@ -17,6 +17,8 @@ struct AdaptiveCase {
   ChosenSolver solver;
   std::vector<std::string> formats;  ///< of each cycle's mesh, beside those written by default
   CaseSettings settings;             ///< all that the run's files depend on, beside the outline
+  /// Of quantity_names(): stand in the files of the cycles' meshes, but not in the one that is gone on from.
+  std::vector<std::string> fields = {};
 };
 
 /// What a run tells its caller, on every rank.

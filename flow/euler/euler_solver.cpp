@@ -20,6 +20,16 @@ Field flow_with_constants(const EulerResult& result, const EulerOptions& options
   return flow;
 }
 
+FreeStream free_stream_of(const EulerOptions& options) {
+  return {1,
+          1 / options.gamma,
+          options.mach,
+          options.alpha,
+          options.gamma,
+          options.viscosity,
+          options.reference_length};
+}
+
 FlowSolver euler_solver(EulerOptions options) {
   return [options = std::move(options)](const Communicator& comm, const Mesh& mesh, const Field& start,
                                         int cycle) {
@@ -36,6 +46,9 @@ FlowSolver euler_solver(EulerOptions options) {
     flow.cl = result.cl;
     flow.cd = result.cd;
     flow.residual = result.residual;
+    flow.stream = free_stream_of(options);
+    flow.forces = result.forces;
+    flow.history = result.history;
     return flow;
   };
 }

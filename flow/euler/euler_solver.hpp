@@ -9,6 +9,9 @@ namespace quadloop {
 /// CD, residual, as constants in this order.
 Field flow_with_constants(const EulerResult& result, const EulerOptions& options);
 
+/// What its coefficients are relative to.
+FreeStream free_stream_of(const EulerOptions& options);
+
 /// The built-in solver as any other: notes every step that solve_euler() tells of, warns where a flow did not
 /// converge.
 FlowSolver euler_solver(EulerOptions options);

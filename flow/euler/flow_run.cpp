@@ -22,6 +22,8 @@ double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes) {
 
 namespace {
 
+constexpr int unsteady_history = 10;  ///< steps in time are many and small: every tenth is kept
+
 /// The caller's stage counts steps, or time where that is what ends the run.
 void tell_progress(const FlowRun& run, const EulerResult& result) {
   progress::Stage* const stage = progress::current();
@@ -32,11 +34,18 @@ void tell_progress(const FlowRun& run, const EulerResult& result) {
 
 }  // namespace
 
-void report(const FlowRun& run, const EulerResult& result, double cfl, bool at_end) {
+void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end) {
   tell_progress(run, result);
-  if (!run.options.progress || (!at_end && result.iterations % run.options.progress_every != 0)) return;
+  const bool is_told =
+      run.options.progress && (at_end || result.iterations % run.options.progress_every == 0);
+  const bool is_steady = run.options.time == EulerOptions::Time::steady;
+  const bool is_kept = is_steady || at_end || result.iterations % unsteady_history == 0;
+  if (!is_told && !is_kept) return;
   const ForceCoefficients forces = wall_forces(run.comm, run.mesh, run.model, run.states,
                                                run.residual.friction(), run.options.reference_length);
+  if (is_kept)
+    result.history.push_back({result.iterations, result.residual, forces.cl, forces.cd, result.time});
+  if (!is_told) return;
   if (progress::Stage* stage = progress::current())
     stage->say_then(fmt::format("cl {:.4f}  cd {:.5f}", forces.cl, forces.cd));
   run.options.progress({result.iterations, result.residual, forces.cl, forces.cd, result.time, cfl});

@@ -22,8 +22,8 @@ struct FlowRun {
 /// Root mean square of the owned nodes' net mass fluxes; not a number where any is not finite. *Collective.*
 double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes);
 
-/// Hands the options' callback what it is due. *Collective.*
-void report(const FlowRun& run, const EulerResult& result, double cfl, bool at_end);
+/// Keeps the history, and hands the options' callback what it is due. *Collective.*
+void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end);
 
 /// "density ... at (x, y)" of the node, over all ranks, where the flow is least physical: the first that is
 /// not, else that of the largest flux. *Collective.*

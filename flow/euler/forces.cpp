@@ -1,6 +1,7 @@
 #include "flow/euler/forces.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "flow/euler/scheme/residual.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
@@ -27,14 +28,14 @@ Point sum_over_ranks(const Communicator& comm, const std::vector<Point>& forces)
   return {x, reproducible_sum(comm, along_y)};
 }
 
-}  // namespace
-
-ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
-                              const std::vector<State>& states, const std::vector<Point>& friction,
-                              double reference_length) {
-  std::vector<Point> pushes, rubs;  // of each half of a wall face that belongs to an owned node; of each node
+/// Of each half of a face that belongs to an owned node: what the pressure does there. `counts` tells the
+/// faces.
+template <class Counts>
+std::vector<Point> pushes_on(const DualMesh& mesh, const FlowModel& model, const std::vector<State>& states,
+                             const Counts& counts) {
+  std::vector<Point> pushes;
   for (const BoundaryFace& face : mesh.faces()) {
-    if (!feels_force(model.boundaries[face.boundary].condition)) continue;
+    if (!counts(face)) continue;
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
       if (!mesh.is_owned(own)) continue;
       const State state = state_at_half(face, states[own], states[other]);
@@ -42,8 +43,13 @@ ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, co
       pushes.push_back(push * face.normal);
     }
   }
-  for (std::size_t node = 0; node < std::min<std::size_t>(friction.size(), mesh.owned_nodes()); ++node)
-    rubs.push_back(-1.0 * friction[node]);
+  return pushes;
+}
+
+/// Sums over all ranks, as coefficients.
+ForceCoefficients coefficients(const Communicator& comm, const FlowModel& model,
+                               const std::vector<Point>& pushes, const std::vector<Point>& rubs,
+                               double reference_length) {
   const Point push = sum_over_ranks(comm, pushes), rub = sum_over_ranks(comm, rubs);
   const double speed = std::hypot(model.free_stream[1], model.free_stream[2]);
   if (speed == 0) return {};
@@ -51,6 +57,55 @@ ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, co
                       model.free_stream[2] / speed};
   const double lift = axes.lift(rub), drag = axes.drag(rub);
   return {axes.lift(push) + lift, axes.drag(push) + drag, lift, drag};
+}
+
+/// Of each owned node the lengths of its halves of no-slip faces, of one boundary or of all.
+std::vector<double> no_slip_lengths(const DualMesh& mesh, const FlowModel& model,
+                                    std::optional<std::int32_t> boundary) {
+  std::vector<double> lengths(mesh.nodes(), 0.0);
+  for (const BoundaryFace& face : mesh.faces()) {
+    if (model.boundaries[face.boundary].condition != Condition::no_slip) continue;
+    if (boundary && face.boundary != *boundary) continue;
+    for (const std::int32_t node : {face.from, face.to}) lengths[node] += face.half_size;
+  }
+  lengths.resize(mesh.owned_nodes());
+  return lengths;
+}
+
+}  // namespace
+
+ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
+                              const std::vector<State>& states, const std::vector<Point>& friction,
+                              double reference_length) {
+  const auto counts = [&](const BoundaryFace& face) {
+    return feels_force(model.boundaries[face.boundary].condition);
+  };
+  std::vector<Point> rubs;
+  for (std::size_t node = 0; node < std::min<std::size_t>(friction.size(), mesh.owned_nodes()); ++node)
+    rubs.push_back(-1.0 * friction[node]);
+  return coefficients(comm, model, pushes_on(mesh, model, states, counts), rubs, reference_length);
+}
+
+std::vector<BoundaryForce> forces_of_boundaries(const Communicator& comm, const DualMesh& mesh,
+                                                const FlowModel& model, const std::vector<State>& states,
+                                                const std::vector<Point>& friction, double reference_length,
+                                                const std::vector<BoundaryEdges>& boundaries) {
+  const std::vector<double> all = no_slip_lengths(mesh, model, {});
+  std::vector<BoundaryForce> forces;
+  for (std::int32_t b = 0; b < std::ssize(boundaries); ++b) {
+    const Condition condition = model.boundaries[b].condition;
+    if (condition == Condition::none || !feels_force(condition)) continue;
+    const std::vector<double> lengths = no_slip_lengths(mesh, model, b);
+    std::vector<Point> rubs;
+    for (std::size_t node = 0; node < std::min(friction.size(), lengths.size()); ++node) {
+      if (lengths[node] > 0) rubs.push_back(-lengths[node] / all[node] * friction[node]);
+    }
+    const auto counts = [&](const BoundaryFace& face) { return face.boundary == b; };
+    const ForceCoefficients sum =
+        coefficients(comm, model, pushes_on(mesh, model, states, counts), rubs, reference_length);
+    forces.push_back({boundaries[b].name, sum.cl, sum.cd, sum.cl_friction, sum.cd_friction});
+  }
+  return forces;
 }
 
 std::vector<double> wall_shear(const DualMesh& mesh, const FlowModel& model,

@@ -4,6 +4,7 @@
 
 #include "flow/euler/scheme/dual_mesh.hpp"
 #include "flow/euler/scheme/flow_model.hpp"
+#include "flow/quantities/boundary_forces.hpp"
 
 namespace quadloop::euler {
 
@@ -19,6 +20,13 @@ struct ForceCoefficients {
 ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
                               const std::vector<State>& states, const std::vector<Point>& friction,
                               double reference_length);
+
+/// The same for each of these boundaries that has edges, in the mesh's order. Of a node's friction each
+/// boundary that meets there has the share of its edges' lengths. *Collective.*
+std::vector<BoundaryForce> forces_of_boundaries(const Communicator& comm, const DualMesh& mesh,
+                                                const FlowModel& model, const std::vector<State>& states,
+                                                const std::vector<Point>& friction, double reference_length,
+                                                const std::vector<BoundaryEdges>& boundaries);
 
 /// The friction along the wall at each owned node, as wall_shear_name says.
 std::vector<double> wall_shear(const DualMesh& mesh, const FlowModel& model,

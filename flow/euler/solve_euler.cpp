@@ -38,7 +38,7 @@ std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, cons
 }
 
 /// Flow and forces as they are at the end. *Collective.*
-void take_flow(const FlowRun& run, EulerResult& result) {
+void take_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries, EulerResult& result) {
   const bool viscous = run.model.is_viscous();
   if (viscous) run.residual.evaluate(run.states);  // the flow that is kept may not be the last one
   const std::vector<Point>& friction = run.residual.friction();
@@ -48,6 +48,8 @@ void take_flow(const FlowRun& run, EulerResult& result) {
   result.cd = forces.cd;
   result.cl_friction = forces.cl_friction;
   result.cd_friction = forces.cd_friction;
+  result.forces = forces_of_boundaries(run.comm, run.mesh, run.model, run.states, friction,
+                                       run.options.reference_length, boundaries);
   result.flow.names = flow_names();
   std::vector<double> shear;
   if (viscous) {
@@ -76,7 +78,7 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
   const progress::Stage stage("solving", steady ? options.iterations : options.end_time,
                               steady ? "steps" : "units of time");
   EulerResult result = steady ? march_to_steady(run) : march_in_time(run);
-  take_flow(run, result);
+  take_flow(run, mesh.boundaries, result);
   return result;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "flow/euler/scheme/euler_options.hpp"
+#include "flow/quantities/boundary_forces.hpp"
+#include "flow/quantities/history.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -16,6 +18,8 @@ struct EulerResult {
                         ///< start's and the uniform free stream's
   double cl_friction = 0, cd_friction = 0;  ///< the part of friction in what follows
   double cl = 0, cd = 0;                    ///< over all boundaries that feels_force() counts, in wind axes
+  std::vector<BoundaryForce> forces;        ///< of each of these boundaries that has edges
+  std::vector<HistoryRow> history;          ///< of every step and the end; accurate: of every tenth step
   /// The step whose flow this is: the last, or that of the best residual where it rose again.
   int kept_iteration = 0;
   double last_residual = 0;  ///< after the last step

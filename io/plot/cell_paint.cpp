@@ -1,5 +1,7 @@
 #include "io/plot/cell_paint.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -84,57 +86,87 @@ CellPaint paint_quality(const LoadedMesh& loaded, const std::vector<std::size_t>
   return paint_values(values, {"quality", 0, 1, quality_colour});
 }
 
-/// Whether it is a variable of the cells and of no node.
-bool is_of_cells(const LoadedMesh& loaded, const std::string& field) {
-  return loaded.solution && std::ranges::count(loaded.solution->names, field) == 0 &&
-         std::ranges::count(loaded.solution->cells.names, field) > 0;
-}
-
-std::size_t column_of(const LoadedMesh& loaded, const std::string& field) {
-  if (!loaded.solution || loaded.solution->empty())
-    throw InputError("there is no field '" + field +
-                     "': the file holds no solution; plot it without --field");
-  std::vector<std::string> names =
-      is_of_cells(loaded, field) ? std::vector<std::string>{} : loaded.solution->names;
-  const std::vector<std::string>& of_cells = loaded.solution->cells.names;
-  names.insert(names.end(), of_cells.begin(), of_cells.end());
-  const auto found = std::find(names.begin(), names.end(), field);
-  if (found != names.end()) return found - names.begin();
-  std::string there;
-  for (const std::string& name : names) there += (there.empty() ? "" : ", ") + name;
-  throw InputError("there is no field '" + field + "'; there are: " + there + guess_for(field, names));
-}
-
-CellPaint paint_field(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
-                      const std::string& field) {
-  const std::size_t column = column_of(loaded, field);
-  const std::vector<double> of_nodes =
-      is_of_cells(loaded, field) ? std::vector<double>{} : loaded.solution->column(column);
-  const std::vector<double> of_cells =
-      is_of_cells(loaded, field) ? loaded.solution->cells.column(column) : std::vector<double>{};
-  ColourBar bar{field, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                perceptual_colour};
-  std::vector<double> values;
-  for (const std::size_t cell : cells) {
-    const std::span<const NodeId> nodes = cell_nodes(loaded.mesh, cell);
-    double sum = 0;
-    for (const NodeId node : nodes) sum += of_nodes.empty() ? of_cells[cell] : of_nodes[node.value()];
-    values.push_back(of_nodes.empty() ? of_cells[cell] : sum / size32(nodes));
-    if (!std::isfinite(values.back())) continue;
-    bar.low = std::min(bar.low, values.back());
-    bar.high = std::max(bar.high, values.back());
+/// The range that is asked for; else the values', or one round a value that is the same all over.
+void settle_range(ColourBar& bar, const PlotOptions& options) {
+  if (options.range) {
+    bar.low = (*options.range)[0];
+    bar.high = (*options.range)[1];
+    return;
   }
   if (bar.low > bar.high) bar.low = bar.high = 0;
   const double least = 1e-9 * std::max(std::abs(bar.low), std::abs(bar.high));
-  if (bar.high - bar.low <= least) {  // one value all over
-    const double around = least > 0 ? 1e-3 * std::abs(bar.low) : 1;
-    bar.low -= around;
-    bar.high += around;
+  if (bar.high - bar.low > least) return;
+  const double around = least > 0 ? 1e-3 * std::abs(bar.low) : 1;
+  bar.low -= around;
+  bar.high += around;
+}
+
+/// Values of nodes from those of the cells round them.
+std::vector<double> spread_to_nodes(const Mesh& mesh, const std::vector<double>& of_cells) {
+  std::vector<double> sums(mesh.points.size(), 0), counts(mesh.points.size(), 0);
+  for (std::size_t cell = 0; cell < of_cells.size(); ++cell) {
+    for (const NodeId node : cell_nodes(mesh, cell)) {
+      sums[node.value()] += of_cells[cell];
+      ++counts[node.value()];
+    }
   }
+  for (std::size_t node = 0; node < sums.size(); ++node) sums[node] /= counts[node];
+  return sums;
+}
+
+/// Values of cells as means of their corners'.
+std::vector<double> means_of_corners(const Mesh& mesh, const std::vector<double>& of_nodes) {
+  std::vector<double> means;
+  for (std::size_t cell = 0; cell < cell_count(mesh); ++cell) {
+    double sum = 0;
+    for (const NodeId node : cell_nodes(mesh, cell)) sum += of_nodes[node.value()];
+    means.push_back(sum / size32(cell_nodes(mesh, cell)));
+  }
+  return means;
+}
+
+CellPaint paint_field(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
+                      const PlotOptions& options) {
+  const FieldValues field = field_values(loaded, options.field);
+  ColourBar bar{options.field, std::numeric_limits<double>::infinity(),
+                -std::numeric_limits<double>::infinity(), options.map};
+  const auto include = [&](double value) {
+    if (!std::isfinite(value)) return;
+    bar.low = std::min(bar.low, value);
+    bar.high = std::max(bar.high, value);
+  };
+  std::vector<double> values;
+  for (const std::size_t cell : cells) {
+    values.push_back(field.of_cells[cell]);
+    if (!options.smooth) include(values.back());
+    if (!options.smooth) continue;
+    for (const NodeId node : cell_nodes(loaded.mesh, cell)) include(field.of_nodes[node.value()]);
+  }
+  settle_range(bar, options);
   return paint_values(values, bar);
 }
 
 }  // namespace
+
+FieldValues field_values(const LoadedMesh& loaded, const std::string& field) {
+  if (!loaded.solution || loaded.solution->empty())
+    throw InputError("there is no field '" + field +
+                     "': the file holds no solution; plot it without --field");
+  const std::vector<std::string>&names = loaded.solution->names, &of_cells = loaded.solution->cells.names;
+  const Mesh& mesh = loaded.mesh;
+  if (const auto found = std::ranges::find(names, field); found != names.end()) {
+    std::vector<double> values = loaded.solution->column(found - names.begin());
+    return {values, means_of_corners(mesh, values)};
+  }
+  if (const auto found = std::ranges::find(of_cells, field); found != of_cells.end()) {
+    std::vector<double> values = loaded.solution->cells.column(found - of_cells.begin());
+    return {spread_to_nodes(mesh, values), values};
+  }
+  std::vector<std::string> all = names;
+  all.insert(all.end(), of_cells.begin(), of_cells.end());
+  throw InputError(fmt::format("there is no field '{}'; there are: {}{}", field, fmt::join(all, ", "),
+                               guess_for(field, all)));
+}
 
 std::size_t cell_count(const Mesh& mesh) { return mesh.triangles.size() + mesh.quads.size(); }
 
@@ -145,7 +177,7 @@ std::span<const NodeId> cell_nodes(const Mesh& mesh, std::size_t cell) {
 
 CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
                       const PlotOptions& options) {
-  if (!options.field.empty()) return paint_field(loaded, cells, options.field);
+  if (!options.field.empty()) return paint_field(loaded, cells, options);
   if (options.colouring == PlotColouring::quality) return paint_quality(loaded, cells);
   return options.colouring == PlotColouring::block ? paint_blocks(loaded, cells) : paint_types(loaded, cells);
 }

@@ -24,6 +24,14 @@ struct CellPaint {
   std::optional<ColourBar> bar;
 };
 
+/// A variable of the solution, at nodes and in cells (cell_nodes()): what the file has in one place only is
+/// the mean of the other's values there.
+struct FieldValues {
+  std::vector<double> of_nodes, of_cells;
+};
+/// Throws InputError where there is none of that name.
+FieldValues field_values(const LoadedMesh& loaded, const std::string& field);
+
 /// Colours `cells` (numbers as for cell_nodes). Throws InputError where the field is not there.
 CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
                       const PlotOptions& options);

@@ -5,7 +5,9 @@
 #include <cairo.h>
 
 #include <cmath>
+#include <cstring>
 #include <new>
+#include <numbers>
 
 #include "mesher/base/error.hpp"
 
@@ -80,12 +82,14 @@ struct Canvas::Cairo {
   Context context;
 };
 
-Canvas::Canvas(PlotFormat format, double width, double height) : cairo_{std::make_unique<Cairo>()} {
+Canvas::Canvas(PlotFormat format, double width, double height, double scale)
+    : cairo_{std::make_unique<Cairo>()} {
   cairo_->format = format;
-  cairo_->surface = make_surface(format, width, height, cairo_->bytes);
+  cairo_->surface = make_surface(format, scale * width, scale * height, cairo_->bytes);
   require_success(cairo_surface_status(cairo_->surface.get()));
   cairo_->context.reset(cairo_create(cairo_->surface.get()));
   cairo_t* context = cairo_->context.get();
+  cairo_scale(context, scale, scale);
   cairo_set_source_rgb(context, 1, 1, 1);
   cairo_paint(context);
   cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
@@ -117,12 +121,22 @@ void Canvas::add_line(Point a, Point b) {
   cairo_line_to(cairo_->context.get(), b.x, b.y);
 }
 
+void Canvas::add_polyline(std::span<const Point> points) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    (i == 0 ? cairo_move_to : cairo_line_to)(cairo_->context.get(), points[i].x, points[i].y);
+}
+
 void Canvas::fill_crisp(Colour colour) {
   cairo_t* context = cairo_->context.get();
   cairo_set_source_rgb(context, colour.red, colour.green, colour.blue);
   cairo_set_antialias(context, CAIRO_ANTIALIAS_NONE);
   cairo_fill(context);
   cairo_set_antialias(context, CAIRO_ANTIALIAS_DEFAULT);
+}
+
+void Canvas::fill(Colour colour) {
+  cairo_set_source_rgb(cairo_->context.get(), colour.red, colour.green, colour.blue);
+  cairo_fill(cairo_->context.get());
 }
 
 void Canvas::stroke(Colour colour, double opacity, double width) {
@@ -140,6 +154,37 @@ void Canvas::text(Point at, const std::string& text, TextAlign align) {
   cairo_move_to(context, at.x - share * text_width(shown), at.y + 0.35 * font_size);
   cairo_show_text(context, shown.c_str());
   cairo_new_path(context);
+}
+
+void Canvas::text_upwards(Point middle, const std::string& text) {
+  cairo_t* context = cairo_->context.get();
+  cairo_save(context);
+  cairo_translate(context, middle.x, middle.y);
+  cairo_rotate(context, -0.5 * std::numbers::pi);
+  this->text({0, 0}, text, TextAlign::centre);
+  cairo_restore(context);
+}
+
+void Canvas::paint(const Box& box, const Image& image) {
+  if (image.width < 1 || image.height < 1) return;
+  cairo_t* context = cairo_->context.get();
+  const Surface picture(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height));
+  require_success(cairo_surface_status(picture.get()));
+  const int stride = cairo_image_surface_get_stride(picture.get());
+  unsigned char* const rows = cairo_image_surface_get_data(picture.get());
+  for (int y = 0; y < image.height; ++y) {
+    std::memcpy(rows + static_cast<std::ptrdiff_t>(y) * stride,
+                image.pixels.data() + static_cast<std::ptrdiff_t>(y) * image.width,
+                image.width * sizeof(std::uint32_t));
+  }
+  cairo_surface_mark_dirty(picture.get());
+  cairo_save(context);
+  cairo_translate(context, box.low.x, box.low.y);
+  cairo_scale(context, box.width() / image.width, box.height() / image.height);
+  cairo_set_source_surface(context, picture.get(), 0, 0);
+  cairo_pattern_set_filter(cairo_get_source(context), CAIRO_FILTER_NEAREST);
+  cairo_paint(context);
+  cairo_restore(context);
 }
 
 double Canvas::text_width(const std::string& text) const {

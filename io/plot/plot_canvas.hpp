@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "mesher/geometry/point.hpp"
 
@@ -23,11 +25,18 @@ constexpr Colour mixed(Colour a, Colour b, double share) {
 
 enum class TextAlign { left, centre, right };
 
+/// An image, row by row from the top; of each pixel 8 bits of alpha (0 or 255), red, green, blue.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint32_t> pixels;
+};
+
 /// A white sheet in pixels, the origin at its top left, y downwards. What is added becomes one path, until it
 /// is filled or stroked. Coordinates must stay within some 10^6 pixels. The same calls give the same bytes.
 class Canvas {
  public:
-  Canvas(PlotFormat format, double width, double height);
+  /// `scale`: how many pixels of the file (of SVG and PDF: points) one pixel of the sheet becomes.
+  Canvas(PlotFormat format, double width, double height, double scale = 1);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
@@ -38,14 +47,21 @@ class Canvas {
 
   void add_polygon(std::span<const Point> corners);
   void add_line(Point a, Point b);
+  void add_polyline(std::span<const Point> points);
   /// A crisp fill puts each pixel into one polygon alone, so that neighbours show no seam.
   void fill_crisp(Colour colour);
+  void fill(Colour colour);
   void stroke(Colour colour, double opacity, double width);
 
   /// `at`: the middle of the text's height, its left, centre or right. Text that is no UTF-8 is shown as far
   /// as it is ASCII.
   void text(Point at, const std::string& text, TextAlign align = TextAlign::left);
+  /// Turned to run upwards; `middle` is its middle.
+  void text_upwards(Point middle, const std::string& text);
   double text_width(const std::string& text) const;
+
+  /// The image stretched over the box.
+  void paint(const Box& box, const Image& image);
 
   /// The picture's bytes; the canvas is not to be used any more. Throws a Fault where Cairo failed.
   std::string finish();

@@ -1,44 +1,21 @@
 #include "io/plot/plot_view.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "io/plot/ticks.hpp"
 
 namespace quadloop {
 
 namespace {
 
 constexpr double narrowest = 420;
-constexpr double left = 84, right = 28, right_with_bar = 150, top = 24, below_axis = 42, legend_row = 27,
+constexpr double left = 106, right = 28, right_with_bar = 150, top = 24, below_axis = 64, legend_row = 27,
                  swatch = 24, gap = 26;
 constexpr double room =
     64;  // pixels around the frame that are still drawn, so that clipped edges do not show
 constexpr Colour ink{0.2, 0.2, 0.2};
-
-struct Ticks {
-  std::vector<double> values;
-  std::vector<std::string> labels;
-};
-
-/// Round numbers between low and high, about `most` of them.
-Ticks round_ticks(double low, double high, double most) {
-  Ticks ticks;
-  const double raw = (high - low) / std::max(most, 2.0);
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  const double step = power * (raw > 5 * power ? 10 : raw > 2 * power ? 5 : raw > power ? 2 : 1);
-  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
-  const bool plain = decimals <= 7 && std::max(std::abs(low), std::abs(high)) < 1e7;
-  const double first = std::ceil(low / step - 1e-9);
-  for (int i = 0; i < 40 && (first + i) * step <= high + 1e-9 * step; ++i) {
-    const double value = (first + i) * step;
-    ticks.values.push_back(value);
-    ticks.labels.push_back(plain ? fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals)
-                                 : fmt::format("{:.6g}", value));
-  }
-  return ticks;
-}
 
 /// What of a convex polygon lies where side(p) >= 0; `side` is linear.
 template <class Side>
@@ -60,43 +37,32 @@ Box with_room(const Box& window, double pixels, double scale) {
 
 }  // namespace
 
-Colour perceptual_colour(double t) {  // stops of viridis
-  static constexpr std::array<Colour, 9> stops{{{0.267, 0.005, 0.329},
-                                                {0.279, 0.175, 0.483},
-                                                {0.230, 0.322, 0.546},
-                                                {0.173, 0.449, 0.558},
-                                                {0.128, 0.567, 0.551},
-                                                {0.158, 0.684, 0.502},
-                                                {0.369, 0.789, 0.383},
-                                                {0.678, 0.864, 0.190},
-                                                {0.993, 0.906, 0.144}}};
-  const double at = std::clamp(t, 0.0, 1.0) * (stops.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(at), stops.size() - 2);
-  return mixed(stops[i], stops[i + 1], at - static_cast<double>(i));
-}
-
-Colour quality_colour(double t) {
-  constexpr Colour red{0.80, 0.13, 0.12}, yellow{0.98, 0.85, 0.35}, green{0.36, 0.68, 0.38};
-  const double at = std::clamp(t, 0.0, 1.0);
-  return at < 0.5 ? mixed(red, yellow, 2 * at) : mixed(yellow, green, 2 * at - 1);
-}
-
 PlotView::PlotView(const Box& window, double longer_side, const std::vector<LegendEntry>& legend,
-                   bool has_bar)
+                   bool has_bar, std::optional<Point> sheet)
     : window_{window} {
+  const Point most = sheet ? *sheet : Point{longer_side, longer_side};
   const double beside = left + (has_bar ? right_with_bar : right);
   double below = below_axis + legend_row;
   for (int pass = 0; pass < 3; ++pass) {  // the legend's rows hang on the width, the width on them
-    scale_ = std::min((longer_side - beside) / window.width(), (longer_side - top - below) / window.height());
+    scale_ = std::min((most.x - beside) / window.width(), (most.y - top - below) / window.height());
     const double wide = std::max(1.0, scale_ * window.width()),
                  high = std::max(1.0, scale_ * window.height());
     frame_ = {{left, top}, {left + wide, top + high}};
-    width_ = std::round(std::max(narrowest, beside + wide));
+    width_ = sheet ? sheet->x : std::round(std::max(narrowest, beside + wide));
     double bottom = 0;
     legend_places(legend, bottom);
     below = bottom - frame_.high.y;
-    height_ = std::round(bottom);
+    height_ = sheet ? sheet->y : std::round(bottom);
   }
+}
+
+Box PlotView::filling(const Box& window, Point sheet, bool has_bar) {
+  const double wide = sheet.x - left - (has_bar ? right_with_bar : right),
+               high = sheet.y - top - below_axis - legend_row - 6;
+  if (!(wide > 1 && high > 1)) return window;
+  const Point grown{std::max(0.0, window.height() * wide / high - window.width()),
+                    std::max(0.0, window.width() * high / wide - window.height())};
+  return {window.low - 0.5 * grown, window.high + 0.5 * grown};
 }
 
 std::vector<Point> PlotView::legend_places(const std::vector<LegendEntry>& legend, double& bottom) const {
@@ -123,32 +89,35 @@ std::vector<Point> PlotView::visible_part(std::vector<Point> corners) const {
 }
 
 std::optional<std::array<Point, 2>> PlotView::visible_part(Point a, Point b) const {
-  const Box seen = with_room(window_, room, scale_);
-  if (seen.contains(a) && seen.contains(b)) return std::array{a, b};
+  return part_within(with_room(window_, room, scale_), a, b);
+}
+
+std::optional<std::array<Point, 2>> part_within(const Box& box, Point a, Point b) {
+  if (box.contains(a) && box.contains(b)) return std::array{a, b};
   double from = 0, to = 1;
   const auto narrow = [&](double at_a, double at_b) {
     if (at_a < 0 && at_b < 0) to = -1;
     if (at_a < 0 && at_b >= 0) from = std::max(from, at_a / (at_a - at_b));
     if (at_a >= 0 && at_b < 0) to = std::min(to, at_a / (at_a - at_b));
   };
-  narrow(a.x - seen.low.x, b.x - seen.low.x);
-  narrow(seen.high.x - a.x, seen.high.x - b.x);
-  narrow(a.y - seen.low.y, b.y - seen.low.y);
-  narrow(seen.high.y - a.y, seen.high.y - b.y);
+  narrow(a.x - box.low.x, b.x - box.low.x);
+  narrow(box.high.x - a.x, box.high.x - b.x);
+  narrow(a.y - box.low.y, b.y - box.low.y);
+  narrow(box.high.y - a.y, box.high.y - b.y);
   if (from > to) return std::nullopt;
   return std::array{a + from * (b - a), a + to * (b - a)};
 }
 
-void PlotView::draw_axes(Canvas& canvas) const {
+void PlotView::draw_axes(Canvas& canvas, const std::string& x_title, const std::string& y_title) const {
   const Box& f = frame_;
   const std::array<Point, 4> corners{f.low, Point{f.high.x, f.low.y}, f.high, Point{f.low.x, f.high.y}};
   canvas.add_polygon(corners);
-  const Ticks along_x = round_ticks(window_.low.x, window_.high.x, f.width() / 110);
+  const Ticks along_x = round_ticks(window_.low.x, window_.high.x, f.width() / 90);
   for (std::size_t i = 0; i < along_x.values.size(); ++i) {
     const double x = pixel({along_x.values[i], window_.low.y}).x;
     canvas.add_line({x, f.high.y}, {x, f.high.y + 7});
   }
-  const Ticks along_y = round_ticks(window_.low.y, window_.high.y, f.height() / 75);
+  const Ticks along_y = round_ticks(window_.low.y, window_.high.y, f.height() / 60);
   for (std::size_t i = 0; i < along_y.values.size(); ++i) {
     const double y = pixel({window_.low.x, along_y.values[i]}).y;
     canvas.add_line({f.low.x - 7, y}, {f.low.x, y});
@@ -160,6 +129,8 @@ void PlotView::draw_axes(Canvas& canvas) const {
   for (std::size_t i = 0; i < along_y.values.size(); ++i)
     canvas.text({f.low.x - 13, pixel({window_.low.x, along_y.values[i]}).y}, along_y.labels[i],
                 TextAlign::right);
+  canvas.text({0.5 * (f.low.x + f.high.x), f.high.y + 45}, x_title, TextAlign::centre);
+  canvas.text_upwards({16, 0.5 * (f.low.y + f.high.y)}, y_title);
 }
 
 void PlotView::draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend) const {
@@ -183,7 +154,7 @@ void PlotView::draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legen
 void PlotView::draw_bar(Canvas& canvas, const ColourBar& bar) const {
   constexpr int steps = 128;
   const double x = frame_.high.x + 24, wide = 22;
-  const double low = frame_.high.y, high = std::min(frame_.low.y + 30, low - 40);
+  const double low = frame_.high.y, high = std::min(frame_.low.y, low - 40);
   const auto at = [&](double t) { return low + t * (high - low); };
   const auto add_part = [&](double from, double to) {
     canvas.add_polygon(
@@ -195,14 +166,15 @@ void PlotView::draw_bar(Canvas& canvas, const ColourBar& bar) const {
   }
   add_part(0, 1);
   canvas.stroke(ink, 1, 1);
-  const Ticks ticks = round_ticks(bar.low, bar.high, (low - high) / 70);
+  const Ticks ticks = round_ticks(bar.low, bar.high, (low - high) / 45);
   for (std::size_t i = 0; i < ticks.values.size(); ++i) {
     const double y = at((ticks.values[i] - bar.low) / (bar.high - bar.low));
     canvas.add_line({x + wide, y}, {x + wide + 5, y});
     canvas.stroke(ink, 1, 1);
     canvas.text({x + wide + 10, y}, ticks.labels[i]);
   }
-  canvas.text({width_ - 8, high - 18}, bar.title, TextAlign::right);
+  const double title = canvas.text_width(bar.title);
+  canvas.text({std::min(x, width_ - 8 - title), 0.5 * top}, bar.title);
 }
 
 }  // namespace quadloop

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/plot/colour_map.hpp"
 #include "io/plot/plot_canvas.hpp"
 #include "mesher/geometry/point.hpp"
 
@@ -20,19 +21,22 @@ struct LegendEntry {
 struct ColourBar {
   std::string title;
   double low = 0, high = 1;
-  Colour (*colour)(double) = nullptr;  ///< of 0 to 1
+  ColourMap colour = nullptr;
 };
 
-/// 0 dark blue to 1 yellow, evenly perceived.
-Colour perceptual_colour(double t);
-/// 0 red, 0.5 yellow, 1 green.
-Colour quality_colour(double t);
+/// The part of the line from a to b that lies in the box.
+std::optional<std::array<Point, 2>> part_within(const Box& box, Point a, Point b);
 
 /// Where a window of the plane lies on a sheet whose longer side has so many pixels, legend and axes
-/// included.
+/// included; or on one of this width and height, which it need not fill.
 class PlotView {
  public:
-  PlotView(const Box& window, double longer_side, const std::vector<LegendEntry>& legend, bool has_bar);
+  PlotView(const Box& window, double longer_side, const std::vector<LegendEntry>& legend, bool has_bar,
+           std::optional<Point> sheet = {});
+
+  /// The window made larger in one direction, so that on a sheet of this width and height it fills what a
+  /// legend of one row leaves of it.
+  static Box filling(const Box& window, Point sheet, bool has_bar);
 
   const Box& window() const { return window_; }
   const Box& frame() const { return frame_; }  ///< in pixels
@@ -48,7 +52,7 @@ class PlotView {
   std::vector<Point> visible_part(std::vector<Point> corners) const;
   std::optional<std::array<Point, 2>> visible_part(Point a, Point b) const;
 
-  void draw_axes(Canvas& canvas) const;
+  void draw_axes(Canvas& canvas, const std::string& x_title, const std::string& y_title) const;
   void draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend) const;
   void draw_bar(Canvas& canvas, const ColourBar& bar) const;
 

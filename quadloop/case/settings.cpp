@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "flow/quantities/flow_quantities.hpp"
 #include "io/formats.hpp"
 #include "io/input/case_file.hpp"
 #include "io/input/geometry_file.hpp"
@@ -214,6 +215,16 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
       }
       if (std::find(settings.formats.begin(), settings.formats.end(), format) == settings.formats.end())
         settings.formats.push_back(format);
+    }
+  }
+  if (table->has("fields")) {
+    for (const std::string& field : table->texts("fields")) {
+      if (std::ranges::find(quantity_names(), field) == quantity_names().end())
+        table->refuse("fields",
+                      fmt::format("holds '{}', but there are: {}{}", field, fmt::join(quantity_names(), ", "),
+                                  guess_for(field, quantity_names())));
+      if (std::ranges::find(settings.fields, field) == settings.fields.end())
+        settings.fields.push_back(field);
     }
   }
   table->finish();

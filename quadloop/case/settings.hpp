@@ -46,7 +46,8 @@ struct Settings {
   std::optional<AdaptOptions> adapt;  ///< where the case has a table for it
   std::string output_prefix;
   std::vector<std::string> formats;
-  Warnings warnings;  ///< what the user is to be told of the case file itself
+  std::vector<std::string> fields;  ///< of quantity_names(), written beside a solution
+  Warnings warnings;                ///< what the user is to be told of the case file itself
 };
 
 /// Reads the case file with the command line's assignments over it. On the calling rank alone. Throws

@@ -115,6 +115,51 @@ class Plot(unittest.TestCase):
         for options in (["--colour-by", "block"], ["--color-by", "block"], ["--colour-by", "quality"], ["--field", "density"], ["--field", "pressure"]):
             self.assertNotIn(PALE_ORANGE, self.small(*options)[2], options)
 
+    def test_fields_are_smooth_in_the_range_and_the_map_asked_for(self):
+        smooth, flat = (self.small("--field", "density", "--shading", shading)[2] for shading in ("smooth", "flat"))
+        self.assertGreater(len(smooth), len(flat) + 100)
+        self.assertIn((0x44, 0x01, 0x54), self.small("--field", "density", "--range", "10,20")[2])
+        self.assertIn((20, 20, 20), self.small("--field", "density", "--map", "grey", "--range=3,4")[2])
+        self.assertNotEqual(self.picture("a.png", "--field", "density"), self.picture("a.png", "--field", "density", "--lines", "on"))
+        self.assertNotEqual(self.picture("a.png"), self.picture("a.png", "--lines", "off"))
+        self.assertNotEqual(self.picture("a.png", "--field", "density"), self.picture("a.png", "--field", "density", "--contours", "3"))
+
+    def test_lines_of_the_mesh_have_one_ink_whatever_the_colours_below(self):
+        """Where it changed, as on a dark colour, the eye saw a contour: no pixel of a dark field with lines is lighter than without."""
+        without, lined = (max(map(sum, self.small("--field", "density", "--range", "8,20", "--window=0.2,1.8,0.2,0.8", "--lines", on)[2] - {(255, 255, 255)}))
+                          for on in ("off", "on"))
+        self.assertEqual(without, lined)
+
+    def test_sizes_in_cm(self):
+        data = self.picture("a.png", "--size", "16x10")
+        self.assertEqual(struct.unpack(">II", data[16:24]), (1890, 1181))
+        self.assertEqual(float(xml.etree.ElementTree.fromstring(self.picture("a.svg", "--size", "16x10")).attrib["width"].removesuffix("pt")), 453.543307)
+
+    def test_tables_beside_a_flow(self):
+        (self.folder / "a.walls.csv").write_text("boundary,s,x,y,Cp,Mach\nwall,0,1,0,1,0.5\nwall,1,0,0,-1,0.7\n")
+        (self.folder / "a.history.csv").write_text("step,residual,cl,cd\n0,1,0,0\n1,0.1,0.3,0.02\n")
+        cp = self.picture("a.png", "--walls")
+        self.assertNotEqual(cp, self.picture("b.png", "--walls", "--field", "Mach"))
+        for name in ("a.walls.csv", "a.history.csv"):
+            done = self.run_plot(name, "-o", "c.png")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual((self.folder / "c.png").read_bytes() == cp, name == "a.walls.csv")
+        (self.folder / "run" / "cycle_00").mkdir(parents=True)
+        (self.folder / "a.history.csv").rename(self.folder / "run" / "cycle_00" / "mesh.history.csv")
+        done = self.run_plot("run", "-o", "d.png", "--history")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual((self.folder / "d.png").read_bytes(), (self.folder / "c.png").read_bytes())
+        done = self.run_plot("a.mesh", "-o", "d.png", "--walls", "--field", "Cf")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("there are: boundary, s, x, y, Cp, Mach", done.stderr)
+
+    def test_quantities_of_a_flow_need_not_stand_in_the_file(self):
+        text = MESH.split("0\n2\n#names")[0] + "7\n9\n0\n0.5\n0\n0\n0\n0\n4\n#names: density x_velocity y_velocity pressure\n"
+        (self.folder / "b.mesh").write_text(text + "".join(f"1 {0.1 * node} 0 0.7\n" for node in range(8)))
+        for field in ("mach", "pressure_coefficient"):
+            done = self.run_plot("b.mesh", "-o", "b.png", "--field", field, "--streamlines", "10")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     def test_the_same_bytes_twice_and_on_ranks(self):
         for name in ("a.png", "a.svg", "a.pdf"):
             first = self.picture(name)
@@ -131,6 +176,16 @@ class Plot(unittest.TestCase):
         self.refused(1, "no cell lies in the window", "a.mesh", "-o", "a.png", "--window=5,6,0,1")
         self.refused(1, "density, pressure", "a.mesh", "-o", "a.png", "--field", "mach")
         self.refused(1, "do you mean 'pressure'?", "a.mesh", "-o", "a.png", "--field", "presure")
+        self.refused(1, "quadloop solve", "a.mesh", "-o", "a.png", "--walls")
+        self.refused(1, "a.history.csv", "a.mesh", "-o", "a.png", "--history")
+        self.refused(1, "no cycle", ".", "-o", "a.png", "--history")
+        self.refused(1, "streamlines need a velocity", "a.mesh", "-o", "a.png", "--streamlines", "5")
+        for range_asked in ("3,1", "1", "a,b", "1,nan"):
+            self.refused(2, "two numbers A,B", "a.mesh", "-o", "a.png", "--field", "density", "--range", range_asked)
+        for size in ("300", "16x", "16x1", "x10", "1e9", "500.5"):
+            self.refused(2, "cm", "a.mesh", "-o", "a.png", "--size", size)
+        self.refused(2, "name it with --field", "a.mesh", "-o", "a.png", "--contours", "4")
+        self.refused(2, "--map", "a.mesh", "-o", "a.png", "--field", "density", "--map", "jet")
         self.refused(2, "four numbers", "a.mesh", "-o", "a.png", "--window=1,2,3")
         self.refused(2, "holds no ranks", "a.mesh", "-o", "a.png", "--colour-by", "rank")
         self.refused(2, "--colour-by", "a.mesh", "-o", "a.png", "--colour-by", "taste")

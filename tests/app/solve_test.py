@@ -3,6 +3,7 @@
 
     solve_test.py QUADLOOP MPIRUN
 """
+import json
 import math
 import subprocess
 import sys
@@ -72,7 +73,8 @@ class SolveTest(unittest.TestCase):
     def test_the_same_bytes_on_any_number_of_ranks(self):
         for ranks in (1, 2, 3, 5):
             self.run_quadloop("solve", "case.toml", "m.mesh", "-o", f"flow{ranks}.mesh", "--set", "solver.iterations=8", ranks=ranks)
-            self.assertEqual((self.folder / f"flow{ranks}.mesh").read_bytes(), (self.folder / "flow1.mesh").read_bytes())
+            for suffix in ("mesh", "walls.csv", "history.csv"):
+                self.assertEqual((self.folder / f"flow{ranks}.{suffix}").read_bytes(), (self.folder / f"flow1.{suffix}").read_bytes(), suffix)
 
     def test_converges_and_starts_from_its_own_flow(self):
         first = self.run_quadloop("solve", "case.toml", "m.mesh", "-o", "flow.mesh")
@@ -85,6 +87,46 @@ class SolveTest(unittest.TestCase):
         again = self.run_quadloop("solve", "case.toml", "flow.mesh", "-o", "flow.cgns", "--set", "solver.tolerance=1e-7")
         rows = {line.split()[0]: line.split()[1] for line in again.stdout.splitlines() if len(line.split()) == 2}
         self.assertLess(int(rows["steps"]), 150)
+
+    def test_walls_forces_and_history_stand_beside_the_flow(self):
+        done = self.run_quadloop("solve", "case.toml", "m.mesh", "-o", "w.mesh", "--json")
+        record = json.loads(done.stdout)
+        self.assertEqual(record["files"], ["w.mesh", "w.walls.csv", "w.history.csv"])
+        self.assertEqual(record["forces"], {"body": {"cl": record["cl"], "cd": record["cd"], "cl_friction": 0, "cd_friction": 0}})
+        head, *rows = [line.split(",") for line in (self.folder / "w.walls.csv").read_text().splitlines()]
+        self.assertEqual(head, ["boundary", "s", "x", "y", "Cp", "Mach"])
+        self.assertEqual({row[0] for row in rows}, {"body"})
+        walked = [[float(word) for word in row[1:]] for row in rows]
+        self.assertEqual(walked[0][:3], [0, 0.5, 0])
+        self.assertEqual(walked[0][1:], walked[-1][1:])
+        self.assertAlmostEqual(walked[-1][0], 4 * math.hypot(0.5, 0.1), places=9)
+        self.assertLess(walked[1][2], 0)  # the domain to the left: along the lower side first
+        angle = math.radians(3)
+        lift = drag = 0
+        for (_, x, y, cp, _), (_, next_x, next_y, next_cp, _) in zip(walked, walked[1:]):
+            force_x, force_y = 0.5 * (cp + next_cp) * (next_y - y), -0.5 * (cp + next_cp) * (next_x - x)
+            lift += force_y * math.cos(angle) - force_x * math.sin(angle)
+            drag += force_x * math.cos(angle) + force_y * math.sin(angle)
+        self.assertAlmostEqual(lift, record["cl"], places=9)
+        self.assertAlmostEqual(drag, record["cd"], places=9)
+        head, *rows = [line.split(",") for line in (self.folder / "w.history.csv").read_text().splitlines()]
+        self.assertEqual(head, ["step", "residual", "cl", "cd"])
+        self.assertEqual([int(row[0]) for row in rows], list(range(record["steps"] + 1)))
+        self.assertEqual([float(word) for word in rows[-1][1:]], [record["residual"], record["cl"], record["cd"]])
+
+    def test_fields_that_are_asked_for_stand_beside_the_solution(self):
+        fields = ["--set", "solver.iterations=2", 'output.fields=["mach", "pressure_coefficient"]']
+        self.run_quadloop("solve", "case.toml", "m.mesh", "-o", "fields.mesh", *fields)
+        self.assertIn("#names: density x_velocity y_velocity pressure mach pressure_coefficient\n", (self.folder / "fields.mesh").read_text())
+        done = self.run_quadloop("solve", "case.toml", "m.mesh", "-o", "no.mesh", "--set", 'output.fields=["match"]', status=1)
+        self.assertIn("do you mean 'mach'?", done.stderr)
+        (self.folder / "fields.toml").write_text(CASE + "[adapt]\ncycles = 0\n[output]\nformats = ['vtu']\n")
+        self.run_quadloop("adapt", "fields.toml", "-o", "fields", *fields)
+        cycle = self.folder / "fields" / "cycle_00"
+        self.assertIn('Name="pressure_coefficient"', (cycle / "mesh.vtu").read_text())
+        self.assertIn("#names: density x_velocity y_velocity pressure\n", (cycle / "mesh.mesh").read_text())
+        self.assertEqual((cycle / "mesh.walls.csv").read_text().count("body"), len((cycle / "mesh.walls.csv").read_text().splitlines()) - 1)
+        self.assertEqual(json.loads((cycle / "record.json").read_text())["forces"].keys(), {"body"})
 
     def test_every_format_with_a_place_for_the_flow_is_written(self):
         for suffix in ("mesh", "cgns", "vtu"):

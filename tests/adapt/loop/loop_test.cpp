@@ -52,7 +52,7 @@ class Notes final : public CycleObserver {
  public:
   void begin(int cycle) override { calls += "b" + std::to_string(cycle); }
   void meshed(const MeshResult&, const Field& start) override { calls += start.width() > 0 ? "M" : "m"; }
-  std::vector<std::string> solved(const Mesh&, const Field&) override {
+  std::vector<std::string> solved(const Mesh&, const SolvedFlow&) override {
     calls += "s";
     return {"from the observer"};
   }

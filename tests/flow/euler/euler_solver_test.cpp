@@ -43,6 +43,36 @@ TEST(EulerSolver, SaysWhatTheSolverSays) {
   EXPECT_TRUE(flow.warnings[0].starts_with("cycle 3: ")) << flow.warnings[0];
 }
 
+TEST(EulerSolver, TellsForcesOfEachBoundaryAndTheHistory) {
+  const Mesh whole = [] {
+    Mesh ring = test::ring_mesh(16, 6, 0.4, 6);
+    test::relabel(ring, [](Point p) { return length(p) > 3 ? "farfield" : p.y > 0 ? "upper" : "lower"; });
+    return ring;
+  }();
+  const Mesh mesh = scatter_mesh(world(), whole, space_filling_order(whole));
+  for (const double viscosity : {0.0, 0.01}) {
+    EulerOptions options = short_run();
+    options.viscosity = viscosity;
+    options.boundaries = {{"upper", "wall", {}}, {"lower", "wall", {}}};
+    const SolvedFlow flow = euler_solver(options)(world(), mesh, {}, 0);
+    ASSERT_EQ(flow.forces.size(), 2U);
+    EXPECT_NEAR(flow.forces[0].cl + flow.forces[1].cl, *flow.cl, 1e-12);
+    EXPECT_NEAR(flow.forces[0].cd + flow.forces[1].cd, *flow.cd, 1e-12);
+    EXPECT_GT(std::abs(flow.forces[0].cl - flow.forces[1].cl), 1e-3);
+    const std::vector<std::string> walls{flow.forces[0].boundary, flow.forces[1].boundary};
+    const auto by_pressure = boundary_forces(world(), mesh, flow.solution, *flow.stream, walls);
+    for (std::size_t k = 0; k < walls.size(); ++k) {
+      EXPECT_NEAR(by_pressure[k].cd - by_pressure[k].cd_friction,
+                  flow.forces[k].cd - flow.forces[k].cd_friction, 1e-12);
+      if (viscosity > 0) EXPECT_GT(flow.forces[k].cd_friction, 0);
+    }
+    ASSERT_EQ(flow.history.size(), 7U);
+    EXPECT_EQ(flow.history.back().step, 6);
+    EXPECT_EQ(flow.history.back().cd, *flow.cd);
+    EXPECT_EQ(flow.history.back().residual, *flow.residual);
+  }
+}
+
 TEST(EulerSolver, BeginsWithTheStateGiven) {
   const Mesh mesh = ring();
   const FlowSolver solver = euler_solver(short_run());

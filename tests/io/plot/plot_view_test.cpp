@@ -65,6 +65,20 @@ TEST(PlotView, OfFarEdgesTheVisiblePartAloneIsDrawn) {
   EXPECT_FALSE(view.visible_part({5, 0}, {5, 1}).has_value());
 }
 
+TEST(PlotView, OnASheetOfAGivenSizeFillsIt) {
+  const Point sheet{907, 567};
+  const Box window{{0, 0}, {1, 1}}, wider = PlotView::filling(window, sheet, true);
+  EXPECT_LT(wider.low.x, 0);
+  EXPECT_EQ(wider.low.y, 0);
+  EXPECT_NEAR(wider.centre().x, 0.5, 1e-12);
+  const PlotView view(wider, 1600, {}, true, sheet);
+  EXPECT_EQ(view.width(), sheet.x);
+  EXPECT_EQ(view.height(), sheet.y);
+  EXPECT_NEAR(view.frame().high.x, sheet.x - 150, 1e-6);
+  EXPECT_NEAR(view.frame().width() / view.frame().height(), wider.width() / wider.height(), 1e-9);
+  EXPECT_GT(PlotView::filling({{0, 0}, {9, 1}}, sheet, false).height(), 1);
+}
+
 TEST(Colours, AreMixedAndKeptWithinTheirEnds) {
   const auto same = [](Colour a, Colour b) {
     return a.red == b.red && a.green == b.green && a.blue == b.blue;
@@ -110,6 +124,7 @@ LoadedMesh with_field(double (*value)(std::int32_t node)) {
 CellPaint painted(const LoadedMesh& loaded, const std::string& field) {
   PlotOptions options;
   options.field = field;
+  options.smooth = false;
   return paint_cells(loaded, all_cells(loaded.mesh), options);
 }
 
@@ -145,6 +160,21 @@ TEST(CellPaint, FieldsHaveABarFromTheSmallestToTheLargest) {
   EXPECT_LT(paint.bar->low, paint.bar->high);
   EXPECT_EQ(*std::min_element(paint.colours.begin(), paint.colours.end()), 0);
   EXPECT_EQ(*std::max_element(paint.colours.begin(), paint.colours.end()), 255);
+}
+
+TEST(CellPaint, ARangeIsTakenAsItIsAskedFor) {
+  const LoadedMesh loaded = with_field([](std::int32_t node) { return 1.0 * node; });
+  PlotOptions options;
+  options.field = "q";
+  const CellPaint smooth = paint_cells(loaded, all_cells(loaded.mesh), options);
+  EXPECT_EQ(smooth.bar->low, 0) << "the least of the nodes' values, not of the cells'";
+  EXPECT_EQ(smooth.bar->high, loaded.mesh.owned_nodes - 1);
+  options.range = {-3.0, 2.5};
+  options.map = colour_map_named("grey");
+  const CellPaint paint = paint_cells(loaded, all_cells(loaded.mesh), options);
+  EXPECT_EQ(paint.bar->low, -3);
+  EXPECT_EQ(paint.bar->high, 2.5);
+  EXPECT_EQ(paint.bar->colour, options.map);
 }
 
 TEST(CellPaint, AConstantHasABarRoundIt) {
