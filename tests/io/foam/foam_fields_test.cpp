@@ -39,8 +39,7 @@ TEST(FoamFields, ScalarsAndVectorsAreReadAndOthersPassedOver) {
   folder.write("uniform/time", head("dictionary"));
   const CellValues read = read_foam_fields(folder.path(), 3);
   EXPECT_EQ(read.names, (std::vector<std::string>{"T", "U_x", "U_y", "p"}));
-  EXPECT_EQ(read.values,
-            (std::vector<double>{0.25, 1, 2, 1.5, 0.25, 3, 4, -2e-3, 0.25, 5, 6, 1e20}));
+  EXPECT_EQ(read.values, (std::vector<double>{0.25, 1, 2, 1.5, 0.25, 3, 4, -2e-3, 0.25, 5, 6, 1e20}));
 }
 
 TEST(FoamFields, ValuesTakeThePlaceOfInternalFieldAlone) {
