@@ -16,7 +16,7 @@ namespace quadloop {
 
 /// A flow on a mesh, and what the solver says of it.
 struct SolvedFlow {
-  Field solution;                            ///< a row for each owned node
+  Field solution;                            ///< a row for each owned node, or for each cell, or both
   std::optional<double> cl, cd, residual;    ///< where the solver knows them
   std::vector<std::string> notes, warnings;  ///< for the cycle's log; for the user too
   std::optional<FreeStream> stream;          ///< where the solver knows it
@@ -24,10 +24,11 @@ struct SolvedFlow {
   std::vector<HistoryRow> history;
 };
 
-/// Any flow solver: `start` is the state to begin with, a row for each of the mesh's owned nodes, or without
-/// variables where there is none yet; `cycle` counts the solver's meshes from 0. Throws InputError,
-/// SolverError, the same on all ranks: what may fail on one of them alone runs inside comm.together(), which
-/// throws the error of the lowest such rank on all; else the others wait for ever. *Collective.*
+/// Any flow solver: `start` is the state to begin with, a row for each of the mesh's owned nodes, or cells,
+/// or without variables where there is none yet; `cycle` counts the solver's meshes from 0. Throws
+/// InputError, SolverError, the same on all ranks: what may fail on one of them alone runs inside
+/// comm.together(), which throws the error of the lowest such rank on all; else the others wait for ever.
+/// *Collective.*
 using FlowSolver =
     std::function<SolvedFlow(const Communicator& comm, const Mesh& mesh, const Field& start, int cycle)>;
 

@@ -24,8 +24,9 @@
 /// how many there are. Nothing is written to disk but by write() and write_solved().
 ///
 /// Shapes and units: a Mesh is one rank's part, as mesh.hpp says; a Field has a row of values for each node
-/// that the rank owns, in the mesh's order, with the same names on all ranks. Lengths are in the unit of the
-/// case's geometry. Values are the solver's own; sense() and remesh() want them finite.
+/// that the rank owns, and for each of its cells, in the mesh's order, with the same names on all ranks.
+/// Lengths are in the unit of the case's geometry. Values are the solver's own; sense() and remesh() want
+/// them finite.
 ///
 /// A parallel solver of one's own has in HaloMesh all cells round its nodes, and in halo.exchange() what
 /// brings owners' values to copies. There is no way that adds up copies at their owners: floating-point sums

@@ -13,7 +13,8 @@ namespace quadloop {
 struct SolvedMesh {
   Mesh mesh;
   TreeRecord tree;
-  Field solution;    ///< a row for each owned node; without variables where nothing is solved yet
+  Field
+      solution;  ///< a row for each owned node, for each cell; without variables where nothing is solved yet
   std::string file;  ///< where the solution was read, for messages
 };
 

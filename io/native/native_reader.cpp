@@ -136,7 +136,8 @@ class NativeReader {
     }
     solution.names = read_names("variables");
     solution.values = read_values(solution.names, loaded_.mesh.points.size(), "node");
-    if (!scan_.at_end()) {
+    // A comment tells this section from rows too many.
+    if (!scan_.at_end() && !scan_.last_comment_with("cell variables").empty()) {
       const std::size_t cells = loaded_.mesh.triangles.size() + loaded_.mesh.quads.size();
       solution.cells.names = read_names("cell variables");
       solution.cells.values = read_values(solution.cells.names, cells, "cell");

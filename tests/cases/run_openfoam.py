@@ -4,8 +4,8 @@
     run_openfoam.py --quadloop PROGRAM wedge|circle|cylinder [--ranks N ...]
 
 wedge: rhoCentralFoam at Mach 2 past the wedge of 10 degrees, three adaptations: angle of the shock and pressure behind it against the exact ones.
-circle: the same solver past a circle, four cycles: the stagnation pressure behind the bow shock. cylinder: pimpleFoam, laminar, past a
-cylinder in layers. With --ranks the meshes and trees of all these numbers of ranks of quadloop must be the same, byte for byte.
+circle: the same solver past a circle, four cycles: the stagnation pressure behind the bow shock. cylinder: simpleFoam, laminar, past a
+cylinder in layers, the length of its bubble. With --ranks the meshes and trees of all these numbers of ranks of quadloop must be the same, byte for byte.
 """
 import argparse
 import filecmp
