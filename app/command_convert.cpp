@@ -131,7 +131,8 @@ void run_convert(const CommandContext& context, const ConvertArguments& argument
     warnings = warnings_of(input, arguments);
   });
   if (comm.any(input.solid.has_value())) {
-    write_solid_of_root(comm, input.solid.value_or(SolidMesh{}), arguments.output, arguments.format);
+    const SolidMesh none;
+    write_solid_of_root(comm, input.solid ? *input.solid : none, arguments.output, arguments.format);
   } else {
     write_mesh_of_root(comm, input.whole, arguments.output, arguments.format);
   }

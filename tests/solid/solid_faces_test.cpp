@@ -29,6 +29,8 @@ TEST(SolidFaces, ComeOnceWithTheirOwners) {
     } else {
       EXPECT_EQ(same[0].owner, 0);
       EXPECT_EQ(same[1].owner, 1);
+      EXPECT_EQ(same[0].number, 4);  // of the prism that of its nodes 2, 0, 3 and 5
+      EXPECT_EQ(same[1].number, 3);  // of the cube that of its nodes 1, 2, 6 and 5
       EXPECT_EQ(same[0].others, (std::array<std::int32_t, 3>{2, 5, 6}));
     }
   });

@@ -74,8 +74,8 @@ void expect_same(const SolidMesh& back, const SolidMesh& mesh, bool to_the_node)
 }
 
 TEST(ConvertSolid, EveryPairOfFormatsKeepsTheMesh) {
-  if (!test::world().is_root()) return;
   const test::TemporaryFolder folder;
+  if (!test::world().is_root()) return;
   const SolidMesh mesh = sample();
   for (const std::string& first : formats_for({Content::solid})) {
     for (const std::string& second : formats_for({Content::solid})) {
@@ -101,8 +101,8 @@ TEST(ConvertSolid, EveryPairOfFormatsKeepsTheMesh) {
 }
 
 TEST(ConvertSolid, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {
-  if (!test::world().is_root()) return;
   const test::TemporaryFolder folder;
+  if (!test::world().is_root()) return;
   const Communicator alone(MPI_COMM_SELF);
   for (const char* name : {"su2", "lb8.ugrid", "msh"}) {
     write_solid_of_root(alone, sample(), folder.file(std::string("a.") + name));
@@ -112,8 +112,8 @@ TEST(ConvertSolid, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {
 }
 
 TEST(ConvertSolid, EmptyPatchesComeThroughAPolyMesh) {
-  if (!test::world().is_root()) return;
   const test::TemporaryFolder folder;
+  if (!test::world().is_root()) return;
   SolidMesh mesh = sample();
   mesh.patches[2].is_empty = true;
   const SolidMesh back = through_file(mesh, folder.file("a.polyMesh"));
@@ -122,8 +122,8 @@ TEST(ConvertSolid, EmptyPatchesComeThroughAPolyMesh) {
 }
 
 TEST(ConvertSolid, APolyMeshNeedsEachFaceOnce) {
-  if (!test::world().is_root()) return;
   const test::TemporaryFolder folder;
+  if (!test::world().is_root()) return;
   const Communicator alone(MPI_COMM_SELF);
   SolidMesh open = sample(), twice = sample(), stray = sample();
   open.patches[1].faces.clear();
