@@ -154,7 +154,7 @@ void PlotView::draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legen
 void PlotView::draw_bar(Canvas& canvas, const ColourBar& bar) const {
   constexpr int steps = 128;
   const double x = frame_.high.x + 24, wide = 22;
-  const double low = frame_.high.y, high = std::min(frame_.low.y, low - 40);
+  const double low = frame_.high.y, high = std::min(frame_.low.y + 10, low - 40);
   const auto at = [&](double t) { return low + t * (high - low); };
   const auto add_part = [&](double from, double to) {
     canvas.add_polygon(

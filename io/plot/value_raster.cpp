@@ -65,12 +65,11 @@ void append_quadrilateral(const Quadrilateral& quad, int n, std::vector<LinearPi
   }
 }
 
-/// Where 0 <= a + b x over a row, for the whole pixels from `low` to `high`.
+/// Where 0 <= a + b x on a row. An edge along the row bounds nothing: rows beyond it are not looked at.
 void narrow(double a, double b, double& low, double& high) {
   constexpr double rounding = 1e-9;  // pieces that meet leave no pixel out
-  if (std::abs(b) < 1e-300) {
-    if (a < -rounding) high = low - 1;
-  } else if (b > 0) {
+  if (std::abs(b) < 1e-300) return;
+  if (b > 0) {
     low = std::max(low, -a / b - rounding);
   } else {
     high = std::min(high, -a / b + rounding);

@@ -64,9 +64,10 @@ TEST(RunInFolder, EachCycleHasItsFiles) {
   world().barrier();
   EXPECT_EQ(test::files_in(folder.file("run")), 2U) << "two cycles and no lock";
   for (const char* cycle : {"run/cycle_00", "run/cycle_01"}) {
-    for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.cgns", "mesh.vtu", "log.txt", "record.json"})
+    for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.cgns", "mesh.vtu", "mesh.walls.csv", "mesh.history.csv", "log.txt",
+          "record.json"})
       EXPECT_TRUE(fs::exists(folder.file(cycle) + "/" + name)) << cycle << " " << name;
-    EXPECT_EQ(test::files_in(folder.file(cycle)), 6U);
+    EXPECT_EQ(test::files_in(folder.file(cycle)), 8U);
     EXPECT_TRUE(read_native(folder.file(cycle) + "/mesh.mesh").solution.has_value());
   }
   const std::string log = test::bytes_of(folder.file("run/cycle_01/log.txt"));
@@ -84,7 +85,7 @@ TEST(RunInFolder, GoneOnWithItEndsWithTheSameFiles) {
   resumed.run(more, folder.file("parts"), true);
   EXPECT_EQ(resumed.cycles, (std::vector<int>{2}));
   world().barrier();
-  for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.vtu"})
+  for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.vtu", "mesh.walls.csv", "mesh.history.csv"})
     EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) ==
                 test::bytes_of(folder.file("parts/cycle_02/") + name))
         << name;
