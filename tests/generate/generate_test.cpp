@@ -159,6 +159,7 @@ TEST(Generate, StripsOfAbsurdSizeAreRefusedBeforeTheyAreBuilt) {
   input.mesh.limit.cells = 1700;
   EXPECT_NE(says().find("but --max-cells allows 1700"), std::string::npos) << says();
   input.mesh.limit = {MeshLimit::none, 1e4, 1};
+  EXPECT_EQ(says().find("case.toml:7: the layers of layer_line"), 0U) << says();
   EXPECT_NE(says().find("are free"), std::string::npos) << says();
 }
 
