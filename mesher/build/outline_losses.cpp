@@ -65,6 +65,17 @@ void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, co
                                      report.corners_lost == 1 ? "is" : "are", text(geometry.point(first))));
 }
 
+/// Whether the outline is a front and has no segment of a boundary with layers: its edges come with these, as
+/// those of a base behind which a wake begins do, or its loops were dropped before.
+bool is_below_front(const Geometry& geometry, const std::string& name) {
+  const auto boundary = std::ranges::find(geometry.boundaries(), name, &Boundary::name);
+  if (boundary == geometry.boundaries().end() || !boundary->layers) return false;
+  for (std::int32_t s = 0; s < geometry.size(); ++s) {
+    if (geometry.boundary(geometry.boundary_of(s)).name == name) return false;
+  }
+  return true;
+}
+
 Box box_of_boundary(const Geometry& geometry, const std::string& name) {
   Box box;
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
@@ -141,7 +152,8 @@ void report_losses(const Communicator& comm, const Geometry& geometry, const Mes
   has_edges = seen_anywhere(comm, has_edges);
   std::vector<std::string> vanished;
   for (std::size_t b = 0; b < has_edges.size(); ++b) {
-    if (has_edges[b] == 0) vanished.push_back(mesh.boundaries[b].name);
+    if (has_edges[b] == 0 && !is_below_front(geometry, mesh.boundaries[b].name))
+      vanished.push_back(mesh.boundaries[b].name);
   }
   if (!may_vanish && !vanished.empty())
     refuse_vanished(geometry, vanished, "lies within leaves that cannot show it");

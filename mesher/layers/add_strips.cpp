@@ -351,10 +351,9 @@ StripLayers StripBuilder::layers_of(std::size_t s) const {
                      strip.root.has_value(),
                      static_cast<std::int32_t>(filled.rows() + 1),
                      {}};
-  for (std::size_t column = 0; column < filled.columns(); ++column) {
-    for (std::size_t row = 0; row <= filled.rows(); ++row)
-      layers.nodes.push_back(node(s, {false, column, row}).id);
-  }
+  const std::size_t across = filled.rows() + 1;
+  for (std::size_t i = 0; i < filled.columns() * across; ++i)
+    layers.nodes.push_back(node(s, {false, i / across, i % across}).id);
   return layers;
 }
 

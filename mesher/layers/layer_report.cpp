@@ -125,7 +125,54 @@ BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, std::span<
   return report;
 }
 
+/// A column on one side of a strip, as its lengths tell it.
+struct SideColumn {
+  double first = 0, growth = 0, share = 0;
+  Point foot;
+};
+
+SideColumn side_column(const LayerStrip& strip, std::size_t k, bool left) {
+  const std::vector<Point>& across = strip.columns[k];
+  const std::size_t foot = left ? across.size() - 1 - strip.layers : strip.layers;
+  const auto at = [&](int layer) { return across[left ? foot + layer : foot - layer]; };
+  SideColumn column{length(at(1) - at(0)), strip.spec.growth, 0, at(0)};
+  double whole = column.first, before = column.first;
+  for (int layer = 2; layer <= strip.layers; ++layer) {
+    const double height = length(at(layer) - at(layer - 1));
+    if (layer > strip.spec.equal) column.growth = std::min(column.growth, height / before);
+    whole += before = height;
+  }
+  column.share = whole / strip.asked;
+  return column;
+}
+
 }  // namespace
+
+BoundaryLayerReport report_strip(const LayerStrip& strip) {
+  std::vector<SideColumn> columns;
+  for (std::size_t k = 0; k < strip.columns.size(); ++k) {
+    for (const bool left : {false, true}) columns.push_back(side_column(strip, k, left));
+  }
+  const auto worst = std::ranges::min_element(
+      columns, {}, [](const SideColumn& c) { return std::tuple(c.share, c.growth, c.foot.x, c.foot.y); });
+  BoundaryLayerReport report;
+  report.boundary = strip.name;
+  report.share_least = worst->share;
+  report.least = worst->foot;
+  report.asked = report.reached = strip.layers;
+  report.columns = std::ssize(strip.columns);
+  report.first_asked = report.first_asked_most = strip.spec.first;
+  std::ranges::sort(columns, {}, &SideColumn::first);
+  report.first_least = columns.front().first;
+  report.first_median = columns[columns.size() / 2].first;
+  report.growth_asked = strip.spec.growth;
+  report.growth_least = std::ranges::min(columns, {}, &SideColumn::growth).growth;
+  report.thickness_asked = strip.asked;
+  report.share_full = static_cast<double>(std::ranges::count_if(
+                          columns, [](const SideColumn& c) { return c.share > full; })) /
+                      static_cast<double>(columns.size());
+  return report;
+}
 
 LayerReport report_layers(const Communicator& comm, const LayerFront& front, const Mesh& outer) {
   const std::vector<Column> columns = all_columns(comm, front, outer);
@@ -137,6 +184,7 @@ LayerReport report_layers(const Communicator& comm, const LayerFront& front, con
     report.push_back(report_of(front, boundary, std::span(begin, end)));
     begin = end;
   }
+  for (const LayerStrip& strip : front.strips) report.push_back(report_strip(strip));
   return report;
 }
 

@@ -10,10 +10,10 @@
 
 namespace quadloop {
 
-/// What became of the layers of one boundary; they may go on along its neighbours. Heights are normal to the
-/// wall, in the geometry's unit of length.
+/// What became of the layers of one boundary or strip; they may go on along a boundary's neighbours. Heights
+/// are normal to the wall, in the geometry's unit of length.
 struct BoundaryLayerReport {
-  std::string boundary;
+  std::string boundary;        ///< or the strip's name
   int asked = 0, reached = 0;  ///< layers; those of the column that has least
   std::int64_t columns = 0;    ///< nodes of the front
   double y_plus = 0;           ///< asked of the first layer; 0: none
@@ -26,12 +26,16 @@ struct BoundaryLayerReport {
   Point least;             ///< where on the wall the share, or else the growth, is least
 };
 
-/// One entry for each boundary that asks for layers and has any, in the order of the geometry.
+/// One entry for each boundary that asks for layers and has any, in the order of the geometry, then one for
+/// each strip: its columns on both sides, heights along them, shares of columns in the place of lengths.
 using LayerReport = std::vector<BoundaryLayerReport>;
 
 /// Of the layers that add_layers() puts between the wall and the front's nodes; `outer` is the mesh outside
 /// of them. The same on any number of ranks. *Collective.*
 LayerReport report_layers(const Communicator& comm, const LayerFront& front, const Mesh& outer);
+
+/// Of one strip alone, as it is given.
+BoundaryLayerReport report_strip(const LayerStrip& strip);
 
 /// A line for each boundary whose layers are somewhere less than half as thick as was asked, with the place.
 std::vector<std::string> warnings_of(const LayerReport& report);

@@ -159,7 +159,31 @@ TEST(Generate, StripsOfAbsurdSizeAreRefusedBeforeTheyAreBuilt) {
   input.mesh.limit.cells = 1700;
   EXPECT_NE(says().find("but --max-cells allows 1700"), std::string::npos) << says();
   input.mesh.limit = {MeshLimit::none, 1e4, 1};
+  EXPECT_EQ(says().find("case.toml:7: the layers of layer_line"), 0U) << says();
   EXPECT_NE(says().find("are free"), std::string::npos) << says();
+}
+
+TEST(Generate, AWakeMayTakeAWholeBoundaryForItsBase) {
+  MeshInput input = layered_disc();
+  Boundary upper{"upper", 0.1, 30, "wall"}, base = upper, lower = upper, box{"box", 0.5, 30, "none"};
+  base.name = "base";
+  lower.name = "lower";
+  upper.layers = base.layers = lower.layers = LayerSpec{0.005, 1.3, 1.3, 4};
+  const std::vector<Point> points{{-4, -4},  {4, -4},   {4, 4},     {-4, 4},    {-1, 0.2},
+                                  {0, 0.25}, {1, 0.03}, {1, -0.03}, {0, -0.25}, {-1, -0.2}};
+  std::vector<BoundaryId> of_segment(4, BoundaryId{0});
+  for (const int b : {1, 1, 2, 3, 3, 1}) of_segment.emplace_back(b);
+  input.geometry = Geometry({box, upper, base, lower}, points, {0, 4, 10}, of_segment);
+  input.mesh.size.min = 0.01;
+  input.mesh.size.max = 0.5;
+  input.lines = {{{"upper", "base", "lower"}, {}, 1.5, 0.1, {}}};
+  const GeneratedMesh made = generate_mesh(world(), input);
+  EXPECT_TRUE(made.result.report.boundaries_vanished.empty());
+  const Mesh whole = gather_whole(world(), made.result.mesh);
+  if (!world().is_root()) return;
+  EXPECT_TRUE(validate(whole).empty());
+  ASSERT_EQ(whole.strips.size(), 1U);
+  EXPECT_EQ(size32(whole.boundaries[2].edges), whole.strips[0].across - 1 - 2 * 4);
 }
 
 TEST(Generate, LayersAreTheSameOnAnyNumberOfRanks) {

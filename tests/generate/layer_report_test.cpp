@@ -54,6 +54,27 @@ TEST(LayerReport, TellsOfEachBoundaryWhatWasAskedAndReached) {
   EXPECT_EQ(made.layers[0].columns, made.layers[1].columns) << "mirror images";
 }
 
+TEST(LayerReport, HasARowForEachStrip) {
+  MeshInput input = channel(2, false);
+  input.lines = {{{}, {{1, 1}, {3, 1}}, 0, 0.05, four}};
+  const GeneratedMesh made = generate_mesh(world(), input);
+  ASSERT_EQ(made.layers.size(), 2U);
+  const BoundaryLayerReport& line = made.layers[1];
+  EXPECT_EQ(line.boundary, "layer_line");
+  EXPECT_EQ(line.asked, 4);
+  EXPECT_EQ(line.reached, 4);
+  EXPECT_EQ(line.columns, made.result.mesh.strips.at(0).columns());
+  EXPECT_NEAR(line.first_asked, 0.01, 1e-12);
+  EXPECT_NEAR(line.first_least, 0.01, 1e-12);
+  EXPECT_LT(line.first_median, 0.02);
+  EXPECT_NEAR(line.growth_asked, 1.5, 1e-12);
+  EXPECT_NEAR(line.growth_least, 1, 1e-9) << "even rows at the ends";
+  EXPECT_NEAR(line.thickness_asked, thickness, 1e-12);
+  EXPECT_NEAR(line.share_least, 1, 1e-12);
+  EXPECT_EQ(line.share_full, 1);
+  EXPECT_EQ(line.least.y, 1);
+}
+
 TEST(LayerReport, WarnsWhereLessThanHalfIsReached) {
   const GeneratedMesh made = generate_mesh(world(), channel(0.1, true));
   ASSERT_EQ(made.layers.size(), 2U);

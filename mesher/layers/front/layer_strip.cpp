@@ -47,6 +47,7 @@ class Strip {
       : line_{line}, path_{line.path}, thickness_{layers_thickness(line.layers)} {
     strip_.name = line.name;
     strip_.place = line.place;
+    strip_.spec = line.layers;
     strip_.asked = thickness_;
     strip_.root = root;
     strip_.layers = line.layers.count;

@@ -24,7 +24,8 @@ struct WakeRoot {
 /// ones. Between its last rows and its front lie triangles, and the cells outside need not match.
 struct LayerStrip {
   std::string name, place;       ///< those of the PlacedLine
-  double asked = 0;              ///< thickness of the layers on either side as they are asked for
+  LayerSpec spec;                ///< the layers on either side as they are asked for
+  double asked = 0;              ///< and how thick they are together
   std::optional<WakeRoot> root;  ///< its first column is the wall's two
   int layers = 0;                ///< on either side
   int core = 0;                  ///< rows between them, behind a blunt edge; even

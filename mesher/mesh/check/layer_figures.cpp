@@ -189,8 +189,8 @@ std::vector<LayerFigures> layer_figures(const Mesh& whole, const LayerPlaces& pl
   std::vector<LayerFigures> figures;
   for (std::size_t b = 0; b < tallies.size(); ++b) {
     const BoundaryEdges& boundary = whole.boundaries[b];
-    if (boundary.layers.count == 0) continue;
     Tally& tally = tallies[b];
+    if (tally.columns == 0) continue;  // no layers, or none of its own: a wake's base
     figures.push_back({boundary.name, boundary.layers.count, tally.columns, spread_of(std::move(tally.first)),
                        spread_of(std::move(tally.growth)), spread_of(std::move(tally.thickness)),
                        boundary.layers.thickness});

@@ -31,7 +31,7 @@ struct LayerFigures {
   double asked = 0;  ///< of that what was asked for; 0: not known
 };
 
-/// Those of all boundaries with layers, then of all strips, of a mesh that this rank holds whole.
+/// Those of all boundaries with columns of layers, then of all strips, of a mesh that this rank holds whole.
 std::vector<LayerFigures> layer_figures(const Mesh& whole, const LayerPlaces& places);
 
 /// Shapes of the cells in layers, and of the others.
