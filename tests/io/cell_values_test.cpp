@@ -78,6 +78,21 @@ TEST(CellValues, StayWithTheirCellsWhereBlocksAreSorted) {
   }
 }
 
+TEST(CellValues, GoWithCellsThatAReaderSorts) {
+  const TemporaryFolder folder;
+  if (!world().is_root()) return;
+  LoadedMesh loaded{test::sample_mesh(2), 2, {1, 0, 1, 0}, {1, 0}, {"left", "right"}, {}, {}};
+  loaded.solution = Field{{}, {}, {}, {{"q"}, {0, 1, 2, 3, 4, 5}}};
+  const Communicator alone(MPI_COMM_SELF);
+  OutputSet mixed(alone);
+  write_mesh(mixed, loaded, folder.file("mixed.vtu"));
+  mixed.commit();
+  const LoadedMesh back = read_mesh(folder.file("mixed.vtu"));
+  EXPECT_EQ(back.triangle_to_block, (std::vector<std::int32_t>{0, 0, 1, 1}));
+  ASSERT_TRUE(back.solution);
+  EXPECT_EQ(back.solution->cells.values, (std::vector<double>{1, 3, 0, 2, 5, 4}));
+}
+
 TEST(CellValues, ThatAreNotFiniteAreRefusedWithTheirCell) {
   const TemporaryFolder folder;
   if (!world().is_root()) return;
