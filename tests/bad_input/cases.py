@@ -79,7 +79,7 @@ CASES = [
     case_file("type", CASE + "[mesh]\ntype = \"voronoi\"\n", "case.toml:7:", "voronoi", "delaunay"),
     case_file("root too small", CASE + "[mesh]\nroot = [0, 0, 2, 1, 1]\n", "root"),
     case_file("min too small for the tree", CASE.replace("0.25", "1e-12"), "min"),
-    case_file("unknown format", CASE + "[output]\nformats = [\"xyz\"]\n", "case.toml:7:", "xyz", "vtu, su2, msh"),
+    case_file("unknown format", CASE + "[output]\nformats = [\"xyz\"]\n", "case.toml:7:", "xyz", "vtu, pvtu, su2, fluent.msh, msh"),
     case_file("prefix with a suffix", CASE + "[output]\nprefix = \"a.cgns\"\n", "case.toml:7:", "without .cgns"),
     case_file("pattern without quotes", CASE + "[boundary.is_*]\n", "case.toml:6:", "quote it"),
     case_file("text without quotes", CASE + "[boundary.box]\nbc = wall\n", "case.toml:7:", "put text in quotes: \"wall\""),
