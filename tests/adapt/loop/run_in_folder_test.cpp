@@ -64,8 +64,8 @@ TEST(RunInFolder, EachCycleHasItsFiles) {
   world().barrier();
   EXPECT_EQ(test::files_in(folder.file("run")), 2U) << "two cycles and no lock";
   for (const char* cycle : {"run/cycle_00", "run/cycle_01"}) {
-    for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.cgns", "mesh.vtu", "mesh.walls.csv", "mesh.history.csv", "log.txt",
-          "record.json"})
+    for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.cgns", "mesh.vtu", "mesh.walls.csv",
+                             "mesh.history.csv", "log.txt", "record.json"})
       EXPECT_TRUE(fs::exists(folder.file(cycle) + "/" + name)) << cycle << " " << name;
     EXPECT_EQ(test::files_in(folder.file(cycle)), 8U);
     EXPECT_TRUE(read_native(folder.file(cycle) + "/mesh.mesh").solution.has_value());
