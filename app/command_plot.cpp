@@ -19,7 +19,7 @@
 #include "io/files/output_file.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
-#include "io/plot/flow_charts.hpp"
+#include "io/plot/canvas/flow_charts.hpp"
 #include "io/plot/mesh_plot.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "io/plot/canvas/plot_canvas.hpp"
 #include "io/plot/cell_paint.hpp"
-#include "io/plot/plot_canvas.hpp"
 #include "io/plot/plot_view.hpp"
 #include "io/plot/value_raster.hpp"
 

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "io/plot/canvas/sheet.hpp"
 #include "io/plot/cell_paint.hpp"
 #include "io/plot/contour_lines.hpp"
 #include "io/plot/mesh_painter.hpp"
 #include "io/plot/plot_view.hpp"
-#include "io/plot/sheet.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/variable_names.hpp"
 

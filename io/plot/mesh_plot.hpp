@@ -5,8 +5,8 @@
 #include <string>
 
 #include "io/loaded/loaded_mesh.hpp"
-#include "io/plot/colour_map.hpp"
-#include "io/plot/plot_canvas.hpp"
+#include "io/plot/canvas/colour_map.hpp"
+#include "io/plot/canvas/plot_canvas.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {

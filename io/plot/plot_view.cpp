@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/plot/ticks.hpp"
+#include "io/plot/canvas/ticks.hpp"
 
 namespace quadloop {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "io/plot/colour_map.hpp"
-#include "io/plot/plot_canvas.hpp"
+#include "io/plot/canvas/colour_map.hpp"
+#include "io/plot/canvas/plot_canvas.hpp"
 #include "io/plot/plot_view.hpp"
 #include "mesher/geometry/point.hpp"
 #include "mesher/mesh/mesh.hpp"

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "io/plot/colour_map.hpp"
+#include "io/plot/canvas/colour_map.hpp"
 #include "io/plot/contour_lines.hpp"
 #include "io/plot/mesh_painter.hpp"
 #include "io/plot/streamlines.hpp"

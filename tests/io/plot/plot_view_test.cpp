@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "io/plot/canvas/plot_canvas.hpp"
 #include "io/plot/cell_paint.hpp"
 #include "io/plot/mesh_plot.hpp"
-#include "io/plot/plot_canvas.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 

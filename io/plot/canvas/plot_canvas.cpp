@@ -1,4 +1,4 @@
-#include "io/plot/plot_canvas.hpp"
+#include "io/plot/canvas/plot_canvas.hpp"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>

@@ -10,6 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from adapt_runs import adapt, attempt, require, require_same_folders
 from quadloop_runs import ROOT
 

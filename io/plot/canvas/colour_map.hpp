@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "io/plot/plot_canvas.hpp"
+#include "io/plot/canvas/plot_canvas.hpp"
 
 namespace quadloop {
 

@@ -18,6 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from quadloop_runs import MPIRUN, ROOT, run, skip
 from run_forces import Figures, shock_angle
 from wedge_error import DENSITY_BEHIND, PRESSURE_RATIO, SHOCK_DEGREES

@@ -1,13 +1,13 @@
 // Lines over axes, and the tables that they come from.
-#include "io/plot/chart.hpp"
+#include "io/plot/canvas/chart.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "io/plot/flow_charts.hpp"
-#include "io/plot/sheet.hpp"
-#include "io/plot/ticks.hpp"
+#include "io/plot/canvas/flow_charts.hpp"
+#include "io/plot/canvas/sheet.hpp"
+#include "io/plot/canvas/ticks.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"

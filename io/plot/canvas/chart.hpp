@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/plot/plot_canvas.hpp"
+#include "io/plot/canvas/plot_canvas.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {

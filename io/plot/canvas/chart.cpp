@@ -1,10 +1,10 @@
-#include "io/plot/chart.hpp"
+#include "io/plot/canvas/chart.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "io/plot/sheet.hpp"
-#include "io/plot/ticks.hpp"
+#include "io/plot/canvas/sheet.hpp"
+#include "io/plot/canvas/ticks.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {

@@ -1,4 +1,4 @@
-#include "io/plot/ticks.hpp"
+#include "io/plot/canvas/ticks.hpp"
 
 #include <fmt/format.h>
 

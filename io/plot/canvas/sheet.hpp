@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "io/plot/plot_canvas.hpp"
+#include "io/plot/canvas/plot_canvas.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/plot/chart.hpp"
+#include "io/plot/canvas/chart.hpp"
 
 namespace quadloop {
 

@@ -1,4 +1,4 @@
-#include "io/plot/flow_charts.hpp"
+#include "io/plot/canvas/flow_charts.hpp"
 
 #include <algorithm>
 #include <string_view>

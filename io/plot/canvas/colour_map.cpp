@@ -1,4 +1,4 @@
-#include "io/plot/colour_map.hpp"
+#include "io/plot/canvas/colour_map.hpp"
 
 #include <algorithm>
 #include <array>
