@@ -19,12 +19,19 @@ namespace {
 class PvtuReader {
  public:
   explicit PvtuReader(const std::string& path) : scan_{path, TextScanner::no_comments} {
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    for (const std::string& source : parse_pvtu(scan_))
-      add_piece(read_vtu((folder / source).string()), source);
+    sources_ = parse_pvtu(scan_);
   }
 
+  /// A single piece is the mesh as it stands.
   LoadedMesh read() {
+    const std::filesystem::path folder = std::filesystem::path(scan_.path()).parent_path();
+    if (sources_.size() == 1) return read_vtu((folder / sources_.front()).string());
+    for (const std::string& source : sources_) add_piece(read_vtu((folder / source).string()), source);
+    return united();
+  }
+
+ private:
+  LoadedMesh united() {
     if (points_.size() > std::numeric_limits<std::int32_t>::max())
       scan_.refuse("its pieces have more than 2^31 - 1 nodes, which cannot be read on one rank");
     unite_nodes();
@@ -37,7 +44,6 @@ class PvtuReader {
     return loaded;
   }
 
- private:
   /// Its nodes after those of the pieces before.
   void add_piece(const LoadedMesh& piece, const std::string& source) {
     const auto first = static_cast<std::int32_t>(points_.size());
@@ -64,6 +70,8 @@ class PvtuReader {
   void take_solution(const LoadedMesh& piece, const std::string& source) {
     const Field solution = piece.solution.value_or(Field{});
     if (points_.empty()) names_ = solution.names;
+    if (points_.empty() && solution.cells.width() > 0)
+      foreign_.loaded.warnings.push_back(scan_.path() + ": values of cells in several pieces are left out");
     if (solution.names != names_)
       scan_.refuse("the point data of the piece " + source + " are not those of the first piece");
     values_.insert(values_.end(), solution.values.begin(), solution.values.end());
@@ -108,6 +116,7 @@ class PvtuReader {
   }
 
   TextScanner scan_;
+  std::vector<std::string> sources_;
   ForeignMesh foreign_;
   std::vector<Point> points_;  ///< of all pieces
   std::vector<std::string> names_;

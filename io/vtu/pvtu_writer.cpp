@@ -40,6 +40,9 @@ void write_list(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
   }
   text += "</PPointData>\n<PCellData>\n" + tag_of("Int32", "boundary");
   if (has_blocks) text += tag_of("Int32", "block");
+  if (solution != nullptr) {
+    for (const std::string& name : solution->cells.names) text += tag_of("Float64", name);
+  }
   const std::string piece = std::filesystem::path(piece_path(path)).filename();
   text += "</PCellData>\n<Piece Source=\"" + xml_escaped(piece) + "\"/>\n</PUnstructuredGrid>\n</VTKFile>\n";
   TextOutput file(outputs, path);

@@ -121,7 +121,7 @@ def check_case_files(program, folder, ranks):
     expect(["case.toml:", "command"], TINY[TINY.index("command ="):TINY.index("timeout")], "")
     expect(["case.toml:", "threshold", "max_nodes"], '"deviation"', '"nodes"')
     expect(["case.toml:", "min"], "min = 0.03", "min = 0")
-    for line, parts in (('mesh = "mesh.xyz"', ["solver.mesh", ".su2"]), ('solution = "s.dat"', ["solver.solution", ".csv"]),
+    for line, parts in (('mesh = "mesh.xyz"', ["solver.mesh", ".su2"]), ('solution = "s.txt"', ["solver.solution", ".csv"]),
                         ('solution = "mesh.mesh"', ["solver.solution", "a file of its own"]),
                         ('mesh = "a.mesh"\nsolution = "a.mesh"', ["solver.solution", "a file of its own"])):
         expect(["case.toml:", *parts], "timeout = 100", line)

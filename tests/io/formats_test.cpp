@@ -97,7 +97,7 @@ TEST(Formats, EachReadsWhatItWrites) {
 
 TEST(Formats, OfPlaneMeshesAreWritten) {
   EXPECT_EQ(written_formats(), (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
-                                      "ugrid", "polyMesh", "csv"}));
+                                      "ugrid", "polyMesh", "csv", "dat"}));
 }
 
 TEST(Formats, AreWrittenBlockByBlockWhereBlocksHaveAPlace) {
