@@ -211,6 +211,11 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
         settings.formats.push_back(format);
     }
   }
+  if (const auto parts = table->integer("partitions")) {
+    if (*parts < 0 || *parts > most_partitions)
+      table->refuse("partitions", fmt::format("is {}, but must be from 0 (none) to {}", *parts, most_partitions));
+    settings.partitions = static_cast<std::int32_t>(*parts);
+  }
   table->finish();
 }
 

@@ -46,6 +46,7 @@ struct Settings {
   std::optional<AdaptOptions> adapt;  ///< where the case has a table for it
   std::string output_prefix;
   std::vector<std::string> formats;
+  std::int32_t partitions = 0;  ///< parts for a solver's ranks, written beside the whole; 0: none
   Warnings warnings;  ///< what the user is to be told of the case file itself
 };
 
