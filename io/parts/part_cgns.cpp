@@ -16,13 +16,15 @@ void put_part_into_cgns(const StagedFile& staged, const MeshPart& part, std::int
   CgnsNodes nodes(staged);
   {  // HDF5 keeps a file open as long as anything in it is
     const CgnsNodes::Node zone = nodes.at(CgnsSink::zone_path), here = nodes.add(zone, "Part", data);
-    const auto put = [&](const CgnsNodes::Node& parent, const std::string& name, const auto& numbers, const auto& number_of) {
+    const auto put = [&](const CgnsNodes::Node& parent, const std::string& name, const auto& numbers,
+                         const auto& number_of) {
       if (numbers.empty()) return;  // CGNS has no empty arrays
       std::vector<std::int32_t> from_one;
       for (const auto& entry : numbers) {
         const std::int64_t number = number_of(entry) + 1;
         if (number > std::numeric_limits<std::int32_t>::max())
-          throw OutputError(staged.path + ": the whole mesh has more entries than this CGNS library can count; "
+          throw OutputError(staged.path +
+                            ": the whole mesh has more entries than this CGNS library can count; "
                             "write .mesh files instead");
         from_one.push_back(static_cast<std::int32_t>(number));
       }

@@ -33,7 +33,8 @@ LoadedMesh loaded_part(const MeshPart& part, const std::vector<std::string>& blo
 std::vector<std::string> part_formats(const std::vector<std::string>& formats, std::int32_t blocks) {
   std::vector<std::string> with_place;
   for (const char* const format : {"mesh", "cgns", "vtu"}) {
-    if (std::ranges::find(formats, format) != formats.end() && (blocks == 1 || format != std::string("cgns"))) with_place.emplace_back(format);
+    if (std::ranges::find(formats, format) != formats.end() && (blocks == 1 || format != std::string("cgns")))
+      with_place.emplace_back(format);
   }
   return with_place;
 }
@@ -56,7 +57,8 @@ void PartFiles::write(const std::string& prefix, const PartIndex& index, const s
     write_part_index(outputs_, index, prefix + part_index_suffix);
     const bool has_values = !parts.empty() && parts[0].field;
     if (std::ranges::find(index.formats, "vtu") != index.formats.end())
-      write_part_pvtu(outputs_, index, has_values ? parts[0].field->names : std::vector<std::string>{}, prefix);
+      write_part_pvtu(outputs_, index, has_values ? parts[0].field->names : std::vector<std::string>{},
+                      prefix);
   });
 }
 

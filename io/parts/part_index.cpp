@@ -42,7 +42,8 @@ std::string part_path(const std::string& prefix, std::int32_t part, const std::s
 }
 
 void write_part_index(OutputSet& outputs, const PartIndex& index, const std::string& path) {
-  std::string text = fmt::format("#Number of parts\n{}\n#Number of formats\n{}\n", index.parts, index.formats.size());
+  std::string text =
+      fmt::format("#Number of parts\n{}\n#Number of formats\n{}\n", index.parts, index.formats.size());
   for (const std::string& format : index.formats) text += format + "\n";
   text += fmt::format(
       "#Number of grid points, triangular elements, quadrilateral elements of the whole mesh\n{} {} {}\n",

@@ -15,8 +15,9 @@ class LinksWriter {
 
   void write(const MeshPart& part, std::int32_t parts) {
     file_.write(fmt::format("#Part, of so many\n{} {}\n", part.number + 1, parts));
-    file_.write(fmt::format("#Number of grid points; of each the number in the whole mesh and the part that owns it\n{}\n",
-                            part.nodes.size()));
+    file_.write(fmt::format(
+        "#Number of grid points; of each the number in the whole mesh and the part that owns it\n{}\n",
+        part.nodes.size()));
     file_.write_rows(std::ssize(part.nodes), 2, [&](TextRows& text, std::size_t i) {
       text.put(part.nodes[i] + 1, ' ');
       text.put(part.owners[i] + 1, '\n');
@@ -25,13 +26,15 @@ class LinksWriter {
     numbers("Number of quadrilateral elements; of each the number in the whole mesh", part.quads);
     file_.write(fmt::format("#Number of boundaries of the whole mesh\n{}\n", part.edges.size()));
     for (std::size_t b = 0; b < part.edges.size(); ++b)
-      numbers(fmt::format("Number of edges of boundary {} ({}); of each the number among all of that boundary's",
-                          b + 1, part.mesh.boundaries[b].name),
-              part.edges[b]);
+      numbers(
+          fmt::format("Number of edges of boundary {} ({}); of each the number among all of that boundary's",
+                      b + 1, part.mesh.boundaries[b].name),
+          part.edges[b]);
     file_.write(fmt::format("#Number of neighbours\n{}\n", part.neighbours.size()));
     for (const MeshPart::Neighbour& neighbour : part.neighbours) {
-      file_.write(fmt::format("#Neighbour, number of nodes shared with it; the nodes, as numbered here\n{} {}\n",
-                              neighbour.part + 1, neighbour.nodes.size()));
+      file_.write(
+          fmt::format("#Neighbour, number of nodes shared with it; the nodes, as numbered here\n{} {}\n",
+                      neighbour.part + 1, neighbour.nodes.size()));
       file_.write_rows(std::ssize(neighbour.nodes), 1, [&](TextRows& text, std::size_t i) {
         text.put(neighbour.nodes[i].value() + 1, '\n');
       });
@@ -42,7 +45,8 @@ class LinksWriter {
  private:
   void numbers(const std::string& comment, const std::vector<std::int64_t>& rows) {
     file_.write(fmt::format("#{}\n{}\n", comment, rows.size()));
-    file_.write_rows(std::ssize(rows), 1, [&](TextRows& text, std::size_t i) { text.put(rows[i] + 1, '\n'); });
+    file_.write_rows(std::ssize(rows), 1,
+                     [&](TextRows& text, std::size_t i) { text.put(rows[i] + 1, '\n'); });
   }
 
   TextOutput file_;
@@ -92,7 +96,8 @@ class LinksReader {
   /// A number from 1 to `last`, as one from 0.
   std::int32_t up_to(std::int64_t last, const char* what) {
     const std::int64_t number = scan_.integer(what);
-    if (number < 1 || number > last) scan_.refuse(fmt::format("{} is {}, not one of 1 to {}", what, number, last));
+    if (number < 1 || number > last)
+      scan_.refuse(fmt::format("{} is {}, not one of 1 to {}", what, number, last));
     return static_cast<std::int32_t>(number - 1);
   }
 

@@ -27,9 +27,11 @@ class PartReader {
   explicit PartReader(const std::string& path)
       : path_{path}, prefix_{path.substr(0, path.rfind('.'))}, index_{read_part_index(path)} {
     for (const char* const format : {"mesh", "cgns", "vtu"}) {
-      if (format_.empty() && std::ranges::find(index_.formats, format) != index_.formats.end()) format_ = format;
+      if (format_.empty() && std::ranges::find(index_.formats, format) != index_.formats.end())
+        format_ = format;
     }
-    if (format_.empty()) throw InputError(path + ": its parts are in no format that is read: mesh, cgns or vtu");
+    if (format_.empty())
+      throw InputError(path + ": its parts are in no format that is read: mesh, cgns or vtu");
   }
 
   LoadedMesh read() {
@@ -73,8 +75,10 @@ class PartReader {
     }
     if (nodes != index_.nodes || triangles != index_.triangles || quads != index_.quads ||
         edges != index_.edges)
-      throw InputError(path_ + ": the nodes, cells and boundary edges of its parts do not add up to those of the whole; "
-                       "write the set again");
+      throw InputError(
+          path_ +
+          ": the nodes, cells and boundary edges of its parts do not add up to those of the whole; "
+          "write the set again");
     const auto count = [](std::int64_t number) { return static_cast<std::int32_t>(number); };
     WholeCounts counts{count(nodes), count(triangles), count(quads), {}};
     for (const std::int64_t number : edges) counts.edges.push_back(count(number));

@@ -47,7 +47,7 @@ struct Settings {
   std::string output_prefix;
   std::vector<std::string> formats;
   std::int32_t partitions = 0;  ///< parts for a solver's ranks, written beside the whole; 0: none
-  Warnings warnings;  ///< what the user is to be told of the case file itself
+  Warnings warnings;            ///< what the user is to be told of the case file itself
 };
 
 /// Reads the case file with the command line's assignments over it. On the calling rank alone. Throws

@@ -40,8 +40,9 @@ std::string part_name(std::int32_t part);
 
 /// What is divided beside the mesh itself.
 struct PartData {
-  const Field* field = nullptr;                                    ///< rows of owned nodes, others may follow
-  std::span<const std::int32_t> triangle_to_block = {}, quad_to_block = {};  ///< of this rank's cells; none: one block
+  const Field* field = nullptr;  ///< rows of owned nodes, others may follow
+  std::span<const std::int32_t> triangle_to_block = {},
+                                quad_to_block = {};  ///< of this rank's cells; none: one block
 };
 
 /// The parts that this rank holds (rank_of_part), ascending; on all ranks together each part once. The same
