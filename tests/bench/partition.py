@@ -1,19 +1,24 @@
 #!/usr/bin/env python3
 """Edge cut and balance of the parts that `quadloop convert --parts` makes, beside METIS's (k-way, Debian's libmetis5) on the same mesh.
 
-    partition.py QUADLOOP MESH.mesh [N ...]
+    partition.py --quadloop PROGRAM [--update docs/performance.md]
 
-Both weigh a cell by its number of edges; METIS gets the dual graph and its own defaults (a balance of 1.03 is allowed).
+Needs numpy. Both weigh a cell by its number of edges; METIS gets the dual graph and its own defaults (a balance of 1.03 is allowed).
 """
+import argparse
 import ctypes
 import json
 import pathlib
 import subprocess
 import sys
 import tempfile
-import time
 
 import numpy as np
+
+from figures import add_update, tell
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MESHES = [("naca0012", "hybrid"), ("naca0012", "delaunay"), ("naca0012_layers", "hybrid"), ("three_element_layers", "hybrid")]
 
 
 def rows(text):
@@ -72,23 +77,30 @@ def figures(pairs, weights, of):
     return int((of[pairs[:, 0]] != of[pairs[:, 1]]).sum()), sums.max() * len(sums) / sums.sum()
 
 
+def run(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+def rows_of(quadloop, case, kind):
+    with tempfile.TemporaryDirectory() as folder:
+        run(quadloop, "mesh", str(ROOT / "cases" / case / "case.toml"), "--type", kind, "-o", f"{folder}/a", "-q")
+        cells = cells_of(f"{folder}/a.mesh")
+        pairs, weights = pairs_of(cells), np.repeat([3, 4], [len(block) for block in cells])
+        for parts in (4, 7, 16, 64):
+            record = json.loads(run(quadloop, "convert", f"{folder}/a.mesh", f"{folder}/b.mesh", "--parts", str(parts), "--json", "-q"))
+            cut, balance = figures(pairs, weights, metis(pairs, weights, parts))
+            yield (f"| {case}, {kind} | {len(weights)} | {parts} | {record['edge_cut']} | {cut} | {record['edge_cut'] / cut:.2f} "
+                   f"| {record['part_balance']:.4f} | {balance:.4f} |")
+
+
 def main():
-    quadloop, mesh, *numbers = sys.argv[1:]
-    cells = cells_of(mesh)
-    pairs, weights = pairs_of(cells), np.repeat([3, 4], [len(block) for block in cells])
-    print(f"{pathlib.Path(mesh).name}: {len(cells[0])} triangles, {len(cells[1])} quads")
-    print(f"{'parts':>8}{'edge cut':>10}{'METIS':>8}{'ratio':>8}{'balance':>10}{'METIS':>8}{'METIS s':>9}")
-    for parts in [int(number) for number in numbers] or [4, 16, 64]:
-        with tempfile.TemporaryDirectory() as folder:
-            said = subprocess.run([quadloop, "convert", mesh, f"{folder}/a.mesh", "--parts", str(parts), "--json", "-q"],
-                                  capture_output=True, text=True, check=True).stdout
-        record = json.loads(said)
-        begin = time.perf_counter()
-        of = metis(pairs, weights, parts)
-        seconds = time.perf_counter() - begin
-        cut, balance = figures(pairs, weights, of)
-        print(f"{parts:>8}{record['edge_cut']:>10}{cut:>8}{record['edge_cut'] / cut:>8.2f}{record['part_balance']:>10.4f}{balance:>8.4f}"
-              f"{seconds:>9.2f}")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quadloop", required=True)
+    add_update(parser)
+    args = parser.parse_args()
+    rows = [row for case, kind in MESHES for row in rows_of(args.quadloop, case, kind)]
+    tell("\n".join(["METIS 5.1.", "", "| mesh | cells | parts | edge cut | METIS | ratio | balance | METIS |", "|---|---|---|---|---|---|---|---|",
+                    *rows]), "partition.py", args.update)
 
 
 if __name__ == "__main__":
