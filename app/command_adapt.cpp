@@ -61,6 +61,10 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   warnings = std::move(input.warnings);
   const Settings& settings = input.settings;
   const AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
+  if (settings.partitions > 0)
+    warnings.push_back(
+        "output.partitions: `adapt` writes no parts; `quadloop convert --parts` makes them of a cycle's "
+        "mesh");
   require_known_variables(settings.solver, adapt.variables, arguments.case_path);
   const EulerOptions& flow = settings.solver.euler;
   if (!settings.solver.given)

@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "app/part_output.hpp"
 #include "app/report/figures.hpp"
+#include "app/report/part_report.hpp"
 #include "app/report/refusals.hpp"
 #include "app/report/solid_report.hpp"
 #include "io/foam/foam_plane_file.hpp"
@@ -22,6 +26,7 @@ namespace {
 
 struct ConvertArguments {
   std::string input, output, format;
+  std::int32_t parts = 0;
 };
 
 std::vector<std::string> formats_of_meshes() {
@@ -62,7 +67,8 @@ ConvertInput read_convert_input(const ConvertArguments& arguments) {
   const FileFormat& output = output_format(arguments);
   const FileFormat* const format = format_of(arguments.input);
   if (!is_of_meshes(format)) require_readable_suffix(arguments.input);
-  if (!format->holds(Content::mesh) && !output.holds(Content::solid)) refuse_solid(arguments, output);
+  if (format != nullptr && !format->holds(Content::mesh) && !output.holds(Content::solid))
+    refuse_solid(arguments, output);
   ConvertInput input;
   input.solid = read_solid(arguments.input);
   if (input.solid && output.holds(Content::mesh) && is_one_cell_thick(*input.solid)) {
@@ -106,6 +112,18 @@ Figures figures_of(const SolidMesh& mesh) {
   return figures;
 }
 
+/// What --parts asks for, known before the mesh is read.
+PartRequest part_request(const ConvertArguments& arguments, std::int32_t blocks) {
+  const FileFormat* format =
+      arguments.format.empty() ? format_of(arguments.output) : format_named(arguments.format);
+  PartRequest request{std::filesystem::path(arguments.output).replace_extension().string(), arguments.parts,
+                      part_formats({format->name}, blocks)};
+  if (request.formats.empty())
+    throw InputError(fmt::format(
+        "{}: parts are written as .mesh, .vtu or, of one block, .cgns; name one of these", arguments.output));
+  return request;
+}
+
 Figures figures_of(const LoadedMesh& whole) {
   const auto count = [](const auto& rows) { return std::ssize(rows); };
   Figures figures;
@@ -130,18 +148,37 @@ void run_convert(const CommandContext& context, const ConvertArguments& argument
     input = read_convert_input(arguments);
     warnings = warnings_of(input, arguments);
   });
-  if (comm.any(input.solid.has_value())) {
+  PartFiles part_files(comm);
+  std::optional<PartFigures> parts;
+  PartRequest request;
+  const bool is_solid = comm.any(input.solid.has_value());
+  if (arguments.parts > 0) {
+    if (is_solid) throw InputError(arguments.input + ": holds a 3D mesh; parts are made of plane ones");
+    const auto blocks = static_cast<std::int32_t>(comm.maximum(std::int64_t{input.whole.blocks}));
+    request = part_request(arguments, blocks);
+    parts = write_parts_of_root(part_files, comm, input.whole, request);
+  }
+  if (is_solid) {
     const SolidMesh none;
     write_solid_of_root(comm, input.solid ? *input.solid : none, arguments.output, arguments.format);
   } else {
     write_mesh_of_root(comm, input.whole, arguments.output, arguments.format);
   }
+  part_files.commit();
   context.warn(warnings);
   if (!comm.is_root()) return;
-  const Figures figures = input.solid ? figures_of(*input.solid) : figures_of(input.whole);
-  context.record.figures = figures.record();
+  Figures figures = input.solid ? figures_of(*input.solid) : figures_of(input.whole);
   context.record.files = {arguments.output};
-  if (context.shows_table()) std::cout << figures.table() << "  wrote " << arguments.output << "\n";
+  std::string wrote = "  wrote " + arguments.output + "\n";
+  if (parts) {
+    add_parts(figures, *parts);
+    for (std::string& file : part_file_names(request.prefix, request.parts, request.formats))
+      context.record.files.push_back(std::move(file));
+    wrote += fmt::format("  wrote {} and {} files of parts\n", context.record.files[1],
+                         context.record.files.size() - 2);
+  }
+  context.record.figures = figures.record();
+  if (context.shows_table()) std::cout << figures.table() << wrote;
 }
 
 }  // namespace
@@ -163,6 +200,13 @@ void add_convert_command(CLI::App& app, CommandContext& context) {
   command->add_option("--format", arguments->format, "the format to write, whatever OUT ends in")
       ->type_name("NAME")
       ->check(one_of(formats_of_meshes()));
+  command
+      ->add_option(
+          "--parts", arguments->parts,
+          "write the mesh in so many parts as well, for the ranks of a solver: OUT without its suffix "
+          "is the prefix of their names")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_convert(context, *arguments); }; });
 }

@@ -9,6 +9,8 @@
 #include "adapt/remesh/restart.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "app/part_output.hpp"
+#include "app/report/part_report.hpp"
 #include "app/report/summary.hpp"
 #include "io/files/output_path.hpp"
 #include "io/formats.hpp"
@@ -35,7 +37,8 @@ struct MeshArguments {
 /// What has to be known before the meshing starts; the same on every rank.
 struct Prepared {
   CaseInput input;
-  std::vector<std::string> files;  ///< to be written, the tree last
+  std::vector<std::string> files;       ///< to be written, the tree last
+  std::vector<std::string> part_files;  ///< and these, where parts are asked for
 };
 
 /// `-o out.mesh` would write out.mesh.mesh.
@@ -64,7 +67,12 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
     prepared.files.push_back(settings.output_prefix + "." + format);
   if (!arguments.geometry_out.empty()) prepared.files.push_back(arguments.geometry_out);
   prepared.files.push_back(settings.output_prefix + tree_suffix);
-  for (const std::string& file : prepared.files) require_possible_output(file);
+  if (settings.partitions > 0)
+    prepared.part_files =
+        part_file_names(settings.output_prefix, settings.partitions, part_formats(settings.formats));
+  for (const auto* files : {&prepared.files, &prepared.part_files}) {
+    for (const std::string& file : *files) require_possible_output(file);
+  }
   return prepared;
 }
 
@@ -80,16 +88,24 @@ void write_geometry(OutputSet& outputs, const Geometry& geometry, const std::str
   file.close();
 }
 
-void write_outputs(const Communicator& comm, const MeshResult& result, const Prepared& prepared,
-                   const std::string& geometry_out) {
+/// With the figures of parts where they are asked for.
+std::optional<PartFigures> write_outputs(const Communicator& comm, const MeshResult& result,
+                                         const Prepared& prepared, const std::string& geometry_out) {
   OutputSet outputs(comm);
+  PartFiles part_files(comm);
+  std::optional<PartFigures> parts;
   const Settings& settings = prepared.input.settings;
   for (const std::string& format : settings.formats) {
     write_mesh(outputs, result.mesh, settings.output_prefix + "." + format);
   }
   if (!geometry_out.empty()) write_geometry(outputs, meshed_geometry(*prepared.input.mesh), geometry_out);
   write_tree(outputs, result.tree, settings.output_prefix + tree_suffix);
+  if (settings.partitions > 0)
+    parts = write_parts(part_files, comm, result.mesh, {},
+                        {settings.output_prefix, settings.partitions, part_formats(settings.formats)});
   outputs.commit();
+  part_files.commit();
+  return parts;
 }
 
 /// SU2 is silent about cells that its scheme gets wrong.
@@ -124,15 +140,23 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   times.append(generated.times);
   times.begin("write");
   log::detail("writing " + prepared.input.settings.output_prefix + ".*");
-  write_outputs(comm, generated.result, prepared, arguments.geometry_out);
+  const std::optional<PartFigures> parts =
+      write_outputs(comm, generated.result, prepared, arguments.geometry_out);
   times.end();
   context.warn(prepared.input.warnings);
   context.warn(generated.result.report.warnings);
   for (const std::string& file : prepared.files) context.warn(renames_in(generated.result.mesh, file));
-  const MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
+  MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
+  if (parts) {
+    add_parts(summary.figures, *parts);
+    summary.files.push_back(prepared.part_files.front() +
+                            fmt::format(" and {} files of parts", prepared.part_files.size() - 1));
+  }
   context.warn(solver_warnings(prepared.input.settings, summary.shape));
   context.record.figures = record_of(summary);
-  context.record.files = summary.files;
+  context.record.files = prepared.files;
+  context.record.files.insert(context.record.files.end(), prepared.part_files.begin(),
+                              prepared.part_files.end());
   if (context.shows_table()) std::cout << table_of(summary);
 }
 

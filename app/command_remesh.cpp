@@ -144,6 +144,9 @@ Problem load(const Communicator& comm, const RemeshArguments& arguments) {
     const std::string prefix = arguments.prefix.empty() ? settings.output_prefix : arguments.prefix;
     for (const std::string& format : settings.formats) problem.files.push_back(prefix + "." + format);
     problem.files.push_back(prefix + tree_suffix);
+    if (settings.partitions > 0)
+      problem.input.warnings.push_back(
+          "output.partitions: `remesh` writes no parts; `quadloop convert --parts` makes them of its mesh");
     for (const std::string& file : problem.files) require_possible_output(file);
     if (comm.is_root()) problem.whole = solved_mesh(arguments, tree);
   });

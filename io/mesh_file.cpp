@@ -10,6 +10,8 @@
 #include <system_error>
 
 #include "io/formats.hpp"
+#include "io/parts/part_index.hpp"
+#include "io/parts/part_reader.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/layer_nodes.hpp"
 
@@ -46,7 +48,7 @@ void append_losses(const FileFormat& format, const Mesh& mesh, const Field* solu
 }  // namespace
 
 void require_readable_suffix(const std::string& path) {
-  if (mesh_format(path) != nullptr) return;
+  if (mesh_format(path) != nullptr || is_part_index(path)) return;
   std::error_code no_such_file;
   if (const std::string ours = path + "." + native_format().name; std::filesystem::exists(ours, no_such_file))
     throw InputError(path + ": is no mesh file; do you mean '" + ours + "'?");
@@ -59,7 +61,7 @@ void require_readable_suffix(const std::string& path) {
 
 LoadedMesh read_mesh(const std::string& path) {
   require_readable_suffix(path);
-  return mesh_format(path)->read_mesh(path);
+  return is_part_index(path) ? read_parts(path) : mesh_format(path)->read_mesh(path);
 }
 
 void require_writable_suffix(const std::string& path) {

@@ -8,8 +8,8 @@
 
 namespace quadloop {
 
-/// Reads a mesh in the format (formats.hpp) that the file's suffix tells, on the calling rank alone. Throws
-/// InputError.
+/// Reads a mesh in the format (formats.hpp) that the file's suffix tells, or the whole of a set of parts
+/// whose index (.parts) is named, on the calling rank alone. Throws InputError.
 LoadedMesh read_mesh(const std::string& path);
 
 /// Throw InputError unless the suffix is that of a format which is read, or written.

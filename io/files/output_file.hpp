@@ -37,6 +37,9 @@ class OutputSet {
   /// it. *Collective.*
   StagedFile stage(const std::string& path);
 
+  /// The output that was staged last, for those who add to it once it is written. On rank 0 alone.
+  const StagedFile& staged_last() const { return outputs_.back().staged; }
+
   /// An output that is a folder of these files: makes it where there is none, to be taken away again without
   /// a commit, and stages them in it. Refuses one that holds anything else: it would go with other files than
   /// these. *Collective.*

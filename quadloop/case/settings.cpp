@@ -10,6 +10,7 @@
 #include "io/formats.hpp"
 #include "io/input/case_file.hpp"
 #include "io/input/geometry_file.hpp"
+#include "io/parts/part_files.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"
@@ -227,6 +228,15 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
         settings.fields.push_back(field);
     }
   }
+  if (const auto parts = table->number("partitions", {0, 100000})) {
+    if (*parts != std::floor(*parts))
+      table->refuse("partitions", "must be a whole number, 0 or more; 0 writes no parts");
+    settings.partitions = static_cast<std::int32_t>(*parts);
+    if (settings.partitions > 0 && part_formats(settings.formats).empty())
+      table->refuse("partitions",
+                    "needs a format that parts are written in: \"mesh\", \"cgns\" or \"vtu\" "
+                    "in output.formats");
+  }
   table->finish();
 }
 
@@ -263,7 +273,8 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
     settings.warnings.push_back(std::move(warning));
   read_output_table(root, case_path, settings);
   root.finish();
-  settings.values = root.values({"title", "output.prefix", "adapt.cycles", "solver.timeout", "solver.ranks"});
+  settings.values = root.values(
+      {"title", "output.prefix", "output.partitions", "adapt.cycles", "solver.timeout", "solver.ranks"});
   return settings;
 }
 

@@ -47,6 +47,7 @@ struct Settings {
   std::string output_prefix;
   std::vector<std::string> formats;
   std::vector<std::string> fields;  ///< of quantity_names(), written beside a solution
+  std::int32_t partitions = 0;      ///< parts for a solver's ranks, written beside the whole; 0: none
   Warnings warnings;                ///< what the user is to be told of the case file itself
 };
 

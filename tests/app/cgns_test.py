@@ -65,6 +65,28 @@ class CgnsBoundaries(ProgramTest):
         self.assertEqual(set(shown), set(CONDITIONS))
         self.assertTrue(all(cells > 0 for cells in shown.values()), shown)
 
+    def test_parts_hold_their_numbers(self):
+        """The same as their .links files tell."""
+        self.done("convert", "m.cgns", "p.cgns", "--parts", "3", "-q")
+        for number in (1, 2, 3):
+            links = (self.folder / f"p.part_000{number}.links").read_text().splitlines()
+            rows = iter([[int(word) for word in line.split()] for line in links if not line.startswith("#")])
+            column = lambda: [next(rows) for _ in range(next(rows)[0])]
+            with h5py.File(self.folder / f"p.part_000{number}.cgns") as file:
+                part = file["Base/domain/Part"]
+                numbers = lambda name: part[name][" data"][()].tolist()
+                self.assertEqual(numbers("Number"), next(rows))
+                nodes = column()
+                self.assertEqual(numbers("GlobalNodeNumber"), [node for node, _ in nodes])
+                self.assertEqual(numbers("NodeOwner"), [owner for _, owner in nodes])
+                for name in ("GlobalTriangleNumber", "GlobalQuadNumber"):
+                    self.assertEqual(numbers(name), [cell for (cell,) in column()])
+                for _ in range(next(rows)[0]):
+                    column()
+                for _ in range(next(rows)[0]):
+                    other, shared = next(rows)
+                    self.assertEqual(numbers(f"part_000{other}/SharedNodes"), [next(rows)[0] for _ in range(shared)])
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

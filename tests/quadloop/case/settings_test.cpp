@@ -221,7 +221,12 @@ TEST_F(SettingsTest, RefusesEveryBadKey) {
             0u);
   EXPECT_EQ(refused("[solver]\nmach = 0\nreynolds = 5\n").find("case.toml:5: 'solver.reynolds' needs a mach"),
             0u);
-  EXPECT_EQ(refused("[output]\npartitions = 0\n").find("case.toml:4: unknown key 'output.partitions'"), 0u);
+  EXPECT_EQ(refused("[output]\npartitions = -1\n").find("case.toml:4: 'output.partitions' is -1"), 0u);
+  EXPECT_EQ(refused("[output]\npartitions = 1.5\n").find("case.toml:4: 'output.partitions' must be a whole"),
+            0u);
+  EXPECT_EQ(refused("[output]\nformats = [\"su2\"]\npartitions = 2\n")
+                .find("case.toml:5: 'output.partitions' needs a format"),
+            0u);
   EXPECT_EQ(refused("[spacing]\nmin = 0\n").find("case.toml:4: 'spacing.min' is 0"), 0u);
   EXPECT_EQ(refused("[spacing]\nmin = 2\nmax = 1\n")
                 .find("case.toml:4: 'spacing.min' is 2, but must not be above spacing.max"),

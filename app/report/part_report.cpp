@@ -1,0 +1,18 @@
+#include "app/report/part_report.hpp"
+
+#include <fmt/format.h>
+
+namespace quadloop {
+
+void add_parts(Figures& figures, const PartFigures& parts) {
+  figures.add("parts", parts.parts);
+  figures.add("edge cut", parts.edge_cut);
+  figures.add("part balance", parts.balance, "{:.4f}");
+  figures.add_raw("cells of a part", fmt::format("{} to {}", parts.fewest_cells, parts.most_cells),
+                  json_list({json_of(parts.fewest_cells), json_of(parts.most_cells)}), "part_cells");
+  figures.add("shared nodes", parts.shared_nodes);
+  figures.add_raw("part neighbours", fmt::format("up to {}", parts.most_neighbours),
+                  json_of(parts.most_neighbours));
+}
+
+}  // namespace quadloop

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "io/files/output_file.hpp"
+#include "mesher/mesh/parts/mesh_part.hpp"
+
+namespace quadloop {
+
+/// Puts into the CGNS file of a part, which is whole, a UserDefinedData_t "Part" under its zone: DataArray_t
+/// "Number" (part, parts), "GlobalNodeNumber", "NodeOwner", "GlobalTriangleNumber", "GlobalQuadNumber", and
+/// for each neighbour a UserDefinedData_t of its name with "SharedNodes". All from 1. On one rank. Throws
+/// OutputError.
+void put_part_into_cgns(const StagedFile& staged, const MeshPart& part, std::int32_t parts);
+
+}  // namespace quadloop

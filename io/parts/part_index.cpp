@@ -1,0 +1,91 @@
+#include "io/parts/part_index.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <limits>
+
+#include "io/text/text_scanner.hpp"
+#include "mesher/mesh/parts/mesh_part.hpp"
+
+namespace quadloop {
+
+namespace {
+
+std::int64_t read_count(TextScanner& scan, const char* of) {
+  const std::int64_t count = scan.integer(of);
+  if (count < 0 || count > std::numeric_limits<std::int32_t>::max())
+    scan.refuse(fmt::format("{} {} of the whole mesh; one rank joins at most {}", count, of,
+                            std::numeric_limits<std::int32_t>::max()));
+  return count;
+}
+
+void read_boundary(TextScanner& scan, PartIndex& index) {
+  index.edges.push_back(read_count(scan, "edges"));
+  BoundaryEdges boundary;
+  const std::int64_t layers = read_count(scan, "layers");
+  boundary.layers = {static_cast<std::int32_t>(layers), scan.real("the thickness of layers")};
+  boundary.condition = scan.token("a boundary condition");
+  boundary.name = scan.rest_of_line();
+  if (boundary.name.empty()) scan.refuse("a boundary has no name");
+  index.boundaries.push_back(std::move(boundary));
+}
+
+}  // namespace
+
+bool is_part_index(const std::string& path) {
+  return std::filesystem::path(path).extension() == part_index_suffix;
+}
+
+std::string part_path(const std::string& prefix, std::int32_t part, const std::string& suffix) {
+  return prefix + "." + part_name(part) + "." + suffix;
+}
+
+void write_part_index(OutputSet& outputs, const PartIndex& index, const std::string& path) {
+  std::string text =
+      fmt::format("#Number of parts\n{}\n#Number of formats\n{}\n", index.parts, index.formats.size());
+  for (const std::string& format : index.formats) text += format + "\n";
+  text += fmt::format(
+      "#Number of grid points, triangular elements, quadrilateral elements of the whole mesh\n{} {} {}\n",
+      index.nodes, index.triangles, index.quads);
+  text += fmt::format("#Number of blocks; their names\n{}\n", index.blocks.size());
+  for (const std::string& block : index.blocks) text += block + "\n";
+  text += fmt::format("#Number of boundaries; edges, layers, thickness, condition, name of each\n{}\n",
+                      index.boundaries.size());
+  for (std::size_t b = 0; b < index.boundaries.size(); ++b) {
+    const BoundaryEdges& boundary = index.boundaries[b];
+    text += fmt::format("{} {} {} {} {}\n", index.edges[b], boundary.layers.count, boundary.layers.thickness,
+                        boundary.condition.empty() ? "none" : boundary.condition, boundary.name);
+  }
+  OutputFile file(outputs.stage(path));
+  file.write(text);
+  file.close();
+}
+
+PartIndex read_part_index(const std::string& path) {
+  TextScanner scan(path);
+  PartIndex index;
+  index.parts = static_cast<std::int32_t>(read_count(scan, "parts"));
+  if (index.parts < 1) scan.refuse("a set has at least one part");
+  const std::size_t formats = scan.count("formats", 1);
+  for (std::size_t i = 0; i < formats; ++i) index.formats.emplace_back(scan.token("a format"));
+  index.nodes = read_count(scan, "grid points");
+  index.triangles = read_count(scan, "triangular elements");
+  index.quads = read_count(scan, "quadrilateral elements");
+  const std::size_t blocks = scan.count("blocks", 1);
+  for (std::size_t i = 0; i < blocks; ++i) {
+    std::string name(scan.token("a block's name"));
+    if (const std::string_view more = scan.rest_of_line(); !more.empty()) name.append(" ").append(more);
+    index.blocks.push_back(std::move(name));
+  }
+  if (blocks == 0) scan.refuse("a mesh has at least one block");
+  const std::size_t boundaries = scan.count("boundaries", 1);
+  for (std::size_t i = 0; i < boundaries; ++i) read_boundary(scan, index);
+  if (!scan.at_end()) {
+    scan.token("");
+    scan.refuse("text after the end");
+  }
+  return index;
+}
+
+}  // namespace quadloop

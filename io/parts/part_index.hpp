@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/files/output_file.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// What PREFIX.parts tells of a set and of the whole mesh.
+struct PartIndex {
+  std::int32_t parts = 0;
+  std::vector<std::string> formats;  ///< of the parts, by suffix
+  std::int64_t nodes = 0, triangles = 0, quads = 0;
+  std::vector<std::string> blocks;        ///< names
+  std::vector<BoundaryEdges> boundaries;  ///< without their edges
+  std::vector<std::int64_t> edges;        ///< of each boundary
+};
+
+/// The suffix of an index, and whether a path has it.
+inline constexpr const char* part_index_suffix = ".parts";
+bool is_part_index(const std::string& path);
+
+/// Of a set that is written to `prefix`, the file of one part (from 0); `suffix` is a format's, or "links".
+std::string part_path(const std::string& prefix, std::int32_t part, const std::string& suffix);
+
+/// On the set's only rank. Throws OutputError.
+void write_part_index(OutputSet& outputs, const PartIndex& index, const std::string& path);
+
+/// On the calling rank alone. Throws InputError.
+PartIndex read_part_index(const std::string& path);
+
+}  // namespace quadloop

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "io/files/output_file.hpp"
+#include "mesher/mesh/parts/mesh_part.hpp"
+
+namespace quadloop {
+
+/// Writes all of a part but its mesh. On the set's only rank. Throws OutputError.
+void write_part_links(OutputSet& outputs, const MeshPart& part, std::int32_t parts, const std::string& path);
+
+/// Reads that part of a set of so many; its mesh has nothing yet. On the calling rank alone. Throws
+/// InputError.
+MeshPart read_part_links(const std::string& path, std::int32_t part, std::int32_t parts);
+
+}  // namespace quadloop

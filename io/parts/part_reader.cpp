@@ -1,0 +1,116 @@
+#include "io/parts/part_reader.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "io/cgns/cgns_file.hpp"
+#include "io/native/native_file.hpp"
+#include "io/parts/part_index.hpp"
+#include "io/parts/part_links.hpp"
+#include "io/vtu/vtu_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/parts/join_parts.hpp"
+
+namespace quadloop {
+
+namespace {
+
+LoadedMesh read_piece(const std::string& path, const std::string& format) {
+  if (format == "mesh") return read_native(path);
+  if (format == "cgns") return read_cgns(path);
+  return read_vtu(path);
+}
+
+class PartReader {
+ public:
+  explicit PartReader(const std::string& path)
+      : path_{path}, prefix_{path.substr(0, path.rfind('.'))}, index_{read_part_index(path)} {
+    for (const char* const format : {"mesh", "cgns", "vtu"}) {
+      if (format_.empty() && std::ranges::find(index_.formats, format) != index_.formats.end())
+        format_ = format;
+    }
+    if (format_.empty())
+      throw InputError(path + ": its parts are in no format that is read: mesh, cgns or vtu");
+  }
+
+  LoadedMesh read() {
+    std::vector<MeshPart> parts;
+    for (std::int32_t number = 0; number < index_.parts; ++number) {
+      const std::string links = part_path(prefix_, number, "links");
+      parts.push_back(read_part_links(links, number, index_.parts));
+      if (parts.back().edges.size() != index_.boundaries.size())
+        throw InputError(links + ": it has other boundaries than " + path_);
+    }
+    PartJoiner joiner(counts(parts), index_.boundaries);
+    for (MeshPart& part : parts) {
+      const std::string path = part_path(prefix_, part.number, format_);
+      fill(part, path);
+      joiner.put(part, path);
+      part = {};
+    }
+    JoinedMesh joined = joiner.finish(path_);
+    LoadedMesh whole;
+    whole.mesh = std::move(joined.mesh);
+    whole.blocks = size32(index_.blocks);
+    whole.triangle_to_block = std::move(joined.triangle_to_block);
+    whole.quad_to_block = std::move(joined.quad_to_block);
+    whole.block_names = index_.blocks;
+    whole.solution = std::move(joined.field);
+    whole.warnings = std::move(warnings_);
+    std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& b) { return b.edges.empty(); });
+    return whole;
+  }
+
+ private:
+  /// Of the whole, as far as the parts can fill it: what the index says is no size of memory before.
+  WholeCounts counts(const std::vector<MeshPart>& parts) const {
+    std::int64_t nodes = 0, triangles = 0, quads = 0;
+    std::vector<std::int64_t> edges(index_.edges.size(), 0);
+    for (const MeshPart& part : parts) {
+      nodes += std::ranges::count(part.owners, part.number);
+      triangles += std::ssize(part.triangles);
+      quads += std::ssize(part.quads);
+      for (std::size_t b = 0; b < edges.size(); ++b) edges[b] += std::ssize(part.edges[b]);
+    }
+    if (nodes != index_.nodes || triangles != index_.triangles || quads != index_.quads ||
+        edges != index_.edges)
+      throw InputError(
+          path_ +
+          ": the nodes, cells and boundary edges of its parts do not add up to those of the whole; "
+          "write the set again");
+    const auto count = [](std::int64_t number) { return static_cast<std::int32_t>(number); };
+    WholeCounts counts{count(nodes), count(triangles), count(quads), {}};
+    for (const std::int64_t number : edges) counts.edges.push_back(count(number));
+    return counts;
+  }
+
+  /// The part's mesh and values, from its own file.
+  void fill(MeshPart& part, const std::string& path) {
+    LoadedMesh loaded = read_piece(path, format_);
+    if (loaded.blocks != std::ssize(index_.blocks))
+      throw InputError(path + ": it has " + std::to_string(loaded.blocks) + " blocks, the whole mesh " +
+                       std::to_string(index_.blocks.size()));
+    std::vector<BoundaryEdges> own = std::move(loaded.mesh.boundaries);
+    part.mesh = std::move(loaded.mesh);
+    part.mesh.boundaries = index_.boundaries;
+    for (BoundaryEdges& boundary : part.mesh.boundaries) {
+      const auto found = std::ranges::find(own, boundary.name, &BoundaryEdges::name);
+      if (found != own.end()) boundary.edges = std::move(found->edges);
+    }
+    part.triangle_to_block = std::move(loaded.triangle_to_block);
+    part.quad_to_block = std::move(loaded.quad_to_block);
+    part.field = std::move(loaded.solution);
+    std::ranges::move(loaded.warnings, std::back_inserter(warnings_));
+  }
+
+  std::string path_, prefix_, format_;
+  PartIndex index_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+LoadedMesh read_parts(const std::string& path) { return PartReader(path).read(); }
+
+}  // namespace quadloop

@@ -1,0 +1,293 @@
+#include "mesher/mesh/parts/mesh_part.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "mesher/base/error.hpp"
+#include "mesher/base/parallel/exchange.hpp"
+#include "mesher/mesh/node_exchange.hpp"
+#include "mesher/mesh/parts/part_sides.hpp"
+
+namespace quadloop {
+
+namespace {
+
+template <std::size_t width>
+struct PartCell {
+  std::int64_t number = 0;
+  std::int32_t part = 0, block = 0;
+  std::array<GlobalNodeId, width> nodes;
+};
+
+/// That a part has a node.
+struct Use {
+  GlobalNodeId node;
+  std::int32_t part = 0;
+  friend auto operator<=>(const Use&, const Use&) = default;
+};
+
+/// That two parts have a node.
+struct Sharing {
+  std::int32_t part = 0, other = 0;
+  GlobalNodeId node;
+  friend auto operator<=>(const Sharing&, const Sharing&) = default;
+};
+
+class PartMaker {
+ public:
+  PartMaker(const Communicator& comm, const Mesh& mesh, const CellParts& cells, const PartData& data)
+      : comm_{comm}, mesh_{mesh}, cells_{cells}, data_{data}, owners_(comm, mesh.first_node) {}
+
+  std::vector<MeshPart> make() {
+    refuse_names();
+    for (std::int32_t part = 0; part < cells_.parts; ++part) {
+      if (rank_of(part) != comm_.rank()) continue;
+      index_of_[part] = parts_.size();
+      parts_.emplace_back().number = part;
+    }
+    const auto triangles = deliver_cells(mesh_.triangles, cells_.triangles, data_.triangle_to_block);
+    const auto quads = deliver_cells(mesh_.quads, cells_.quads, data_.quad_to_block);
+    collect_nodes(triangles, quads);
+    put_cells(triangles, &Mesh::triangles, &MeshPart::triangles, &MeshPart::triangle_to_block);
+    put_cells(quads, &Mesh::quads, &MeshPart::quads, &MeshPart::quad_to_block);
+    fetch_nodes();
+    put_sharings();
+    put_sides();
+    return std::move(parts_);
+  }
+
+ private:
+  int rank_of(std::int32_t part) const { return rank_of_part(comm_, part, cells_.parts); }
+  MeshPart& part(std::int32_t number) { return parts_[index_of_.at(number)]; }
+
+  /// A boundary's own name must not be that of a neighbour.
+  void refuse_names() const {
+    for (const BoundaryEdges& boundary : mesh_.boundaries) {
+      const std::string head = "part_",
+                        digits = boundary.name.substr(std::min(head.size(), boundary.name.size()));
+      if (boundary.name.starts_with(head) && !digits.empty() &&
+          digits.find_first_not_of("0123456789") == std::string::npos)
+        throw InputError("boundary '" + boundary.name +
+                         "' is named as the edges between two parts are; give it another name");
+    }
+  }
+
+  /// In the order of their numbers.
+  template <std::size_t width>
+  std::vector<PartCell<width>> deliver_cells(const std::vector<std::array<NodeId, width>>& cells,
+                                             const std::vector<std::int32_t>& parts,
+                                             std::span<const std::int32_t> blocks) const {
+    Outbox<PartCell<width>> out;
+    const std::int64_t first = comm_.exclusive_sum(std::ssize(cells));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      PartCell<width> cell{
+          first + static_cast<std::int64_t>(i), parts[i], blocks.empty() ? 0 : blocks[i], {}};
+      for (std::size_t k = 0; k < width; ++k) cell.nodes[k] = mesh_.global(cells[i][k]);
+      out.add(rank_of(cell.part), cell);
+    }
+    return out.deliver(comm_);
+  }
+
+  /// Which nodes each part has.
+  void collect_nodes(const auto& triangles, const auto& quads) {
+    const auto collect = [&](const auto& cells) {
+      for (const auto& cell : cells) {
+        for (const GlobalNodeId node : cell.nodes) part(cell.part).nodes.push_back(node.value());
+      }
+    };
+    collect(triangles);
+    collect(quads);
+    for (MeshPart& part : parts_) {
+      std::ranges::sort(part.nodes);
+      const auto rest = std::ranges::unique(part.nodes);
+      part.nodes.erase(rest.begin(), rest.end());
+      part.mesh.owned_nodes = size32(part.nodes);
+      part.owners.assign(part.nodes.size(), part.number);
+    }
+  }
+
+  static NodeId local(const MeshPart& part, GlobalNodeId node) {
+    const auto at = std::ranges::lower_bound(part.nodes, node.value());
+    return NodeId{static_cast<std::int32_t>(at - part.nodes.begin())};
+  }
+  template <std::size_t width>
+  static std::array<NodeId, width> local(const MeshPart& part, const std::array<GlobalNodeId, width>& nodes) {
+    std::array<NodeId, width> here;
+    for (std::size_t k = 0; k < width; ++k) here[k] = local(part, nodes[k]);
+    return here;
+  }
+
+  template <std::size_t width>
+  void put_cells(const std::vector<PartCell<width>>& cells,
+                 std::vector<std::array<NodeId, width>> Mesh::*rows,
+                 std::vector<std::int64_t> MeshPart::*numbers, std::vector<std::int32_t> MeshPart::*blocks) {
+    for (const PartCell<width>& cell : cells) {
+      MeshPart& to = part(cell.part);
+      (to.mesh.*rows).push_back(local(to, cell.nodes));
+      (to.*numbers).push_back(cell.number);
+      (to.*blocks).push_back(cell.block);
+    }
+  }
+
+  /// Positions and values, from the ranks that own the nodes.
+  void fetch_nodes() {
+    std::vector<int> ranks;
+    std::vector<GlobalNodeId> wanted;
+    for (const MeshPart& part : parts_) {
+      for (const std::int64_t node : part.nodes) wanted.emplace_back(node);
+    }
+    for (const GlobalNodeId node : wanted) ranks.push_back(owners_.rank_of(node));
+    const Exchange questions(comm_, ranks);
+    const std::vector<GlobalNodeId> asked = questions.deliver(wanted);
+    const std::size_t width = data_.field == nullptr ? 0 : data_.field->width();
+    std::vector<Point> points;
+    std::vector<double> rows;
+    for (const GlobalNodeId node : asked) {
+      const NodeId here = owners_.local(node);
+      points.push_back(mesh_.point(here));
+      if (width == 0) continue;
+      const auto row = data_.field->row(here);
+      rows.insert(rows.end(), row.begin(), row.end());
+    }
+    points = questions.answer(points);
+    if (width > 0) rows = questions.answer(rows, width);
+    std::size_t at = 0;
+    for (MeshPart& part : parts_) {
+      const std::size_t end = at + part.nodes.size();
+      part.mesh.points.assign(points.begin() + at, points.begin() + end);
+      if (data_.field != nullptr)
+        part.field = Field{data_.field->names,
+                           {rows.begin() + at * width, rows.begin() + end * width},
+                           data_.field->constants};
+      at = end;
+    }
+  }
+
+  /// Who has a node is known on the rank that owns it.
+  void put_sharings() {
+    Outbox<Use> uses;
+    for (const MeshPart& part : parts_) {
+      for (const std::int64_t node : part.nodes) {
+        const GlobalNodeId global{node};
+        uses.add(owners_.rank_of(global), {global, part.number});
+      }
+    }
+    std::vector<Use> used = uses.deliver(comm_);
+    std::ranges::sort(used);
+    std::int64_t nodes = 0;
+    Outbox<Sharing> sharings;
+    for (auto begin = used.begin(); begin != used.end(); ++nodes) {
+      const auto end =
+          std::find_if(begin, used.end(), [&](const Use& use) { return use.node != begin->node; });
+      for (auto a = begin; a != end; ++a) {
+        for (auto b = begin; b != end; ++b) {
+          if (a != b) sharings.add(rank_of(a->part), {a->part, b->part, a->node});
+        }
+      }
+      begin = end;
+    }
+    if (comm_.any(nodes != mesh_.owned_nodes))
+      throw InputError(
+          "the mesh has nodes that no cell has, which no part could take; `quadloop check` names them");
+    std::vector<Sharing> shared = sharings.deliver(comm_);
+    std::ranges::sort(shared);
+    for (const Sharing& sharing : shared) {
+      MeshPart& here = part(sharing.part);
+      if (here.neighbours.empty() || here.neighbours.back().part != sharing.other)
+        here.neighbours.push_back({sharing.other, {}});
+      const NodeId node = local(here, sharing.node);
+      here.neighbours.back().nodes.push_back(node);
+      std::int32_t& owner = here.owners[node.value()];
+      owner = std::min(owner, sharing.other);
+    }
+  }
+
+  void put_sides() {
+    std::vector<PartSide> sides = part_sides(comm_, mesh_, cells_);
+    const auto undirected = [](const PartSide& side) { return std::ranges::minmax(side.nodes); };
+    std::ranges::sort(sides, [&](const PartSide& a, const PartSide& b) {
+      const auto [a_low, a_high] = undirected(a);
+      const auto [b_low, b_high] = undirected(b);
+      return std::tuple(a.neighbour, a.boundary, a.place, a_low, a_high) <
+             std::tuple(b.neighbour, b.boundary, b.place, b_low, b_high);
+    });
+    for (MeshPart& part : parts_) {
+      for (const BoundaryEdges& boundary : mesh_.boundaries)
+        part.mesh.boundaries.push_back({boundary.name, boundary.condition, {}, boundary.layers});
+      part.edges.resize(mesh_.boundaries.size());
+    }
+    for (const PartSide& side : sides) put_side(side, part(side.part));
+  }
+
+  /// Those between parts come after all others, neighbour after neighbour.
+  static void put_side(const PartSide& side, MeshPart& to) {
+    auto& boundaries = to.mesh.boundaries;
+    if (side.boundary >= 0) {
+      boundaries[side.boundary].edges.push_back(local(to, side.nodes));
+      to.edges[side.boundary].push_back(side.place);
+      return;
+    }
+    const std::string name = part_name(side.neighbour);
+    if (boundaries.size() == to.edges.size() || boundaries.back().name != name)
+      boundaries.push_back({name, "interface", {}, {}});
+    boundaries.back().edges.push_back(local(to, side.nodes));
+  }
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  const CellParts& cells_;
+  const PartData& data_;
+  NodeOwners owners_;
+  std::vector<MeshPart> parts_;
+  std::map<std::int32_t, std::size_t> index_of_;
+};
+
+}  // namespace
+
+std::string part_name(std::int32_t part) {
+  constexpr std::size_t digits = 4;
+  const std::string number = std::to_string(part + 1);
+  return "part_" + std::string(digits - std::min(digits, number.size()), '0') + number;
+}
+
+std::vector<MeshPart> make_parts(const Communicator& comm, const Mesh& mesh, const CellParts& cells,
+                                 const PartData& data) {
+  return PartMaker(comm, mesh, cells, data).make();
+}
+
+PartFigures part_figures(const Communicator& comm, std::span<const MeshPart> parts) {
+  PartFigures figures;
+  std::int64_t cut = 0, weight = 0, heaviest = 0, shared = 0, neighbours = 0, most = 0;
+  std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
+  for (const MeshPart& part : parts) {
+    for (std::size_t b = part.edges.size(); b < part.mesh.boundaries.size(); ++b)
+      cut += std::ssize(part.mesh.boundaries[b].edges);
+    const std::int64_t triangles = std::ssize(part.triangles), quads = std::ssize(part.quads),
+                       weighs = 3 * triangles + 4 * quads;
+    weight += weighs;
+    heaviest = std::max(heaviest, weighs);
+    fewest = std::min(fewest, triangles + quads);
+    most = std::max(most, triangles + quads);
+    neighbours = std::max<std::int64_t>(neighbours, std::ssize(part.neighbours));
+    std::vector<char> is_shared(part.nodes.size(), 0);
+    for (const MeshPart::Neighbour& neighbour : part.neighbours) {
+      for (const NodeId node : neighbour.nodes) is_shared[node.value()] = 1;
+    }
+    for (std::size_t i = 0; i < part.nodes.size(); ++i)
+      shared += is_shared[i] != 0 && part.owners[i] == part.number ? 1 : 0;
+  }
+  figures.parts = comm.sum(std::ssize(parts));
+  figures.edge_cut = comm.sum(cut) / 2;
+  figures.balance = static_cast<double>(comm.maximum(heaviest)) * static_cast<double>(figures.parts) /
+                    static_cast<double>(comm.sum(weight));
+  figures.fewest_cells = comm.minimum(fewest);
+  figures.most_cells = comm.maximum(most);
+  figures.shared_nodes = comm.sum(shared);
+  figures.most_neighbours = comm.maximum(neighbours);
+  return figures;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,177 @@
+#include "mesher/mesh/parts/partition.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <string>
+
+#include "mesher/base/error.hpp"
+#include "mesher/base/parallel/exchange.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
+#include "mesher/mesh/parts/hilbert.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::int64_t heaviest = 4;  // edges of a quad
+
+/// A cell on the curve: by its key, and by its number over all ranks, triangles first, where keys are equal.
+struct Place {
+  std::uint64_t key = 0;
+  std::int64_t number = 0;
+  friend auto operator<=>(const Place&, const Place&) = default;
+};
+
+/// What stands before a place, by the cells of this rank.
+class WeightsAlongCurve {
+ public:
+  WeightsAlongCurve(std::vector<Place> places, const std::vector<std::int64_t>& weights)
+      : places_(places.size()), sums_(places.size() + 1, 0) {
+    std::vector<std::int32_t> order(places.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, {}, [&](std::int32_t i) { return places[i]; });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      places_[i] = places[order[i]];
+      sums_[i + 1] = sums_[i] + weights[order[i]];
+    }
+  }
+
+  /// Of the cells up to `last`, that one included.
+  std::int64_t up_to(const Place& last) const {
+    return sums_[std::ranges::upper_bound(places_, last) - places_.begin()];
+  }
+  std::int64_t all() const { return sums_.back(); }
+
+ private:
+  std::vector<Place> places_;
+  std::vector<std::int64_t> sums_;
+};
+
+/// Sums over ranks of a row of numbers: each is added up on one rank, so that what goes between ranks does
+/// not grow with the number of ranks times the row's length on any of them.
+class RowSum {
+ public:
+  RowSum(const Communicator& comm, std::size_t length) : exchange_(comm, ranks_for(comm, length)) {}
+
+  /// *Collective.*
+  std::vector<std::int64_t> operator()(const std::vector<std::int64_t>& row) const {
+    std::vector<std::int64_t> arrived = exchange_.deliver(row);
+    const std::size_t ranks = exchange_.sources().size(), own = ranks == 0 ? 0 : arrived.size() / ranks;
+    for (std::size_t i = 0; i < own; ++i) {
+      std::int64_t sum = 0;
+      for (std::size_t rank = 0; rank < ranks; ++rank) sum += arrived[rank * own + i];
+      for (std::size_t rank = 0; rank < ranks; ++rank) arrived[rank * own + i] = sum;
+    }
+    return exchange_.answer(arrived);
+  }
+
+ private:
+  static std::vector<int> ranks_for(const Communicator& comm, std::size_t length) {
+    std::vector<int> ranks;
+    const std::size_t all = comm.size();
+    for (std::size_t i = 0; i < length; ++i) ranks.push_back(static_cast<int>(i * all / length));
+    return ranks;
+  }
+
+  Exchange exchange_;
+};
+
+/// The last place of each part but the last: the first at which the sum reaches the part's share.
+class Splits {
+ public:
+  Splits(const Communicator& comm, const WeightsAlongCurve& weights, std::int32_t parts)
+      : weights_{weights}, sum_(comm, parts - 1), splits_(parts - 1) {
+    const std::int64_t all = comm.sum(weights.all());
+    for (std::int64_t part = 1; part < parts; ++part) shares_.push_back((all * part + parts - 1) / parts);
+  }
+
+  /// *Collective.*
+  std::vector<Place> find(std::int64_t cells) {
+    for (Place& split : splits_) split.number = cells;
+    bisect(2 * hilbert_bits, [](Place& place, std::uint64_t key) { place.key = key; });
+    bisect(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(cells))),
+           [](Place& place, std::uint64_t number) { place.number = static_cast<std::int64_t>(number); });
+    return splits_;
+  }
+
+ private:
+  /// The least numbers of so many bits with which the sums reach the shares.
+  template <class Set>
+  void bisect(int bits, const Set& set) {
+    std::vector<std::uint64_t> low(splits_.size(), 0);
+    for (int bit = bits - 1; bit >= 0; --bit) {
+      const std::uint64_t half = std::uint64_t{1} << bit;
+      std::vector<std::int64_t> sums;
+      for (std::size_t i = 0; i < splits_.size(); ++i) {
+        Place middle = splits_[i];
+        set(middle, low[i] + half - 1);
+        sums.push_back(weights_.up_to(middle));
+      }
+      sums = sum_(sums);
+      for (std::size_t i = 0; i < splits_.size(); ++i) {
+        if (sums[i] < shares_[i]) low[i] += half;
+      }
+    }
+    for (std::size_t i = 0; i < splits_.size(); ++i) set(splits_[i], low[i]);
+  }
+
+  const WeightsAlongCurve& weights_;
+  RowSum sum_;
+  std::vector<Place> splits_;
+  std::vector<std::int64_t> shares_;
+};
+
+/// The places of this rank's cells, triangles, then quads. *Collective.*
+std::vector<Place> places_of(const Communicator& comm, const Mesh& mesh) {
+  const Box box = box_over_ranks(comm, mesh.points);
+  const double side = std::max(box.width(), box.height());
+  constexpr double last = (std::uint64_t{1} << hilbert_bits) - 1;
+  const auto step = [&](double at, double low) {
+    return static_cast<std::uint32_t>(side > 0 ? std::clamp((at - low) / side, 0.0, 1.0) * last : 0);
+  };
+  std::vector<Place> places;
+  places.reserve(mesh.triangles.size() + mesh.quads.size());
+  const auto append = [&](const auto& cells, std::int64_t number) {
+    for (const auto& nodes : cells) {
+      Point middle{0, 0};
+      for (const NodeId node : nodes) middle = middle + mesh.point(node);
+      const double share = 1.0 / static_cast<double>(nodes.size());
+      places.push_back(
+          {hilbert_key(step(share * middle.x, box.low.x), step(share * middle.y, box.low.y)), number++});
+    }
+  };
+  append(mesh.triangles, comm.exclusive_sum(std::ssize(mesh.triangles)));
+  append(mesh.quads, comm.sum(std::ssize(mesh.triangles)) + comm.exclusive_sum(std::ssize(mesh.quads)));
+  return places;
+}
+
+}  // namespace
+
+CellParts partition(const Communicator& comm, const Mesh& mesh, std::int32_t parts) {
+  QUADLOOP_REQUIRE(parts > 0, "a mesh is divided into no parts");
+  const std::int64_t triangles = comm.sum(std::ssize(mesh.triangles)),
+                     quads = comm.sum(std::ssize(mesh.quads)), cells = triangles + quads;
+  if (cells < parts)
+    throw InputError(std::to_string(parts) + " parts are wanted of a mesh of " + std::to_string(cells) +
+                     " cells; ask for at most as many parts as there are cells");
+  CellParts of{parts, std::vector<std::int32_t>(mesh.triangles.size(), 0),
+               std::vector<std::int32_t>(mesh.quads.size(), 0)};
+  if (parts == 1) return of;
+  // Shares of less than a cell would leave parts empty: cells count alike then.
+  const bool weighed = 3 * triangles + heaviest * quads >= heaviest * parts;
+  const std::vector<Place> places = places_of(comm, mesh);
+  std::vector<std::int64_t> weights(mesh.triangles.size(), weighed ? 3 : 1);
+  weights.resize(places.size(), weighed ? heaviest : 1);
+  const WeightsAlongCurve along(places, weights);
+  const std::vector<Place> splits = Splits(comm, along, parts).find(cells);
+  const auto part_of = [&](const Place& place) {
+    return static_cast<std::int32_t>(std::ranges::lower_bound(splits, place) - splits.begin());
+  };
+  const auto quads_begin = places.begin() + std::ssize(mesh.triangles);
+  std::transform(places.begin(), quads_begin, of.triangles.begin(), part_of);
+  std::transform(quads_begin, places.end(), of.quads.begin(), part_of);
+  return of;
+}
+
+}  // namespace quadloop

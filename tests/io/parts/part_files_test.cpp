@@ -1,0 +1,134 @@
+// A set of parts: the same bytes whatever number of ranks writes it, and the whole again when it is read.
+#include "io/parts/part_files.hpp"
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <filesystem>
+
+#include "io/mesh_file.hpp"
+#include "io/parts/part_reader.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/parts/partition.hpp"
+#include "tests/io/sample_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::TemporaryFolder;
+using test::world;
+
+Mesh sample() {
+  Mesh mesh = test::sample_mesh(60);
+  mesh.boundaries[0].layers = {1, 0.7};
+  return mesh;
+}
+
+void write_set(const Communicator& comm, const Mesh& mesh, const Field& field, const std::string& prefix,
+               const std::vector<std::string>& formats, std::int32_t parts = 5) {
+  PartFiles files(comm);
+  files.write(prefix, part_index(comm, mesh, parts, formats, {"domain"}),
+              make_parts(comm, mesh, partition(comm, mesh, parts), {.field = &field}));
+  files.commit();
+}
+
+void expect_same(const LoadedMesh& read, const Mesh& mesh, const Field& field) {
+  EXPECT_EQ(read.mesh.points, mesh.points);
+  EXPECT_EQ(read.mesh.triangles, mesh.triangles);
+  EXPECT_EQ(read.mesh.quads, mesh.quads);
+  ASSERT_EQ(read.mesh.boundaries.size(), mesh.boundaries.size());
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+    EXPECT_EQ(read.mesh.boundaries[b].name, mesh.boundaries[b].name);
+    EXPECT_EQ(read.mesh.boundaries[b].condition, mesh.boundaries[b].condition);
+    EXPECT_EQ(read.mesh.boundaries[b].edges, mesh.boundaries[b].edges);
+    EXPECT_EQ(read.mesh.boundaries[b].layers, mesh.boundaries[b].layers);
+  }
+  ASSERT_TRUE(read.solution);
+  EXPECT_EQ(read.solution->values, field.values);
+  EXPECT_TRUE(read.warnings.empty());
+}
+
+TEST(PartFiles, SameBytesOnAnyNumberOfRanks) {
+  const TemporaryFolder many, one;
+  const Mesh whole = sample(), own = test::share_of(whole, world().rank(), world().size());
+  const Field field = test::sample_solution(whole), own_field = test::share_of(field, whole, own);
+  write_set(world(), own, own_field, many.file("a"), {"mesh", "vtu"});
+  world().barrier();
+  if (!world().is_root()) return;
+  const Communicator alone(MPI_COMM_SELF);
+  write_set(alone, whole, field, one.file("a"), {"mesh", "vtu"});
+  const std::vector<std::string> names = part_file_names("a", 5, {"mesh", "vtu"});
+  EXPECT_EQ(names.size(), 2U + 5 * 3);
+  EXPECT_EQ(test::files_in(many.path()), names.size());
+  for (const std::string& name : names)
+    EXPECT_TRUE(test::bytes_of(many.file(name)) == test::bytes_of(one.file(name))) << name;
+}
+
+TEST(PartFiles, ComeBackAsTheWholeFromEachFormat) {
+  const TemporaryFolder folder;
+  const Mesh whole = sample(), own = test::share_of(whole, world().rank(), world().size());
+  const Field field = test::sample_solution(whole), own_field = test::share_of(field, whole, own);
+  for (const std::string format : {"mesh", "vtu", "cgns"})
+    write_set(world(), own, own_field, folder.file(format), {format}, 7);
+  world().barrier();
+  if (!world().is_root()) return;
+  for (const std::string format : {"mesh", "vtu", "cgns"}) {
+    const LoadedMesh read = read_mesh(folder.file(format + ".parts"));
+    expect_same(read, whole, field);
+    const bool keeps_constants = format == "mesh";
+    EXPECT_EQ(read.solution->constants.empty(), !keeps_constants);
+    for (std::int32_t part = 0; part < 7; ++part) {
+      const LoadedMesh one = read_mesh(part_path(folder.file(format), part, format));
+      EXPECT_TRUE(validate(one.mesh).empty()) << format << part;
+    }
+  }
+}
+
+TEST(PartFiles, RefuseASetThatDoesNotFitTogether) {
+  const TemporaryFolder folder;  // collective
+  if (!world().is_root()) return;
+  const Communicator alone(MPI_COMM_SELF);
+  const Mesh whole = sample();
+  const Field field = test::sample_solution(whole);
+  const auto refused = [&](const auto& damage) {
+    write_set(alone, whole, field, folder.file("a"), {"mesh"});
+    EXPECT_NO_THROW(read_parts(folder.file("a.parts")));
+    damage(folder);
+    EXPECT_THROW(read_parts(folder.file("a.parts")), InputError);
+  };
+  const auto replace = [](const std::string& path, const std::string& from, const std::string& to) {
+    std::string text = test::bytes_of(path);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    test::write_bytes(path, text.replace(at, from.size(), to));
+  };
+  using Folder = const TemporaryFolder&;
+  refused([](Folder in) { std::filesystem::remove(in.file("a.part_0003.mesh")); });
+  refused([](Folder in) { std::filesystem::remove(in.file("a.part_0003.links")); });
+  refused([](Folder in) {
+    std::filesystem::copy_file(in.file("a.part_0001.mesh"), in.file("a.part_0002.mesh"),
+                               std::filesystem::copy_options::overwrite_existing);
+  });
+  refused([](Folder in) {
+    std::filesystem::copy_file(in.file("a.part_0001.links"), in.file("a.part_0002.links"),
+                               std::filesystem::copy_options::overwrite_existing);
+  });
+  refused([&](Folder in) { replace(in.file("a.parts"), "#Number of parts\n5", "#Number of parts\n4"); });
+  refused([&](Folder in) { replace(in.file("a.parts"), "mesh", "msh"); });
+  refused([&](Folder in) { replace(in.file("a.parts"), "\n183 ", "\n999999999 "); });
+  refused([&](Folder in) { replace(in.file("a.parts"), "far field", "elsewhere"); });
+}
+
+TEST(PartFiles, AreNamedByTheirPart) {
+  EXPECT_EQ(part_path("x/a", 2, "mesh"), "x/a.part_0003.mesh");
+  EXPECT_EQ(part_name(12345), "part_12346");
+  EXPECT_TRUE(is_part_index("x/a.parts"));
+  EXPECT_FALSE(is_part_index("x/a.part_0003.mesh"));
+  EXPECT_EQ(part_formats({"su2", "cgns", "mesh"}), (std::vector<std::string>{"mesh", "cgns"}));
+  EXPECT_EQ(part_formats({"cgns", "vtu"}, 2), std::vector<std::string>{"vtu"});
+}
+
+}  // namespace
+}  // namespace quadloop

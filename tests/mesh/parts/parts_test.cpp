@@ -1,0 +1,277 @@
+// Parts are the same on any number of ranks, valid meshes, agree with their neighbours, and make up the
+// whole.
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/parts/hilbert.hpp"
+#include "mesher/mesh/parts/join_parts.hpp"
+#include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/mesh/parts/partition.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "tests/mesh/grid_mesh.hpp"
+#include "tests/mesh/mixed_square.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+Mesh grid() {
+  const test::Grid grid{.n = 17, .size = {3, 1}};
+  Mesh mesh = grid.mesh();
+  test::jitter(grid, 0.2, 7, mesh);
+  return mesh;
+}
+
+Field field_of(const Mesh& whole) {
+  Field field{{"density", "pressure"}, {}, {3, 0.5}};
+  for (std::int32_t i = 0; i < whole.owned_nodes; ++i)
+    field.values.insert(field.values.end(), {whole.points[i].x + 0.1, 1.0 / (i + 1)});
+  return field;
+}
+
+/// All parts of a mesh that one rank divides alone.
+std::vector<MeshPart> all_parts(const Mesh& whole, std::int32_t parts, const Field* field = nullptr) {
+  const Communicator alone(MPI_COMM_SELF);
+  return make_parts(alone, whole, partition(alone, whole, parts), {.field = field});
+}
+
+void expect_equal(const MeshPart& a, const MeshPart& b) {
+  EXPECT_EQ(a.number, b.number);
+  EXPECT_EQ(a.mesh.points, b.mesh.points);
+  EXPECT_EQ(a.mesh.owned_nodes, b.mesh.owned_nodes);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  EXPECT_EQ(a.mesh.quads, b.mesh.quads);
+  ASSERT_EQ(a.mesh.boundaries.size(), b.mesh.boundaries.size());
+  for (std::size_t i = 0; i < a.mesh.boundaries.size(); ++i) {
+    EXPECT_EQ(a.mesh.boundaries[i].name, b.mesh.boundaries[i].name);
+    EXPECT_EQ(a.mesh.boundaries[i].edges, b.mesh.boundaries[i].edges);
+  }
+  EXPECT_EQ(a.nodes, b.nodes);
+  EXPECT_EQ(a.triangles, b.triangles);
+  EXPECT_EQ(a.quads, b.quads);
+  EXPECT_EQ(a.owners, b.owners);
+  EXPECT_EQ(a.edges, b.edges);
+  EXPECT_EQ(a.neighbours, b.neighbours);
+  ASSERT_EQ(a.field.has_value(), b.field.has_value());
+  if (a.field) {
+    EXPECT_EQ(a.field->values, b.field->values);
+  }
+}
+
+JoinedMesh joined(const Mesh& whole, const std::vector<MeshPart>& parts) {
+  WholeCounts counts{size32(whole.points), size32(whole.triangles), size32(whole.quads), {}};
+  std::vector<BoundaryEdges> boundaries = whole.boundaries;
+  for (BoundaryEdges& boundary : boundaries) counts.edges.push_back(size32(boundary.edges));
+  for (BoundaryEdges& boundary : boundaries) boundary.edges.clear();
+  PartJoiner fresh(counts, boundaries);
+  for (const MeshPart& part : parts) fresh.put(part, part_name(part.number));
+  return fresh.finish("the set");
+}
+
+/// By boundary name, the edges of a part with the numbers of the whole, each as its neighbour walks it.
+std::vector<std::array<std::int64_t, 2>> edges_to(const MeshPart& part, const std::string& name,
+                                                  bool turned) {
+  std::vector<std::array<std::int64_t, 2>> edges;
+  for (const BoundaryEdges& boundary : part.mesh.boundaries) {
+    if (boundary.name != name) continue;
+    for (const auto& [from, to] : boundary.edges) {
+      edges.push_back({part.nodes[from.value()], part.nodes[to.value()]});
+      if (turned) std::swap(edges.back()[0], edges.back()[1]);
+    }
+  }
+  return edges;
+}
+
+std::vector<std::int64_t> numbers_shared(const MeshPart& part, std::int32_t with) {
+  std::vector<std::int64_t> numbers;
+  for (const MeshPart::Neighbour& neighbour : part.neighbours) {
+    if (neighbour.part != with) continue;
+    for (const NodeId node : neighbour.nodes) numbers.push_back(part.nodes[node.value()]);
+  }
+  return numbers;
+}
+
+Mesh without_empty_boundaries(Mesh mesh) {
+  std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
+  return mesh;
+}
+
+TEST(Hilbert, NeighboursOnTheCurveShareASide) {
+  constexpr std::uint32_t n = 16, shift = hilbert_bits - 4;
+  std::map<std::uint64_t, std::array<int, 2>> squares;
+  for (std::uint32_t x = 0; x < n; ++x) {
+    for (std::uint32_t y = 0; y < n; ++y)
+      squares[hilbert_key(x << shift, y << shift) >> (2 * shift)] = {static_cast<int>(x),
+                                                                     static_cast<int>(y)};
+  }
+  ASSERT_EQ(squares.size(), n * n);
+  for (std::uint64_t key = 1; key < n * n; ++key) {
+    const auto &a = squares.at(key - 1), &b = squares.at(key);
+    EXPECT_EQ(std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]), 1);
+  }
+}
+
+TEST(Parts, AreTheSameOnAnyNumberOfRanks) {
+  const Mesh whole = grid();
+  const Field field = field_of(whole);
+  const MeshOrder order = own_order(whole);
+  const Mesh own = scatter_mesh(world(), whole, order);
+  const Field own_field = scatter_field(world(), field, own, order);
+  for (const std::int32_t parts : {1, 2, 7, 64}) {
+    const std::vector<MeshPart> expected = all_parts(whole, parts, &field);
+    const std::vector<MeshPart> made =
+        make_parts(world(), own, partition(world(), own, parts), {.field = &own_field});
+    EXPECT_EQ(world().sum(std::ssize(made)), parts);
+    for (const MeshPart& part : made) expect_equal(part, expected.at(part.number));
+    const Communicator alone(MPI_COMM_SELF);
+    const PartFigures figures = part_figures(world(), made), of_all = part_figures(alone, expected);
+    EXPECT_EQ(figures.edge_cut, of_all.edge_cut);
+    EXPECT_EQ(figures.balance, of_all.balance);
+    EXPECT_EQ(figures.shared_nodes, of_all.shared_nodes);
+    EXPECT_EQ(figures.most_neighbours, of_all.most_neighbours);
+  }
+}
+
+TEST(Parts, AreValidMeshesAndMakeUpTheWhole) {
+  const Mesh whole = grid();
+  const Field field = field_of(whole);
+  for (const std::int32_t parts : {1, 2, 7, 64}) {
+    const std::vector<MeshPart> made = all_parts(whole, parts, &field);
+    for (const MeshPart& part : made) {
+      EXPECT_TRUE(validate(without_empty_boundaries(part.mesh)).empty()) << part.number << " of " << parts;
+      EXPECT_FALSE(part.mesh.triangles.empty() && part.mesh.quads.empty());
+    }
+    const JoinedMesh again = joined(whole, made);
+    EXPECT_EQ(again.mesh.points, whole.points);
+    EXPECT_EQ(again.mesh.triangles, whole.triangles);
+    EXPECT_EQ(again.mesh.quads, whole.quads);
+    for (std::size_t b = 0; b < whole.boundaries.size(); ++b)
+      EXPECT_EQ(again.mesh.boundaries[b].edges, whole.boundaries[b].edges);
+    ASSERT_TRUE(again.field);
+    EXPECT_EQ(again.field->values, field.values);
+    EXPECT_EQ(again.field->constants, field.constants);
+  }
+}
+
+TEST(Parts, AgreeWithTheirNeighbours) {
+  const std::vector<MeshPart> parts = all_parts(grid(), 7);
+  for (const MeshPart& a : parts) {
+    for (const MeshPart& b : parts) {
+      if (a.number == b.number) continue;
+      const auto shared = numbers_shared(a, b.number);
+      EXPECT_EQ(shared, numbers_shared(b, a.number));
+      EXPECT_TRUE(std::ranges::is_sorted(shared));
+      std::vector<std::int64_t> common;
+      std::ranges::set_intersection(a.nodes, b.nodes, std::back_inserter(common));
+      EXPECT_EQ(shared, common);
+      EXPECT_EQ(edges_to(a, part_name(b.number), false), edges_to(b, part_name(a.number), true));
+    }
+    for (std::size_t i = 0; i < a.nodes.size(); ++i) {
+      const auto lowest = std::ranges::find_if(
+          parts, [&](const MeshPart& part) { return std::ranges::binary_search(part.nodes, a.nodes[i]); });
+      EXPECT_EQ(a.owners[i], lowest->number);
+    }
+  }
+}
+
+TEST(Parts, WeighTheSameAndAreCompact) {
+  const Mesh whole = test::Grid{.n = 64}.mesh();
+  const Communicator alone(MPI_COMM_SELF);
+  const PartFigures figures = part_figures(alone, all_parts(whole, 16));
+  EXPECT_EQ(figures.parts, 16);
+  EXPECT_LE(figures.balance, 1.02);
+  // Squares of 16 x 16 would cut 6 lines of 64 edges.
+  EXPECT_GE(figures.edge_cut, 6 * 64);
+  EXPECT_LE(figures.edge_cut, 2 * 6 * 64);
+  EXPECT_LE(figures.most_neighbours, 10);
+}
+
+TEST(Parts, AnEdgeBetweenBlocksStaysWithTheCellToItsLeft) {
+  Mesh whole = test::Grid{.n = 8}.mesh();
+  BoundaryEdges between{"between", "interface", {}, {}};
+  for (std::int32_t i = 0; i < 8; ++i) between.edges.push_back({NodeId{4 * 9 + i}, NodeId{4 * 9 + i + 1}});
+  whole.boundaries.push_back(between);
+  const MeshOrder order = own_order(whole);
+  const Mesh own = scatter_mesh(world(), whole, order);
+  for (const std::int32_t parts : {1, 5}) {
+    const std::vector<MeshPart> expected = all_parts(whole, parts);
+    for (const MeshPart& part : make_parts(world(), own, partition(world(), own, parts)))
+      expect_equal(part, expected.at(part.number));
+    EXPECT_EQ(joined(whole, expected).mesh.boundaries.back().edges, between.edges);
+  }
+}
+
+TEST(Parts, KeepTheBlocksOfCells) {
+  const Mesh whole = grid();
+  std::vector<std::int32_t> triangles(whole.triangles.size(), 0), quads(whole.quads.size(), 0);
+  std::fill(triangles.begin() + 20, triangles.end(), 1);
+  std::fill(quads.begin() + 30, quads.end(), 1);
+  const MeshOrder order = own_order(whole);
+  const Mesh own = scatter_mesh(world(), whole, order);
+  const auto own_triangles =
+      scatter_ordered(world(), std::span<const std::int32_t>(triangles), order.triangles);
+  const auto own_quads = scatter_ordered(world(), std::span<const std::int32_t>(quads), order.quads);
+  const auto made = make_parts(world(), own, partition(world(), own, 4),
+                               {.triangle_to_block = own_triangles, .quad_to_block = own_quads});
+  for (const MeshPart& part : made) {
+    for (std::size_t i = 0; i < part.triangles.size(); ++i)
+      EXPECT_EQ(part.triangle_to_block[i], triangles[part.triangles[i]]);
+    for (std::size_t i = 0; i < part.quads.size(); ++i)
+      EXPECT_EQ(part.quad_to_block[i], quads[part.quads[i]]);
+  }
+}
+
+TEST(Parts, OneForEachCellIsTheMost) {
+  const Mesh whole = test::mixed_square();  // two quads, four triangles
+  for (const MeshPart& part : all_parts(whole, 6))
+    EXPECT_EQ(part.mesh.triangles.size() + part.mesh.quads.size(), 1U);
+  EXPECT_THROW(all_parts(whole, 7), InputError);
+}
+
+TEST(Parts, RefuseWhatIsNoWholeMesh) {
+  Mesh lonely = test::mixed_square();
+  lonely.points.push_back({5, 5});
+  ++lonely.owned_nodes;
+  EXPECT_THROW(all_parts(lonely, 2), InputError);
+  Mesh turned = test::mixed_square();
+  std::swap(turned.boundaries[0].edges[0][0], turned.boundaries[0].edges[0][1]);
+  EXPECT_THROW(all_parts(turned, 2), InputError);
+  Mesh named = test::mixed_square();
+  named.boundaries[0].name = "part_0001";
+  EXPECT_THROW(all_parts(named, 2), InputError);
+}
+
+TEST(JoinParts, RefusesWhatDoesNotFit) {
+  const Mesh whole = test::mixed_square();
+  const auto refused = [&](const auto& change) {
+    std::vector<MeshPart> parts = all_parts(whole, 2);
+    change(parts);
+    EXPECT_THROW(joined(whole, parts), InputError);
+  };
+  refused([](auto& parts) { parts.pop_back(); });
+  refused([](auto& parts) { parts.push_back(parts[0]); });
+  refused([](auto& parts) { parts[0].nodes.back() = 9; });
+  refused([](auto& parts) { parts[1].nodes[0] = -1; });
+  refused([](auto& parts) { parts[1].nodes.pop_back(); });
+  refused([](auto& parts) {
+    parts[1].mesh.points[0].x += 1e-9;
+    parts[1].mesh.points.back().x += 1e-9;
+  });
+  refused([](auto& parts) { parts[1].owners.assign(parts[1].owners.size(), 0); });
+  refused([](auto& parts) {
+    parts[1].field = Field{{"v"}, std::vector<double>(parts[1].nodes.size(), 0), {}};
+  });
+}
+
+}  // namespace
+}  // namespace quadloop
