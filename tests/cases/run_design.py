@@ -56,8 +56,8 @@ def check_table(table):
 
 def require_same(one, other):
     names = sorted(path.name for path in one.glob("shape_*.*"))
-    if len(names) != 8:
-        fail(f"eight files were to be compared, there are {names}")
+    if len(names) != 12:
+        fail(f"twelve files were to be compared, there are {names}")
     for name in names:
         if (one / name).read_bytes() != (other / name).read_bytes():
             fail(f"{name}: {other} has other bytes than {one}")
