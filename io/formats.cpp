@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
 
 #include "io/cgns/cgns_file.hpp"
@@ -81,90 +82,110 @@ FileFormat ugrid_row(const std::string& name) {
           .conditions_in_solid = true};
 }
 
+/// The program's own, and those that have a place for a mesh with its solution.
+std::vector<FileFormat> rows_with_solutions() {
+  using enum Content;
+  const char* const save = "let the solver save values at points (in ParaView: Cell Data to Point Data)";
+  return {{.name = "mesh",
+           .places = {mesh, solution, constants, blocks, layers},
+           .by_default = true,
+           .read_mesh = read_native,
+           .write_mesh = write_native,
+           .write_blocks = write_native},
+          {.name = "cgns",
+           .places = {mesh, solution, conditions, layers, solid},
+           .by_default = true,
+           .read_mesh = read_cgns,
+           .write_mesh = write_cgns,
+           .boundary_names = cgns_boundary_names,
+           .write_solid = write_cgns_solid,
+           .read_solid = read_cgns_solid,
+           .patch_names = cgns_boundary_names,
+           .solution_in_solid = true,
+           .conditions_in_solid = true},
+          {.name = "vtu",
+           .places = {mesh, solution, blocks, layers, solid},
+           .without_values = save,
+           .read_mesh = read_vtu,
+           .write_mesh = write_vtu,
+           .write_blocks = write_vtu,
+           .write_solid = write_vtu_solid,
+           .read_solid = read_vtu_solid,
+           .solution_in_solid = true},
+          {.name = "pvtu",
+           .program = "VTK",
+           .places = {mesh, solution, blocks, layers},
+           .without_values = save,
+           .read_mesh = read_pvtu,
+           .write_mesh = write_pvtu,
+           .write_blocks = write_pvtu}};
+}
+
+/// Those that other programs read their meshes from.
+std::vector<FileFormat> rows_of_programs() {
+  using enum Content;
+  return {{.name = "su2",
+           .places = {mesh, solid},
+           .read_mesh = read_su2,
+           .write_mesh = write_mesh_alone<write_su2>,
+           .boundary_names = su2_marker_names,
+           .write_solid = write_su2_solid,
+           .read_solid = read_su2_solid,
+           .patch_names = su2_marker_names},
+          {.name = "fluent.msh",
+           .program = "Fluent",
+           .places = {mesh, blocks, conditions},
+           .read_mesh = read_fluent,
+           .write_mesh = write_mesh_alone<write_fluent>,
+           .write_blocks = write_fluent,
+           .boundary_names = fluent_zone_names},
+          msh_row<MshVersion::msh_2_2>("msh"),
+          msh_row<MshVersion::msh_4_1>("msh41"),
+          ugrid_row<std::endian::big>("b8.ugrid"),
+          ugrid_row<std::endian::little>("lb8.ugrid"),
+          {.name = "ugrid",
+           .program = "AFLR2",
+           .places = {mesh, conditions},
+           .read_mesh = read_ugrid_plane,
+           .write_mesh = write_mesh_alone<write_ugrid_plane>,
+           .boundary_names = mapbc_names},
+          {.name = "polyMesh",
+           .program = "OpenFOAM",
+           .places = {mesh, conditions, solid},
+           .read_mesh = read_foam_plane,
+           .write_mesh = write_mesh_alone<write_foam_plane>,
+           .boundary_names = foam_patch_names,
+           .write_solid = write_foam,
+           .read_solid = read_foam,
+           .patch_names = foam_patch_names,
+           .conditions_in_solid = true,
+           .is_folder = true}};
+}
+
+/// Solutions alone.
+std::vector<FileFormat> rows_of_solutions() {
+  using enum Content;
+  return {{.name = "csv",
+           .program = "SU2",
+           .places = {solution},
+           .read_solution = read_su2_csv,
+           .write_solution = write_su2_csv},
+          {.name = "dat",
+           .program = "SU2",
+           .places = {solution},
+           .read_solution = read_su2_dat,
+           .write_solution = write_su2_dat}};
+}
+
 }  // namespace
 
 const std::vector<FileFormat>& file_formats() {
-  using enum Content;
-  const char* const save = "let the solver save values at points (in ParaView: Cell Data to Point Data)";
-  static const std::vector<FileFormat> formats{{.name = "mesh",
-                                                .places = {mesh, solution, constants, blocks, layers},
-                                                .by_default = true,
-                                                .read_mesh = read_native,
-                                                .write_mesh = write_native,
-                                                .write_blocks = write_native},
-                                               {.name = "cgns",
-                                                .places = {mesh, solution, conditions, layers, solid},
-                                                .by_default = true,
-                                                .read_mesh = read_cgns,
-                                                .write_mesh = write_cgns,
-                                                .boundary_names = cgns_boundary_names,
-                                                .write_solid = write_cgns_solid,
-                                                .read_solid = read_cgns_solid,
-                                                .patch_names = cgns_boundary_names,
-                                                .solution_in_solid = true,
-                                                .conditions_in_solid = true},
-                                               {.name = "vtu",
-                                                .places = {mesh, solution, blocks, layers, solid},
-                                                .without_values = save,
-                                                .read_mesh = read_vtu,
-                                                .write_mesh = write_vtu,
-                                                .write_blocks = write_vtu,
-                                                .write_solid = write_vtu_solid,
-                                                .read_solid = read_vtu_solid,
-                                                .solution_in_solid = true},
-                                               {.name = "pvtu",
-                                                .program = "VTK",
-                                                .places = {mesh, solution, blocks, layers},
-                                                .without_values = save,
-                                                .read_mesh = read_pvtu,
-                                                .write_mesh = write_pvtu,
-                                                .write_blocks = write_pvtu},
-                                               {.name = "su2",
-                                                .places = {mesh, solid},
-                                                .read_mesh = read_su2,
-                                                .write_mesh = write_mesh_alone<write_su2>,
-                                                .boundary_names = su2_marker_names,
-                                                .write_solid = write_su2_solid,
-                                                .read_solid = read_su2_solid,
-                                                .patch_names = su2_marker_names},
-                                               {.name = "fluent.msh",
-                                                .program = "Fluent",
-                                                .places = {mesh, blocks, conditions},
-                                                .read_mesh = read_fluent,
-                                                .write_mesh = write_mesh_alone<write_fluent>,
-                                                .write_blocks = write_fluent,
-                                                .boundary_names = fluent_zone_names},
-                                               msh_row<MshVersion::msh_2_2>("msh"),
-                                               msh_row<MshVersion::msh_4_1>("msh41"),
-                                               ugrid_row<std::endian::big>("b8.ugrid"),
-                                               ugrid_row<std::endian::little>("lb8.ugrid"),
-                                               {.name = "ugrid",
-                                                .program = "AFLR2",
-                                                .places = {mesh, conditions},
-                                                .read_mesh = read_ugrid_plane,
-                                                .write_mesh = write_mesh_alone<write_ugrid_plane>,
-                                                .boundary_names = mapbc_names},
-                                               {.name = "polyMesh",
-                                                .program = "OpenFOAM",
-                                                .places = {mesh, conditions, solid},
-                                                .read_mesh = read_foam_plane,
-                                                .write_mesh = write_mesh_alone<write_foam_plane>,
-                                                .boundary_names = foam_patch_names,
-                                                .write_solid = write_foam,
-                                                .read_solid = read_foam,
-                                                .patch_names = foam_patch_names,
-                                                .conditions_in_solid = true,
-                                                .is_folder = true},
-                                               {.name = "csv",
-                                                .program = "SU2",
-                                                .places = {solution},
-                                                .read_solution = read_su2_csv,
-                                                .write_solution = write_su2_csv},
-                                               {.name = "dat",
-                                                .program = "SU2",
-                                                .places = {solution},
-                                                .read_solution = read_su2_dat,
-                                                .write_solution = write_su2_dat}};
+  static const std::vector<FileFormat> formats = [] {
+    std::vector<FileFormat> all = rows_with_solutions();
+    std::ranges::move(rows_of_programs(), std::back_inserter(all));
+    std::ranges::move(rows_of_solutions(), std::back_inserter(all));
+    return all;
+  }();
   return formats;
 }
 

@@ -10,6 +10,7 @@
 #include "adapt/transfer/overlap/triangle_overlap.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
+#include "tests/adapt/transfer/jittered_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -20,19 +21,11 @@ using test::Grid;
 using test::scattered;
 using test::world;
 
-/// A whole mesh and the order in which it is spread.
-struct Whole {
-  Mesh mesh;
-  MeshOrder order;
-
-  Mesh part(const Communicator& comm) const { return scatter_mesh(comm, mesh, order); }
-};
+using Whole = test::WholeMesh;
 
 Whole jittered(const Grid& grid, std::uint64_t seed, Point by = {}) {
-  Whole whole{grid.mesh(), {}};
-  test::jitter(grid, 0.2, seed, whole.mesh);
+  Whole whole = test::jittered(grid, 0.2, seed);
   for (Point& p : whole.mesh.points) p = p + by;
-  whole.order = test::shuffled_order(whole.mesh, seed);
   return whole;
 }
 

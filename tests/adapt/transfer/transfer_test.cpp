@@ -10,6 +10,7 @@
 
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "mesher/geometry/predicates.hpp"
+#include "tests/adapt/transfer/jittered_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -20,20 +21,8 @@ using test::Grid;
 using test::scattered;
 using test::world;
 
-/// A whole mesh and the order in which it is spread.
-struct Whole {
-  Mesh mesh;
-  MeshOrder order;
-
-  Mesh part(const Communicator& comm) const { return scatter_mesh(comm, mesh, order); }
-};
-
-Whole jittered(const Grid& grid, double share, std::uint64_t seed) {
-  Whole whole{grid.mesh(), {}};
-  test::jitter(grid, share, seed, whole.mesh);
-  whole.order = test::shuffled_order(whole.mesh, seed);
-  return whole;
-}
+using test::jittered;
+using Whole = test::WholeMesh;
 
 Mesh moved(Mesh mesh, Point by) {
   for (Point& p : mesh.points) p = p + by;
