@@ -3,6 +3,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+STRAIGHT = 1e-6  # columns are made straight; shares of their height
 EXTENT_OF_CORNER = 30  # degrees: where a wall turns by more there is a corner
 
 
@@ -69,6 +70,51 @@ def next_row(points, edges, a, b, feet=None):
     return np.where(broken, -1, c), np.where(broken, -1, d), cell, np.where(is_quad, cell, other)
 
 
+def rows_over(edges, a, b):
+    """The corners (c, d) over one edge a -> b where two triangles are over it, cut either way."""
+    cell, place = edges.find([a], [b])
+    if cell[0] < 0 or edges.sizes[cell[0]] != 3:
+        return []
+    x = int(edges.corner(cell, place, 2)[0])
+    found = []
+    for side, over_a in (((a, x), False), ((x, b), True)):
+        other, at = edges.find([side[0]], [side[1]])
+        if other[0] >= 0 and edges.sizes[other[0]] == 3:
+            beyond = int(edges.corner(other, at, 2)[0])
+            found.append((beyond, x) if over_a else (x, beyond))
+    return found
+
+
+def bends(points, nodes):
+    """Whether nodes are off the straight line from the first to the last one."""
+    along, across = points[nodes[-1]] - points[nodes[0]], points[nodes] - points[nodes[0]]
+    return np.abs(along[0] * across[:, 1] - along[1] * across[:, 0]).max() > STRAIGHT * (along ** 2).sum()
+
+
+def straight_column(points, edges, foot, count):
+    """The rows (a, b), the wall's edge first, of the one column of pairs of triangles over it whose two sides are straight; None where there is none."""
+    columns = [[foot]]
+    for _ in range(count):
+        columns = [[*rows, (d, c)] for rows in columns for c, d in rows_over(edges, *rows[-1])]
+        columns = [rows for rows in columns if not any(bends(points, [row[side] for row in rows]) for side in (0, 1))]
+    return np.array(columns[0]) if len(columns) == 1 else None
+
+
+def find_slanted(points, edges, sides, lost, in_layers):
+    """Columns that the nearer foot did not tell, as where cells are as high as wide, or slanted. Returns which of the lost ones are whole."""
+    left, right = sides
+    found = np.zeros(len(lost), dtype=bool)
+    for column in np.flatnonzero(lost):
+        rows = straight_column(points, edges, (int(left[0][column]), int(right[0][column])), len(left) - 1)
+        if rows is None:
+            continue
+        found[column] = True
+        in_layers[edges.find(*rows[:-1].T)[0]] = in_layers[edges.find(*rows[1:, ::-1].T)[0]] = True
+        for row, ends in enumerate(rows):
+            left[row][column], right[row][column] = ends
+    return found
+
+
 def find_layers(mesh, walls, count):
     edges = CellEdges(mesh)
     wall = np.concatenate([mesh.boundaries[name] for name in walls])
@@ -81,6 +127,7 @@ def find_layers(mesh, walls, count):
         in_layers[first[whole]] = in_layers[second[whole]] = True
         left.append(np.where(whole, d, left[-1]))
         right.append(np.where(whole, c, right[-1]))
+    whole |= find_slanted(mesh.points, edges, (left, right), ~whole, in_layers)
     layers = Layers(np.column_stack(left)[whole], np.column_stack(right)[whole], int((~whole).sum()), in_layers, edges)
     mark_fans(mesh, layers)
     return layers
