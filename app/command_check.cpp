@@ -45,7 +45,9 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   for (const BoundaryEdges& boundary : mesh.boundaries)
     report.boundaries.emplace_back(boundary.name, boundary.edges.size());
   report.quality = summarise_quality(Communicator(MPI_COMM_SELF), mesh);
-  report.shape = shape_statistics(mesh, chains == nullptr ? std::span<const Chain>() : std::span(*chains));
+  const MeshTopology topology(mesh);
+  report.shape =
+      shape_statistics(mesh, topology, chains == nullptr ? std::span<const Chain>() : std::span(*chains));
   report.figures = shape_figures(Communicator(MPI_COMM_SELF), mesh);
   if (has_layers(mesh)) {
     const LayerPlaces places = layer_places(Communicator(MPI_COMM_SELF), mesh);
@@ -53,7 +55,7 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
     report.by_layers = quality_by_layers(Communicator(MPI_COMM_SELF), mesh, places);
   }
   report.area = area_of(mesh);
-  report.pinched_nodes = pinched_nodes(mesh);
+  report.pinched_nodes = pinched_nodes(mesh, topology);
   report.faults = validate(mesh, {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block});
   const bool has_cells = report.quality.counts.triangles + report.quality.counts.quads > 0;
   if (chains == nullptr || !has_cells) return report;

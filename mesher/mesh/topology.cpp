@@ -16,4 +16,23 @@ EdgeTable::EdgeTable(const Mesh& mesh)
   });
 }
 
+bool EdgeTable::repeats() const {
+  for (std::size_t node = 0; node + 1 < starts_.size(); ++node) {
+    const auto edges = std::span(edges_).subspan(starts_[node], starts_[node + 1] - starts_[node]);
+    for (auto edge = edges.begin(); edge != edges.end(); ++edge) {
+      if (std::any_of(edges.begin(), edge, [&](const Edge& other) { return other.to == edge->to; }))
+        return true;
+    }
+  }
+  return false;
+}
+
+MeshTopology::MeshTopology(const Mesh& mesh) : table_{mesh} {
+  beyond_.reserve(3 * mesh.triangles.size() + 4 * mesh.quads.size());
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
+    beyond_.push_back(table_.cell_left_of(to, from));
+    if (beyond_.back() < 0 && table_.cell_left_of(from, to) == cell) outer_edges_.push_back({from, to});
+  });
+}
+
 }  // namespace quadloop

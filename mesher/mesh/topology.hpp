@@ -40,6 +40,8 @@ class EdgeTable {
     const std::size_t at = node.value();
     return std::span(edges_).subspan(starts_[at], starts_[at + 1] - starts_[at]);
   }
+  /// Whether two cells have the same directed edge: they lie on each other.
+  bool repeats() const;
   /// -1 where no cell has this directed edge; the first where several have it.
   std::int32_t cell_left_of(NodeId from_node, NodeId to) const {
     const auto edges = from(from_node);
@@ -51,6 +53,29 @@ class EdgeTable {
  private:
   std::vector<std::int64_t> starts_;
   std::vector<Edge> edges_;
+};
+
+/// The edges of one rank's cells and what lies beyond them, looked up once. The mesh must keep its cells as
+/// long.
+class MeshTopology {
+ public:
+  /// An edge with a cell to its left and none to its right.
+  struct OuterEdge {
+    NodeId from, to;
+  };
+
+  explicit MeshTopology(const Mesh& mesh);
+
+  const EdgeTable& table() const { return table_; }
+  /// Of each cell edge, in the order of for_each_cell_edge(), the cell to its right, -1 where there is none.
+  std::span<const std::int32_t> beyond() const { return beyond_; }
+  /// One of each directed edge, in the order of the cells.
+  std::span<const OuterEdge> outer_edges() const { return outer_edges_; }
+
+ private:
+  EdgeTable table_;
+  std::vector<std::int32_t> beyond_;
+  std::vector<OuterEdge> outer_edges_;
 };
 
 }  // namespace quadloop

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "mesher/mesh/check/corner_range.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -23,8 +25,7 @@ double quality_of_corner(Point previous, Point p, Point next) {
 
 /// What one rank adds up.
 struct Tally {
-  double smallest = std::numeric_limits<double>::infinity(),
-         largest = -std::numeric_limits<double>::infinity();
+  CornerRange angles;
   double worst = std::numeric_limits<double>::infinity();
   std::int64_t sum = 0;
 
@@ -35,9 +36,7 @@ struct Tally {
       std::array<Point, width> cell;
       for (std::size_t k = 0; k < width; ++k) cell[k] = mesh.point(nodes[k]);
       for (std::size_t k = 0; k < width; ++k) {
-        const double angle = corner_degrees(cell[(k + width - 1) % width], cell[k], cell[(k + 1) % width]);
-        smallest = std::min(smallest, angle);
-        largest = std::max(largest, angle);
+        angles.include({cell[(k + width - 1) % width], cell[k], cell[(k + 1) % width]});
       }
       const double quality = quality_of(cell);
       worst = std::min(worst, quality);
@@ -48,10 +47,7 @@ struct Tally {
 
 }  // namespace
 
-double corner_degrees(Point previous, Point p, Point next) {
-  const Point u = next - p, v = previous - p;
-  return std::atan2(cross(u, v), dot(u, v)) * (180 / std::numbers::pi);
-}
+double corner_degrees(Point previous, Point p, Point next) { return Corner(previous, p, next).degrees(); }
 
 double quality_of(std::span<const Point> cell) {
   if (cell.size() == 3) return quality_of_triangle(cell[0], cell[1], cell[2]);
@@ -81,8 +77,8 @@ QualitySummary summarise_quality(const Communicator& comm, const Mesh& mesh) {
   QualitySummary result;
   result.counts = count(comm, mesh);
   const std::int64_t cells = result.counts.triangles + result.counts.quads;
-  const double smallest = comm.minimum(tally.smallest), largest = comm.maximum(tally.largest),
-               worst = comm.minimum(tally.worst);
+  const double smallest = comm.minimum(tally.angles.smallest()),
+               largest = comm.maximum(tally.angles.largest()), worst = comm.minimum(tally.worst);
   const std::int64_t sum = comm.sum(tally.sum);
   if (cells == 0) return result;
   result.smallest_degrees = smallest;

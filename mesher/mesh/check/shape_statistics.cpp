@@ -1,11 +1,13 @@
 #include "mesher/mesh/check/shape_statistics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <unordered_map>
 
+#include "mesher/mesh/check/corner_range.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/topology.hpp"
 
@@ -82,23 +84,25 @@ class SharpVertices {
   std::unordered_map<Point, double, PointHash> smallest_;
 };
 
-void add_corner(double degrees, ShapeStatistics& shape) {
+void count_corner(double degrees, ShapeStatistics& shape) {
   shape.corners_below_15 += degrees < 15 ? 1 : 0;
   shape.corners_below_25 += degrees < 25 ? 1 : 0;
   shape.corners_below_26 += degrees < 26 ? 1 : 0;
   shape.corners_above_150 += degrees > 150 ? 1 : 0;
-  shape.smallest_degrees = std::min(shape.smallest_degrees, degrees);
-  shape.largest_degrees = std::max(shape.largest_degrees, degrees);
+}
+
+/// Whether a corner has surely between 30 and 150 degrees: what is counted is outside.
+bool is_ordinary(const Corner& corner) {
+  constexpr double tangent_of_30 = 0.57735, slightly_more = 1 + 1e-4;
+  return corner.cross > tangent_of_30 * slightly_more * std::abs(corner.dot);
 }
 
 /// Tells the cells that fill a passage from side to side.
 class PassageTest {
  public:
-  PassageTest(const Mesh& mesh, const EdgeTable& table) : table_{table}, on_boundary_(mesh.points.size(), 0) {
-    for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
-      if (is_inner(from, to)) return;
-      for (const NodeId node : {from, to}) on_boundary_[node] = 1;
-    });
+  PassageTest(const Mesh& mesh, const MeshTopology& topology)
+      : table_{topology.table()}, on_boundary_(mesh.points.size(), 0) {
+    for (const auto& [from, to] : topology.outer_edges()) on_boundary_[from] = on_boundary_[to] = 1;
   }
 
   bool is_boundary(NodeId from, NodeId to) const { return !is_inner(from, to); }
@@ -125,14 +129,18 @@ class PassageTest {
 
 template <class Cells>
 void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, const PassageTest* passages,
-                 ShapeStatistics& shape) {
+                 ShapeStatistics& shape, CornerRange& range) {
   for (const auto& nodes : cells) {
     const std::size_t width = nodes.size();
     for (std::size_t k = 0; k < width; ++k) {
       const Point p = mesh.point(nodes[k]);
-      const double degrees =
-          corner_degrees(mesh.point(nodes[(k + width - 1) % width]), p, mesh.point(nodes[(k + 1) % width]));
+      const Corner corner(mesh.point(nodes[(k + width - 1) % width]), p, mesh.point(nodes[(k + 1) % width]));
       ++shape.corners;
+      if (is_ordinary(corner)) {
+        range.include(corner);
+        continue;
+      }
+      const double degrees = corner.degrees();
       const bool own = passages != nullptr &&
                        passages->is_boundary(nodes[(k + width - 1) % width], nodes[k]) &&
                        passages->is_boundary(nodes[k], nodes[(k + 1) % width]);
@@ -143,22 +151,24 @@ void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, con
         ++shape.corners_in_passages;
         shape.passages.push_back({p, degrees});
       } else {
-        add_corner(degrees, shape);
+        count_corner(degrees, shape);
+        range.include(corner);
       }
     }
   }
 }
 
-void add_all_corners(const Mesh& mesh, const EdgeTable& table, std::span<const Chain> geometry,
+void add_all_corners(const Mesh& mesh, const MeshTopology& topology, std::span<const Chain> geometry,
                      ShapeStatistics& shape) {
   SharpVertices sharp(geometry);
   std::optional<PassageTest> test;
-  if (!geometry.empty()) test.emplace(mesh, table);
+  if (!geometry.empty()) test.emplace(mesh, topology);
   const PassageTest* passages = test ? &*test : nullptr;
-  shape.smallest_degrees = infinity;
-  shape.largest_degrees = -infinity;
-  add_corners(mesh, mesh.triangles, sharp, passages, shape);
-  add_corners(mesh, mesh.quads, sharp, passages, shape);
+  CornerRange range;
+  add_corners(mesh, mesh.triangles, sharp, passages, shape, range);
+  add_corners(mesh, mesh.quads, sharp, passages, shape, range);
+  shape.smallest_degrees = range.smallest();
+  shape.largest_degrees = range.largest();
   if (shape.corners == shape.corners_of_outline + shape.corners_in_passages)
     shape.smallest_degrees = shape.largest_degrees = 0;
   shape.sharp_places = sharp.places();
@@ -185,13 +195,14 @@ double ratio_of(double a, double b) {
 }
 
 /// One ratio for each edge between two cells.
-std::vector<double> ratios_at_edges(const Mesh& mesh, const EdgeTable& table) {
+std::vector<double> ratios_at_edges(const Mesh& mesh, const MeshTopology& topology) {
   const std::vector<double> areas = cell_areas(mesh);
   const auto area = [&](std::int32_t cell) { return areas[cell]; };
   std::vector<double> ratios;
+  auto beyond = topology.beyond().begin();
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
+    const std::int32_t other = *beyond++;
     if (to < from) return;  // the cell on the other side says it
-    const std::int32_t other = table.cell_left_of(to, from);
     if (other >= 0) ratios.push_back(ratio_of(area(cell), area(other)));
   });
   return ratios;
@@ -205,24 +216,24 @@ double percentile_99(std::vector<double>& values) {
   return *at;
 }
 
-AreaRatios area_ratios(const Mesh& mesh, const EdgeTable& table) {
-  std::vector<double> ratios = ratios_at_edges(mesh, table);
+AreaRatios area_ratios(const Mesh& mesh, const MeshTopology& topology) {
+  std::vector<double> ratios = ratios_at_edges(mesh, topology);
   if (ratios.empty()) return {};
   return {*std::max_element(ratios.begin(), ratios.end()), percentile_99(ratios)};
 }
 
 }  // namespace
 
-AreaRatios area_ratios(const Mesh& whole_mesh) { return area_ratios(whole_mesh, EdgeTable(whole_mesh)); }
+AreaRatios area_ratios(const Mesh& whole_mesh) { return area_ratios(whole_mesh, MeshTopology(whole_mesh)); }
 
-ShapeStatistics shape_statistics(const Mesh& whole_mesh, std::span<const Chain> geometry) {
+ShapeStatistics shape_statistics(const Mesh& whole_mesh, const MeshTopology& topology,
+                                 std::span<const Chain> geometry) {
   ShapeStatistics shape;
   const double triangles = size32(whole_mesh.triangles), quads = size32(whole_mesh.quads);
   if (triangles + quads == 0) return shape;
   shape.quad_share = quads / (triangles + quads);
-  const EdgeTable table(whole_mesh);
-  add_all_corners(whole_mesh, table, geometry, shape);
-  const AreaRatios ratios = area_ratios(whole_mesh, table);
+  add_all_corners(whole_mesh, topology, geometry, shape);
+  const AreaRatios ratios = area_ratios(whole_mesh, topology);
   shape.area_ratio_max = ratios.largest;
   shape.area_ratio_p99 = ratios.of_99_percent;
   return shape;

@@ -6,6 +6,7 @@
 
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
 
@@ -45,6 +46,7 @@ AreaRatios area_ratios(const Mesh& whole_mesh);
 
 /// Of a mesh that is whole on this rank and names existing nodes. `geometry` is what it was made from, the
 /// domain to the left of every chain; without it no corner is excepted. Linear in time and memory.
-ShapeStatistics shape_statistics(const Mesh& whole_mesh, std::span<const Chain> geometry);
+ShapeStatistics shape_statistics(const Mesh& whole_mesh, const MeshTopology& topology,
+                                 std::span<const Chain> geometry);
 
 }  // namespace quadloop

@@ -49,6 +49,34 @@ std::int32_t block_of(const Mesh& mesh, const CellBlocks& blocks, std::int32_t c
   return at < mesh.triangles.size() ? blocks.of_triangle[at] : blocks.of_quad[at - mesh.triangles.size()];
 }
 
+struct ConformingFaults {
+  const Mesh& mesh;
+  Faults& faults;
+  void add(const std::string& what, NodeId node) const {
+    faults.push_back({MeshRule::conforming, what, mesh.point(node)});
+  }
+};
+
+using BoundaryEdge = std::array<NodeId, 2>;
+
+/// Returns the boundaries' edges, sorted.
+std::vector<BoundaryEdge> check_boundary_edges(const Mesh& mesh, const CellBlocks& blocks,
+                                               const EdgeTable& table, const ConformingFaults& faults) {
+  std::vector<BoundaryEdge> bounded;
+  for_each_boundary_edge(mesh, [&](const BoundaryEdges& boundary, const BoundaryEdge& edge) {
+    bounded.push_back(edge);
+    const std::int32_t left = table.cell_left_of(edge[0], edge[1]),
+                       right = table.cell_left_of(edge[1], edge[0]);
+    if (left < 0) faults.add("an edge of boundary " + boundary.name + " has no cell to its left", edge[0]);
+    if (left < 0 || right < 0) return;
+    const bool inside = blocks.count == 1 || block_of(mesh, blocks, left) == block_of(mesh, blocks, right);
+    if (inside)
+      faults.add("an edge of boundary " + boundary.name + " has cells of one block on both sides", edge[0]);
+  });
+  std::sort(bounded.begin(), bounded.end());
+  return bounded;
+}
+
 }  // namespace
 
 const char* name_of(MeshRule rule) {
@@ -127,38 +155,29 @@ void check_positive(const Mesh& mesh, Faults& faults) {
   });
 }
 
-void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const EdgeTable& table, Faults& faults) {
-  const auto fault = [&](const std::string& what, NodeId node) {
-    faults.push_back({MeshRule::conforming, what, mesh.point(node)});
-  };
+void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const MeshTopology& topology,
+                      Faults& all_faults) {
+  const ConformingFaults faults{mesh, all_faults};
   for_each_cell(mesh, [&](std::span<const NodeId> cell) {
     const NodeId node = repeated_node(cell);
-    if (node.valid()) fault("a cell has node " + std::to_string(node.value() + 1) + " twice", node);
+    if (node.valid()) faults.add("a cell has node " + std::to_string(node.value() + 1) + " twice", node);
   });
-  std::vector<std::array<NodeId, 2>> bounded;
-  for_each_boundary_edge(mesh, [&](const BoundaryEdges& boundary, const std::array<NodeId, 2>& edge) {
-    bounded.push_back(edge);
-    const std::int32_t left = table.cell_left_of(edge[0], edge[1]),
-                       right = table.cell_left_of(edge[1], edge[0]);
-    if (left < 0) fault("an edge of boundary " + boundary.name + " has no cell to its left", edge[0]);
-    if (left < 0 || right < 0) return;
-    const bool inside = blocks.count == 1 || block_of(mesh, blocks, left) == block_of(mesh, blocks, right);
-    if (inside)
-      fault("an edge of boundary " + boundary.name + " has cells of one block on both sides", edge[0]);
-  });
-  std::sort(bounded.begin(), bounded.end());
+  const EdgeTable& table = topology.table();
+  const std::vector<BoundaryEdge> bounded = check_boundary_edges(mesh, blocks, table, faults);
+  const bool repeats = table.repeats();
+  auto beyond = topology.beyond().begin();
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    const std::int32_t first = table.cell_left_of(from, to);
-    if (first != cell) fault("an edge belongs to two cells in the same direction", from);
-    if (first != cell || table.cell_left_of(to, from) >= 0) return;
-    const bool has_boundary = std::binary_search(bounded.begin(), bounded.end(), std::array{from, to});
-    if (!has_boundary)
-      fault("an edge has one cell and no boundary edge (a crack, a hanging node or a missing boundary)",
-            from);
+    const bool alone = *beyond++ < 0;
+    const bool first = !repeats || table.cell_left_of(from, to) == cell;
+    if (!first) faults.add("an edge belongs to two cells in the same direction", from);
+    if (!first || !alone || std::binary_search(bounded.begin(), bounded.end(), BoundaryEdge{from, to}))
+      return;
+    faults.add("an edge has one cell and no boundary edge (a crack, a hanging node or a missing boundary)",
+               from);
   });
 }
 
-void check_closed(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
+void check_closed(const Mesh& mesh, const MeshTopology& topology, Faults& faults) {
   std::vector<std::array<NodeId, 2>> all;
   for_each_boundary_edge(
       mesh, [&](const BoundaryEdges&, const std::array<NodeId, 2>& edge) { all.push_back(edge); });
@@ -168,7 +187,7 @@ void check_closed(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
       faults.push_back({MeshRule::closed, "a boundary edge is listed twice", mesh.point(all[k][0])});
   }
   IdVector<NodeId, std::int32_t> out_minus_in(mesh.points.size(), 0);
-  for (const OuterEdge& edge : outer_edges(mesh, table)) {
+  for (const auto& edge : topology.outer_edges()) {
     ++out_minus_in[edge.from];
     --out_minus_in[edge.to];
   }
@@ -178,25 +197,17 @@ void check_closed(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
   }
 }
 
-std::vector<OuterEdge> outer_edges(const Mesh& mesh, const EdgeTable& table) {
-  std::vector<OuterEdge> edges;
-  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    if (table.cell_left_of(to, from) < 0 && table.cell_left_of(from, to) == cell) edges.push_back({from, to});
-  });
-  return edges;
-}
-
 std::vector<MeshFault> validate(const Mesh& mesh, const CellBlocks& blocks) {
   Faults faults;
   check_indices(mesh, faults);
   if (senseless(faults)) return faults;
-  const EdgeTable table(mesh);
+  const MeshTopology topology(mesh);
   check_coincident(mesh, faults);
   check_positive(mesh, faults);
-  check_conforming(mesh, blocks, table, faults);
-  check_closed(mesh, table, faults);
-  check_area(mesh, table, faults);
-  check_overlap(mesh, table, faults);
+  check_conforming(mesh, blocks, topology, faults);
+  check_closed(mesh, topology, faults);
+  check_area(mesh, topology, faults);
+  check_overlap(mesh, topology, faults);
   return faults;
 }
 
@@ -204,15 +215,15 @@ std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blo
   Faults faults;
   check_indices(mesh, faults);
   if (senseless(faults)) return faults;
-  const EdgeTable table(mesh);
-  check_conforming(mesh, blocks, table, faults);
-  check_closed(mesh, table, faults);
+  const MeshTopology topology(mesh);
+  check_conforming(mesh, blocks, topology, faults);
+  check_closed(mesh, topology, faults);
   return faults;
 }
 
-std::int64_t pinched_nodes(const Mesh& mesh) {
+std::int64_t pinched_nodes(const Mesh& mesh, const MeshTopology& topology) {
   IdVector<NodeId, std::int32_t> passages(mesh.points.size(), 0);
-  for (const OuterEdge& edge : outer_edges(mesh, EdgeTable(mesh))) ++passages[edge.from];
+  for (const auto& edge : topology.outer_edges()) ++passages[edge.from];
   return std::count_if(passages.begin(), passages.end(), [](std::int32_t n) { return n > 1; });
 }
 

@@ -7,6 +7,7 @@
 
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
 
@@ -46,7 +47,7 @@ std::vector<MeshFault> validate(const Mesh& mesh, const CellBlocks& blocks = {})
 std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blocks = {});
 
 /// Nodes where the boundary passes more than once (bow ties): allowed, but worth a figure. The mesh is valid.
-std::int64_t pinched_nodes(const Mesh& mesh);
+std::int64_t pinched_nodes(const Mesh& mesh, const MeshTopology& topology);
 
 /// How a mesh follows its geometry.
 struct GeometryFit {

@@ -105,7 +105,7 @@ class Comparison {
         geometry_{geometry},
         outlines_{outlines_of(geometry)},
         met_(geometry.size(), 0),
-        table_{mesh},
+        topology_{mesh},
         longest_{longest_edge_of_cells(mesh)},
         reach_{mesh, longest_} {
     Box box;
@@ -178,7 +178,7 @@ class Comparison {
     const auto [edge, away] = edges.nearest(p);
     fit_.geometry_distance = std::max(fit_.geometry_distance, away);
     const auto& nodes = boundary.edges[edge];
-    const std::int32_t cell = table_.cell_left_of(nodes[0], nodes[1]);
+    const std::int32_t cell = topology_.table().cell_left_of(nodes[0], nodes[1]);
     if (away <= tolerance_ || (cell >= 0 && away <= longest_[cell])) return;
     if (away <= reach_.size_at(p, away)) return;
     fault("a point of boundary " + boundary.name + " is farther from the mesh than the cells there are long",
@@ -223,7 +223,7 @@ class Comparison {
     long double wanted = 0, meshed = 0;
     for (const Chain& chain : geometry_)
       for_each_segment(chain, [&](Point a, Point b) { wanted += cross(a - centre_, b - centre_) / 2; });
-    for (const OuterEdge& edge : outer_edges(mesh_, table_))
+    for (const auto& edge : topology_.outer_edges())
       meshed += cross(mesh_.point(edge.from) - centre_, mesh_.point(edge.to) - centre_) / 2;
     fit_.area_error = static_cast<double>(std::abs(meshed - wanted) / std::abs(wanted));
     if (!(fit_.area_error <= largest_area_error))
@@ -234,7 +234,7 @@ class Comparison {
   std::span<const Chain> geometry_;
   std::map<std::string, NamedOutline> outlines_;
   std::vector<char> met_;  ///< of each chain: a boundary node of its name lies on it
-  EdgeTable table_;
+  MeshTopology topology_;
   std::vector<double> longest_;
   CellReach reach_;
   std::optional<SegmentSet> all_segments_;  ///< of every boundary, once they are asked for

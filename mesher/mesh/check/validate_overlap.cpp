@@ -79,26 +79,48 @@ std::vector<Point> piece_seeds(const Mesh& mesh) {
   return seeds;
 }
 
-/// Sum of the corner angles around each node, in degrees.
-IdVector<NodeId, double> turns_around_nodes(const Mesh& mesh) {
-  IdVector<NodeId, double> turns(mesh.points.size(), 0);
-  const auto add = [&](const auto& cells) {
+/// What cells of positive corners add up to round each node.
+struct TurnsAround {
+  IdVector<NodeId, std::int32_t> crossings;  ///< corners that hold the direction of x, the first side counted
+  IdVector<NodeId, double> degrees;          ///< at marked nodes alone
+
+  TurnsAround(const Mesh& mesh, const NodeFlags& measured)
+      : crossings(mesh.points.size(), 0), degrees(mesh.points.size(), 0) {
+    add(mesh, measured, mesh.triangles);
+    add(mesh, measured, mesh.quads);
+  }
+
+ private:
+  template <class Cells>
+  void add(const Mesh& mesh, const NodeFlags& measured, const Cells& cells) {
     for (const auto& cell : cells) {
       const std::size_t width = cell.size();
       for (std::size_t k = 0; k < width; ++k) {
-        turns[cell[k]] += corner_degrees(mesh.point(cell[(k + width - 1) % width]), mesh.point(cell[k]),
-                                         mesh.point(cell[(k + 1) % width]));
+        const Point previous = mesh.point(cell[(k + width - 1) % width]), p = mesh.point(cell[k]),
+                    next = mesh.point(cell[(k + 1) % width]);
+        crossings[cell[k]] += next.y <= p.y && previous.y > p.y ? 1 : 0;
+        if (measured[cell[k]] != 0) degrees[cell[k]] += corner_degrees(previous, p, next);
       }
     }
-  };
-  add(mesh.triangles);
-  add(mesh.quads);
-  return turns;
+  }
+};
+
+/// Round a node inside, cells of positive corners close a ring: they go round as often as they hold any one
+/// direction, exactly. On the boundary the angle alone can tell.
+void check_turns(const Mesh& mesh, const NodeFlags& on_boundary, Faults& faults) {
+  const TurnsAround turns(mesh, on_boundary);
+  for (const NodeId node : on_boundary.ids()) {
+    const bool wrong =
+        on_boundary[node] == 0 ? turns.crossings[node] > 1 : turns.degrees[node] > full_turn + turn_tolerance;
+    if (wrong)
+      faults.push_back(
+          {MeshRule::overlap, "the cells around a node do not go round it once", mesh.point(node)});
+  }
 }
 
 }  // namespace
 
-void check_area(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
+void check_area(const Mesh& mesh, const MeshTopology& topology, Faults& faults) {
   Box box;
   for (const Point p : mesh.points) box.include(p);
   const Point origin = box.centre();
@@ -106,7 +128,7 @@ void check_area(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
   const auto at = [&](NodeId node) { return mesh.point(node); };
   for (const auto& t : mesh.triangles) cells += cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0])) / 2;
   for (const auto& q : mesh.quads) cells += cross(at(q[2]) - at(q[0]), at(q[3]) - at(q[1])) / 2;
-  for (const OuterEdge& edge : outer_edges(mesh, table))
+  for (const auto& edge : topology.outer_edges())
     enclosed += cross(at(edge.from) - origin, at(edge.to) - origin) / 2;
   if (std::abs(cells - enclosed) <= area_tolerance * std::abs(enclosed)) return;
   faults.push_back({MeshRule::area,
@@ -115,26 +137,16 @@ void check_area(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
                     origin});
 }
 
-void check_overlap(const Mesh& mesh, const EdgeTable& table, Faults& faults) {
+void check_overlap(const Mesh& mesh, const MeshTopology& topology, Faults& faults) {
   NodeFlags at_edge(mesh.points.size(), 0);
   std::vector<Segment> segments;
-  for (const OuterEdge& edge : outer_edges(mesh, table)) {
+  for (const auto& edge : topology.outer_edges()) {
     at_edge[edge.from] = 1;
     segments.push_back({mesh.point(edge.from), mesh.point(edge.to)});
   }
-  const IdVector<NodeId, double> turns = turns_around_nodes(mesh);
   const bool inverted = std::any_of(faults.begin(), faults.end(),
                                     [](const MeshFault& f) { return f.rule == MeshRule::positive; });
-  for (const NodeId node : turns.ids()) {
-    if (inverted) break;  // around an inverted cell the sum says nothing
-    const double turn = turns[node];
-    const bool inner = at_edge[node] == 0;
-    const bool wrong =
-        inner ? std::abs(turn - full_turn) > turn_tolerance : turn > full_turn + turn_tolerance;
-    if (wrong && turn > 0)
-      faults.push_back(
-          {MeshRule::overlap, "the cells around a node do not go round it once", mesh.point(node)});
-  }
+  if (!inverted) check_turns(mesh, at_edge, faults);  // around an inverted cell they say nothing
   check_boundary_crossings(segments, faults);
   const std::vector<Point> seeds = piece_seeds(mesh);
   for (const Point seed : seeds.size() < most_components ? seeds : std::vector<Point>{}) {

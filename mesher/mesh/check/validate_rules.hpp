@@ -14,15 +14,10 @@ using Faults = std::vector<MeshFault>;
 void check_indices(const Mesh& mesh, Faults& faults);
 void check_coincident(const Mesh& mesh, Faults& faults);
 void check_positive(const Mesh& mesh, Faults& faults);
-void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const EdgeTable& table, Faults& faults);
-void check_closed(const Mesh& mesh, const EdgeTable& table, Faults& faults);
-void check_area(const Mesh& mesh, const EdgeTable& table, Faults& faults);
-void check_overlap(const Mesh& mesh, const EdgeTable& table, Faults& faults);
-
-/// An edge with a cell to its left and none to its right.
-struct OuterEdge {
-  NodeId from, to;
-};
-std::vector<OuterEdge> outer_edges(const Mesh& mesh, const EdgeTable& table);
+void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const MeshTopology& topology,
+                      Faults& faults);
+void check_closed(const Mesh& mesh, const MeshTopology& topology, Faults& faults);
+void check_area(const Mesh& mesh, const MeshTopology& topology, Faults& faults);
+void check_overlap(const Mesh& mesh, const MeshTopology& topology, Faults& faults);
 
 }  // namespace quadloop

@@ -46,7 +46,7 @@ std::vector<Chain> wedge(double degrees) {
 }
 
 void expect_excepted_tip(const Mesh& mesh, const std::vector<Chain>& geometry) {
-  const ShapeStatistics shape = shape_statistics(mesh, geometry);
+  const ShapeStatistics shape = shape_statistics(mesh, MeshTopology(mesh), geometry);
   EXPECT_EQ(shape.corners, 3);
   EXPECT_EQ(shape.corners_of_outline, 1);
   EXPECT_EQ(shape.corners_below_15, 0);
@@ -59,13 +59,14 @@ void expect_excepted_tip(const Mesh& mesh, const std::vector<Chain>& geometry) {
 }
 
 void expect_no_exception(const Mesh& mesh, const std::vector<Chain>& geometry) {
-  const ShapeStatistics shape = shape_statistics(mesh, geometry);
+  const ShapeStatistics shape = shape_statistics(mesh, MeshTopology(mesh), geometry);
   EXPECT_EQ(shape.corners_of_outline, 0);
   EXPECT_TRUE(shape.sharp_places.empty());
 }
 
 TEST(ShapeStatistics, SquareAndTriangle) {
-  const ShapeStatistics shape = shape_statistics(square_and_triangle(), {});
+  const ShapeStatistics shape =
+      shape_statistics(square_and_triangle(), MeshTopology(square_and_triangle()), {});
   EXPECT_EQ(shape.corners, 7);
   EXPECT_EQ(shape.corners_below_15, 0);
   EXPECT_EQ(shape.corners_below_26, 0);
@@ -78,7 +79,7 @@ TEST(ShapeStatistics, SquareAndTriangle) {
 }
 
 TEST(ShapeStatistics, EmptyMeshGivesZeros) {
-  const ShapeStatistics shape = shape_statistics(Mesh{}, wedge(10));
+  const ShapeStatistics shape = shape_statistics(Mesh{}, MeshTopology(Mesh{}), wedge(10));
   EXPECT_EQ(shape.corners, 0);
   EXPECT_EQ(shape.corners_of_outline, 0);
   EXPECT_EQ(shape.smallest_degrees, 0);
@@ -94,7 +95,7 @@ TEST(ShapeStatistics, CountsCornersByTheirAngle) {
   mesh.points = {{0, 0}, {8, 0}, {4, 1}, {20, 0}, {8, 5}};
   mesh.owned_nodes = 5;
   mesh.triangles = {{node(0), node(1), node(2)}, {node(1), node(3), node(4)}};
-  const ShapeStatistics shape = shape_statistics(mesh, {});
+  const ShapeStatistics shape = shape_statistics(mesh, MeshTopology(mesh), {});
   EXPECT_EQ(shape.corners, 6);
   EXPECT_EQ(shape.corners_below_15, 2);
   EXPECT_EQ(shape.corners_below_26, 3);
@@ -103,7 +104,7 @@ TEST(ShapeStatistics, CountsCornersByTheirAngle) {
 }
 
 TEST(ShapeStatistics, TipCountsWithoutGeometry) {
-  const ShapeStatistics shape = shape_statistics(fan({10}), {});
+  const ShapeStatistics shape = shape_statistics(fan({10}), MeshTopology(fan({10})), {});
   EXPECT_EQ(shape.corners_of_outline, 0);
   EXPECT_EQ(shape.corners_below_15, 1);
   EXPECT_EQ(shape.corners_below_26, 1);
@@ -123,7 +124,7 @@ TEST(ShapeStatistics, RepeatedPointsAtTheTip) {
 }
 
 TEST(ShapeStatistics, SmallestCornerOfAPlace) {
-  const ShapeStatistics shape = shape_statistics(fan({20, 8, 12}), wedge(40));
+  const ShapeStatistics shape = shape_statistics(fan({20, 8, 12}), MeshTopology(fan({20, 8, 12})), wedge(40));
   EXPECT_EQ(shape.corners, 9);
   EXPECT_EQ(shape.corners_of_outline, 3);
   EXPECT_EQ(shape.corners_below_26, 0);
@@ -161,13 +162,13 @@ Mesh channel() {
 
 TEST(ShapeStatistics, CornersOfCellsThatFillAPassage) {
   const std::vector<Chain> outline{{"banks", false, {{0, 0}, {10, 0}, {10, 0.1}, {0, 0.1}}, ""}};
-  const ShapeStatistics shape = shape_statistics(channel(), outline);
+  const ShapeStatistics shape = shape_statistics(channel(), MeshTopology(channel()), outline);
   EXPECT_EQ(shape.corners_in_passages, 18);  // two in each half of a square, but for the halves at the ends,
                                              // of which two edges meet on the boundary
   ASSERT_EQ(shape.passages.size(), 18U);
   EXPECT_EQ(shape.corners_below_15, 2);
   EXPECT_EQ(shape.corners_of_outline, 0);
-  EXPECT_EQ(shape_statistics(channel(), {}).corners_in_passages, 0);
+  EXPECT_EQ(shape_statistics(channel(), MeshTopology(channel()), {}).corners_in_passages, 0);
 }
 
 /// Unit squares side by side, then one that is three times as long.
@@ -183,8 +184,8 @@ Mesh strip(std::int32_t squares) {
 }
 
 TEST(ShapeStatistics, AreaRatioOf99Percent) {
-  const ShapeStatistics hundred_edges = shape_statistics(strip(100), {}),
-                        few = shape_statistics(strip(98), {});
+  const ShapeStatistics hundred_edges = shape_statistics(strip(100), MeshTopology(strip(100)), {}),
+                        few = shape_statistics(strip(98), MeshTopology(strip(98)), {});
   EXPECT_EQ(hundred_edges.area_ratio_max, 3);
   EXPECT_EQ(hundred_edges.area_ratio_p99, 1);
   EXPECT_EQ(few.area_ratio_p99, 3);  // one edge of 98 is more than 1 percent
@@ -198,7 +199,7 @@ TEST(ShapeStatistics, AreaRatioOf99Percent) {
 TEST(ShapeStatistics, CellWithoutArea) {
   Mesh mesh = square_and_triangle();
   mesh.points[4] = {1, -1};
-  EXPECT_TRUE(std::isinf(shape_statistics(mesh, {}).area_ratio_max));
+  EXPECT_TRUE(std::isinf(shape_statistics(mesh, MeshTopology(mesh), {}).area_ratio_max));
 }
 
 }  // namespace
