@@ -9,12 +9,11 @@
 
 namespace quadloop {
 
-/// Writes the mesh as a VTK XML unstructured grid, ASCII, into the set; the bytes are the same on any number
-/// of ranks. Triangles, then quads, then the boundaries' edges as lines. The cell data "boundary" holds 0 for
-/// cells and the boundary's number, from 1, for lines; the field data "boundary_names" the names, as codes of
-/// their bytes with a 0 after each. `solution`, where given, becomes point data and cell data of its names;
-/// a line has the values of the cell beside it. *Collective.*
-/// Throws OutputError on all ranks.
+/// Writes the mesh as a VTK XML unstructured grid, raw appended, into the set; the bytes are the same on any
+/// number of ranks. Triangles, then quads, then the boundaries' edges as lines. The cell data "boundary"
+/// holds 0 for cells and the boundary's number, from 1, for lines; the field data "boundary_names" the names,
+/// as codes of their bytes with a 0 after each. `solution`, where given, becomes point data and cell data of
+/// its names; a line has the values of the cell beside it. *Collective.* Throws OutputError on all ranks.
 void write_vtu(OutputSet& outputs, const Mesh& mesh, const std::string& path,
                const Field* solution = nullptr);
 

@@ -3,6 +3,7 @@
 
 #include "io/loaded/strip_text.hpp"
 #include "io/text/text_output.hpp"
+#include "io/vtu/vtu_appended.hpp"
 #include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_layers.hpp"
@@ -15,35 +16,29 @@ namespace quadloop {
 
 namespace {
 
-std::string array_tag(const std::string& type, const std::string& name, int components = 1) {
-  std::string tag = "<DataArray type=\"" + type + "\" Name=\"" + xml_escaped(name) + "\"";
-  if (components > 1) tag += " NumberOfComponents=\"" + std::to_string(components) + "\"";
-  return tag + " format=\"ascii\">\n";
-}
-
 class VtuWriter {
  public:
   VtuWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
-      : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path}, boundaries_{comm_, mesh} {}
+      : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path}, boundaries_{comm_, mesh} {
+    triangles_ = comm_.sum(std::ssize(mesh.triangles));
+    quads_ = comm_.sum(std::ssize(mesh.quads));
+    nodes_ = comm_.sum(mesh.owned_nodes);
+    elements_ = triangles_ + quads_ + boundaries_.all_edges();
+  }
 
   void write(const LoadedMesh* blocks, const Field* solution) {
-    write_head(blocks);
-    write_points();
-    write_cells();
-    write_point_data(solution);
-    file_.write("<CellData>\n");
-    write_boundary_numbers();
-    if (blocks != nullptr) write_block_numbers(*blocks);
-    if (solution != nullptr && solution->cells.width() > 0) write_cell_values(solution->cells);
-    file_.write("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
-    file_.close();
+    add_points();
+    add_cells();
+    if (solution != nullptr) add_solution(*solution);
+    if (has_layers(mesh_)) add_layer_heights();
+    add_boundary_numbers();
+    if (blocks != nullptr) add_block_numbers(*blocks);
+    if (solution != nullptr && solution->cells.width() > 0) add_cell_values(solution->cells);
+    file_.write(head(blocks));
   }
 
  private:
-  std::int64_t total(const auto& rows) const { return comm_.sum(std::ssize(rows)); }
-
-  void write_head(const LoadedMesh* blocks) {
-    const std::int64_t cells = total(mesh_.triangles) + total(mesh_.quads) + boundaries_.all_edges();
+  std::string head(const LoadedMesh* blocks) const {
     std::vector<std::string> names;
     for (const BoundaryEdges* boundary : boundaries_.present()) names.push_back(boundary->name);
     std::string head =
@@ -53,9 +48,8 @@ class VtuWriter {
     if (blocks != nullptr) head += vtu_text_array("block_names", blocks->block_names);
     if (has_layers(mesh_)) head += layer_arrays();
     head += vtu_name_arrays(names, 1);
-    head += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(comm_.sum(mesh_.owned_nodes)) +
-            "\" NumberOfCells=\"" + std::to_string(cells) + "\">\n";
-    file_.write(head);
+    return head + "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(nodes_) + "\" NumberOfCells=\"" +
+           std::to_string(elements_) + "\">\n";
   }
 
   /// Count and thickness of each boundary's layers.
@@ -81,152 +75,150 @@ class VtuWriter {
     return texts.empty() ? std::string() : vtu_text_array(vtu_strips, texts);
   }
 
-  void write_points() {
-    file_.write("<Points>\n" + array_tag("Float64", "Points", 3));
-    file_.write_rows(mesh_.owned_nodes, 3, [&](TextRows& text, std::size_t i) {
-      text.put(mesh_.points[i].x, ' ');
-      text.put(mesh_.points[i].y, ' ');
-      text.put(0, '\n');
-    });
-    file_.write("</DataArray>\n</Points>\n");
-  }
-
-  /// `visit(rows, type)` for each kind of cell; the boundaries' edges follow them.
-  template <class Visit>
-  void for_each_kind(const Visit& visit) const {
-    visit(mesh_.triangles, int{vtk_triangle});
-    visit(mesh_.quads, int{vtk_quad});
-  }
-
-  void write_cells() {
-    file_.write("<Cells>\n" + array_tag("Int64", "connectivity"));
-    for_each_kind([&](const auto& rows, int) {
-      file_.write_rows(rows.size(), 4, [&](TextRows& text, std::size_t i) {
-        for (std::size_t k = 0; k < rows[i].size(); ++k)
-          text.put(mesh_.global(rows[i][k]).value(), k + 1 < rows[i].size() ? ' ' : '\n');
+  void add_points() {
+    file_.add<double>("Points", "Points", 3, nodes_, [this] {
+      file_.put_rows(mesh_.owned_nodes, [&](std::int64_t i) {
+        return std::array{mesh_.points[i].x, mesh_.points[i].y, 0.0};
       });
     });
-    file_.write_boundaries(
-        boundaries_, 2, [](std::size_t) { return std::string(); },
-        [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
-          text.put(edge[0], ' ');
-          text.put(edge[1], '\n');
-        });
-    file_.write("</DataArray>\n" + array_tag("Int64", "offsets"));
-    write_offsets();
-    file_.write("</DataArray>\n" + array_tag("UInt8", "types"));
-    for_each_kind([&](const auto& rows, int type) { write_repeated(rows.size(), type); });
-    file_.write_root_rows(boundaries_.all_edges(), 1,
-                          [](TextRows& text, std::size_t) { text.put(int{vtk_line}, '\n'); });
-    file_.write("</DataArray>\n</Cells>\n");
   }
 
-  void write_offsets() {
-    std::int64_t before = 0;
-    for_each_kind([&]<class Row>(const std::vector<Row>& rows, int) {
-      constexpr std::int64_t width = std::tuple_size_v<Row>;
-      const std::int64_t first = before + width * comm_.exclusive_sum(std::ssize(rows));
-      file_.write_rows(rows.size(), 1,
-                       [&](TextRows& text, std::int64_t i) { text.put(first + width * (i + 1), '\n'); });
-      before += width * total(rows);
+  void add_cells() {
+    const std::int64_t entries = 3 * triangles_ + 4 * quads_ + 2 * boundaries_.all_edges();
+    file_.add<std::int64_t>("Cells", "connectivity", 1, entries, [this] {
+      put_nodes(mesh_.triangles);
+      put_nodes(mesh_.quads);
+      file_.put_edges(boundaries_, [](const BoundaryStream::Edge& edge) { return edge; });
     });
-    file_.write_root_rows(boundaries_.all_edges(), 1,
-                          [&](TextRows& text, std::int64_t i) { text.put(before + 2 * (i + 1), '\n'); });
+    file_.add<std::int64_t>("Cells", "offsets", 1, elements_, [this] { put_offsets(); });
+    file_.add<std::uint8_t>("Cells", "types", 1, elements_, [this] {
+      put_of_kinds<std::uint8_t>(vtk_triangle, vtk_quad);
+      put_of_lines([](std::int64_t) { return std::uint8_t{vtk_line}; });
+    });
   }
 
-  void write_repeated(std::size_t rows, std::int32_t number) {
-    file_.write_rows(rows, 1, [&](TextRows& text, std::size_t) { text.put(number, '\n'); });
+  template <std::size_t width>
+  void put_nodes(const std::vector<std::array<NodeId, width>>& cells) {
+    file_.put_rows(std::ssize(cells), [&](std::int64_t i) {
+      std::array<std::int64_t, width> nodes;
+      for (std::size_t k = 0; k < width; ++k) nodes[k] = mesh_.global(cells[i][k]).value();
+      return nodes;
+    });
   }
 
-  void write_point_data(const Field* solution) {
-    const std::size_t width = solution == nullptr ? 0 : solution->names.size();
-    if (width == 0 && !has_layers(mesh_)) return;
-    file_.write("<PointData>\n");
+  /// Where each element's nodes end.
+  void put_offsets() {
+    std::int64_t before = 0;
+    const auto put = [&]<std::size_t width>(const std::vector<std::array<NodeId, width>>& cells) {
+      constexpr std::int64_t nodes = width;
+      const std::int64_t first = before + nodes * comm_.exclusive_sum(std::ssize(cells));
+      file_.put_rows(std::ssize(cells), [&](std::int64_t i) { return std::array{first + nodes * (i + 1)}; });
+    };
+    put(mesh_.triangles);
+    before += 3 * triangles_;
+    put(mesh_.quads);
+    before += 4 * quads_;
+    put_of_lines([&](std::int64_t i) { return before + 2 * (i + 1); });
+  }
+
+  /// One number for every triangle, another for every quad.
+  template <class Number>
+  void put_of_kinds(Number of_triangle, Number of_quad) {
+    file_.put_rows(std::ssize(mesh_.triangles), [&](std::int64_t) { return std::array{of_triangle}; });
+    file_.put_rows(std::ssize(mesh_.quads), [&](std::int64_t) { return std::array{of_quad}; });
+  }
+  /// `value(i)` for line i of all, made on rank 0.
+  template <class Value>
+  void put_of_lines(const Value& value) {
+    file_.put_root_rows(boundaries_.all_edges(), [&](std::int64_t i) { return std::array{value(i)}; });
+  }
+
+  void add_solution(const Field& solution) {
+    const std::size_t width = solution.names.size();
     for (std::size_t k = 0; k < width; ++k)
-      write_reals(solution->names[k], [&](std::size_t i) { return solution->values[i * width + k]; });
-    if (has_layers(mesh_)) write_layer_heights();
-    file_.write("</PointData>\n");
+      add_of_nodes(solution.names[k],
+                   [&solution, width, k](std::int64_t i) { return solution.values[i * width + k]; });
   }
 
   /// Of a value for each owned node.
   template <class Value>
-  void write_reals(const std::string& name, const Value& value) {
-    file_.write(array_tag("Float64", name));
-    file_.write_rows(mesh_.owned_nodes, 1, [&](TextRows& text, std::size_t i) { text.put(value(i), '\n'); });
-    file_.write("</DataArray>\n");
-  }
-
-  void write_layer_heights() {
-    const LayerPlaces places = layer_places(comm_, mesh_);
-    const IdVector<NodeId, double> heights = heights_to_front(comm_, mesh_, places);
-    const auto at_wall = [&](std::size_t i) {
-      return on_layered_wall(mesh_, places[NodeId{static_cast<std::int32_t>(i)}]);
-    };
-    write_reals(vtu_layer_height_asked, [&](std::size_t i) {
-      return at_wall(i) ? layers_at(mesh_, places.begin()[i]).thickness : 0;
+  void add_of_nodes(const std::string& name, Value value) {
+    file_.add<double>("PointData", name, 1, nodes_, [this, value] {
+      file_.put_rows(mesh_.owned_nodes, [&](std::int64_t i) { return std::array<double, 1>{value(i)}; });
     });
-    write_reals(vtu_layer_height, [&](std::size_t i) { return at_wall(i) ? heights.begin()[i] : 0; });
   }
 
-  void write_boundary_numbers() {
-    file_.write(array_tag("Int32", "boundary"));
-    write_repeated(mesh_.triangles.size(), 0);
-    write_repeated(mesh_.quads.size(), 0);
-    std::size_t number = 0;  // rows come in their order
-    std::int64_t end = 0;
-    file_.write_root_rows(boundaries_.all_edges(), 1, [&](TextRows& text, std::int64_t i) {
-      while (i >= end) end += boundaries_.edges_of(number++);
-      text.put(number, '\n');
+  void add_layer_heights() {
+    places_ = layer_places(comm_, mesh_);
+    heights_ = heights_to_front(comm_, mesh_, places_);
+    const auto at_wall = [this](std::int64_t i) { return on_layered_wall(mesh_, places_.begin()[i]); };
+    add_of_nodes(vtu_layer_height_asked, [this, at_wall](std::int64_t i) {
+      return at_wall(i) ? layers_at(mesh_, places_.begin()[i]).thickness : 0;
     });
-    file_.write("</DataArray>\n");
+    add_of_nodes(vtu_layer_height,
+                 [this, at_wall](std::int64_t i) { return at_wall(i) ? heights_.begin()[i] : 0; });
   }
 
-  void write_block_numbers(const LoadedMesh& whole) {
-    file_.write(array_tag("Int32", "block"));
-    for (const auto* cell_to_block : {&whole.triangle_to_block, &whole.quad_to_block}) {
-      file_.write_rows(cell_to_block->size(), 1,
-                       [&](TextRows& text, std::size_t i) { text.put((*cell_to_block)[i] + 1, '\n'); });
-    }
-    file_.write_root_rows(boundaries_.all_edges(), 1, [](TextRows& text, std::size_t) { text.put(0, '\n'); });
-    file_.write("</DataArray>\n");
+  void add_boundary_numbers() {
+    file_.add<std::int32_t>("CellData", "boundary", 1, elements_, [this] {
+      put_of_kinds<std::int32_t>(0, 0);
+      std::int32_t number = 0;  // rows come in their order
+      std::int64_t end = 0;
+      put_of_lines([&](std::int64_t i) {
+        while (i >= end) end += boundaries_.edges_of(number++);
+        return number;
+      });
+    });
+  }
+
+  void add_block_numbers(const LoadedMesh& whole) {
+    file_.add<std::int32_t>("CellData", "block", 1, elements_, [this, &whole] {
+      for (const auto* cell_to_block : {&whole.triangle_to_block, &whole.quad_to_block}) {
+        file_.put_rows(std::ssize(*cell_to_block),
+                       [&](std::int64_t i) { return std::array{(*cell_to_block)[i] + 1}; });
+      }
+      put_of_lines([](std::int64_t) { return std::int32_t{0}; });
+    });
   }
 
   /// A boundary's line has the values of the cell beside it.
-  void write_cell_values(const CellValues& cells) {
+  void add_cell_values(const CellValues& cells) {
     const std::vector<std::int64_t> beside = edge_cells(comm_, mesh_).of_boundary;
     const std::size_t width = cells.width();
-    const std::vector<double> at_lines = rows_of_cells(
-        comm_, CellOwners(comm_, mesh_), std::span<const std::int64_t>(beside), cells.values, width);
+    at_lines_ = rows_of_cells(comm_, CellOwners(comm_, mesh_), std::span<const std::int64_t>(beside),
+                              cells.values, width);
     for (std::size_t k = 0; k < width; ++k) {
-      file_.write(array_tag("Float64", cells.names[k]));
-      std::size_t first = 0;
-      for (const std::size_t rows : {mesh_.triangles.size(), mesh_.quads.size()}) {
-        file_.write_rows(rows, 1, [&](TextRows& text, std::size_t i) {
-          text.put(cells.values[(first + i) * width + k], '\n');
-        });
-        first += rows;
-      }
-      write_line_values(at_lines, width, k);
-      file_.write("</DataArray>\n");
+      file_.add<double>("CellData", cells.names[k], 1, elements_, [this, &cells, width, k] {
+        std::int64_t first = 0;
+        for (const std::int64_t rows : {std::ssize(mesh_.triangles), std::ssize(mesh_.quads)}) {
+          file_.put_rows(rows,
+                         [&](std::int64_t i) { return std::array{cells.values[(first + i) * width + k]}; });
+          first += rows;
+        }
+        put_line_values(width, k);
+      });
     }
   }
 
   /// They go the way of the edges' nodes, as their bits.
-  void write_line_values(const std::vector<double>& at_lines, std::size_t width, std::size_t k) {
+  void put_line_values(std::size_t width, std::size_t k) {
     std::vector<BoundaryStream::Edge> bits;
-    for (std::size_t i = k; i < at_lines.size(); i += width)
-      bits.push_back({std::bit_cast<std::int64_t>(at_lines[i]), 0});
-    file_.write_boundaries(
-        BoundaryStream(comm_, mesh_, std::move(bits)), 1, [](std::size_t) { return std::string(); },
-        [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
-          text.put(std::bit_cast<double>(edge[0]), '\n');
-        });
+    for (std::size_t i = k; i < at_lines_.size(); i += width)
+      bits.push_back({std::bit_cast<std::int64_t>(at_lines_[i]), 0});
+    file_.put_edges(BoundaryStream(comm_, mesh_, std::move(bits)), [](const BoundaryStream::Edge& edge) {
+      return std::array{std::bit_cast<double>(edge[0])};
+    });
   }
 
   const Communicator& comm_;
   const Mesh& mesh_;
-  TextOutput file_;
+  VtuAppended file_;
   BoundaryStream boundaries_;
+  std::int64_t nodes_ = 0, triangles_ = 0, quads_ = 0;
+  std::int64_t elements_ = 0;  ///< with the boundaries' lines
+  LayerPlaces places_;
+  IdVector<NodeId, double> heights_;
+  std::vector<double> at_lines_;  ///< cell values beside this rank's boundary edges
 };
 
 }  // namespace
