@@ -54,6 +54,7 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
     report.layers = layer_figures(mesh, places);
     report.by_layers = quality_by_layers(Communicator(MPI_COMM_SELF), mesh, places);
   }
+  report.worst = worst_places(mesh, topology);
   report.area = area_of(mesh);
   report.pinched_nodes = pinched_nodes(mesh, topology);
   report.faults = validate(mesh, {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block});

@@ -133,6 +133,7 @@ Figures figures_of(const LoadedMesh& whole) {
   figures.add("blocks", whole.blocks);
   figures.add("boundaries", count(whole.mesh.boundaries));
   figures.add("variables", whole.solution ? count(whole.solution->names) : 0);
+  figures.add("cell variables", whole.solution ? count(whole.solution->cells.names) : 0);
   return figures;
 }
 

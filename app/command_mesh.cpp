@@ -116,8 +116,11 @@ Warnings solver_warnings(const Settings& settings, const ShapeFigures& shape) {
     return {};
   return {
       fmt::format("{}.su2: {:.0f} % of the quads are skew, on which node-centred solvers such as SU2 lose "
-                  "accuracy; mesh.quads = \"parallel\" divides them",
-                  settings.output_prefix, 100 * (1 - shape.parallelogram_share()))};
+                  "accuracy; {}",
+                  settings.output_prefix, 100 * (1 - shape.parallelogram_share()),
+                  settings.mesh.quads == QuadChoice::parallel
+                      ? "they stand in layers, which mesh.quads = \"parallel\" leaves whole"
+                      : "mesh.quads = \"parallel\" divides them")};
 }
 
 /// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere),

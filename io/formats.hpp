@@ -46,6 +46,10 @@ struct FileFormat {
   /// The boundaries' names as a file has them; null: as they are.
   std::vector<std::string> (*boundary_names)(const std::vector<std::string>& names) = nullptr;
 
+  /// What a boundary becomes that nothing is known of, where other programs take that for a statement; null:
+  /// nothing.
+  const char* unknown_boundary = nullptr;
+
   /// A solution alone, as above; `gamma` is the ratio of specific heats of its gas.
   LoadedSolution (*read_solution)(const std::string& path) = nullptr;
   void (*write_solution)(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,

@@ -122,6 +122,13 @@ std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& p
   std::vector<std::string> losses = renames_in(whole.mesh, path, format);
   if (const FileFormat* row = mesh_format(path, format)) {
     append_losses(*row, whole.mesh, whole.solution ? &*whole.solution : nullptr, whole.blocks, path, losses);
+    const bool any_known = std::ranges::any_of(
+        whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.condition != "none"; });
+    if (row->unknown_boundary != nullptr && !any_known && !whole.mesh.boundaries.empty())
+      losses.push_back(
+          fmt::format("{}: nothing says which boundaries are walls; each is written as {}. A .cgns "
+                      "holds what the case says: convert that",
+                      path, row->unknown_boundary));
   }
   return losses;
 }

@@ -83,17 +83,25 @@ void add_outline_corners(Figures& figures, const ShapeStatistics& shape, bool wi
   if (verbose) figures.add_lines(places_text(shape.passages));
 }
 
-void add_shape(Figures& figures, const ShapeStatistics& shape, const ShapeFigures& shares, bool with_geometry,
-               bool verbose) {
+/// A row below that of a figure: where it is.
+void add_place(Figures& figures, Point place, const char* key) {
+  figures.add_lines(fmt::format("    {:>38}\n", fmt::format("at ({:.6g}, {:.6g})", place.x, place.y)));
+  figures.add_member(key, json_of(std::vector{place.x, place.y}));
+}
+
+void add_shape(Figures& figures, const CheckReport& report, bool verbose) {
+  const ShapeStatistics& shape = report.shape;
+  const ShapeFigures& shares = report.figures;
   figures.add_member("corners", json_of(shape.corners));
   add_count(figures, "corners below 15 degrees", shape.corners_below_15, "corners_below_15");
   figures.add_member("corners_below_25", json_of(shape.corners_below_25));
   figures.add("corners below 26", shape.corners_below_26);
   figures.add("corners above 150", shape.corners_above_150);
-  add_outline_corners(figures, shape, with_geometry, verbose);
+  add_outline_corners(figures, shape, report.fit.has_value(), verbose);
   figures.add_member("min_angle_made", json_of(shape.smallest_degrees));
   figures.add_member("max_angle_made", json_of(shape.largest_degrees));
   figures.add("largest area ratio", shape.area_ratio_max, number, "area_ratio_max");
+  if (shape.area_ratio_max > 0) add_place(figures, report.worst.largest_area_ratio, "area_ratio_max_at");
   figures.add("area ratio, 99 %", shape.area_ratio_p99, number, "area_ratio_p99");
   figures.add("share of quads", shape.quad_share, number, "quad_share");
   figures.add("parallelograms", shares.parallelogram_share(), number, "parallelogram_share");
@@ -122,9 +130,13 @@ Figures figures_of(const CheckReport& report, bool verbose, std::size_t most) {
   figures.add_lines(boundaries_text(report.boundaries, most));
   figures.add("area", report.area, number);
   figures.add("smallest angle", quality.smallest_degrees, number, "min_angle");
+  const bool has_cells = quality.counts.triangles + quality.counts.quads > 0;
+  if (has_cells) add_place(figures, report.worst.smallest_angle, "min_angle_at");
   figures.add("largest angle", quality.largest_degrees, number, "max_angle");
-  add_shape(figures, report.shape, report.figures, report.fit.has_value(), verbose);
+  if (has_cells) add_place(figures, report.worst.largest_angle, "max_angle_at");
+  add_shape(figures, report, verbose);
   figures.add("worst quality", quality.worst, number);
+  if (has_cells) add_place(figures, report.worst.worst_quality, "worst_quality_at");
   figures.add("mean quality", quality.mean, number);
   figures.add("pinched nodes", report.pinched_nodes);
   add_quality(figures, report.by_layers);

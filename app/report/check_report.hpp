@@ -10,6 +10,7 @@
 #include "mesher/mesh/check/shape_figures.hpp"
 #include "mesher/mesh/check/shape_statistics.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/check/worst_places.hpp"
 
 namespace quadloop {
 
@@ -23,6 +24,7 @@ struct CheckReport {
   ShapeFigures figures;
   std::vector<LayerFigures> layers;
   QualityByLayers by_layers;  ///< where there are any
+  WorstPlaces worst;
   double area = 0;
   std::int64_t pinched_nodes = 0;
   std::optional<GeometryFit> fit;  ///< its faults are in `faults` too

@@ -128,21 +128,24 @@ class NativeReader {
 
   void read_solution() {
     Field solution;
-    solution.constants.resize(scan_.count("constants", 1));
-    for (double& value : solution.constants) value = scan_.real("a constant");
-    if (scan_.at_end()) {
-      if (!solution.constants.empty()) loaded_.solution = std::move(solution);
-      return;
+    // A comment tells the values of cells from other sections, and from rows too many.
+    const auto at_cells = [this] {
+      return !scan_.at_end() && !scan_.last_comment_with("cell variables").empty();
+    };
+    if (!at_cells()) {
+      solution.constants.resize(scan_.count("constants", 1));
+      for (double& value : solution.constants) value = scan_.real("a constant");
     }
-    solution.names = read_names("variables");
-    solution.values = read_values(solution.names, loaded_.mesh.points.size(), "node");
-    // A comment tells this section from rows too many.
-    if (!scan_.at_end() && !scan_.last_comment_with("cell variables").empty()) {
+    if (!scan_.at_end() && !at_cells()) {
+      solution.names = read_names("variables");
+      solution.values = read_values(solution.names, loaded_.mesh.points.size(), "node");
+    }
+    if (at_cells()) {
       const std::size_t cells = loaded_.mesh.triangles.size() + loaded_.mesh.quads.size();
       solution.cells.names = read_names("cell variables");
       solution.cells.values = read_values(solution.cells.names, cells, "cell");
     }
-    loaded_.solution = std::move(solution);
+    if (!solution.empty() || !solution.constants.empty()) loaded_.solution = std::move(solution);
   }
 
   std::vector<std::string> read_names(const std::string& of) {

@@ -88,6 +88,22 @@ QualitySummary summarise_quality(const Communicator& comm, const Mesh& mesh) {
   return result;
 }
 
+double area_ratio(double area, double other) {
+  const double ratio = std::max(area, other) / std::min(area, other);
+  return ratio >= 1 ? ratio : std::numeric_limits<double>::infinity();
+}
+
+std::vector<double> cell_areas(const Mesh& mesh) {
+  std::vector<double> areas;
+  areas.reserve(mesh.triangles.size() + mesh.quads.size());
+  const auto add = [&](Point u, Point v) { areas.push_back(cross(u, v) / 2); };
+  for (const auto& t : mesh.triangles)
+    add(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0]));
+  for (const auto& q : mesh.quads)
+    add(mesh.point(q[2]) - mesh.point(q[0]), mesh.point(q[3]) - mesh.point(q[1]));
+  return areas;
+}
+
 double area_of(const Mesh& mesh) {
   long double area = 0;
   for (const auto& t : mesh.triangles)

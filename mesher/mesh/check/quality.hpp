@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -35,6 +36,12 @@ MeshCounts count(const Communicator& comm, const Mesh& mesh);
 
 /// The same bits on any number of ranks: the mean is summed in fixed point (2^-30). *Collective.*
 QualitySummary summarise_quality(const Communicator& comm, const Mesh& mesh);
+
+/// Of two cells, the larger area by the smaller; infinite for cells without area.
+double area_ratio(double area, double other);
+
+/// Of this rank's cells, triangles first, then quads.
+std::vector<double> cell_areas(const Mesh& mesh);
 
 /// The area of this rank's cells.
 double area_of(const Mesh& mesh);

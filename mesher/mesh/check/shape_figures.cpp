@@ -90,15 +90,10 @@ void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
   figures.quads = std::ssize(mesh.quads);
 }
 
-double ratio_of(double a, double b) {
-  const double ratio = std::max(a, b) / std::min(a, b);
-  return ratio >= 1 ? ratio : std::numeric_limits<double>::infinity();
-}
-
 /// The largest and the smallest area of the cells round a node.
 struct AreaRange {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-  double ratio() const { return ratio_of(largest, smallest); }
+  double ratio() const { return area_ratio(largest, smallest); }
 };
 
 /// The largest ratio at edges of those owned nodes round which the areas differ by `least` or more.
@@ -124,7 +119,7 @@ double largest_ratio(const HaloMesh& mesh, const IdVector<NodeId, AreaRange>& ra
   double largest = 0;
   for (std::size_t i = 1; i < sides.size(); ++i) {
     const bool shared = sides[i].node == sides[i - 1].node && sides[i].other == sides[i - 1].other;
-    if (shared) largest = std::max(largest, ratio_of(sides[i].area, sides[i - 1].area));
+    if (shared) largest = std::max(largest, area_ratio(sides[i].area, sides[i - 1].area));
   }
   return largest;
 }

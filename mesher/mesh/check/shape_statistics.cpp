@@ -177,23 +177,6 @@ void add_all_corners(const Mesh& mesh, const MeshTopology& topology, std::span<c
   });
 }
 
-/// Triangles first, then quads.
-std::vector<double> cell_areas(const Mesh& mesh) {
-  std::vector<double> areas;
-  areas.reserve(mesh.triangles.size() + mesh.quads.size());
-  const auto add = [&](Point u, Point v) { areas.push_back(cross(u, v) / 2); };
-  for (const auto& t : mesh.triangles)
-    add(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0]));
-  for (const auto& q : mesh.quads)
-    add(mesh.point(q[2]) - mesh.point(q[0]), mesh.point(q[3]) - mesh.point(q[1]));
-  return areas;
-}
-
-double ratio_of(double a, double b) {
-  const double ratio = std::max(a, b) / std::min(a, b);
-  return ratio >= 1 ? ratio : infinity;
-}
-
 /// One ratio for each edge between two cells.
 std::vector<double> ratios_at_edges(const Mesh& mesh, const MeshTopology& topology) {
   const std::vector<double> areas = cell_areas(mesh);
@@ -203,7 +186,7 @@ std::vector<double> ratios_at_edges(const Mesh& mesh, const MeshTopology& topolo
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
     const std::int32_t other = *beyond++;
     if (to < from) return;  // the cell on the other side says it
-    if (other >= 0) ratios.push_back(ratio_of(area(cell), area(other)));
+    if (other >= 0) ratios.push_back(area_ratio(area(cell), area(other)));
   });
   return ratios;
 }
