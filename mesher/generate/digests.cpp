@@ -85,7 +85,8 @@ std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLin
   for (const SizeSource& source : sources) digest.add(source);
   digest.add(std::uint64_t{root.has_value()});
   if (root) {
-    const auto& [corner, tree_edge, trees_x, trees_y] = *root;
+    const auto& [corner, tree_edge, trees_x, trees_y, far_corner] =
+        *root;  // the last follows from the others
     digest.add(corner);
     digest.add(tree_edge);
     digest.add(static_cast<std::uint64_t>(trees_x));

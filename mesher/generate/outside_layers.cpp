@@ -67,8 +67,8 @@ MeshInput outside(const MeshInput& input, const LayerFront& front) {
   outer.geometry = front.outer;
   outer.smooth.front_heights = front.last_heights;
   const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
-  outer.mesh.size.root =
-      RootOptions{lattice.box().low, lattice.tree_edge(), lattice.trees_x(), lattice.trees_y()};
+  outer.mesh.size.root = RootOptions{lattice.box().low, lattice.tree_edge(), lattice.trees_x(),
+                                     lattice.trees_y(), lattice.box().high};
   return outer;
 }
 

@@ -92,8 +92,8 @@ Lattice padded_root(const Box& box) {
 }
 
 Lattice users_root(const Geometry& g, const RootOptions& root) {
-  const Box box{root.corner,
-                root.corner + Point{root.trees_x * root.tree_edge, root.trees_y * root.tree_edge}};
+  const Point across{root.trees_x * root.tree_edge, root.trees_y * root.tree_edge};
+  const Box box{root.corner, root.far_corner.value_or(root.corner + across)};
   for (std::int32_t v = 0; v < g.size(); ++v) {
     if (box.contains(g.point(v))) continue;
     throw InputError("boundary " + g.boundary(g.boundary_of(v)).name + ": the point " + text(g.point(v)) +

@@ -32,6 +32,7 @@ struct RootOptions {
   Point corner;
   double tree_edge = 0;
   int trees_x = 1, trees_y = 1;
+  std::optional<Point> far_corner = {};  ///< the opposite one, where more than this tells it to the bit
 };
 
 /// How fine the leaves are. Lengths in the geometry's unit.

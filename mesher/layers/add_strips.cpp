@@ -4,174 +4,11 @@
 #include <map>
 
 #include "mesher/base/error.hpp"
-#include "mesher/layers/zipper.hpp"
+#include "mesher/layers/filled_strip.hpp"
 
 namespace quadloop {
 
 namespace {
-
-/// An edge of a strip's front, known to all ranks.
-struct FrontEdge {
-  std::array<GlobalNodeId, 2> nodes;
-  std::array<Point, 2> points;
-  std::int32_t rank = 0, leaf = 0;  ///< that have it
-};
-
-/// One strip with the nodes on its front, the same on all ranks.
-class FilledStrip {
- public:
-  FilledStrip(const LayerStrip& strip, std::vector<FrontEdge> front)
-      : strip_{strip}, front_{std::move(front)} {
-    for (const FrontEdge& edge : front_) nodes_.push_back(edge.points[0]);
-    nodes_.push_back(front_.back().points[1]);
-    cut_at_ends();
-    zip(true);
-    zip(false);
-    close_ends();
-    anchor_columns();
-  }
-
-  const LayerStrip& strip() const { return strip_; }
-  const std::vector<FrontEdge>& front() const { return front_; }
-  std::size_t columns() const { return strip_.columns.size(); }
-  std::size_t rows() const { return strip_.columns[0].size() - 1; }
-  /// The column's nodes from one row on and before another are the strip's own: of a wake's first column
-  /// those on the base alone.
-  std::size_t own_begin(std::size_t column) const { return is_root(column) ? strip_.layers + 1 : 0; }
-  std::size_t own_end(std::size_t column) const {
-    return is_root(column) ? std::max(own_begin(column), rows() - strip_.layers) : rows() + 1;
-  }
-  bool is_root(std::size_t column) const { return strip_.root && column == 0; }
-  /// The edge whose first node the column's nodes stand behind.
-  std::int32_t anchor(std::size_t column) const { return anchor_[column]; }
-
-  /// A node of the strip: by its column and its row from the right; or one of the front.
-  struct Corner {
-    bool on_front = false;
-    std::size_t column = 0, row = 0;  ///< or the number of the front's node
-  };
-  struct Triangle {
-    std::int32_t edge = 0;  ///< of the front, with which it goes
-    std::array<Corner, 3> corners;
-  };
-  const std::vector<Triangle>& triangles() const { return triangles_; }
-
- private:
-  std::size_t middle() const { return rows() / 2; }
-  Point at(const Corner& c) const { return c.on_front ? nodes_[c.column] : strip_.columns[c.column][c.row]; }
-
-  /// The front's nodes beside the right and the left, cut where they face the line's ends.
-  void cut_at_ends();
-  std::size_t facing(std::size_t from, std::size_t to, std::size_t column, bool left) const;
-  std::size_t number_of(std::size_t corner) const {
-    const auto found = std::ranges::find(nodes_, strip_.front[strip_.corners[corner]]);
-    QUADLOOP_REQUIRE(found != nodes_.end(), "corners of fronts are nodes");
-    return found - nodes_.begin();
-  }
-
-  std::vector<Corner> inner_side(bool left) const;
-  std::vector<Corner> outer_side(bool left) const;
-  void zip(bool left);
-  void close_ends();
-  void add_triangle(std::int32_t edge, const Corner& a, const Corner& b, const Corner& c) {
-    triangles_.push_back({edge, {a, b, c}});
-  }
-  void anchor_columns();
-
-  const LayerStrip& strip_;
-  std::vector<FrontEdge> front_;
-  std::vector<Point> nodes_;  ///< of the front, one more than edges
-  /// Of the front's nodes the last one on the left and the first one on the right, at the end; of a free line
-  /// the last one on the right and the first one on the left, at the beginning.
-  std::size_t end_left_ = 0, end_right_ = 0, begin_right_ = 0, begin_left_ = 0;
-  std::vector<Triangle> triangles_;
-  std::vector<std::int32_t> anchor_;
-};
-
-/// The last node on one side of the line, of those between two corners that face an end.
-std::size_t FilledStrip::facing(std::size_t from, std::size_t to, std::size_t column, bool left) const {
-  const std::vector<Point>& across = strip_.columns[column];
-  const Point middle_of = across[middle()], axis = across.back() - across.front();
-  std::size_t found = from;
-  for (std::size_t k = from; k != to; from < to ? ++k : --k) {
-    const double side = dot(nodes_[k] - middle_of, axis);
-    if (left ? side >= 0 : side <= 0) found = k;
-  }
-  return found;
-}
-
-void FilledStrip::cut_at_ends() {
-  const std::size_t last = columns() - 1, left = number_of(0), right = number_of(1);
-  end_left_ = facing(left, right, last, true);
-  end_right_ = facing(right, left, last, false);
-  if (strip_.root) return;
-  begin_right_ = facing(number_of(2), nodes_.size() - 1, 0, false);
-  begin_left_ = facing(nodes_.size() - 1, number_of(2), 0, true);
-}
-
-/// The strip's own outline on one side, from the beginning to the middle of the end.
-std::vector<FilledStrip::Corner> FilledStrip::inner_side(bool left) const {
-  const auto row = [&](std::size_t from_middle) {
-    return left ? middle() + from_middle : middle() - from_middle;
-  };
-  std::vector<Corner> side;
-  for (std::size_t r = 0; !strip_.root && r < middle(); ++r) side.push_back({false, 0, row(r)});
-  for (std::size_t k = 0; k < columns(); ++k) side.push_back({false, k, row(middle())});
-  for (std::size_t r = middle(); r > 0; --r) side.push_back({false, columns() - 1, row(r - 1)});
-  return side;
-}
-
-/// The front's nodes on one side, in the same direction.
-std::vector<FilledStrip::Corner> FilledStrip::outer_side(bool left) const {
-  std::vector<Corner> side;
-  if (left) {
-    for (std::size_t k = begin_left_; !strip_.root && k + 1 < nodes_.size(); ++k)
-      side.push_back({true, k, 0});
-    for (std::size_t k = 0; k <= end_left_; ++k) side.push_back({true, k, 0});
-  } else {
-    for (std::size_t k = strip_.root ? nodes_.size() - 1 : begin_right_; k >= end_right_; --k)
-      side.push_back({true, k, 0});
-  }
-  return side;
-}
-
-void FilledStrip::zip(bool left) {
-  const std::vector<Corner> inner = inner_side(left), outer = outer_side(left);
-  std::vector<Point> first, second;
-  for (const Corner& c : inner) first.push_back(at(c));
-  for (const Corner& c : outer) second.push_back(at(c));
-  const auto edges = static_cast<std::int32_t>(front_.size());
-  for (const ZipperTriangle& t : zipper(first, second, left)) {
-    const Corner a = inner[t.first], b = outer[t.second];
-    const auto node = static_cast<std::int32_t>(b.column);
-    const Corner c = t.on_first ? inner[t.first + 1] : outer[t.second + 1];
-    const std::int32_t other = t.on_first ? node : static_cast<std::int32_t>(c.column);
-    const std::int32_t edge = std::min(left || t.on_first ? node : other, edges - 1);
-    add_triangle(edge, a, left ? c : b, left ? b : c);
-  }
-}
-
-/// Between the two sides, where the front has edges that face an end.
-void FilledStrip::close_ends() {
-  for (std::size_t k = end_left_; k < end_right_; ++k)
-    add_triangle(static_cast<std::int32_t>(k), {false, columns() - 1, middle()}, {true, k + 1, 0},
-                 {true, k, 0});
-  if (strip_.root) return;
-  for (std::size_t k = begin_right_; k < begin_left_; ++k)
-    add_triangle(static_cast<std::int32_t>(k), {false, 0, middle()}, {true, k + 1, 0}, {true, k, 0});
-}
-
-/// Each column with the first triangle on the left that has its last node.
-void FilledStrip::anchor_columns() {
-  constexpr std::int32_t none = -1;
-  anchor_.assign(columns(), none);
-  if (strip_.root) anchor_[0] = 0;
-  for (const Triangle& t : triangles_) {
-    for (const Corner& c : t.corners) {
-      if (!c.on_front && c.row == rows() && anchor_[c.column] == none) anchor_[c.column] = t.edge;
-    }
-  }
-}
 
 class StripBuilder {
  public:
@@ -211,8 +48,8 @@ class StripBuilder {
 
   std::size_t boundary() const { return front_.strip_boundary().value(); }
   void find_fronts();
-  std::vector<FrontEdge> front_from(Point begin, const std::map<GlobalNodeId, FrontEdge>& by_first,
-                                    const std::vector<FrontEdge>& edges) const;
+  std::vector<FrontEdge> front_of(const LayerStrip& strip, const std::map<GlobalNodeId, FrontEdge>& by_first,
+                                  const std::vector<FrontEdge>& edges) const;
   std::vector<std::int32_t> nodes_behind();
   void exchange_numbers();
   GrownNode node(std::size_t strip, const FilledStrip::Corner& c) const;
@@ -249,18 +86,18 @@ void StripBuilder::find_fronts() {
   std::map<GlobalNodeId, FrontEdge> by_first;
   for (const FrontEdge& edge : all) by_first.emplace(edge.nodes[0], edge);
   strips_.reserve(front_.strips.size());
-  for (const LayerStrip& strip : front_.strips) {
-    const Point begin = strip.root ? strip.root->left : strip.front[strip.corners[3]];
-    strips_.emplace_back(strip, front_from(begin, by_first, all));
-  }
+  comm_.together([&] {
+    for (const LayerStrip& strip : front_.strips) strips_.emplace_back(strip, front_of(strip, by_first, all));
+  });
 }
 
 /// One after another, as far as there are any or the first one comes again.
-std::vector<FrontEdge> StripBuilder::front_from(Point begin,
-                                                const std::map<GlobalNodeId, FrontEdge>& by_first,
-                                                const std::vector<FrontEdge>& edges) const {
+std::vector<FrontEdge> StripBuilder::front_of(const LayerStrip& strip,
+                                              const std::map<GlobalNodeId, FrontEdge>& by_first,
+                                              const std::vector<FrontEdge>& edges) const {
+  const Point begin = strip.root ? strip.root->left : strip.front[strip.corners[3]];
   const auto first = std::ranges::find(edges, begin, [](const FrontEdge& e) { return e.points[0]; });
-  QUADLOOP_REQUIRE(first != edges.end(), "the fronts of strips begin at nodes");
+  if (first == edges.end()) refuse_narrow(strip, begin);
   std::vector<FrontEdge> front{*first};
   for (auto next = by_first.find(first->nodes[1]); next != by_first.end() && next->first != first->nodes[0];
        next = by_first.find(next->second.nodes[1]))
@@ -371,7 +208,8 @@ void StripBuilder::add_base(std::size_t s) {
 void StripBuilder::add_cells(std::size_t s) {
   const FilledStrip& strip = strips_[s];
   grown_->begin_cells_of(strip.strip().place + strip.strip().name + ", ",
-                         "lead it in gentler bends, or ask for thinner layers");
+                         "lead it in gentler bends, ask for thinner layers, or make spacing.min smaller: "
+                         "leaves must not be wider than the strip");
   const auto has = [&](std::int32_t edge) { return strip.front()[edge].rank == comm_.rank(); };
   for (std::size_t k = 0; k + 1 < strip.columns(); ++k) {
     const FrontEdge& edge = strip.front()[strip.anchor(k + 1)];

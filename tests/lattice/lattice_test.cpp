@@ -54,6 +54,15 @@ TEST(Lattice, TooFineASpacingIsRefused) {
   EXPECT_THROW(far.finest_level(1e-8), InputError);
 }
 
+// A corner of 1/3 and an edge of 0.1 do not add up to what the box ends at.
+TEST(Lattice, TheUsersRootMayEndWhereItSays) {
+  const Point low{1.0 / 3, 1.0 / 3}, high{std::nextafter(low.x + 0.1, 1), std::nextafter(low.y + 0.1, 1)};
+  const Geometry square = polygon({low, {high.x, low.y}, high, {low.x, high.y}});
+  EXPECT_THROW(choose_root(square, RootOptions{low, 0.1, 1, 1}), InputError);
+  const Lattice root = choose_root(square, RootOptions{low, 0.1, 1, 1, high});
+  EXPECT_EQ(root.box().high, high);
+}
+
 TEST(Lattice, GeometryOutsideTheUsersRootIsRefused) {
   EXPECT_THROW(choose_root(polygon({{0, 0}, {1, 0}, {1, 1}}), RootOptions{{0, 0}, 0.5, 1, 1}), InputError);
 }

@@ -49,10 +49,11 @@ LayerLine free_line() {
 }
 
 struct Made {
-  Made(const Communicator& comm, const Geometry& geometry, const std::vector<LayerLine>& lines, bool divided)
+  Made(const Communicator& comm, const Geometry& geometry, const std::vector<LayerLine>& lines, bool divided,
+       double min = 0.02)
       : front{layer_front(geometry, {}, lines)} {
     MeshOptions options;
-    options.size.min = 0.02;
+    options.size.min = min;
     options.size.max = 1;
     MeshResult outside = build_mesh(comm, front.outer, options);
     mesh = std::move(outside.mesh);
@@ -192,6 +193,20 @@ TEST(AddStrips, ABendTooSharpForTheLayersIsRefusedByName) {
   const std::string message = test::refusal([&] { Made(world(), body(0), {bent}, false); });
   EXPECT_EQ(message.find("case.toml:9: layer_line, near (-"), 0U) << message;
   EXPECT_NE(message.find("gentler bends"), std::string::npos) << message;
+}
+
+// Its layers are thinner than a leaf: two corners of its front stand in one, and one of them is lost.
+TEST(AddStrips, ALineThinnerThanTheLeavesIsRefusedByName) {
+  const Geometry box = test::outline_of({{{"box", {{-5.5, -5.5}, {6.5, -5.5}, {6.5, 6.5}, {-5.5, 6.5}}}},
+                                         {{"wall", {{0, 0}, {0, 1}, {1, 1}, {1, 0}}}}},
+                                        0.1);
+  LayerLine line = free_line();
+  line.path = {{-2.8, 3.718}, {2.73, 3.741}};
+  line.spacing = 0.05;
+  line.layers = {0.0001, 1.3, 1.3, 4};
+  const std::string message = test::refusal([&] { Made(world(), box, {line}, false, 0.003); });
+  EXPECT_NE(message.find("layer_line: its layers are 0.00124 wide"), std::string::npos) << message;
+  EXPECT_NE(message.find("make spacing.min smaller"), std::string::npos) << message;
 }
 
 TEST(LayerFront, LinesThatMeetSomethingAreRefused) {

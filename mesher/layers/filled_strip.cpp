@@ -1,0 +1,123 @@
+#include "mesher/layers/filled_strip.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mesher/base/error.hpp"
+#include "mesher/layers/zipper.hpp"
+
+namespace quadloop {
+
+void refuse_narrow(const LayerStrip& strip, Point corner) {
+  const double width = length(strip.columns[0].back() - strip.columns[0].front());
+  throw InputError(
+      fmt::format("{}{}: its layers are {:.3g} wide and end within a leaf near ({}, {}); make "
+                  "spacing.min smaller than that, or the layers thicker",
+                  strip.place, strip.name, width, corner.x, corner.y));
+}
+
+FilledStrip::FilledStrip(const LayerStrip& strip, std::vector<FrontEdge> front)
+    : strip_{strip}, front_{std::move(front)} {
+  for (const FrontEdge& edge : front_) nodes_.push_back(edge.points[0]);
+  if (!front_.empty()) nodes_.push_back(front_.back().points[1]);
+  cut_at_ends();
+  zip(true);
+  zip(false);
+  close_ends();
+  anchor_columns();
+}
+
+std::size_t FilledStrip::number_of(std::size_t corner) const {
+  const Point place = strip_.front[strip_.corners[corner]];
+  const auto found = std::ranges::find(nodes_, place);
+  if (found == nodes_.end()) refuse_narrow(strip_, place);
+  return found - nodes_.begin();
+}
+
+/// The last node on one side of the line, of those between two corners that face an end.
+std::size_t FilledStrip::facing(std::size_t from, std::size_t to, std::size_t column, bool left) const {
+  const std::vector<Point>& across = strip_.columns[column];
+  const Point middle_of = across[middle()], axis = across.back() - across.front();
+  std::size_t found = from;
+  for (std::size_t k = from; k != to; from < to ? ++k : --k) {
+    const double side = dot(nodes_[k] - middle_of, axis);
+    if (left ? side >= 0 : side <= 0) found = k;
+  }
+  return found;
+}
+
+void FilledStrip::cut_at_ends() {
+  const std::size_t last = columns() - 1, left = number_of(0), right = number_of(1);
+  end_left_ = facing(left, right, last, true);
+  end_right_ = facing(right, left, last, false);
+  if (strip_.root) return;
+  begin_right_ = facing(number_of(2), nodes_.size() - 1, 0, false);
+  begin_left_ = facing(nodes_.size() - 1, number_of(2), 0, true);
+}
+
+/// The strip's own outline on one side, from the beginning to the middle of the end.
+std::vector<FilledStrip::Corner> FilledStrip::inner_side(bool left) const {
+  const auto row = [&](std::size_t from_middle) {
+    return left ? middle() + from_middle : middle() - from_middle;
+  };
+  std::vector<Corner> side;
+  for (std::size_t r = 0; !strip_.root && r < middle(); ++r) side.push_back({false, 0, row(r)});
+  for (std::size_t k = 0; k < columns(); ++k) side.push_back({false, k, row(middle())});
+  for (std::size_t r = middle(); r > 0; --r) side.push_back({false, columns() - 1, row(r - 1)});
+  return side;
+}
+
+/// The front's nodes on one side, in the same direction.
+std::vector<FilledStrip::Corner> FilledStrip::outer_side(bool left) const {
+  std::vector<Corner> side;
+  if (left) {
+    for (std::size_t k = begin_left_; !strip_.root && k + 1 < nodes_.size(); ++k)
+      side.push_back({true, k, 0});
+    for (std::size_t k = 0; k <= end_left_; ++k) side.push_back({true, k, 0});
+  } else {
+    for (std::size_t k = strip_.root ? nodes_.size() - 1 : begin_right_; k >= end_right_; --k)
+      side.push_back({true, k, 0});
+  }
+  return side;
+}
+
+void FilledStrip::zip(bool left) {
+  const std::vector<Corner> inner = inner_side(left), outer = outer_side(left);
+  std::vector<Point> first, second;
+  for (const Corner& c : inner) first.push_back(at(c));
+  for (const Corner& c : outer) second.push_back(at(c));
+  const auto edges = static_cast<std::int32_t>(front_.size());
+  for (const ZipperTriangle& t : zipper(first, second, left)) {
+    const Corner a = inner[t.first], b = outer[t.second];
+    const auto node = static_cast<std::int32_t>(b.column);
+    const Corner c = t.on_first ? inner[t.first + 1] : outer[t.second + 1];
+    const std::int32_t other = t.on_first ? node : static_cast<std::int32_t>(c.column);
+    const std::int32_t edge = std::min(left || t.on_first ? node : other, edges - 1);
+    add_triangle(edge, a, left ? c : b, left ? b : c);
+  }
+}
+
+/// Between the two sides, where the front has edges that face an end.
+void FilledStrip::close_ends() {
+  for (std::size_t k = end_left_; k < end_right_; ++k)
+    add_triangle(static_cast<std::int32_t>(k), {false, columns() - 1, middle()}, {true, k + 1, 0},
+                 {true, k, 0});
+  if (strip_.root) return;
+  for (std::size_t k = begin_right_; k < begin_left_; ++k)
+    add_triangle(static_cast<std::int32_t>(k), {false, 0, middle()}, {true, k + 1, 0}, {true, k, 0});
+}
+
+/// Each column with the first triangle on the left that has its last node.
+void FilledStrip::anchor_columns() {
+  constexpr std::int32_t none = -1;
+  anchor_.assign(columns(), none);
+  if (strip_.root) anchor_[0] = 0;
+  for (const Triangle& t : triangles_) {
+    for (const Corner& c : t.corners) {
+      if (!c.on_front && c.row == rows() && anchor_[c.column] == none) anchor_[c.column] = t.edge;
+    }
+  }
+}
+
+}  // namespace quadloop
