@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "adapt/loop/cycle_paths.hpp"
+#include "adapt/solvers/cycle_paths.hpp"
 #include "flow/quantities/flow_quantities.hpp"
 #include "flow/quantities/wall_table.hpp"
 #include "io/mesh_file.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "adapt/loop/case_settings.hpp"
-#include "adapt/loop/chosen_solver.hpp"
+#include "adapt/solvers/chosen_solver.hpp"
 #include "adapt/loop/loop.hpp"
 
 namespace quadloop {

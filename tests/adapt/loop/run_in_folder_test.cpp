@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "adapt/loop/command_solver.hpp"
+#include "adapt/solvers/command_solver.hpp"
 #include "adapt/loop/cycle_files.hpp"
 #include "io/native/native_file.hpp"
 #include "io/tree/tree_file.hpp"

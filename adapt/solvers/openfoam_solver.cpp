@@ -1,4 +1,4 @@
-#include "adapt/loop/openfoam_solver.hpp"
+#include "adapt/solvers/openfoam_solver.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "adapt/loop/cycle_paths.hpp"
+#include "adapt/solvers/cycle_paths.hpp"
 #include "flow/command/solver_command.hpp"
 #include "io/files/output_file.hpp"
 #include "io/foam/foam_fields.hpp"
