@@ -31,7 +31,8 @@ void write_tables(const Communicator& comm, const Mesh& mesh, const SolvedFlow& 
   if (flow.stream) {
     std::vector<std::string> walls;
     for (const BoundaryForce& force : flow.forces) walls.push_back(force.boundary);
-    write_text(comm, paths.walls(), wall_table(comm, mesh, flow.solution, *flow.stream, walls));
+    const Field& at_walls = flow.at_walls.empty() ? flow.solution : flow.at_walls;
+    write_text(comm, paths.walls(), wall_table(comm, mesh, at_walls, *flow.stream, walls));
   }
   if (!flow.history.empty()) write_text(comm, paths.history(), history_table(flow.history));
 }
@@ -79,8 +80,8 @@ std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const SolvedFlow& 
   OutputSet outputs(comm_);
   for (const std::string& format : options_.formats) {
     const bool is_gone_on_from = format == native_format().name;
-    write_mesh(outputs, mesh, paths.mesh(format),
-               shown.width() == 0 || is_gone_on_from ? &flow.solution : &shown, options_.gamma);
+    write_mesh(outputs, mesh, paths.mesh(format), shown.empty() || is_gone_on_from ? &flow.solution : &shown,
+               options_.gamma);
   }
   outputs.commit();
   write_tables(comm_, mesh, flow, paths);
@@ -104,6 +105,7 @@ void CycleFiles::finished(CycleRecord record, const std::vector<std::string>& no
                           const std::vector<std::string>& warnings) {
   record.geometry_digest = options_.of_case.geometry_digest;
   record.case_digest = options_.of_case.case_digest;
+  record.template_digest = options_.of_case.template_digest;
   record.settings = options_.of_case.settings;
   const CyclePaths paths{folders_.under_way(record.cycle)};
   write_text(comm_, paths.log(), log_text(record, notes, warnings));
