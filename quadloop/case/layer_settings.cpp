@@ -115,11 +115,10 @@ void LayerSettings::read_first_height(const CaseTable& layers, LayerSpec& spec) 
 
 FlowConditions LayerSettings::flow_conditions(const CaseTable& layers) const {
   if (!flow_->reynolds || *flow_->reynolds < FlowSettings::least_reynolds)
-    layers.refuse(
-        "first",
-        fmt::format("asks for a y+, for which 'flow.reynolds' must be {} or more; it {}",
-                    FlowSettings::least_reynolds,
-                    flow_->reynolds ? fmt::format("is {}", *flow_->reynolds) : "is missing"));
+    layers.refuse("first",
+                  fmt::format("asks for a y+, for which 'flow.reynolds' must be {} or more; it {}",
+                              FlowSettings::least_reynolds,
+                              flow_->reynolds ? fmt::format("is {}", *flow_->reynolds) : "is missing"));
   return {*flow_->reynolds, flow_->reference_length};
 }
 

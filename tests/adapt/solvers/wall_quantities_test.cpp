@@ -74,7 +74,8 @@ TEST(WallQuantities, AreNoneWithoutVelocityAndPressure) {
   EXPECT_FALSE(flow.cl);
   EXPECT_TRUE(flow.at_walls.empty());
   ASSERT_EQ(flow.warnings.size(), 1U);
-  EXPECT_TRUE(flow.warnings[0].starts_with("no forces and no values along walls: the flow")) << flow.warnings[0];
+  EXPECT_TRUE(flow.warnings[0].starts_with("no forces and no values along walls: the flow"))
+      << flow.warnings[0];
 }
 
 }  // namespace

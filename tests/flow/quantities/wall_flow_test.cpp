@@ -92,13 +92,15 @@ TEST(WallFlow, ASolversOwnFrictionCounts) {
   const Mesh mesh = grid();
   for (const bool su2 : {false, true}) {
     Field flow = at_nodes(mesh);
-    const Names more = su2 ? Names{"Skin_Friction_Coefficient_x", "Skin_Friction_Coefficient_y"} : Names{"wall_shear"};
+    const Names more =
+        su2 ? Names{"Skin_Friction_Coefficient_x", "Skin_Friction_Coefficient_y"} : Names{"wall_shear"};
     Field with{flow.names, {}, {}};
     with.names.insert(with.names.end(), more.begin(), more.end());
     for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
       const auto row = flow.row(NodeId{i});
       with.values.insert(with.values.end(), row.begin(), row.end());
-      for (std::size_t k = 0; k < more.size(); ++k) with.values.push_back(0.25 - 7.0 * static_cast<double>(k));
+      for (std::size_t k = 0; k < more.size(); ++k)
+        with.values.push_back(0.25 - 7.0 * static_cast<double>(k));
     }
     const Field found = wall_flow(world(), mesh, with, stream(0.1), {"wall"}, "it");
     on_the_south(mesh, found, [&](std::span<const double> row, Point) {
@@ -159,7 +161,8 @@ TEST(WallFlow, HasTheSameBitsHoweverTheMeshIsSpread) {
     std::vector<double> drags;
     for (const MeshOrder& order : {space_filling_order(whole), test::shuffled_order(whole, 8)}) {
       const Mesh mesh = scatter_mesh(world(), whole, order);
-      const Field flow = wall_flow(world(), mesh, cells ? in_cells(mesh) : at_nodes(mesh), stream(0.1), {"wall"}, "it");
+      const Field flow =
+          wall_flow(world(), mesh, cells ? in_cells(mesh) : at_nodes(mesh), stream(0.1), {"wall"}, "it");
       tables.push_back(wall_table(world(), mesh, flow, stream(0.1), {"wall"}));
       drags.push_back(boundary_forces(world(), mesh, flow, stream(0.1), {"wall"}).at(0).cd);
     }
