@@ -147,9 +147,9 @@ CHECKS = {"wedge": check_wedge, "circle": check_circle, "cylinder": check_cylind
 
 # What --small changes: lengths of the case, and the steps of its template.
 SMALL = {"wedge": ({"spacing.min": 0.03, "spacing.max": 0.068, "adapt.min": 0.008}, {"endTime": 200, "writeInterval": 200}),
-         "circle": ({"spacing.min": 0.04, "spacing.max": 0.6, "boundary.circle.spacing": 0.1, "adapt.min": 0.02, "adapt.max_nodes": 3000},
+         "circle": ({"spacing.min": 0.04, "spacing.max": 0.6, "boundary.circle.spacing": 0.1, "adapt.min": 0.01, "adapt.max_nodes": 8000},
                     {"endTime": 400, "writeInterval": 400}),
-         "cylinder": ({"spacing.min": 0.04, "spacing.max": 2.0, "boundary.cylinder.spacing": 0.12, "adapt.min": 0.04, "adapt.max_nodes": 5000},
+         "cylinder": ({"spacing.min": 0.04, "spacing.max": 2.0, "boundary.cylinder.spacing": 0.12, "adapt.min": 0.01, "adapt.max_nodes": 15000},
                       {"endTime": 60, "writeInterval": 60})}
 
 
