@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "flow/quantities/boundary_forces.hpp"
@@ -169,6 +170,31 @@ TEST(WallFlow, HasTheSameBitsHoweverTheMeshIsSpread) {
     EXPECT_EQ(tables[0], tables[1]) << cells;
     EXPECT_EQ(drags[0], drags[1]) << cells;
   }
+}
+
+/// Two triangles that touch in one node, at which four edges of the wall meet.
+TEST(WallFlow, OfCellsHasOneOrderWhereWallsTouch) {
+  Mesh whole;
+  whole.points = {{0.1, 0.2}, {0.7, -0.1}, {0.9, 0.6}, {-0.3, 0.8}, {-1.1, 0.1}};
+  whole.owned_nodes = 5;
+  const auto node = [](int i) { return NodeId{i}; };
+  whole.triangles = {{node(0), node(1), node(2)}, {node(0), node(3), node(4)}};
+  whole.boundaries = {{"wall", "wall", {}}};
+  for (const auto& triangle : whole.triangles) {
+    for (const std::size_t k : {0, 1, 2})
+      whole.boundaries[0].edges.push_back({triangle[k], triangle[(k + 1) % 3]});
+  }
+  std::vector<std::vector<double>> rows;  // of the first node
+  for (int turn = 0; turn < 6; ++turn) {
+    const Mesh mesh = scatter_mesh(world(), whole, own_order(whole));
+    const Field flow = wall_flow(world(), mesh, in_cells(mesh), stream(0), {"wall"}, "it");
+    std::vector<double> own;
+    if (mesh.first_node == 0 && mesh.owned_nodes > 0)
+      own.assign(flow.values.begin(), flow.values.begin() + 4);
+    rows.push_back(world().all_gather_values(std::span<const double>(own)));
+    std::ranges::rotate(whole.boundaries[0].edges, whole.boundaries[0].edges.begin() + 1);
+  }
+  EXPECT_EQ(rows, std::vector<std::vector<double>>(6, rows[0]));
 }
 
 TEST(WallFlow, WantsVelocityAndPressure) {
