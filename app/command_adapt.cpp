@@ -77,6 +77,7 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
     require_openfoam_template(openfoam->case_template);
   AdaptiveCase adaptive{std::move(*input.mesh), adapt,           std::move(solver),
                         settings.formats,       settings.values, settings.fields};
+  adaptive.stream = settings.stream;
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }

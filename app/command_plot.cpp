@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "adapt/loop/cycle_paths.hpp"
+#include "adapt/solvers/cycle_paths.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "flow/euler/scheme/euler_options.hpp"

@@ -21,6 +21,7 @@ struct SolvedFlow {
   std::vector<std::string> notes, warnings;  ///< for the cycle's log; for the user too
   std::optional<FreeStream> stream;          ///< where the solver knows it
   std::vector<BoundaryForce> forces;         ///< of each boundary that feels a force
+  Field at_walls = {};                       ///< rows of nodes, as wall_flow(); empty: those of the solution
   std::vector<HistoryRow> history;
 };
 

@@ -2,11 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <map>
 
 #include "mesher/generate/digests.hpp"
 
 namespace quadloop {
+
+namespace {
+
+constexpr const char* template_files_key = "solver.template/";
+
+std::string text_of(const ChangedSetting& change) {
+  const auto& [key, before, now] = change;
+  if (key.starts_with(template_files_key)) {
+    const std::string file = key.substr(std::strlen(template_files_key));
+    return fmt::format("the file '{}' of solver.template {}", file,
+                       before.empty() ? "is new"
+                       : now.empty()  ? "is gone"
+                                      : "has changed");
+  }
+  const auto shown = [](const std::string& value) { return value.empty() ? std::string("not set") : value; };
+  return fmt::format("{} was {}, is now {}", key, shown(before), shown(now));
+}
+
+}  // namespace
+
+std::string template_key(const std::string& file) { return template_files_key + file; }
 
 std::vector<ChangedSetting> changed_settings(const CaseSettings& before, const CaseSettings& now) {
   std::map<std::string, ChangedSetting> all;
@@ -21,7 +43,7 @@ std::vector<ChangedSetting> changed_settings(const CaseSettings& before, const C
 
 bool may_change_in_a_run(const std::string& key) {
   return key == "solver.command" || key == "solver.template" || key == "solver.iterations" ||
-         key == "output.formats" || key == "output.fields";
+         key == "output.formats" || key == "output.fields" || key.starts_with(template_files_key);
 }
 
 std::uint64_t run_digest(const CaseSettings& settings, std::uint64_t geometry_digest) {
@@ -34,12 +56,9 @@ std::uint64_t run_digest(const CaseSettings& settings, std::uint64_t geometry_di
 
 std::string text_of(const std::vector<ChangedSetting>& changes) {
   constexpr std::size_t most = 4;
-  const auto shown = [](const std::string& value) { return value.empty() ? std::string("not set") : value; };
   std::string text;
-  for (std::size_t i = 0; i < changes.size() && i < most; ++i) {
-    const auto& [key, before, now] = changes[i];
-    text += fmt::format("{}{} was {}, is now {}", i == 0 ? "" : ", ", key, shown(before), shown(now));
-  }
+  for (std::size_t i = 0; i < changes.size() && i < most; ++i)
+    text += (i == 0 ? "" : ", ") + text_of(changes[i]);
   return changes.size() > most ? text + fmt::format(", and {} more", changes.size() - most) : text;
 }
 

@@ -16,11 +16,15 @@ struct ChangedSetting {
   std::string key, before, now;
 };
 
+/// The key under which the digest of a file stands that belongs to the user's case for SU2 or OpenFOAM, by
+/// its name there.
+std::string template_key(const std::string& file);
+
 std::vector<ChangedSetting> changed_settings(const CaseSettings& before, const CaseSettings& now);
 
 /// Whether a run may be gone on with after a change of this key: how a cycle's flow is reached and which
-/// files show it, not what is solved. A user mends the arguments of his solver after a failure, or gives it
-/// more steps; the cycles that are whole stay as they are.
+/// files show it, not what is solved. A user mends the arguments of his solver or its case after a failure,
+/// or gives it more steps; the cycles that are whole stay as they are.
 bool may_change_in_a_run(const std::string& key);
 
 /// A number that changes with the outline and with every setting that may not change in a run. Settings are
@@ -29,7 +33,7 @@ bool may_change_in_a_run(const std::string& key);
 /// file needs the digest of what stands in that one here too.
 std::uint64_t run_digest(const CaseSettings& settings, std::uint64_t geometry_digest);
 
-/// "was a, is now b" of each change, one after another.
+/// "was a, is now b" of each change, one after another; of a file of a template that it has changed.
 std::string text_of(const std::vector<ChangedSetting>& changes);
 
 }  // namespace quadloop

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "adapt/loop/cycle_paths.hpp"
+#include "adapt/solvers/cycle_paths.hpp"
 #include "flow/quantities/flow_quantities.hpp"
 #include "flow/quantities/wall_table.hpp"
 #include "io/mesh_file.hpp"
@@ -31,7 +31,8 @@ void write_tables(const Communicator& comm, const Mesh& mesh, const SolvedFlow& 
   if (flow.stream) {
     std::vector<std::string> walls;
     for (const BoundaryForce& force : flow.forces) walls.push_back(force.boundary);
-    write_text(comm, paths.walls(), wall_table(comm, mesh, flow.solution, *flow.stream, walls));
+    const Field& at_walls = flow.at_walls.empty() ? flow.solution : flow.at_walls;
+    write_text(comm, paths.walls(), wall_table(comm, mesh, at_walls, *flow.stream, walls));
   }
   if (!flow.history.empty()) write_text(comm, paths.history(), history_table(flow.history));
 }
@@ -58,6 +59,7 @@ CycleFiles::CycleFiles(const Communicator& comm, CycleFolders& folders, CycleFil
 
 void CycleFiles::begin(int cycle) {
   cycle_ = cycle;
+  of_case_ = options_.of_case();
   folders_.begin(cycle);
 }
 
@@ -79,8 +81,8 @@ std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const SolvedFlow& 
   OutputSet outputs(comm_);
   for (const std::string& format : options_.formats) {
     const bool is_gone_on_from = format == native_format().name;
-    write_mesh(outputs, mesh, paths.mesh(format),
-               shown.width() == 0 || is_gone_on_from ? &flow.solution : &shown, options_.gamma);
+    write_mesh(outputs, mesh, paths.mesh(format), shown.empty() || is_gone_on_from ? &flow.solution : &shown,
+               options_.gamma);
   }
   outputs.commit();
   write_tables(comm_, mesh, flow, paths);
@@ -102,9 +104,10 @@ std::vector<std::string> CycleFiles::renames(const Mesh& mesh) const {
 
 void CycleFiles::finished(CycleRecord record, const std::vector<std::string>& notes,
                           const std::vector<std::string>& warnings) {
-  record.geometry_digest = options_.of_case.geometry_digest;
-  record.case_digest = options_.of_case.case_digest;
-  record.settings = options_.of_case.settings;
+  record.geometry_digest = of_case_.geometry_digest;
+  record.case_digest = of_case_.case_digest;
+  record.template_digest = of_case_.template_digest;
+  record.settings = of_case_.settings;
   const CyclePaths paths{folders_.under_way(record.cycle)};
   write_text(comm_, paths.log(), log_text(record, notes, warnings));
   write_text(comm_, paths.record(), json_text(record));

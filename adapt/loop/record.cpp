@@ -63,6 +63,8 @@ JsonObject figures_of(const CycleRecord& record) {
   json.add("cycle", record.cycle);
   json.add("case_digest", fmt::format("{:016x}", record.case_digest));
   json.add("geometry_digest", fmt::format("{:016x}", record.geometry_digest));
+  if (record.template_digest != 0)
+    json.add("template_digest", fmt::format("{:016x}", record.template_digest));
   json.add("nodes", record.nodes);
   json.add("triangles", record.triangles);
   json.add("quads", record.quads);

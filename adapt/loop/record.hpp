@@ -23,6 +23,7 @@ struct CycleRecord {
   int cycle = 0;
   std::uint64_t case_digest = 0;      ///< of all that the run depends on
   std::uint64_t geometry_digest = 0;  ///< of the outline alone
+  std::uint64_t template_digest = 0;  ///< of the user's case for SU2 or OpenFOAM; 0: none
   CaseSettings settings;              ///< those that the cycle was made with
   std::int64_t nodes = 0, triangles = 0, quads = 0, leaves = 0;
   double worst_angle = 0;          ///< the smallest corner, degrees

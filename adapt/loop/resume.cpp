@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "adapt/loop/cycle_paths.hpp"
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
+#include "adapt/solvers/cycle_paths.hpp"
 #include "io/files/input_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/tree/tree_file.hpp"

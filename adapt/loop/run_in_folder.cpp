@@ -6,6 +6,8 @@
 #include "adapt/loop/cycle_files.hpp"
 #include "adapt/loop/cycle_folders.hpp"
 #include "adapt/loop/resume.hpp"
+#include "adapt/loop/template_files.hpp"
+#include "adapt/solvers/wall_quantities.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "io/formats.hpp"
 
@@ -18,6 +20,10 @@ CycleRecord record_of_case(const AdaptiveCase& adaptive) {
   record.geometry_digest = adaptive.mesh.geometry.digest();
   record.case_digest = run_digest(adaptive.settings, record.geometry_digest);
   record.settings = adaptive.settings;
+  const CaseSettings files = template_files(adaptive.solver);
+  if (!files.empty()) record.template_digest = template_digest(files);
+  record.settings.insert(record.settings.end(), files.begin(), files.end());
+  std::ranges::sort(record.settings);
   return record;
 }
 
@@ -30,8 +36,11 @@ std::vector<std::string> all_formats(const std::vector<std::string>& of_case) {
   return formats;
 }
 
+/// `adaptive` must outlive them.
 CycleFileOptions file_options(const AdaptiveCase& adaptive) {
-  CycleFileOptions options{all_formats(adaptive.formats), {}, 1.4, adaptive.fields, record_of_case(adaptive)};
+  CycleFileOptions options{all_formats(adaptive.formats), {}, 1.4, adaptive.fields, [&adaptive] {
+                             return record_of_case(adaptive);
+                           }};
   if (const CommandSolver* const command = command_of(adaptive.solver)) {
     options.read_by_solver = {command->mesh};
     options.gamma = command->gamma;
@@ -41,13 +50,18 @@ CycleFileOptions file_options(const AdaptiveCase& adaptive) {
   return options;
 }
 
-FlowSolver solver_in(const CycleFolders& folders, const ChosenSolver& chosen) {
-  if (const auto* options = std::get_if<EulerOptions>(&chosen)) return euler_solver(*options);
+FlowSolver outer_solver_in(const CycleFolders& folders, const ChosenSolver& chosen) {
   const auto folder_of = [&folders](int cycle) { return folders.under_way(cycle); };
   if (const auto* su2 = std::get_if<Su2Solver>(&chosen)) return su2_solver(*su2, folder_of);
   if (const auto* openfoam = std::get_if<OpenfoamSolver>(&chosen))
     return openfoam_solver(*openfoam, folder_of);
   return command_solver(std::get<CommandSolver>(chosen), folder_of);
+}
+
+FlowSolver solver_in(const CycleFolders& folders, const AdaptiveCase& adaptive) {
+  if (const auto* options = std::get_if<EulerOptions>(&adaptive.solver)) return euler_solver(*options);
+  FlowSolver solver = outer_solver_in(folders, adaptive.solver);
+  return adaptive.stream ? with_wall_quantities(std::move(solver), *adaptive.stream) : solver;
 }
 
 /// What an earlier run's last whole cycle came to, by its files. A finished run is looked at too: whoever
@@ -75,7 +89,7 @@ LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, co
   std::optional<CycleEnd> before;
   if (first > 0) before = left_by_earlier_run(comm, adaptive, folders.whole(first - 1), first - 1, report);
   CycleFiles files(comm, folders, file_options(adaptive), report.cycle);
-  return run_loop(comm, adaptive.mesh, adaptive.adapt, solver_in(folders, adaptive.solver), files, first,
+  return run_loop(comm, adaptive.mesh, adaptive.adapt, solver_in(folders, adaptive), files, first,
                   std::move(before));
 }
 

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "adapt/loop/case_settings.hpp"
-#include "adapt/loop/chosen_solver.hpp"
 #include "adapt/loop/loop.hpp"
+#include "adapt/solvers/chosen_solver.hpp"
 
 namespace quadloop {
 
@@ -19,6 +20,8 @@ struct AdaptiveCase {
   CaseSettings settings;             ///< all that the run's files depend on, beside the outline
   /// Of quantity_names(): stand in the files of the cycles' meshes, but not in the one that is gone on from.
   std::vector<std::string> fields = {};
+  /// Of a solver that is not the built-in one: what its forces are relative to; none: they are not known.
+  std::optional<FreeStream> stream = {};
 };
 
 /// What a run tells its caller, on every rank.

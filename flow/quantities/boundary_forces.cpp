@@ -25,8 +25,9 @@ EdgeForces forces_on(const Mesh& mesh, const BoundaryEdges& boundary, const Fiel
   for (const auto& [a, b] : boundary.edges) {
     const Point along = mesh.point(b) - mesh.point(a);
     const Point outward{along.y, -along.x};
-    const double pressure = 0.5 * (columns.pressure(flow, a) + columns.pressure(flow, b)) - stream.pressure;
-    const double shear = 0.5 * (columns.shear(flow, a) + columns.shear(flow, b));
+    const double pressure =
+        0.5 * (columns.pressure(flow.row(a)) + columns.pressure(flow.row(b))) - stream.pressure;
+    const double shear = 0.5 * (columns.shear(flow.row(a)) + columns.shear(flow.row(b)));
     const Point push = pressure * outward, rub = (dot(along, wind) < 0 ? -shear : shear) * along;
     forces.lift.push_back(dot(push, up));
     forces.drag.push_back(dot(push, wind));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/variable_names.hpp"
@@ -10,10 +11,36 @@ namespace quadloop {
 
 namespace {
 
-std::optional<std::size_t> only_like(const Field& flow, const std::string& name) {
-  const std::vector<std::size_t> found = variables_like(flow.names, name);
+std::optional<std::size_t> only_like(const std::vector<std::string>& names, const std::string& name) {
+  const std::vector<std::size_t> found = variables_like(names, name);
   if (found.size() != 1) return {};
   return found[0];
+}
+
+/// To rows of values.
+void append_quantities(std::vector<std::string>& variables, std::vector<double>& values,
+                       const std::vector<std::string>& names, const FreeStream& stream) {
+  const FlowColumns columns(variables, "the flow");
+  std::vector<std::size_t> kept;
+  std::vector<std::string> all_names;
+  for (std::size_t k = 0; k < variables.size(); ++k) {
+    if (std::ranges::find(names, variables[k]) != names.end()) continue;
+    kept.push_back(k);
+    all_names.push_back(variables[k]);
+  }
+  all_names.insert(all_names.end(), names.begin(), names.end());
+  std::vector<double> all;
+  for (std::size_t at = 0; at < values.size(); at += variables.size()) {
+    const auto row = std::span<const double>(values).subspan(at, variables.size());
+    for (const std::size_t k : kept) all.push_back(row[k]);
+    for (const std::string& name : names) {
+      QUADLOOP_REQUIRE(name == mach_name || name == pressure_coefficient_name, "a quantity that is known");
+      all.push_back(name == mach_name ? columns.mach(row, stream.gamma)
+                                      : pressure_coefficient(columns.pressure(row), stream));
+    }
+  }
+  variables = std::move(all_names);
+  values = std::move(all);
 }
 
 }  // namespace
@@ -23,17 +50,17 @@ const std::vector<std::string>& quantity_names() {
   return names;
 }
 
-FlowColumns::FlowColumns(const Field& flow, const std::string& where)
-    : x_velocity_{variable(flow.names, "x_velocity", where)},
-      y_velocity_{variable(flow.names, "y_velocity", where)},
-      pressure_{variable(flow.names, "pressure", where)},
-      density_{only_like(flow, "density")},
-      shear_{only_like(flow, "wall_shear")} {}
+FlowColumns::FlowColumns(const std::vector<std::string>& names, const std::string& where)
+    : x_velocity_{variable(names, "x_velocity", where)},
+      y_velocity_{variable(names, "y_velocity", where)},
+      pressure_{variable(names, "pressure", where)},
+      density_{only_like(names, "density")},
+      shear_{only_like(names, "wall_shear")} {}
 
-double FlowColumns::mach(const Field& flow, NodeId node, double gamma) const {
+double FlowColumns::mach(std::span<const double> row, double gamma) const {
   if (!density_) return 0;
-  const auto row = flow.row(node);
-  return std::hypot(row[x_velocity_], row[y_velocity_]) / std::sqrt(gamma * row[pressure_] / row[*density_]);
+  const double squared = gamma * row[pressure_] / row[*density_];
+  return squared > 0 ? std::hypot(row[x_velocity_], row[y_velocity_]) / std::sqrt(squared) : 0;
 }
 
 double pressure_coefficient(double pressure, const FreeStream& stream) {
@@ -41,26 +68,12 @@ double pressure_coefficient(double pressure, const FreeStream& stream) {
 }
 
 Field with_quantities(const Field& flow, const std::vector<std::string>& names, const FreeStream& stream) {
-  if (names.empty()) return flow;
-  const FlowColumns columns(flow, "the flow");
-  std::vector<std::size_t> kept;
-  Field all;
-  for (std::size_t k = 0; k < flow.width(); ++k) {
-    if (std::ranges::find(names, flow.names[k]) != names.end()) continue;
-    kept.push_back(k);
-    all.names.push_back(flow.names[k]);
-  }
-  all.names.insert(all.names.end(), names.begin(), names.end());
-  all.constants = flow.constants;
-  const auto rows = static_cast<std::int32_t>(flow.values.size() / flow.width());
-  for (std::int32_t i = 0; i < rows; ++i) {
-    const NodeId node{i};
-    for (const std::size_t k : kept) all.values.push_back(flow.row(node)[k]);
-    for (const std::string& name : names) {
-      QUADLOOP_REQUIRE(name == mach_name || name == pressure_coefficient_name, "a quantity that is known");
-      all.values.push_back(name == mach_name ? columns.mach(flow, node, stream.gamma)
-                                             : pressure_coefficient(columns.pressure(flow, node), stream));
-    }
+  Field all = flow;
+  if (names.empty()) return all;
+  if (flow.names.empty()) {
+    append_quantities(all.cells.names, all.cells.values, names, stream);
+  } else {
+    append_quantities(all.names, all.values, names, stream);
   }
   return all;
 }

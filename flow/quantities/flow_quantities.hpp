@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,17 +20,21 @@ const std::vector<std::string>& quantity_names();
 /// without velocity or pressure.
 class FlowColumns {
  public:
-  FlowColumns(const Field& flow, const std::string& where);
+  FlowColumns(const std::vector<std::string>& names, const std::string& where);
+  FlowColumns(const Field& flow, const std::string& where) : FlowColumns(flow.names, where) {}
 
   bool has_shear() const { return shear_.has_value(); }
-  double pressure(const Field& flow, NodeId node) const { return flow.row(node)[pressure_]; }
-  double shear(const Field& flow, NodeId node) const { return shear_ ? flow.row(node)[*shear_] : 0; }
-  double density(const Field& flow, NodeId node, const FreeStream& stream) const {
-    return density_ ? flow.row(node)[*density_] : stream.density;
+  bool has_density() const { return density_.has_value(); }
+  /// Of one row of values.
+  Point velocity(std::span<const double> row) const { return {row[x_velocity_], row[y_velocity_]}; }
+  double pressure(std::span<const double> row) const { return row[pressure_]; }
+  double shear(std::span<const double> row) const { return shear_ ? row[*shear_] : 0; }
+  double density(std::span<const double> row, const FreeStream& stream) const {
+    return density_ ? row[*density_] : stream.density;
   }
   /// The local speed by the speed of sound there; 0 where the solution has no density, as that of an
-  /// incompressible flow.
-  double mach(const Field& flow, NodeId node, double gamma) const;
+  /// incompressible flow, or where the speed of sound is not above 0.
+  double mach(std::span<const double> row, double gamma) const;
 
  private:
   std::size_t x_velocity_, y_velocity_, pressure_;
@@ -40,7 +45,7 @@ class FlowColumns {
 double pressure_coefficient(double pressure, const FreeStream& stream);
 
 /// The flow with these quantities (of quantity_names()) behind its variables, in the place of any that it has
-/// by these names.
+/// by these names: at the nodes where it has velocity and pressure there, else in the cells.
 Field with_quantities(const Field& flow, const std::vector<std::string>& names, const FreeStream& stream);
 
 }  // namespace quadloop

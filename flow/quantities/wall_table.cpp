@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "flow/quantities/flow_quantities.hpp"
+#include "flow/quantities/nodes_above_walls.hpp"
 #include "flow/quantities/wall_walk.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 
@@ -19,34 +20,6 @@ struct WallRow {
   std::int64_t number = 0;
   double pressure_coefficient = 0, mach = 0, friction_coefficient = 0, y_plus = 0;
 };
-
-/// Of each node the distance, normal to the walls, of the neighbour that stands most upright above it; 0
-/// where none does. For owned nodes.
-std::vector<double> first_heights(const HaloMesh& mesh, const std::vector<char>& is_wall) {
-  std::vector<Point> inward(mesh.points().size());
-  for (const HaloEdge& edge : mesh.boundary_edges()) {
-    if (is_wall[edge.boundary] == 0) continue;
-    const Point along = mesh.point(edge.to) - mesh.point(edge.from);
-    for (const NodeId node : {edge.from, edge.to})
-      inward[node.value()] = inward[node.value()] + Point{-along.y, along.x};
-  }
-  std::vector<double> heights(mesh.owned_nodes(), 0.0), upright(mesh.owned_nodes(), 0.0);
-  mesh.for_each_cell([&](const auto& nodes) {
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      for (const std::size_t next : {k + 1, k + nodes.size() - 1}) {
-        const NodeId node = nodes[k], other = nodes[next % nodes.size()];
-        const double size = length(inward[node.value()]);
-        if (!mesh.owns(node) || size == 0) continue;
-        const Point there = mesh.point(other) - mesh.point(node);
-        const double height = dot(there, inward[node.value()]) / size, cosine = height / length(there);
-        if (!(cosine > upright[node.value()])) continue;
-        upright[node.value()] = cosine;
-        heights[node.value()] = height;
-      }
-    }
-  });
-  return heights;
-}
 
 /// All ranks' nodes on the walls, by their global numbers.
 std::unordered_map<std::int64_t, WallRow> rows_of(const Communicator& comm, const Mesh& mesh,
@@ -62,17 +35,17 @@ std::unordered_map<std::int64_t, WallRow> rows_of(const Communicator& comm, cons
         if (is_wall[edge.boundary] != 0 && halo.owns(node)) wanted[node.value()] = 1;
       }
     }
-    const std::vector<double> heights =
-        stream.viscosity > 0 ? first_heights(halo, is_wall) : std::vector<double>(mesh.owned_nodes, 0.0);
+    const NodesAboveWalls above = stream.viscosity > 0 ? nodes_above(halo, is_wall) : NodesAboveWalls{};
     for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
       const NodeId node{i};
       if (wanted[node.value()] == 0) continue;
-      WallRow row{mesh.global(node).value(), pressure_coefficient(columns.pressure(flow, node), stream),
-                  columns.mach(flow, node, stream.gamma)};
+      const auto values = flow.row(node);
+      WallRow row{mesh.global(node).value(), pressure_coefficient(columns.pressure(values), stream),
+                  columns.mach(values, stream.gamma)};
       if (stream.viscosity > 0) {
-        const double shear = columns.shear(flow, node), density = columns.density(flow, node, stream);
+        const double shear = columns.shear(values), density = columns.density(values, stream);
         row.friction_coefficient = stream.speed > 0 ? shear / stream.dynamic_pressure() : 0;
-        row.y_plus = heights[node.value()] * std::sqrt(density * std::abs(shear)) / stream.viscosity;
+        row.y_plus = above.heights[node.value()] * std::sqrt(density * std::abs(shear)) / stream.viscosity;
       }
       own.push_back(row);
     }

@@ -12,6 +12,12 @@ namespace {
 constexpr std::array<const char*, 4> conservative{"Density", "Momentum_x", "Momentum_y", "Energy"};
 constexpr std::array<const char*, 4> primitive{"density", "x_velocity", "y_velocity", "pressure"};
 
+/// As SU2's incompressible solvers leave their own variables: they restart from these, in this order.
+bool is_incompressible(std::span<const std::string> variables) {
+  constexpr std::array<const char*, 3> first{"Pressure", "Velocity_x", "Velocity_y"};
+  return variables.size() >= first.size() && std::equal(first.begin(), first.end(), variables.begin());
+}
+
 /// A name that is read back as that of a variable: no comma or quote, no number, no coordinate.
 std::string column_name(std::string name) {
   std::replace_if(
@@ -28,7 +34,7 @@ std::string column_name(std::string name) {
 
 Su2RestartTable::Su2RestartTable(std::span<const std::string> variables, double gamma) : gamma_{gamma} {
   const auto of_su2 = columns_of(variables, conservative);
-  if (!of_su2) made_from_ = columns_of(variables, primitive);
+  if (!of_su2 && !is_incompressible(variables)) made_from_ = columns_of(variables, primitive);
   Columns used{};
   if (of_su2 || made_from_) {
     used = of_su2 ? *of_su2 : *made_from_;

@@ -11,7 +11,8 @@ namespace quadloop {
 
 /// The columns of SU2's restart files behind the coordinates: its four conservative variables in front, where
 /// a solution has them or density, velocity and pressure from which they follow, then all other variables as
-/// they are.
+/// they are. A solution of SU2's incompressible solvers, which begins with Pressure, Velocity_x, Velocity_y,
+/// stays as it is.
 class Su2RestartTable {
  public:
   /// `gamma` is the ratio of specific heats.

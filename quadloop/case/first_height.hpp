@@ -4,9 +4,8 @@ namespace quadloop {
 
 /// The flow that first heights are made for: [flow] of a case.
 struct FlowConditions {
-  double reynolds = 0;            ///< by the free stream's speed and viscosity and the reference length
-  double reference_length = 1;    ///< in the geometry's unit of length
-  double density = 1, speed = 1;  ///< of the free stream, in the solver's units
+  double reynolds = 0;          ///< by the free stream's speed and viscosity and the reference length
+  double reference_length = 1;  ///< in the geometry's unit of length
 };
 
 /// The height above a wall at which a turbulent boundary layer is expected to have this y+, in the geometry's

@@ -15,7 +15,6 @@ namespace quadloop {
 namespace {
 
 constexpr int most_layers = 1000;
-constexpr double least_reynolds = 1000;
 
 int read_number_of_layers(const CaseTable& table, const std::string& key) {
   const double count = table.number(key, {1, most_layers}).value_or(1);
@@ -90,20 +89,6 @@ LayerLine read_wake(const CaseTable& table) {
 
 }  // namespace
 
-LayerSettings::LayerSettings(const CaseTable& root) {
-  const auto table = root.table("flow");
-  if (!table) return;
-  where_ = table->place();
-  const auto reynolds = table->number("reynolds", {least_reynolds});
-  if (!reynolds)
-    table->refuse("reynolds", "is missing: speed times reference length over kinematic viscosity");
-  flow_ = FlowConditions{*reynolds, table->number("reference_length", Range::positive()).value_or(1),
-                         table->number("density", Range::positive()).value_or(1),
-                         table->number("speed", Range::positive()).value_or(1)};
-  table->number("mach", {0, 100});  // of no use to the estimate, which says so
-  table->finish();
-}
-
 void LayerSettings::read_first_height(const CaseTable& layers, LayerSpec& spec) {
   if (!layers.has("first"))
     layers.refuse("first", "is missing: the height of the layer at the wall, or \"yplus:1\"");
@@ -125,7 +110,16 @@ void LayerSettings::read_first_height(const CaseTable& layers, LayerSpec& spec) 
                                        "reynolds = 1e6, and reference_length unless that is 1",
                                        text));
   used_ = true;
-  spec.first = height_of_y_plus(spec.y_plus, *flow_);
+  spec.first = height_of_y_plus(spec.y_plus, flow_conditions(layers));
+}
+
+FlowConditions LayerSettings::flow_conditions(const CaseTable& layers) const {
+  if (!flow_->reynolds || *flow_->reynolds < FlowSettings::least_reynolds)
+    layers.refuse("first",
+                  fmt::format("asks for a y+, for which 'flow.reynolds' must be {} or more; it {}",
+                              FlowSettings::least_reynolds,
+                              flow_->reynolds ? fmt::format("is {}", *flow_->reynolds) : "is missing"));
+  return {*flow_->reynolds, flow_->reference_length};
 }
 
 LayerSpec LayerSettings::read(const CaseTable& layers) {
@@ -169,12 +163,13 @@ std::optional<WallFlow> LayerSettings::wall_flow(const SolverSettings& solver) c
   if (!flow_ || !used_) return {};
   if (solver.kind == SolverSettings::Kind::euler && solver.euler.viscosity > 0)
     return WallFlow{solver.euler.viscosity, 1};
-  return WallFlow{flow_->density * flow_->speed * flow_->reference_length / flow_->reynolds, flow_->density};
+  return WallFlow{flow_->viscosity(), flow_->density};
 }
 
-Warnings LayerSettings::unused() const {
-  if (!flow_ || used_) return {};
-  return {where_ + ": [flow] does nothing, as no boundary's layers have a first = \"yplus:1\""};
+Warnings LayerSettings::unused(const SolverSettings& solver) const {
+  const bool tells_stream = flow_ && flow_->pressure && solver.kind != SolverSettings::Kind::euler;
+  if (!flow_ || used_ || tells_stream) return {};
+  return {flow_->where + ": [flow] does nothing, as no boundary's layers have a first = \"yplus:1\""};
 }
 
 void require_layers_that_doubles_hold(const Geometry& geometry) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapt/sensor/measured_friction.hpp"
@@ -11,6 +12,7 @@
 #include "mesher/geometry/layer_spec.hpp"
 #include "mesher/layers/front/layer_lines.hpp"
 #include "quadloop/case/first_height.hpp"
+#include "quadloop/case/flow_settings.hpp"
 #include "quadloop/case/solver_settings.hpp"
 
 namespace quadloop {
@@ -19,7 +21,7 @@ namespace quadloop {
 /// "yplus:1"` stands on. Throws InputError that names key and line.
 class LayerSettings {
  public:
-  explicit LayerSettings(const CaseTable& root);
+  explicit LayerSettings(std::optional<FlowSettings> flow) : flow_{std::move(flow)} {}
 
   LayerSpec read(const CaseTable& layers);
 
@@ -30,17 +32,18 @@ class LayerSettings {
   /// own viscosity, else by [flow].
   std::optional<WallFlow> wall_flow(const SolverSettings& solver) const;
 
-  /// A warning where there is a table [flow] and no layers have asked for it; once all are read.
-  Warnings unused() const;
+  /// A warning where there is a table [flow], and neither layers have asked for it nor a solver has a use for
+  /// the stream that it tells; once all are read.
+  Warnings unused(const SolverSettings& solver) const;
 
  private:
   /// The same keys of a table that may have others.
   LayerSpec read_keys(const CaseTable& table);
   LayerLine read_layer_line(const CaseTable& table);
   void read_first_height(const CaseTable& layers, LayerSpec& spec);
+  FlowConditions flow_conditions(const CaseTable& layers) const;
 
-  std::optional<FlowConditions> flow_;
-  std::string where_;  ///< [flow] stands
+  std::optional<FlowSettings> flow_;
   bool used_ = false;
 };
 

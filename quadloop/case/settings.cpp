@@ -258,16 +258,18 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   settings.title = root.text("title").value_or("");
   read_geometry_table(root, case_path, settings);
   read_spacing_table(root, settings);
-  LayerSettings layer_settings(root);
+  const auto flow = read_flow_table(root);
+  LayerSettings layer_settings(flow);
   read_boundary_tables(root, layer_settings, settings);
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));
   settings.lines = layer_settings.read_lines(root);
-  settings.warnings = layer_settings.unused();
   read_mesh_table(root, settings);
   read_smooth_table(root, settings);
   settings.adapt = read_adapt_table(root);
   read_solver_table(root, settings.solver);
+  settings.warnings = layer_settings.unused(settings.solver);
+  if (flow && settings.solver.kind != SolverSettings::Kind::euler) settings.stream = flow->stream();
   if (settings.adapt) settings.adapt->wall_flow = layer_settings.wall_flow(settings.solver);
   for (std::string& warning : idle_wall_temperatures(settings.solver))
     settings.warnings.push_back(std::move(warning));

@@ -43,6 +43,7 @@ struct Settings {
   SmoothOptions smooth;            ///< without the geometry
   std::vector<LayerLine> lines;    ///< wakes and free lines with layers
   SolverSettings solver;
+  std::optional<FreeStream> stream;   ///< of a solver of the user's, where [flow] tells it
   std::optional<AdaptOptions> adapt;  ///< where the case has a table for it
   std::string output_prefix;
   std::vector<std::string> formats;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "adapt/loop/chosen_solver.hpp"
+#include "adapt/solvers/chosen_solver.hpp"
 #include "io/input/case_file.hpp"
 #include "mesher/base/word_table.hpp"
 #include "mesher/geometry/assemble/boundary_rules.hpp"

@@ -118,6 +118,31 @@ TEST(Su2Csv, KeepsTheBitsOfSu2sOwnVariables) {
   EXPECT_EQ(kept.solution.values, (std::vector<double>{third, -tiny, 0.1, 1e150, 0.1, 3}));
 }
 
+TEST(Su2Csv, LeavesAnIncompressibleSolutionInItsOrder) {
+  std::string header;
+  const LoadedSolution kept =
+      through_csv({"Pressure", "Velocity_x", "Velocity_y", "Nu_Tilde", "Density"}, {1, 2, 3, 4, 5}, &header);
+  EXPECT_EQ(header, R"("PointID","x","y","Pressure","Velocity_x","Velocity_y","Nu_Tilde","Density")");
+  EXPECT_EQ(kept.solution.values, (std::vector<double>{1, 2, 3, 4, 5}));
+}
+
+/// Layout of SU2 7 and 8 (CSU2FileWriter): names in quotes, commas with a blank behind them, 15 decimals.
+TEST(Su2Csv, ReadsRowsAsSu2WritesThem) {
+  const LoadedSolution left = read_text(
+      "\"PointID\",\"x\",\"y\",\"Density\",\"Momentum_x\",\"Momentum_y\",\"Energy\",\"Skin_Friction_"
+      "Coefficient_x\"\n"
+      "0, 9.997500000000000e-01, -3.632500000000000e-05, 1.500000000000000e+00, 2.500000000000000e+02, "
+      "3.725000000000000e+01, 3.806250000000000e+05, 0.000000000000000e+00\n"
+      "1, 1.000000000000000e+00, 0.000000000000000e+00, 1.250000000000000e+00, -2.500000000000000e-310, "
+      "0.000000000000000e+00, 3.750000000000000e+05, 1.250000000000000e-03\n");
+  EXPECT_EQ(left.nodes, 2);
+  EXPECT_EQ(left.points, (std::vector<Point>{{0.99975, -3.6325e-5}, {1, 0}}));
+  EXPECT_EQ(left.solution.names, (std::vector<std::string>{"Density", "Momentum_x", "Momentum_y", "Energy",
+                                                           "Skin_Friction_Coefficient_x"}));
+  EXPECT_EQ(left.solution.values,
+            (std::vector<double>{1.5, 250, 37.25, 380625, 0, 1.25, -2.5e-310, 0, 375000, 1.25e-3}));
+}
+
 TEST(Su2Csv, KeepsOtherVariablesUnderNamesThatAreReadBack) {
   const LoadedSolution kept = through_csv({"height", "x", "a,b", "a_b", "12", "PointID"}, {1, 2, 3, 4, 5, 6});
   EXPECT_EQ(kept.solution.names,

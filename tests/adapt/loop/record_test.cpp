@@ -76,6 +76,15 @@ TEST(CaseSettings, ChangesAreToldByKey) {
   EXPECT_TRUE(changed_settings(now, now).empty());
 }
 
+TEST(CaseSettings, FilesOfATemplateAreToldByTheirNamesAndMayChange) {
+  const CaseSettings before{{template_key("0/U"), "\"1f\""}, {template_key("gone"), "\"2\""}},
+      now{{template_key("0/U"), "\"2f\""}, {template_key("new"), "\"3\""}};
+  EXPECT_EQ(text_of(changed_settings(before, now)),
+            "the file '0/U' of solver.template has changed, the file 'gone' of solver.template is gone, "
+            "the file 'new' of solver.template is new");
+  EXPECT_EQ(run_digest(before, 1), run_digest(now, 1));
+}
+
 TEST(CaseSettings, TheDigestLeavesOutWhatMayChange) {
   const CaseSettings settings{
       {"adapt.refine", "0.5"}, {"solver.command", "[\"a\"]"}, {"solver.iterations", "7"}};

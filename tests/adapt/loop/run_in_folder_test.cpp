@@ -5,12 +5,10 @@
 
 #include <filesystem>
 
-#include "adapt/loop/command_solver.hpp"
 #include "adapt/loop/cycle_files.hpp"
 #include "io/native/native_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -172,31 +170,6 @@ TEST(CommandSolver, TheStartingStateStandsWhereTheFormatHasAPlaceForIt) {
 }
 
 /// Copies the mesh with its state as it is, or leaves what is no solution.
-CommandSolver shell(const std::string& script) {
-  CommandSolver solver;
-  solver.command.arguments = {"sh", "-c", script};
-  solver.solution = "left.mesh";
-  return solver;
-}
-
-TEST(CommandSolver, WhatItLeavesIsTheSolution) {
-  const TemporaryFolder folder;
-  Heard heard;
-  AdaptiveCase adaptive = vortex_case(0);
-  heard.run(adaptive, folder.file("run"), false);
-  const std::string cycle = folder.file("run/cycle_00");
-  const LoadedMesh whole = read_native(cycle + "/mesh.mesh");
-  const MeshOrder order = own_order(whole.mesh);
-  const Mesh part = scatter_mesh(world(), whole.mesh, order);
-  const auto folder_of = [&](int) { return cycle; };
-  const SolvedFlow flow = command_solver(shell("cp mesh.mesh left.mesh"), folder_of)(world(), part, {}, 0);
-  EXPECT_EQ(flow.solution.names, whole.solution->names);
-  EXPECT_EQ(flow.solution.values, scatter_field(world(), *whole.solution, part, order).values);
-  EXPECT_THROW(command_solver(shell("echo no mesh > left.mesh"), folder_of)(world(), part, {}, 0),
-               SolverError);
-  EXPECT_THROW(command_solver(shell("rm left.mesh"), folder_of)(world(), part, {}, 0), SolverError);
-  EXPECT_THROW(command_solver(shell("exit 3"), folder_of)(world(), part, {}, 0), SolverError);
-}
 
 }  // namespace
 }  // namespace quadloop

@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 """OpenFOAM in the loop, from one command: a table of figures with their bounds; status 1 where one fails, 77 where OpenFOAM is not installed.
 
-    run_openfoam.py --quadloop PROGRAM wedge|circle|cylinder [--ranks N ...]
+    run_openfoam.py --quadloop PROGRAM wedge|circle|cylinder [--ranks N ...] [--small]
 
-wedge: rhoCentralFoam at Mach 2 past the wedge of 10 degrees, three adaptations: angle of the shock and pressure behind it against the exact ones.
-circle: the same solver past a circle, four cycles: the stagnation pressure behind the bow shock. cylinder: simpleFoam, laminar, past a
-cylinder in layers, the length of its bubble. With --ranks the meshes and trees of all these numbers of ranks of quadloop must be the same, byte for byte.
+Four cycles each. wedge: rhoCentralFoam at Mach 2 past the wedge of 10 degrees: angle of the shock, pressure behind it and force on the ramp against the exact
+ones. circle: the same solver past a circle: the stagnation pressure behind the bow shock. cylinder: simpleFoam, laminar, past a cylinder in layers: the length
+of its bubble and its drag, the latter beside OpenFOAM's own. With --ranks meshes, flows, trees and tables of all these numbers of ranks of quadloop must be the
+same, byte for byte. --small asks for nothing else, on coarse meshes and with few steps.
 """
 import argparse
 import filecmp
+import json
+import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -89,6 +93,9 @@ def check_wedge(cycles, figures):
     ahead = (places[:, 0] < -0.1) | (heights > 1.2)
     ratio = flow["p"][behind].mean() / flow["p"][ahead].mean()
     figures.add("pressure behind over before the shock", ratio, 0.99 * PRESSURE_RATIO, 1.01 * PRESSURE_RATIO)
+    coefficient = (PRESSURE_RATIO - 1) / (0.5 * 1.4 * 2 ** 2)
+    for key, exact in (("cd", coefficient * math.tan(math.radians(10))), ("cl", -coefficient)):  # the ramp reaches from x = 0 to 1
+        figures.add(f"{key} of the ramp, exact {exact:.5f}", forces(cycles[-1])["ramp"][key], *sorted((0.99 * exact, 1.01 * exact)))
 
 
 def check_circle(cycles, figures):
@@ -97,6 +104,7 @@ def check_circle(cycles, figures):
         _, _, _, flow = read_cells(cycle / "mesh.mesh")
         figures.add(f"{cycle.name}, {len(flow['p'])} cells: largest pressure", flow["p"].max())
     figures.add("stagnation pressure in the last cycle", flow["p"].max(), 0.98 * 5.640441, 1.02 * 5.640441)
+    figures.add("cd", forces(cycles[-1])["circle"]["cd"])
 
 
 def check_cylinder(cycles, figures):
@@ -109,13 +117,65 @@ def check_cylinder(cycles, figures):
     end = np.flatnonzero((u[:-1] < 0) & (u[1:] >= 0))
     figures.add("nodes", len(points))
     figures.add("length of the bubble, diameters", x[end[-1]] - 0.5 if len(end) else 0, 1.9, 2.5)
+    own = forces(cycles[-1])["cylinder"]
+    figures.add("cd", own["cd"], 1.45, 1.65)
+    figures.add("cl", own["cl"], -0.01, 0.01)
+    rows = [line.split() for line in next((cycles[-1] / "openfoam" / "postProcessing" / "forces").glob("*/coefficient.dat")).read_text().splitlines()]
+    names, last = next(row for row in reversed(rows) if row[0] == "#")[1:], rows[-1]
+    theirs = float(last[names.index("Cd")])
+    figures.add("cd by OpenFOAM's forceCoeffs", theirs)
+    figures.add("ours over OpenFOAM's", own["cd"] / theirs, 0.99, 1.01)
+
+
+def forces(cycle):
+    return json.loads((cycle / "record.json").read_text())["forces"]
+
+
+def check_tables(cycles, figures):
+    """Each cycle tells the forces, their sum and the flow along its wall."""
+    whole = 0
+    for cycle in cycles:
+        record = json.loads((cycle / "record.json").read_text())
+        rows = (cycle / "mesh.walls.csv").read_text().splitlines()
+        adds_up = all(abs(record[key] - sum(wall[key] for wall in record["forces"].values())) < 1e-12 for key in ("cl", "cd"))
+        whole += adds_up and len(record["forces"]) == 1 and rows[0].startswith("boundary,s,x,y,Cp,Mach") and len(rows) > 10
+    figures.add("cycles with forces and a table of the wall", whole, 4, 4)
 
 
 CHECKS = {"wedge": check_wedge, "circle": check_circle, "cylinder": check_cylinder}
 
 
+# What --small changes: lengths of the case, and the steps of its template.
+SMALL = {"wedge": ({"spacing.min": 0.03, "spacing.max": 0.068, "adapt.min": 0.008}, {"endTime": 200, "writeInterval": 200}),
+         "circle": ({"spacing.min": 0.04, "spacing.max": 0.6, "boundary.circle.spacing": 0.1, "adapt.min": 0.01, "adapt.max_nodes": 8000},
+                    {"endTime": 400, "writeInterval": 400}),
+         "cylinder": ({"spacing.min": 0.04, "spacing.max": 2.0, "boundary.cylinder.spacing": 0.12, "adapt.min": 0.01, "adapt.max_nodes": 15000},
+                      {"endTime": 60, "writeInterval": 60})}
+
+
+def small_case(name, folder):
+    """A copy of the case with few steps, and the assignments for coarse meshes."""
+    settings, steps = SMALL[name]
+    for given in ("openfoam_" + name, "wedge"):
+        shutil.copytree(ROOT / "cases" / given, folder / given)
+    control = folder / ("openfoam_" + name) / "template" / "system" / "controlDict"
+    text = control.read_text()
+    for key, value in steps.items():
+        text = re.sub(rf"^{key} .*?;", f"{key} {value};", text, flags=re.M)
+    control.write_text(text)
+    return folder / ("openfoam_" + name) / "case.toml", [f"{key}={value}" for key, value in settings.items()]
+
+
+def record_without_times(cycle):
+    record = json.loads((cycle / "record.json").read_text())
+    del record["seconds"]
+    return record
+
+
 def same_files(one, other):
-    return all(filecmp.cmp(a / name, b / name, shallow=False) for a, b in zip(one, other, strict=True) for name in ("mesh.mesh", "mesh.tree.h5"))
+    names = ("mesh.mesh", "mesh.tree.h5", "mesh.walls.csv")
+    return all(filecmp.cmp(a / name, b / name, shallow=False) for a, b in zip(one, other, strict=True) for name in names) and \
+        all(record_without_times(a) == record_without_times(b) for a, b in zip(one, other, strict=True))
 
 
 def main():
@@ -124,21 +184,27 @@ def main():
     parser.add_argument("--quadloop", default=str(ROOT / "build" / "release" / "app" / "quadloop"))
     parser.add_argument("--ranks", type=int, nargs="*", default=[1])
     parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--small", action="store_true")
     args = parser.parse_args()
     if shutil.which("checkMesh") is None:
-        skip("OpenFOAM is not installed")
+        skip("OpenFOAM is not installed: scripts/setup --full installs Debian's package `openfoam`")
     figures, runs = Figures(), []
     with tempfile.TemporaryDirectory(prefix="quadloop_openfoam_") as folder:
+        case, assignments = ROOT / "cases" / f"openfoam_{args.case}" / "case.toml", args.set
+        if args.small:
+            case, assignments = small_case(args.case, Path(folder) / "cases")
         for ranks in args.ranks:
             out = Path(folder) / str(ranks)
             words = [*([MPIRUN, "-n", str(ranks)] if ranks > 1 else []), args.quadloop]
-            run([*words, "-q", "adapt", ROOT / "cases" / f"openfoam_{args.case}" / "case.toml", "-o", out,
-                 *(word for text in args.set for word in ("--set", text))])
+            run([*words, "-q", "adapt", case, "-o", out, *(word for text in assignments for word in ("--set", text))])
             runs.append(sorted(out.glob("cycle_*")))
+            figures.add(f"cycles on {ranks} ranks", len(runs[-1]), 4, 4)
         check_meshes(runs[0], figures)
-        CHECKS[args.case](runs[0], figures)
+        check_tables(runs[0], figures)
+        if not args.small:
+            CHECKS[args.case](runs[0], figures)
         for ranks, cycles in zip(args.ranks[1:], runs[1:]):
-            figures.add(f"the same meshes, flows and trees on {ranks} ranks", same_files(runs[0], cycles), 1, 1)
+            figures.add(f"the same files on {ranks} ranks", same_files(runs[0], cycles), 1, 1)
     return 1 if figures.missed else 0
 
 

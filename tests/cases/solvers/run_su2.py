@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The loop with SU2 as its solver, by a program that stands in for it (su2_stand_in.py): both kinds of restart files, a start from the flow carried over,
-forces from the history, the same files on any number of ranks; and the cases for SU2 ask for conditions on the boundaries that their meshes have.
+forces from the history and along walls, the same files on any number of ranks; and the cases for SU2 ask for conditions on the boundaries that their meshes have.
 
     run_su2.py --quadloop PROGRAM
 """
@@ -37,7 +37,11 @@ def wedge_case(folder, files):
     names = [line.split("[boundary.")[1].split("]")[0] for line in head.splitlines() if line.startswith("[boundary.")]
     (folder / "flow.cfg").write_text(CONFIG.format(files=files).replace("( wedge, lid )", "( " + ", ".join(names) + " )"))
     case = folder / "case.toml"
-    case.write_text(head + f"""[solver]
+    case.write_text(head + f"""[flow]
+speed = 2.0
+pressure = 0.7142857142857143
+
+[solver]
 kind = "su2"
 template = "flow.cfg"
 command = ["{sys.executable}", "{STAND_IN}", "su2.cfg"]
@@ -55,6 +59,11 @@ def check_cycles(made, restart, cycles):
         require((folder / restart).exists(), f"cycle {k} has no {restart}")
         log = (folder / "solver.log").read_text()
         require(log == ("started from nothing\n" if k == 0 else "started from Density Momentum_x Momentum_y Energy\n"), f"cycle {k}: {log}")
+        ramp = record["forces"]["ramp"]
+        pressure = (1.706579 - 1) / (0.5 * 1.4 * 2 ** 2)
+        require(abs(ramp["cl"] / -pressure - 1) < 0.05 and abs(ramp["cd"] / (pressure * 0.176327) - 1) < 0.05, f"cycle {k}: forces on the ramp: {ramp}")
+        rows = (folder / "mesh.walls.csv").read_text().splitlines()
+        require(rows[0] == "boundary,s,x,y,Cp,Mach" and abs(float(rows[len(rows) // 2].split(",")[4]) - pressure) < 1e-3, f"cycle {k}: {rows[:2]}")
         head = next(line for line in (folder / "mesh.mesh").read_text().splitlines() if line.startswith("#names"))
         require(head.split()[1:] == ["Density", "Momentum_x", "Momentum_y", "Energy", "x_velocity", "y_velocity", "pressure", "mach"], head)
 
@@ -80,6 +89,28 @@ def check_refusals(program, folder):
     require(status == 3 and "has no condition" in said, f"a marker without a condition: {status} {said}")
 
 
+def check_resume(program, folder):
+    """A changed configuration is told, by its name; the cycles that are there stay."""
+    case, made = wedge_case(folder / "resumed", "RESTART"), folder / "resumed_run"
+    adapt(program, case, made, options=["--cycles", "1"])
+    before = (made / "cycle_01" / "record.json").read_text()
+    require('"template_digest": "' in before and '"solver.template/flow.cfg": "' in before, before)
+    status, said = attempt(program, "adapt", case, "-o", made, "--resume", "--cycles", "2")
+    require(status == 0 and "flow.cfg" not in said, f"the same configuration: {status} {said}")
+    with open(folder / "resumed" / "flow.cfg", "a") as config:
+        config.write("CFL_NUMBER= 3\n")
+    status, said = attempt(program, "adapt", case, "-o", made, "--resume", "--cycles", "3")
+    told = "the file 'flow.cfg' of solver.template has changed; the cycles up to cycle_02 stay as they are"
+    require(status == 0 and told in said, f"another configuration: {status} {said}")
+    require((made / "cycle_01" / "record.json").read_text() == before, "a whole cycle has changed")
+    digests = [json.loads((made / f"cycle_{k:02d}" / "record.json").read_text())["template_digest"] for k in range(4)]
+    require(len(set(digests[:3])) == 1 and digests[3] != digests[0], f"digests {digests}")
+    command = json.dumps(["sh", "-c", f"{sys.executable} {STAND_IN} su2.cfg && echo % >> {folder / 'resumed' / 'flow.cfg'}"])
+    adapt(program, case, folder / "edited", options=["--cycles", "2", "--set", f"solver.command={command}"])
+    digests = {json.loads((folder / "edited" / f"cycle_{k:02d}" / "record.json").read_text())["template_digest"] for k in range(3)}
+    require(len(digests) == 3, f"a configuration that changes while the loop runs: {digests}")
+
+
 def check_cases(program, folder):
     """Their configurations on their first meshes."""
     for given in sorted((ROOT / "cases").glob("su2_*")):
@@ -101,6 +132,7 @@ def main():
             adapt(program, case, folder / f"on_3_{restart}", ranks=3)
             require_same_folders(made, folder / f"on_3_{restart}", "on 3 ranks")
         check_refusals(program, folder)
+        check_resume(program, folder)
         check_cases(program, folder)
     print("the loop with SU2's stand-in: both kinds of restart files, 1 and 3 ranks, refusals, cases")
 

@@ -40,12 +40,24 @@ TEST(Quantities, ReplaceThoseThatAreThere) {
   EXPECT_EQ(with_quantities(flow, {}, stream).names, flow.names);
 }
 
+TEST(Quantities, OfAFlowInCellsStandThere) {
+  Field flow;
+  flow.cells = {{"T", "p", "U_x", "U_y", "rho"}, {9, 4, 3, 4, 1.5, 9, 3, 0, 0, 2}};
+  const Field all = with_quantities(flow, quantity_names(), stream);
+  EXPECT_TRUE(all.names.empty());
+  EXPECT_EQ(all.cells.names,
+            (std::vector<std::string>{"T", "p", "U_x", "U_y", "rho", "mach", "pressure_coefficient"}));
+  EXPECT_DOUBLE_EQ(all.cells.values.at(5), 5 / std::sqrt(1.5 * 4 / 1.5));
+  EXPECT_DOUBLE_EQ(all.cells.values.at(6), 1.0 / 16);
+  EXPECT_EQ(all.cells.values.at(7), 9);
+}
+
 TEST(Quantities, OfGasAtRestAndOfAFlowWithoutDensityAreZero) {
   EXPECT_EQ(pressure_coefficient(5, FreeStream{}), 0);
   const Field flow{{"u", "v", "p"}, {3, 4, 1}, {}};
-  EXPECT_EQ(FlowColumns(flow, "it").mach(flow, NodeId{0}, 1.4), 0);
-  EXPECT_EQ(FlowColumns(flow, "it").density(flow, NodeId{0}, stream), 2);
-  EXPECT_THROW(FlowColumns({{"u", "p"}, {}, {}}, "it"), InputError);
+  EXPECT_EQ(FlowColumns(flow, "it").mach(flow.row(NodeId{0}), 1.4), 0);
+  EXPECT_EQ(FlowColumns(flow, "it").density(flow.row(NodeId{0}), stream), 2);
+  EXPECT_THROW(FlowColumns(std::vector<std::string>{"u", "p"}, "it"), InputError);
 }
 
 /// A grid on the unit square, south and east side "wall".

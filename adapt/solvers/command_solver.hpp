@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "adapt/loop/cycle_paths.hpp"
+#include "adapt/solvers/cycle_paths.hpp"
 #include "flow/command/solver_command.hpp"
 #include "flow/flow_solver.hpp"
 

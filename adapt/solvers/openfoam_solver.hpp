@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -26,6 +27,9 @@ struct OpenfoamSolver {
 /// its argument. The solution is what it leaves in the folder of the latest time: fields of cells. Throws
 /// InputError for a template that is none, SolverError for what the solver does or leaves.
 FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int cycle)> folder_of);
+
+/// By its name a part of a case that OpenFOAM has left, or an earlier mesh: nothing of it is copied.
+bool is_left_by_openfoam(const std::filesystem::path& path);
 
 /// Throws InputError unless the folder has system/controlDict and a folder 0 or 0.orig.
 void require_openfoam_template(const std::string& folder);

@@ -1,4 +1,4 @@
-#include "adapt/loop/su2_solver.hpp"
+#include "adapt/solvers/su2_solver.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "adapt/loop/openfoam_solver.hpp"
+#include "adapt/solvers/openfoam_solver.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "adapt/loop/cycle_paths.hpp"
+#include "adapt/solvers/cycle_paths.hpp"
 #include "flow/command/solver_command.hpp"
 #include "io/files/output_file.hpp"
 #include "io/foam/foam_fields.hpp"
@@ -27,19 +27,10 @@ namespace fs = std::filesystem;
 constexpr const char* script_name = "openfoam.sh";
 constexpr const char* done_name = "openfoam.done";
 
-/// Of what the solver left, and of earlier meshes, nothing is copied.
-bool is_result(const fs::path& path) {
-  const std::string name = path.filename();
-  const bool is_time =
-      name != "0" && !name.empty() && name.find_first_not_of("0123456789.e-+") == std::string::npos;
-  return is_time || name.starts_with("processor") || name.starts_with("log.") || name == "postProcessing" ||
-         name == "polyMesh";
-}
-
 void copy_template(const fs::path& from, const fs::path& to) {
   fs::create_directories(to);
   for (const fs::directory_entry& entry : fs::directory_iterator(from)) {
-    if (is_result(entry.path())) continue;
+    if (is_left_by_openfoam(entry.path())) continue;
     const fs::path target = to / entry.path().filename();
     if (entry.is_directory()) {
       copy_template(entry.path(), target);
@@ -154,6 +145,14 @@ void write_mesh_of(const Communicator& comm, const Mesh& mesh, const std::string
 }
 
 }  // namespace
+
+bool is_left_by_openfoam(const fs::path& path) {
+  const std::string name = path.filename();
+  const bool is_time =
+      name != "0" && !name.empty() && name.find_first_not_of("0123456789.e-+") == std::string::npos;
+  return is_time || name.starts_with("processor") || name.starts_with("log.") || name == "postProcessing" ||
+         name == "polyMesh";
+}
 
 void require_openfoam_template(const std::string& folder) {
   const fs::path path = folder;

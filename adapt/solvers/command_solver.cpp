@@ -1,4 +1,4 @@
-#include "adapt/loop/command_solver.hpp"
+#include "adapt/solvers/command_solver.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -2,9 +2,9 @@
 
 #include <variant>
 
-#include "adapt/loop/command_solver.hpp"
-#include "adapt/loop/openfoam_solver.hpp"
-#include "adapt/loop/su2_solver.hpp"
+#include "adapt/solvers/command_solver.hpp"
+#include "adapt/solvers/openfoam_solver.hpp"
+#include "adapt/solvers/su2_solver.hpp"
 #include "flow/euler/scheme/euler_options.hpp"
 
 namespace quadloop {

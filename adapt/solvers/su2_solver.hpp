@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "adapt/loop/command_solver.hpp"
+#include "adapt/solvers/command_solver.hpp"
 
 namespace quadloop {
 

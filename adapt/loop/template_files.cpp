@@ -1,0 +1,57 @@
+#include "adapt/loop/template_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/files/input_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/generate/digests.hpp"
+
+namespace quadloop {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_file(const fs::path& path, const std::string& name, CaseSettings& files) {
+  try {
+    files.emplace_back(template_key(name),
+                       fmt::format("\"{:016x}\"", text_digest(read_input(path.string()))));
+  } catch (const InputError&) {  // the solver that wants it refuses it by its name
+  }
+}
+
+void add_folder(const fs::path& folder, const std::string& prefix, CaseSettings& files) {
+  std::error_code fault;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, fault)) {
+    if (is_left_by_openfoam(entry.path())) continue;
+    const std::string name = prefix + entry.path().filename().string();
+    if (entry.is_directory()) {
+      add_folder(entry.path(), name + "/", files);
+    } else {
+      add_file(entry.path(), name, files);
+    }
+  }
+}
+
+}  // namespace
+
+CaseSettings template_files(const ChosenSolver& solver) {
+  CaseSettings files;
+  if (const auto* su2 = std::get_if<Su2Solver>(&solver))
+    add_file(su2->config, fs::path(su2->config).filename(), files);
+  if (const auto* openfoam = std::get_if<OpenfoamSolver>(&solver))
+    add_folder(openfoam->case_template, "", files);
+  std::ranges::sort(files);
+  return files;
+}
+
+std::uint64_t template_digest(const CaseSettings& files) {
+  std::string text;
+  for (const auto& [key, digest] : files) text += key + " = " + digest + "\n";
+  return text_digest(text);
+}
+
+}  // namespace quadloop

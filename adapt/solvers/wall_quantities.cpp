@@ -1,0 +1,44 @@
+#include "adapt/solvers/wall_quantities.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "flow/quantities/boundary_forces.hpp"
+#include "flow/quantities/wall_flow.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// *Collective.*
+void add_forces(const Communicator& comm, const Mesh& mesh, const FreeStream& stream, SolvedFlow& flow) {
+  const std::vector<std::string> walls = walls_of(mesh);
+  flow.at_walls = wall_flow(comm, mesh, flow.solution, stream, walls, "the flow");
+  flow.forces = boundary_forces(comm, mesh, flow.at_walls, stream, walls);
+  flow.stream = stream;
+  if (flow.cl || flow.cd || flow.forces.empty()) return;
+  flow.cl = flow.cd = 0;
+  for (const BoundaryForce& force : flow.forces) {
+    *flow.cl += force.cl;
+    *flow.cd += force.cd;
+  }
+}
+
+}  // namespace
+
+FlowSolver with_wall_quantities(FlowSolver solver, FreeStream stream) {
+  return [solver = std::move(solver), stream](const Communicator& comm, const Mesh& mesh, const Field& start,
+                                              int cycle) {
+    SolvedFlow flow = solver(comm, mesh, start, cycle);
+    try {
+      add_forces(comm, mesh, stream, flow);
+    } catch (const InputError& fault) {  // by its names, which are the same on every rank
+      flow.warnings.push_back(fmt::format("no forces and no values along walls: {}", fault.what()));
+    }
+    return flow;
+  };
+}
+
+}  // namespace quadloop
