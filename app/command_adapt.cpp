@@ -61,10 +61,6 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   warnings = std::move(input.warnings);
   const Settings& settings = input.settings;
   const AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
-  if (settings.partitions > 0)
-    warnings.push_back(
-        "output.partitions: `adapt` writes no parts; `quadloop convert --parts` makes them of a cycle's "
-        "mesh");
   require_known_variables(settings.solver, adapt.variables, arguments.case_path);
   const EulerOptions& flow = settings.solver.euler;
   if (!settings.solver.given)
@@ -75,8 +71,8 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   if (const CommandSolver* const command = command_of(solver)) require_solver_files(arguments, *command);
   if (const auto* openfoam = std::get_if<OpenfoamSolver>(&solver))
     require_openfoam_template(openfoam->case_template);
-  AdaptiveCase adaptive{std::move(*input.mesh), adapt,           std::move(solver),
-                        settings.formats,       settings.values, settings.fields};
+  AdaptiveCase adaptive{std::move(*input.mesh), adapt,           std::move(solver),  settings.formats,
+                        settings.values,        settings.fields, settings.partitions};
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }

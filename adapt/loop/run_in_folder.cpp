@@ -32,6 +32,7 @@ std::vector<std::string> all_formats(const std::vector<std::string>& of_case) {
 
 CycleFileOptions file_options(const AdaptiveCase& adaptive) {
   CycleFileOptions options{all_formats(adaptive.formats), {}, 1.4, adaptive.fields, record_of_case(adaptive)};
+  options.partitions = adaptive.partitions;
   if (const CommandSolver* const command = command_of(adaptive.solver)) {
     options.read_by_solver = {command->mesh};
     options.gamma = command->gamma;

@@ -19,6 +19,7 @@ struct AdaptiveCase {
   CaseSettings settings;             ///< all that the run's files depend on, beside the outline
   /// Of quantity_names(): stand in the files of the cycles' meshes, but not in the one that is gone on from.
   std::vector<std::string> fields = {};
+  std::int32_t partitions = 0;  ///< parts of each cycle's mesh for a solver's ranks; 0: none
 };
 
 /// What a run tells its caller, on every rank.
