@@ -91,10 +91,10 @@ TEST_F(PvtuReader, KeepsTheValuesOfCells) {
                                "<CellData>" + data("Float64", name, values) + "</CellData><Points>"));
   };
   with_cells("parts/a.vtu", "p", "0.5 0.25");
-  with_cells("parts/b.vtu", "p", "0.125 8");  // its second cell is the first piece's second
+  with_cells("parts/b.vtu", "p", "0.125 8");  // its first cell is the first piece's second
   const LoadedMesh loaded = read_pvtu(folder_.file("m.pvtu"));
   EXPECT_EQ(loaded.solution->cells.names, std::vector<std::string>{"p"});
-  EXPECT_EQ(loaded.solution->cells.values, (std::vector<double>{0.5, 0.25, 0.125}));
+  EXPECT_EQ(loaded.solution->cells.values, (std::vector<double>{0.5, 0.25, 8}));
   EXPECT_EQ(loaded.solution->values, (std::vector<double>{1, 2, 3, 4, 5, 6, 8, 7}));
   with_cells("parts/b.vtu", "q", "0 0");
   expect_refusal("the cell data of the piece parts/b.vtu are not those of the first piece");

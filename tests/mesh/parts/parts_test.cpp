@@ -194,8 +194,8 @@ TEST(Parts, WeighTheSameAndAreCompact) {
   const PartFigures figures = part_figures(alone, all_parts(whole, 16));
   EXPECT_EQ(figures.parts, 16);
   EXPECT_LE(figures.balance, 1.03);
-  // Squares of 16 x 16 would cut 6 lines of 64 edges.
-  EXPECT_GE(figures.edge_cut, 6 * 64);
+  // Squares of 16 x 16 would cut 6 lines of 64 edges; parts that may differ a little have a few less.
+  EXPECT_GE(figures.edge_cut, 0.97 * 6 * 64);
   EXPECT_LE(figures.edge_cut, 1.15 * 6 * 64);
   EXPECT_LE(figures.most_neighbours, 10);
 }
