@@ -61,10 +61,6 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   warnings = std::move(input.warnings);
   const Settings& settings = input.settings;
   const AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
-  if (settings.partitions > 0)
-    warnings.push_back(
-        "output.partitions: `adapt` writes no parts; `quadloop convert --parts` makes them of a cycle's "
-        "mesh");
   require_known_variables(settings.solver, adapt.variables, arguments.case_path);
   const EulerOptions& flow = settings.solver.euler;
   if (!settings.solver.given)
@@ -78,6 +74,7 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   AdaptiveCase adaptive{std::move(*input.mesh), adapt,           std::move(solver),
                         settings.formats,       settings.values, settings.fields};
   adaptive.stream = settings.stream;
+  adaptive.partitions = settings.partitions;
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }

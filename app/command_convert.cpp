@@ -8,7 +8,6 @@
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/part_output.hpp"
 #include "app/report/figures.hpp"
 #include "app/report/part_report.hpp"
 #include "app/report/refusals.hpp"
@@ -16,6 +15,7 @@
 #include "io/foam/foam_plane_file.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/parts/part_output.hpp"
 #include "io/solid_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/solid/plane_of_solid.hpp"

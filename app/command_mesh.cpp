@@ -9,13 +9,13 @@
 #include "adapt/remesh/restart.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/part_output.hpp"
 #include "app/report/part_report.hpp"
 #include "app/report/summary.hpp"
 #include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/input/geom_text.hpp"
 #include "io/mesh_file.hpp"
+#include "io/parts/part_output.hpp"
 #include "io/text/text_output.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
@@ -150,11 +150,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   context.warn(generated.result.report.warnings);
   for (const std::string& file : prepared.files) context.warn(renames_in(generated.result.mesh, file));
   MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
-  if (parts) {
-    add_parts(summary.figures, *parts);
-    summary.files.push_back(prepared.part_files.front() +
-                            fmt::format(" and {} files of parts", prepared.part_files.size() - 1));
-  }
+  if (parts) add_parts(summary, *parts, prepared.part_files);
   context.warn(solver_warnings(prepared.input.settings, summary.shape));
   context.record.figures = record_of(summary);
   context.record.files = prepared.files;

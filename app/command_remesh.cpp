@@ -11,11 +11,13 @@
 #include "adapt/remesh/tree_mesh.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "app/report/part_report.hpp"
 #include "app/report/summary.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/parts/part_output.hpp"
 #include "io/solution_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
@@ -99,19 +101,6 @@ Warnings settle(const Communicator& comm, const RemeshArguments& arguments, cons
                   arguments.solution, files_beside(arguments.tree).front())};
 }
 
-void write(const Communicator& comm, const CarriedMesh& carried, const std::vector<std::string>& files,
-           double gamma) {
-  OutputSet outputs(comm);
-  const MeshResult& result = carried.generated.result;
-  for (const std::string& file : files) {
-    if (file.ends_with(tree_suffix))
-      write_tree(outputs, result.tree, file);
-    else
-      write_mesh(outputs, result.mesh, file, &carried.start, gamma);
-  }
-  outputs.commit();
-}
-
 Figures transfer_figures(const CarriedMesh& carried) {
   Figures figures;
   figures.add_raw("nodes outside the old mesh", std::to_string(carried.report.outside),
@@ -125,8 +114,30 @@ struct Problem {
   TreeRecord tree;
   CaseInput input;
   LoadedMesh whole;
-  std::vector<std::string> files;  ///< to be written
+  std::vector<std::string> files;       ///< to be written
+  std::vector<std::string> part_files;  ///< and these, where parts are asked for
+  PartRequest parts;
 };
+
+/// With the figures of parts where they are asked for. *Collective.*
+std::optional<PartFigures> write(const Communicator& comm, const CarriedMesh& carried,
+                                 const Problem& problem) {
+  OutputSet outputs(comm);
+  PartFiles part_files(comm);
+  std::optional<PartFigures> parts;
+  const MeshResult& result = carried.generated.result;
+  for (const std::string& file : problem.files) {
+    if (file.ends_with(tree_suffix))
+      write_tree(outputs, result.tree, file);
+    else
+      write_mesh(outputs, result.mesh, file, &carried.start, problem.input.settings.solver.euler.gamma);
+  }
+  if (!problem.part_files.empty())
+    parts = write_parts(part_files, comm, result.mesh, {.field = &carried.start}, problem.parts);
+  outputs.commit();
+  part_files.commit();
+  return parts;
+}
 
 /// *Collective.*
 Problem load(const Communicator& comm, const RemeshArguments& arguments) {
@@ -144,10 +155,13 @@ Problem load(const Communicator& comm, const RemeshArguments& arguments) {
     const std::string prefix = arguments.prefix.empty() ? settings.output_prefix : arguments.prefix;
     for (const std::string& format : settings.formats) problem.files.push_back(prefix + "." + format);
     problem.files.push_back(prefix + tree_suffix);
-    if (settings.partitions > 0)
-      problem.input.warnings.push_back(
-          "output.partitions: `remesh` writes no parts; `quadloop convert --parts` makes them of its mesh");
-    for (const std::string& file : problem.files) require_possible_output(file);
+    if (settings.partitions > 0) {
+      problem.parts = {prefix, settings.partitions, part_formats(settings.formats)};
+      problem.part_files = part_file_names(prefix, settings.partitions, problem.parts.formats);
+    }
+    for (const auto* files : {&problem.files, &problem.part_files}) {
+      for (const std::string& file : *files) require_possible_output(file);
+    }
     if (comm.is_root()) problem.whole = solved_mesh(arguments, tree);
   });
   return problem;
@@ -164,13 +178,16 @@ SolvedMesh compare(const Communicator& comm, const RemeshArguments& arguments, P
 }
 
 void report(const CommandContext& context, const CarriedMesh& carried, const StageTimes& times,
-            const std::vector<std::string>& files) {
-  for (const std::string& file : files) context.warn(renames_in(carried.generated.result.mesh, file));
-  const MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), files);
+            const Problem& problem, const std::optional<PartFigures>& parts) {
+  for (const std::string& file : problem.files) context.warn(renames_in(carried.generated.result.mesh, file));
+  MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), problem.files);
+  if (parts) add_parts(summary, *parts, problem.part_files);
   const Figures of_transfer = transfer_figures(carried);
   context.record.figures = record_of(summary);
   context.record.figures.append(of_transfer.record());
-  context.record.files = files;
+  context.record.files = problem.files;
+  context.record.files.insert(context.record.files.end(), problem.part_files.begin(),
+                              problem.part_files.end());
   if (context.shows_table()) std::cout << table_of(summary) << of_transfer.table(27, 10);
 }
 
@@ -192,13 +209,13 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   const CarriedMesh carried = carry_over(comm, mesh, plan, solved);
   times.append(carried.times);
   times.begin("write");
-  write(comm, carried, problem.files, settings.solver.euler.gamma);
+  const std::optional<PartFigures> parts = write(comm, carried, problem);
   times.end();
   context.warn(doubts);
   context.warn(problem.input.warnings);
   context.warn(carried.generated.result.report.warnings);
   context.warn(plan.warnings);
-  report(context, carried, times, problem.files);
+  report(context, carried, times, problem, parts);
 }
 
 std::string solution_help() {

@@ -21,6 +21,7 @@
 #include "io/ugrid/ugrid_file.hpp"
 #include "io/ugrid/ugrid_plane_file.hpp"
 #include "io/vtu/pvtu_file.hpp"
+#include "io/vtu/pvtu_solid_file.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
 
@@ -114,11 +115,14 @@ std::vector<FileFormat> rows_with_solutions() {
            .solution_in_solid = true},
           {.name = "pvtu",
            .program = "VTK",
-           .places = {mesh, solution, blocks, layers},
+           .places = {mesh, solution, blocks, layers, solid},
            .without_values = save,
            .read_mesh = read_pvtu,
            .write_mesh = write_pvtu,
-           .write_blocks = write_pvtu}};
+           .write_blocks = write_pvtu,
+           .write_solid = write_pvtu_solid,
+           .read_solid = read_pvtu_solid,
+           .solution_in_solid = true}};
 }
 
 /// Those that other programs read their meshes from.

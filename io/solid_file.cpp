@@ -103,8 +103,6 @@ std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& 
       losses.push_back(
           fmt::format("{}: a boundary is named '{}'; that end of the 3D mesh is '{}'", path, wanted, *name));
   }
-  if (mesh.solution != nullptr && mesh.solution->cells.width() > 0)
-    losses.push_back(path + ": the values of cells are not drawn out and are left out");
   std::vector<std::string> names;
   for (const BoundaryEdges& boundary : mesh.plane.boundaries) names.push_back(boundary.name);
   append_losses(*format, names, mesh.solution != nullptr, path, losses);

@@ -9,6 +9,7 @@
 #include "flow/quantities/flow_quantities.hpp"
 #include "flow/quantities/wall_table.hpp"
 #include "io/mesh_file.hpp"
+#include "io/parts/part_output.hpp"
 #include "io/text/text_output.hpp"
 #include "io/tree/tree_file.hpp"
 
@@ -70,6 +71,19 @@ void CycleFiles::meshed(const MeshResult& mesh, const Field& start) {
   write_mesh(outputs, mesh.mesh, paths.native_mesh(), starts_afresh_ ? nullptr : &start);
   write_tree(outputs, mesh.tree, paths.tree());
   outputs.commit();
+  if (options_.partitions == 0) return;
+  cell_parts_ = partition(comm_, mesh.mesh, options_.partitions);
+  write_parts_of(mesh.mesh, starts_afresh_ ? nullptr : &start);
+}
+
+/// As mesh() of CyclePaths are named.
+void CycleFiles::write_parts_of(const Mesh& mesh, const Field* field) const {
+  if (options_.partitions == 0) return;
+  PartFiles files(comm_);
+  write_parts(
+      files, comm_, mesh, cell_parts_, {.field = field},
+      {CyclePaths{folders_.under_way(cycle_)}.stem(), options_.partitions, part_formats(options_.formats)});
+  files.commit();
 }
 
 std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const SolvedFlow& flow) {
@@ -85,6 +99,7 @@ std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const SolvedFlow& 
                options_.gamma);
   }
   outputs.commit();
+  write_parts_of(mesh, &flow.solution);
   write_tables(comm_, mesh, flow, paths);
   return starts_afresh_ ? renames(mesh) : std::vector<std::string>{};  // said of the first cycle alone
 }

@@ -6,6 +6,7 @@
 
 #include "adapt/loop/cycle_folders.hpp"
 #include "adapt/loop/loop.hpp"
+#include "mesher/mesh/parts/partition.hpp"
 
 namespace quadloop {
 
@@ -18,11 +19,12 @@ struct CycleFileOptions {
   /// Asked as each cycle begins, as files of the case may change meanwhile; its digests and settings alone
   /// count.
   std::function<CycleRecord()> of_case;
+  std::int32_t partitions = 0;  ///< parts of the mesh, in those of the formats that hold them
 };
 
 /// Writes what the loop does to the run's folder, a folder for each cycle, put in place when it is whole:
 /// those of CyclePaths. The mesh in the program's own format is there, with the starting state, while the
-/// solver runs.
+/// solver runs, and so are its parts where they are wanted; these get the solution too in the end.
 class CycleFiles final : public CycleObserver {
  public:
   using Told = std::function<void(const CycleRecord&, const std::vector<std::string>& warnings)>;
@@ -39,6 +41,7 @@ class CycleFiles final : public CycleObserver {
 
  private:
   std::vector<std::string> renames(const Mesh& mesh) const;
+  void write_parts_of(const Mesh& mesh, const Field* field) const;
 
   const Communicator& comm_;
   CycleFolders& folders_;
@@ -47,6 +50,7 @@ class CycleFiles final : public CycleObserver {
   Told told_;
   int cycle_ = 0;
   bool starts_afresh_ = true;
+  CellParts cell_parts_;  ///< of the mesh under way
 };
 
 }  // namespace quadloop

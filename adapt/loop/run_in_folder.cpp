@@ -41,6 +41,7 @@ CycleFileOptions file_options(const AdaptiveCase& adaptive) {
   CycleFileOptions options{all_formats(adaptive.formats), {}, 1.4, adaptive.fields, [&adaptive] {
                              return record_of_case(adaptive);
                            }};
+  options.partitions = adaptive.partitions;
   if (const CommandSolver* const command = command_of(adaptive.solver)) {
     options.read_by_solver = {command->mesh};
     options.gamma = command->gamma;

@@ -22,6 +22,7 @@ struct AdaptiveCase {
   std::vector<std::string> fields = {};
   /// Of a solver that is not the built-in one: what its forces are relative to; none: they are not known.
   std::optional<FreeStream> stream = {};
+  std::int32_t partitions = 0;  ///< parts of each cycle's mesh for a solver's ranks; 0: none
 };
 
 /// What a run tells its caller, on every rank.

@@ -18,6 +18,8 @@ struct CyclePaths {
   /// The mesh with its flow, in the format of this name: in the folder.
   static std::string mesh_name(const std::string& format) { return mesh_stem + ("." + format); }
   std::string mesh(const std::string& format) const { return folder + "/" + mesh_name(format); }
+  /// What the names of all of them begin with.
+  std::string stem() const { return folder + "/" + mesh_stem; }
   /// The one that a run goes on from.
   std::string native_mesh() const { return mesh(native_format().name); }
   std::string tree() const { return folder + "/" + mesh_stem + tree_suffix; }

@@ -15,4 +15,9 @@ void add_parts(Figures& figures, const PartFigures& parts) {
                   json_of(parts.most_neighbours));
 }
 
+void add_parts(MeshSummary& summary, const PartFigures& parts, const std::vector<std::string>& files) {
+  add_parts(summary.figures, parts);
+  summary.files.push_back(files.front() + fmt::format(" and {} files of parts", files.size() - 1));
+}
+
 }  // namespace quadloop

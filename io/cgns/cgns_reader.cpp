@@ -3,19 +3,19 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <unordered_map>
 
 #include "io/cgns/cgns_bars.hpp"
+#include "io/cgns/cgns_boundaries.hpp"
 #include "io/cgns/cgns_condition.hpp"
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_handle.hpp"
 #include "io/cgns/cgns_names.hpp"
+#include "io/cgns/cgns_values.hpp"
 #include "io/files/input_file.hpp"
 #include "io/files/separate_reader.hpp"
 #include "io/loaded/layers_text.hpp"
 #include "io/loaded/pass_mesh.hpp"
 #include "io/loaded/strip_text.hpp"
-#include "io/text/name_index.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
 
@@ -25,42 +25,6 @@ namespace {
 
 using File = CgnsFile<InputError>;
 using Name = std::array<char, 33>;
-
-/// The boundaries of all zones by their names, and what the base's families say of them.
-class CgnsBoundaries {
- public:
-  BoundaryEdges& named(Mesh& mesh, const std::string& name, const std::string& condition) {
-    const auto [number, is_new] = names_.entry_of(name);
-    if (is_new) mesh.boundaries.push_back({name, condition, {}});
-    return mesh.boundaries[number];
-  }
-
-  std::string condition_of_family(const File& file, int base, const std::string& family) {
-    if (!families_) read_families(file, base);
-    const auto found = families_->find(family);
-    return found == families_->end() ? "none" : found->second;
-  }
-
- private:
-  void read_families(const File& file, int base) {
-    families_.emplace();
-    int families = 0;
-    file.check(cg_nfamilies(file.id(), base, &families));
-    for (int f = 1; f <= families; ++f) {
-      Name name{}, condition{};
-      int conditions = 0, geometries = 0;
-      BCType_t type = BCTypeNull;
-      file.check(cg_family_read(file.id(), base, f, name.data(), &conditions, &geometries));
-      if (conditions == 0) continue;
-      file.check(cg_fambc_read(file.id(), base, f, 1, condition.data(), &type));
-      families_->emplace(name.data(), condition_of_cgns(type));
-    }
-  }
-
-  NameIndex names_;
-  /// To conditions, once they are asked for.
-  std::optional<std::unordered_map<std::string, std::string>> families_;
-};
 
 /// Reads one zone into the mesh; nodes are numbered after those that are already there.
 class ZoneReader {
@@ -144,10 +108,10 @@ class ZoneReader {
   void add_element(int type, std::int64_t element, const cgsize_t* numbers) {
     if (type == TRI_3) {
       loaded_.mesh.triangles.push_back(row_at<3>(numbers));
-      triangle_elements_.push_back(element);
+      elements_[0].push_back(element);
     } else if (type == QUAD_4) {
       loaded_.mesh.quads.push_back(row_at<4>(numbers));
-      quad_elements_.push_back(element);
+      elements_[1].push_back(element);
     } else {
       bars_.add(element, row_at<2>(numbers));
     }
@@ -287,80 +251,25 @@ class ZoneReader {
     return boundaries_.condition_of_family(file_, base_, family.data());
   }
 
+  /// Rows of the triangles of all zones go before the quads'.
   void read_solution() {
-    int solutions = 0;
-    bool has_nodal = false, has_cells = false;
-    file_.check(cg_nsols(file_.id(), base_, zone_, &solutions));
-    for (int s = 1; s <= solutions; ++s) {
-      Name name{};
-      GridLocation_t location = Vertex;
-      file_.check(cg_sol_info(file_.id(), base_, zone_, s, name.data(), &location));
-      if (location == Vertex && !has_nodal) {
-        read_fields(s);
-        has_nodal = true;
-      }
-      if (location == CellCenter && !has_cells) {
-        read_cell_fields(s);
-        has_cells = true;
-      }
+    const Field own = read_cgns_values({file_, base_, zone_, nodes_, cells_}, elements_);
+    if (own.empty()) return;
+    if (first_node_ == 0) {
+      loaded_.solution = own;
+      return;
     }
-  }
-
-  /// The variables of a solution, `rows` values of each, one variable after the other. `names` are those of
-  /// the zones before.
-  std::vector<double> read_columns(int solution, cgsize_t rows, std::vector<std::string>& names) {
-    int fields = 0;
-    file_.check(cg_nfields(file_.id(), base_, zone_, solution, &fields));
-    if (first_node_ > 0 && std::ssize(names) != fields)
+    if (!loaded_.solution || own.width() != loaded_.solution->width() ||
+        own.cells.width() != loaded_.solution->cells.width())
       refuse("its solution has other variables than the first zone's");
-    std::vector<double> columns(fields * std::size_t(rows));
-    for (int f = 1; f <= fields; ++f) {
-      Name name{};
-      DataType_t type = RealDouble;
-      const cgsize_t first = 1;
-      file_.check(cg_field_info(file_.id(), base_, zone_, solution, f, &type, name.data()));
-      file_.check(cg_field_read(file_.id(), base_, zone_, solution, name.data(), RealDouble, &first, &rows,
-                                columns.data() + (f - 1) * std::size_t(rows)));
-      if (first_node_ == 0) names.push_back(variable_name_of_cgns(name.data()));
-    }
-    return columns;
-  }
-
-  void read_fields(int solution) {
-    if (!loaded_.solution) loaded_.solution.emplace();
     Field& result = *loaded_.solution;
-    const std::size_t rows = nodes_;
-    const std::vector<double> columns = read_columns(solution, nodes_, result.names);
-    for (std::size_t i = 0; i < rows; ++i) append_row(columns, rows, i, result.values);
-  }
-
-  /// Rows stand in the order of the elements; those of the triangles of all zones go before the quads'.
-  void read_cell_fields(int solution) {
-    if (!loaded_.solution) loaded_.solution.emplace();
-    CellValues& result = loaded_.solution->cells;
-    if (std::ssize(triangle_elements_) + std::ssize(quad_elements_) != cells_) {
-      refuse("it is said to have " + std::to_string(cells_) + " cells, its sections hold " +
-             std::to_string(triangle_elements_.size() + quad_elements_.size()));
-    }
-    const std::vector<double> columns = read_columns(solution, cells_, result.names);
-    std::vector<std::int64_t> sorted = triangle_elements_;
-    sorted.insert(sorted.end(), quad_elements_.begin(), quad_elements_.end());
-    std::ranges::sort(sorted);
-    std::vector<double> of_triangles, of_quads;
-    for (const auto& [elements, rows] :
-         {std::pair(&triangle_elements_, &of_triangles), {&quad_elements_, &of_quads}}) {
-      for (const std::int64_t element : *elements)
-        append_row(columns, cells_, std::ranges::lower_bound(sorted, element) - sorted.begin(), *rows);
-    }
-    const std::size_t before = loaded_.mesh.triangles.size() - triangle_elements_.size();
-    result.values.insert(result.values.begin() + before * result.width(), of_triangles.begin(),
-                         of_triangles.end());
-    result.values.insert(result.values.end(), of_quads.begin(), of_quads.end());
-  }
-
-  static void append_row(const std::vector<double>& columns, std::size_t rows, std::size_t row,
-                         std::vector<double>& values) {
-    for (std::size_t at = row; at < columns.size(); at += rows) values.push_back(columns[at]);
+    result.values.insert(result.values.end(), own.values.begin(), own.values.end());
+    const auto width = std::ssize(own.cells.names);
+    const auto quads = own.cells.values.begin() + width * std::ssize(elements_[0]);
+    std::vector<double>& cells = result.cells.values;
+    cells.insert(cells.begin() + width * (std::ssize(loaded_.mesh.triangles) - std::ssize(elements_[0])),
+                 own.cells.values.begin(), quads);
+    cells.insert(cells.end(), quads, own.cells.values.end());
   }
 
   const File& file_;
@@ -368,7 +277,8 @@ class ZoneReader {
   LoadedMesh& loaded_;
   CgnsBoundaries& boundaries_;
   cgsize_t nodes_ = 0, cells_ = 0;
-  std::vector<std::int64_t> triangle_elements_, quad_elements_;  ///< their numbers in the zone
+  std::array<std::vector<std::int64_t>, 2>
+      elements_;  ///< of triangles and of quads: their numbers in the zone
   std::size_t first_node_ = 0;
   CgnsBars bars_;
 };

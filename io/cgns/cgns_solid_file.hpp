@@ -12,8 +12,8 @@ namespace quadloop {
 
 /// Writes the mesh as 3D CGNS: one zone "domain" with sections PENTA_6 and HEXA_8, and for each patch a
 /// section of quads, or one of quads and one of triangles, with BC and family as write_cgns() has them, at
-/// FaceCenter; the solution at the vertices. *Collective.* Throws OutputError on all ranks, also where the
-/// library's sizes cannot count the mesh.
+/// FaceCenter; the solution at the vertices and at the cells' centres. *Collective.* Throws OutputError on
+/// all ranks, also where the library's sizes cannot count the mesh.
 void write_cgns_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
 
 /// Reads the one zone of a 3D CGNS file on the calling rank alone: sections of TETRA_4, PYRA_5, PENTA_6,

@@ -9,6 +9,7 @@
 #include "io/cgns/cgns_handle.hpp"
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_solid_file.hpp"
+#include "io/cgns/cgns_values.hpp"
 #include "io/files/separate_reader.hpp"
 #include "io/solid/pass_solid.hpp"
 #include "mesher/base/error.hpp"
@@ -55,6 +56,7 @@ class CgnsSolidReader {
     file_.check(cg_zone_type(file_.id(), 1, 1, &type));
     if (type != Unstructured) refuse("only an unstructured zone can be read");
     nodes_ = size[0];
+    cells_ = size[1];
     if (nodes_ < 1) refuse("its zone is said to have " + std::to_string(nodes_) + " nodes");
     std::array<std::vector<double>, 3> columns;
     const cgsize_t first = 1;
@@ -121,10 +123,10 @@ class CgnsSolidReader {
 
   void add(int type, std::int64_t element, const cgsize_t* numbers) {
     switch (type) {
-      case TETRA_4: mesh_.tetrahedra.push_back(row<4>(numbers)); break;
-      case PYRA_5: mesh_.pyramids.push_back(row<5>(numbers)); break;
-      case PENTA_6: mesh_.prisms.push_back(row<6>(numbers)); break;
-      case HEXA_8: mesh_.hexahedra.push_back(row<8>(numbers)); break;
+      case TETRA_4: add_cell<4>(element, numbers); break;
+      case PYRA_5: add_cell<5>(element, numbers); break;
+      case PENTA_6: add_cell<6>(element, numbers); break;
+      case HEXA_8: add_cell<8>(element, numbers); break;
       case TRI_3: {
         const auto nodes = row<3>(numbers);
         add_face(element, {nodes[0], nodes[1], nodes[2], SolidPatch::no_node});
@@ -132,6 +134,12 @@ class CgnsSolidReader {
       }
       default: add_face(element, row<4>(numbers));
     }
+  }
+
+  template <std::size_t width>
+  void add_cell(std::int64_t element, const cgsize_t* numbers) {
+    cells_of<width>(mesh_).push_back(row<width>(numbers));
+    elements_[width].push_back(element);
   }
 
   void add_face(std::int64_t element, const SolidPatch::Face& nodes) {
@@ -220,40 +228,16 @@ class CgnsSolidReader {
     }
   }
 
-  /// The first at the vertices.
   void read_solution() {
-    int solutions = 0;
-    file_.check(cg_nsols(file_.id(), 1, 1, &solutions));
-    for (int s = 1; s <= solutions && !mesh_.solution; ++s) {
-      Name name{};
-      GridLocation_t location = Vertex;
-      file_.check(cg_sol_info(file_.id(), 1, 1, s, name.data(), &location));
-      if (location == Vertex) read_fields(s);
-    }
-  }
-
-  void read_fields(int solution) {
-    int fields = 0;
-    file_.check(cg_nfields(file_.id(), 1, 1, solution, &fields));
-    Field& result = mesh_.solution.emplace();
-    const std::size_t width = fields;
-    result.values.resize(mesh_.points.size() * width);
-    std::vector<double> column(nodes_);
-    for (int f = 1; f <= fields; ++f) {
-      Name name{};
-      DataType_t type = RealDouble;
-      const cgsize_t first = 1;
-      file_.check(cg_field_info(file_.id(), 1, 1, solution, f, &type, name.data()));
-      file_.check(
-          cg_field_read(file_.id(), 1, 1, solution, name.data(), RealDouble, &first, &nodes_, column.data()));
-      result.names.push_back(variable_name_of_cgns(name.data()));
-      for (std::size_t i = 0; i < column.size(); ++i) result.values[i * width + f - 1] = column[i];
-    }
+    Field found = read_cgns_values({file_, 1, 1, nodes_, cells_}, elements_);
+    if (!found.empty()) mesh_.solution = std::move(found);
   }
 
   const File& file_;
   SolidMesh mesh_;
-  cgsize_t nodes_ = 0;
+  cgsize_t nodes_ = 0, cells_ = 0;
+  std::array<std::vector<std::int64_t>, 9>
+      elements_;  ///< of cells of so many nodes: their numbers in the zone
   std::vector<std::string> sections_;
   std::vector<LooseFace> faces_;
   std::unordered_map<std::int64_t, std::size_t> face_of_element_;

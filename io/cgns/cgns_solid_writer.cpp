@@ -7,6 +7,7 @@
 #include "io/cgns/cgns_patches.hpp"
 #include "io/cgns/cgns_sink.hpp"
 #include "io/cgns/cgns_solid_file.hpp"
+#include "io/solid/solid_cell_values.hpp"
 #include "io/solid/solid_stream.hpp"
 #include "mesher/base/error.hpp"
 
@@ -24,7 +25,8 @@ std::span<const Number> flat(std::span<const std::array<Number, width>> rows) {
 
 class CgnsSolidWriter {
  public:
-  CgnsSolidWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path) : stream_{stream} {
+  CgnsSolidWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path)
+      : stream_{stream}, cells_{stream} {
     refuse_too_large(path);
     staged_ = outputs.stage(path);
     stream_.on_root([&] {
@@ -44,6 +46,7 @@ class CgnsSolidWriter {
         [&](auto rows) { sink_->put_coordinates(flat<double>(rows)); });
     for_each_kind_of_cell([&]<std::size_t width>() { write_cells<width>(); });
     if (!stream_.variables().empty()) write_solution();
+    if (!cells_.names().empty()) write_solution_of_cells();
     write_patches();
   }
 
@@ -80,19 +83,41 @@ class CgnsSolidWriter {
 
   void write_solution() {
     const std::vector<std::string> names = cgns_variable_names(stream_.variables());
-    const std::size_t wide = names.size();
+    begin_solution(Vertex);
+    write_values(names, stream_.point_rows(),
+                 [&](std::int64_t row, std::size_t variable) { return stream_.value(row, variable); });
+  }
+
+  /// In the order of the elements.
+  void write_solution_of_cells() {
+    const std::vector<std::string> names = cgns_variable_names(cells_.names());
+    begin_solution(CellCenter);
+    for_each_kind_of_cell([&]<std::size_t width>() {
+      write_values(names, stream_.cell_rows<width>(), [&](std::int64_t row, std::size_t variable) {
+        return cells_.of_cell<width>(row, variable);
+      });
+    });
+  }
+
+  void begin_solution(GridLocation_t location) {
     stream_.on_root([&] {
-      sink_->begin_solution();
+      sink_->begin_solution(location);
       sink_->begin_rows();
     });
-    const RowStream rows{stream_.communicator(), stream_.point_rows(),
+  }
+
+  /// The ranks' next rows of the solution under way.
+  template <class Value>
+  void write_values(const std::vector<std::string>& names, std::int64_t count, const Value& value) {
+    const std::size_t wide = names.size();
+    const RowStream rows{stream_.communicator(), count,
                          std::max<std::int64_t>(1, numbers_per_piece / static_cast<std::int64_t>(wide))};
     rows.run<double>(
         [&](std::int64_t begin, std::int64_t end) {
           std::vector<double> values;
           values.reserve((end - begin) * wide);
           for (std::int64_t i = begin; i < end; ++i) {
-            for (std::size_t k = 0; k < wide; ++k) values.push_back(stream_.value(i, k));
+            for (std::size_t k = 0; k < wide; ++k) values.push_back(value(i, k));
           }
           return values;
         },
@@ -141,6 +166,7 @@ class CgnsSolidWriter {
   static constexpr std::int64_t numbers_per_piece = std::int64_t{1} << 17;
 
   const SolidStream& stream_;
+  const SolidCellValues cells_;
   StagedFile staged_;
   std::vector<std::string>
       names_;  ///< of patches, then of the triangles of those that are no sides; these three on rank 0 only

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "io/loaded/orient_cells.hpp"
 #include "mesher/base/ids.hpp"
@@ -60,9 +61,16 @@ std::int64_t drop(Rows& rows, const std::vector<char>& flags) {
   return flags.size() - kept;
 }
 
+/// The rows of values of those that stay are appended to `kept`.
 template <class Cells>
-std::int64_t drop_repeated_cells(Cells& cells, std::vector<std::int32_t>& cell_to_block) {
+std::int64_t drop_repeated_cells(Cells& cells, std::vector<std::int32_t>& cell_to_block,
+                                 std::span<const double> rows, std::vector<double>& kept) {
   const std::vector<char> is_repeated = repeated(cells, [](const auto& nodes) { return nodes; });
+  const std::size_t width = cells.empty() ? 0 : rows.size() / cells.size();
+  for (std::size_t i = 0; width > 0 && i < cells.size(); ++i) {
+    const auto row = rows.subspan(i * width, width);
+    if (is_repeated[i] == 0) kept.insert(kept.end(), row.begin(), row.end());
+  }
   drop(cell_to_block, is_repeated);
   return drop(cells, is_repeated);
 }
@@ -147,10 +155,16 @@ std::int32_t ForeignMesh::block_named(const std::string& name) {
 
 void drop_repeated(ForeignMesh& foreign, const std::string& path) {
   LoadedMesh& loaded = foreign.loaded;
-  const std::int64_t dropped =
-      drop_repeated_cells(loaded.mesh.triangles, loaded.triangle_to_block) +
-      drop_repeated_cells(loaded.mesh.quads, loaded.quad_to_block) +
-      drop(foreign.edges, repeated(foreign.edges, [](const ForeignEdge& edge) { return edge.nodes; }));
+  Field none;
+  CellValues& values = (loaded.solution ? *loaded.solution : none).cells;
+  const std::span<const double> rows = values.values;
+  const std::size_t quad_rows = loaded.mesh.triangles.size() * values.width();
+  std::vector<double> kept;
+  std::int64_t dropped =
+      drop_repeated_cells(loaded.mesh.triangles, loaded.triangle_to_block, rows.first(quad_rows), kept);
+  dropped += drop_repeated_cells(loaded.mesh.quads, loaded.quad_to_block, rows.subspan(quad_rows), kept);
+  dropped += drop(foreign.edges, repeated(foreign.edges, [](const ForeignEdge& edge) { return edge.nodes; }));
+  values.values = std::move(kept);
   if (dropped > 0)
     loaded.warnings.push_back(fmt::format(
         "{}: {} elements stand there more than once; the first of each was taken", path, dropped));

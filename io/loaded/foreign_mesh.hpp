@@ -39,8 +39,8 @@ struct ForeignMesh {
   }
 };
 
-/// Keeps the first of cells, and of edges, that have the same nodes: an element that belongs to several
-/// groups stands once for each.
+/// Keeps the first of cells, with its values, and of edges that have the same nodes: an element that belongs
+/// to several groups stands once for each.
 void drop_repeated(ForeignMesh& foreign, const std::string& path);
 
 /// Drops nodes that neither a cell nor an edge names; the others keep their order.

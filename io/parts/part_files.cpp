@@ -57,8 +57,7 @@ void PartFiles::write(const std::string& prefix, const PartIndex& index, const s
     write_part_index(outputs_, index, prefix + part_index_suffix);
     const bool has_values = !parts.empty() && parts[0].field;
     if (std::ranges::find(index.formats, "vtu") != index.formats.end())
-      write_part_pvtu(outputs_, index, has_values ? parts[0].field->names : std::vector<std::string>{},
-                      prefix);
+      write_part_pvtu(outputs_, index, has_values ? *parts[0].field : Field{}, prefix);
   });
 }
 

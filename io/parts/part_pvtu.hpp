@@ -4,12 +4,13 @@
 
 #include "io/files/output_file.hpp"
 #include "io/parts/part_index.hpp"
+#include "mesher/mesh/field.hpp"
 
 namespace quadloop {
 
-/// Writes PREFIX.pvtu, which lists the parts' .vtu files as pieces; `variables` are those of the solution. On
+/// Writes PREFIX.pvtu, which lists the parts' .vtu files as pieces; `field` tells the variables. On
 /// the set's only rank. Throws OutputError.
-void write_part_pvtu(OutputSet& outputs, const PartIndex& index, const std::vector<std::string>& variables,
+void write_part_pvtu(OutputSet& outputs, const PartIndex& index, const Field& field,
                      const std::string& prefix);
 
 }  // namespace quadloop

@@ -24,7 +24,7 @@ SolidStream::SolidStream(const Communicator& comm, const ExtrudedMesh& mesh) : c
     patches_.push_back(
         {end, "symmetry", counts.triangles, counts.quads, mesh.axis == ExtrusionAxis::y ? 'y' : 'z'});
   if (mesh.solution == nullptr) return;
-  for (const ExtrudedVariable& variable : extruded_variables(*mesh.solution, mesh.axis)) {
+  for (const ExtrudedVariable& variable : extruded_variables(mesh.solution->names, mesh.axis)) {
     variables_.push_back(variable.name);
     columns_.push_back(variable.column);
   }

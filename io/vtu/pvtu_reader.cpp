@@ -36,12 +36,12 @@ class PvtuReader {
       scan_.refuse("its pieces have more than 2^31 - 1 nodes, which cannot be read on one rank");
     unite_nodes();
     drop_cuts();
+    of_triangles_.insert(of_triangles_.end(), of_quads_.begin(), of_quads_.end());
+    if (!names_.empty() || !cell_names_.empty())
+      foreign_.loaded.solution =
+          Field{names_, std::move(values_), {}, {cell_names_, std::move(of_triangles_)}};
     drop_repeated(foreign_, scan_.path());
-    const bool has_solution = !names_.empty();
-    std::vector<double> values = std::move(values_);
-    LoadedMesh loaded = finish(std::move(foreign_), scan_);
-    if (has_solution) loaded.solution = Field{names_, std::move(values), {}};
-    return loaded;
+    return finish(std::move(foreign_), scan_);
   }
 
   /// Its nodes after those of the pieces before.
@@ -69,12 +69,19 @@ class PvtuReader {
 
   void take_solution(const LoadedMesh& piece, const std::string& source) {
     const Field solution = piece.solution.value_or(Field{});
-    if (points_.empty()) names_ = solution.names;
-    if (points_.empty() && solution.cells.width() > 0)
-      foreign_.loaded.warnings.push_back(scan_.path() + ": values of cells in several pieces are left out");
+    const CellValues& cells = solution.cells;
+    if (points_.empty()) {
+      names_ = solution.names;
+      cell_names_ = cells.names;
+    }
     if (solution.names != names_)
       scan_.refuse("the point data of the piece " + source + " are not those of the first piece");
+    if (cells.names != cell_names_)
+      scan_.refuse("the cell data of the piece " + source + " are not those of the first piece");
     values_.insert(values_.end(), solution.values.begin(), solution.values.end());
+    const auto quads = cells.values.begin() + std::ssize(piece.mesh.triangles) * std::ssize(cells.names);
+    of_triangles_.insert(of_triangles_.end(), cells.values.begin(), quads);
+    of_quads_.insert(of_quads_.end(), quads, cells.values.end());
   }
 
   /// Of nodes at the same place the first stays, with its values.
@@ -119,8 +126,9 @@ class PvtuReader {
   std::vector<std::string> sources_;
   ForeignMesh foreign_;
   std::vector<Point> points_;  ///< of all pieces
-  std::vector<std::string> names_;
-  std::vector<double> values_;  ///< rows for the points
+  std::vector<std::string> names_, cell_names_;
+  std::vector<double> values_;                   ///< rows for the points
+  std::vector<double> of_triangles_, of_quads_;  ///< rows for the cells
 };
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace quadloop {
 /// Writes the mesh as a VTK XML unstructured grid, raw appended, the bytes the same on any number of ranks:
 /// wedges, hexahedra, then the faces of patches as triangles and quads. The cell data "boundary" and the
 /// field data "boundary_names" are as in write_vtu(). VTK has the first triangle of a wedge look outwards, so
-/// that the two last nodes of each of its triangles change places. The solution becomes point data.
+/// that the two last nodes of each of its triangles change places. The solution becomes point data and
+/// cell data; a face has the values of the cell beside it.
 /// *Collective.* Throws OutputError on all ranks.
 void write_vtu_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
 

@@ -97,21 +97,27 @@ class VtuSolidReader {
     return result;
   }
 
+  template <std::size_t width>
+  void add_cell(std::size_t cell, const std::array<std::int32_t, width>& nodes) {
+    cells_of<width>(mesh_).push_back(nodes);
+    places_[width].push_back(static_cast<std::int32_t>(cell));
+  }
+
   void add(std::size_t cell, std::span<const std::int64_t> nodes) {
     switch (types_[cell]) {
-      case vtk_tetrahedron: mesh_.tetrahedra.push_back(nodes_of<4>(cell, nodes)); break;
-      case vtk_pyramid: mesh_.pyramids.push_back(nodes_of<5>(cell, nodes)); break;
+      case vtk_tetrahedron: add_cell(cell, nodes_of<4>(cell, nodes)); break;
+      case vtk_pyramid: add_cell(cell, nodes_of<5>(cell, nodes)); break;
       case vtk_wedge: {
         const auto n = nodes_of<6>(cell, nodes);  // its first triangle looks outwards
-        mesh_.prisms.push_back({n[0], n[2], n[1], n[3], n[5], n[4]});
+        add_cell(cell, std::array{n[0], n[2], n[1], n[3], n[5], n[4]});
         break;
       }
       case vtk_voxel: {
         const auto n = nodes_of<8>(cell, nodes);
-        mesh_.hexahedra.push_back({n[0], n[1], n[3], n[2], n[4], n[5], n[7], n[6]});
+        add_cell(cell, std::array{n[0], n[1], n[3], n[2], n[4], n[5], n[7], n[6]});
         break;
       }
-      case vtk_hexahedron: mesh_.hexahedra.push_back(nodes_of<8>(cell, nodes)); break;
+      case vtk_hexahedron: add_cell(cell, nodes_of<8>(cell, nodes)); break;
       case vtk_triangle: {
         const auto n = nodes_of<3>(cell, nodes);
         patch_of(cell).faces.push_back({n[0], n[1], n[2], SolidPatch::no_node});
@@ -136,28 +142,41 @@ class VtuSolidReader {
     return found != mesh_.patches.end() ? *found : mesh_.patches.emplace_back(SolidPatch{name, "none", {}});
   }
 
-  /// Point data of real numbers; of several components each is a variable.
+  /// Point data of numbers and cell data of real ones; of several components each is a variable.
   void read_solution() {
-    std::vector<std::string> names;
-    std::vector<std::vector<double>> columns;
+    Field solution;
+    std::vector<std::vector<double>> at_points, in_cells;
     for (const VtuArray& array : document_.arrays) {
-      if (array.section != "PointData" || array.type == "String" || array.components > 9) continue;
-      const std::size_t width = array.components;
-      const std::vector<double> values = numbers_.reals(array, document_.points * array.components);
-      for (std::size_t k = 0; k < width; ++k) {
-        names.push_back(width == 1 ? array.name
-                                   : array.name + "_" +
-                                         (width <= 3 ? std::string(1, "xyz"[k]) : std::to_string(k + 1)));
-        std::vector<double>& column = columns.emplace_back();
-        for (std::size_t i = k; i < values.size(); i += width) column.push_back(values[i]);
-      }
+      if (array.section == "PointData" && array.type != "String")
+        add_columns(array, document_.points, solution.names, at_points);
+      if (array.section == "CellData" && array.type.starts_with("Float"))  // whole numbers are marks
+        add_columns(array, document_.cells, solution.cells.names, in_cells);
     }
-    if (names.empty()) return;
-    Field& solution = mesh_.solution.emplace();
-    solution.names = std::move(names);
-    for (std::int64_t i = 0; i < document_.points; ++i) {
-      for (const std::vector<double>& column : columns) solution.values.push_back(column[i]);
+    if (solution.empty()) return;
+    for (std::int64_t i = 0; i < document_.points; ++i) append_row(at_points, i, solution.values);
+    for_each_kind_of_cell([&]<std::size_t width>() {
+      for (const std::int32_t cell : places_[width]) append_row(in_cells, cell, solution.cells.values);
+    });
+    mesh_.solution = std::move(solution);
+  }
+
+  void add_columns(const VtuArray& array, std::int64_t count, std::vector<std::string>& names,
+                   std::vector<std::vector<double>>& columns) const {
+    if (array.components > 9) return;
+    const std::size_t width = array.components;
+    const std::vector<double> values = numbers_.reals(array, count * array.components);
+    for (std::size_t k = 0; k < width; ++k) {
+      names.push_back(width == 1 ? array.name
+                                 : array.name + "_" +
+                                       (width <= 3 ? std::string(1, "xyz"[k]) : std::to_string(k + 1)));
+      std::vector<double>& column = columns.emplace_back();
+      for (std::size_t i = k; i < values.size(); i += width) column.push_back(values[i]);
     }
+  }
+
+  static void append_row(const std::vector<std::vector<double>>& columns, std::int64_t row,
+                         std::vector<double>& values) {
+    for (const std::vector<double>& column : columns) values.push_back(column[row]);
   }
 
   TextScanner scan_;
@@ -165,6 +184,8 @@ class VtuSolidReader {
   VtuNumbers numbers_;
   SolidMesh mesh_;
   std::vector<std::int64_t> types_, patch_of_;
+  std::array<std::vector<std::int32_t>, 9>
+      places_;             ///< of cells of so many nodes: which of the file's they are
   std::size_t place_ = 0;  ///< of the nodes of cells, for a refusal
 };
 

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "io/files/binary_output.hpp"
+#include "io/solid/solid_cell_values.hpp"
 #include "io/solid/solid_stream.hpp"
 #include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
@@ -33,7 +34,8 @@ struct Run {
 
 class VtuSolidWriter {
  public:
-  VtuSolidWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path) : stream_{stream} {
+  VtuSolidWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path)
+      : stream_{stream}, cells_{stream} {
     list_runs();
     const StagedFile staged = outputs.stage(path);
     stream_.on_root([&] {
@@ -50,6 +52,7 @@ class VtuSolidWriter {
       write_of_runs<std::uint8_t>([](const Run& run) { return run.type; });
       write_of_runs<std::int32_t>([](const Run& run) { return run.patch; });
     });
+    for (std::size_t k = 0; k < cells_.names().size(); ++k) write_cell_variable(k);
     for (std::size_t k = 0; k < stream_.variables().size(); ++k) write_variable(k);
     stream_.on_root([&] {
       file_->write("\n</AppendedData>\n</VTKFile>\n");
@@ -97,7 +100,9 @@ class VtuSolidWriter {
     head += "</Points>\n<Cells>\n" + array_tag("Int64", "connectivity", 8 * entries_);
     head += array_tag("Int64", "offsets", 8 * elements_);
     head += array_tag("UInt8", "types", elements_);
-    head += "</Cells>\n<CellData>\n" + array_tag("Int32", "boundary", 4 * elements_) + "</CellData>\n";
+    head += "</Cells>\n<CellData>\n" + array_tag("Int32", "boundary", 4 * elements_);
+    for (const std::string& name : cells_.names()) head += array_tag("Float64", name, 8 * elements_);
+    head += "</CellData>\n";
     if (!stream_.variables().empty()) {
       head += "<PointData>\n";
       for (const std::string& name : stream_.variables()) head += array_tag("Float64", name, 8 * nodes);
@@ -178,7 +183,26 @@ class VtuSolidWriter {
     put_rows(stream_.point_rows(), [&](std::int64_t i) { return std::array{stream_.value(i, variable)}; });
   }
 
+  /// Faces have the values of the cell beside them.
+  void write_cell_variable(std::size_t variable) {
+    stream_.on_root([&] { begin_array(8 * elements_); });
+    for_each_kind_of_cell([&]<std::size_t width>() {
+      put_rows(stream_.cell_rows<width>(),
+               [&](std::int64_t i) { return std::array{cells_.of_cell<width>(i, variable)}; });
+    });
+    cells_.sides(variable, [&](std::span<const double> values) {
+      for (const double value : values) put(std::array{value});
+    });
+    for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) {
+      put_rows(stream_.face_rows<3>(n),
+               [&](std::int64_t i) { return std::array{cells_.of_face<3>(n, i, variable)}; });
+      put_rows(stream_.face_rows<4>(n),
+               [&](std::int64_t i) { return std::array{cells_.of_face<4>(n, i, variable)}; });
+    }
+  }
+
   const SolidStream& stream_;
+  const SolidCellValues cells_;
   std::vector<Run> runs_;
   std::int64_t elements_ = 0, entries_ = 0, offset_ = 0;
   std::unique_ptr<OutputFile> file_;  ///< on rank 0 only

@@ -72,17 +72,35 @@ std::vector<std::int32_t> ordered_cells(const Cells<width>& cells, const NodeNum
   return ordered_by(first);
 }
 
-template <std::size_t width>
-GlobalCells<width> scatter_cells(const Communicator& comm, const Cells<width>& cells,
-                                 const std::vector<std::int32_t>& order, const NodeNumbers& numbers) {
-  GlobalCells<width> ordered;
-  ordered.reserve(order.size());
-  for (const std::int32_t cell : order) {
-    std::array<GlobalNodeId, width> nodes;
-    for (std::size_t k = 0; k < width; ++k) nodes[k] = numbers[cells[cell][k]];
-    ordered.push_back(nodes);
+/// Shares as those of scatter_evenly() of `count` rows, which the root makes, `make(i)` row i: few at a time,
+/// as it holds the whole mesh besides. `begin(n)` hears of the number of this rank's rows, `take(rows)` gets
+/// them piece by piece. `count` is that on the root. *Collective.*
+template <class Make, class Begin, class Take>
+void scatter_made(const Communicator& comm, std::size_t count, const Make& make, const Begin& begin,
+                  const Take& take) {
+  constexpr std::size_t rows_at_once = std::size_t{1} << 16;
+  const std::size_t ranks = comm.size(), all = comm.maximum(static_cast<std::int64_t>(count));
+  const auto begin_of = [&](std::size_t rank) { return all * rank / ranks; };
+  const std::size_t piece = std::max<std::size_t>(1, rows_at_once / ranks), longest = all / ranks + 1;
+  begin(begin_of(comm.rank() + 1) - begin_of(comm.rank()));
+  for (std::size_t first = 0; first < longest; first += piece) {
+    std::vector<decltype(make(std::size_t{0}))> rows;
+    std::vector<std::int64_t> counts(ranks, 0);
+    for (std::size_t rank = 0; comm.is_root() && rank < ranks; ++rank) {
+      const std::size_t end = std::min(begin_of(rank + 1), begin_of(rank) + first + piece);
+      for (std::size_t i = begin_of(rank) + first; i < end; ++i, ++counts[rank]) rows.push_back(make(i));
+    }
+    take(scatter_from_root(comm, rows, counts));
   }
-  return scatter_evenly(comm, std::span<const std::array<GlobalNodeId, width>>(ordered));
+}
+
+std::vector<Point> scatter_points(const Communicator& comm, const Mesh& whole, const MeshOrder& order) {
+  std::vector<Point> points;
+  scatter_made(
+      comm, order.nodes.size(), [&](std::size_t i) { return whole.points[order.nodes[i]]; },
+      [&](std::size_t own) { points.reserve(own); },
+      [&](const std::vector<Point>& some) { points.insert(points.end(), some.begin(), some.end()); });
+  return points;
 }
 
 std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whole,
@@ -147,13 +165,24 @@ class PartBuilder {
   PartBuilder(const Communicator& comm, std::vector<Point> points)
       : part_{part_of(comm, std::move(points))}, nodes_{part_} {}
 
+  /// The rank's share of the root's cells. *Collective.*
   template <std::size_t width>
-  void add_cells(const GlobalCells<width>& cells, Cells<width>& to) {
-    for (const auto& cell : cells) {
-      std::array<NodeId, width> nodes;
-      for (std::size_t k = 0; k < width; ++k) nodes[k] = local(cell[k]);
-      to.push_back(nodes);
-    }
+  void scatter_cells(const Communicator& comm, const Cells<width>& cells,
+                     const std::vector<std::int32_t>& order, const NodeNumbers& numbers, Cells<width>& to) {
+    const auto make = [&](std::size_t i) {
+      std::array<GlobalNodeId, width> nodes;
+      for (std::size_t k = 0; k < width; ++k) nodes[k] = numbers[cells[order[i]][k]];
+      return nodes;
+    };
+    const auto take = [&](const GlobalCells<width>& some) {
+      for (const auto& cell : some) {
+        std::array<NodeId, width> nodes;
+        for (std::size_t k = 0; k < width; ++k) nodes[k] = local(cell[k]);
+        to.push_back(nodes);
+      }
+    };
+    scatter_made(
+        comm, order.size(), make, [&](std::size_t own) { to.reserve(own); }, take);
   }
   void add_edges(const std::vector<GlobalEdge>& edges) {
     for (const GlobalEdge& e : edges)
@@ -266,9 +295,9 @@ MeshOrder own_order(const Mesh& whole) {
 
 Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& order) {
   const NodeNumbers numbers = inverse_of(order.nodes);
-  PartBuilder builder(comm, scatter_nodes(comm, whole.points, order));
-  builder.add_cells(scatter_cells(comm, whole.triangles, order.triangles, numbers), builder.part().triangles);
-  builder.add_cells(scatter_cells(comm, whole.quads, order.quads, numbers), builder.part().quads);
+  PartBuilder builder(comm, scatter_points(comm, whole, order));
+  builder.scatter_cells(comm, whole.triangles, order.triangles, numbers, builder.part().triangles);
+  builder.scatter_cells(comm, whole.quads, order.quads, numbers, builder.part().quads);
   builder.part().boundaries = broadcast_boundaries(comm, whole);
   builder.add_edges(scatter_edges(comm, whole, numbers));
   builder.part().strips = broadcast_strips(comm, whole, numbers);

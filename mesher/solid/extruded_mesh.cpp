@@ -17,9 +17,9 @@ std::string free_name(const Mesh& mesh, const std::string& wanted) {
   return name;
 }
 
-/// The column of "x_velocity" and the like, whatever its name in the field; none where it cannot be told.
-std::int64_t column_of(const Field& field, const std::string& wanted) {
-  const std::vector<std::size_t> found = variables_like(field.names, wanted);
+/// The column of "x_velocity" and the like, whatever its name there; none where it cannot be told.
+std::int64_t column_of(const std::vector<std::string>& names, const std::string& wanted) {
+  const std::vector<std::size_t> found = variables_like(names, wanted);
   return found.size() == 1 ? static_cast<std::int64_t>(found.front()) : ExtrudedVariable::zero;
 }
 
@@ -48,9 +48,9 @@ ExtrudedCounts::ExtrudedCounts(const Communicator& comm, const ExtrudedMesh& mes
   hexahedra = quads * mesh.layers();
 }
 
-std::vector<ExtrudedVariable> extruded_variables(const Field& plane, ExtrusionAxis axis) {
+std::vector<ExtrudedVariable> extruded_variables(const std::vector<std::string>& plane, ExtrusionAxis axis) {
   std::vector<ExtrudedVariable> variables;
-  for (const std::string& name : plane.names) variables.push_back({name, std::ssize(variables)});
+  for (const std::string& name : plane) variables.push_back({name, std::ssize(variables)});
   for (const std::string vector : {"velocity", "momentum"}) {
     const std::int64_t x = column_of(plane, "x_" + vector), y = column_of(plane, "y_" + vector);
     if (x == ExtrudedVariable::zero || y == ExtrudedVariable::zero) continue;

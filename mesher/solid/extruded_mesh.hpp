@@ -34,7 +34,7 @@ struct ExtrudedMesh {
   std::vector<double> heights;  ///< coordinates of the levels along the axis, from back to front; at least 2
   ExtrusionAxis axis = ExtrusionAxis::z;
   std::string back = "back", front = "front";  ///< names of the two ends; no boundary has one of them
-  const Field* solution = nullptr;             ///< at the plane's nodes: the same on each level
+  const Field* solution = nullptr;             ///< the same on each level, and in each layer
 
   std::int64_t levels() const { return std::ssize(heights); }
   std::int64_t layers() const { return levels() - 1; }
@@ -114,9 +114,9 @@ struct ExtrudedVariable {
   std::int64_t column = zero;
 };
 
-/// The variables of a solution in space. Components of velocity and of momentum stay in the plane: where it
-/// is drawn out along y, that along the plane's y becomes the one along z; of a pair that is complete the
-/// third component is there too, 0.
-std::vector<ExtrudedVariable> extruded_variables(const Field& plane, ExtrusionAxis axis);
+/// The variables of a solution in space, by their names in the plane. Components of velocity and of momentum
+/// stay in the plane: where it is drawn out along y, that along the plane's y becomes the one along z; of a
+/// pair that is complete the third component is there too, 0.
+std::vector<ExtrudedVariable> extruded_variables(const std::vector<std::string>& plane, ExtrusionAxis axis);
 
 }  // namespace quadloop

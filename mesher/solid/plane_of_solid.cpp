@@ -194,6 +194,7 @@ class PlaneMaker {
     Field& plane = plane_.solution.emplace();
     plane.names = solid.names;
     plane.constants = solid.constants;
+    plane.cells = solid.cells;  // prisms before hexahedra, as triangles before quads
     for (std::size_t node = 0; node < new_node_.size(); ++node) {
       if (new_node_[node] < 0) continue;
       const auto row = solid.row(NodeId{static_cast<std::int32_t>(node)});

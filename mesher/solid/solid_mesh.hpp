@@ -30,7 +30,7 @@ struct SolidMesh {
   std::vector<std::array<std::int32_t, 6>> prisms;
   std::vector<std::array<std::int32_t, 8>> hexahedra;
   std::vector<SolidPatch> patches;
-  std::optional<Field> solution;      ///< at the nodes
+  std::optional<Field> solution;      ///< rows of cells stand in the order of the kinds above
   std::vector<std::string> warnings;  ///< what the reader left out, with the file's name
 };
 

@@ -54,7 +54,11 @@ class Parts(ProgramTest):
         self.made("a")
         self.write("s.mesh", convert_test.with_solution(self.text("a.mesh")))
         self.write("b.mesh", convert_test.TWO_BLOCKS)
-        for mesh, parts, ranks in (("s.mesh", 5, 1), ("s.mesh", 5, 3), ("b.mesh", 2, 1), ("b.mesh", 3, 2)):
+        lines = self.text("a.mesh").split("\n")
+        cells = sum(int(lines[lines.index(f"#Number of {kind} elements") + 1]) for kind in ("triangular", "quadrilateral"))
+        rows = "".join(f"{(i + 0.5) / 7!r} {i}\n" for i in range(cells))
+        self.write("c.mesh", self.text("s.mesh") + "#Number of cell variables\n2\n#names: volume level\n" + rows)
+        for mesh, parts, ranks in (("s.mesh", 5, 1), ("s.mesh", 5, 3), ("c.mesh", 5, 2), ("b.mesh", 2, 1), ("b.mesh", 3, 2)):
             self.done("convert", mesh, "out.mesh", "--parts", str(parts), "-q", ranks=ranks)
             self.done("convert", "out.parts", "back.mesh", "-q")
             self.assertEqual(self.text("back.mesh"), self.text(mesh))

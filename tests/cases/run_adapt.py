@@ -14,7 +14,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from adapt_runs import TINY, adapt, command_of, expect_refusal, files_in, require, require_same_folders, states, tiny_case
+from adapt_runs import RING, TINY, adapt, command_of, expect_refusal, files_in, require, require_same_folders, states, tiny_case
+from quadloop_runs import run
 
 
 def check_ranks(program, case, folder, ranks, options):
@@ -64,6 +65,22 @@ def check_state(program, folder, ranks):
     require(found == [False, True, True], f"the state is there in cycles {found}")
     expect_refusal(program, 1, ["solver.solution", "starting state", "flow.su2"], "adapt", case, "-o", folder / "su2" / "never", "--set",
                    "solver.solution=flow.csv")
+
+
+def check_parts(program, folder, ranks):
+    """Parts stand in the cycle's folder while its solver runs, with the starting state, and in the end with the solution: together they are the whole."""
+    solver = (RING / "solver.py").read_text().replace("0.01", "0.1")
+    solver += "\nfrom pathlib import Path\nPath('first.txt').write_text(Path('mesh.parts').read_text() + Path('mesh.part_0003.mesh').read_text())\n"
+    options = ["--cycles", "1", "--set", "output.partitions=3", "--set", 'output.formats=["mesh","vtu"]']
+    case = tiny_case(folder / "parts", solver)
+    check_ranks(program, case, folder / "parts", ranks, options)
+    for cycle in (0, 1):
+        made = folder / "parts" / f"on_{ranks[0]}" / f"cycle_{cycle:02}"
+        run(command_of(program, 1, "convert", made / "mesh.parts", folder / "back.mesh"))
+        require((folder / "back.mesh").read_text() == (made / "mesh.mesh").read_text(), f"the parts of cycle {cycle} are not its mesh")
+        require("height" in (made / "mesh.part_0003.mesh").read_text(), "a part has no solution")
+        require(("height" in (made / "first.txt").read_text()) == (cycle > 0), f"the state that the solver of cycle {cycle} finds in its part")
+        require((made / "mesh.pvtu").exists(), "no list of the pieces")
 
 
 def kill_session(leader):
@@ -154,6 +171,7 @@ def main():
             case = tiny_case(folder / "case")
             check_ranks(args.quadloop, case, folder, args.ranks, [*settings, "--cycles", args.cycles])
             check_state(args.quadloop, folder, args.ranks)
+            check_parts(args.quadloop, folder, args.ranks)
             check_other_ranks_go_on(args.quadloop, case, folder, args.ranks, args.cycles, settings)
         else:
             check_kill(args.quadloop, tiny_case(folder / "case"), folder, args.ranks[0], args.times, args.seed)

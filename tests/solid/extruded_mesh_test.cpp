@@ -55,7 +55,7 @@ TEST(ExtrudedMesh, EvenHeightsEndAtTheThickness) {
 TEST(ExtrudedMesh, VectorsStayInThePlane) {
   const auto names = [](const Field& field, ExtrusionAxis axis) {
     std::vector<std::string> result;
-    for (const ExtrudedVariable& variable : extruded_variables(field, axis))
+    for (const ExtrudedVariable& variable : extruded_variables(field.names, axis))
       result.push_back(variable.name + ":" + std::to_string(variable.column));
     return result;
   };

@@ -76,12 +76,15 @@ void PartJoiner::put_nodes(const MeshPart& part, const std::string& shown) {
 void PartJoiner::put_values(const MeshPart& part, const std::string& shown) {
   std::optional<Field>& field = whole_.field;
   if (parts_ == 0 && part.field) {
-    field = Field{part.field->names, {}, part.field->constants};
+    field = Field{part.field->names, {}, part.field->constants, {part.field->cells.names, {}}};
     field->values.resize(whole_.mesh.points.size() * field->width());
+    field->cells.values.resize((whole_.mesh.triangles.size() + whole_.mesh.quads.size()) *
+                               field->cells.width());
   }
   const bool alike =
       field.has_value() == part.field.has_value() &&
-      (!field || (field->names == part.field->names && field->constants == part.field->constants));
+      (!field || (field->names == part.field->names && field->constants == part.field->constants &&
+                  field->cells.names == part.field->cells.names));
   if (!alike) throw InputError(shown + ": its variables or constants are not those of the first part");
   if (!field) return;
   for (std::int32_t i = 0; i < size32(part.nodes); ++i) {
@@ -89,6 +92,18 @@ void PartJoiner::put_values(const MeshPart& part, const std::string& shown) {
     std::ranges::copy(part.field->row(NodeId{i}),
                       field->row(NodeId{static_cast<std::int32_t>(part.nodes[i])}).begin());
   }
+  put_cell_values(part, field->cells);
+}
+
+void PartJoiner::put_cell_values(const MeshPart& part, CellValues& whole) const {
+  const std::size_t width = whole.width();
+  auto row = part.field->cells.values.begin();
+  const auto put = [&](std::size_t cell) {
+    std::copy_n(row, width, whole.values.begin() + static_cast<std::ptrdiff_t>(cell * width));
+    row += static_cast<std::ptrdiff_t>(width);
+  };
+  for (const std::int64_t triangle : part.triangles) put(triangle);
+  for (const std::int64_t quad : part.quads) put(whole_.mesh.triangles.size() + quad);
 }
 
 void PartJoiner::put(const MeshPart& part, const std::string& shown) {

@@ -45,6 +45,7 @@ class PartJoiner {
                 const std::string& shown);
   void put_nodes(const MeshPart& part, const std::string& shown);
   void put_values(const MeshPart& part, const std::string& shown);
+  void put_cell_values(const MeshPart& part, CellValues& whole) const;
 
   JoinedMesh whole_;
   std::vector<char> placed_, owned_;  ///< nodes: of any part; of the one that owns it

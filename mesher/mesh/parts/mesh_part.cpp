@@ -8,6 +8,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/exchange.hpp"
+#include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/parts/part_sides.hpp"
 
@@ -54,6 +55,7 @@ class PartMaker {
     put_cells(triangles, &Mesh::triangles, &MeshPart::triangles, &MeshPart::triangle_to_block);
     put_cells(quads, &Mesh::quads, &MeshPart::quads, &MeshPart::quad_to_block);
     fetch_nodes();
+    fetch_cell_values();
     put_sharings();
     put_sides();
     return std::move(parts_);
@@ -162,6 +164,27 @@ class PartMaker {
         part.field = Field{data_.field->names,
                            {rows.begin() + at * width, rows.begin() + end * width},
                            data_.field->constants};
+      at = end;
+    }
+  }
+
+  /// Rows of triangles, then of quads, from the ranks that have the cells.
+  void fetch_cell_values() {
+    if (data_.field == nullptr || data_.field->cells.width() == 0) return;
+    const CellOwners owners(comm_, mesh_);
+    const std::int64_t all_triangles = comm_.sum(std::ssize(mesh_.triangles));
+    std::vector<std::int64_t> wanted;
+    for (const MeshPart& part : parts_) {
+      wanted.insert(wanted.end(), part.triangles.begin(), part.triangles.end());
+      for (const std::int64_t quad : part.quads) wanted.push_back(all_triangles + quad);
+    }
+    const CellValues& whole = data_.field->cells;
+    const std::vector<double> rows =
+        rows_of_cells(comm_, owners, std::span<const std::int64_t>(wanted), whole.values, whole.width());
+    auto at = rows.begin();
+    for (MeshPart& part : parts_) {
+      const auto end = at + std::ssize(whole.names) * (std::ssize(part.triangles) + std::ssize(part.quads));
+      part.field->cells = {whole.names, {at, end}};
       at = end;
     }
   }

@@ -32,7 +32,7 @@ struct MeshPart {
   std::vector<std::int32_t> owners;              ///< of each node: the lowest part that has it
   std::vector<std::vector<std::int64_t>> edges;  ///< for each boundary of the whole its edges' places there
   std::vector<Neighbour> neighbours;             ///< ascending
-  std::optional<Field> field;                    ///< a row for each node
+  std::optional<Field> field;                    ///< a row for each node, and for each cell
 };
 
 /// "part_0003" for part 2: with four digits, or more where there are more.

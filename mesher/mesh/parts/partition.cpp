@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <numeric>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 #include "mesher/mesh/parts/hilbert.hpp"
+#include "mesher/mesh/parts/refine_parts.hpp"
 
 namespace quadloop {
 
@@ -146,6 +148,25 @@ std::vector<Place> places_of(const Communicator& comm, const Mesh& mesh) {
   return places;
 }
 
+/// Pieces of the curve, of equal weights up to a cell's.
+CellParts along_curve(const Communicator& comm, const Mesh& mesh, const PartWeights& of_cells,
+                      std::int32_t parts) {
+  const std::vector<Place> places = places_of(comm, mesh);
+  std::vector<std::int64_t> weights(mesh.triangles.size(), of_cells.of_triangle);
+  weights.resize(places.size(), of_cells.of_quad);
+  const WeightsAlongCurve along(places, weights);
+  const std::int64_t cells = comm.sum(std::ssize(places));
+  const std::vector<Place> splits = Splits(comm, along, parts).find(cells);
+  const auto part_of = [&](const Place& place) {
+    return static_cast<std::int32_t>(std::ranges::lower_bound(splits, place) - splits.begin());
+  };
+  CellParts of{parts, {}, {}};
+  const auto quads_begin = places.begin() + std::ssize(mesh.triangles);
+  std::transform(places.begin(), quads_begin, std::back_inserter(of.triangles), part_of);
+  std::transform(quads_begin, places.end(), std::back_inserter(of.quads), part_of);
+  return of;
+}
+
 }  // namespace
 
 CellParts partition(const Communicator& comm, const Mesh& mesh, std::int32_t parts) {
@@ -155,22 +176,19 @@ CellParts partition(const Communicator& comm, const Mesh& mesh, std::int32_t par
   if (cells < parts)
     throw InputError(std::to_string(parts) + " parts are wanted of a mesh of " + std::to_string(cells) +
                      " cells; ask for at most as many parts as there are cells");
-  CellParts of{parts, std::vector<std::int32_t>(mesh.triangles.size(), 0),
-               std::vector<std::int32_t>(mesh.quads.size(), 0)};
-  if (parts == 1) return of;
+  if (parts == 1)
+    return {parts, std::vector<std::int32_t>(mesh.triangles.size(), 0),
+            std::vector<std::int32_t>(mesh.quads.size(), 0)};
   // Shares of less than a cell would leave parts empty: cells count alike then.
   const bool weighed = 3 * triangles + heaviest * quads >= heaviest * parts;
-  const std::vector<Place> places = places_of(comm, mesh);
-  std::vector<std::int64_t> weights(mesh.triangles.size(), weighed ? 3 : 1);
-  weights.resize(places.size(), weighed ? heaviest : 1);
-  const WeightsAlongCurve along(places, weights);
-  const std::vector<Place> splits = Splits(comm, along, parts).find(cells);
-  const auto part_of = [&](const Place& place) {
-    return static_cast<std::int32_t>(std::ranges::lower_bound(splits, place) - splits.begin());
-  };
-  const auto quads_begin = places.begin() + std::ssize(mesh.triangles);
-  std::transform(places.begin(), quads_begin, of.triangles.begin(), part_of);
-  std::transform(quads_begin, places.end(), of.quads.begin(), part_of);
+  PartWeights weights;
+  if (!weighed) weights.of_triangle = weights.of_quad = 1;
+  const std::int64_t all = weights.of_triangle * triangles + weights.of_quad * quads;
+  weights.most = std::max(103 * all / (100 * parts), all / parts + weights.of_quad);
+  weights.least = std::max<std::int64_t>(
+      1, std::min((97 * all + 100 * parts - 1) / (100 * parts), all / parts - weights.of_quad));
+  CellParts of = along_curve(comm, mesh, weights, parts);
+  refine_parts(comm, mesh, weights, of);
   return of;
 }
 

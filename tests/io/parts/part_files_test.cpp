@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "io/mesh_file.hpp"
@@ -11,6 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/parts/partition.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/mesh/same_meshes.hpp"
 #include "tests/support/world.hpp"
@@ -26,6 +28,24 @@ Mesh sample() {
   mesh.boundaries[0].layers = {1, 0.7};
   return mesh;
 }
+
+/// With values in the cells too.
+Field sample_field(const Mesh& mesh) {
+  Field field = test::sample_solution(mesh);
+  field.cells.names = {"volume"};
+  for (std::size_t i = 0; i < mesh.triangles.size() + mesh.quads.size(); ++i)
+    field.cells.values.push_back(1 / static_cast<double>(i + 3));
+  return field;
+}
+
+/// This rank's share of a whole mesh, and of its field.
+struct Share {
+  explicit Share(const Mesh& whole)
+      : mesh{scatter_mesh(world(), whole, own_order(whole))},
+        field{scatter_field(world(), sample_field(whole), mesh, own_order(whole))} {}
+  Mesh mesh;
+  Field field;
+};
 
 void write_set(const Communicator& comm, const Mesh& mesh, const Field& field, const std::string& prefix,
                const std::vector<std::string>& formats, std::int32_t parts = 5) {
@@ -44,14 +64,17 @@ void expect_same(const LoadedMesh& read, const Mesh& mesh, const Field& field) {
   }
   ASSERT_TRUE(read.solution);
   EXPECT_EQ(read.solution->values, field.values);
+  EXPECT_EQ(read.solution->cells.names, field.cells.names);
+  EXPECT_EQ(read.solution->cells.values, field.cells.values);
   EXPECT_TRUE(read.warnings.empty());
 }
 
 TEST(PartFiles, SameBytesOnAnyNumberOfRanks) {
   const TemporaryFolder many, one;
-  const Mesh whole = sample(), own = test::share_of(whole, world().rank(), world().size());
-  const Field field = test::sample_solution(whole), own_field = test::share_of(field, whole, own);
-  write_set(world(), own, own_field, many.file("a"), {"mesh", "vtu"});
+  const Mesh whole = sample();
+  const Field field = sample_field(whole);
+  const Share own(whole);
+  write_set(world(), own.mesh, own.field, many.file("a"), {"mesh", "vtu"});
   world().barrier();
   if (!world().is_root()) return;
   const Communicator alone(MPI_COMM_SELF);
@@ -65,10 +88,11 @@ TEST(PartFiles, SameBytesOnAnyNumberOfRanks) {
 
 TEST(PartFiles, ComeBackAsTheWholeFromEachFormat) {
   const TemporaryFolder folder;
-  const Mesh whole = sample(), own = test::share_of(whole, world().rank(), world().size());
-  const Field field = test::sample_solution(whole), own_field = test::share_of(field, whole, own);
+  const Mesh whole = sample();
+  const Field field = sample_field(whole);
+  const Share own(whole);
   for (const std::string format : {"mesh", "vtu", "cgns"})
-    write_set(world(), own, own_field, folder.file(format), {format}, 7);
+    write_set(world(), own.mesh, own.field, folder.file(format), {format}, 7);
   world().barrier();
   if (!world().is_root()) return;
   for (const std::string format : {"mesh", "vtu", "cgns"}) {
@@ -83,12 +107,29 @@ TEST(PartFiles, ComeBackAsTheWholeFromEachFormat) {
   }
 }
 
+TEST(PartFiles, TheirPvtuIsTheWholeInTheOrderOfParts) {
+  const TemporaryFolder folder;
+  const Mesh whole = sample();
+  const Share own(whole);
+  write_set(world(), own.mesh, own.field, folder.file("a"), {"vtu"}, 4);
+  world().barrier();
+  if (!world().is_root()) return;
+  const LoadedMesh read = read_mesh(folder.file("a.pvtu"));
+  EXPECT_EQ(read.mesh.points.size(), whole.points.size());
+  EXPECT_EQ(read.mesh.triangles.size(), whole.triangles.size());
+  ASSERT_TRUE(read.solution);
+  std::vector<double> found = read.solution->cells.values, wanted = sample_field(whole).cells.values;
+  std::ranges::sort(found);
+  std::ranges::sort(wanted);
+  EXPECT_EQ(found, wanted);
+}
+
 TEST(PartFiles, RefuseASetThatDoesNotFitTogether) {
   const TemporaryFolder folder;  // collective
   if (!world().is_root()) return;
   const Communicator alone(MPI_COMM_SELF);
   const Mesh whole = sample();
-  const Field field = test::sample_solution(whole);
+  const Field field = sample_field(whole);
   const auto refused = [&](const auto& damage) {
     write_set(alone, whole, field, folder.file("a"), {"mesh"});
     EXPECT_NO_THROW(read_parts(folder.file("a.parts")));

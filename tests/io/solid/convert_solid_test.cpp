@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/formats.hpp"
+#include "io/solid/solid_cell_values.hpp"
 #include "io/solid_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/solid/check_solid.hpp"
@@ -40,6 +41,7 @@ SolidMesh sample() {
   mesh.solution->names = {"density", "x_velocity"};
   for (int i = 0; i < std::ssize(mesh.points); ++i)
     mesh.solution->values.insert(mesh.solution->values.end(), {(i + 1) / 7.0, -1.0 / (i + 3)});
+  mesh.solution->cells = {{"pressure", "level"}, {0.1, 1, 0.2, 2, 0.3, 3, 1 / 7.0, 4, 5e-9, 5}};
   return mesh;
 }
 
@@ -89,6 +91,8 @@ TEST(ConvertSolid, EveryPairOfFormatsKeepsTheMesh) {
       if (carried) {
         EXPECT_EQ(back.solution->names, mesh.solution->names);
         EXPECT_EQ(back.solution->values, mesh.solution->values);
+        EXPECT_EQ(back.solution->cells.names, mesh.solution->cells.names);
+        EXPECT_EQ(back.solution->cells.values, mesh.solution->cells.values);
       }
       const bool conditions = from.conditions_in_solid && to.conditions_in_solid;
       EXPECT_EQ(back.patches[0].condition, conditions ? "wall" : "none");
@@ -98,6 +102,62 @@ TEST(ConvertSolid, EveryPairOfFormatsKeepsTheMesh) {
       EXPECT_EQ(losses_in(between, folder.file("b." + second)).size(), losses);
     }
   }
+}
+
+TEST(ConvertSolid, FacesHaveTheValuesOfTheCellBesideThem) {
+  const Communicator alone(MPI_COMM_SELF);
+  const SolidMesh mesh = sample();
+  const SolidStream stream(alone, mesh);
+  const SolidCellValues cells(stream);
+  EXPECT_EQ(cells.of_cell<4>(0, 1), 1);
+  EXPECT_EQ(cells.of_cell<6>(0, 1), 3);
+  EXPECT_EQ(cells.of_cell<8>(1, 1), 5);
+  EXPECT_EQ(cells.of_face<4>(0, 0, 1), 4);  // the floor of either cube
+  EXPECT_EQ(cells.of_face<4>(0, 1, 1), 5);
+  EXPECT_EQ(cells.of_face<3>(0, 0, 1), 3);  // and of the prism
+  SolidMesh stray = sample();
+  stray.patches[1].faces.push_back({0, 2, 5, none});
+  EXPECT_THROW(SolidCellValues(SolidStream(alone, stray)), OutputError);
+}
+
+/// The cubes in one piece with the pyramid, which is in the other piece too, beside the rest.
+TEST(ConvertSolid, PiecesArePutTogether) {
+  const test::TemporaryFolder folder;
+  if (!test::world().is_root()) return;
+  const Communicator alone(MPI_COMM_SELF);
+  const SolidMesh whole = sample();
+  SolidMesh first = whole, second = whole;
+  first.prisms.clear();
+  first.tetrahedra.clear();
+  first.solution->cells.values = {0.2, 2, 1 / 7.0, 4, 5e-9, 5};
+  second.hexahedra.clear();
+  second.solution->cells.values = {0.1, 1, 9, 9, 0.3, 3};
+  for (SolidMesh* piece : {&first, &second}) piece->patches.clear();
+  first.patches = {whole.patches[0], whole.patches[1]};
+  first.patches[0].faces.pop_back();
+  second.patches = {{"floor", "none", {whole.patches[0].faces[2]}}};
+  write_solid_of_root(alone, first, folder.file("a.vtu"));
+  write_solid_of_root(alone, second, folder.file("b.vtu"));
+  const auto list = [](const std::string& sources) {
+    return "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid>" + sources +
+           "</PUnstructuredGrid></VTKFile>\n";
+  };
+  const std::string a = "<Piece Source=\"a.vtu\"/>", b = "<Piece Source=\"b.vtu\"/>";
+  test::write_bytes(folder.file("all.pvtu"), list(a + b));
+  const std::optional<SolidMesh> back = read_solid(folder.file("all.pvtu"));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->points, whole.points);
+  for_each_kind_of_cell(
+      [&]<std::size_t width>() { EXPECT_EQ(cells_of<width>(*back), cells_of<width>(whole)); });
+  EXPECT_EQ(back->solution->values, whole.solution->values);
+  EXPECT_EQ(back->solution->cells.values, whole.solution->cells.values);
+  ASSERT_EQ(back->patches.size(), 2);
+  EXPECT_EQ(back->patches[0].faces, whole.patches[0].faces);
+  test::write_bytes(folder.file("one.pvtu"), list(b));
+  EXPECT_EQ(read_solid(folder.file("one.pvtu"))->pyramids, whole.pyramids);
+  second.solution->cells.names = {"p", "level"};
+  write_solid_of_root(alone, second, folder.file("b.vtu"));
+  EXPECT_THROW(read_solid(folder.file("all.pvtu")), InputError);
 }
 
 TEST(ConvertSolid, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "io/formats.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
 #include "mesher/solid/check_solid.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -46,8 +47,9 @@ std::string path_in(const std::string& folder, const FileFormat& format) {
 
 void write(const Communicator& comm, const Mesh& whole, const Field& solution, const std::string& path,
            ExtrusionAxis axis) {
-  const Mesh part = test::share_of(whole, comm.rank(), comm.size());
-  const Field field = test::share_of(solution, whole, part);
+  const MeshOrder order = own_order(whole);
+  const Mesh part = scatter_mesh(comm, whole, order);
+  const Field field = scatter_field(comm, solution, part, order);
   OutputSet outputs(comm);
   write_solid(outputs, extruded(part, {0, 0.5, 2}, axis, &field), path);
   outputs.commit();
@@ -70,9 +72,27 @@ void expect_sample(const SolidMesh& mesh, const FileFormat& format) {
   }
 }
 
+/// Each cell has the values of the plane's cell that it stands on, two layers of each.
+void expect_values_of_cells(const SolidMesh& mesh, const CellValues& plane, ExtrusionAxis axis) {
+  ASSERT_TRUE(mesh.solution);
+  const CellValues& cells = mesh.solution->cells;
+  ASSERT_EQ(cells.names,
+            (axis == ExtrusionAxis::z
+                 ? std::vector<std::string>{"pressure", "x_velocity", "y_velocity", "z_velocity"}
+                 : std::vector<std::string>{"pressure", "x_velocity", "z_velocity", "y_velocity"}));
+  ASSERT_EQ(cells.values.size(), 4 * 30);
+  for (std::size_t cell = 0; cell < 30; ++cell) {
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(cells.values[4 * cell + k], plane.values[3 * (cell / 2) + k]);
+    EXPECT_EQ(cells.values[4 * cell + 3], 0);
+  }
+}
+
 TEST(SolidFile, EachReadsWhatItWrites) {
   const Mesh whole = test::sample_mesh(5);
-  const Field solution = test::sample_solution(whole);
+  Field solution = test::sample_solution(whole);
+  solution.cells.names = {"pressure", "x_velocity", "y_velocity"};
+  for (int i = 0; i < 3 * 15; ++i) solution.cells.values.push_back(1.0 / (i + 3));
   for (const std::string& name : formats_for({Content::solid})) {
     for (const ExtrusionAxis axis : {ExtrusionAxis::y, ExtrusionAxis::z}) {
       SCOPED_TRACE(name);
@@ -87,6 +107,7 @@ TEST(SolidFile, EachReadsWhatItWrites) {
       const std::optional<SolidMesh> mesh = read_solid(path);
       ASSERT_TRUE(mesh);
       expect_sample(*mesh, format);
+      if (format.solution_in_solid) expect_values_of_cells(*mesh, solution.cells, axis);
       if (name == "cgns") continue;  // holds the time
       const Communicator alone(MPI_COMM_SELF);
       write(alone, whole, solution, path_in(folder.path() + "/alone", format), axis);
@@ -112,7 +133,7 @@ TEST(SolidFile, PlaneMeshesAreNone) {
 
 TEST(SolidFile, NamesOfFormatsStandInSentences) {
   EXPECT_EQ(suffixes_for({Content::solid}),
-            ".cgns, .vtu, .su2, .msh, .msh41, .b8.ugrid, .lb8.ugrid or polyMesh");
+            ".cgns, .vtu, .pvtu, .su2, .msh, .msh41, .b8.ugrid, .lb8.ugrid or polyMesh");
   EXPECT_EQ(format_of("a/constant/polyMesh/")->name, "polyMesh");
   EXPECT_EQ(format_of("a/b.polyMesh")->name, "polyMesh");
   EXPECT_EQ(format_of("a.lb8.ugrid")->name, "lb8.ugrid");
@@ -127,7 +148,7 @@ TEST(SolidFile, DamagedOnesAreRefusedOrRead) {
   const Field solution = test::sample_solution(whole);
   const Communicator alone(MPI_COMM_SELF);
   std::mt19937 random(7);  // NOLINT: the same each time
-  for (const char* name : {"cgns", "vtu", "su2", "msh", "b8.ugrid", "lb8.ugrid", "polyMesh"}) {
+  for (const char* name : {"cgns", "vtu", "pvtu", "su2", "msh", "b8.ugrid", "lb8.ugrid", "polyMesh"}) {
     const FileFormat& format = *format_named(name);
     const int damages = format.name == "cgns" ? 12 : 60;  // each in a process of its own
     for (int i = 0; i < damages; ++i) {

@@ -84,6 +84,22 @@ TEST_F(PvtuReader, PutsPiecesTogether) {
   EXPECT_EQ(loaded.mesh.boundaries[0].edges.size(), 8U);
 }
 
+TEST_F(PvtuReader, KeepsTheValuesOfCells) {
+  const auto with_cells = [&](const std::string& file, const std::string& name, const std::string& values) {
+    const std::string text = test::bytes_of(folder_.file(file));
+    write(file, test::replaced(text, "<Points>",
+                               "<CellData>" + data("Float64", name, values) + "</CellData><Points>"));
+  };
+  with_cells("parts/a.vtu", "p", "0.5 0.25");
+  with_cells("parts/b.vtu", "p", "0.125 8");  // its first cell is the first piece's second
+  const LoadedMesh loaded = read_pvtu(folder_.file("m.pvtu"));
+  EXPECT_EQ(loaded.solution->cells.names, std::vector<std::string>{"p"});
+  EXPECT_EQ(loaded.solution->cells.values, (std::vector<double>{0.5, 0.25, 8}));
+  EXPECT_EQ(loaded.solution->values, (std::vector<double>{1, 2, 3, 4, 5, 6, 8, 7}));
+  with_cells("parts/b.vtu", "q", "0 0");
+  expect_refusal("the cell data of the piece parts/b.vtu are not those of the first piece");
+}
+
 TEST_F(PvtuReader, RefusesWhatDoesNotFitTogether) {
   write("parts/b.vtu", piece("2 1 0 3 1 0 2 0 0 3 0 0", "6 8 3 7", "2 3 1 0", "p"));
   expect_refusal("the point data of the piece parts/b.vtu are not those of the first piece");

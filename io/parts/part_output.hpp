@@ -23,6 +23,10 @@ struct PartRequest {
 PartFigures write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const PartData& data,
                         const PartRequest& request);
 
+/// The same for one that is divided already.
+PartFigures write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const CellParts& cells,
+                        const PartData& data, const PartRequest& request);
+
 /// The same for a mesh that the root rank holds whole; prefix, number and formats count on every rank.
 /// *Collective.*
 PartFigures write_parts_of_root(PartFiles& files, const Communicator& comm, const LoadedMesh& whole,

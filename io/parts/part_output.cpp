@@ -1,4 +1,4 @@
-#include "app/part_output.hpp"
+#include "io/parts/part_output.hpp"
 
 #include <optional>
 #include <span>
@@ -10,7 +10,11 @@ namespace quadloop {
 
 PartFigures write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const PartData& data,
                         const PartRequest& request) {
-  const CellParts cells = partition(comm, mesh, request.parts);
+  return write_parts(files, comm, mesh, partition(comm, mesh, request.parts), data, request);
+}
+
+PartFigures write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const CellParts& cells,
+                        const PartData& data, const PartRequest& request) {
   const std::vector<MeshPart> parts = make_parts(comm, mesh, cells, data);
   files.write(request.prefix, part_index(comm, mesh, request.parts, request.formats, request.blocks), parts);
   return part_figures(comm, parts);

@@ -1,0 +1,82 @@
+#include "io/cgns/cgns_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "io/cgns/cgns_names.hpp"
+
+namespace quadloop {
+
+namespace {
+
+using Name = std::array<char, 33>;
+
+/// One variable after the other, `rows` values of each.
+std::vector<double> read_columns(const CgnsZone& from, int solution, cgsize_t rows,
+                                 std::vector<std::string>& names) {
+  const auto& file = from.file;
+  int fields = 0;
+  file.check(cg_nfields(file.id(), from.base, from.zone, solution, &fields));
+  std::vector<double> columns(fields * std::size_t(rows));
+  for (int f = 1; f <= fields; ++f) {
+    Name name{};
+    DataType_t type = RealDouble;
+    const cgsize_t first = 1;
+    file.check(cg_field_info(file.id(), from.base, from.zone, solution, f, &type, name.data()));
+    file.check(cg_field_read(file.id(), from.base, from.zone, solution, name.data(), RealDouble, &first,
+                             &rows, columns.data() + (f - 1) * std::size_t(rows)));
+    names.push_back(variable_name_of_cgns(name.data()));
+  }
+  return columns;
+}
+
+void append_row(const std::vector<double>& columns, std::size_t rows, std::size_t row,
+                std::vector<double>& values) {
+  for (std::size_t at = row; at < columns.size(); at += rows) values.push_back(columns[at]);
+}
+
+/// In the file rows stand in the order of the elements.
+void read_in_cells(const CgnsZone& from, int solution, std::span<const std::vector<std::int64_t>> kinds,
+                   CellValues& result) {
+  std::vector<std::int64_t> sorted;
+  for (const auto& elements : kinds) sorted.insert(sorted.end(), elements.begin(), elements.end());
+  if (std::ssize(sorted) != from.cells)
+    throw InputError(from.file.shown() + ": zone " + std::to_string(from.zone) + " is said to have " +
+                     std::to_string(from.cells) + " cells, its sections hold " +
+                     std::to_string(sorted.size()));
+  std::ranges::sort(sorted);
+  const std::vector<double> columns = read_columns(from, solution, from.cells, result.names);
+  for (const auto& elements : kinds) {
+    for (const std::int64_t element : elements)
+      append_row(columns, from.cells, std::ranges::lower_bound(sorted, element) - sorted.begin(),
+                 result.values);
+  }
+}
+
+}  // namespace
+
+Field read_cgns_values(const CgnsZone& from, std::span<const std::vector<std::int64_t>> elements) {
+  Field result;
+  int solutions = 0;
+  bool has_nodal = false, has_cells = false;
+  const auto& file = from.file;
+  file.check(cg_nsols(file.id(), from.base, from.zone, &solutions));
+  for (int s = 1; s <= solutions; ++s) {
+    Name name{};
+    GridLocation_t location = Vertex;
+    file.check(cg_sol_info(file.id(), from.base, from.zone, s, name.data(), &location));
+    if (location == Vertex && !has_nodal) {
+      const std::vector<double> columns = read_columns(from, s, from.nodes, result.names);
+      for (cgsize_t i = 0; i < from.nodes; ++i) append_row(columns, from.nodes, i, result.values);
+      has_nodal = true;
+    }
+    if (location == CellCenter && !has_cells) {
+      read_in_cells(from, s, elements, result.cells);
+      has_cells = true;
+    }
+  }
+  return result;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,26 @@
+#pragma once
+
+// Inside io/cgns only.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "io/cgns/cgns_handle.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/field.hpp"
+
+namespace quadloop {
+
+/// A zone of an open file, and how many nodes and cells it is said to have.
+struct CgnsZone {
+  const CgnsFile<InputError>& file;
+  int base = 1, zone = 1;
+  cgsize_t nodes = 0, cells = 0;
+};
+
+/// The solution of a zone: the first at the vertices, and the first in the cells. `elements` are for each
+/// kind of cells the numbers of its elements in the zone; rows stand kind after kind, in the order of these.
+/// Throws InputError.
+Field read_cgns_values(const CgnsZone& zone, std::span<const std::vector<std::int64_t>> elements);
+
+}  // namespace quadloop

@@ -1,0 +1,71 @@
+#include "io/solid/solid_cell_values.hpp"
+
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/cells/cell_owners.hpp"
+#include "mesher/mesh/cells/edge_cells.hpp"
+#include "mesher/solid/cell_faces.hpp"
+#include "mesher/solid/solid_faces.hpp"
+
+namespace quadloop {
+
+SolidCellValues::SolidCellValues(const SolidStream& stream) : stream_{stream}, held_{stream.held()} {
+  if (held_ != nullptr) {
+    if (!held_->solution || held_->solution->cells.names.empty()) return;
+    names_ = held_->solution->cells.names;
+    find_cells_beside();
+    return;
+  }
+  const ExtrudedMesh& mesh = *stream.extruded();
+  if (mesh.solution == nullptr || mesh.solution->cells.names.empty()) return;
+  const CellValues& plane = mesh.solution->cells;
+  for (const ExtrudedVariable& variable : extruded_variables(plane.names, mesh.axis)) {
+    names_.push_back(variable.name);
+    columns_.push_back(variable.column);
+  }
+  const Communicator& comm = stream.communicator();
+  const std::vector<std::int64_t> beside = edge_cells(comm, mesh.plane).of_boundary;
+  at_edges_ = rows_of_cells(comm, CellOwners(comm, mesh.plane), std::span<const std::int64_t>(beside),
+                            plane.values, plane.width());
+}
+
+double SolidCellValues::of_plane(std::int64_t cell, std::size_t variable) const {
+  const std::int64_t column = columns_[variable];
+  const CellValues& plane = stream_.extruded()->solution->cells;
+  return column == ExtrudedVariable::zero ? 0 : plane.values[cell * plane.width() + column];
+}
+
+BoundaryStream SolidCellValues::along_sides(std::size_t variable) const {
+  const ExtrudedMesh& mesh = *stream_.extruded();
+  const std::size_t width = mesh.solution->cells.width();
+  const std::int64_t column = columns_[variable];
+  std::vector<BoundaryStream::Edge> bits;
+  for (std::size_t row = 0; row < at_edges_.size(); row += width) {
+    const double value = column == ExtrudedVariable::zero ? 0 : at_edges_[row + column];
+    bits.push_back({std::bit_cast<std::int64_t>(value), 0});
+  }
+  return {stream_.communicator(), mesh.plane, std::move(bits)};
+}
+
+/// Patches come first among those that have a face.
+void SolidCellValues::find_cells_beside() {
+  std::vector<std::vector<std::int32_t>> beside;
+  for (const SolidPatch& patch : held_->patches) beside.emplace_back(patch.faces.size(), -1);
+  for_each_face(*held_, [&](std::int32_t, std::span<const FaceMention> mentions) {
+    for (const FaceMention& mention : mentions) {
+      if (mention.owner < 0) beside[-1 - mention.owner][mention.number] = mentions.back().owner;
+    }
+  });
+  for (std::size_t p = 0; p < beside.size(); ++p) {
+    std::vector<std::int32_t>& triangles = of_triangles_.emplace_back();
+    std::vector<std::int32_t>& quads = of_quads_.emplace_back();
+    for (std::size_t i = 0; i < beside[p].size(); ++i) {
+      if (beside[p][i] < 0)
+        throw OutputError(
+            "face " + std::to_string(i + 1) + " of patch " + held_->patches[p].name +
+            " belongs to no cell, whose values it would have; `quadloop check` tells all faults");
+      (is_triangle(held_->patches[p].faces[i]) ? triangles : quads).push_back(beside[p][i]);
+    }
+  }
+}
+
+}  // namespace quadloop
