@@ -165,7 +165,9 @@ void OuterOutline::add_wake(std::int32_t i) {
     return line.edge != PlacedLine::nowhere && g_.point(line.edge) == line_[i].wall;
   });
   const std::int32_t before = line_.previous(i), right = first_at(*at);
-  const double spacing = std::min(spacing_after(before), spacing_after(right));
+  const double at_corner = g_.corner_spacing_of(at->edge);
+  double spacing = std::min(spacing_after(before), spacing_after(right));
+  if (at_corner > 0) spacing = std::min(spacing, at_corner);
   PlacedLine wake = *at;
   wake.layers = line_.spec(i).first < line_.spec(right).first ? line_.spec(i) : line_.spec(right);
   strips_.push_back(layer_strip(wake, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(*at),
