@@ -25,6 +25,7 @@ constexpr double cost_rounding = 1e-12;  ///< relative: by so much a cost seen f
 constexpr int pinned_rings = 2;  ///< round triangles that flips have made too bad; so many more each time
 constexpr int most_attempts = 5;
 constexpr int most_even_sweeps = 40;
+constexpr std::int64_t few = 100;  ///< so many times fewer moves than in the busiest sweep end a round
 
 template <std::size_t width>
 std::array<Point, width> corners_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes) {
@@ -189,9 +190,10 @@ WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
 /// Sweeps until nothing moves any more, or as many as are asked for. *Collective.*
 void sweep_until_settled(Sweeper& sweeper, int sweeps, SmoothReport& report) {
   progress::Stage stage("smoothing", sweeps, "sweeps");
-  std::int64_t moves = 1;
-  for (int sweep = 0; sweep < sweeps && moves > 0; ++sweep, ++report.sweeps) {
+  std::int64_t moves = 1, first = 0;
+  for (int sweep = 0; sweep < sweeps && moves > 0 && moves >= first / few; ++sweep, ++report.sweeps) {
     moves = sweeper.sweep();
+    first = std::max(first, moves);
     report.moves += moves;
     stage.say("sweep " + std::to_string(sweep + 1) + ", " + std::to_string(moves) + " nodes moved");
     stage.advance(sweep + 1);
