@@ -19,8 +19,8 @@ class Sweeper {
     Objective objective;
     double threshold;
   };
-  /// `stars` are those of the nodes that may move, `bad` flags the nodes of cells above the threshold; `stale`
-  /// as in ColouredSweeps. Mesh, stars, slide and `stale` must outlive it. *Collective.*
+  /// `stars` are those of the nodes that may move, `bad` flags the nodes of cells above the threshold;
+  /// `stale` as in ColouredSweeps. Mesh, stars, slide and `stale` must outlive it. *Collective.*
   Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide,
           const Rule& rule, const NodeFlags& bad, NodeFlags& stale);
 

@@ -45,10 +45,10 @@ class Flipper {
   /// Where `open` (a flag for each triangle, or none) is set, an edge with one triangle becomes an open
   /// border.
   /// `moved` (a flag for each point, or none) says that the triangles were constrained Delaunay before these
-  /// moved: an edge of two triangles without a moved node then gives way to no other diagonal of four nodes on
-  /// one circle, whatever their ranks, and the result depends on such edges, too. It is still unique: an edge
-  /// that flips though it is no tie is of no Delaunay triangulation, and between the edges that stay the ranks
-  /// decide.
+  /// moved: an edge of two triangles without a moved node then gives way to no other diagonal of four nodes
+  /// on one circle, whatever their ranks, and the result depends on such edges, too. It is still unique: an
+  /// edge that flips though it is no tie is of no Delaunay triangulation, and between the edges that stay the
+  /// ranks decide.
   void flip_to_delaunay(std::span<const Point> points, std::span<const TieRank> ranks,
                         std::span<Triangle> triangles, std::span<const char> open = {},
                         std::span<const std::int32_t> blocks = {}, std::span<const char> moved = {});
@@ -82,7 +82,7 @@ class Flipper {
   std::span<const TieRank> ranks_;
   std::span<Triangle> triangles_;
   std::vector<Edge> across_;
-  std::vector<char> firm_;  ///< a flag for each edge that gives way to no tie; or none
+  std::vector<char> firm_;               ///< a flag for each edge that gives way to no tie; or none
   std::vector<std::size_t> spokes_end_;  ///< of each node, in spokes_
   std::vector<Spoke> spokes_;
   std::vector<Edge> waiting_;

@@ -71,7 +71,8 @@ Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span
   colours.resize(mesh.points().size(), Colouring::none);
   const auto priority = [&](NodeId node) { return ColouringPriority(mesh.global(node), block_bits); };
   for (const NodeId node : nodes) colours[node] = waiting;
-  std::vector<std::size_t> order = order_of_choice(mesh, nodes, block_bits);  // those that have not chosen yet
+  std::vector<std::size_t> order =
+      order_of_choice(mesh, nodes, block_bits);  // those that have not chosen yet
   const auto choose = [&](std::size_t i) {
     const ColouringPriority own = priority(nodes[i]);
     std::uint64_t taken = 0;

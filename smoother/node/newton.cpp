@@ -7,12 +7,13 @@ namespace quadloop {
 
 namespace {
 
-constexpr int most_moves = 3;          ///< in one visit
-constexpr double reach = 0.08;         ///< of the node's mean edge: the longest step; longer ones end in worse cells
+constexpr int most_moves = 3;   ///< in one visit
+constexpr double reach = 0.08;  ///< of the node's mean edge: the longest step; longer ones end in worse cells
 constexpr double least_gain = 1e-4;    ///< of what is lowered: what Acceptance asks for of the cost
 constexpr double further_gain = 0.05;  ///< what a further move in one visit has to promise
 constexpr double flattest = 1e-3;      ///< of the curvatures' ratio, below which a step is the gradient's
-constexpr double cotangent_of_32 = 1.600334529041051;  ///< stars with smaller angles are worth a longer search
+constexpr double cotangent_of_32 =
+    1.600334529041051;  ///< stars with smaller angles are worth a longer search
 /// Shares of a step that is refused, along it and to its left; tried together.
 constexpr std::array<Point, Star::batch> ways{
     {{0.6, 0}, {0.3, 0}, {0.1, 0}, {0.03, 0}, {0.3, 0.25}, {0.3, -0.25}, {0.05, 0.14}, {0.05, -0.14}}};

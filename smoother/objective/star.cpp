@@ -122,8 +122,8 @@ StarModel Star::model(Point p) const {
     const Point u = c.q - p, v = c.r - p;
     const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), jacobian = cross(u, v);
     const double form = c.target.g11 * uu + 2 * c.target.g12 * uv + c.target.g22 * vv;
-    soundness = std::min(
-        {soundness, jacobian, jacobian * jacobian - flattest_sine * flattest_sine * uu * vv});
+    soundness =
+        std::min({soundness, jacobian, jacobian * jacobian - flattest_sine * flattest_sine * uu * vv});
     const double at_u = c.target.g11 + c.target.g12, at_v = c.target.g12 + c.target.g22;
     const double inverse = 1 / form, ratio = jacobian / form, defect = 1 - ratio, cost = defect * defect;
     const Point f = -2.0 * (at_u * u + at_v * v);

@@ -140,7 +140,8 @@ TEST(Flipper, FarFromMovedNodesNothingFlips) {
   Flipper flipper;
   flipper.flip_to_delaunay(grid.points, grid.ranks, before);
   std::vector<TieRank> other = grid.ranks;
-  for (std::size_t node = 0; node < other.size(); ++node) other[node].coarser = static_cast<std::int8_t>(node % 2);
+  for (std::size_t node = 0; node < other.size(); ++node)
+    other[node].coarser = static_cast<std::int8_t>(node % 2);
   const std::size_t middle = grid.points.size() / 2;
   grid.points[middle] = grid.points[middle] + Point{0.31, 0.17};
   std::vector<char> moved(grid.points.size(), 0);
@@ -151,7 +152,8 @@ TEST(Flipper, FarFromMovedNodesNothingFlips) {
   const auto changed = [&](const Triangles& after) {
     int count = 0;
     const Triangles known = sorted(before);
-    for (const Triangle& t : sorted(after)) count += std::binary_search(known.begin(), known.end(), t) ? 0 : 1;
+    for (const Triangle& t : sorted(after))
+      count += std::binary_search(known.begin(), known.end(), t) ? 0 : 1;
     return count;
   };
   EXPECT_GT(changed(without), 50);

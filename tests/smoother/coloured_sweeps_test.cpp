@@ -1,5 +1,5 @@
-// Who is visited: all that are stale, then those round which something has moved, also by later sweeps over the
-// same flags.
+// Who is visited: all that are stale, then those round which something has moved, also by later sweeps over
+// the same flags.
 #include "smoother/coloured_sweeps.hpp"
 
 #include <gtest/gtest.h>

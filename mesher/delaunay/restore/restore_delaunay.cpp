@@ -182,8 +182,7 @@ std::optional<RegionTriangulation> changed_region(const Communicator& comm, cons
                                                   const std::function<TieRank(Point)>& rank_of,
                                                   const Known& known) {
   QUADLOOP_REQUIRE(mesh.quads.empty(), "triangles alone");
-  QUADLOOP_REQUIRE(
-      known.triangle_to_block.empty() || known.triangle_to_block.size() == mesh.triangles.size(),
+  QUADLOOP_REQUIRE(known.triangle_to_block.empty() || known.triangle_to_block.size() == mesh.triangles.size(),
                    "a block for each triangle, or none");
   std::optional<RegionTriangulation> triangulation;
   if (!comm.any(!nodes.empty())) return triangulation;
