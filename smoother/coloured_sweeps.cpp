@@ -1,20 +1,18 @@
 #include "smoother/coloured_sweeps.hpp"
 
-#include <numeric>
 #include <utility>
 
 #include "smoother/colouring.hpp"
 
 namespace quadloop {
 
-ColouredSweeps::ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars)
+ColouredSweeps::ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars,
+                               NodeFlags& stale)
     : mesh_{mesh},
       stars_{stars},
-      stale_(stars.size(), 1),
-      changed_(stars.size()),
-      is_changed_(stars.size(), 1),
+      stale_{stale},
+      is_changed_(stars.size(), 0),
       moved_(mesh.points().size(), 0) {
-  std::iota(changed_.begin(), changed_.end(), 0);
   const Colouring colouring = colour_stars(comm, mesh, stars);
   by_colour_.resize(colouring.count);
   for (std::size_t i = 0; i < stars.size(); ++i)
@@ -37,7 +35,7 @@ void ColouredSweeps::move(std::size_t i, Point to) {
 /// Who sees the node is to be visited again, itself among them.
 void ColouredSweeps::say_moved(NodeId node) {
   const auto look_again = [&](std::int32_t star) {
-    stale_[star] = 1;
+    stale_[stars_.nodes()[star]] = 1;
     if (!std::exchange(is_changed_[star], 1)) changed_.push_back(star);
   };
   if (const std::int32_t own = stars_.star_of(node); own >= 0) look_again(own);

@@ -12,12 +12,13 @@ namespace quadloop {
 /// moved since it was visited last.
 class ColouredSweeps {
  public:
-  /// Mesh and stars must outlive it. *Collective.*
-  ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars);
+  /// `stale` has a flag for each owned node that is to be visited though nothing near it moves, and is kept
+  /// true for what may come after. Mesh, stars and flags must outlive it. *Collective.*
+  ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, NodeFlags& stale);
 
   /// Whether the i-th node or one that it shares a cell with has moved since it was last visited.
-  bool is_stale(std::size_t i) const { return stale_[i] != 0; }
-  /// Those round which something has moved, other ranks' nodes too, since this was asked last; at first all.
+  bool is_stale(std::size_t i) const { return stale_[stars_.nodes()[i]] != 0; }
+  /// Those round which something has moved, other ranks' nodes too, since this was asked last.
   std::vector<std::int32_t> take_changed();
 
   /// Asks `place(i)` for a new place, or none, of each stale node for which `is_active(i)`. Returns the
@@ -28,7 +29,7 @@ class ColouredSweeps {
     for (const auto& nodes : by_colour_) {
       for (const std::size_t i : nodes) {
         if (!is_stale(i) || !is_active(i)) continue;
-        stale_[i] = 0;
+        stale_[stars_.nodes()[i]] = 0;
         const std::optional<Point> to = place(i);
         if (!to) continue;
         move(i, *to);
@@ -47,7 +48,7 @@ class ColouredSweeps {
   HaloMesh& mesh_;
   const NodeStars& stars_;
   std::vector<std::vector<std::size_t>> by_colour_;
-  std::vector<char> stale_;
+  NodeFlags& stale_;
   std::vector<std::int32_t> changed_;  ///< what take_changed() will give,
   std::vector<char> is_changed_;       ///< flagged
   NodeFlags moved_;                    ///< nodes that have moved in this colour

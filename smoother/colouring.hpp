@@ -7,8 +7,10 @@ namespace quadloop {
 
 /// Colours for the nodes that may move; neighbours are those that share a cell. *Collective.*
 inline Colouring colour_stars(const Communicator& comm, const HaloMesh& mesh, const NodeStars& stars) {
-  return colour_nodes(comm, mesh, stars.nodes(),
-                      [&](std::size_t i, const auto& visit) { stars.for_each_neighbour(i, visit); });
+  constexpr int block_bits = 6;
+  return colour_nodes(
+      comm, mesh, stars.nodes(),
+      [&](std::size_t i, const auto& visit) { stars.for_each_neighbour(i, visit); }, block_bits);
 }
 
 }  // namespace quadloop

@@ -13,7 +13,8 @@ bool even_widths(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& 
     if (slide.freedom(node) == NodeFreedom::sliding && slide.lies_on(node, heights)) nodes.push_back(node);
   }
   const NodeStars stars(mesh, std::move(nodes), {});
-  ColouredSweeps coloured(comm, mesh, stars);
+  NodeFlags stale(mesh.owned_nodes(), 1);
+  ColouredSweeps coloured(comm, mesh, stars, stale);
   std::int64_t moves = 0;
   Star star;
   for (int sweep = 0; sweep < sweeps; ++sweep) {

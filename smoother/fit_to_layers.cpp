@@ -81,7 +81,8 @@ class LayerFit {
     if (!comm_.any(!nodes_.empty())) return false;
     list_cells();
     const NodeStars stars(mesh_, nodes_, {});
-    ColouredSweeps coloured(comm_, mesh_, stars);
+    NodeFlags stale(mesh_.owned_nodes(), 1);
+    ColouredSweeps coloured(comm_, mesh_, stars, stale);
     bool moved = true, moved_ever = false;
     for (int sweep = 0; sweep < most_sweeps && moved; ++sweep) {
       fixed_ = slide_.widths_at_fixed(heights_);

@@ -1,5 +1,7 @@
 #include "smoother/node_stars.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "mesher/base/ids.hpp"
@@ -103,6 +105,16 @@ void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget
       corners_[end++] = {opposite, previous, own + 2, CellAngle::at_r};
     }
   }
+}
+
+bool NodeStars::costs_more(std::size_t i, double limit) const {
+  const Point p = mesh_.point(nodes_[i]);
+  const double least = 1 - std::sqrt(limit);  // of 1 / condition number; above 0, so J must be, too
+  const auto corners = corners_of(i);
+  return std::any_of(corners.begin(), corners.end(), [&](const Corner& c) {
+    const CornerForm form = corner_form(p, mesh_.point(c.q), mesh_.point(c.r));
+    return !(form.jacobian > least * weighted_edges(form, targets_[c.target]));
+  });
 }
 
 void NodeStars::gather(std::size_t i, Star& star) const {

@@ -22,6 +22,8 @@ class NodeStars {
 
   /// The star of the i-th free node, with the nodes where they are now.
   void gather(std::size_t i, Star& star) const;
+  /// Whether a corner in the star of the i-th free node costs more than `limit`, below 1 (Eq. 3.2).
+  bool costs_more(std::size_t i, double limit) const;
 
   /// Calls `visit(node)` for the nodes that share a cell with the i-th free node, for some more than once.
   template <class Visit>

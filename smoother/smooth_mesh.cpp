@@ -25,6 +25,7 @@ constexpr double cost_rounding = 1e-12;  ///< relative: by so much a cost seen f
 constexpr int pinned_rings = 2;  ///< round triangles that flips have made too bad; so many more each time
 constexpr int most_attempts = 5;
 constexpr int most_even_sweeps = 40;
+constexpr std::int64_t few = 100;  ///< so many times fewer moves than in the busiest sweep end a round
 
 template <std::size_t width>
 std::array<Point, width> corners_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes) {
@@ -67,7 +68,8 @@ struct WorstCell {
 struct Survey {
   WorstCell worst;
   std::vector<double> costs;  ///< of each cell of the halo mesh
-  NodeFlags near;             ///< of cells above the threshold, and some rings round those
+  NodeFlags bad;              ///< of cells above the threshold; right for owned nodes
+  NodeFlags near;             ///< the same, and some rings round those
   NodeFlags parallel;         ///< of parallelograms; right for owned nodes
 };
 
@@ -96,25 +98,25 @@ NodeFlags nodes_of_parallelograms(const HaloMesh& mesh) {
 Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets,
               double threshold) {
   Survey result;
-  NodeFlags& near = result.near;
-  near.resize(mesh.points().size(), 0);
+  result.bad.resize(mesh.points().size(), 0);
   result.costs.reserve(mesh.points().size());
   mesh.for_each_cell([&](const auto& nodes) {
     const double cost = cost_of(mesh, nodes, targets, result.costs.size());
     include(result.worst, mesh, nodes[0], cost);
     result.costs.push_back(cost);
-    if (cost > threshold) flag_all(nodes, near);
+    if (cost > threshold) flag_all(nodes, result.bad);
   });
   result.parallel = targets.empty() ? nodes_of_parallelograms(mesh) : NodeFlags(mesh.points().size(), 0);
-  grow(mesh, near, free_rings);
+  result.near = result.bad;
+  grow(mesh, result.near, free_rings);
   result.worst = over_ranks(comm, result.worst);
   return result;
 }
 
-/// Flags the nodes of cells that cost more than `bad` and so many rings round them; only those with a node
-/// near are looked at. Right for all nodes. *Collective.*
+/// Flags the nodes of cells that cost more than `bad`; only those with a node near are looked at. Right for
+/// owned nodes.
 NodeFlags nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>& targets,
-                             const Survey& surveyed, double bad, int rings) {
+                             const Survey& surveyed, double bad) {
   NodeFlags flags(mesh.points().size(), 0);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& nodes) {
@@ -122,8 +124,14 @@ NodeFlags nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>
     if (any_flagged(surveyed.near, nodes) && cost_of(mesh, nodes, targets, cell) > bad)
       flag_all(nodes, flags);
   });
-  grow(mesh, flags, rings);
   return flags;
+}
+
+/// Flags the bad nodes and those in so many rings round them, beside the ones that are flagged already.
+/// *Collective.*
+void yield(const HaloMesh& mesh, NodeFlags bad, int rings, NodeFlags& yielding) {
+  grow(mesh, bad, rings);
+  for (const NodeId node : bad.ids()) yielding[node] |= bad[node];
 }
 
 /// The nodes near that may move: those of no parallelogram, and the ones flagged in `yielding`.
@@ -179,28 +187,37 @@ WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
   return over_ranks(comm, worst);
 }
 
+/// Sweeps until nothing moves any more, or as many as are asked for. *Collective.*
+void sweep_until_settled(Sweeper& sweeper, int sweeps, SmoothReport& report) {
+  progress::Stage stage("smoothing", sweeps, "sweeps");
+  std::int64_t moves = 1, first = 0;
+  for (int sweep = 0; sweep < sweeps && moves > 0 && moves >= first / few; ++sweep, ++report.sweeps) {
+    moves = sweeper.sweep();
+    first = std::max(first, moves);
+    report.moves += moves;
+    stage.say("sweep " + std::to_string(sweep + 1) + ", " + std::to_string(moves) + " nodes moved");
+    stage.advance(sweep + 1);
+  }
+}
+
 /// Rounds of sweeps: parallelograms stay in the first; in the next ones those yield that a bad cell touches,
-/// then those in rings round it, until no cell is bad. *Collective.*
+/// then those in rings round it, until no cell is bad or no more nodes yield. *Collective.*
 void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
                      const std::vector<CellTarget>& targets, const Survey& surveyed,
                      const SmoothOptions& options, SmoothReport& report) {
-  NodeFlags yielding(halo.points().size(), 0);
-  for (int round = 0;; ++round) {
-    const NodeStars stars(halo, free_nodes(surveyed, halo, slide, yielding), targets);
-    Sweeper sweeper(comm, halo, stars, slide, options.method, options.objective,
-                    round == 0 ? options.threshold : options.bad);
-    progress::Stage stage("smoothing", options.sweeps, "sweeps");
-    std::int64_t moves = 1;
-    for (int sweep = 0; sweep < options.sweeps && moves > 0; ++sweep, ++report.sweeps) {
-      moves = sweeper.sweep();
-      report.moves += moves;
-      stage.say("sweep " + std::to_string(sweep + 1) + ", " + std::to_string(moves) + " nodes moved");
-      stage.advance(sweep + 1);
-    }
+  NodeFlags yielding(halo.points().size(), 0), stale(halo.owned_nodes(), 1), bad = surveyed.bad;
+  std::size_t settled = 0;
+  for (int round = 0; round <= free_rings; ++round) {
+    const double threshold = round == 0 ? options.threshold : options.bad;
+    if (round > 0) bad = nodes_of_bad_cells(halo, targets, surveyed, threshold);
+    if (round > 0) yield(halo, bad, round - 1, yielding);
+    std::vector<NodeId> free = free_nodes(surveyed, halo, slide, yielding);
+    if (!comm.any(free.size() > settled)) return;
+    settled = free.size();
+    const NodeStars stars(halo, std::move(free), targets);
+    Sweeper sweeper(comm, halo, stars, slide, {options.method, options.objective, threshold}, bad, stale);
+    sweep_until_settled(sweeper, options.sweeps, report);
     report.free_nodes = comm.sum(std::ssize(stars));
-    if (round == free_rings) return;
-    yielding = nodes_of_bad_cells(halo, targets, surveyed, options.bad, round);
-    if (!comm.any(std::find(yielding.begin(), yielding.end(), 1) != yielding.end())) return;
   }
 }
 

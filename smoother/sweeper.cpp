@@ -5,32 +5,35 @@
 namespace quadloop {
 
 Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide,
-                 Method method, Objective objective, double threshold)
+                 const Rule& rule, const NodeFlags& bad, NodeFlags& stale)
     : comm_{comm},
       mesh_{mesh},
       stars_{stars},
       slide_{slide},
-      objective_{objective},
-      threshold_{threshold},
-      solver_{make_node_solver(method)},
-      sweeps_(comm, mesh, stars),
+      rule_{rule},
+      solver_{make_node_solver(rule.method)},
+      sweeps_(comm, mesh, stars, stale),
       bad_(mesh.points().size(), 0),
-      bad_near_(stars.size(), 0) {}
+      bad_near_(stars.size(), 0) {
+  for (const NodeId free : stars.nodes()) bad_[free] = bad[free];
+  mesh.exchange().update(bad_);
+  for (const NodeId node : bad_.ids()) {
+    if (bad_[node] != 0) count_bad_near(node);
+  }
+}
 
 std::int64_t Sweeper::sweep() {
-  find_bad();
+  update_bad();
   return comm_.sum(sweeps_.sweep([&](std::size_t i) { return bad_near_[i] > 0; },
                                  [&](std::size_t i) { return better_place(i); }));
 }
 
 /// Flags the nodes of cells above the threshold, of other ranks too. One that was visited and round which all
 /// has stayed since keeps its flag, even where something moved in the sweep before it was visited.
-void Sweeper::find_bad() {
+void Sweeper::update_bad() {
   const NodeFlags before = bad_;
   for (const std::int32_t i : sweeps_.take_changed()) {
-    if (!sweeps_.is_stale(i)) continue;
-    stars_.gather(i, star_);
-    bad_[node(i)] = star_.worst_cost(mesh_.point(node(i))) > threshold_ ? 1 : 0;
+    if (sweeps_.is_stale(i)) bad_[node(i)] = stars_.costs_more(i, rule_.threshold) ? 1 : 0;
   }
   mesh_.exchange().update(bad_);
   for (const NodeId node : bad_.ids()) {
@@ -48,9 +51,9 @@ void Sweeper::count_bad_near(NodeId node) {
 std::optional<Point> Sweeper::better_place(std::size_t i) {
   stars_.gather(i, star_);
   const Point p = mesh_.point(node(i));
-  if (slide_.freedom(node(i)) == NodeFreedom::sliding) return slide_.improve(node(i), star_, objective_);
-  if (star_.cost(p, objective_).valid[0]) return solver_->improve(star_, p, objective_);
-  return untangle(star_, p, objective_);
+  if (slide_.freedom(node(i)) == NodeFreedom::sliding) return slide_.improve(node(i), star_, rule_.objective);
+  if (star_.cost(p, rule_.objective).valid[0]) return solver_->improve(star_, p, rule_.objective);
+  return untangle(star_, p, rule_.objective);
 }
 
 }  // namespace quadloop

@@ -10,11 +10,12 @@ class DelaunayPatch {
   using Triangle = Flipper::Triangle;
 
   /// From any counter-clockwise triangles over the nodes, as Flipper makes it. Where `open` is set for a
-  /// triangle, the domain may go on across its edges that have no other triangle.
+  /// triangle, the domain may go on across its edges that have no other triangle. `moved` as Flipper has it.
   DelaunayPatch(std::vector<Point> points, const std::vector<TieRank>& ranks, std::vector<Triangle> triangles,
-                const std::vector<char>& open, const std::vector<std::int32_t>& blocks = {})
+                const std::vector<char>& open, const std::vector<std::int32_t>& blocks = {},
+                const std::vector<char>& moved = {})
       : points_{std::move(points)}, triangles_{std::move(triangles)} {
-    flipper_.flip_to_delaunay(points_, ranks, triangles_, open, blocks);
+    flipper_.flip_to_delaunay(points_, ranks, triangles_, open, blocks, moved);
   }
 
   const std::vector<Triangle>& triangles() const { return triangles_; }

@@ -6,7 +6,7 @@ namespace quadloop {
 
 void Flipper::flip_to_delaunay(std::span<const Point> points, std::span<const TieRank> ranks,
                                std::span<Triangle> triangles, std::span<const char> open,
-                               std::span<const std::int32_t> blocks) {
+                               std::span<const std::int32_t> blocks, std::span<const char> moved) {
   points_ = points;
   ranks_ = ranks;
   triangles_ = triangles;
@@ -16,9 +16,10 @@ void Flipper::flip_to_delaunay(std::span<const Point> points, std::span<const Ti
     join(std::span(spokes_).subspan(begin, end - begin), open, blocks);
     begin = end;
   }
+  list_firm(moved);
   waiting_.clear();
   for (Edge e = 0; e < edges(); ++e) {
-    if (across(e) > e) waiting_.push_back(e);
+    if (across(e) > e && !is_firm(e)) waiting_.push_back(e);
   }
   while (!waiting_.empty()) {
     const Edge e = waiting_.back();
@@ -56,10 +57,25 @@ void Flipper::join(std::span<Spoke> spokes, std::span<const char> open,
   }
 }
 
+void Flipper::list_firm(std::span<const char> moved) {
+  firm_.assign(moved.empty() ? 0 : across_.size(), 0);
+  for (Edge e = 0; e < edges() && !firm_.empty(); ++e) {
+    if (across(e) <= e) continue;
+    const auto n = nodes_of_both(e);
+    const bool any_moved = std::any_of(n.begin(), n.end(), [&](std::size_t k) { return moved[k] != 0; });
+    firm_[e] = firm_[across(e)] = any_moved ? 0 : 1;
+  }
+}
+
+/// Its ends, then the nodes opposite it.
+std::array<std::size_t, 4> Flipper::nodes_of_both(Edge e) const {
+  return {static_cast<std::size_t>(node(e, 1)), static_cast<std::size_t>(node(e, 2)),
+          static_cast<std::size_t>(node(e, 0)), static_cast<std::size_t>(node(across(e), 0))};
+}
+
 bool Flipper::is_wrong(Edge e) const {
-  const std::array<std::size_t, 4> n{
-      static_cast<std::size_t>(node(e, 1)), static_cast<std::size_t>(node(e, 2)),
-      static_cast<std::size_t>(node(e, 0)), static_cast<std::size_t>(node(across(e), 0))};
+  const auto n = nodes_of_both(e);
+  if (is_firm(e) && in_circle(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]]) == 0) return false;
   return should_flip(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]],
                      [&](std::size_t k) -> const TieRank& { return ranks_[n[k]]; });
 }
@@ -67,6 +83,18 @@ bool Flipper::is_wrong(Edge e) const {
 void Flipper::set_across(Edge e, Edge other) {
   across_[e] = other;
   if (other >= 0) across_[other] = e;
+}
+
+/// The flags of the outer edges of two triangles go where flip() puts these edges.
+void Flipper::keep_firm(Edge e, Edge f) {
+  const auto next = [](Edge edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; };
+  const Edge s = e - e % 3, t = f - f % 3;
+  const char bc = firm_[next(e)], ca = firm_[next(next(e))], ad = firm_[next(f)], db = firm_[next(next(f))];
+  firm_[s] = ad;
+  firm_[s + 2] = ca;
+  firm_[t] = bc;
+  firm_[t + 2] = db;
+  firm_[s + 1] = firm_[t + 1] = 0;
 }
 
 /// The triangles c a b and d b a become c a d and d b c.
@@ -77,6 +105,7 @@ void Flipper::flip(Edge e) {
   const Edge beyond_bc = across(next(e)), beyond_ca = across(next(next(e)));  // opposite a, opposite b
   const Edge beyond_ad = across(next(f)), beyond_db = across(next(next(f)));  // opposite b, opposite a
   const Edge s = e - e % 3, t = f - f % 3;
+  if (!firm_.empty()) keep_firm(e, f);
   triangles_[triangle_of(s)] = {c, a, d};
   triangles_[triangle_of(t)] = {d, b, c};
   set_across(s, beyond_ad);

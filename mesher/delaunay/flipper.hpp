@@ -44,9 +44,14 @@ class Flipper {
   /// points, ranks and such edges alone, not on the triangles at the beginning; triangles keep their blocks.
   /// Where `open` (a flag for each triangle, or none) is set, an edge with one triangle becomes an open
   /// border.
+  /// `moved` (a flag for each point, or none) says that the triangles were constrained Delaunay before these
+  /// moved: an edge of two triangles without a moved node then gives way to no other diagonal of four nodes
+  /// on one circle, whatever their ranks, and the result depends on such edges, too. It is still unique: an
+  /// edge that flips though it is no tie is of no Delaunay triangulation, and between the edges that stay the
+  /// ranks decide.
   void flip_to_delaunay(std::span<const Point> points, std::span<const TieRank> ranks,
                         std::span<Triangle> triangles, std::span<const char> open = {},
-                        std::span<const std::int32_t> blocks = {});
+                        std::span<const std::int32_t> blocks = {}, std::span<const char> moved = {});
 
   /// The same edge of the triangle beyond it, `border` or `open_border`, after the flips.
   Edge across(Edge e) const { return across_[e]; }
@@ -65,14 +70,19 @@ class Flipper {
   std::int32_t node(Edge e, int step) const { return triangles_[triangle_of(e)][corner_of(e, step)]; }
   void list_spokes();
   void join(std::span<Spoke> spokes, std::span<const char> open, std::span<const std::int32_t> blocks);
+  void list_firm(std::span<const char> moved);
+  bool is_firm(Edge e) const { return !firm_.empty() && firm_[e] != 0; }
+  std::array<std::size_t, 4> nodes_of_both(Edge e) const;
   bool is_wrong(Edge e) const;
   void flip(Edge e);
   void set_across(Edge e, Edge other);
+  void keep_firm(Edge e, Edge f);
 
   std::span<const Point> points_;
   std::span<const TieRank> ranks_;
   std::span<Triangle> triangles_;
   std::vector<Edge> across_;
+  std::vector<char> firm_;               ///< a flag for each edge that gives way to no tie; or none
   std::vector<std::size_t> spokes_end_;  ///< of each node, in spokes_
   std::vector<Spoke> spokes_;
   std::vector<Edge> waiting_;

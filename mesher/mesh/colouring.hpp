@@ -22,31 +22,59 @@ struct Colouring {
   static constexpr std::int8_t none = -1;
 };
 
-/// Who chooses first. Scatters the numbers, so that no long chain of nodes waits one for the next.
-inline std::uint64_t colouring_priority(GlobalNodeId node) { return mixed_bits(node.value() + golden_step); }
+/// Who chooses first: blocks of 2^`block_bits` numbers in a scattered order, so that no long chain of nodes
+/// waits one for the next over many ranks; in a block the higher number.
+class ColouringPriority {
+ public:
+  ColouringPriority(GlobalNodeId node, int block_bits)
+      : block_{mixed_bits((static_cast<std::uint64_t>(node.value()) >> block_bits) + golden_step)},
+        node_{node} {}
+  std::uint64_t block() const { return block_; }
+  friend auto operator<=>(const ColouringPriority&, const ColouringPriority&) = default;
+
+ private:
+  std::uint64_t block_;
+  GlobalNodeId node_;
+};
+
+/// The indices of `nodes`, which ascend, those that choose first in front.
+inline std::vector<std::size_t> order_of_choice(const HaloMesh& mesh, std::span<const NodeId> nodes,
+                                                int block_bits) {
+  const auto priority = [&](std::size_t i) { return ColouringPriority(mesh.global(nodes[i]), block_bits); };
+  std::vector<std::pair<std::uint64_t, std::size_t>> blocks;  // with the index of the first node
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::uint64_t block = priority(i).block();
+    if (blocks.empty() || blocks.back().first != block) blocks.emplace_back(block, i);
+  }
+  std::sort(blocks.begin(), blocks.end(), std::greater{});
+  std::vector<std::size_t> order;
+  order.reserve(nodes.size());
+  for (const auto& [block, first] : blocks) {
+    std::size_t end = first;
+    while (end < nodes.size() && priority(end).block() == block) ++end;
+    while (end > first) order.push_back(--end);
+  }
+  return order;
+}
 
 /// Nodes choose, in an order that their numbers over all ranks alone decide, the first colour that no
-/// neighbour before them has (Jones and Plassmann 1993). `nodes` are the owned ones to be visited;
+/// neighbour before them has (Jones and Plassmann 1993). `nodes` are the owned ones to be visited, ascending;
 /// for_each_neighbour(i, visit) calls visit with the neighbours of the i-th of them, itself and repetitions
-/// allowed. *Collective.*
+/// allowed. `block_bits` as in ColouringPriority: with some, nodes close by choose one after the other, which
+/// is faster. *Collective.*
 template <class ForEachNeighbour>
 Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span<const NodeId> nodes,
-                       const ForEachNeighbour& for_each_neighbour) {
+                       const ForEachNeighbour& for_each_neighbour, int block_bits = 0) {
   constexpr std::int8_t waiting = -2;
   Colouring colouring;
   auto& colours = colouring.colour_of;
   colours.resize(mesh.points().size(), Colouring::none);
-  const auto priority = [&](NodeId node) { return colouring_priority(mesh.global(node)); };
-  std::vector<std::pair<std::uint64_t, std::size_t>> first;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    colours[nodes[i]] = waiting;
-    first.emplace_back(priority(nodes[i]), i);
-  }
-  std::sort(first.begin(), first.end(), std::greater{});
-  std::vector<std::size_t> order;  // those that have not chosen yet
-  for (const auto& [key, i] : first) order.push_back(i);
+  const auto priority = [&](NodeId node) { return ColouringPriority(mesh.global(node), block_bits); };
+  for (const NodeId node : nodes) colours[node] = waiting;
+  std::vector<std::size_t> order =
+      order_of_choice(mesh, nodes, block_bits);  // those that have not chosen yet
   const auto choose = [&](std::size_t i) {
-    const std::uint64_t own = priority(nodes[i]);
+    const ColouringPriority own = priority(nodes[i]);
     std::uint64_t taken = 0;
     bool must_wait = false;
     for_each_neighbour(i, [&](NodeId other) {

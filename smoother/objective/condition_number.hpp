@@ -49,9 +49,13 @@ inline CornerForm corner_form(Point p, Point q, Point r) {
 
 /// Eq. 3.3: 1 for the target's shape, larger for any other. The corner must not be inverted.
 double condition_number(const CornerForm& corner, const CornerTarget& target);
+/// Its numerator.
+inline double weighted_edges(const CornerForm& c, const CornerTarget& t) {
+  return t.g11 * c.uu + 2 * t.g12 * c.uv + t.g22 * c.vv;
+}
 /// Its inverse, which is all that the cost needs.
 inline double inverse_condition(const CornerForm& c, const CornerTarget& t) {
-  return c.jacobian / (t.g11 * c.uu + 2 * t.g12 * c.uv + t.g22 * c.vv);
+  return c.jacobian / weighted_edges(c, t);
 }
 
 /// Whether a corner counts as inverted: J <= 1e-12 |e1| |e2|.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "mesher/base/error.hpp"
 
@@ -27,7 +28,11 @@ Values counted_dot(CellAngle angle, const Values& uu, const Values& uv, const Va
     case CellAngle::at_r: return vv - uv;
     case CellAngle::all: break;
   }
-  return uv.max(uu - uv).max(vv - uv);
+  if constexpr (std::is_same_v<Values, double>) {
+    return std::max({uv, uu - uv, vv - uv});
+  } else {
+    return uv.max(uu - uv).max(vv - uv);
+  }
 }
 
 }  // namespace
@@ -106,6 +111,41 @@ double Star::power_and_gradient(Point p, Point& gradient) const {
     gradient = gradient + 2 * cost * slope;
   }
   return value;
+}
+
+/// A corner's inverse condition number is r = J / F, J linear in p and F quadratic, with the same curvature
+/// 2 s every way; so F grad grad r = -(grad r grad F + grad F grad r) - 2 s r. It adds (1 - r)^3.
+StarModel Star::model(Point p) const {
+  StarModel model;
+  double squares = 0, defects = 0, cotangents = -std::numeric_limits<double>::infinity(), soundness = 1;
+  for (const StarCorner& c : corners_) {
+    const Point u = c.q - p, v = c.r - p;
+    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), jacobian = cross(u, v);
+    const double form = c.target.g11 * uu + 2 * c.target.g12 * uv + c.target.g22 * vv;
+    soundness =
+        std::min({soundness, jacobian, jacobian * jacobian - flattest_sine * flattest_sine * uu * vv});
+    const double at_u = c.target.g11 + c.target.g12, at_v = c.target.g12 + c.target.g22;
+    const double inverse = 1 / form, ratio = jacobian / form, defect = 1 - ratio, cost = defect * defect;
+    const Point f = -2.0 * (at_u * u + at_v * v);
+    const Point r = inverse * (Point{c.q.y - c.r.y, c.r.x - c.q.x} - ratio * f);
+    const double slope = -3 * cost, bend = 6 * defect, curvature = slope * inverse,
+                 same = 2 * (at_u + at_v) * ratio;
+    squares += cost * cost;
+    model.cubes += cost * defect;
+    defects = std::max(defects, defect);
+    cotangents = std::max(cotangents, counted_dot(c.angle, uu, uv, vv) / jacobian);
+    model.gradient = model.gradient + slope * r;
+    model.xx += bend * r.x * r.x - curvature * (2 * r.x * f.x + same);
+    model.xy += bend * r.x * r.y - curvature * (r.x * f.y + r.y * f.x);
+    model.yy += bend * r.y * r.y - curvature * (2 * r.y * f.y + same);
+    model.reference += uu;
+  }
+  model.reference /= static_cast<double>(corners_.size());
+  model.cost.objective[0] = squares;
+  model.cost.largest_defect[0] = defects;
+  model.cost.largest_cotangent[0] = cotangents;
+  model.cost.valid[0] = soundness > 0;
+  return model;
 }
 
 double Star::thesis_and_gradient(Point p, Point& gradient) const {

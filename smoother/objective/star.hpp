@@ -33,6 +33,16 @@ struct StarCost {
   Eigen::Array<bool, places, 1> valid;  ///< no corner is inverted
 };
 
+/// A star with its node at one place: its worth by Objective::power, and to second order the sum of the
+/// corners' defects, each to the third power.
+struct StarModel {
+  StarCost<1> cost;
+  double cubes = 0;
+  Point gradient;                 ///< of that sum
+  double xx = 0, xy = 0, yy = 0;  ///< its second derivatives
+  double reference = 0;           ///< Star::reference
+};
+
 /// All corners that hang on one node.
 class Star {
  public:
@@ -50,6 +60,8 @@ class Star {
   /// The cost of the node by the objective, at most the number of corners, and its gradient; the star must be
   /// valid at p.
   double cost_and_gradient(Point p, Objective objective, Point& gradient) const;
+  /// Its cost has the bits of cost(p, Objective::power); the rest is of use where the star is valid at p.
+  StarModel model(Point p) const;
 
   /// The largest corner cost with the node at p, Eq. 3.2; 1 or more where a corner is inverted.
   double worst_cost(Point p) const;

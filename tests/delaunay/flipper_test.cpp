@@ -114,6 +114,57 @@ TEST(Flipper, KeepsEdgesBetweenBlocks) {
   EXPECT_EQ(sorted(triangles), (Triangles{{0, 1, 3}, {1, 2, 3}}));
 }
 
+/// Of four nodes on one circle the ranks choose the diagonal, unless none of them has moved.
+TEST(Flipper, DiagonalsOfNodesThatHaveStayedGiveWayToNoTie) {
+  const std::vector<Point> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  std::vector<TieRank> ranks(4);
+  ranks[1].farther = 1;
+  Flipper flipper;
+  for (std::size_t node = 0; node <= 4; ++node) {
+    std::vector<char> moved(5, 0);
+    moved[node] = 1;
+    moved.resize(4);
+    Triangles triangles = kite_triangles;
+    flipper.flip_to_delaunay(square, ranks, triangles, {}, {}, moved);
+    EXPECT_EQ(triangles == kite_triangles, node == 4) << node;
+    triangles = kite_triangles;
+    flipper.flip_to_delaunay(square, ranks, triangles);
+    EXPECT_NE(triangles, kite_triangles) << "nothing is remembered";
+  }
+}
+
+/// Under other ranks all diagonals of a lattice are ties that flip, but where nodes have stayed.
+TEST(Flipper, FarFromMovedNodesNothingFlips) {
+  Grid grid(12, 0);
+  Triangles before = grid.split(1);
+  Flipper flipper;
+  flipper.flip_to_delaunay(grid.points, grid.ranks, before);
+  std::vector<TieRank> other = grid.ranks;
+  for (std::size_t node = 0; node < other.size(); ++node)
+    other[node].coarser = static_cast<std::int8_t>(node % 2);
+  const std::size_t middle = grid.points.size() / 2;
+  grid.points[middle] = grid.points[middle] + Point{0.31, 0.17};
+  std::vector<char> moved(grid.points.size(), 0);
+  moved[middle] = 1;
+  Triangles with_flags = before, without = before;
+  flipper.flip_to_delaunay(grid.points, other, with_flags, {}, {}, moved);
+  flipper.flip_to_delaunay(grid.points, other, without);
+  const auto changed = [&](const Triangles& after) {
+    int count = 0;
+    const Triangles known = sorted(before);
+    for (const Triangle& t : sorted(after))
+      count += std::binary_search(known.begin(), known.end(), t) ? 0 : 1;
+    return count;
+  };
+  EXPECT_GT(changed(without), 50);
+  EXPECT_LT(changed(with_flags), 20);
+  for (const Triangle& t : with_flags) {
+    EXPECT_TRUE(is_positive(grid.at(t[0]), grid.at(t[1]), grid.at(t[2])));
+    for (std::int32_t node = 0; node < size32(grid.points); ++node)
+      EXPECT_LE(in_circle(grid.at(t[0]), grid.at(t[1]), grid.at(t[2]), grid.at(node)), 0);
+  }
+}
+
 /// So small that products of lengths vanish in double precision, though exactly it ought to be flipped.
 TEST(Flipper, MakesNoTriangleThatIsNotPositive) {
   std::vector<Point> tiny;

@@ -92,6 +92,32 @@ TEST(Colouring, NeedsFewColours) {
   EXPECT_LE(coloured.colouring.count, 9);  // each node has at most eight neighbours
 }
 
+/// In an order that does not follow the numbers, but in blocks of 64 of them does.
+TEST(Colouring, NodesChooseBlockByBlock) {
+  const test::Grid grid{30};
+  const Coloured coloured(world(), grid.mesh(), space_filling_order(grid.mesh()), free_inside(grid, 1));
+  const auto owned = ids_below(NodeId{coloured.part.owned_nodes});
+  const std::vector<NodeId> nodes(owned.begin(), owned.end());
+  for (const int bits : {0, 6}) {
+    const auto priority = [&](std::size_t i) {
+      return ColouringPriority(coloured.halo.global(nodes[i]), bits);
+    };
+    const std::vector<std::size_t> order = order_of_choice(coloured.halo, nodes, bits);
+    std::vector<std::size_t> indices = order;
+    std::sort(indices.begin(), indices.end());
+    ASSERT_EQ(order.size(), nodes.size());
+    int steps = 0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      EXPECT_EQ(indices[k], k);
+      if (k == 0) continue;
+      EXPECT_GT(priority(order[k - 1]), priority(order[k]));
+      steps += order[k] + 1 == order[k - 1] ? 1 : 0;
+    }
+    if (nodes.size() < 2) continue;
+    EXPECT_EQ(bits > 0, 2 * steps > size32(order));
+  }
+}
+
 TEST(Colouring, OfNothing) {
   const test::Grid grid{1};
   const Coloured coloured(world(), grid.mesh(), space_filling_order(grid.mesh()), free_inside(grid, 1));

@@ -103,6 +103,29 @@ TEST(NodeStars, CostTheSameOnAnyNumberOfRanks) {
   }
 }
 
+TEST(NodeStars, TellWhetherACornerCostsMore) {
+  const Stars all(world(), jittered_grid());
+  int more = 0;
+  for (std::size_t i = 0; i < all.stars.size(); ++i) {
+    const double worst = all.star(i).worst_cost(all.part.point(all.stars.nodes()[i]));
+    EXPECT_EQ(all.stars.costs_more(i, 0.05), worst > 0.05);
+    if (worst == 0 || worst >= 1) continue;
+    EXPECT_TRUE(all.stars.costs_more(i, worst * (1 - 1e-9)));
+    EXPECT_FALSE(all.stars.costs_more(i, worst * (1 + 1e-9)));
+    ++more;
+  }
+  EXPECT_EQ(more > 0, all.stars.size() > 0);
+}
+
+TEST(NodeStars, AnInvertedCornerCostsMoreThanAnyLimit) {
+  Mesh whole;
+  whole.points = {{0, 0}, {1, 0}, {0, 1}};
+  whole.owned_nodes = 3;
+  whole.triangles = {{NodeId{0}, NodeId{2}, NodeId{1}}};
+  const Stars all(Communicator(MPI_COMM_SELF), whole);
+  for (std::size_t i = 0; i < all.stars.size(); ++i) EXPECT_TRUE(all.stars.costs_more(i, 0.999));
+}
+
 TEST(NodeStars, OfIdealCellsCostNothing) {
   Mesh whole;  // two unit squares
   for (const double y : {0.0, 1.0}) {

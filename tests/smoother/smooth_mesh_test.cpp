@@ -70,8 +70,12 @@ TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanksAlongAnOutline) {
   expect_same_positions(disc(Grid{10}, polygon), [&](const Mesh&) { return options; });
 }
 
+/// With one round of sweeps alone: fewer sweeps in each of several are not the beginning of more.
 void expect_never_worse(const Mesh& mesh, SmoothOptions options) {
   double worst = 1, sharpest = summarise_quality(self(), mesh).smallest_degrees;
+  EXPECT_GE(summarise_quality(self(), smoothed_alone(mesh, options)).smallest_degrees,
+            sharpest - degrees_rounding);
+  options.bad = 1;
   for (options.sweeps = 1; options.sweeps <= 8; ++options.sweeps) {
     SmoothReport report;
     const Mesh after = smoothed_alone(mesh, options, &report);

@@ -44,10 +44,54 @@ class GoneTriangles {
   std::vector<std::pair<std::int32_t, std::size_t>> around_;  ///< node, index
 };
 
+/// The nodes of the triangles at hand in the order of their numbers. Most are the rank's own, which need no
+/// sorting.
+class NodeRow {
+ public:
+  explicit NodeRow(const StarHalo& halo) : halo_{halo} {
+    std::vector<GlobalNodeId> owned;  // of each owned node; -1 for those that are not met
+    for (const NumberedTriangle& t : halo.triangles()) {
+      for (const GlobalNodeId node : t.nodes) note(node, owned);
+    }
+    std::sort(others_.begin(), others_.end());
+    others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+    std::erase_if(owned, [](GlobalNodeId node) { return node.value() < 0; });
+    lower_ = owned.empty() ? 0 : std::lower_bound(others_.begin(), others_.end(), owned[0]) - others_.begin();
+    numbers_.assign(others_.begin(), others_.begin() + lower_);
+    for (const GlobalNodeId node : owned) {
+      place_[halo.local(node).value()] = size32(numbers_);
+      numbers_.push_back(node);
+    }
+    owned_ = std::ssize(owned);
+    numbers_.insert(numbers_.end(), others_.begin() + lower_, others_.end());
+  }
+
+  std::int32_t place_of(GlobalNodeId node) const {
+    if (halo_.owns(node)) return place_[halo_.local(node).value()];
+    const auto at = std::lower_bound(others_.begin(), others_.end(), node) - others_.begin();
+    return static_cast<std::int32_t>(at < lower_ ? at : at + owned_);
+  }
+  const std::vector<GlobalNodeId>& numbers() const { return numbers_; }
+
+ private:
+  void note(GlobalNodeId node, std::vector<GlobalNodeId>& owned) {
+    if (!halo_.owns(node)) return others_.push_back(node);
+    const auto at = static_cast<std::size_t>(halo_.local(node).value());
+    if (at >= owned.size()) owned.resize(at + 1, GlobalNodeId{-1});
+    if (at >= place_.size()) place_.resize(at + 1, -1);
+    owned[at] = node;
+  }
+
+  const StarHalo& halo_;
+  std::vector<GlobalNodeId> numbers_, others_;  ///< of all; of other ranks' nodes
+  std::vector<std::int32_t> place_;             ///< of owned nodes
+  std::ptrdiff_t lower_ = 0, owned_ = 0;        ///< how many of the others come before, and of those between
+};
+
 }  // namespace
 
 RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) {
-  gather_nodes(halo.triangles());
+  gather_nodes(halo);
   const DelaunayPatch patch = make_patch(halo, rank_of);
   const std::vector<char> doubts = patch.doubtful();
   for (std::size_t t = 0; t < doubts.size() && !uncertain_; ++t) {
@@ -60,22 +104,22 @@ RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::functi
   find_outgrown();
 }
 
-void RegionTriangulation::gather_nodes(std::span<const NumberedTriangle> triangles) {
-  for (const NumberedTriangle& t : triangles) numbers_.insert(numbers_.end(), t.nodes.begin(), t.nodes.end());
-  std::sort(numbers_.begin(), numbers_.end());
-  numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+void RegionTriangulation::gather_nodes(const StarHalo& halo) {
+  const NodeRow row(halo);
+  numbers_ = row.numbers();
   points_.resize(numbers_.size());
   core_.resize(numbers_.size());
-  triangles_.reserve(triangles.size());
-  for (const NumberedTriangle& t : triangles) {
+  moved_.resize(numbers_.size());
+  triangles_.reserve(halo.triangles().size());
+  blocks_.reserve(halo.triangles().size());
+  for (const NumberedTriangle& t : halo.triangles()) {
     Triangle& nodes = triangles_.emplace_back();
     blocks_.push_back(t.block);
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t node =
-          std::lower_bound(numbers_.begin(), numbers_.end(), t.nodes[k]) - numbers_.begin();
-      nodes[k] = static_cast<std::int32_t>(node);
-      points_[node] = t.points[k];
-      core_[node] = t.core[k];
+      nodes[k] = row.place_of(t.nodes[k]);
+      points_[nodes[k]] = t.points[k];
+      core_[nodes[k]] = t.core[k];
+      moved_[nodes[k]] = t.moved[k];
     }
   }
 }
@@ -83,10 +127,11 @@ void RegionTriangulation::gather_nodes(std::span<const NumberedTriangle> triangl
 DelaunayPatch RegionTriangulation::make_patch(const StarHalo& halo,
                                               const std::function<TieRank(Point)>& rank_of) const {
   std::vector<TieRank> ranks;
+  ranks.reserve(points_.size());
   for (const Point& p : points_) ranks.push_back(rank_of(p));
   std::vector<char> open;
   for (const NumberedTriangle& t : halo.triangles()) open.push_back(halo.at_rim(t) ? 1 : 0);
-  return {points_, ranks, triangles_, open, blocks_};
+  return {points_, ranks, triangles_, open, blocks_, moved_};
 }
 
 RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& halo,

@@ -48,7 +48,7 @@ class RegionTriangulation {
     std::vector<std::pair<Triangle, std::int32_t>> after;  ///< with their blocks
   };
 
-  void gather_nodes(std::span<const NumberedTriangle> triangles);
+  void gather_nodes(const StarHalo& halo);
   DelaunayPatch make_patch(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) const;
   Changes find_changes(const StarHalo& halo, const DelaunayPatch& patch) const;
   void compare(const StarHalo& halo, const Changes& changes);
@@ -61,7 +61,7 @@ class RegionTriangulation {
 
   std::vector<GlobalNodeId> numbers_;  ///< of the nodes at hand, ascending
   std::vector<Point> points_;          ///< of each
-  std::vector<char> core_;             ///< of each
+  std::vector<char> core_, moved_;     ///< of each
   std::vector<Triangle> triangles_;    ///< at hand, before any flip
   std::vector<std::int32_t> blocks_;   ///< of each; flips do not change them
   bool uncertain_ = false;

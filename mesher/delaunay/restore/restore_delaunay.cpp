@@ -28,14 +28,20 @@ std::vector<GlobalNodeId> nodes_around(const Mesh& mesh, const NodeFlags& flags)
   return nodes;
 }
 
+/// What is known of a mesh's triangles and nodes, each for all of them or for none.
+struct Known {
+  const std::vector<std::int32_t>& triangle_to_block;
+  const NodeFlags& moved;  ///< since the mesh was Delaunay
+};
+
 /// The triangles around core nodes: no edge from one of these is at the border of the region, but for edges
 /// of the mesh's boundaries.
 class Region {
  public:
-  Region(const Communicator& comm, const Mesh& mesh, const std::vector<std::int32_t>& triangle_to_block)
+  Region(const Communicator& comm, const Mesh& mesh, const Known& known)
       : comm_{comm},
         mesh_{mesh},
-        blocks_{triangle_to_block},
+        known_{known},
         owners_(comm, mesh.first_node),
         exchange_(comm, owners_, mesh.owned_nodes, mesh.copies),
         first_triangle_{comm.exclusive_sum(std::ssize(mesh.triangles))},
@@ -62,24 +68,33 @@ class Region {
 
  private:
   std::vector<NumberedTriangle> own_triangles() const {
+    const auto has_core = [&](const auto& nodes) {
+      return std::any_of(nodes.begin(), nodes.end(), [&](NodeId node) { return core_[node] != 0; });
+    };
     std::vector<NumberedTriangle> triangles;
+    triangles.reserve(std::count_if(mesh_.triangles.begin(), mesh_.triangles.end(), has_core));
     for (std::int64_t i = 0; i < std::ssize(mesh_.triangles); ++i) {
-      const auto& nodes = mesh_.triangles[i];
-      NumberedTriangle t{first_triangle_ + i, {}, {}, blocks_.empty() ? 0 : blocks_[i], {}};
-      for (std::size_t k = 0; k < 3; ++k) t.core[k] = core_[nodes[k]];
-      if (t.core == std::array<char, 3>{}) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        t.nodes[k] = mesh_.global(nodes[k]);
-        t.points[k] = mesh_.point(nodes[k]);
-      }
-      triangles.push_back(t);
+      if (has_core(mesh_.triangles[i])) triangles.push_back(numbered(i));
     }
     return triangles;
   }
 
+  NumberedTriangle numbered(std::int64_t i) const {
+    const auto& blocks = known_.triangle_to_block;
+    NumberedTriangle t{first_triangle_ + i, {}, {}, blocks.empty() ? 0 : blocks[i], {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const NodeId node = mesh_.triangles[i][k];
+      t.nodes[k] = mesh_.global(node);
+      t.points[k] = mesh_.point(node);
+      t.core[k] = core_[node];
+      t.moved[k] = known_.moved.empty() ? 1 : known_.moved[node];
+    }
+    return t;
+  }
+
   const Communicator& comm_;
   const Mesh& mesh_;
-  const std::vector<std::int32_t>& blocks_;
+  Known known_;
   NodeOwners owners_;
   NodeExchange exchange_;
   std::int64_t first_triangle_;
@@ -165,13 +180,13 @@ std::int32_t number_of_blocks(const Communicator& comm, const std::vector<std::i
 std::optional<RegionTriangulation> changed_region(const Communicator& comm, const Mesh& mesh,
                                                   std::vector<GlobalNodeId> nodes,
                                                   const std::function<TieRank(Point)>& rank_of,
-                                                  const std::vector<std::int32_t>& triangle_to_block) {
+                                                  const Known& known) {
   QUADLOOP_REQUIRE(mesh.quads.empty(), "triangles alone");
-  QUADLOOP_REQUIRE(triangle_to_block.empty() || triangle_to_block.size() == mesh.triangles.size(),
+  QUADLOOP_REQUIRE(known.triangle_to_block.empty() || known.triangle_to_block.size() == mesh.triangles.size(),
                    "a block for each triangle, or none");
   std::optional<RegionTriangulation> triangulation;
   if (!comm.any(!nodes.empty())) return triangulation;
-  Region region(comm, mesh, triangle_to_block);
+  Region region(comm, mesh, known);
   do {
     region.add(nodes);
     triangulation.emplace(region.triangulate(rank_of));
@@ -180,30 +195,36 @@ std::optional<RegionTriangulation> changed_region(const Communicator& comm, cons
   return triangulation;
 }
 
-}  // namespace
-
-void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<GlobalNodeId> nodes,
-                         const std::function<TieRank(Point)>& rank_of,
-                         const std::vector<std::int32_t>& triangle_to_block) {
+/// New triangles take the slots that become free, block by block. *Collective.*
+void restore_in_slots(const Communicator& comm, Mesh& mesh, std::vector<GlobalNodeId> nodes,
+                      const std::function<TieRank(Point)>& rank_of, const Known& known) {
   const std::optional<RegionTriangulation> changed =
-      changed_region(comm, mesh, std::move(nodes), rank_of, triangle_to_block);
-  const std::int32_t blocks = changed ? number_of_blocks(comm, triangle_to_block) : 0;
+      changed_region(comm, mesh, std::move(nodes), rank_of, known);
+  const std::int32_t blocks = changed ? number_of_blocks(comm, known.triangle_to_block) : 0;
   for (std::int32_t block = 0; block < blocks; ++block) {
     replace_triangles(comm, of_block(changed->freed(), block), of_block(changed->made(), block), mesh);
   }
 }
 
+}  // namespace
+
+void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<GlobalNodeId> nodes,
+                         const std::function<TieRank(Point)>& rank_of,
+                         const std::vector<std::int32_t>& triangle_to_block) {
+  restore_in_slots(comm, mesh, std::move(nodes), rank_of, {triangle_to_block, {}});
+}
+
 void restore_delaunay(const Communicator& comm, Mesh& mesh, const NodeFlags& moved,
                       const std::function<TieRank(Point)>& rank_of,
                       const std::vector<std::int32_t>& triangle_to_block) {
-  restore_delaunay_at(comm, mesh, nodes_around(mesh, moved), rank_of, triangle_to_block);
+  restore_in_slots(comm, mesh, nodes_around(mesh, moved), rank_of, {triangle_to_block, moved});
 }
 
 std::vector<std::int32_t> restore_delaunay_nearby(const Communicator& comm, Mesh& mesh,
                                                   const NodeFlags& moved,
                                                   const std::function<TieRank(Point)>& rank_of) {
   const std::optional<RegionTriangulation> changed =
-      changed_region(comm, mesh, nodes_around(mesh, moved), rank_of, {});
+      changed_region(comm, mesh, nodes_around(mesh, moved), rank_of, {{}, moved});
   if (!changed) return std::vector<std::int32_t>(mesh.triangles.size(), 1);
   return insert_triangles(comm, changed->freed(), changed->made(), mesh);
 }

@@ -25,8 +25,9 @@ void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<Globa
                          const std::vector<std::int32_t>& triangle_to_block = {});
 
 /// The same after nodes have moved. `moved` has a flag for each of the mesh's points, owned and copies, the
-/// same on every rank. Before they moved the mesh was constrained Delaunay under the order `rank_of`, or all
-/// flags are set. *Collective.*
+/// same on every rank. Before they moved the mesh was constrained Delaunay, or all flags are set. Of four
+/// nodes on one circle those that have not moved keep their diagonal; of others it is chosen by `rank_of`.
+/// *Collective.*
 void restore_delaunay(const Communicator& comm, Mesh& mesh, const NodeFlags& moved,
                       const std::function<TieRank(Point)>& rank_of,
                       const std::vector<std::int32_t>& triangle_to_block = {});

@@ -22,6 +22,7 @@ void StarHalo::list_spokes() {
 /// Each triangle goes to the owners of its nodes.
 void StarHalo::gather_stars(std::span<const NumberedTriangle> own) {
   Outbox<NumberedTriangle> to_owners;
+  triangles_.reserve(own.size());
   for (const NumberedTriangle& triangle : own) {
     std::array<int, 3> ranks{};
     for (std::size_t k = 0; k < 3; ++k) ranks[k] = owners_.rank_of(triangle.nodes[k]);

@@ -18,6 +18,7 @@ struct NumberedTriangle {
   std::array<Point, 3> points;
   std::int32_t block = 0;
   std::array<char, 3> core{};  ///< a flag for each node: no triangle around it is missing from the region
+  std::array<char, 3> moved{1, 1, 1};  ///< 0 for a node around which all were Delaunay, and which has stayed
 };
 
 /// The triangles of a region, which all ranks hold together, around the nodes that this rank owns; then those
@@ -39,6 +40,8 @@ class StarHalo {
   /// Whether no triangle around any node at hand is missing.
   bool complete() const { return frontier_.empty(); }
 
+  /// Of an owned node.
+  NodeId local(GlobalNodeId node) const { return owners_.local(node); }
   bool owns(GlobalNodeId node) const { return owners_.rank_of(node) == comm_.rank(); }
 
  private:

@@ -167,6 +167,55 @@ double lead_of_worst(const Star& star, Point p) {
   return costs.back() - costs[costs.size() - 2];
 }
 
+/// The sum of the corners' defects, each to the third power, and its gradient by differences.
+double sum_of_cubes(const Star& star, Point p) {
+  double sum = 0;
+  for (const double cost : test::corner_costs(star, p)) sum += std::pow(cost, 1.5);
+  return sum;
+}
+Point slope_of_cubes(const Star& star, Point p) {
+  constexpr double h = 1e-6;
+  const auto value = [&](Point at) { return sum_of_cubes(star, at); };
+  return {(value(p + Point{h, 0}) - value(p - Point{h, 0})) / (2 * h),
+          (value(p + Point{0, h}) - value(p - Point{0, h})) / (2 * h)};
+}
+
+TEST(Star, AModelIsOfSecondOrder) {
+  constexpr double h = 1e-5;
+  int compared = 0;
+  for_each_star([&](const Star& star, Random& random) {
+    const Point p = near_centre(random, 0.3);
+    if (test::largest_cost(star, p) > 0.9) return;  // too steep for differences
+    const StarModel model = star.model(p);
+    EXPECT_NEAR(model.cubes, sum_of_cubes(star, p), rounding);
+    EXPECT_EQ(model.reference, star.reference(p));
+    const Point slope = slope_of_cubes(star, p);
+    EXPECT_LT(length(model.gradient - slope), 1e-6 * (1 + length(slope)));
+    const auto bend = [&](Point by) {
+      return 1 / (2 * h) * (slope_of_cubes(star, p + h * by) - slope_of_cubes(star, p - h * by));
+    };
+    const Point along_x = bend({1, 0}), along_y = bend({0, 1});
+    const double size = 1 + length(along_x) + length(along_y);
+    EXPECT_NEAR(model.xx, along_x.x, 1e-4 * size);
+    EXPECT_NEAR(model.xy, along_x.y, 1e-4 * size);
+    EXPECT_NEAR(model.yy, along_y.y, 1e-4 * size);
+    ++compared;
+  });
+  EXPECT_GT(compared, 200);
+}
+
+TEST(Star, AModelsCostIsTheCostToTheLastBit) {
+  for_each_star([](const Star& star, Random& random) {
+    const Point p = near_centre(random, 1.2);
+    const StarCost<1> cost = star.cost(p, Objective::power), of_model = star.model(p).cost;
+    EXPECT_EQ(of_model.valid[0], cost.valid[0]);
+    if (!cost.valid[0]) return;
+    EXPECT_EQ(of_model.objective[0], cost.objective[0]);
+    EXPECT_EQ(of_model.largest_defect[0], cost.largest_defect[0]);
+    EXPECT_EQ(of_model.largest_cotangent[0], cost.largest_cotangent[0]);
+  });
+}
+
 TEST(Star, GradientsAgreeWithDifferences) {
   int compared = 0;
   for_each_star([&](const Star& star, Random& random) {

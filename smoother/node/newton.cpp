@@ -1,0 +1,77 @@
+#include "smoother/node/newton.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace quadloop {
+
+namespace {
+
+constexpr int most_moves = 3;   ///< in one visit
+constexpr double reach = 0.08;  ///< of the node's mean edge: the longest step; longer ones end in worse cells
+constexpr double least_gain = 1e-4;    ///< of what is lowered: what Acceptance asks for of the cost
+constexpr double further_gain = 0.05;  ///< what a further move in one visit has to promise
+constexpr double flattest = 1e-3;      ///< of the curvatures' ratio, below which a step is the gradient's
+constexpr double cotangent_of_32 =
+    1.600334529041051;  ///< stars with smaller angles are worth a longer search
+/// Shares of a step that is refused, along it and to its left; tried together.
+constexpr std::array<Point, Star::batch> ways{
+    {{0.6, 0}, {0.3, 0}, {0.1, 0}, {0.03, 0}, {0.3, 0.25}, {0.3, -0.25}, {0.05, 0.14}, {0.05, -0.14}}};
+
+struct Step {
+  Point by;
+  double gain = 0;  ///< as a share of the sum of cubes, by the quadratic model
+};
+
+/// To the minimum of the quadratic model of the third root of the sum of cubes, which is nearer to quadratic
+/// than the sum: its second derivatives are, but for a factor, those of the sum less 2/3 of the gradient's
+/// square over the sum. Against the gradient where the model has no minimum.
+Step newton_step(const StarModel& m) {
+  const Point g = m.gradient;
+  const double longest = reach * std::sqrt(m.reference), share = 2 / (3 * m.cubes);
+  const double xx = m.xx - share * g.x * g.x, xy = m.xy - share * g.x * g.y, yy = m.yy - share * g.y * g.y;
+  const double determinant = xx * yy - xy * xy, trace = xx + yy;
+  const bool is_bowl = trace > 0 && determinant > flattest * trace * trace;
+  Point by = is_bowl ? (-1 / determinant) * Point{yy * g.x - xy * g.y, xx * g.y - xy * g.x} : -1.0 * g;
+  const double norm = length(by);
+  if (!(norm > 0)) return {};
+  if (!is_bowl || norm > longest) by = (longest / norm) * by;
+  const double bend = xx * by.x * by.x + 2 * xy * by.x * by.y + yy * by.y * by.y;
+  return {by, (-dot(g, by) - 0.5 * std::max(bend, 0.0)) / m.cubes};
+}
+
+/// The best accepted place on the way and beside it, short of its end.
+std::optional<Point> short_of(const Star& star, Point p, Point by, const Acceptance& acceptance) {
+  Star::Batch x, y;
+  for (int k = 0; k < Star::batch; ++k) {
+    x[k] = p.x + ways[k].x * by.x - ways[k].y * by.y;
+    y[k] = p.y + ways[k].x * by.y + ways[k].y * by.x;
+  }
+  const int best = acceptance.best(star.cost(x, y, Objective::power), Star::batch);
+  if (best < 0) return std::nullopt;
+  return Point{x[best], y[best]};
+}
+
+}  // namespace
+
+std::optional<Point> Newton::improve(const Star& star, Point p, Objective objective) {
+  if (objective != Objective::power) return perturbation_.improve(star, p, objective);
+  std::optional<Point> found;
+  StarModel now = star.model(p);
+  for (int move = 0; move < most_moves; ++move) {
+    const Step step = newton_step(now);
+    if (!(step.gain > (found ? further_gain : least_gain))) return found;
+    const Acceptance acceptance(now.cost);
+    const StarModel then = star.model(p + step.by);
+    if (!acceptance.accepts(then.cost, 0)) {
+      if (!found) found = short_of(star, p, step.by, acceptance);
+      const bool is_sharp = now.cost.largest_cotangent[0] > cotangent_of_32;
+      return found || !is_sharp ? found : perturbation_.improve(star, p, objective);
+    }
+    found = p = p + step.by;
+    now = then;
+  }
+  return found;
+}
+
+}  // namespace quadloop
