@@ -17,7 +17,7 @@ namespace quadloop {
 
 /// A VTK XML file whose arrays stand as raw bytes, least first, behind the XML; all ranks write it together,
 /// through rank 0, the bytes the same on any number of ranks. Arrays are named first, each with what writes
-/// it, since the XML tells where each begins. *Collective*, all of it; throws OutputError on all ranks.
+/// it, since the XML tells where each begins. *Collective*, all but put(); throws OutputError on all ranks.
 class VtuAppended {
  public:
   VtuAppended(OutputSet& outputs, const std::string& path);
@@ -71,6 +71,12 @@ class VtuAppended {
     on_root(flush);
   }
 
+  /// Rows whose bytes are in order already. On rank 0 alone, not collective.
+  template <class Row>
+  void put(std::span<const Row> rows) {
+    file_->write(bytes_of(rows));
+  }
+
  private:
   struct Array {
     std::string element, name, type;
@@ -88,10 +94,6 @@ class VtuAppended {
   void add_array(Array array) { arrays_.push_back(std::move(array)); }
   std::string tags_of(const std::string& element, std::int64_t& offset) const;
 
-  template <class Row>
-  void put(std::span<const Row> rows) {
-    file_->write(bytes_of(rows));
-  }
   void on_root(const std::function<void()>& action) const;
 
   static constexpr std::int64_t bytes_per_piece = std::int64_t{1} << 20;

@@ -1,8 +1,6 @@
-#include <memory>
-
-#include "io/files/binary_output.hpp"
 #include "io/solid/solid_cell_values.hpp"
 #include "io/solid/solid_stream.hpp"
+#include "io/vtu/vtu_appended.hpp"
 #include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
 #include "io/vtu/vtu_text.hpp"
@@ -35,29 +33,20 @@ struct Run {
 class VtuSolidWriter {
  public:
   VtuSolidWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path)
-      : stream_{stream}, cells_{stream} {
+      : stream_{stream}, cells_{stream}, file_{outputs, path} {
     list_runs();
-    const StagedFile staged = outputs.stage(path);
-    stream_.on_root([&] {
-      file_ = std::make_unique<OutputFile>(staged);
-      write_head();
-    });
   }
 
   void write() {
-    write_points();
-    write_connectivity();
-    stream_.on_root([&] {
-      write_offsets();
-      write_of_runs<std::uint8_t>([](const Run& run) { return run.type; });
-      write_of_runs<std::int32_t>([](const Run& run) { return run.patch; });
-    });
-    for (std::size_t k = 0; k < cells_.names().size(); ++k) write_cell_variable(k);
-    for (std::size_t k = 0; k < stream_.variables().size(); ++k) write_variable(k);
-    stream_.on_root([&] {
-      file_->write("\n</AppendedData>\n</VTKFile>\n");
-      file_->close();
-    });
+    add_points();
+    add_cells();
+    for (std::size_t k = 0; k < cells_.names().size(); ++k)
+      file_.add<double>("CellData", cells_.names()[k], 1, elements_, [this, k] { put_cell_variable(k); });
+    for (std::size_t k = 0; k < stream_.variables().size(); ++k)
+      file_.add<double>("PointData", stream_.variables()[k], 1, stream_.counts().nodes, [this, k] {
+        file_.put_rows(stream_.point_rows(), [&](std::int64_t i) { return std::array{stream_.value(i, k)}; });
+      });
+    file_.write(head());
   }
 
  private:
@@ -78,134 +67,106 @@ class VtuSolidWriter {
     }
   }
 
-  /// The tag of an array of so many bytes in the appended data, each after its size.
-  std::string array_tag(const std::string& type, const std::string& name, std::int64_t bytes,
-                        int components = 1) {
-    std::string tag = "<DataArray type=\"" + type + "\" Name=\"" + xml_escaped(name) + "\"";
-    if (components > 1) tag += " NumberOfComponents=\"" + std::to_string(components) + "\"";
-    tag += " format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
-    offset_ += bytes + std::int64_t{sizeof(std::uint64_t)};
-    return tag;
+  std::string head() const {
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+           "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n" +
+           vtu_text_array("boundary_names", stream_.patch_names()) +
+           vtu_name_arrays(stream_.patch_names(), 2) + "</FieldData>\n<Piece NumberOfPoints=\"" +
+           std::to_string(stream_.counts().nodes) + "\" NumberOfCells=\"" + std::to_string(elements_) +
+           "\">\n";
   }
 
-  void write_head() {
-    const std::int64_t nodes = stream_.counts().nodes;
-    std::string head =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-        "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n" +
-        vtu_text_array("boundary_names", stream_.patch_names()) + vtu_name_arrays(stream_.patch_names(), 2) +
-        "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(nodes) + "\" NumberOfCells=\"" +
-        std::to_string(elements_) + "\">\n<Points>\n";
-    head += array_tag("Float64", "Points", 24 * nodes, 3);  // one after another: each moves the offset on
-    head += "</Points>\n<Cells>\n" + array_tag("Int64", "connectivity", 8 * entries_);
-    head += array_tag("Int64", "offsets", 8 * elements_);
-    head += array_tag("UInt8", "types", elements_);
-    head += "</Cells>\n<CellData>\n" + array_tag("Int32", "boundary", 4 * elements_);
-    for (const std::string& name : cells_.names()) head += array_tag("Float64", name, 8 * elements_);
-    head += "</CellData>\n";
-    if (!stream_.variables().empty()) {
-      head += "<PointData>\n";
-      for (const std::string& name : stream_.variables()) head += array_tag("Float64", name, 8 * nodes);
-      head += "</PointData>\n";
-    }
-    file_->write(head + "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
-  }
-
-  /// On rank 0.
-  void begin_array(std::int64_t bytes) { put(std::array{static_cast<std::uint64_t>(bytes)}); }
-  template <class Number, std::size_t width>
-  void put(const std::array<Number, width>& numbers) {
-    const auto bytes = in_order<std::endian::little>(numbers);
-    file_->write(bytes_of(std::span<const Number>(bytes)));
-  }
-
-  template <class Make>
-  void put_rows(std::int64_t rows, const Make& make) {
-    stream_.rows(
-        rows, [&](std::int64_t i) { return in_order<std::endian::little>(make(i)); },
-        [&](auto some) { file_->write(bytes_of(some)); });
-  }
-
-  void write_points() {
-    stream_.on_root([&] { begin_array(24 * stream_.counts().nodes); });
-    put_rows(stream_.point_rows(), [&](std::int64_t i) {
-      const Point3 p = stream_.point(i);
-      return std::array{p.x, p.y, p.z};
+  void add_points() {
+    file_.add<double>("Points", "Points", 3, stream_.counts().nodes, [this] {
+      file_.put_rows(stream_.point_rows(), [&](std::int64_t i) {
+        const Point3 p = stream_.point(i);
+        return std::array{p.x, p.y, p.z};
+      });
     });
   }
 
-  void write_connectivity() {
+  void add_cells() {
+    file_.add<std::int64_t>("Cells", "connectivity", 1, entries_, [this] { put_connectivity(); });
+    file_.add<std::int64_t>("Cells", "offsets", 1, elements_, [this] {
+      std::int64_t end = 0;
+      put_of_runs<std::int64_t>([&](const Run& run) { return end += run.nodes; });
+    });
+    file_.add<std::uint8_t>("Cells", "types", 1, elements_,
+                            [this] { put_of_runs<std::uint8_t>([](const Run& run) { return run.type; }); });
+    file_.add<std::int32_t>("CellData", "boundary", 1, elements_,
+                            [this] { put_of_runs<std::int32_t>([](const Run& run) { return run.patch; }); });
+  }
+
+  void put_connectivity() {
     const auto make = [](const auto& nodes) { return in_order<std::endian::little>(nodes); };
-    const auto write = [&](auto rows) { file_->write(bytes_of(rows)); };
-    stream_.on_root([&] { begin_array(8 * entries_); });
+    const auto put = [this](auto rows) { file_.put(rows); };
     for_each_kind_of_cell([&]<std::size_t width>() {
-      put_rows(stream_.cell_rows<width>(), [&](std::int64_t i) { return as_vtk(stream_.cell<width>(i)); });
+      file_.put_rows(stream_.cell_rows<width>(),
+                     [&](std::int64_t i) { return as_vtk(stream_.cell<width>(i)); });
     });
-    stream_.sides([](std::size_t) {}, make, write);
+    stream_.sides([](std::size_t) {}, make, put);
     for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) {
-      stream_.faces<3>(n, make, write);
-      stream_.faces<4>(n, make, write);
+      stream_.faces<3>(n, make, put);
+      stream_.faces<4>(n, make, put);
     }
-  }
-
-  void write_offsets() {
-    begin_array(8 * elements_);
-    std::int64_t end = 0;
-    write_numbers<std::int64_t>([&](const Run& run) { return end += run.nodes; });
-  }
-
-  template <class Number, class Value>
-  void write_of_runs(const Value& value) {
-    begin_array(elements_ * std::int64_t{sizeof(Number)});
-    write_numbers<Number>(value);
   }
 
   /// One for each cell and face, in bounded pieces.
   template <class Number, class Value>
-  void write_numbers(const Value& value) {
-    constexpr std::size_t most = std::size_t{1} << 17;
-    std::vector<Number> numbers;
-    const auto flush = [&] {
-      file_->write(bytes_of(std::span<const Number>(numbers)));
-      numbers.clear();
-    };
-    for (const Run& run : runs_) {
-      for (std::int64_t i = 0; i < run.count; ++i) {
-        numbers.push_back(in_order<std::endian::little>(Number{value(run)}));
-        if (numbers.size() == most) flush();
+  void put_of_runs(const Value& value) {
+    stream_.on_root([&] {
+      Gathered<Number> numbers(file_);
+      for (const Run& run : runs_) {
+        for (std::int64_t i = 0; i < run.count; ++i) numbers.add(Number{value(run)});
       }
-    }
-    flush();
+      numbers.flush();
+    });
   }
 
-  void write_variable(std::size_t variable) {
-    stream_.on_root([&] { begin_array(8 * stream_.counts().nodes); });
-    put_rows(stream_.point_rows(), [&](std::int64_t i) { return std::array{stream_.value(i, variable)}; });
-  }
+  /// Numbers that rank 0 makes one by one.
+  template <class Number>
+  class Gathered {
+   public:
+    explicit Gathered(VtuAppended& file) : file_{file} {}
+    void add(Number number) {
+      numbers_.push_back(in_order<std::endian::little>(number));
+      if (numbers_.size() == most) flush();
+    }
+    void flush() {
+      file_.put(std::span<const Number>(numbers_));
+      numbers_.clear();
+    }
+
+   private:
+    static constexpr std::size_t most = std::size_t{1} << 17;
+    VtuAppended& file_;
+    std::vector<Number> numbers_;
+  };
 
   /// Faces have the values of the cell beside them.
-  void write_cell_variable(std::size_t variable) {
-    stream_.on_root([&] { begin_array(8 * elements_); });
+  void put_cell_variable(std::size_t variable) {
     for_each_kind_of_cell([&]<std::size_t width>() {
-      put_rows(stream_.cell_rows<width>(),
-               [&](std::int64_t i) { return std::array{cells_.of_cell<width>(i, variable)}; });
+      file_.put_rows(stream_.cell_rows<width>(),
+                     [&](std::int64_t i) { return std::array{cells_.of_cell<width>(i, variable)}; });
     });
+    Gathered<double> at_sides(file_);
     cells_.sides(variable, [&](std::span<const double> values) {
-      for (const double value : values) put(std::array{value});
+      for (const double value : values) at_sides.add(value);
     });
+    stream_.on_root([&] { at_sides.flush(); });
     for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) {
-      put_rows(stream_.face_rows<3>(n),
-               [&](std::int64_t i) { return std::array{cells_.of_face<3>(n, i, variable)}; });
-      put_rows(stream_.face_rows<4>(n),
-               [&](std::int64_t i) { return std::array{cells_.of_face<4>(n, i, variable)}; });
+      file_.put_rows(stream_.face_rows<3>(n),
+                     [&](std::int64_t i) { return std::array{cells_.of_face<3>(n, i, variable)}; });
+      file_.put_rows(stream_.face_rows<4>(n),
+                     [&](std::int64_t i) { return std::array{cells_.of_face<4>(n, i, variable)}; });
     }
   }
 
   const SolidStream& stream_;
   const SolidCellValues cells_;
+  VtuAppended file_;
   std::vector<Run> runs_;
-  std::int64_t elements_ = 0, entries_ = 0, offset_ = 0;
-  std::unique_ptr<OutputFile> file_;  ///< on rank 0 only
+  std::int64_t elements_ = 0, entries_ = 0;
 };
 
 }  // namespace

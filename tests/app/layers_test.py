@@ -6,6 +6,7 @@
 import json
 import math
 import re
+import struct
 import sys
 import unittest
 
@@ -110,10 +111,13 @@ class Layers(ProgramTest):
 
     def test_vtu_has_their_heights_on_the_wall(self):
         said = self.make("first = 0.001, growth = 1.3, count = 12", '[output]\nformats = ["vtu"]\n')
-        text = (self.folder / "out.vtu").read_text()
+        content = (self.folder / "out.vtu").read_bytes()
+        data = content.index(b'<AppendedData encoding="raw">\n_') + len(b'<AppendedData encoding="raw">\n_')
 
         def field(name):
-            return [float(word) for word in re.search(rf'Name="{name}"[^>]*>\n(.*?)</DataArray>', text, re.S).group(1).split()]
+            at = data + int(re.search(rf'type="Float64" Name="{name}"[^>]* offset="(\d+)"/>'.encode(), content).group(1))
+            (size,) = struct.unpack_from("<Q", content, at)
+            return struct.unpack_from(f"<{size // 8}d", content, at + 8)
 
         asked, height, places = field("layer_height_asked"), field("layer_height"), field("Points")
         thickness = said["layers"][0]["thickness_asked"]

@@ -72,7 +72,7 @@ def check_formats(program, folder, ranks):
     require(status == 0 and 'output.formats was ["vtu", "su2", "csv"], is now not set' in message, f"exit status {status}: {message}")
     found = [sorted(path.suffix for path in (made / cycle).glob("mesh.*")) for cycle in ("cycle_00", "cycle_01")]
     require(found == [[".cgns", ".csv", ".h5", ".mesh", ".su2", ".vtu"], [".cgns", ".h5", ".mesh"]], f"cycles hold {found}")
-    require('Name="height"' in (made / "cycle_00" / "mesh.vtu").read_text(), "the .vtu has no solution")
+    require(b'Name="height"' in (made / "cycle_00" / "mesh.vtu").read_bytes(), "the .vtu has no solution")
     require((made / "cycle_00" / "mesh.csv").read_text().startswith('"PointID","x","y","height"\n0,'), "the .csv has no solution")
 
 
