@@ -46,6 +46,10 @@ struct FileFormat {
   /// The boundaries' names as a file has them; null: as they are.
   std::vector<std::string> (*boundary_names)(const std::vector<std::string>& names) = nullptr;
 
+  /// Of a solution's variables those names that it cannot hold as a file has them, the others as they are;
+  /// null: it holds all.
+  std::vector<std::string> (*variable_names)(const std::vector<std::string>& names) = nullptr;
+
   /// A solution alone, as above; `gamma` is the ratio of specific heats of its gas.
   LoadedSolution (*read_solution)(const std::string& path) = nullptr;
   void (*write_solution)(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
@@ -68,6 +72,9 @@ struct FileFormat {
 
 /// The table.
 const std::vector<FileFormat>& file_formats();
+
+/// A line on variables whose names a format cannot hold; empty where there are none.
+std::string renames_of_variables(const FileFormat& format, const Field& solution, const std::string& path);
 
 /// The format of this name, or the one that the path's suffix tells; null where it is none.
 const FileFormat* format_named(const std::string& name);

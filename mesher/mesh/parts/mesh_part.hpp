@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
@@ -17,6 +18,7 @@ namespace quadloop {
 /// their numbers in the whole. The boundaries are the whole's, in its order, with the edges that are here, in
 /// its order; then one for each neighbour with which the part shares edges, named part_name(neighbour), of
 /// the condition "interface": both parts have the same edges in the same order, each with itself to the left.
+/// Of strips it has the columns that are here as a whole, each run of two or more as a strip of its own.
 struct MeshPart {
   /// Another part that has nodes of this one.
   struct Neighbour {
@@ -37,6 +39,8 @@ struct MeshPart {
 
 /// "part_0003" for part 2: with four digits, or more where there are more.
 std::string part_name(std::int32_t part);
+/// Whether a boundary is named as the edges between two parts are.
+bool is_part_name(std::string_view name);
 
 /// What is divided beside the mesh itself.
 struct PartData {
