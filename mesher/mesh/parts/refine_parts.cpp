@@ -18,9 +18,9 @@ namespace quadloop {
 namespace {
 
 constexpr int most_rounds = 8;
-constexpr std::int32_t band = 64;  ///< how many cells from the line between two parts may move
-constexpr std::int64_t enough =
-    200;  ///< a round that lowers the cut by less than this share of it is the last
+constexpr std::int32_t band = 32;  ///< how many cells from the line between two parts may move
+/// A round that lowers the cut by less than this share of it is the last.
+constexpr std::int64_t least_share = 100;
 
 /// Two parts with edges between them, the first the lower one.
 struct Pair {
@@ -159,7 +159,7 @@ class PartRefiner {
     for (int round = 0; round < most_rounds; ++round) {
       const std::int64_t before = cut();
       for (const std::vector<Pair>& pairs : colours()) refine(pairs);
-      if ((before - cut()) * enough < before) break;
+      if ((before - cut()) * least_share < before) break;
     }
   }
 
