@@ -10,7 +10,7 @@
 #include "io/vtu/pvtu_file.hpp"
 #include "io/vtu/vtu_document.hpp"
 #include "io/vtu/vtu_file.hpp"
-#include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/mesh/part_names.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {

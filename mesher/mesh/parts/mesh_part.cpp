@@ -269,18 +269,6 @@ class PartMaker {
 
 }  // namespace
 
-std::string part_name(std::int32_t part) {
-  constexpr std::size_t digits = 4;
-  const std::string number = std::to_string(part + 1);
-  return "part_" + std::string(digits - std::min(digits, number.size()), '0') + number;
-}
-
-bool is_part_name(std::string_view name) {
-  constexpr std::string_view head = "part_";
-  return name.starts_with(head) && name.size() > head.size() &&
-         name.find_first_not_of("0123456789", head.size()) == std::string_view::npos;
-}
-
 std::vector<MeshPart> make_parts(const Communicator& comm, const Mesh& mesh, const CellParts& cells,
                                  const PartData& data) {
   return PartMaker(comm, mesh, cells, data).make();

@@ -4,12 +4,12 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/part_names.hpp"
 #include "mesher/mesh/parts/partition.hpp"
 
 namespace quadloop {
@@ -36,11 +36,6 @@ struct MeshPart {
   std::vector<Neighbour> neighbours;             ///< ascending
   std::optional<Field> field;                    ///< a row for each node, and for each cell
 };
-
-/// "part_0003" for part 2: with four digits, or more where there are more.
-std::string part_name(std::int32_t part);
-/// Whether a boundary is named as the edges between two parts are.
-bool is_part_name(std::string_view name);
 
 /// What is divided beside the mesh itself.
 struct PartData {
