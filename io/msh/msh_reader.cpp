@@ -20,9 +20,9 @@ class MshReader {
     text_.read([this](std::int64_t tag, Point3 point) { put_point(tag, point); },
                [this](const MshElement& element) { put_element(element); });
     drop_unused_tags();
-    drop_unused_nodes(foreign_, text_.scan().path());
     read_solution();
     if (text_.may_repeat()) drop_repeated(foreign_, text_.scan().path());
+    drop_unused_nodes(foreign_, text_.scan().path());
     warn_of_names();
     return finish(std::move(foreign_), text_.scan());
   }
@@ -37,7 +37,7 @@ class MshReader {
         "boundary_ and the curve's number (in Gmsh, Physical Curve gives names)");
   }
 
-  /// As drop_unused_nodes() does: nodes of no cell need no values.
+  /// What drop_unused_nodes() is going to do: nodes of no cell need no values.
   void drop_unused_tags() {
     std::vector<char> is_used(node_tags_.size(), 0);
     const auto mark = [&](const auto& nodes) {
