@@ -79,6 +79,18 @@ class Parts(ProgramTest):
         self.done("convert", "a.parts", "back.mesh", "-q")
         self.assertEqual(self.text("back.mesh"), self.text("a.mesh"))
 
+    def test_remesh_writes_parts_of_what_it_carries_over(self):
+        self.case('[adapt]\nvariable = "density"\n')
+        self.done("mesh", "case.toml", "-o", "a", "-q")
+        self.write("a.mesh", convert_test.with_solution(self.text("a.mesh")))
+        for ranks in (1, 2):
+            record = json.loads(self.done("remesh", "case.toml", "--tree", "a.tree.h5", "--solution", "a.mesh", "-o", "r", "--set", "output.partitions=3",
+                                          "--json", "-q", ranks=ranks)[0])
+            self.assertEqual((record["parts"], len(record["files"])), (3, 2 + 1 + 2 * 3))
+            self.done("convert", "r.parts", "back.mesh", "-q")
+            self.assertEqual(self.text("back.mesh"), self.text("r.mesh"))
+            self.assertIn("my_field", self.text("r.part_0002.mesh"))
+
     def test_refusals(self):
         self.write("b.mesh", convert_test.TWO_BLOCKS)
         self.refused(1, ["4 parts", "3 cells"], "convert", "b.mesh", "out.mesh", "--parts", "4", "-q")

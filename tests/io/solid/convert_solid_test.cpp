@@ -9,6 +9,7 @@
 #include "io/solid/solid_cell_values.hpp"
 #include "io/solid_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/topology.hpp"
 #include "mesher/solid/check_solid.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -118,6 +119,27 @@ TEST(ConvertSolid, FacesHaveTheValuesOfTheCellBesideThem) {
   SolidMesh stray = sample();
   stray.patches[1].faces.push_back({0, 2, 5, none});
   EXPECT_THROW(SolidCellValues(SolidStream(alone, stray)), OutputError);
+}
+
+TEST(ConvertSolid, FacesOfAnExtrudedMeshHaveThemToo) {
+  const Communicator alone(MPI_COMM_SELF);
+  const Mesh plane = test::sample_mesh(2);  // four triangles, two quads
+  const Field field{{}, {}, {}, {{"p"}, {0, 1, 2, 3, 4, 5}}};
+  const ExtrudedMesh mesh = extruded(plane, {0, 1, 3}, ExtrusionAxis::z, &field);
+  const SolidStream stream(alone, mesh);
+  const SolidCellValues cells(stream);
+  const std::size_t back = stream.side_patches(), front = back + 1;
+  for (std::int64_t row = 0; row < 4; ++row) EXPECT_EQ(cells.of_face<3>(back, row, 0), row);
+  for (std::int64_t row = 0; row < 2; ++row) EXPECT_EQ(cells.of_face<4>(front, row, 0), 4 + row);
+  std::vector<double> found, wanted;
+  cells.sides(
+      0, [&](std::span<const double> values) { found.insert(found.end(), values.begin(), values.end()); });
+  const EdgeTable table(plane);
+  for (const BoundaryEdges& boundary : plane.boundaries) {
+    for (const auto& [from, to] : boundary.edges)
+      wanted.insert(wanted.end(), 2, table.cell_left_of(from, to));
+  }
+  EXPECT_EQ(found, wanted);
 }
 
 /// The cubes in one piece with the pyramid, which is in the other piece too, beside the rest.

@@ -261,10 +261,13 @@ TEST(RefineSides, HeedsWhatStaysAndTheBounds) {
     if (i < 5) graph.neighbours.push_back({i + 1, 1});
   }
   graph.starts.push_back(std::ssize(graph.neighbours));
-  SideWeights weights{{12, 12}, 6, 18};
-  refine_sides(graph, weights);
-  EXPECT_EQ(weights.sides, (std::array<std::int64_t, 2>{6, 18}));
-  EXPECT_EQ(graph.sides, (std::vector<char>{0, 0, 0, 1, 1, 1}));
+  for (const auto& [least, most] : {std::pair{6, 30}, {0, 18}}) {
+    WeightedGraph moved = graph;
+    SideWeights weights{{12, 12}, least, most};
+    refine_sides(moved, weights);
+    EXPECT_EQ(weights.sides, (std::array<std::int64_t, 2>{6, 18}));
+    EXPECT_EQ(moved.sides, (std::vector<char>{0, 0, 0, 1, 1, 1}));
+  }
 }
 
 TEST(Parts, AnEdgeBetweenBlocksStaysWithTheCellToItsLeft) {
