@@ -12,6 +12,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/part_names.hpp"
 #include "mesher/mesh/parts/hilbert.hpp"
 #include "mesher/mesh/parts/join_parts.hpp"
 #include "mesher/mesh/parts/mesh_part.hpp"
@@ -303,6 +304,12 @@ TEST(Parts, KeepTheBlocksOfCells) {
     for (std::size_t i = 0; i < part.quads.size(); ++i)
       EXPECT_EQ(part.quad_to_block[i], quads[part.quads[i]]);
   }
+}
+
+TEST(PartNames, AreTakenForNoOthers) {
+  for (const std::int32_t part : {0, 8, 12345}) EXPECT_TRUE(is_part_name(part_name(part)));
+  for (const char* const name : {"", "part_", "part_1a", "part", "apart_0001", "part_-001"})
+    EXPECT_FALSE(is_part_name(name)) << name;
 }
 
 TEST(StripsInPart, AreRunsOfWholeColumns) {
