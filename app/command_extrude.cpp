@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -59,8 +60,13 @@ void require_one_way(const ExtrudeArguments& arguments) {
 
 /// The same on every rank. *Collective.*
 std::vector<double> heights_of(const Communicator& comm, const ExtrudeArguments& arguments) {
-  if (arguments.heights.empty()) return even_heights(arguments.layers, arguments.thickness);
   std::vector<double> heights;
+  if (arguments.heights.empty()) {
+    heights = even_heights(arguments.layers, arguments.thickness);
+    if (std::ranges::adjacent_find(heights, std::ranges::greater_equal()) == heights.end()) return heights;
+    throw UsageError(fmt::format("--thickness {} is too little to be divided into {} layers",
+                                 arguments.thickness, arguments.layers));
+  }
   comm.together([&] {
     if (comm.is_root()) heights = read_heights(arguments.heights);
   });

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -100,7 +101,8 @@ CLI::Validator positive_number() {
   return CLI::Validator(
       [](std::string& word) {
         double number = 0;
-        const bool is_positive = CLI::detail::lexical_cast(word, number) && number > 0;
+        const bool is_positive =
+            CLI::detail::lexical_cast(word, number) && number > 0 && std::isfinite(number);
         return is_positive ? std::string() : fmt::format("'{}' is not a number above 0", word);
       },
       "");

@@ -29,7 +29,7 @@ void answer(CLI::App& app, const CLI::ParseError& request, const Communicator& c
 /// An option's value must be one of these words.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// It must be a number above 0.
+/// It must be a finite number above 0.
 CLI::Validator positive_number();
 
 /// The argument CASE.toml of the commands that read a case, and the option --set, which comes last of theirs;

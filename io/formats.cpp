@@ -1,5 +1,7 @@
 #include "io/formats.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
@@ -99,6 +101,7 @@ std::vector<FileFormat> rows_with_solutions() {
            .read_mesh = read_cgns,
            .write_mesh = write_cgns,
            .boundary_names = cgns_boundary_names,
+           .variable_names = cgns_variable_renames,
            .write_solid = write_cgns_solid,
            .read_solid = read_cgns_solid,
            .patch_names = cgns_boundary_names,
@@ -197,6 +200,22 @@ const std::vector<FileFormat>& file_formats() {
 }
 
 bool FileFormat::holds(Content content) const { return std::ranges::count(places, content) > 0; }
+
+std::string renames_of_variables(const FileFormat& format, const Field& solution, const std::string& path) {
+  if (format.variable_names == nullptr) return {};
+  std::size_t renamed = 0;
+  std::string first;
+  for (const auto* names : {&solution.names, &solution.cells.names}) {
+    const std::vector<std::string> written = format.variable_names(*names);
+    for (std::size_t i = 0; i < names->size(); ++i) {
+      if (written[i] == (*names)[i]) continue;
+      if (renamed++ == 0) first = fmt::format("'{}', is '{}'", (*names)[i], written[i]);
+    }
+  }
+  if (renamed == 0) return {};
+  return fmt::format("{}: {} variable{} renamed, as this format cannot hold every name; the first, {} there",
+                     path, renamed, renamed == 1 ? " is" : "s are", first);
+}
 
 const FileFormat* format_named(const std::string& name) {
   const auto found = std::ranges::find(file_formats(), name, &FileFormat::name);

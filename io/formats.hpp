@@ -46,6 +46,9 @@ struct FileFormat {
   /// The boundaries' names as a file has them; null: as they are.
   std::vector<std::string> (*boundary_names)(const std::vector<std::string>& names) = nullptr;
 
+  /// Of a solution's variables those names that it cannot hold as a file has them, the others as they are;
+  /// null: it holds all.
+  std::vector<std::string> (*variable_names)(const std::vector<std::string>& names) = nullptr;
   /// What a boundary becomes that nothing is known of, where other programs take that for a statement; null:
   /// nothing.
   const char* unknown_boundary = nullptr;
@@ -72,6 +75,9 @@ struct FileFormat {
 
 /// The table.
 const std::vector<FileFormat>& file_formats();
+
+/// A line on variables whose names a format cannot hold; empty where there are none.
+std::string renames_of_variables(const FileFormat& format, const Field& solution, const std::string& path);
 
 /// The format of this name, or the one that the path's suffix tells; null where it is none.
 const FileFormat* format_named(const std::string& name);

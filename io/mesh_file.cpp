@@ -8,6 +8,7 @@
 #include <functional>
 #include <numeric>
 #include <system_error>
+#include <utility>
 
 #include "io/formats.hpp"
 #include "io/parts/part_index.hpp"
@@ -34,6 +35,10 @@ void append_losses(const FileFormat& format, const Mesh& mesh, const Field* solu
     losses.push_back(path + ": this format has no place for the solution, which is left out");
   } else if (solution != nullptr && !solution->constants.empty() && !format.holds(Content::constants)) {
     losses.push_back(path + ": this format has no place for the solution's constants, which are left out");
+  }
+  if (solution != nullptr) {
+    if (std::string renames = renames_of_variables(format, *solution, path); !renames.empty())
+      losses.push_back(std::move(renames));
   }
   if (blocks > 1 && !format.holds(Content::blocks))
     losses.push_back(path + ": the blocks are written as one");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "io/formats.hpp"
 #include "mesher/base/error.hpp"
@@ -28,11 +29,16 @@ void write_stream(OutputSet& outputs, const SolidStream& stream, const std::stri
   format->write_solid(outputs, stream, path);
 }
 
-/// A line on the solution and one on names of patches, where the format cannot hold them.
-void append_losses(const FileFormat& format, const std::vector<std::string>& names, bool has_solution,
+/// A line on the solution, on names of its variables and on those of patches, where the format cannot hold
+/// them.
+void append_losses(const FileFormat& format, const std::vector<std::string>& names, const Field* solution,
                    const std::string& path, std::vector<std::string>& losses) {
-  if (has_solution && !format.solution_in_solid)
+  if (solution != nullptr && !format.solution_in_solid)
     losses.push_back(path + ": this format has no place for the solution, which is left out");
+  if (solution != nullptr) {
+    if (std::string renames = renames_of_variables(format, *solution, path); !renames.empty())
+      losses.push_back(std::move(renames));
+  }
   if (format.patch_names == nullptr) return;
   const std::vector<std::string> written = format.patch_names(names);
   const auto first = std::ranges::mismatch(names, written);
@@ -105,7 +111,7 @@ std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& 
   }
   std::vector<std::string> names;
   for (const BoundaryEdges& boundary : mesh.plane.boundaries) names.push_back(boundary.name);
-  append_losses(*format, names, mesh.solution != nullptr, path, losses);
+  append_losses(*format, names, mesh.solution, path, losses);
   return losses;
 }
 
@@ -114,7 +120,7 @@ std::vector<std::string> losses_in(const SolidMesh& mesh, const std::string& pat
   if (format == nullptr) return {};
   std::vector<std::string> names, losses;
   for (const SolidPatch& patch : mesh.patches) names.push_back(patch.name);
-  append_losses(*format, names, mesh.solution.has_value(), path, losses);
+  append_losses(*format, names, mesh.solution ? &*mesh.solution : nullptr, path, losses);
   const auto has_condition = [](const SolidPatch& patch) { return patch.condition != "none"; };
   if (!format->conditions_in_solid && std::ranges::any_of(mesh.patches, has_condition))
     losses.push_back(path + ": this format has no place for boundary conditions, which are left out");

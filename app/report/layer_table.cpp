@@ -31,7 +31,8 @@ std::string line_of(const LayerFigures& row) {
   return name_cell(row.boundary) + cell(std::int64_t{row.count}) + cell(row.columns) + cell(row.first.least) +
          cell(row.first.median) + cell(row.first.largest) + cell(row.growth.least) +
          cell(row.growth.largest) + cell(row.thickness.least) + cell(row.thickness.largest) +
-         (asked > 0 ? cell(asked) : "") + "\n";
+         (asked > 0 ? cell(asked) : "") +
+         (row.cut_columns > 0 ? fmt::format("  ({} more, at other parts)", row.cut_columns) : "") + "\n";
 }
 
 JsonObject json_of_row(const BoundaryLayerReport& row) {
@@ -60,6 +61,7 @@ JsonObject json_of_row(const LayerFigures& row) {
   json.add("boundary", row.boundary);
   json.add("count", row.count);
   json.add("columns", row.columns);
+  if (row.cut_columns > 0) json.add("cut_columns", row.cut_columns);
   json.add("first", listed(row.first));
   json.add("growth", listed(row.growth));
   json.add("thickness", listed(row.thickness));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <string_view>
 #include <utility>
 
@@ -39,16 +40,18 @@ std::string shortened(const std::string& name, std::size_t length) {
   return name.substr(0, length);
 }
 
-}  // namespace
+std::string standard_name(const std::string& name) {
+  const auto* const known =
+      std::find_if(variables.begin(), variables.end(), [&](const auto& pair) { return name == pair.first; });
+  return known == variables.end() ? name : known->second;
+}
 
-std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names) {
-  // Sections stand in the zone and families in the base, beside these nodes.
+/// Names of siblings beside the nodes that are `used`.
+std::vector<std::string> names_beside(std::initializer_list<const char*> used,
+                                      const std::vector<std::string>& names) {
   DistinctNames distinct;
-  for (const char* used : {"", ".", "..", "ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "TETRA_4",
-                           "PYRA_5", "PENTA_6", "HEXA_8", "ZoneBC", "ZoneGridConnectivity", "FlowSolution",
-                           "domain", "DataClass", "DimensionalUnits", strips_descriptor}) {
-    distinct.reserve(used);
-  }
+  for (const char* const name : {"", ".", ".."}) distinct.reserve(name);
+  for (const char* const name : used) distinct.reserve(name);
   std::vector<std::string> result;
   for (std::string name : names) {
     std::replace(name.begin(), name.end(), '/', '_');
@@ -60,13 +63,29 @@ std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& nam
   return result;
 }
 
-std::vector<std::string> cgns_variable_names(std::vector<std::string> names) {
-  for (std::string& name : names) {
-    const auto* const known = std::find_if(variables.begin(), variables.end(),
-                                           [&](const auto& pair) { return name == pair.first; });
-    if (known != variables.end()) name = known->second;
+}  // namespace
+
+std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names) {
+  // Sections stand in the zone and families in the base, beside these nodes.
+  return names_beside({"ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "TETRA_4", "PYRA_5", "PENTA_6",
+                       "HEXA_8", "ZoneBC", "ZoneGridConnectivity", "FlowSolution", "CellSolution", "domain",
+                       "DataClass", "DimensionalUnits", strips_descriptor, "Part"},
+                      names);
+}
+
+std::vector<std::string> cgns_variable_names(const std::vector<std::string>& names) {
+  std::vector<std::string> wanted;
+  for (const std::string& name : names) wanted.push_back(standard_name(name));
+  return names_beside({"GridLocation", "Rind", "PointRange", "PointList", "DataClass", "DimensionalUnits"},
+                      wanted);
+}
+
+std::vector<std::string> cgns_variable_renames(const std::vector<std::string>& names) {
+  std::vector<std::string> written = cgns_variable_names(names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (written[i] == standard_name(names[i])) written[i] = names[i];
   }
-  return cgns_boundary_names(names);
+  return written;
 }
 
 std::string variable_name_of_cgns(const std::string& name) {

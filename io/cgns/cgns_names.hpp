@@ -5,7 +5,7 @@
 
 namespace quadloop {
 
-/// Name of the descriptor that keeps a boundary's own name where CGNS could not hold it.
+/// Name of the descriptor that keeps the own name of a boundary or a variable where CGNS could not hold it.
 inline constexpr const char* full_name_descriptor = "FullName";
 /// And of that with the number and thickness of a boundary's layers.
 inline constexpr const char* layers_descriptor = "Layers";
@@ -17,9 +17,11 @@ inline constexpr const char* strips_descriptor = "Strips";
 std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names);
 
 /// The SIDS names of variables of ours ("x_velocity": "VelocityX"), or the names themselves, cut to 32
-/// characters and told apart as boundaries are; and back.
-std::vector<std::string> cgns_variable_names(std::vector<std::string> names);
+/// characters, told apart as boundaries are and from what else a solution holds; and back.
+std::vector<std::string> cgns_variable_names(const std::vector<std::string>& names);
 std::string variable_name_of_cgns(const std::string& name);
+/// The same names, but for those that CGNS could not hold, which are as a file has them.
+std::vector<std::string> cgns_variable_renames(const std::vector<std::string>& names);
 
 /// The number of the BCType_t for Boundary::condition, and back ("none" for what has no word of ours).
 int cgns_condition(const std::string& condition);

@@ -1,5 +1,9 @@
 #include "io/cgns/cgns_sink.hpp"
 
+#include <optional>
+
+#include "io/cgns/cgns_exponents.hpp"
+#include "io/cgns/cgns_names.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -27,11 +31,10 @@ void CgnsSink::put_coordinates(std::span<const double> rows) {
 void CgnsSink::begin_solution(GridLocation_t location) {
   const char* const name = location == CellCenter ? "CellSolution" : "FlowSolution";
   file_->check(cg_sol_write(id(), base_, zone_, name, location, &solution_));
-  file_->check(cg_goto(id(), base_, "Zone_t", zone_, "FlowSolution_t", solution_, "end"));
-  file_->check(cg_dataclass_write(NondimensionalParameter));
 }
 
-void CgnsSink::put_solution(std::span<const double> rows, const std::vector<std::string>& names) {
+void CgnsSink::put_solution(std::span<const double> rows, const std::vector<std::string>& variables) {
+  const std::vector<std::string> names = cgns_variable_names(variables);
   const std::size_t width = names.size();
   const cgsize_t first = next_row_, last = advance(rows.size() / width);
   for (std::size_t k = 0; k < width; ++k) {
@@ -39,6 +42,7 @@ void CgnsSink::put_solution(std::span<const double> rows, const std::vector<std:
     int field = 0;
     file_->check(cg_field_partial_write(id(), base_, zone_, solution_, RealDouble, names[k].c_str(), &first,
                                         &last, column_.data(), &field));
+    if (first == 1) describe_variable(field, variables[k], names[k]);
   }
 }
 
@@ -83,6 +87,20 @@ void CgnsSink::put_length_dimension(int coordinate) {
   file_->check(
       cg_goto(id(), base_, "Zone_t", zone_, "GridCoordinates_t", 1, "DataArray_t", coordinate, "end"));
   file_->check(cg_exponents_write(RealSingle, exponents.data()));
+}
+
+/// Values have dimensions, and stand in units of the solver's own, or have none.
+void CgnsSink::describe_variable(int field, const std::string& variable, const std::string& name) {
+  file_->check(
+      cg_goto(id(), base_, "Zone_t", zone_, "FlowSolution_t", solution_, "DataArray_t", field, "end"));
+  if (variable_name_of_cgns(name) != variable)
+    file_->check(cg_descriptor_write(full_name_descriptor, variable.c_str()));
+  const std::optional<CgnsExponents> exponents = cgns_exponents(name);
+  if (!exponents) return;
+  if (*exponents == CgnsExponents{})
+    file_->check(cg_dataclass_write(NondimensionalParameter));
+  else
+    file_->check(cg_exponents_write(RealSingle, exponents->data()));
 }
 
 }  // namespace quadloop

@@ -30,7 +30,8 @@ class CgnsSink {
   void put_coordinates(std::span<const double> rows);
   /// At the vertices, or in the cells: each place has a solution of its own.
   void begin_solution(GridLocation_t location = Vertex);
-  void put_solution(std::span<const double> rows, const std::vector<std::string>& names);
+  /// `variables` are named as ours are; the file has cgns_variable_names() of them.
+  void put_solution(std::span<const double> rows, const std::vector<std::string>& variables);
 
   void begin_section(const std::string& name, ElementType_t type, std::int64_t elements);
   void put_elements(std::span<const cgsize_t> nodes, std::size_t width);
@@ -45,6 +46,7 @@ class CgnsSink {
   cgsize_t advance(std::size_t rows);
   void take_column(std::span<const double> rows, std::size_t width, std::size_t k);
   void put_length_dimension(int coordinate);
+  void describe_variable(int field, const std::string& variable, const std::string& name);
 
   std::unique_ptr<File> file_;
   int dimension_;

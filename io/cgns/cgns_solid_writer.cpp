@@ -82,7 +82,7 @@ class CgnsSolidWriter {
   }
 
   void write_solution() {
-    const std::vector<std::string> names = cgns_variable_names(stream_.variables());
+    const std::vector<std::string> names = stream_.variables();
     begin_solution(Vertex);
     write_values(names, stream_.point_rows(),
                  [&](std::int64_t row, std::size_t variable) { return stream_.value(row, variable); });
@@ -90,7 +90,7 @@ class CgnsSolidWriter {
 
   /// In the order of the elements.
   void write_solution_of_cells() {
-    const std::vector<std::string> names = cgns_variable_names(cells_.names());
+    const std::vector<std::string> names = cells_.names();
     begin_solution(CellCenter);
     for_each_kind_of_cell([&]<std::size_t width>() {
       write_values(names, stream_.cell_rows<width>(), [&](std::int64_t row, std::size_t variable) {

@@ -12,6 +12,24 @@ namespace {
 
 using Name = std::array<char, 33>;
 
+/// As its descriptor keeps it, or else as the standard has it.
+std::string own_name(const CgnsZone& from, int solution, int field, const std::string& name) {
+  const auto& file = from.file;
+  int descriptors = 0;
+  file.check(cg_goto(file.id(), from.base, "Zone_t", from.zone, "FlowSolution_t", solution, "DataArray_t",
+                     field, "end"));
+  file.check(cg_ndescriptors(&descriptors));
+  std::string result = variable_name_of_cgns(name);
+  for (int d = 1; d <= descriptors; ++d) {
+    Name label{};
+    char* text = nullptr;
+    file.check(cg_descriptor_read(d, label.data(), &text));
+    if (std::string(label.data()) == full_name_descriptor && text[0] != '\0') result = text;
+    cg_free(text);
+  }
+  return result;
+}
+
 /// One variable after the other, `rows` values of each.
 std::vector<double> read_columns(const CgnsZone& from, int solution, cgsize_t rows,
                                  std::vector<std::string>& names) {
@@ -26,7 +44,7 @@ std::vector<double> read_columns(const CgnsZone& from, int solution, cgsize_t ro
     file.check(cg_field_info(file.id(), from.base, from.zone, solution, f, &type, name.data()));
     file.check(cg_field_read(file.id(), from.base, from.zone, solution, name.data(), RealDouble, &first,
                              &rows, columns.data() + (f - 1) * std::size_t(rows)));
-    names.push_back(variable_name_of_cgns(name.data()));
+    names.push_back(own_name(from, solution, f, name.data()));
   }
   return columns;
 }

@@ -97,7 +97,6 @@ class CgnsWriter {
                     std::initializer_list<Rows> kinds) {
     const std::size_t width = variables.size();
     if (width == 0) return;
-    const std::vector<std::string> names = cgns_variable_names(variables);
     on_root([&] {
       sink_->begin_solution(location);
       sink_->begin_rows();
@@ -107,7 +106,7 @@ class CgnsWriter {
           [&](std::int64_t begin, std::int64_t end) {
             return std::vector<double>(rows.values + begin * width, rows.values + end * width);
           },
-          [&](std::span<const double> values) { sink_->put_solution(values, names); });
+          [&](std::span<const double> values) { sink_->put_solution(values, variables); });
     }
   }
 

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "io/fluent/fluent_file.hpp"
 #include "io/fluent/fluent_scanner.hpp"
@@ -260,12 +261,28 @@ class FluentReader {
     return -1;
   }
 
-  void add_boundaries() {
+  static bool is_interior(const FluentFace& face) {
+    return face.cells[0] != 0 && face.cells[1] != 0 && (face.type == fluent_interior || face.type == 0);
+  }
+
+  /// Zones of faces inside, of which some have the same block on both sides: no boundary, also where two
+  /// blocks meet. One with edges between blocks alone is their boundary, unless it has the name that our
+  /// writer gives the others.
+  std::set<std::int64_t> inner_zones() const {
+    std::set<std::int64_t> zones;
     for (const FluentFace& face : faces_) {
-      const bool inside = face.cells[0] != 0 && face.cells[1] != 0;
-      if (inside && (face.type == fluent_interior || face.type == 0) &&
-          block_of_[face.cells[0]] == block_of_[face.cells[1]])
-        continue;
+      if (is_interior(face) && block_of_[face.cells[0]] == block_of_[face.cells[1]]) zones.insert(face.zone);
+    }
+    for (const auto& [zone, name] : zone_names_) {
+      if (name == fluent_inner_zone) zones.insert(zone);
+    }
+    return zones;
+  }
+
+  void add_boundaries() {
+    const std::set<std::int64_t> inner = inner_zones();
+    for (const FluentFace& face : faces_) {
+      if (is_interior(face) && inner.contains(face.zone)) continue;
       const std::int32_t boundary = foreign_.boundary_named(zone_name(face.zone));
       foreign_.loaded.mesh.boundaries[boundary].condition = condition_of_fluent(face.type);
       foreign_.edges.push_back({{NodeId{face.nodes[0]}, NodeId{face.nodes[1]}}, boundary, face.place});

@@ -236,7 +236,8 @@ class FluentWriter {
     std::string text;
     for (std::int32_t block = 0; block < blocks(); ++block)
       text += "(45 (" + std::to_string(2 + block) + " fluid " + block_name(block) + ")())\n";
-    if (has_inner_) text += "(45 (" + std::to_string(inner_zone()) + " interior interior-faces)())\n";
+    if (has_inner_)
+      text += "(45 (" + std::to_string(inner_zone()) + " interior " + fluent_inner_zone + ")())\n";
     for (std::size_t n = 0; n < names.size(); ++n) {
       const BoundaryEdges& boundary = *boundaries_.present()[n];
       text += "(45 (" + std::to_string(inner_zone() + 1 + static_cast<std::int64_t>(n)) + " " +

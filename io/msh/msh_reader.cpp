@@ -1,8 +1,12 @@
+#include <algorithm>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "io/loaded/foreign_mesh.hpp"
 #include "io/msh/msh_file.hpp"
 #include "io/msh/msh_text.hpp"
+#include "io/msh/msh_values.hpp"
 
 namespace quadloop {
 
@@ -15,6 +19,8 @@ class MshReader {
   LoadedMesh read() {
     text_.read([this](std::int64_t tag, Point3 point) { put_point(tag, point); },
                [this](const MshElement& element) { put_element(element); });
+    drop_unused_tags();
+    read_solution();
     if (text_.may_repeat()) drop_repeated(foreign_, text_.scan().path());
     drop_unused_nodes(foreign_, text_.scan().path());
     warn_of_names();
@@ -31,6 +37,35 @@ class MshReader {
         "boundary_ and the curve's number (in Gmsh, Physical Curve gives names)");
   }
 
+  /// What drop_unused_nodes() is going to do: nodes of no cell need no values.
+  void drop_unused_tags() {
+    std::vector<char> is_used(node_tags_.size(), 0);
+    const auto mark = [&](const auto& nodes) {
+      for (const NodeId node : nodes) is_used[node.value()] = 1;
+    };
+    std::ranges::for_each(foreign_.loaded.mesh.triangles, mark);
+    std::ranges::for_each(foreign_.loaded.mesh.quads, mark);
+    for (const ForeignEdge& edge : foreign_.edges) mark(edge.nodes);
+    std::size_t at = 0;
+    std::erase_if(node_tags_, [&](std::int64_t) { return is_used[at++] == 0; });
+  }
+
+  void read_solution() {
+    const MshSolution found = text_.read_values();
+    if (found.empty()) return;
+    std::vector<std::string> losses;
+    if (found.others > 0)
+      losses.push_back(std::to_string(found.others) +
+                       " sections $ElementNodeData, values at the nodes of each element, are left out");
+    CellValues at_nodes = msh_columns(found.at_nodes, node_tags_, "nodes", losses);
+    triangle_tags_.insert(triangle_tags_.end(), quad_tags_.begin(), quad_tags_.end());
+    CellValues in_cells = msh_columns(found.in_elements, triangle_tags_, "cells", losses);
+    for (const std::string& loss : losses)
+      foreign_.loaded.warnings.push_back(text_.scan().path() + ": " + loss);
+    foreign_.loaded.solution =
+        Field{std::move(at_nodes.names), std::move(at_nodes.values), {}, std::move(in_cells)};
+  }
+
   void put_point(std::int64_t tag, Point3 point) {
     if (!z_) z_ = point.z;
     if (point.z != *z_)
@@ -38,13 +73,16 @@ class MshReader {
                           " does not lie in the first node's plane z = constant; only plane meshes can be "
                           "read");
     foreign_.loaded.mesh.points.push_back({point.x, point.y});
+    node_tags_.push_back(tag);
   }
 
   void put_element(const MshElement& element) {
     if (element.type == msh_triangle) {
       foreign_.add_triangle(element.as<NodeId, 3>(), text_.groups().block_of(foreign_, element.physical));
+      triangle_tags_.push_back(element.tag);
     } else if (element.type == msh_quad) {
       foreign_.add_quad(element.as<NodeId, 4>(), text_.groups().block_of(foreign_, element.physical));
+      quad_tags_.push_back(element.tag);
     } else if (element.type == msh_line) {
       foreign_.edges.push_back({element.as<NodeId, 2>(),
                                 text_.groups().boundary_of(foreign_, element.physical, element.entity),
@@ -55,6 +93,7 @@ class MshReader {
   MshText text_;
   std::optional<double> z_;
   ForeignMesh foreign_;
+  std::vector<std::int64_t> node_tags_, triangle_tags_, quad_tags_;  ///< in the order of the mesh's
 };
 
 }  // namespace

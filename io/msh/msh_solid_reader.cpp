@@ -16,6 +16,9 @@ class MshSolidReader {
                [this](const MshElement& element) { put_element(element); });
     if (cells() == 0) return std::nullopt;
     if (text_.may_repeat()) drop_repeated_cells();
+    if (!text_.read_values().empty())
+      mesh_.warnings.push_back(text_.scan().path() +
+                               ": of three dimensions its solution ($NodeData, $ElementData) is not read");
     if (volumes_.size() > 1)
       mesh_.warnings.push_back(text_.scan().path() + ": its " + std::to_string(volumes_.size()) +
                                " volumes are read as one");

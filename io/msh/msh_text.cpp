@@ -216,12 +216,12 @@ void MshText::refuse_unknown(std::int64_t type) const {
                cure_of(type));
 }
 
-void MshText::read_element(std::int64_t type, std::int64_t physical, std::int64_t entity) {
-  MshElement element{type, physical, entity, {}, scan_.place()};
+void MshText::read_element(std::int64_t tag, std::int64_t type, std::int64_t physical, std::int64_t entity) {
+  MshElement element{tag, type, physical, entity, {}, scan_.place()};
   for (std::size_t k = 0; k < width_of(type); ++k) {
-    const std::int64_t tag = scan_.integer("a node of this element");
-    const NodeId node = tags_.node_of(tag);
-    if (!node.valid()) scan_.refuse("node " + std::to_string(tag) + " is none of the nodes");
+    const std::int64_t wanted = scan_.integer("a node of this element");
+    const NodeId node = tags_.node_of(wanted);
+    if (!node.valid()) scan_.refuse("node " + std::to_string(wanted) + " is none of the nodes");
     element.nodes[k] = node.value();
   }
   (*put_element_)(element);
@@ -231,7 +231,7 @@ void MshText::read_old_elements() {
   go_to_needed("Elements");
   const std::size_t count = scan_.count("elements", 4);
   for (std::size_t i = 0; i < count; ++i) {
-    scan_.integer("the number of an element");
+    const std::int64_t number = scan_.integer("the number of an element");
     const std::int64_t type = scan_.integer("the type of an element");
     refuse_unknown(type);
     const std::size_t tags = scan_.count("tags", 1);
@@ -241,7 +241,7 @@ void MshText::read_old_elements() {
       if (k == 0) physical = tag;
       if (k == 1) entity = tag;
     }
-    read_element(type, physical, entity);
+    read_element(number, type, physical, entity);
   }
   end_section("Elements");
 }
@@ -266,8 +266,8 @@ std::size_t MshText::read_element_block() {
   const std::int64_t physical = groups_.physical_of(dimension, entity);
   const std::size_t count = scan_.count("elements of this block", 2);
   for (std::size_t i = 0; i < count; ++i) {
-    scan_.integer("the tag of an element");
-    read_element(type, physical, entity);
+    const std::int64_t tag = scan_.integer("the tag of an element");
+    read_element(tag, type, physical, entity);
   }
   return count;
 }

@@ -7,6 +7,7 @@
 
 #include "io/msh/msh_groups.hpp"
 #include "io/msh/msh_nodes.hpp"
+#include "io/msh/msh_values.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/solid/point3.hpp"
 
@@ -26,7 +27,7 @@ enum MshType : std::uint8_t {
 
 /// An element of an MSH file.
 struct MshElement {
-  std::int64_t type = 0;
+  std::int64_t tag = 0, type = 0;
   std::int64_t physical = 0, entity = 0;  ///< its groups: 0 for none
   std::array<std::int32_t, 8> nodes{};    ///< as many as the type has, by their places among the points
   std::size_t place = 0;                  ///< in the file's text, for a refusal
@@ -54,6 +55,11 @@ class MshText {
   /// All points, then all elements.
   void read(const PutPoint& put_point, const PutElement& put_element);
 
+  /// What the file has of a solution, after read().
+  MshSolution read_values() { return read_msh_values(scan_); }
+  /// Whether the word of that length stands at the beginning of its line, alone.
+  static bool is_line(std::string_view text, std::size_t at, std::size_t length);
+
   /// Whether an element that belongs to several groups stands there once for each (version 2.2).
   bool may_repeat() const { return is_old_; }
   const TextScanner& scan() const { return scan_; }
@@ -62,8 +68,6 @@ class MshText {
  private:
   /// Goes behind the line "$name"; false where the file has no such section.
   bool go_to_section(const std::string& name);
-  /// Whether the word of that length stands at the beginning of its line, alone.
-  static bool is_line(std::string_view text, std::size_t at, std::size_t length);
   void go_to_needed(const std::string& name);
   void end_section(const std::string& name);
   /// True for version 2.2, false for 4.1.
@@ -81,7 +85,7 @@ class MshText {
   /// their coordinates.
   void read_nodes();
   void refuse_unknown(std::int64_t type) const;
-  void read_element(std::int64_t type, std::int64_t physical, std::int64_t entity);
+  void read_element(std::int64_t tag, std::int64_t type, std::int64_t physical, std::int64_t entity);
   /// Each row: number, type, tags (the first the physical group, the second the entity), nodes.
   void read_old_elements();
   /// Blocks, all elements, smallest and largest tag; then blocks of elements of one type on one entity.

@@ -89,7 +89,9 @@ PartIndex part_index(const Communicator& comm, const Mesh& mesh, std::int32_t pa
                   .quads = comm.sum(std::ssize(mesh.quads)),
                   .blocks = blocks,
                   .boundaries = {},
-                  .edges = {}};
+                  .edges = {},
+                  .strips = mesh.strips,
+                  .warnings = {}};
   std::vector<std::int64_t> own;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     index.boundaries.push_back({boundary.name, boundary.condition, {}, boundary.layers});

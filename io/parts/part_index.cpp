@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <limits>
+#include <utility>
 
+#include "io/loaded/strip_text.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/mesh/parts/mesh_part.hpp"
 
@@ -29,6 +31,16 @@ void read_boundary(TextScanner& scan, PartIndex& index) {
   boundary.name = scan.rest_of_line();
   if (boundary.name.empty()) scan.refuse("a boundary has no name");
   index.boundaries.push_back(std::move(boundary));
+}
+
+/// Those of comments that do not fit are named in a warning.
+void read_strips(const TextScanner& scan, PartIndex& index) {
+  StripsInText found = strips_in_comments(scan.passed_over(), static_cast<std::int32_t>(index.nodes));
+  index.strips = std::move(found.strips);
+  for (const std::string& name : found.damaged)
+    index.warnings.push_back(fmt::format(
+        "{}: the comment '# strip {}' does not list the nodes of a strip; its cells are taken for others",
+        scan.path(), name));
 }
 
 }  // namespace
@@ -57,6 +69,7 @@ void write_part_index(OutputSet& outputs, const PartIndex& index, const std::str
     text += fmt::format("{} {} {} {} {}\n", index.edges[b], boundary.layers.count, boundary.layers.thickness,
                         boundary.condition.empty() ? "none" : boundary.condition, boundary.name);
   }
+  for (const StripLayers& strip : index.strips) text += comments_of(strip);
   OutputFile file(outputs.stage(path));
   file.write(text);
   file.close();
@@ -81,10 +94,12 @@ PartIndex read_part_index(const std::string& path) {
   if (blocks == 0) scan.refuse("a mesh has at least one block");
   const std::size_t boundaries = scan.count("boundaries", 1);
   for (std::size_t i = 0; i < boundaries; ++i) read_boundary(scan, index);
+  scan.forget_comments();
   if (!scan.at_end()) {
     scan.token("");
     scan.refuse("text after the end");
   }
+  read_strips(scan, index);
   return index;
 }
 

@@ -17,6 +17,8 @@ struct PartIndex {
   std::vector<std::string> blocks;        ///< names
   std::vector<BoundaryEdges> boundaries;  ///< without their edges
   std::vector<std::int64_t> edges;        ///< of each boundary
+  std::vector<StripLayers> strips;        ///< of the whole, in its numbers
+  std::vector<std::string> warnings;      ///< of the reader
 };
 
 /// The suffix of an index, and whether a path has it.

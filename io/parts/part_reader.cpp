@@ -57,7 +57,9 @@ class PartReader {
     whole.quad_to_block = std::move(joined.quad_to_block);
     whole.block_names = index_.blocks;
     whole.solution = std::move(joined.field);
-    whole.warnings = std::move(warnings_);
+    whole.mesh.strips = index_.strips;
+    whole.warnings = index_.warnings;
+    std::ranges::move(warnings_, std::back_inserter(whole.warnings));
     std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& b) { return b.edges.empty(); });
     return whole;
   }
@@ -88,9 +90,7 @@ class PartReader {
   /// The part's mesh and values, from its own file.
   void fill(MeshPart& part, const std::string& path) {
     LoadedMesh loaded = read_piece(path, format_);
-    if (loaded.blocks != std::ssize(index_.blocks))
-      throw InputError(path + ": it has " + std::to_string(loaded.blocks) + " blocks, the whole mesh " +
-                       std::to_string(index_.blocks.size()));
+    number_blocks(loaded, path);
     std::vector<BoundaryEdges> own = std::move(loaded.mesh.boundaries);
     part.mesh = std::move(loaded.mesh);
     part.mesh.boundaries = index_.boundaries;
@@ -102,6 +102,22 @@ class PartReader {
     part.quad_to_block = std::move(loaded.quad_to_block);
     part.field = std::move(loaded.solution);
     std::ranges::move(loaded.warnings, std::back_inserter(warnings_));
+  }
+
+  /// As the whole does. In `.vtu` a part has the blocks of its own cells alone, by their names.
+  void number_blocks(LoadedMesh& loaded, const std::string& path) const {
+    if (loaded.blocks == std::ssize(index_.blocks)) return;
+    std::vector<std::int32_t> numbers;
+    for (const std::string& name : loaded.block_names) {
+      const auto found = std::ranges::find(index_.blocks, name);
+      if (found == index_.blocks.end())
+        throw InputError(path + ": it has " + std::to_string(loaded.blocks) + " blocks, the whole mesh " +
+                         std::to_string(index_.blocks.size()) + ", none of which is '" + name + "'");
+      numbers.push_back(static_cast<std::int32_t>(found - index_.blocks.begin()));
+    }
+    for (auto* const cell_to_block : {&loaded.triangle_to_block, &loaded.quad_to_block}) {
+      for (std::int32_t& block : *cell_to_block) block = numbers[block];
+    }
   }
 
   std::string path_, prefix_, format_;

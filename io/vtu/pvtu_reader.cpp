@@ -10,6 +10,7 @@
 #include "io/vtu/pvtu_file.hpp"
 #include "io/vtu/vtu_document.hpp"
 #include "io/vtu/vtu_file.hpp"
+#include "mesher/mesh/part_names.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
@@ -41,6 +42,10 @@ class PvtuReader {
       foreign_.loaded.solution =
           Field{names_, std::move(values_), {}, {cell_names_, std::move(of_triangles_)}};
     drop_repeated(foreign_, scan_.path());
+    if (has_strips_)
+      foreign_.loaded.warnings.push_back(scan_.path() +
+                                         ": what its pieces tell of the layers of wakes and free lines is "
+                                         "left out; where there is a .parts file beside it, read that");
     return finish(std::move(foreign_), scan_);
   }
 
@@ -63,6 +68,7 @@ class PvtuReader {
       foreign_.loaded.mesh.boundaries[number].layers = boundary.layers;
       for (const auto& edge : boundary.edges) foreign_.edges.push_back({moved(edge), number, 0});
     }
+    has_strips_ = has_strips_ || !piece.mesh.strips.empty();
     auto& warnings = foreign_.loaded.warnings;
     warnings.insert(warnings.end(), piece.warnings.begin(), piece.warnings.end());
   }
@@ -112,17 +118,20 @@ class PvtuReader {
     std::ranges::for_each(foreign_.edges, [&](ForeignEdge& edge) { renumber(edge.nodes); });
   }
 
-  /// A piece without lines comes with a boundary "boundary" all round, cuts between pieces too.
+  /// A piece without lines comes with a boundary "boundary" all round, cuts between pieces too; parts for a
+  /// solver's ranks with a boundary for each neighbour.
   void drop_cuts() {
     const EdgeTable table(foreign_.loaded.mesh);
     std::erase_if(foreign_.edges, [&](const ForeignEdge& edge) {
-      return foreign_.loaded.mesh.boundaries[edge.boundary].name == "boundary" &&
+      const std::string& name = foreign_.loaded.mesh.boundaries[edge.boundary].name;
+      return (name == "boundary" || is_part_name(name)) &&
              table.cell_left_of(edge.nodes[0], edge.nodes[1]) >= 0 &&
              table.cell_left_of(edge.nodes[1], edge.nodes[0]) >= 0;
     });
   }
 
   TextScanner scan_;
+  bool has_strips_ = false;
   std::vector<std::string> sources_;
   ForeignMesh foreign_;
   std::vector<Point> points_;  ///< of all pieces

@@ -4,6 +4,8 @@
 #include <span>
 #include <unordered_map>
 
+#include "mesher/mesh/part_names.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -15,6 +17,7 @@ struct OutlineEdge {
   GlobalNodeId from, to;
   Point begin, end;
   std::int32_t layers = none;  ///< the boundary whose layers it carries
+  bool is_cut = false;         ///< between a part of a mesh and another: no layers go on along it
 };
 
 Point direction(const OutlineEdge& e) {
@@ -39,9 +42,10 @@ std::vector<OutlineEdge> own_edges(const Mesh& mesh) {
   std::vector<OutlineEdge> edges;
   for (std::int32_t b = 0; b < size32(mesh.boundaries); ++b) {
     const BoundaryEdges& boundary = mesh.boundaries[b];
+    const bool is_cut = is_part_name(boundary.name);
     for (const auto& [from, to] : boundary.edges) {
       edges.push_back({mesh.global(from), mesh.global(to), mesh.point(from), mesh.point(to),
-                       boundary.layers.count > 0 ? b : none});
+                       boundary.layers.count > 0 ? b : none, is_cut});
     }
   }
   return edges;
@@ -60,7 +64,7 @@ void extend(std::vector<OutlineEdge>& edges, bool backwards) {
     const auto next = edge_at.find(backwards ? wall.from : wall.to);
     if (next == edge_at.end()) continue;
     OutlineEdge& beyond = edges[next->second];
-    if (beyond.layers != none) continue;
+    if (beyond.layers != none || beyond.is_cut) continue;
     if (backwards ? end_between(beyond, wall, true) : end_between(wall, beyond, false)) continue;
     beyond.layers = wall.layers;
     ends.push_back(next->second);

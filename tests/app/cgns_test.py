@@ -3,6 +3,8 @@
 
     cgns_test.py QUADLOOP MPIRUN
 """
+import shutil
+import subprocess
 import sys
 import unittest
 
@@ -64,6 +66,36 @@ class CgnsBoundaries(ProgramTest):
                  if patches.GetBlock(i) is not None}
         self.assertEqual(set(shown), set(CONDITIONS))
         self.assertTrue(all(cells > 0 for cells in shown.values()), shown)
+
+    def test_cgnscheck_knows_the_solution(self):
+        """Variables of the standard have its dimensions, or are said to have none."""
+        nodes = int((self.folder / "m.mesh").read_text().split("\n")[1])
+        names = "density x_velocity y_velocity pressure temperature mach x_momentum y_momentum Entropy"
+        rows = nodes * ("1 " * len(names.split()) + "\n")
+        self.write("s.mesh", (self.folder / "m.mesh").read_text() + f"#Number of constants\n0\n#Number of variables\n9\n#names: {names}\n{rows}")
+        self.done("convert", "s.mesh", "s.cgns", "-q")
+        self.done("extrude", "s.mesh", "-o", "solid.cgns", "--layers", "1", "--thickness", "1", "-q")
+        with h5py.File(self.folder / "s.cgns") as file:
+            solution = file["Base/domain/FlowSolution"]
+            exponents = lambda name: solution[name]["DimensionalExponents"][" data"][()].tolist()
+            self.assertEqual((exponents("Density"), exponents("VelocityX")), ([1, -3, 0, 0, 0], [0, 1, -1, 0, 0]))
+            self.assertEqual(text_of(solution["Mach/DataClass"]), "NondimensionalParameter")
+        if not shutil.which("cgnscheck"):
+            self.skipTest("needs cgnscheck")
+        for name in ("s.cgns", "solid.cgns"):
+            said = subprocess.run(["cgnscheck", name], cwd=self.folder, capture_output=True, text=True, check=False)
+            self.assertNotRegex(said.stdout + said.stderr, "WARNING|ERROR")
+
+    def test_names_of_variables_that_do_not_fit(self):
+        text = (self.folder / "m.mesh").read_text()
+        long = 40 * "y"
+        rows = int(text.split("\n")[1]) * "1 2\n"
+        self.write("s.mesh", f"{text}#Number of constants\n0\n#Number of variables\n2\n#names: {long} GridLocation\n{rows}")
+        for command in (("convert", "s.mesh", "s.cgns"), ("extrude", "s.mesh", "-o", "solid.cgns", "--layers", "1", "--thickness", "1")):
+            self.assertIn(f"2 variables are renamed, as this format cannot hold every name; the first, '{long}', is '{long[:32]}' there",
+                          self.done(*command)[1])
+        self.done("convert", "s.cgns", "back.mesh", "-q")
+        self.assertIn(f"#names: {long} GridLocation\n", (self.folder / "back.mesh").read_text())
 
     def test_parts_hold_their_numbers(self):
         """The same as their .links files tell."""

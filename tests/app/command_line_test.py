@@ -84,7 +84,7 @@ class Slips(ProgramTest):
         self.guessed(2, "--json", "--jsno", "mesh", "a.toml")
         self.guessed(2, "--version", "--verison")
         self.refused(2, ["--nonsense: there is no such option; see 'quadloop mesh --help'"], "mesh", "a.toml", "--nonsense")
-        for number in ("0", "-1", "many"):
+        for number in ("0", "-1", "many", "inf", "nan"):
             self.refused(2, [f"--max-cells: '{number}' is not a number above 0; see"], "mesh", "a.toml", f"--max-cells={number}")
 
     def test_words(self):

@@ -96,6 +96,9 @@ class Extrude(ProgramTest):
         self.assertEqual(self.record("check", "two.su2")["prisms"], 6)
 
     def test_usage(self):
+        for thickness in ("inf", "1e400", "nan"):
+            self.refused(2, ["--thickness", "not a number above 0"], "extrude", "a.mesh", "-o", "b.vtu", "--layers", "2", "--thickness", thickness)
+        self.refused(2, ["too little"], "extrude", "a.mesh", "-o", "b.vtu", "--layers", "100", "--thickness", "1e-323")
         for arguments in ((), ("--layers", "2"), ("--thickness", "1"), (*EVEN, "--heights", "h.txt")):
             self.refused(2, ["--layers N"], "extrude", "a.mesh", "-o", "b.vtu", *arguments)
         self.refused(2, ["x"], "extrude", "a.mesh", "-o", "b.vtu", *EVEN, "--axis", "x")

@@ -63,6 +63,22 @@ class Parts(ProgramTest):
             self.done("convert", "out.parts", "back.mesh", "-q")
             self.assertEqual(self.text("back.mesh"), self.text(mesh))
 
+    def test_blocks_in_vtk_parts(self):
+        self.write("b.mesh", convert_test.TWO_BLOCKS)
+        for parts in (1, 2, 3):
+            self.done("convert", "b.mesh", "out.vtu", "--parts", str(parts), "-q")
+            self.done("convert", "out.parts", "back.mesh", "-q")
+            self.assertEqual(self.text("back.mesh"), convert_test.TWO_BLOCKS)
+            record = json.loads(self.done("check", "out.pvtu", "--json", "-q")[0])
+            self.assertEqual((record["warnings"], record["blocks"]), ([], 2))
+
+    def test_a_wake_stays_one(self):
+        self.case(LAYERS + '[[wake]]\nfrom = "my-wall"\nlength = 1.0\nspacing = 0.1\n')
+        self.made("a", "--set", "output.partitions=3", "--set", 'output.formats=["mesh","vtu","cgns"]')
+        self.assertIn("\n# strip ", self.text("a.mesh"))
+        self.done("convert", "a.parts", "back.mesh", "-q")
+        self.assertEqual(self.text("back.mesh"), self.text("a.mesh"))
+
     def test_remesh_writes_parts_of_what_it_carries_over(self):
         self.case('[adapt]\nvariable = "density"\n')
         self.done("mesh", "case.toml", "-o", "a", "-q")

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "mesher/mesh/layered_edges.hpp"
+#include "mesher/mesh/part_names.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
@@ -86,11 +87,16 @@ class Columns {
 
 /// What the columns of one boundary add up to.
 struct Tally {
-  std::int64_t columns = 0;
+  std::int64_t columns = 0, cut = 0;
   std::vector<double> first, growth, thickness;
 
-  void add(const Mesh& mesh, const Columns& columns_of, NodeId foot) {
+  /// One with a node at the border to another part is left out: what goes on from there is not here.
+  void add(const Mesh& mesh, const Columns& columns_of, NodeId foot, const NodeFlags& at_border) {
     const std::vector<NodeId> column = columns_of.from(foot);
+    if (std::ranges::any_of(column, [&](NodeId node) { return at_border[node] != 0; })) {
+      ++cut;
+      return;
+    }
     ++columns;
     double whole = 0, before = 0;
     for (std::size_t k = 1; k < column.size(); ++k) {
@@ -154,15 +160,27 @@ class StripColumns {
   const StripLayers& strip_;
 };
 
-LayerFigures figures_of(const Mesh& whole, const StripLayers& strip) {
-  Tally tally = StripColumns(whole, strip).tally();
-  return {strip.name,
-          strip.layers.count,
+LayerFigures figures_of(const std::string& name, const WallLayers& layers, Tally tally) {
+  return {name,
+          layers.count,
           tally.columns,
+          tally.cut,
           spread_of(std::move(tally.first)),
           spread_of(std::move(tally.growth)),
           spread_of(std::move(tally.thickness)),
-          strip.layers.thickness};
+          layers.thickness};
+}
+
+/// Nodes of the edges between a part of a mesh and others.
+NodeFlags border_of_part(const Mesh& mesh) {
+  NodeFlags at_border(mesh.points.size(), 0);
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    if (!is_part_name(boundary.name)) continue;
+    for (const auto& edge : boundary.edges) {
+      for (const NodeId node : edge) at_border[node] = 1;
+    }
+  }
+  return at_border;
 }
 
 /// The mesh with cells for which `takes` holds alone.
@@ -181,21 +199,20 @@ Mesh with_cells(const Mesh& mesh, const Takes& takes) {
 std::vector<LayerFigures> layer_figures(const Mesh& whole, const LayerPlaces& places) {
   if (!has_layers(whole)) return {};
   const Columns columns(whole, places);
+  const NodeFlags at_border = border_of_part(whole);
   std::vector<Tally> tallies(whole.boundaries.size());
   for (const NodeId node : places.ids()) {
     if (places[node].strip < 0 && on_layered_wall(whole, places[node]))
-      tallies[places[node].boundary].add(whole, columns, node);
+      tallies[places[node].boundary].add(whole, columns, node, at_border);
   }
   std::vector<LayerFigures> figures;
   for (std::size_t b = 0; b < tallies.size(); ++b) {
     const BoundaryEdges& boundary = whole.boundaries[b];
-    Tally& tally = tallies[b];
-    if (tally.columns == 0) continue;  // no layers, or none of its own: a wake's base
-    figures.push_back({boundary.name, boundary.layers.count, tally.columns, spread_of(std::move(tally.first)),
-                       spread_of(std::move(tally.growth)), spread_of(std::move(tally.thickness)),
-                       boundary.layers.thickness});
+    if (tallies[b].columns + tallies[b].cut == 0) continue;  // no layers, or none of its own: a wake's base
+    figures.push_back(figures_of(boundary.name, boundary.layers, std::move(tallies[b])));
   }
-  for (const StripLayers& strip : whole.strips) figures.push_back(figures_of(whole, strip));
+  for (const StripLayers& strip : whole.strips)
+    figures.push_back(figures_of(strip.name, strip.layers, StripColumns(whole, strip).tally()));
   return figures;
 }
 

@@ -24,11 +24,12 @@ struct Spread {
 struct LayerFigures {
   std::string boundary;  ///< or the strip's name
   std::int32_t count = 0;
-  std::int64_t columns = 0;
-  Spread first;      ///< heights of the layer at the wall, normal to it
-  Spread growth;     ///< of each layer over the one below, along the column; all of all columns
-  Spread thickness;  ///< of all layers, along the column
-  double asked = 0;  ///< of that what was asked for; 0: not known
+  std::int64_t columns = 0;      ///< that were measured
+  std::int64_t cut_columns = 0;  ///< of a part of a mesh: those at its border to another part, not measured
+  Spread first;                  ///< heights of the layer at the wall, normal to it
+  Spread growth;                 ///< of each layer over the one below, along the column; all of all columns
+  Spread thickness;              ///< of all layers, along the column
+  double asked = 0;              ///< of that what was asked for; 0: not known
 };
 
 /// Those of all boundaries with columns of layers, then of all strips, of a mesh that this rank holds whole.

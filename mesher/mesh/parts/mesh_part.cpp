@@ -11,6 +11,7 @@
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/parts/part_sides.hpp"
+#include "mesher/mesh/parts/part_strips.hpp"
 
 namespace quadloop {
 
@@ -58,6 +59,7 @@ class PartMaker {
     fetch_cell_values();
     put_sharings();
     put_sides();
+    for (MeshPart& part : parts_) part.mesh.strips = strips_in_part(mesh_.strips, part.nodes);
     return std::move(parts_);
   }
 
@@ -68,10 +70,7 @@ class PartMaker {
   /// A boundary's own name must not be that of a neighbour.
   void refuse_names() const {
     for (const BoundaryEdges& boundary : mesh_.boundaries) {
-      const std::string head = "part_",
-                        digits = boundary.name.substr(std::min(head.size(), boundary.name.size()));
-      if (boundary.name.starts_with(head) && !digits.empty() &&
-          digits.find_first_not_of("0123456789") == std::string::npos)
+      if (is_part_name(boundary.name))
         throw InputError("boundary '" + boundary.name +
                          "' is named as the edges between two parts are; give it another name");
     }
@@ -269,12 +268,6 @@ class PartMaker {
 };
 
 }  // namespace
-
-std::string part_name(std::int32_t part) {
-  constexpr std::size_t digits = 4;
-  const std::string number = std::to_string(part + 1);
-  return "part_" + std::string(digits - std::min(digits, number.size()), '0') + number;
-}
 
 std::vector<MeshPart> make_parts(const Communicator& comm, const Mesh& mesh, const CellParts& cells,
                                  const PartData& data) {

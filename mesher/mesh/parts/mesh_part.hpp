@@ -9,6 +9,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/part_names.hpp"
 #include "mesher/mesh/parts/partition.hpp"
 
 namespace quadloop {
@@ -17,6 +18,7 @@ namespace quadloop {
 /// their numbers in the whole. The boundaries are the whole's, in its order, with the edges that are here, in
 /// its order; then one for each neighbour with which the part shares edges, named part_name(neighbour), of
 /// the condition "interface": both parts have the same edges in the same order, each with itself to the left.
+/// Of strips it has the columns that are here as a whole, each run of two or more as a strip of its own.
 struct MeshPart {
   /// Another part that has nodes of this one.
   struct Neighbour {
@@ -34,9 +36,6 @@ struct MeshPart {
   std::vector<Neighbour> neighbours;             ///< ascending
   std::optional<Field> field;                    ///< a row for each node, and for each cell
 };
-
-/// "part_0003" for part 2: with four digits, or more where there are more.
-std::string part_name(std::int32_t part);
 
 /// What is divided beside the mesh itself.
 struct PartData {

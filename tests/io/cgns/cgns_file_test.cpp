@@ -5,6 +5,7 @@
 #include <cgnslib.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <mpi.h>
 
 #include <array>
 #include <functional>
@@ -113,6 +114,25 @@ TEST(CgnsReader, ReadsSectionsOfOneKindAndMixedOnes) {
     EXPECT_EQ(loaded.mesh.boundaries[0].edges,
               (std::vector<std::array<NodeId, 2>>{{NodeId{0}, NodeId{1}}, {NodeId{1}, NodeId{2}}}));
   }
+}
+
+TEST(CgnsFile, KeepsTheNamesOfVariables) {
+  const TemporaryFolder folder;
+  const Communicator alone(MPI_COMM_SELF);
+  const Mesh mesh = test::sample_mesh(3);
+  const std::string of_40(40, 'y');
+  Field field{{"density", "Density", "a/b", of_40 + "1", of_40 + "2", "Rind", "VelocityX"}, {}, {}};
+  for (std::size_t i = 0; i < 7 * mesh.points.size(); ++i) field.values.push_back(static_cast<double>(i));
+  field.cells.names = {"GridLocation", "CoordinateX"};
+  for (std::size_t i = 0; i < 2 * (mesh.triangles.size() + mesh.quads.size()); ++i)
+    field.cells.values.push_back(1 / static_cast<double>(i + 1));
+  write_cgns(alone, mesh, folder.file("a.cgns"), &field);
+  const LoadedMesh read = read_cgns(folder.file("a.cgns"));
+  ASSERT_TRUE(read.solution);
+  EXPECT_EQ(read.solution->names, field.names);
+  EXPECT_EQ(read.solution->values, field.values);
+  EXPECT_EQ(read.solution->cells.names, field.cells.names);
+  EXPECT_EQ(read.solution->cells.values, field.cells.values);
 }
 
 TEST(CgnsReader, RefusesRangesThatAreNone) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "io/cgns/cgns_bars.hpp"
+#include "io/cgns/cgns_exponents.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 
 namespace quadloop {
@@ -53,6 +54,25 @@ TEST(CgnsNames, VariablesHaveTheirNamesInTheStandard) {
   EXPECT_EQ(found, (Names{"Density", "VelocityX", "entropy", "Density_2"}));
   EXPECT_EQ(variable_name_of_cgns("VelocityX"), "x_velocity");
   EXPECT_EQ(variable_name_of_cgns("Entropy"), "Entropy");
+}
+
+TEST(CgnsNames, VariablesAreNothingElseOfASolution) {
+  const Names ours{"GridLocation", "Rind", "a/b", "x_velocity", std::string(40, 'y')};
+  const Names found = cgns_variable_names(ours);
+  EXPECT_EQ(found, (Names{"GridLocation_2", "Rind_2", "a_b", "VelocityX", std::string(32, 'y')}));
+  const Names shown = cgns_variable_renames(ours);
+  EXPECT_EQ(shown, (Names{"GridLocation_2", "Rind_2", "a_b", "x_velocity", std::string(32, 'y')}));
+}
+
+TEST(CgnsExponents, AreThoseOfTheStandard) {
+  EXPECT_EQ(cgns_exponents("Density"), (CgnsExponents{1, -3}));
+  EXPECT_EQ(cgns_exponents("Pressure"), (CgnsExponents{1, -1, -2}));
+  EXPECT_EQ(cgns_exponents("VelocityX"), (CgnsExponents{0, 1, -1}));
+  EXPECT_EQ(cgns_exponents("MomentumZ"), (CgnsExponents{1, -2, -1}));
+  EXPECT_EQ(cgns_exponents("VelocityMagnitude"), (CgnsExponents{0, 1, -1}));
+  EXPECT_EQ(cgns_exponents("Mach"), CgnsExponents{});
+  for (const char* const name : {"", "X", "Velocity", "VelocityW", "density", "CoordinateMagnitude"})
+    EXPECT_FALSE(cgns_exponents(name)) << name;
 }
 
 TEST(CgnsNames, ConditionsComeBack) {

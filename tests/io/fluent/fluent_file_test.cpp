@@ -126,6 +126,23 @@ TEST(FluentFile, BlocksComeBack) {
   EXPECT_EQ(back.mesh.boundaries[2].edges, mesh.boundaries[2].edges);
 }
 
+TEST(FluentFile, EdgesBetweenBlocksThatNoBoundaryNamesStayNone) {
+  const test::TemporaryFolder folder;  // collective
+  const Communicator alone(MPI_COMM_SELF);
+  LoadedMesh whole;
+  whole.mesh = test::sample_mesh(4);
+  whole.blocks = 2;
+  whole.block_names = {"upper", "lower"};
+  whole.triangle_to_block.assign(whole.mesh.triangles.size(), 0);
+  whole.quad_to_block.assign(whole.mesh.quads.size(), 1);
+  write_mesh_of_root(alone, whole, folder.file("a.fluent.msh"));
+  const LoadedMesh back = read_mesh(folder.file("a.fluent.msh"));
+  ASSERT_EQ(back.mesh.boundaries.size(), whole.mesh.boundaries.size());
+  for (std::size_t b = 0; b < back.mesh.boundaries.size(); ++b)
+    EXPECT_EQ(back.mesh.boundaries[b].edges.size(), whole.mesh.boundaries[b].edges.size());
+  EXPECT_EQ(back.blocks, 2);
+}
+
 TEST(FluentFile, IsToldFromGmshsByItsFirstSign) {
   const test::TemporaryFolder folder;
   test::write_bytes(folder.file("a.msh"), house);

@@ -71,6 +71,60 @@ TEST(MshReader, ReadsBothVersions) {
   EXPECT_TRUE(check.of(new_house).warnings.empty());
 }
 
+/// Of nodes or elements, in the order of the rows given.
+std::string values(const std::string& kind, const std::string& name, int width, int rows,
+                   const std::string& text) {
+  return "$" + kind + "\n1\n\"" + name + "\"\n1\n0.5\n4\n0\n" + std::to_string(width) + "\n" +
+         std::to_string(rows) + "\n0\n" + text + "$End" + kind + "\n";
+}
+
+TEST(MshReader, ReadsValuesAtNodesAndInElements) {
+  const std::string data =
+      values("NodeData", "my p", 1, 5, "5 50\n40 40\n30 30\n20 20\n10 10.5\n") +
+      values("ElementData", "q", 1, 2, "8 2.5\n7 1.5\n") +
+      values("NodeData", "u", 3, 6, "10 1 -1 0\n20 2 -2 0\n99 9 9 9\n30 3 -3 0\n40 4 -4 0\n5 5 -5 0\n") +
+      values("ElementData", "w", 3, 8,
+             "1 0 0 0\n2 0 0 0\n3 0 0 0\n4 0 0 0\n5 0 0 0\n6 0 0 0\n7 1 2 3\n8 4 5 6\n");
+  for (const bool old : {true, false}) {
+    const LoadedMesh loaded = check.of((old ? old_house : new_house) + data);
+    expect_house(loaded);
+    ASSERT_TRUE(loaded.solution);
+    EXPECT_EQ(loaded.solution->names, (std::vector<std::string>{"my p", "u_x", "u_y"}));
+    EXPECT_EQ(loaded.solution->values,
+              (std::vector<double>{10.5, 1, -1, 20, 2, -2, 30, 3, -3, 40, 4, -4, 50, 5, -5}));
+    EXPECT_EQ(loaded.solution->cells.names, (std::vector<std::string>{"q", "w_x", "w_y", "w_z"}));
+    EXPECT_EQ(loaded.solution->cells.values, (std::vector<double>{2.5, 4, 5, 6, 1.5, 1, 2, 3}));
+    EXPECT_EQ(loaded.warnings.size(), old ? 1U : 0U);
+  }
+}
+
+TEST(MshReader, SaysWhichValuesItLeavesOut) {
+  const LoadedMesh loaded =
+      check.of(new_house + values("NodeData", "p", 1, 2, "10 1\n5 1\n") +
+               values("ElementData", "q", 1, 1, "7 1\n") + values("ElementNodeData", "r", 1, 0, ""));
+  EXPECT_FALSE(loaded.solution);
+  ASSERT_EQ(loaded.warnings.size(), 3U);
+  EXPECT_NE(loaded.warnings[0].find("1 sections $ElementNodeData"), std::string::npos);
+  EXPECT_NE(loaded.warnings[1].find("'p' has no values for 3 of the 5 nodes"), std::string::npos);
+  EXPECT_NE(loaded.warnings[2].find("'q' has no values for 1 of the 2 cells"), std::string::npos);
+}
+
+TEST(MshReader, TakesTheLastOfSeveralSteps) {
+  const LoadedMesh loaded = check.of(new_house + values("ElementData", "q", 1, 2, "7 1\n8 2\n") +
+                                     values("ElementData", "q", 1, 2, "7 3\n8 4\n"));
+  ASSERT_TRUE(loaded.solution);
+  EXPECT_EQ(loaded.solution->cells.values, (std::vector<double>{4, 3}));
+}
+
+TEST(MshReader, RefusesDamagedValues) {
+  const std::string data = values("ElementData", "q", 1, 2, "7 1\n8 2\n");
+  check.expect_refusal(new_house + replaced(data, "8 2", "8 nan"), "m.msh:61: ", "not finite");
+  check.expect_refusal(new_house + replaced(data, "\n1\n2\n", "\n2\n2\n"), "m.msh:57: ", "components");
+  check.expect_refusal(new_house + replaced(data, "8 2\n", ""), "m.msh:", "");
+  check.expect_refusal(new_house + replaced(data, "8 2\n", "8 2\n9 3\n"), "m.msh:62: ", "row too many");
+  check.expect_refusal(new_house + replaced(data, "\n4\n0\n", "\n2\n0\n"), "m.msh:", "three integers");
+}
+
 TEST(MshReader, PassesOverOtherSections) {
   const std::string comments = "$Comments\n# 1 % any $Nodes\n$EndComments\n";
   const std::string periodic = "$Periodic\n1\n0 2 1\n1\n2 1\n$EndPeriodic\n";

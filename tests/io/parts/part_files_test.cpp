@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "io/mesh_file.hpp"
+#include "io/parts/part_output.hpp"
 #include "io/parts/part_reader.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
@@ -26,6 +27,7 @@ using test::world;
 Mesh sample() {
   Mesh mesh = test::sample_mesh(60);
   mesh.boundaries[0].layers = {1, 0.7};
+  mesh.strips = {test::strip_across(mesh, 60)};
   return mesh;
 }
 
@@ -62,6 +64,7 @@ void expect_same(const LoadedMesh& read, const Mesh& mesh, const Field& field) {
     EXPECT_EQ(read.mesh.boundaries[b].condition, mesh.boundaries[b].condition);
     EXPECT_EQ(read.mesh.boundaries[b].layers, mesh.boundaries[b].layers);
   }
+  EXPECT_EQ(read.mesh.strips, mesh.strips);
   ASSERT_TRUE(read.solution);
   EXPECT_EQ(read.solution->values, field.values);
   EXPECT_EQ(read.solution->cells.names, field.cells.names);
@@ -122,6 +125,56 @@ TEST(PartFiles, TheirPvtuIsTheWholeInTheOrderOfParts) {
   std::ranges::sort(found);
   std::ranges::sort(wanted);
   EXPECT_EQ(found, wanted);
+}
+
+/// In three blocks, one after another, but that the first has no quads.
+LoadedMesh sample_in_blocks() {
+  LoadedMesh whole;
+  whole.mesh = test::sample_mesh(12);
+  whole.blocks = 3;
+  whole.block_names = {"left", "mid dle", "right"};
+  for (std::size_t i = 0; i < whole.mesh.triangles.size(); ++i)
+    whole.triangle_to_block.push_back(static_cast<std::int32_t>(3 * i / whole.mesh.triangles.size()));
+  for (std::size_t i = 0; i < whole.mesh.quads.size(); ++i)
+    whole.quad_to_block.push_back(1 + static_cast<std::int32_t>(2 * i / whole.mesh.quads.size()));
+  return whole;
+}
+
+TEST(PartFiles, OfBlocksComeBackWhicheverBlocksAPartHas) {
+  const TemporaryFolder folder;
+  const LoadedMesh whole = sample_in_blocks();
+  for (const std::string format : {"mesh", "vtu"}) {
+    PartFiles files(world());
+    write_parts_of_root(files, world(), whole,
+                        {.prefix = folder.file(format), .parts = 5, .formats = {format}});
+    files.commit();
+  }
+  world().barrier();
+  if (!world().is_root()) return;
+  for (const std::string format : {"mesh", "vtu"}) {
+    const LoadedMesh read = read_mesh(folder.file(format + ".parts"));
+    test::expect_same_meshes(read.mesh, whole.mesh);
+    EXPECT_EQ(read.block_names, whole.block_names);
+    EXPECT_EQ(read.triangle_to_block, whole.triangle_to_block) << format;
+    EXPECT_EQ(read.quad_to_block, whole.quad_to_block) << format;
+  }
+  const LoadedMesh pieces = read_mesh(folder.file("vtu.pvtu"));
+  EXPECT_TRUE(pieces.warnings.empty()) << pieces.warnings[0];
+  EXPECT_EQ(pieces.blocks, 3);
+  EXPECT_EQ(pieces.mesh.boundaries.size(), whole.mesh.boundaries.size());
+}
+
+TEST(PartFiles, SayWhereAStripIsDamaged) {
+  const TemporaryFolder folder;  // collective
+  if (!world().is_root()) return;
+  const Mesh whole = sample();
+  write_set(Communicator(MPI_COMM_SELF), whole, sample_field(whole), folder.file("a"), {"mesh"});
+  std::string text = test::bytes_of(folder.file("a.parts"));
+  test::write_bytes(folder.file("a.parts"), text.replace(text.find("# nodes"), 7, "# modes"));
+  const LoadedMesh read = read_parts(folder.file("a.parts"));
+  EXPECT_TRUE(read.mesh.strips.empty());
+  ASSERT_EQ(read.warnings.size(), 1U);
+  EXPECT_NE(read.warnings[0].find("a.parts: the comment '# strip "), std::string::npos);
 }
 
 TEST(PartFiles, RefuseASetThatDoesNotFitTogether) {

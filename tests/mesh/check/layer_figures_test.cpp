@@ -37,6 +37,39 @@ TEST(LayerFigures, MeasureColumnsOfQuadsAndOfTriangles) {
   }
 }
 
+TEST(LayerFigures, OfAPartLeaveOutColumnsAtItsBorder) {
+  const LayeredStrip strip{};
+  Mesh part = strip.mesh();  // ends to the right in a step, as if the cells beyond were another part's
+  std::erase_if(part.quads, [&](const auto& nodes) {
+    return nodes[0] == strip.node(5, 0) || nodes[0] == strip.node(5, 1) || nodes[0] == strip.node(4, 0);
+  });
+  std::erase_if(part.boundaries[1].edges, [&](const auto& edge) { return edge[0].value() >= 4; });
+  std::erase_if(part.boundaries[3].edges,
+                [&](const auto& edge) { return edge[0] == strip.node(6, 0) || edge[0] == strip.node(6, 1); });
+  BoundaryEdges cut{"part_0002", "interface", {}};
+  const std::vector<NodeId> along{strip.node(4, 0), strip.node(4, 1), strip.node(5, 1), strip.node(5, 2),
+                                  strip.node(6, 2)};
+  for (std::size_t i = 1; i < along.size(); ++i) cut.edges.push_back({along[i - 1], along[i]});
+  part.boundaries.push_back(cut);
+  const std::vector<LayerFigures> figures = figures_of(part);
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_EQ(figures[0].columns, 4);
+  EXPECT_EQ(figures[0].cut_columns, 1);
+  EXPECT_NEAR(figures[0].growth.least, 2, 1e-12);
+  EXPECT_NEAR(figures[0].thickness.least, 0.7, 1e-12);
+  EXPECT_NEAR(figures[0].thickness.largest, 0.7, 1e-12);
+}
+
+TEST(LayerFigures, GoOnAlongOtherBoundariesButNotAlongABorderOfParts) {
+  const LayeredStrip strip{};
+  Mesh part = strip.mesh();
+  EXPECT_EQ(figures_of(part)[0].columns, 7);
+  part.boundaries[2].name = "part_0007";  // what goes on straight from the wall
+  const std::vector<LayerFigures> figures = figures_of(part);
+  EXPECT_EQ(figures[0].columns, 4);
+  EXPECT_EQ(figures[0].cut_columns, 1) << "where the wall ends";
+}
+
 TEST(LayerFigures, OfStripsAreMeasuredOnBothSidesOfTheirLine) {
   const LayeredStrip grid{6, 2, 2, false};
   Mesh mesh = grid.mesh();

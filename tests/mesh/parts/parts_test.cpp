@@ -12,9 +12,11 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/part_names.hpp"
 #include "mesher/mesh/parts/hilbert.hpp"
 #include "mesher/mesh/parts/join_parts.hpp"
 #include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/mesh/parts/part_strips.hpp"
 #include "mesher/mesh/parts/partition.hpp"
 #include "mesher/mesh/parts/refine_sides.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -302,6 +304,33 @@ TEST(Parts, KeepTheBlocksOfCells) {
     for (std::size_t i = 0; i < part.quads.size(); ++i)
       EXPECT_EQ(part.quad_to_block[i], quads[part.quads[i]]);
   }
+}
+
+TEST(PartNames, AreTakenForNoOthers) {
+  for (const std::int32_t part : {0, 8, 12345}) EXPECT_TRUE(is_part_name(part_name(part)));
+  for (const char* const name : {"", "part_", "part_1a", "part", "apart_0001", "part_-001"})
+    EXPECT_FALSE(is_part_name(name)) << name;
+}
+
+TEST(StripsInPart, AreRunsOfWholeColumns) {
+  StripLayers wake{"wake", {1, 0.5}, true, 3, {}};
+  for (std::int64_t node = 0; node < 21; ++node) wake.nodes.emplace_back(30 - node);  // 7 columns, downwards
+  const std::vector<std::int64_t> nodes{11, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+                                        23, 24, 25, 26, 27, 28, 29, 30, 40};
+  const std::vector<StripLayers> found = strips_in_part({wake}, nodes);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].name, "wake");
+  EXPECT_EQ(found[0].layers, wake.layers);
+  EXPECT_TRUE(found[0].from_wall);
+  EXPECT_FALSE(found[1].from_wall);
+  const auto whole_numbers = [&](const StripLayers& strip) {
+    std::vector<std::int64_t> numbers;
+    for (const GlobalNodeId node : strip.nodes) numbers.push_back(nodes[node.value()]);
+    return numbers;
+  };
+  EXPECT_EQ(whole_numbers(found[0]), (std::vector<std::int64_t>{30, 29, 28, 27, 26, 25}));
+  EXPECT_EQ(whole_numbers(found[1]), (std::vector<std::int64_t>{21, 20, 19, 18, 17, 16, 15, 14, 13}));
+  EXPECT_TRUE(strips_in_part({wake}, std::vector<std::int64_t>{28, 29, 30}).empty()) << "one column";
 }
 
 TEST(Parts, OneForEachCellIsTheMost) {
