@@ -59,6 +59,7 @@ CycleFiles::CycleFiles(const Communicator& comm, CycleFolders& folders, CycleFil
 
 void CycleFiles::begin(int cycle) {
   cycle_ = cycle;
+  of_case_ = options_.of_case();
   folders_.begin(cycle);
 }
 
@@ -103,10 +104,10 @@ std::vector<std::string> CycleFiles::renames(const Mesh& mesh) const {
 
 void CycleFiles::finished(CycleRecord record, const std::vector<std::string>& notes,
                           const std::vector<std::string>& warnings) {
-  record.geometry_digest = options_.of_case.geometry_digest;
-  record.case_digest = options_.of_case.case_digest;
-  record.template_digest = options_.of_case.template_digest;
-  record.settings = options_.of_case.settings;
+  record.geometry_digest = of_case_.geometry_digest;
+  record.case_digest = of_case_.case_digest;
+  record.template_digest = of_case_.template_digest;
+  record.settings = of_case_.settings;
   const CyclePaths paths{folders_.under_way(record.cycle)};
   write_text(comm_, paths.log(), log_text(record, notes, warnings));
   write_text(comm_, paths.record(), json_text(record));

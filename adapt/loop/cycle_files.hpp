@@ -15,7 +15,9 @@ struct CycleFileOptions {
   std::vector<std::string> read_by_solver;  ///< names of further mesh files that are written, for warnings
   double gamma = 1.4;                       ///< ratio of specific heats, where a format wants it
   std::vector<std::string> fields;          ///< of quantity_names(), beside the solution
-  CycleRecord of_case;                      ///< its digests and settings alone count
+  /// Asked as each cycle begins, as files of the case may change meanwhile; its digests and settings alone
+  /// count.
+  std::function<CycleRecord()> of_case;
 };
 
 /// Writes what the loop does to the run's folder, a folder for each cycle, put in place when it is whole:
@@ -41,6 +43,7 @@ class CycleFiles final : public CycleObserver {
   const Communicator& comm_;
   CycleFolders& folders_;
   CycleFileOptions options_;
+  CycleRecord of_case_;  ///< of the cycle under way
   Told told_;
   int cycle_ = 0;
   bool starts_afresh_ = true;

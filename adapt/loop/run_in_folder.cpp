@@ -36,8 +36,11 @@ std::vector<std::string> all_formats(const std::vector<std::string>& of_case) {
   return formats;
 }
 
+/// `adaptive` must outlive them.
 CycleFileOptions file_options(const AdaptiveCase& adaptive) {
-  CycleFileOptions options{all_formats(adaptive.formats), {}, 1.4, adaptive.fields, record_of_case(adaptive)};
+  CycleFileOptions options{all_formats(adaptive.formats), {}, 1.4, adaptive.fields, [&adaptive] {
+                             return record_of_case(adaptive);
+                           }};
   if (const CommandSolver* const command = command_of(adaptive.solver)) {
     options.read_by_solver = {command->mesh};
     options.gamma = command->gamma;

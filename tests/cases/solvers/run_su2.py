@@ -105,6 +105,10 @@ def check_resume(program, folder):
     require((made / "cycle_01" / "record.json").read_text() == before, "a whole cycle has changed")
     digests = [json.loads((made / f"cycle_{k:02d}" / "record.json").read_text())["template_digest"] for k in range(4)]
     require(len(set(digests[:3])) == 1 and digests[3] != digests[0], f"digests {digests}")
+    command = json.dumps(["sh", "-c", f"{sys.executable} {STAND_IN} su2.cfg && echo % >> {folder / 'resumed' / 'flow.cfg'}"])
+    adapt(program, case, folder / "edited", options=["--cycles", "2", "--set", f"solver.command={command}"])
+    digests = {json.loads((folder / "edited" / f"cycle_{k:02d}" / "record.json").read_text())["template_digest"] for k in range(3)}
+    require(len(digests) == 3, f"a configuration that changes while the loop runs: {digests}")
 
 
 def check_cases(program, folder):
