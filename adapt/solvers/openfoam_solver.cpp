@@ -88,7 +88,7 @@ std::string make_case(const OpenfoamSolver& solver, const fs::path& folder, int 
   fs::remove_all(own);
   copy_openfoam_template(solver.case_template, given, own);
   if (!fs::exists(own / "0") && fs::exists(own / "0.orig")) fs::rename(own / "0.orig", own / "0");
-  fs::create_directories(own / "0");
+  for (const char* const part : {"0", "constant"}) fs::create_directories(own / part);
   if (start.width() > 0) set_foam_fields((own / "0").string(), start);
   if (ranks > 1 && !fs::exists(own / "system/decomposeParDict"))
     write_text(own / "system/decomposeParDict", decompose_dict(ranks));
