@@ -158,8 +158,11 @@ class Plot(unittest.TestCase):
         for cycle in (0, 1, 2, 10):
             (run / f"cycle_{cycle:02d}").mkdir(parents=True)
             (run / f"cycle_{cycle:02d}" / "record.json").write_text(f'{{\n  "cycle": {cycle},\n  "nodes": 5\n}}\n')
-        self.refused(1, "no cycle tells a residual or forces; forces and the flow along walls are written where [flow]", "other", "-o", "a.png", "--history")
-        self.refused(1, "cycle_10/mesh.walls.csv: is not there; forces", "other", "-o", "a.png", "--walls")
+        for option, said in (("--history", "no cycle tells a residual or forces; forces and the flow along walls are written where [flow]"),
+                             ("--walls", "cycle_10/mesh.walls.csv: is not there; forces")):
+            done = self.run_plot("other", "-o", "a.png", option)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(said, done.stderr)
         for cycle in (0, 1, 2, 10):
             record = run / f"cycle_{cycle:02d}" / "record.json"
             record.write_text(record.read_text().replace('"nodes": 5', f'"cl": {0.1 * cycle},\n  "cd": 1e-2,\n  "forces": {{"w": {{"cl": 9}}}}'))
