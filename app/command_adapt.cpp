@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "adapt/loop/run_in_folder.hpp"
+#include "adapt/solvers/openfoam_template.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "io/formats.hpp"
@@ -70,7 +71,7 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
       chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const CommandSolver* const command = command_of(solver)) require_solver_files(arguments, *command);
   if (const auto* openfoam = std::get_if<OpenfoamSolver>(&solver))
-    require_openfoam_template(openfoam->case_template);
+    read_openfoam_template(openfoam->case_template);  // refuses what would end the first cycle
   AdaptiveCase adaptive{std::move(*input.mesh), adapt,           std::move(solver),
                         settings.formats,       settings.values, settings.fields};
   adaptive.stream = settings.stream;
@@ -147,8 +148,8 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   if (comm.is_root()) context.record.figures.add("nothing_to_change", end.nothing_to_change);
   if (!context.shows_table()) return;
   if (end.nothing_to_change)
-    std::cout << fmt::format(
-        "  cycle {} marks no leaf: there is nothing left to change, and no further cycle\n", end.last);
+    std::cout << fmt::format("  cycle {} marks no leaf, so no further cycle: {}\n", end.last,
+                             end.left->plan.reason_for_standing);
   std::cout << closing_line(folder, end);
 }
 

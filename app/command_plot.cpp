@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "adapt/solvers/cycle_paths.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "app/plot_tables.hpp"
 #include "flow/euler/scheme/euler_options.hpp"
 #include "flow/quantities/flow_quantities.hpp"
 #include "flow/quantities/history.hpp"
@@ -162,39 +162,12 @@ std::string picture_of_mesh(const PlotArguments& arguments, const PlotTask& task
   }
 }
 
-/// The table itself, or that beside a mesh with a flow.
-std::string table_of(const std::string& input, const char* suffix) {
-  if (input.ends_with(".csv")) return input;
-  const std::string table = std::filesystem::path(input).replace_extension().string() + suffix;
-  if (!std::filesystem::exists(table))
-    throw InputError(table + ": is not there; 'quadloop solve' writes it beside the flow");
-  return table;
-}
-
-/// A history, or those of a run's cycles.
-std::vector<PlotTable> histories_of(const std::string& input) {
-  if (!std::filesystem::is_directory(input)) return {read_plot_table(table_of(input, history_suffix))};
-  std::vector<std::string> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(input)) {
-    const std::string path = CyclePaths{entry.path()}.history();
-    const bool is_cycle = entry.path().filename().string().starts_with("cycle_");
-    if (is_cycle && entry.path().extension().empty() && std::filesystem::exists(path)) paths.push_back(path);
-  }
-  std::ranges::sort(paths);
-  if (paths.empty())
-    throw InputError(input + ": holds no cycle with a history; name the folder of 'quadloop adapt'");
-  std::vector<PlotTable> histories;
-  for (const std::string& path : paths) histories.push_back(read_plot_table(path));
-  return histories;
-}
-
 std::string picture(const PlotArguments& arguments, const PlotTask& task) {
   const PlotOptions& options = task.options;
   if (task.subject == Subject::mesh) return picture_of_mesh(arguments, task);
   if (task.subject == Subject::history)
-    return draw_chart(history_chart(histories_of(arguments.input)), options.size, options.centimetres,
-                      task.format);
-  const PlotTable walls = read_plot_table(table_of(arguments.input, wall_table_suffix));
+    return draw_chart(chart_of_history(arguments.input), options.size, options.centimetres, task.format);
+  const PlotTable walls = wall_table_for(arguments.input);
   const std::string column = options.field.empty() ? "Cp" : options.field;
   return draw_chart(wall_chart(walls, column, options.window), options.size, options.centimetres,
                     task.format);
@@ -257,12 +230,14 @@ void add_field_options(CLI::App& command, PlotArguments& arguments) {
 }
 
 void add_chart_options(CLI::App& command, PlotArguments& arguments) {
-  CLI::Option* walls = command.add_flag("--walls", arguments.walls,
-                                        "Cp over x along the walls, from the table .walls.csv beside IN");
+  CLI::Option* walls =
+      command.add_flag("--walls", arguments.walls,
+                       "Cp over x along the walls, from the table .walls.csv beside IN, or in the last "
+                       "cycle of IN, the folder of an adaptive run");
   command
       .add_flag("--history", arguments.history,
                 "residual and forces over steps, from the table .history.csv beside IN, or in the cycles of "
-                "IN, the folder of an adaptive run")
+                "IN, the folder of an adaptive run; over cycles where the solver leaves no such table")
       ->excludes(walls);
 }
 

@@ -108,6 +108,16 @@ std::string json_text(const CycleRecord& record) {
   return json.lines() + "\n";
 }
 
+std::optional<double> recorded_number(const std::string& json, const std::string& key) {
+  const std::string head = "\n  \"" + key + "\": ";
+  const std::size_t at = json.find(head);
+  if (at == std::string::npos) return {};
+  double value = 0;
+  const char* const begin = json.data() + at + head.size();
+  if (std::from_chars(begin, json.data() + json.size(), value).ec != std::errc()) return {};
+  return value;
+}
+
 std::optional<RecordedCase> recorded_case(const std::string& json) {
   const auto of_case = digest_in(json, "case_digest"), of_geometry = digest_in(json, "geometry_digest");
   if (!of_case || !of_geometry || !json.ends_with("}\n}\n")) return {};

@@ -55,6 +55,9 @@ struct RecordedCase {
   CaseSettings settings;
 };
 
+/// What a record's text has under a key of its own that is a number, as `cl`. Empty where there is none.
+std::optional<double> recorded_number(const std::string& json, const std::string& key);
+
 /// Empty where the text is no whole record of ours.
 std::optional<RecordedCase> recorded_case(const std::string& json);
 

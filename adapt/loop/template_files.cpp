@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "adapt/solvers/openfoam_template.hpp"
 #include "io/files/input_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/generate/digests.hpp"
@@ -23,16 +24,11 @@ void add_file(const fs::path& path, const std::string& name, CaseSettings& files
   }
 }
 
-void add_folder(const fs::path& folder, const std::string& prefix, CaseSettings& files) {
-  std::error_code fault;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, fault)) {
-    if (is_left_by_openfoam(entry.path())) continue;
-    const std::string name = prefix + entry.path().filename().string();
-    if (entry.is_directory()) {
-      add_folder(entry.path(), name + "/", files);
-    } else {
-      add_file(entry.path(), name, files);
-    }
+void add_openfoam(const std::string& folder, CaseSettings& files) {
+  try {
+    for (const std::string& name : openfoam_template_files(folder))
+      add_file(fs::path(folder) / name, name, files);
+  } catch (const InputError&) {  // as above
   }
 }
 
@@ -43,7 +39,7 @@ CaseSettings template_files(const ChosenSolver& solver) {
   if (const auto* su2 = std::get_if<Su2Solver>(&solver))
     add_file(su2->config, fs::path(su2->config).filename(), files);
   if (const auto* openfoam = std::get_if<OpenfoamSolver>(&solver))
-    add_folder(openfoam->case_template, "", files);
+    add_openfoam(openfoam->case_template, files);
   std::ranges::sort(files);
   return files;
 }

@@ -168,8 +168,8 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   plan.refined = changes.refined;
   plan.coarsened = changes.coarsened;
   if (!plan.changes_mesh()) {
-    plan.warnings.push_back("no leaf is marked, the mesh stays: " +
-                            reason_for_standing(comm, options, solved, family, all));
+    plan.reason_for_standing = reason_for_standing(comm, options, solved, family, all);
+    plan.warnings.push_back("no leaf is marked, the mesh stays: " + plan.reason_for_standing);
   }
   plan.demands = std::move(changes.demands);
   plan.mean = family.mean();

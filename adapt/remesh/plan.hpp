@@ -21,6 +21,7 @@ struct AdaptationPlan {
   bool new_heights = false;    ///< they differ from those of the last mesh
   TransferKind transfer = TransferKind::linear;
   std::vector<std::string> warnings;
+  std::string reason_for_standing;  ///< where no leaf is marked, why
 
   /// Without a mark that takes effect, or new heights, the next mesh would be the last one again.
   bool changes_mesh() const { return refined + coarsened > 0 || new_heights; }

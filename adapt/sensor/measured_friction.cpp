@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop {
@@ -46,7 +47,7 @@ std::optional<std::size_t> y_plus_among(const std::vector<std::string>& names) {
 
 /// Of all ranks, in the order of their nodes. *Collective.*
 std::vector<WallEdge> wall_edges(const Communicator& comm, const Mesh& mesh, const Field& with_copies,
-                                 std::span<const std::string> walls, std::size_t variable) {
+                                 std::span<const std::string> walls, std::optional<std::size_t> variable) {
   const auto density = only_one(variables_like(with_copies.names, "density"));
   std::vector<WallEdge> own;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
@@ -64,6 +65,100 @@ std::vector<WallEdge> wall_edges(const Communicator& comm, const Mesh& mesh, con
   std::vector<WallEdge> edges = comm.all_gather_values(std::span<const WallEdge>(own));
   std::ranges::sort(edges, {}, &WallEdge::nodes);
   return edges;
+}
+
+/// What the cell at a wall's edge tells of it.
+struct CellAtEdge {
+  std::array<GlobalNodeId, 2> nodes;
+  std::array<Point, 2> points;
+  double wall_units;
+};
+
+/// The variables of cells that tell friction: y+ of the cells' middles, or shear along the wall.
+struct FrictionInCells {
+  explicit FrictionInCells(const std::vector<std::string>& names)
+      : y_plus{y_plus_among(names)},
+        shear{only_one(variables_like(names, "wall_shear"))},
+        shear_x{only_one(variables_like(names, "wallShearStress_x"))},
+        shear_y{only_one(variables_like(names, "wallShearStress_y"))},
+        density{only_one(variables_like(names, "density"))} {}
+
+  bool tells() const { return y_plus || shear || (shear_x && shear_y); }
+  const std::string& name(const std::vector<std::string>& names) const {
+    return names[y_plus ? *y_plus : shear ? *shear : *shear_x];
+  }
+
+  /// `height`: of the cell's middle above the wall.
+  double wall_units(std::span<const double> row, double height, const WallFlow& flow) const {
+    if (y_plus) return std::abs(row[*y_plus]) / height;
+    const double along_wall = shear ? std::abs(row[*shear]) : std::hypot(row[*shear_x], row[*shear_y]);
+    const double at_wall = density && row[*density] > 0 ? row[*density] : flow.density;
+    return std::sqrt(along_wall * at_wall) / flow.viscosity;
+  }
+
+  std::optional<std::size_t> y_plus, shear, shear_x, shear_y, density;
+};
+
+/// The cells of this rank at edges of walls, by the ends of these.
+class CellsAtWalls {
+ public:
+  CellsAtWalls(const Mesh& mesh, const CellValues& cells, const std::vector<WallEdge>& edges,
+               const WallFlow& flow)
+      : mesh_{mesh}, cells_{cells}, friction_{cells.names}, flow_{flow} {
+    for (const WallEdge& edge : edges) points_.emplace(edge.nodes, edge.points);
+    for (const auto& cell : mesh.triangles) add(cell);
+    for (const auto& cell : mesh.quads) add(cell);
+  }
+  const std::vector<CellAtEdge>& found() const { return found_; }
+
+ private:
+  template <std::size_t corners>
+  void add(const std::array<NodeId, corners>& cell) {
+    const auto row = std::span(cells_.values).subspan(number_++ * cells_.width(), cells_.width());
+    for (std::size_t k = 0; k < corners; ++k) {
+      const std::array nodes{mesh_.global(cell[k]), mesh_.global(cell[(k + 1) % corners])};
+      const auto edge = points_.find(nodes);
+      if (edge == points_.end()) continue;
+      std::array<Point, corners> places;
+      for (std::size_t i = 0; i < corners; ++i) places[i] = mesh_.point(cell[i]);
+      const auto [a, b] = edge->second;
+      const double height = cross(b - a, shape_of(places).centroid - a) / length(b - a);
+      found_.push_back({nodes, edge->second, friction_.wall_units(row, height, flow_)});
+    }
+  }
+
+  const Mesh& mesh_;
+  const CellValues& cells_;
+  FrictionInCells friction_;
+  WallFlow flow_;
+  std::map<std::array<GlobalNodeId, 2>, std::array<Point, 2>> points_;
+  std::size_t number_ = 0;
+  std::vector<CellAtEdge> found_;
+};
+
+/// At a wall's node the mean of the edges that meet there. *Collective.*
+MeasuredWall friction_of_cells(const Communicator& comm, const Mesh& mesh, const CellValues& cells,
+                               const std::vector<WallEdge>& edges, const WallFlow& flow,
+                               const std::string& where) {
+  const CellsAtWalls own(mesh, cells, edges, flow);
+  std::vector<CellAtEdge> all = comm.all_gather_values(std::span<const CellAtEdge>(own.found()));
+  std::ranges::sort(all, {}, &CellAtEdge::nodes);
+  std::map<GlobalNodeId, std::pair<double, int>> sums;
+  for (const CellAtEdge& at : all) {
+    if (!std::isfinite(at.wall_units))
+      throw InputError(fmt::format("{}: '{}' is not finite in the cell at the wall at ({}, {})", where,
+                                   FrictionInCells(cells.names).name(cells.names), at.points[0].x,
+                                   at.points[0].y));
+    for (const GlobalNodeId node : at.nodes) {
+      sums[node].first += at.wall_units;
+      ++sums[node].second;
+    }
+  }
+  const auto mean = [&](GlobalNodeId node) { return sums.at(node).first / sums.at(node).second; };
+  MeasuredWall measured;
+  for (const CellAtEdge& at : all)
+    measured.push_back({at.points[0], at.points[1], mean(at.nodes[0]), mean(at.nodes[1])});
+  return measured;
 }
 
 /// Of a wall's cells, the height of their other nodes above the edge, at the end that each is nearer to.
@@ -114,7 +209,11 @@ MeasuredWall measured_friction(const Communicator& comm, const Mesh& mesh, const
                                const std::string& where) {
   const auto shear = only_one(variables_like(solution.names, "wall_shear")),
              y_plus = shear ? std::nullopt : y_plus_among(solution.names);
-  if (!shear && !y_plus) return {};
+  if (!shear && !y_plus) {
+    if (!FrictionInCells(solution.cells.names).tells()) return {};
+    const std::vector<WallEdge> edges = wall_edges(comm, mesh, {}, walls, std::nullopt);
+    return friction_of_cells(comm, mesh, solution.cells, edges, flow, where);
+  }
   const Field values = with_copies(comm, mesh, solution);
   const std::vector<WallEdge> edges = wall_edges(comm, mesh, values, walls, shear ? *shear : *y_plus);
   const auto heights = y_plus ? heights_above(comm, mesh, edges) : std::map<GlobalNodeId, double>{};

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "adapt/solvers/cycle_paths.hpp"
+#include "adapt/solvers/openfoam_template.hpp"
 #include "flow/command/solver_command.hpp"
 #include "io/files/output_file.hpp"
 #include "io/foam/foam_fields.hpp"
@@ -25,20 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* script_name = "openfoam.sh";
+constexpr const char* allrun_name = "Allrun";
 constexpr const char* done_name = "openfoam.done";
-
-void copy_template(const fs::path& from, const fs::path& to) {
-  fs::create_directories(to);
-  for (const fs::directory_entry& entry : fs::directory_iterator(from)) {
-    if (is_left_by_openfoam(entry.path())) continue;
-    const fs::path target = to / entry.path().filename();
-    if (entry.is_directory()) {
-      copy_template(entry.path(), target);
-    } else {
-      fs::copy_file(entry.path(), target, fs::copy_options::overwrite_existing);
-    }
-  }
-}
 
 void write_text(const fs::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
@@ -68,7 +57,6 @@ constexpr const char* script_head =
 
 /// The solver, by controlDict.start first where there is one.
 constexpr const char* script_run =
-    "application=$(sed -n 's/^ *application *\\([A-Za-z0-9_]*\\) *;.*/\\1/p' system/controlDict)\n"
     "if [ -f system/controlDict.start ]; then\n"
     "  mv system/controlDict system/controlDict.then\n"
     "  cp system/controlDict.start system/controlDict\n"
@@ -77,32 +65,35 @@ constexpr const char* script_run =
     "fi\n"
     "solve\n";
 
-std::string script(bool has_allrun, int ranks) {
+std::string script(const std::string& application, int ranks) {
   std::string text = std::string(script_head) + "cd " + OpenfoamSolver::folder_name + "\n";
-  if (has_allrun) {
+  if (application == allrun_name) {
     text += fmt::format("./Allrun {}\n", ranks);
   } else if (ranks == 1) {
-    text += std::string("solve() { \"$application\"; }\n") + script_run;
+    text += fmt::format("solve() {{ {}; }}\n{}", application, script_run);
   } else {
     text += fmt::format(
-        "solve() {{ mpirun -n {} \"$application\" -parallel; }}\ndecomposePar\n{}"
+        "solve() {{ mpirun -n {} {} -parallel; }}\ndecomposePar\n{}"
         "reconstructPar -latestTime\n",
-        ranks, script_run);
+        ranks, application, script_run);
   }
   return text + "cd ..\necho done > " + done_name + "\n";
 }
 
-/// The case beside the cycle's files; on the root alone.
-void make_case(const OpenfoamSolver& solver, const fs::path& folder, int ranks, const CellValues& start) {
-  require_openfoam_template(solver.case_template);
+/// The case beside the cycle's files; the application that it runs. On the root alone.
+std::string make_case(const OpenfoamSolver& solver, const fs::path& folder, int ranks,
+                      const CellValues& start) {
+  const OpenfoamTemplate given = read_openfoam_template(solver.case_template);
   const fs::path own = folder / OpenfoamSolver::folder_name;
   fs::remove_all(own);
-  copy_template(solver.case_template, own);
-  if (!fs::exists(own / "0")) fs::rename(own / "0.orig", own / "0");
+  copy_openfoam_template(solver.case_template, given, own);
+  if (!fs::exists(own / "0") && fs::exists(own / "0.orig")) fs::rename(own / "0.orig", own / "0");
+  for (const char* const part : {"0", "constant"}) fs::create_directories(own / part);
   if (start.width() > 0) set_foam_fields((own / "0").string(), start);
   if (ranks > 1 && !fs::exists(own / "system/decomposeParDict"))
     write_text(own / "system/decomposeParDict", decompose_dict(ranks));
-  write_text(folder / script_name, script(fs::exists(own / "Allrun"), ranks));
+  write_text(folder / script_name, script(given.application, ranks));
+  return given.application;
 }
 
 MeshOrder order_of(const Communicator& comm, const MeshCounts& counts) {
@@ -125,7 +116,9 @@ Field read_left(const Communicator& comm, const Mesh& mesh, const MeshCounts& co
       const std::string own = (fs::path(files.folder) / OpenfoamSolver::folder_name).string();
       const std::string time = latest_foam_time(own);
       if (time.empty()) throw InputError(own + ": has no folder of a time above 0");
-      whole.cells = read_foam_fields(time, counts.triangles + counts.quads);
+      const std::size_t cells = counts.triangles + counts.quads;
+      whole.cells = read_foam_fields(time, cells);
+      put_wall_values(time, own + "/constant/polyMesh", whole.cells);
       if (whole.cells.names.empty()) throw InputError(time + ": holds no field of cells");
     } catch (const InputError& fault) {
       throw SolverError(
@@ -146,22 +139,6 @@ void write_mesh_of(const Communicator& comm, const Mesh& mesh, const std::string
 
 }  // namespace
 
-bool is_left_by_openfoam(const fs::path& path) {
-  const std::string name = path.filename();
-  const bool is_time =
-      name != "0" && !name.empty() && name.find_first_not_of("0123456789.e-+") == std::string::npos;
-  return is_time || name.starts_with("processor") || name.starts_with("log.") || name == "postProcessing" ||
-         name == "polyMesh";
-}
-
-void require_openfoam_template(const std::string& folder) {
-  const fs::path path = folder;
-  if (!fs::is_regular_file(path / "system/controlDict"))
-    throw InputError(folder + ": is no case of OpenFOAM: it has no system/controlDict");
-  if (!fs::is_directory(path / "0") && !fs::is_directory(path / "0.orig"))
-    throw InputError(folder + ": has no folder 0 or 0.orig with the fields to begin with");
-}
-
 FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int cycle)> folder_of) {
   return [solver = std::move(solver), folder_of = std::move(folder_of)](
              const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
@@ -173,11 +150,11 @@ FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int 
     files.cycle = cycle;
     const MeshCounts counts = count(comm, mesh);
     const Field whole = gather_field(comm, {{}, {}, {}, start.cells}, mesh, order_of(comm, counts));
+    SolverCommand command{{"/bin/sh", script_name}, solver.timeout};
     comm.together([&] {
-      if (comm.is_root()) make_case(solver, files.folder, files.ranks, whole.cells);
+      if (comm.is_root()) command.name = make_case(solver, files.folder, files.ranks, whole.cells);
     });
     write_mesh_of(comm, mesh, files.folder);
-    const SolverCommand command{{"/bin/sh", script_name}, solver.timeout};
     run_solver(comm, command, files);
     SolvedFlow flow;
     flow.solution = read_left(comm, mesh, counts, command, files);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -18,20 +17,15 @@ struct OpenfoamSolver {
 };
 
 /// The solver that the template's system/controlDict names as application. For each mesh the template is
-/// copied into the cycle's folder, with the mesh as a polyMesh of one layer, one unit thick, and, from the
-/// second mesh on, the values of cells carried over in the place of internalField in the fields of its folder
-/// 0 (a folder 0.orig becomes 0). Where there is a system/controlDict.start it runs by that first, a few
-/// careful steps, as a state on another mesh is none that the scheme has come to by itself. It runs there
-/// alone, or on several ranks between decomposePar and reconstructPar (by its system/decomposeParDict, else
-/// in slices along x), or, where the template has an executable Allrun, that runs with the number of ranks as
-/// its argument. The solution is what it leaves in the folder of the latest time: fields of cells. Throws
-/// InputError for a template that is none, SolverError for what the solver does or leaves.
+/// copied (openfoam_template.hpp) into the cycle's folder, with the mesh as a polyMesh of one layer, one unit
+/// thick, and, from the second mesh on, the values of cells carried over in the place of internalField in the
+/// fields of its folder 0 (a folder 0.orig becomes 0). Where there is a system/controlDict.start it runs by
+/// that first, a few careful steps, as a state on another mesh is none that the scheme has come to by itself.
+/// It runs there alone, or on several ranks between decomposePar and reconstructPar (by its
+/// system/decomposeParDict, else in slices along x), or, where the template has an executable Allrun, that
+/// runs with the number of ranks as its argument. The solution is what it leaves in the folder of the latest
+/// time: fields of cells. Throws InputError for a template that is none, SolverError for what the solver does
+/// or leaves.
 FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int cycle)> folder_of);
-
-/// By its name a part of a case that OpenFOAM has left, or an earlier mesh: nothing of it is copied.
-bool is_left_by_openfoam(const std::filesystem::path& path);
-
-/// Throws InputError unless the folder has system/controlDict and a folder 0 or 0.orig.
-void require_openfoam_template(const std::string& folder);
 
 }  // namespace quadloop

@@ -98,6 +98,8 @@ Su2Solver su2_solver_of(const std::string& config, CommandSolver command) {
     const std::vector<std::string> launcher{"mpirun", "-n", "{ranks}"};
     if (command.ranks > 1)
       command.command.arguments.insert(command.command.arguments.begin(), launcher.begin(), launcher.end());
+    command.command.name = "SU2_CFD";
+    command.command.where = "[solver] has no command, so SU2_CFD is run";
   }
   return {config, std::move(command)};
 }

@@ -53,7 +53,7 @@ bool started_by_launcher() {
 
 bool started_by_mpirun() { return std::getenv("OMPI_COMM_WORLD_RANK") != nullptr; }
 
-std::vector<std::string> environment_for(const std::string& folder) {
+std::vector<std::string> environment_for(const std::string& folder, int ranks) {
   std::vector<std::string> environment;
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
@@ -62,6 +62,17 @@ std::vector<std::string> environment_for(const std::string& folder) {
     if (!set_by_launcher(name)) environment.emplace_back(text);
   }
   environment.push_back("PWD=" + folder);  // programs that trust it would work in the wrong folder
+  const auto add = [&](const std::string& name, const char* value) {
+    if (std::getenv(name.c_str()) == nullptr) environment.push_back(name + "=" + value);
+  };
+  if (::geteuid() == 0) {
+    add("OMPI_ALLOW_RUN_AS_ROOT", "1");
+    add("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
+  }
+  if (ranks > 1) {
+    add("OMPI_MCA_rmaps_base_oversubscribe", "1");                   // Open MPI 4
+    add("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe");  // Open MPI 5
+  }
   return environment;
 }
 

@@ -18,7 +18,10 @@ bool started_by_launcher();
 /// True where Open MPI's mpirun (or its daemon on this machine) started this process.
 bool started_by_mpirun();
 
-/// This process's environment, as NAME=value, without the launcher's variables and with PWD = `folder`.
-std::vector<std::string> environment_for(const std::string& folder);
+/// This process's environment, as NAME=value, without the launcher's variables and with PWD = `folder`. An
+/// mpirun of Open MPI's that the solver begins with may run as root where this process is root, and, with
+/// `ranks` above 1, may start more of them than there are cores, unless the user has set the variables that
+/// say so.
+std::vector<std::string> environment_for(const std::string& folder, int ranks = 1);
 
 }  // namespace quadloop

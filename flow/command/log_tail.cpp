@@ -10,6 +10,17 @@ namespace {
 
 constexpr std::streamoff most_bytes = 1 << 16;
 
+bool says_something(const std::string& line) {
+  return std::any_of(line.begin(), line.end(), [](char c) {
+    const unsigned char byte = c;
+    return std::isalnum(byte) != 0 || byte >= 0x80U;  // above ASCII: part of a letter in UTF-8
+  });
+}
+
+bool inside_character(char byte) { return (byte & 0xC0U) == 0x80U; }  // UTF-8
+
+}  // namespace
+
 std::string end_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) return {};
@@ -21,16 +32,7 @@ std::string end_of_file(const std::string& path) {
   return bytes;
 }
 
-bool says_something(const std::string& line) {
-  return std::any_of(line.begin(), line.end(), [](char c) {
-    const unsigned char byte = c;
-    return std::isalnum(byte) != 0 || byte >= 0x80U;  // above ASCII: part of a letter in UTF-8
-  });
-}
-
-bool inside_character(char byte) { return (byte & 0xC0U) == 0x80U; }  // UTF-8
-
-std::string shown(std::string line, std::size_t length) {
+std::string fit_for_message(std::string line, std::size_t length) {
   const std::string blanks = " \t";
   line.erase(line.find_last_not_of(blanks) + 1);
   line.erase(0, line.find_first_not_of(blanks));
@@ -49,15 +51,13 @@ std::string shown(std::string line, std::size_t length) {
   return line;
 }
 
-}  // namespace
-
 std::string last_line(const std::string& path, std::size_t length) {
   const std::string bytes = end_of_file(path);
   for (std::size_t end = bytes.size(); end > 0;) {
     const std::size_t before = bytes.find_last_of("\r\n", end - 1);
     const std::size_t begin = before == std::string::npos ? 0 : before + 1;
     const std::string line = bytes.substr(begin, end - begin);
-    if (says_something(line)) return shown(line, length);
+    if (says_something(line)) return fit_for_message(line, length);
     end = before == std::string::npos ? 0 : before;
   }
   return {};

@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "flow/command/environment.hpp"
+#include "flow/command/foam_error.hpp"
 #include "flow/command/guarded_run.hpp"
 #include "flow/command/log_tail.hpp"
 #include "flow/command/program.hpp"
@@ -34,8 +35,8 @@ Launch launch_of(const SolverCommand& command, const SolverFiles& files) {
   if (!(command.timeout > 0)) throw InputError("[solver] timeout must be more than 0 seconds");
   Launch launch;
   launch.arguments = filled(command, files);
-  launch.program = find_program(launch.arguments.front(), search_path(), files.folder);
-  launch.environment = environment_for(files.folder);
+  launch.program = find_program(launch.arguments.front(), search_path(), files.folder, command.where);
+  launch.environment = environment_for(files.folder, files.ranks);
   launch.folder = files.folder;
   launch.log = solver_log(files);
   launch.timeout = command.timeout;
@@ -142,9 +143,12 @@ std::string solver_log(const SolverFiles& files) {
 }
 
 std::string solver_message(const SolverCommand& command, const SolverFiles& files, const std::string& fault) {
-  const std::string program = command.arguments.empty() ? "" : command.arguments.front();
+  const std::string first = command.arguments.empty() ? "" : command.arguments.front();
+  const std::string& program = command.name.empty() ? first : command.name;
   const std::string message =
       "the solver '" + program + "' of cycle " + std::to_string(files.cycle) + " " + fault + "; ";
+  if (const std::string cause = foam_error(solver_log(files)); !cause.empty())
+    return message + solver_log(files) + " has: " + cause;
   const std::string last = last_line(solver_log(files));
   if (last.empty()) return message + "it wrote nothing to its log, " + solver_log(files);
   return message + solver_log(files) + " ends: " + last;

@@ -9,8 +9,10 @@ namespace quadloop {
 
 /// A flow solver as the user names it: a program and its arguments, run without a shell.
 struct SolverCommand {
-  std::vector<std::string> arguments;  ///< with placeholders; the first is the program
-  double timeout = 3600;               ///< seconds
+  std::vector<std::string> arguments;      ///< with placeholders; the first is the program
+  double timeout = 3600;                   ///< seconds
+  std::string name = {};                   ///< what messages call it; empty: the program
+  std::string where = "[solver] command";  ///< where the program is named, for messages
 };
 
 /// What a cycle's run works on. All paths are absolute.

@@ -9,6 +9,8 @@
 #include <optional>
 
 #include "io/files/input_file.hpp"
+#include "io/foam/foam_patches.hpp"
+#include "io/foam/foam_text.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -31,18 +33,6 @@ struct FoamText {
   }
 };
 
-/// Comments become blanks, so that places stay.
-std::string without_comments(std::string text) {
-  for (std::size_t at = text.find('/'); at != std::string::npos; at = text.find('/', at + 1)) {
-    const bool line = text.compare(at, 2, "//") == 0, block = text.compare(at, 2, "/*") == 0;
-    if (!line && !block) continue;
-    const std::size_t found = text.find(line ? "\n" : "*/", at);
-    const std::size_t end = found == std::string::npos ? text.size() : found + (line ? 0 : 2);
-    std::fill(text.begin() + at, text.begin() + end, ' ');
-  }
-  return text;
-}
-
 /// Where the value after a key at the beginning of a line stands.
 std::size_t value_of_key(const std::string& text, const std::string& key) {
   for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
@@ -63,7 +53,7 @@ std::string word_at(const std::string& text, std::size_t at) {
 /// Nothing where the file is no field of cells.
 std::optional<FoamText> field_in(const std::string& path) {
   FoamText field{path, read_input(path), 0, 0, 0};
-  const std::string plain = without_comments(field.text);
+  const std::string plain = without_foam_comments(field.text);
   const std::string of_class = word_at(plain, value_of_key(plain, "class"));
   if (of_class == "volScalarField") field.components = 1;
   if (of_class == "volVectorField") field.components = 3;
@@ -82,8 +72,9 @@ std::vector<FoamText> fields_in(const std::string& folder) {
   std::error_code fault;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, fault)) {
     if (entry.path().extension() == ".gz")
-      throw InputError(entry.path().string() +
-                       ": is compressed; set writeCompression off; in system/controlDict");
+      throw InputError(
+          entry.path().string() +
+          ": is compressed; unpack it (gunzip), and set writeCompression off; in system/controlDict");
     if (entry.is_regular_file() && entry.path().filename().string().front() != '.')
       paths.push_back(entry.path());
   }
@@ -96,57 +87,94 @@ std::vector<FoamText> fields_in(const std::string& folder) {
   return fields;
 }
 
+/// A value of a field as text: of internalField, or of a patch.
+struct ValueText {
+  const FoamText& field;
+  std::size_t begin, end;
+  std::string name, of, whole;  ///< for messages: "internalField", "cells", "the mesh"
+};
+
 /// The numbers of a piece of text, whatever brackets stand between them.
 class Numbers {
  public:
-  Numbers(const FoamText& field, std::size_t at) : field_{field}, at_{field.text.data() + at} {}
+  Numbers(const ValueText& value, std::size_t at)
+      : value_{value}, at_{value.field.text.data() + at}, end_{value.field.text.data() + value.end} {}
 
   double next() {
-    const char* const end = field_.text.data() + field_.end;
-    while (at_ < end &&
+    while (at_ < end_ &&
            (*at_ == '(' || *at_ == ')' || *at_ == '{' || std::isspace(static_cast<unsigned char>(*at_)) != 0))
       ++at_;
     double value = 0;
-    const auto [after, fault] = std::from_chars(at_, end, value);
+    const auto [after, fault] = std::from_chars(at_, end_, value);
     if (fault != std::errc() || !std::isfinite(value))
-      throw InputError(field_.path + ": a value of internalField is missing, or no finite number");
+      throw InputError(value_.field.path + ": a value of " + value_.name +
+                       " is missing, or no finite number");
     at_ = after;
     return value;
   }
   bool at_end() {
-    const char* const end = field_.text.data() + field_.end;
-    while (at_ < end && (*at_ == ')' || *at_ == '}' || std::isspace(static_cast<unsigned char>(*at_)) != 0))
+    while (at_ < end_ && (*at_ == ')' || *at_ == '}' || std::isspace(static_cast<unsigned char>(*at_)) != 0))
       ++at_;
-    return at_ == end;
+    return at_ == end_;
   }
 
  private:
-  const FoamText& field_;
-  const char* at_;
+  const ValueText& value_;
+  const char *at_, *end_;
 };
 
-/// `cells` rows of the field's components.
-std::vector<double> values_of(const FoamText& field, std::size_t cells) {
-  const std::string word = word_at(field.text, field.begin);
+/// `count` rows of the field's components.
+std::vector<double> values_of(const ValueText& value, std::size_t count) {
+  const FoamText& field = value.field;
+  const std::string word = word_at(field.text, value.begin);
   if (word == "uniform") {
-    Numbers numbers(field, field.begin + word.size());
+    Numbers numbers(value, value.begin + word.size());
     std::vector<double> row(field.components), values;
-    for (double& value : row) value = numbers.next();
-    for (std::size_t cell = 0; cell < cells; ++cell) values.insert(values.end(), row.begin(), row.end());
+    for (double& component : row) component = numbers.next();
+    for (std::size_t i = 0; i < count; ++i) values.insert(values.end(), row.begin(), row.end());
     return values;
   }
-  const std::size_t list = field.text.find('>', field.begin);
-  if (word != "nonuniform" || list >= field.end)
-    throw InputError(field.path + ": internalField is neither uniform nor a nonuniform list");
-  Numbers numbers(field, list + 1);
-  const double count = numbers.next();
-  if (count != static_cast<double>(cells))
-    throw InputError(field.path + ": has values for " + std::to_string(static_cast<std::int64_t>(count)) +
-                     " cells, the mesh has " + std::to_string(cells));
-  std::vector<double> values(cells * field.components);
-  for (double& value : values) value = numbers.next();
-  if (!numbers.at_end()) throw InputError(field.path + ": has more values than cells");
+  const std::size_t list = field.text.find('>', value.begin);
+  if (word != "nonuniform" || list >= value.end)
+    throw InputError(field.path + ": " + value.name + " is neither uniform nor a nonuniform list");
+  Numbers numbers(value, list + 1);
+  const double given = numbers.next();
+  if (given != static_cast<double>(count))
+    throw InputError(field.path + ": has values for " + std::to_string(static_cast<std::int64_t>(given)) +
+                     " " + value.of + ", " + value.whole + " has " + std::to_string(count));
+  std::vector<double> values(count * field.components);
+  for (double& component : values) component = numbers.next();
+  if (!numbers.at_end()) throw InputError(field.path + ": has more values than " + value.of);
   return values;
+}
+
+std::vector<double> values_of_cells(const FoamText& field, std::size_t cells) {
+  return values_of({field, field.begin, field.end, "internalField", "cells", "the mesh"}, cells);
+}
+
+/// What a field has on a patch; nothing where it tells none.
+std::vector<double> values_of_patch(const FoamText& field, const FoamPatch& patch) {
+  const std::string plain = without_foam_comments(field.text);
+  const auto boundary = foam_entry(foam_entries(plain), "boundaryField");
+  if (!boundary || !boundary->is_block) return {};
+  const auto block = foam_entry(foam_entries(plain, boundary->begin, boundary->end), patch.name);
+  if (!block || !block->is_block) return {};
+  const auto value = foam_entry(foam_entries(plain, block->begin, block->end), "value");
+  if (!value || value->is_block) return {};
+  return values_of({field, value->begin, value->end, "the value of " + patch.name, "faces", patch.name},
+                   patch.cells.size());
+}
+
+/// A patch's values in the columns of the field's variables.
+void put_on_cells(const FoamText& field, const FoamPatch& patch, CellValues& cells) {
+  const std::vector<double> values = values_of_patch(field, patch);
+  const std::vector<std::string> variables = field.variables();
+  for (std::size_t k = 0; k < variables.size() && !values.empty(); ++k) {
+    const std::size_t column = std::ranges::find(cells.names, variables[k]) - cells.names.begin();
+    if (column == cells.width()) continue;
+    for (std::size_t face = 0; face < patch.cells.size(); ++face)
+      cells.values[patch.cells[face] * cells.width() + column] = values[face * field.components + k];
+  }
 }
 
 std::string text_of(double value) {
@@ -187,7 +215,7 @@ CellValues read_foam_fields(const std::string& folder, std::size_t cells) {
   CellValues read;
   std::vector<std::vector<double>> columns;
   for (const FoamText& field : fields_in(folder)) {
-    const std::vector<double> values = values_of(field, cells);
+    const std::vector<double> values = values_of_cells(field, cells);
     const std::vector<std::string> variables = field.variables();
     for (std::size_t k = 0; k < variables.size(); ++k) {
       read.names.push_back(variables[k]);
@@ -199,6 +227,22 @@ CellValues read_foam_fields(const std::string& folder, std::size_t cells) {
     for (const std::vector<double>& column : columns) read.values.push_back(column[cell]);
   }
   return read;
+}
+
+void require_foam_fields(const std::string& folder) { fields_in(folder); }
+
+void put_wall_values(const std::string& folder, const std::string& poly_mesh, CellValues& cells) {
+  std::vector<FoamPatch> patches;
+  for (const char* const name : {"yPlus", "wallShearStress"}) {
+    const std::string path = (fs::path(folder) / name).string();
+    const auto field = fs::is_regular_file(path) ? field_in(path) : std::nullopt;
+    if (!field) continue;
+    if (patches.empty())
+      patches = read_foam_patches(poly_mesh, static_cast<std::int64_t>(cells.values.size() / cells.width()));
+    for (const FoamPatch& patch : patches) {
+      if (patch.type == "wall") put_on_cells(*field, patch, cells);
+    }
+  }
 }
 
 std::vector<std::string> set_foam_fields(const std::string& folder, const CellValues& cells) {

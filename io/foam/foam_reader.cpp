@@ -6,6 +6,7 @@
 
 #include "io/foam/foam_cells.hpp"
 #include "io/foam/foam_file.hpp"
+#include "io/foam/foam_patches.hpp"
 #include "io/foam/foam_scanner.hpp"
 #include "mesher/base/error.hpp"
 
@@ -21,8 +22,9 @@ class FoamReader {
     if (!std::filesystem::is_directory(path_)) throw InputError(path_ + ": is no folder of an OpenFOAM mesh");
     read_points();
     read_faces();
-    owner_ = read_labels("owner");
-    neighbour_ = read_labels("neighbour");
+    const std::int64_t most_cells = 2 * std::ssize(faces_);
+    owner_ = read_foam_labels(file("owner"), most_cells);
+    neighbour_ = read_foam_labels(file("neighbour"), most_cells);
     if (owner_.size() != faces_.size() || neighbour_.size() > faces_.size())
       throw InputError(fmt::format("{}: {} faces have {} owners and {} neighbours", path_, faces_.size(),
                                    owner_.size(), neighbour_.size()));
@@ -65,19 +67,6 @@ class FoamReader {
     scan.end_file();
   }
 
-  std::vector<std::int32_t> read_labels(const char* name) const {
-    FoamScanner scan(file(name));
-    std::vector<std::int32_t> labels;
-    for (std::size_t left = scan.begin_list("cells of faces", 2); left > 0; --left) {
-      const std::int64_t cell = scan.integer("the number of a cell");
-      if (cell < 0 || cell >= 2 * std::ssize(faces_))
-        scan.refuse(fmt::format("cell {} cannot be one of a mesh with {} faces", cell, faces_.size()));
-      labels.push_back(static_cast<std::int32_t>(cell));
-    }
-    scan.end_file();
-    return labels;
-  }
-
   /// Sides of each cell, one cell's after the other's, from owners and neighbours.
   void make_cells() {
     std::vector<std::int64_t> ends;
@@ -105,33 +94,18 @@ class FoamReader {
   }
 
   void read_patches() {
-    FoamScanner scan(file("boundary"));
-    for (std::size_t left = scan.begin_list("patches", 4); left > 0; --left) read_patch(scan);
-    scan.end_file();
-  }
-
-  void read_patch(FoamScanner& scan) {
-    SolidPatch& patch = mesh_.patches.emplace_back();
-    patch.name = scan.token("the name of a patch");
-    std::int64_t faces = -1, start = -1;
-    scan.expect("{");
-    for (std::string key(scan.token("}")); key != "}"; key = scan.token("}")) {
-      if (key == "nFaces") {
-        faces = scan.integer("a number of faces");
-      } else if (key == "startFace") {
-        start = scan.integer("the number of a face");
-      } else if (key == "type") {
-        const std::string type(scan.token("the type of a patch"));
-        patch.condition = condition_of(type);
-        patch.is_empty = type == "empty";
-      }
-      while (scan.token(";") != ";") {
-      }
+    const std::string path = file("boundary");
+    for (const FoamPatch& given : read_foam_boundary(path)) {
+      const std::int64_t start = given.first_face;
+      if (given.faces < 0 || start < std::ssize(neighbour_) || start + given.faces > std::ssize(faces_))
+        throw InputError(fmt::format("{}: patch {} is of {} faces from {} on, of which there are {}", path,
+                                     given.name, given.faces, start, faces_.size()));
+      SolidPatch& patch = mesh_.patches.emplace_back();
+      patch.name = given.name;
+      patch.condition = condition_of(given.type);
+      patch.is_empty = given.type == "empty";
+      patch.faces.assign(faces_.begin() + start, faces_.begin() + start + given.faces);
     }
-    if (faces < 0 || start < std::ssize(neighbour_) || start + faces > std::ssize(faces_))
-      scan.refuse(fmt::format("patch {} is of {} faces from {} on, of which there are {}", patch.name, faces,
-                              start, faces_.size()));
-    patch.faces.assign(faces_.begin() + start, faces_.begin() + start + faces);
   }
 
   static std::string condition_of(std::string_view type) {

@@ -81,6 +81,31 @@ void add_boundary_names(const Mesh& mesh, const Box& window, std::vector<LegendE
   if (names.size() <= most_boundary_names) legend.insert(legend.end(), names.begin(), names.end());
 }
 
+/// Means of the cells round each node.
+std::vector<double> at_nodes(const Mesh& mesh, const std::vector<double>& of_cells) {
+  std::vector<double> sums(mesh.points.size(), 0);
+  std::vector<int> counts(mesh.points.size(), 0);
+  for (std::size_t cell = 0; cell < of_cells.size(); ++cell) {
+    for (const NodeId node : cell_nodes(mesh, cell)) {
+      sums[node.value()] += of_cells[cell];
+      ++counts[node.value()];
+    }
+  }
+  for (std::size_t node = 0; node < sums.size(); ++node) sums[node] /= std::max(counts[node], 1);
+  return sums;
+}
+
+/// A part of the velocity by node: of the variables at nodes, else of those in cells.
+std::vector<double> velocity_part(const LoadedMesh& loaded, const char* name) {
+  const Field& solution = *loaded.solution;
+  const CellValues& cells = solution.cells;
+  if (variables_like(solution.names, name).empty() && !variables_like(cells.names, name).empty())
+    return at_nodes(loaded.mesh, cells.column(variable(cells.names, name, "streamlines need a velocity")));
+  std::vector<std::string> all = solution.names;
+  if (all.empty()) all = cells.names;  // for the message
+  return solution.column(variable(all, name, "streamlines need a velocity"));
+}
+
 /// The fields that a picture shows, by node.
 struct ShownFields {
   std::vector<double> field, x_velocity, y_velocity;
@@ -91,11 +116,8 @@ ShownFields shown_fields(const LoadedMesh& loaded, const PlotOptions& options) {
   if (!options.field.empty()) shown.field = field_values(loaded, options.field).of_nodes;
   if (options.streamlines > 0) {
     if (!loaded.solution) throw InputError("streamlines need a velocity, but the file holds no solution");
-    const auto column = [&](const char* name) {
-      return loaded.solution->column(variable(loaded.solution->names, name, "streamlines need a velocity"));
-    };
-    shown.x_velocity = column("x_velocity");
-    shown.y_velocity = column("y_velocity");
+    shown.x_velocity = velocity_part(loaded, "x_velocity");
+    shown.y_velocity = velocity_part(loaded, "y_velocity");
   }
   return shown;
 }

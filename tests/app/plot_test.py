@@ -153,6 +153,37 @@ class Plot(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("there are: boundary, s, x, y, Cp, Mach", done.stderr)
 
+    def test_runs_without_a_history_are_drawn_over_their_cycles(self):
+        run = self.folder / "other"
+        for cycle in (0, 1, 2, 10):
+            (run / f"cycle_{cycle:02d}").mkdir(parents=True)
+            (run / f"cycle_{cycle:02d}" / "record.json").write_text(f'{{\n  "cycle": {cycle},\n  "nodes": 5\n}}\n')
+        for option, said in (("--history", "no cycle tells a residual or forces; forces and the flow along walls are written where [flow]"),
+                             ("--walls", "cycle_10/mesh.walls.csv: is not there; forces")):
+            done = self.run_plot("other", "-o", "a.png", option)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(said, done.stderr)
+        for cycle in (0, 1, 2, 10):
+            record = run / f"cycle_{cycle:02d}" / "record.json"
+            record.write_text(record.read_text().replace('"nodes": 5', f'"cl": {0.1 * cycle},\n  "cd": 1e-2,\n  "forces": {{"w": {{"cl": 9}}}}'))
+        self.assertEqual(self.run_plot("other", "-o", "e.svg", "--history").returncode, 0)
+        (run / "cycle_10" / "mesh.walls.csv").write_text("boundary,s,x,y,Cp,Mach\nwall,0,1,0,1,0.5\nwall,1,0,0,-1,0.7\n")
+        done = self.run_plot("other", "-o", "f.png", "--walls")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = self.run_plot("other/cycle_10/mesh.walls.csv", "-o", "g.png")
+        self.assertEqual((self.folder / "f.png").read_bytes(), (self.folder / "g.png").read_bytes())
+
+    def test_streamlines_follow_velocities_in_cells(self):
+        of_cells = "#Number of cell variables\n3\n#names: U_x U_y p\n"
+        (self.folder / "c.mesh").write_text(MESH.split("#names")[0].rsplit("0\n2\n", 1)[0] + "0\n0\n" + of_cells + "1 0.1 5\n" * 4)
+        with_lines = self.picture_of("c.mesh", "h.png", "--field", "U_x", "--streamlines", "12")
+        self.assertNotEqual(with_lines, self.picture_of("c.mesh", "i.png", "--field", "U_x"))
+
+    def picture_of(self, mesh, name, *options):
+        done = self.run_plot(mesh, "-o", name, *options)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return (self.folder / name).read_bytes()
+
     def test_quantities_of_a_flow_need_not_stand_in_the_file(self):
         text = MESH.split("0\n2\n#names")[0] + "7\n9\n0\n0.5\n0\n0\n0\n0\n4\n#names: density x_velocity y_velocity pressure\n"
         (self.folder / "b.mesh").write_text(text + "".join(f"1 {0.1 * node} 0 0.7\n" for node in range(8)))

@@ -107,6 +107,22 @@ Chart wall_chart(const PlotTable& walls, const std::string& column, const std::o
   return chart;
 }
 
+Chart cycles_chart(const std::vector<CycleFigures>& cycles) {
+  Chart chart{{"cycle"}, {}};
+  const auto add = [&](const char* name, bool logarithmic, std::optional<double> CycleFigures::*figure) {
+    ChartLine line{name, {}};
+    for (const CycleFigures& cycle : cycles) {
+      if (cycle.*figure) line.points.push_back({cycle.cycle, *(cycle.*figure)});
+    }
+    if (!line.points.empty()) chart.panels.push_back({{name, logarithmic}, {line}});
+  };
+  add("residual", true, &CycleFigures::residual);
+  add("CL", false, &CycleFigures::cl);
+  add("CD", false, &CycleFigures::cd);
+  if (chart.panels.empty()) throw InputError("no cycle tells a residual or forces");
+  return chart;
+}
+
 Chart history_chart(const std::vector<PlotTable>& histories) {
   Chart chart{{"step"},
               {{{"residual", true}, {{"residual", {}}}}, {{"CL"}, {{"CL", {}}}}, {{"CD"}, {{"CD", {}}}}}};

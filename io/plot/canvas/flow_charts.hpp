@@ -28,6 +28,15 @@ PlotTable read_plot_table(const std::string& path);
 /// downwards. `window` is what the axes show.
 Chart wall_chart(const PlotTable& walls, const std::string& column, const std::optional<Box>& window);
 
+/// What one cycle of an adaptive run came to.
+struct CycleFigures {
+  double cycle = 0;
+  std::optional<double> residual, cl, cd;
+};
+
+/// Residual, CL and CD over the cycles, as far as any cycle has them. Throws InputError where none has any.
+Chart cycles_chart(const std::vector<CycleFigures>& cycles);
+
 /// Residual, CL and CD over steps, of runs that follow each other, with a mark where one ends.
 Chart history_chart(const std::vector<PlotTable>& histories);
 

@@ -30,6 +30,16 @@ TEST(Record, ItsCaseComesBack) {
   EXPECT_TRUE(recorded_case(json_text({}))->settings.empty());
 }
 
+TEST(Record, ItsNumbersComeBack) {
+  CycleRecord record = sample();
+  record.cl = -0.25;
+  record.forces = {{"wall", 7, 8, 0, 0}};
+  const std::string text = json_text(record);
+  EXPECT_EQ(recorded_number(text, "cl"), -0.25);
+  EXPECT_FALSE(recorded_number(text, "cd").has_value()) << "that of the wall is none of the record's";
+  EXPECT_FALSE(recorded_number(text, "forces").has_value());
+}
+
 TEST(Record, ItsBytesStay) {
   CycleRecord record = sample();
   record.nodes = 7;

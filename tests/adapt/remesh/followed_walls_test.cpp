@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/generate/mesh_trial.hpp"
+#include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -84,6 +86,71 @@ TEST(FollowedWalls, TellFrictionByYPlusOfTheFirstNodes) {
     for (const char* name : {"y_plus", "Y_Plus", "yPlus", "y+"})
       expect_friction_of_the_floor(
           wall_to_follow(world(), input, options(), solved(world(), input, name, y_plus)));
+  }
+}
+
+/// The flow of a solver that keeps its values in cells, 0 where they touch no wall, as OpenFOAM's function
+/// objects do; of an edge at the floor by the place of its middle.
+SolvedMesh solved_in_cells(const MeshInput& input, const std::vector<std::string>& names,
+                           const std::function<std::vector<double>(double x, double height)>& values) {
+  MeshResult made = generate_mesh(world(), input).result;
+  SolvedMesh solved{std::move(made.mesh), std::move(made.tree), {}, "flow.mesh"};
+  CellValues& cells = solved.solution.cells;
+  cells.names = names;
+  const std::vector<CellShape> shapes = cell_shapes(solved.mesh);
+  std::size_t number = 0;
+  const auto add = [&](const auto& cell) {
+    double sum = 0;
+    int feet = 0;
+    for (const NodeId node : cell) {
+      if (solved.mesh.point(node).y != 0) continue;
+      sum += solved.mesh.point(node).x;
+      ++feet;
+    }
+    std::vector<double> row(names.size(), 0);
+    if (feet == 2) row = values(sum / 2, shapes[number].centroid.y);
+    cells.values.insert(cells.values.end(), row.begin(), row.end());
+    ++number;
+  };
+  for (const auto& cell : solved.mesh.triangles) add(cell);
+  for (const auto& cell : solved.mesh.quads) add(cell);
+  return solved;
+}
+
+/// Linear inside; at its ends the mean of one edge alone, half a cell away.
+void expect_friction_of_cells(const MeasuredWall& wall) {
+  ASSERT_GT(wall.size(), 10U);
+  for (const MeasuredEdge& edge : wall) {
+    const double allowed = edge.from.x == 0 || edge.to.x == 4 ? 0.03 * wall_units(4) : 1;
+    EXPECT_NEAR(edge.wall_units_from, wall_units(edge.from.x), allowed);
+    EXPECT_NEAR(edge.wall_units_to, wall_units(edge.to.x), allowed);
+  }
+}
+
+TEST(FollowedWalls, TellFrictionByTheCellsAtThem) {
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    MeshInput input = channel();
+    input.mesh.type = type;
+    const SolvedMesh by_height =
+        solved_in_cells(input, {"U_x", "yPlus"}, [](double x, double height) -> std::vector<double> {
+          return {1, height * wall_units(x)};
+        });
+    expect_friction_of_cells(wall_to_follow(world(), input, options(), by_height));
+    const SolvedMesh by_shear = solved_in_cells(input, {"rho", "wallShearStress_x", "wallShearStress_y"},
+                                                [](double x, double) -> std::vector<double> {
+                                                  return {density, 0.6 * shear(x), 0.8 * shear(x)};
+                                                });
+    expect_friction_of_cells(wall_to_follow(world(), input, options(), by_shear));
+  }
+  const SolvedMesh bad = solved_in_cells(channel(), {"yPlus"}, [](double x, double) -> std::vector<double> {
+    return {x > 3 ? std::nan("") : 1};
+  });
+  try {
+    wall_to_follow(world(), channel(), options(), bad);
+    FAIL();
+  } catch (const InputError& fault) {
+    EXPECT_TRUE(std::string(fault.what()).starts_with("flow.mesh: 'yPlus' is not finite in the cell"))
+        << fault.what();
   }
 }
 

@@ -6,6 +6,7 @@ forces from the history and along walls, the same files on any number of ranks; 
 """
 import argparse
 import json
+import shutil
 import sys
 import tempfile
 from pathlib import Path
@@ -89,6 +90,14 @@ def check_refusals(program, folder):
     require(status == 3 and "has no condition" in said, f"a marker without a condition: {status} {said}")
 
 
+def check_no_su2(program, folder):
+    """Without a command, on a machine without SU2."""
+    case = wedge_case(folder / "no_su2", "RESTART")
+    case.write_text(case.read_text().split("command =")[0])
+    status, said = attempt(program, "adapt", case, "-o", folder / "made_without")
+    require(status == 1 and "[solver] has no command, so SU2_CFD is run: the program 'SU2_CFD' is in no folder of PATH" in said, f"{status} {said}")
+
+
 def check_resume(program, folder):
     """A changed configuration is told, by its name; the cycles that are there stay."""
     case, made = wedge_case(folder / "resumed", "RESTART"), folder / "resumed_run"
@@ -132,6 +141,8 @@ def main():
             adapt(program, case, folder / f"on_3_{restart}", ranks=3)
             require_same_folders(made, folder / f"on_3_{restart}", "on 3 ranks")
         check_refusals(program, folder)
+        if shutil.which("SU2_CFD") is None:
+            check_no_su2(program, folder)
         check_resume(program, folder)
         check_cases(program, folder)
     print("the loop with SU2's stand-in: both kinds of restart files, 1 and 3 ranks, refusals, cases")

@@ -2,6 +2,7 @@
 #include "flow/command/environment.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -66,6 +67,25 @@ TEST(Environment, IsThatOfThisProcessCleaned) {
   EXPECT_EQ(times(environment, "PWD=/a b"), 1);
   EXPECT_EQ(times(environment, "PWD=/elsewhere"), 0);
   EXPECT_EQ(times(environment, std::string("PATH=") + std::getenv("PATH")), 1);
+}
+
+TEST(Environment, LetsAnMpirunOfTheSolversRunAsThisUserOnSoManyRanks) {
+  const char* const root = "OMPI_ALLOW_RUN_AS_ROOT=1";
+  const char* const confirmed = "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1";
+  const char* const crowded = "OMPI_MCA_rmaps_base_oversubscribe=1";
+  for (const char* name :
+       {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe"})
+    unsetenv(name);
+  const int as_root = geteuid() == 0 ? 1 : 0;
+  EXPECT_EQ(times(environment_for("/a", 1), root), as_root);
+  EXPECT_EQ(times(environment_for("/a", 1), confirmed), as_root);
+  EXPECT_EQ(times(environment_for("/a", 1), crowded), 0);
+  EXPECT_EQ(times(environment_for("/a", 2), crowded), 1);
+  setenv("OMPI_MCA_rmaps_base_oversubscribe", "0", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  EXPECT_EQ(times(environment_for("/a", 2), crowded), 0) << "the user's own";
+  EXPECT_EQ(times(environment_for("/a", 2), root), 1) << "once";
+  unsetenv("OMPI_MCA_rmaps_base_oversubscribe");
 }
 
 }  // namespace

@@ -75,6 +75,42 @@ TEST(FoamFields, RefusesWhatItCannotRead) {
   EXPECT_NE(refusal(folder, 3).find("writeCompression off"), std::string::npos);
 }
 
+std::string poly_mesh_head(const std::string& of_class) {
+  return "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class " + of_class + ";\n    object x;\n}\n";
+}
+
+TEST(FoamFields, CellsAtWallsGetWhatOpenfoamKnowsThere) {
+  const TemporaryFolder folder;
+  folder.write("mesh/owner", poly_mesh_head("labelList") + "6\n(\n0\n1\n0\n2\n2\n1\n)\n");
+  folder.write("mesh/boundary", poly_mesh_head("polyBoundaryMesh") +
+                                    "3\n(\nfloor\n{\n type wall;\n nFaces 2;\n startFace 2;\n}\n"
+                                    "lid\n{\n type patch;\n nFaces 1;\n startFace 4;\n}\n"
+                                    "empty\n{\n type wall;\n nFaces 1;\n startFace 5;\n}\n)\n");
+  const std::string zero = "internalField uniform 0;\nboundaryField\n{\n",
+                    lid = "lid { type calculated; value uniform ";
+  folder.write("7/yPlus", head("volScalarField") + zero +
+                              "floor { type calculated; value nonuniform List<scalar> 2(1.5 2.5); }\n" + lid +
+                              "9; }\nempty { type zeroGradient; }\n}\n");
+  folder.write("7/wallShearStress",
+               head("volVectorField") +
+                   "internalField uniform (0 0 0);\nboundaryField\n{\n\"floor\" { // value no;\n" +
+                   " type calculated; value uniform (-3 4 0); }\n}\n");
+  folder.write("7/p", head("volScalarField") + zero + "floor { value uniform 8; }\n}\n");
+  CellValues cells = read_foam_fields(folder.file("7"), 3);
+  put_wall_values(folder.file("7"), folder.file("mesh"), cells);
+  EXPECT_EQ(cells.names, (std::vector<std::string>{"p", "wallShearStress_x", "wallShearStress_y", "yPlus"}));
+  EXPECT_EQ(cells.values, (std::vector<double>{0, -3, 4, 1.5, 0, 0, 0, 0, 0, -3, 4, 2.5}));
+  folder.write("7/yPlus",
+               head("volScalarField") + zero + "floor { value nonuniform List<scalar> 1(1); }\n}\n");
+  try {
+    put_wall_values(folder.file("7"), folder.file("mesh"), cells);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("yPlus: has values for 1 faces, floor has 2"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(FoamFields, TheLatestTimeIsTheLargestNumber) {
   const TemporaryFolder folder;
   EXPECT_EQ(latest_foam_time(folder.path()), "");

@@ -1,0 +1,88 @@
+#include "app/plot_tables.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <vector>
+
+#include "adapt/loop/record.hpp"
+#include "adapt/solvers/cycle_paths.hpp"
+#include "io/files/input_file.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct WholeCycle {
+  int number;
+  CyclePaths paths;
+};
+
+/// Of an adaptive run, one after the other.
+std::vector<WholeCycle> cycles_in(const std::string& run) {
+  std::vector<WholeCycle> cycles;
+  constexpr std::string_view head = "cycle_";
+  for (const fs::directory_entry& entry : fs::directory_iterator(run)) {
+    const std::string name = entry.path().filename();
+    if (!name.starts_with(head) || !entry.is_directory()) continue;
+    int number = 0;
+    const char* const end = name.data() + name.size();
+    const auto [after, fault] = std::from_chars(name.data() + head.size(), end, number);
+    if (fault == std::errc() && after == end) cycles.push_back({number, {entry.path()}});
+  }
+  if (cycles.empty()) throw InputError(run + ": holds no cycle; name the folder of 'quadloop adapt'");
+  std::ranges::sort(cycles, {}, &WholeCycle::number);
+  return cycles;
+}
+
+constexpr const char* cure =
+    "; forces and the flow along walls are written where [flow] has a pressure, and boundaries with bc = "
+    "\"wall\"";
+
+/// The table itself, or that beside a mesh with a flow.
+std::string table_of(const std::string& input, const char* suffix) {
+  if (input.ends_with(".csv")) return input;
+  const std::string table = fs::path(input).replace_extension().string() + suffix;
+  if (!fs::exists(table))
+    throw InputError(table + ": is not there; 'quadloop solve' writes it beside the flow");
+  return table;
+}
+
+Chart chart_of_records(const std::string& run, const std::vector<WholeCycle>& cycles) {
+  std::vector<CycleFigures> figures;
+  for (const auto& [number, paths] : cycles) {
+    if (!fs::exists(paths.record())) continue;
+    const std::string json = read_input(paths.record());
+    figures.push_back({static_cast<double>(number), recorded_number(json, "residual"),
+                       recorded_number(json, "cl"), recorded_number(json, "cd")});
+  }
+  try {
+    return cycles_chart(figures);
+  } catch (const InputError& error) {
+    throw InputError(run + ": " + error.what() + cure);
+  }
+}
+
+}  // namespace
+
+PlotTable wall_table_for(const std::string& input) {
+  if (!fs::is_directory(input)) return read_plot_table(table_of(input, wall_table_suffix));
+  const std::string table = cycles_in(input).back().paths.walls();
+  if (!fs::exists(table)) throw InputError(table + ": is not there" + cure);
+  return read_plot_table(table);
+}
+
+Chart chart_of_history(const std::string& input) {
+  if (!fs::is_directory(input)) return history_chart({read_plot_table(table_of(input, history_suffix))});
+  const std::vector<WholeCycle> cycles = cycles_in(input);
+  std::vector<PlotTable> histories;
+  for (const WholeCycle& cycle : cycles) {
+    if (fs::exists(cycle.paths.history())) histories.push_back(read_plot_table(cycle.paths.history()));
+  }
+  return histories.empty() ? chart_of_records(input, cycles) : history_chart(histories);
+}
+
+}  // namespace quadloop
