@@ -17,9 +17,15 @@ const std::string control =
     "functions { writeFormat binary; }\napplication  simpleFoam;\nwriteFormat ascii;\n";
 const std::string field = "FoamFile { class volScalarField; format ascii; }\ninternalField uniform 1;\n";
 
+/// On the calling rank alone.
+void put(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
+  fs::create_directories(fs::path(folder.file(name)).parent_path());
+  test::write_bytes(folder.file(name), text);
+}
+
 void make_case(const TemporaryFolder& folder) {
-  folder.write("system/controlDict", control);
-  folder.write("0/p", field);
+  put(folder, "system/controlDict", control);
+  put(folder, "0/p", field);
 }
 
 std::string refusal(const TemporaryFolder& folder) {
@@ -31,7 +37,7 @@ std::string refusal(const TemporaryFolder& folder) {
   return "none";
 }
 
-/// On the root; others have no folder of their own.
+/// On the root alone, in the folder of all.
 template <class Body>
 void on_root(const Body& body) {
   const TemporaryFolder folder;
@@ -46,8 +52,8 @@ TEST(OpenfoamTemplate, IsCopiedWithoutWhatRunsHaveLeft) {
   on_root([](const TemporaryFolder& folder) {
     for (const char* name : {"run/cycle_00.part/x", "deep/run/cycle_07/x", "12/p", "log.a", "processor1/x",
                              "constant/polyMesh/points"})
-      folder.write(name, "");
-    folder.write("deep/cycle_of_values", "");
+      put(folder, name, "");
+    put(folder, "deep/cycle_of_values", "");
     fs::create_symlink("0", folder.file("linked"));
     const OpenfoamTemplate given = read_openfoam_template(folder.path());
     EXPECT_EQ(given.application, "simpleFoam");
@@ -81,11 +87,11 @@ TEST(OpenfoamTemplate, ControlDictMustNameWhatIsRunAndWriteText) {
                                      {"application a;\nwriteFormat binary;", "writeFormat is binary"},
                                      {"application a;\nwriteCompression on;", "writeCompression is on"},
                                      {"application \"a;b\";", "application is 'a;b'"}}) {
-      folder.write("system/controlDict", text);
+      put(folder, "system/controlDict", text);
       EXPECT_TRUE(refusal(folder).starts_with(path + ": " + said)) << refusal(folder);
     }
-    folder.write("system/controlDict", "");
-    folder.write("Allrun", "#!/bin/sh\n");
+    put(folder, "system/controlDict", "");
+    put(folder, "Allrun", "#!/bin/sh\n");
     EXPECT_NE(refusal(folder).find("chmod +x"), std::string::npos) << refusal(folder);
     fs::permissions(folder.file("Allrun"), fs::perms::owner_all);
     EXPECT_EQ(read_openfoam_template(folder.path()).application, "Allrun");
@@ -94,7 +100,7 @@ TEST(OpenfoamTemplate, ControlDictMustNameWhatIsRunAndWriteText) {
 
 TEST(OpenfoamTemplate, FieldsMustBeThereAsText) {
   on_root([](const TemporaryFolder& folder) {
-    folder.write("0/p", "FoamFile { class volScalarField; }\n#include \"all\"\n");
+    put(folder, "0/p", "FoamFile { class volScalarField; }\n#include \"all\"\n");
     EXPECT_NE(refusal(folder).find("0/p: has no internalField"), std::string::npos) << refusal(folder);
     fs::rename(folder.file("0"), folder.file("0.orig"));
     EXPECT_NE(refusal(folder).find("0.orig/p: has no internalField"), std::string::npos) << refusal(folder);
