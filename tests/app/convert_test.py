@@ -84,7 +84,8 @@ class Convert(ProgramTest):
         text = self.mesh("hybrid")
         self.converted("a.mesh", "a.cgns")
         for first, second in itertools.pairwise(("a.cgns", "a.ugrid", "constant.polyMesh", "b.cgns", "back.mesh")):
-            self.assertEqual(self.converted(first, second), "")
+            # nothing says what the boundaries are, and neither program takes that as it is
+            self.assertEqual("which boundaries are walls" in self.converted(first, second), second in ("a.ugrid", "constant.polyMesh"))
         self.assertEqual(self.bytes_of("back.mesh"), text.encode())
         self.converted("a.mesh", "a.fluent.msh")
         self.assertIn("boundary conditions", self.converted("a.fluent.msh", "b.mesh"))  # walls are, where nothing is said

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "smoother/node/method.hpp"
+#include "smoother/node/newton.hpp"
 #include "tests/smoother/stars.hpp"
 
 namespace quadloop {
@@ -47,6 +48,15 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EachSolver,
 
 TEST(Method, OfEachWordHasASolver) {
   for (const auto& [word, method] : method_words) EXPECT_NE(make_node_solver(method), nullptr) << word;
+}
+
+TEST(Newton, StepsAreShort) {
+  const Star star = test::fan_of(test::regular_polygon(6));
+  Newton newton;
+  const auto end = newton.improve(star, {0.5, 0}, Objective::power);
+  ASSERT_TRUE(end.has_value());
+  EXPECT_LT(end->x, 0.5);
+  EXPECT_GT(end->x, 0.5 - 3 * 0.1);  // three moves of 0.08 mean edges, which are 1.05 at most
 }
 
 TEST_P(EachSolver, OnlyBettersAStar) {
