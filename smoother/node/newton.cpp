@@ -13,8 +13,7 @@ constexpr double least_gain = 1e-4;    ///< of what is lowered: what Acceptance 
 constexpr double further_gain = 0.05;  ///< what a further move in one visit has to promise
 constexpr double flattest = 1e-3;      ///< of the curvatures' ratio, below which a step is the gradient's
 constexpr double cotangent_of_32 =
-    1.600334529041051;  ///< stars with smaller angles are worth a longer search, where no step helps,
-constexpr double cotangent_of_26 = 2.050303841579296;  ///< those with still smaller ones in any case
+    1.600334529041051;  ///< stars with smaller angles are worth a longer search
 /// Shares of a step that is refused, along it and to its left; tried together.
 constexpr std::array<Point, Star::batch> ways{
     {{0.6, 0}, {0.3, 0}, {0.1, 0}, {0.03, 0}, {0.3, 0.25}, {0.3, -0.25}, {0.05, 0.14}, {0.05, -0.14}}};
@@ -58,7 +57,6 @@ std::optional<Point> short_of(const Star& star, Point p, Point by, const Accepta
 std::optional<Point> Newton::improve(const Star& star, Point p, Objective objective) {
   if (objective != Objective::power) return perturbation_.improve(star, p, objective);
   StarModel now = star.model(p);
-  if (now.cost.largest_cotangent[0] > cotangent_of_26) return perturbation_.improve(star, p, objective);
   std::optional<Point> found;
   for (int move = 0; move < most_moves; ++move) {
     const Step step = newton_step(now);

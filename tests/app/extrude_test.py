@@ -84,7 +84,7 @@ class Extrude(ProgramTest):
         (self.folder / "s.mesh").write_text(with_velocity((self.folder / "a.mesh").read_text()))
         self.done("extrude", "s.mesh", "-o", "s.vtu", *EVEN, "--axis", "y", "-q")
         head = (self.folder / "s.vtu").read_bytes().split(b"<AppendedData")[0].decode()
-        names = [part.split('"')[0] for part in head.split("<PointData>")[1].split('Name="')[1:]]
+        names = [part.split('"')[0] for part in head.split("<PointData>")[1].split("</PointData>")[0].split('Name="')[1:]]
         self.assertEqual(names, ["density", "x_velocity", "z_velocity", "y_velocity"])
         _, said = self.done("extrude", "s.mesh", "-o", "s.su2", *EVEN)
         self.assertIn("no place for the solution", said)
