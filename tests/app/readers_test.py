@@ -55,6 +55,17 @@ def with_values(mesh):
             "#Number of cell variables\n1\n#names: pressure\n" + rows(cells)), nodes, number("#Number of triangular elements"), cells
 
 
+# Of meshes of two dimensions and of three: who reads each format, and what that needs.
+IN_BOTH = {
+    "vtu": {"vtk": "vtk", "meshio": "meshio"},
+    "pvtu": {"vtk": "vtk"},
+    "cgns": {"vtk_cgns": "vtk", "cgnscheck": "cgnscheck"},
+    "su2": {"meshio": "meshio"},
+    "msh": {"gmsh": "gmsh", "meshio": "meshio"},
+    "msh41": {"gmsh": "gmsh"},
+}
+
+
 class Readers(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -177,12 +188,7 @@ class Readers(ProgramTest):
 
     def test_two_dimensions(self):
         table = {
-            "vtu": {"vtk": "vtk", "meshio": "meshio"},
-            "pvtu": {"vtk": "vtk"},
-            "cgns": {"vtk_cgns": "vtk", "cgnscheck": "cgnscheck"},
-            "su2": {"meshio": "meshio"},
-            "msh": {"gmsh": "gmsh", "meshio": "meshio"},
-            "msh41": {"gmsh": "gmsh"},
+            **IN_BOTH,
             "fluent.msh": {"vtk_fluent": "vtk"},
         }
         wanted = {"nodes": self.nodes, "cells": self.cells, "names": NAMES}
@@ -192,12 +198,7 @@ class Readers(ProgramTest):
 
     def test_three_dimensions(self):
         table = {
-            "vtu": {"vtk": "vtk", "meshio": "meshio"},
-            "pvtu": {"vtk": "vtk"},
-            "cgns": {"vtk_cgns": "vtk", "cgnscheck": "cgnscheck"},
-            "su2": {"meshio": "meshio"},
-            "msh": {"gmsh": "gmsh", "meshio": "meshio"},
-            "msh41": {"gmsh": "gmsh"},
+            **IN_BOTH,
             "b8.ugrid": {"meshio": "meshio"},
             "lb8.ugrid": {"meshio": "meshio"},
             "polyMesh": {"check_mesh": "checkMesh"},
