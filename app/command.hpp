@@ -54,6 +54,7 @@ struct CommandContext {
 void add_mesh_command(CLI::App& app, CommandContext& context);
 void add_adapt_command(CLI::App& app, CommandContext& context);
 void add_remesh_command(CLI::App& app, CommandContext& context);
+void add_morph_command(CLI::App& app, CommandContext& context);
 void add_smooth_command(CLI::App& app, CommandContext& context);
 void add_solve_command(CLI::App& app, CommandContext& context);
 void add_check_command(CLI::App& app, CommandContext& context);

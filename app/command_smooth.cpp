@@ -16,6 +16,7 @@
 #include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
+#include "io/loaded/interface_nodes.hpp"
 #include "io/loaded/tidy_mesh.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
@@ -46,24 +47,6 @@ struct Loaded {
   std::optional<Geometry> geometry;
   bool delaunay = false;  ///< on every rank
 };
-
-NodeFlags interface_nodes(const LoadedMesh& loaded) {
-  const Mesh& mesh = loaded.mesh;
-  IdVector<NodeId, std::int32_t> block_of(mesh.points.size(), -1);
-  NodeFlags shared(mesh.points.size(), 0);
-  const auto visit = [&](const auto& cells, const std::vector<std::int32_t>& blocks) {
-    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-      for (const NodeId node : cells[cell]) {
-        std::int32_t& block = block_of[node];
-        if (block >= 0 && block != blocks[cell]) shared[node] = 1;
-        block = blocks[cell];
-      }
-    }
-  };
-  visit(mesh.triangles, loaded.triangle_to_block);
-  visit(mesh.quads, loaded.quad_to_block);
-  return shared;
-}
 
 /// Layers are cut by the shorter diagonals; that may be Delaunay or not.
 bool is_delaunay_outside_layers(const LoadedMesh& loaded) {

@@ -68,6 +68,7 @@ void add_commands(CLI::App& app, CommandContext& context) {
   app.add_flag("--json", context.json, about_json);
   add_mesh_command(app, context);
   add_smooth_command(app, context);
+  add_morph_command(app, context);
   add_adapt_command(app, context);
   add_solve_command(app, context);
   add_remesh_command(app, context);

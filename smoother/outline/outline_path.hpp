@@ -37,6 +37,10 @@ class OutlinePath {
   /// The length that `on_outline` stands for.
   double tolerance() const { return tolerance_; }
 
+  /// The length of a loop, and of the way along it from its first vertex to another one.
+  double loop_length(std::int32_t loop) const { return length_[loop]; }
+  double arc_of(std::int32_t vertex) const { return arc_[vertex]; }
+
   /// The place at an arc, which may lie beyond the loop's ends by less than its length.
   OutlinePlace place_at(std::int32_t loop, double arc) const;
   /// The place so far ahead of another, or behind it; quick for short steps.
@@ -70,7 +74,6 @@ class OutlinePath {
     double distance = 0;
   };
   Nearest nearest(Point p, const std::string& boundary, double within) const;
-  double loop_length(std::int32_t loop) const { return length_[loop]; }
   std::int32_t segment_at(std::int32_t loop, double arc) const;
   bool holds(std::int32_t segment, double arc) const;
   double within(std::int32_t loop, double arc) const;

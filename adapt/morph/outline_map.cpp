@@ -1,0 +1,240 @@
+#include "adapt/morph/outline_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "mesher/base/error.hpp"
+#include "mesher/geometry/nearest_on_segment.hpp"
+#include "smoother/outline/outline_match.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double least_corner = 10;  // degrees: what turns less is no counterpart of a corner
+
+using NameSet = std::set<std::string>;
+
+const std::string& name_of_segment(const Geometry& geometry, std::int32_t v) {
+  return geometry.boundary(geometry.boundary_of(v)).name;
+}
+
+template <class Visit>
+void for_each_vertex(const Geometry& geometry, std::int32_t loop, const Visit& visit) {
+  for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) visit(v);
+}
+
+NameSet names_of(const Geometry& geometry, std::int32_t loop) {
+  NameSet names;
+  for_each_vertex(geometry, loop, [&](std::int32_t v) { names.insert(name_of_segment(geometry, v)); });
+  return names;
+}
+
+std::string listed(const NameSet& names) { return fmt::format("'{}'", fmt::join(names, "' and '")); }
+
+Point centre_of(const Geometry& geometry, std::int32_t loop) {
+  Box box;
+  for_each_vertex(geometry, loop, [&](std::int32_t v) { box.include(geometry.point(v)); });
+  return box.centre();
+}
+
+double area_of(const Geometry& geometry, std::int32_t loop) {
+  double twice = 0;
+  const Point origin = geometry.point(geometry.loop_start(loop));
+  for_each_vertex(geometry, loop, [&](std::int32_t v) {
+    twice += cross(geometry.point(v) - origin, geometry.point(geometry.next(v)) - origin);
+  });
+  return twice / 2;
+}
+
+/// The loop with the same boundaries whose centre is nearest, of those that may be taken; -1: none.
+template <class MayTake>
+std::int32_t counterpart(const Geometry& outline, std::int32_t loop, const Geometry& other,
+                         const MayTake& may_take) {
+  const NameSet names = names_of(outline, loop);
+  std::int32_t nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t candidate = 0; candidate < other.loop_count(); ++candidate) {
+    if (!may_take(candidate) || names_of(other, candidate) != names) continue;
+    const double away = length(centre_of(other, candidate) - centre_of(outline, loop));
+    if (away >= least) continue;
+    least = away;
+    nearest = candidate;
+  }
+  return nearest;
+}
+
+bool begins_boundary(const Geometry& geometry, std::int32_t v) {
+  return geometry.boundary_of(v) != geometry.boundary_of(geometry.previous(v));
+}
+
+std::vector<std::int32_t> kept_vertices(const Geometry& geometry, std::int32_t loop) {
+  std::vector<std::int32_t> kept;
+  for_each_vertex(geometry, loop, [&](std::int32_t v) {
+    if (geometry.kept(v)) kept.push_back(v);
+  });
+  return kept;
+}
+
+/// At most so many, ascending: where boundaries begin, then where the outline turns most.
+std::vector<std::int32_t> sharpest_vertices(const Geometry& geometry, std::int32_t loop, std::size_t count) {
+  std::vector<std::int32_t> found;
+  for_each_vertex(geometry, loop, [&](std::int32_t v) {
+    if (begins_boundary(geometry, v) || geometry.turn_degrees(v) >= least_corner) found.push_back(v);
+  });
+  const auto worth = [&](std::int32_t v) {
+    return std::pair(begins_boundary(geometry, v), geometry.turn_degrees(v));
+  };
+  std::ranges::stable_sort(found, [&](std::int32_t a, std::int32_t b) { return worth(a) > worth(b); });
+  found.resize(std::min(count, found.size()));
+  std::ranges::sort(found);
+  return found;
+}
+
+[[noreturn]] void refuse_corner(const std::string& file, const Geometry& to, std::int32_t v) {
+  throw InputError(
+      fmt::format("{}: the corner of boundary '{}' at ({:g}, {:g}) has no counterpart on the mesh's outline; "
+                  "mesh the new outline anew",
+                  file, name_of_segment(to, v), to.point(v).x, to.point(v).y));
+}
+
+/// By how many vertices the corners `to` are walked on so that they stand for those of `from`: the names that
+/// follow are the same, and they lie nearest to them when the loops' centres are laid on each other.
+std::optional<std::size_t> turn_of(const Geometry& old_outline, std::span<const std::int32_t> from,
+                                   const Geometry& new_outline, std::span<const std::int32_t> to,
+                                   Point shift) {
+  std::optional<std::size_t> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t turn = 0; turn < to.size(); ++turn) {
+    double sum = 0;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      const std::int32_t v = to[(k + turn) % to.size()];
+      if (name_of_segment(old_outline, from[k]) != name_of_segment(new_outline, v))
+        sum = std::numeric_limits<double>::infinity();
+      const Point away = new_outline.point(v) - old_outline.point(from[k]) - shift;
+      sum += dot(away, away);
+    }
+    if (sum >= least) continue;
+    least = sum;
+    best = turn;
+  }
+  return best;
+}
+
+/// The way along a loop to its place nearest to p.
+double nearest_arc(const Geometry& geometry, const OutlinePath& path, std::int32_t loop, Point p) {
+  double arc = 0, least = std::numeric_limits<double>::infinity();
+  for_each_vertex(geometry, loop, [&](std::int32_t v) {
+    const Point a = geometry.point(v), b = geometry.point(geometry.next(v));
+    const PlaceOnSegment place = place_on_segment(p, a, b);
+    if (place.squared_distance >= least) return;
+    least = place.squared_distance;
+    arc = path.arc_of(v) + place.parameter * length(b - a);
+  });
+  return arc;
+}
+
+bool same_names(const Geometry& a, std::int32_t loop_a, const Geometry& b, std::int32_t loop_b) {
+  const std::int32_t begin_a = a.loop_start(loop_a), begin_b = b.loop_start(loop_b);
+  const std::int32_t count = a.loop_start(loop_a + 1) - begin_a;
+  if (b.loop_start(loop_b + 1) - begin_b != count) return false;
+  for (std::int32_t k = 0; k < count; ++k) {
+    if (name_of_segment(a, begin_a + k) != name_of_segment(b, begin_b + k)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Geometry walked_as(const Geometry& like, const Geometry& outline) {
+  std::vector<char> against;
+  for (std::int32_t loop = 0; loop < outline.loop_count(); ++loop) {
+    const std::int32_t other = counterpart(outline, loop, like, [](std::int32_t) { return true; });
+    against.push_back(other >= 0 && area_of(outline, loop) * area_of(like, other) < 0 ? 1 : 0);
+  }
+  return with_loops_turned(outline, against);
+}
+
+OutlineMap::OutlineMap(const Geometry& from, const Geometry& to, bool by_points, const std::string& name)
+    : from_{from}, to_{to}, old_path_{from}, new_path_{to}, by_points_{by_points}, loops_(from.loop_count()) {
+  match_loops(name);
+  for (std::int32_t loop = 0; loop < from.loop_count(); ++loop) {
+    if (maps(loop)) by_points_ = by_points_ && same_names(from, loop, to, loops_[loop].image);
+  }
+  for (std::int32_t loop = 0; loop < from.loop_count(); ++loop) {
+    if (maps(loop)) loops_[loop] = anchored(loop, loops_[loop].image, name);
+  }
+}
+
+void OutlineMap::match_loops(const std::string& name) {
+  for (std::int32_t image = 0; image < to_.loop_count(); ++image) {
+    const std::int32_t nearest =
+        counterpart(to_, image, from_, [&](std::int32_t loop) { return !maps(loop); });
+    if (nearest < 0)
+      throw InputError(fmt::format("{}: has more loops of {} than the mesh; mesh the new outline anew", name,
+                                   listed(names_of(to_, image))));
+    loops_[nearest].image = image;
+  }
+  for (std::int32_t loop = 0; loop < from_.loop_count(); ++loop) {
+    if (maps(loop)) continue;
+    const NameSet names = names_of(from_, loop);
+    for (std::int32_t image = 0; image < to_.loop_count(); ++image) {
+      const NameSet other = names_of(to_, image);
+      const bool shared = std::ranges::any_of(names, [&](const auto& n) { return other.contains(n); });
+      if (shared)
+        throw InputError(
+            fmt::format("{}: the mesh has a loop of {} near ({:g}, {:g}) that has no counterpart; "
+                        "mesh the new outline anew",
+                        name, listed(names), centre_of(from_, loop).x, centre_of(from_, loop).y));
+    }
+  }
+}
+
+OutlineMap::LoopMap OutlineMap::anchored(std::int32_t loop, std::int32_t image,
+                                         const std::string& name) const {
+  LoopMap map{image, {}, {}};
+  std::vector<std::int32_t> corners, counterparts;
+  std::size_t turn = 0;
+  const Point shift = centre_of(to_, image) - centre_of(from_, loop);
+  if (by_points_) {
+    for_each_vertex(from_, loop, [&](std::int32_t v) { corners.push_back(v); });
+    for_each_vertex(to_, image, [&](std::int32_t v) { counterparts.push_back(v); });
+  } else {
+    counterparts = kept_vertices(to_, image);
+    corners = sharpest_vertices(from_, loop, counterparts.size());
+    if (corners.size() < counterparts.size()) refuse_corner(name, to_, counterparts.back());
+    const auto found = turn_of(from_, corners, to_, counterparts, shift);
+    if (!found && !corners.empty()) refuse_corner(name, to_, counterparts.front());
+    turn = found.value_or(0);
+  }
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    double arc = new_path_.arc_of(counterparts[(k + turn) % counterparts.size()]);
+    if (k + turn >= counterparts.size()) arc += new_path_.loop_length(image);
+    map.from.push_back(old_path_.arc_of(corners[k]));
+    map.to.push_back(arc);
+  }
+  if (!corners.empty()) return map;
+  const Point first = from_.point(from_.loop_start(loop));
+  return {image, {0}, {nearest_arc(to_, new_path_, image, first + shift)}};
+}
+
+Point OutlineMap::image(std::int32_t loop, double arc) const {
+  const LoopMap& map = loops_[loop];
+  const double old_length = old_path_.loop_length(loop), new_length = new_path_.loop_length(map.image);
+  if (arc < map.from.front()) arc += old_length;
+  const std::size_t k = std::ranges::upper_bound(map.from, arc) - map.from.begin() - 1;
+  const bool last = k + 1 == map.from.size();
+  const double old_end = last ? map.from.front() + old_length : map.from[k + 1],
+               new_end = last ? map.to.front() + new_length : map.to[k + 1];
+  const double share = (arc - map.from[k]) / (old_end - map.from[k]);
+  double on_new = map.to[k] + share * (new_end - map.to[k]);
+  if (on_new >= new_length) on_new -= new_length;
+  return new_path_.point_at(new_path_.place_at(map.image, on_new));
+}
+
+}  // namespace quadloop

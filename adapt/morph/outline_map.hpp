@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesher/geometry/geometry.hpp"
+#include "smoother/outline/outline_path.hpp"
+
+namespace quadloop {
+
+/// An outline whose loops are walked as those of the same names are in `like`; an outline alone, as that of
+/// an airfoil without its far field, does not know on which side the domain lies.
+Geometry walked_as(const Geometry& like, const Geometry& outline);
+
+/// Takes places of an outline to places of another one of the same shape in the large: loop by loop, between
+/// vertices that stand for each other by shares of the way. Those vertices are all of them where both
+/// outlines have as many and `by_points` is asked for, else the kept ones of the new outline and the sharpest
+/// of the old. Loops of names that the new outline lacks have no image. A smooth function of the new
+/// outline's points as long as the same vertices stand for each other.
+class OutlineMap {
+ public:
+  /// Both outlines must outlive it. Throws InputError, with `name` of the new one's file, where a loop or a
+  /// corner has no counterpart.
+  OutlineMap(const Geometry& from, const Geometry& to, bool by_points, const std::string& name);
+
+  bool maps(std::int32_t loop) const { return loops_[loop].image >= 0; }
+  /// `arc`: the way along the loop from its first vertex.
+  Point image(std::int32_t loop, double arc) const;
+  /// Whether all vertices stand for each other.
+  bool is_by_points() const { return by_points_; }
+
+ private:
+  /// Places that stand for each other, ascending along the old loop from its first one on.
+  struct LoopMap {
+    std::int32_t image = -1;  ///< the new loop; -1: none
+    std::vector<double> from, to;
+  };
+  void match_loops(const std::string& name);
+  LoopMap anchored(std::int32_t loop, std::int32_t image, const std::string& name) const;
+
+  const Geometry &from_, &to_;
+  OutlinePath old_path_, new_path_;
+  bool by_points_;
+  std::vector<LoopMap> loops_;
+};
+
+}  // namespace quadloop

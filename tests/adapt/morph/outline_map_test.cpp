@@ -1,0 +1,86 @@
+#include "adapt/morph/outline_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mesher/base/error.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
+
+namespace quadloop {
+namespace {
+
+Geometry outline(const std::vector<Chain>& chains) {
+  Warnings warnings;
+  AssembleOptions options;
+  options.domain_is_known = true;
+  return assemble(chains, options, warnings);
+}
+
+Chain loop(const std::string& name, const std::vector<Point>& points) {
+  return {name, false, points, "test"};
+}
+
+const std::vector<Point> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+/// A square whose lower side has a point more, and is longer.
+const std::vector<Point> house{{0, 0}, {1, -0.1}, {2, 0}, {2, 1}, {0, 1}};
+
+TEST(OutlineMap, SharesOfTheWayBetweenCorners) {
+  const Geometry from = outline({loop("body", square)}), to = outline({loop("body", house)});
+  const OutlineMap map(from, to, false, "to.geom");
+  EXPECT_EQ(map.image(0, 0), (Point{0, 0}));
+  EXPECT_EQ(map.image(0, 1), (Point{2, 0})) << "the bend of 11 degrees is no corner";
+  EXPECT_NEAR(map.image(0, 0.5).x, 1, 1e-14);
+  EXPECT_NEAR(map.image(0, 0.5).y, -0.1, 1e-14);
+  EXPECT_NEAR(map.image(0, 2.5).x, 1, 1e-14);
+  EXPECT_EQ(map.image(0, 2.5).y, 1);
+}
+
+TEST(OutlineMap, ByPointsWhereThereAreAsMany) {
+  std::vector<Point> moved = house;
+  moved[1] = {0.5, -0.1};
+  const Geometry from = outline({loop("body", house)}), to = outline({loop("body", moved)});
+  const OutlineMap by_points(from, to, true, "to.geom"), by_shares(from, to, false, "to.geom");
+  EXPECT_TRUE(by_points.is_by_points());
+  const double bend = length(house[1] - house[0]);
+  EXPECT_EQ(by_points.image(0, bend), moved[1]);
+  EXPECT_NE(by_shares.image(0, bend), moved[1]);
+  EXPECT_FALSE(OutlineMap(outline({loop("body", square)}), to, true, "to.geom").is_by_points());
+}
+
+TEST(OutlineMap, LoopsThatTheNewOutlineLacksStay) {
+  const std::vector<Point> frame{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}};
+  const Geometry from = outline({loop("far", frame), loop("body", square)}),
+                 to = outline({loop("body", square)});
+  const OutlineMap map(from, walked_as(from, to), false, "to.geom");
+  EXPECT_FALSE(map.maps(0));
+  EXPECT_TRUE(map.maps(1));
+}
+
+TEST(OutlineMap, AnOutlineAloneIsWalkedAsInTheMesh) {
+  const std::vector<Point> frame{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}};
+  const Geometry whole = outline({loop("far", frame), loop("body", square)}),
+                 alone = outline({loop("body", square)});
+  const Geometry turned = walked_as(whole, alone);
+  EXPECT_EQ(alone.point(1), (Point{1, 0}));
+  EXPECT_EQ(turned.point(1), (Point{0, 1})) << "clockwise, the domain outside";
+}
+
+TEST(OutlineMap, RefusesLoopsAndCornersWithoutACounterpart) {
+  const std::vector<Point> beside{{5, 0}, {6, 0}, {6, 1}, {5, 1}}, triangle{{0, 0}, {1, 0}, {0, 1}};
+  const Geometry one = outline({loop("body", square)}),
+                 two = outline({loop("body", square), loop("body", beside)});
+  const auto said = [](const Geometry& from, const Geometry& to) -> std::string {
+    try {
+      const OutlineMap map(from, to, false, "to.geom");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(said(one, two).find("more loops of 'body'"), std::string::npos);
+  EXPECT_NE(said(two, one).find("near (5.5, 0.5)"), std::string::npos);
+  EXPECT_NE(said(outline({loop("body", triangle)}), one).find("the corner of boundary 'body'"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace quadloop

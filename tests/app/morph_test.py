@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""`quadloop morph`: the same cells on a changed outline, with layers, on any number of ranks; what it refuses.
+
+    morph_test.py QUADLOOP MPIRUN
+"""
+import json
+import math
+import sys
+import unittest
+
+from program import ProgramTest
+
+CASE = """[geometry]
+file = "body.geom"
+far_field = 4
+[spacing]
+min = 0.02
+max = 0.5
+[boundary.body]
+spacing = 0.1
+layers = { first = 1e-3, growth = 1.3, count = 6 }
+[output]
+formats = ["mesh"]
+"""
+
+
+def lens(camber=0.0, points=40, turned=False, cut=None):
+    """Two arcs that meet in sharp tips, bent; clockwise, or the other way. `cut`: where a tip is cut off."""
+    arc = [(-1 + 2 * i / points, 0.2 * math.sin(math.pi * i / points)) for i in range(points)]
+    outline = [(x, y + camber * (1 - x * x)) for x, y in arc + [(-x, -y) for x, y in arc]]
+    if cut is not None:
+        outline = [(x, y) for x, y in outline if x < cut]
+    outline = outline[::-1] if turned else outline
+    return f"1\nbody\n{len(outline)}\n" + "".join(f"{x!r} {y!r}\n" for x, y in outline)
+
+
+def nodes_of(mesh):
+    rows = mesh.decode().splitlines()
+    return [tuple(map(float, row.split())) for row in rows[2:2 + int(rows[1])]]
+
+
+class Morph(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("case.toml", CASE)
+        self.write("body.geom", lens())
+        self.mesh()
+
+    def mesh(self, *options):
+        self.done("mesh", "case.toml", "-o", "in", "--geometry-out", "old.geom", "--quiet", *options)
+
+    def morph(self, text, *options, ranks=1):
+        self.write("new.geom", text)
+        stdout, stderr = self.done("morph", "in.mesh", "--geometry", "new.geom", "-o", "out.mesh", "--json", *options, ranks=ranks)
+        self.assertEqual(stderr, "")
+        return (self.folder / "out.mesh").read_bytes(), json.loads(stdout)
+
+    def with_far_field(self, text):
+        """The outline with the square that the mesh was made in."""
+        far = (self.folder / "old.geom").read_text().partition("farfield")[1:]
+        return "2" + text[1:] + "".join(far)
+
+    def cells(self, mesh):
+        return mesh.decode().split("\n", 2 + len(nodes_of(mesh)))[-1]
+
+    def test_the_same_cells_on_the_new_outline(self):
+        before = (self.folder / "in.mesh").read_bytes()
+        for options in ([], ["--from", "body.geom"]):
+            moved, said = self.morph(lens(0.1), *options)
+            self.assertEqual(self.cells(moved), self.cells(before))
+            self.assertFalse(said["smoothed"])
+            self.assertGreater(said["largest_move"], 0.09)
+            self.write("whole.geom", self.with_far_field(lens(0.1)))
+            self.done("check", "out.mesh", "--geometry", "whole.geom")
+
+    def test_layers_keep_their_heights(self):
+        def heights():
+            return [wall for wall in json.loads(self.done("check", name, "--json")[0])["layers"] if wall["boundary"] == "body"][0]
+        name = "in.mesh"
+        before = heights()
+        self.morph(lens(0.1), "--from", "body.geom")
+        name = "out.mesh"
+        after = heights()
+        self.assertEqual(before["columns"], after["columns"])
+        for key in ("first", "thickness"):
+            self.assertAlmostEqual(after[key][1] / before[key][1], 1, delta=1e-3, msg=f"the median {key}")
+
+    def test_its_own_outline_moves_nothing(self):
+        moved, said = self.morph(lens(), "--from", "body.geom")
+        for (x, y), (u, v) in zip(nodes_of(moved), nodes_of((self.folder / "in.mesh").read_bytes()), strict=True):
+            self.assertLess(math.hypot(x - u, y - v), 1e-12)
+
+    def test_whichever_way_the_outline_runs_and_however_many_points_it_has(self):
+        along, _ = self.morph(lens(0.1))
+        other, _ = self.morph(lens(0.1, turned=True))
+        fine, _ = self.morph(lens(0.1, points=80))
+        for mesh, limit in ((other, 1e-12), (fine, 0.01)):
+            for (x, y), (u, v) in zip(nodes_of(along), nodes_of(mesh), strict=True):
+                self.assertLess(math.hypot(x - u, y - v), limit)
+
+    def test_the_same_bytes_on_any_ranks(self):
+        for kind in ("hybrid", "delaunay"):
+            self.mesh("--type", kind)
+            for text in (lens(0.1), lens(0.5)):  # as it comes, and smoothed
+                one, said = self.morph(text)
+                for ranks in (2, 3, 5):
+                    self.assertEqual(self.morph(text, ranks=ranks)[0], one, f"{kind}, {ranks} ranks")
+            self.assertTrue(said["smoothed"])
+
+    def test_refusals(self):
+        self.write("cut.geom", lens(cut=0.9))
+        self.refused(1, ["cut.geom", "'body'", "has no counterpart"], "morph", "in.mesh", "--geometry", "cut.geom", "-o", "out.mesh")
+        self.write("other.geom", lens().replace("body", "wing"))
+        self.refused(1, ["other.geom", "'wing'"], "morph", "in.mesh", "--geometry", "other.geom", "-o", "out.mesh")
+        self.write("far.geom", lens(camber=3.5))
+        self.refused(1, ["in.mesh", "far.geom", "% of the way"], "morph", "in.mesh", "--geometry", "far.geom", "-o", "out.mesh")
+        self.refused(1, ["is not on boundary 'body'"], "morph", "in.mesh", "--geometry", "far.geom", "--from", "far.geom", "-o", "out.mesh")
+        self.assertFalse((self.folder / "out.mesh").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
