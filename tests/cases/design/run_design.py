@@ -9,6 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from quadloop_runs import ROOT, NativeMesh, fail, run
 
 CASE = ROOT / "cases" / "naca_design"
