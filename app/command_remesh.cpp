@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "adapt/remesh/morphed_mesh.hpp"
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "adapt/remesh/tree_mesh.hpp"
@@ -182,7 +183,9 @@ void report(const CommandContext& context, const CarriedMesh& carried, const Sta
   for (const std::string& file : problem.files) context.warn(renames_in(carried.generated.result.mesh, file));
   MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), problem.files);
   if (parts) add_parts(summary, *parts, problem.part_files);
-  const Figures of_transfer = transfer_figures(carried);
+  Figures of_transfer = transfer_figures(carried);
+  if (problem.input.settings.morph_to)
+    of_transfer.add_raw("morphed", carried.morphed ? "yes" : "no", carried.morphed ? "true" : "false");
   context.record.figures = record_of(summary);
   context.record.figures.append(of_transfer.record());
   context.record.files = problem.files;
@@ -191,31 +194,57 @@ void report(const CommandContext& context, const CarriedMesh& carried, const Sta
   if (context.shows_table()) std::cout << table_of(summary) << of_transfer.table(27, 10);
 }
 
+/// The old cells on the changed outline, where the case wants them and they are good enough; otherwise why a
+/// mesh is made anew is added to `doubts`. *Collective.*
+std::optional<CarriedMesh> morph(const Communicator& comm, const RemeshArguments& arguments,
+                                 const Problem& problem, const SolvedMesh& solved, Warnings& doubts) {
+  const std::optional<double>& least = problem.input.settings.morph_to;
+  if (!least) return {};
+  const std::string& file = arguments.geometry.empty() ? arguments.case_path : arguments.geometry;
+  MorphedMesh morphed = morph_solved(comm, *problem.input.mesh, solved, *least, file);
+  if (!morphed.refusal.empty())
+    doubts.push_back(
+        fmt::format("{}: is meshed anew, as its cells cannot follow with a quality of {:g} "
+                    "(design.morph_to): {}",
+                    file, *least, morphed.refusal));
+  return std::move(morphed.carried);
+}
+
+/// Marked by the solution, meshed, and the solution carried over. *Collective.*
+CarriedMesh remesh(const Communicator& comm, const Problem& problem, const SolvedMesh& solved,
+                   StageTimes& times, Warnings& warnings) {
+  times.begin("adapt");
+  const MeshInput& mesh = *problem.input.mesh;
+  const std::optional<AdaptOptions>& adapt = problem.input.settings.adapt;
+  const AdaptationPlan plan =
+      adapt ? plan_adaptation(comm, mesh, *adapt, solved) : standing_plan(solved.tree, mesh);
+  times.end();
+  CarriedMesh carried = carry_over(comm, mesh, plan, solved);
+  const Warnings& of_mesh = carried.generated.result.report.warnings;
+  warnings.insert(warnings.end(), of_mesh.begin(), of_mesh.end());
+  warnings.insert(warnings.end(), plan.warnings.begin(), plan.warnings.end());
+  return carried;
+}
+
 void run_remesh(const CommandContext& context, const RemeshArguments& arguments) {
   const Communicator& comm = context.comm;
   StageTimes times;
   times.begin("read");
   Problem problem = load(comm, arguments);
   times.begin("compare");
-  Warnings doubts;
-  const SolvedMesh solved = compare(comm, arguments, problem, doubts);
-  times.begin("adapt");
-  MeshInput& mesh = *problem.input.mesh;
-  const Settings& settings = problem.input.settings;
-  mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
-  const AdaptationPlan plan = settings.adapt ? plan_adaptation(comm, mesh, *settings.adapt, solved)
-                                             : standing_plan(solved.tree, mesh);
+  Warnings warnings;
+  const SolvedMesh solved = compare(comm, arguments, problem, warnings);
   times.end();
-  const CarriedMesh carried = carry_over(comm, mesh, plan, solved);
-  times.append(carried.times);
+  problem.input.mesh->mesh.limit = mesh_limit(comm, arguments.max_cells);
+  std::optional<CarriedMesh> carried = morph(comm, arguments, problem, solved, warnings);
+  warnings.insert(warnings.end(), problem.input.warnings.begin(), problem.input.warnings.end());
+  if (!carried) carried = remesh(comm, problem, solved, times, warnings);
+  times.append(carried->times);
   times.begin("write");
-  const std::optional<PartFigures> parts = write(comm, carried, problem);
+  const std::optional<PartFigures> parts = write(comm, *carried, problem);
   times.end();
-  context.warn(doubts);
-  context.warn(problem.input.warnings);
-  context.warn(carried.generated.result.report.warnings);
-  context.warn(plan.warnings);
-  report(context, carried, times, problem, parts);
+  context.warn(warnings);
+  report(context, *carried, times, problem, parts);
 }
 
 std::string solution_help() {

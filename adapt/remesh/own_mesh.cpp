@@ -59,7 +59,7 @@ void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const 
                       const std::string& tree) {
   constexpr double reach = 2;
   require_counts(count(comm, solved.mesh), solved.tree.attributes, shown, tree);
-  if (has_layers(solved.mesh) && is_untouched(comm, solved)) return;
+  if (is_untouched(comm, solved)) return;
   const CellsOfLeaves cells(comm, solved.mesh, solved.tree.leaves);
   const LayerPlaces places = layer_places(comm, solved.mesh);
   const auto of_all = [&](double Point::*coordinate, double in_layers) {

@@ -12,10 +12,9 @@ void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, co
                     const std::string& tree);
 
 /// Throws InputError on all ranks unless the mesh can be the one that the tree was saved with: as many nodes
-/// and cells, and each leaf's cells within two leaf sizes of it, which snapping, flips and smoothing keep;
-/// but for cells in layers, which belong to leaves on the front, and nodes that all lie where they lay will
-/// do there, as files of earlier versions do not tell of the strips of wakes. Elsewhere bytes do not count:
-/// other formats round. `shown` names the mesh, `tree` the tree. *Collective.*
+/// and cells, and all nodes where they lay, as a morphed mesh has them, or each leaf's cells within two leaf
+/// sizes of it, which snapping, flips and smoothing keep, but for cells in layers, which belong to leaves on
+/// the front: other formats round. `shown` names the mesh, `tree` the tree. *Collective.*
 void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,
                       const std::string& tree);
 

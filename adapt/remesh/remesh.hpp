@@ -21,6 +21,7 @@ struct CarriedMesh {
   Field start;
   StageTimes times;       ///< those of meshing, and "transfer"
   TransferReport report;  ///< none in a first mesh
+  bool morphed = false;   ///< the cells are the old ones
 
   /// The drift of each variable's integral, by its name.
   std::vector<std::pair<std::string, double>> drifts() const;

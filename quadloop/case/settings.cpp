@@ -240,6 +240,13 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
   table->finish();
 }
 
+void read_design_table(const CaseTable& root, Settings& settings) {
+  const auto table = root.table("design");
+  if (!table) return;
+  settings.morph_to = table->number("morph_to", {0, 1});
+  table->finish();
+}
+
 /// The far field where a saved tree has it, if its root is one of that size.
 Box saved_far_field(const Box& square, const TreeAttributes& saved) {
   constexpr double rounding = 1e-9;
@@ -267,6 +274,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   read_mesh_table(root, settings);
   read_smooth_table(root, settings);
   settings.adapt = read_adapt_table(root);
+  read_design_table(root, settings);
   read_solver_table(root, settings.solver);
   settings.warnings = layer_settings.unused(settings.solver);
   if (flow && settings.solver.kind != SolverSettings::Kind::euler) settings.stream = flow->stream();

@@ -45,6 +45,8 @@ struct Settings {
   SolverSettings solver;
   std::optional<FreeStream> stream;   ///< of a solver of the user's, where [flow] tells it
   std::optional<AdaptOptions> adapt;  ///< where the case has a table for it
+  /// Where the outline has changed, cells are kept as long as the worst one outside layers has this quality.
+  std::optional<double> morph_to;
   std::string output_prefix;
   std::vector<std::string> formats;
   std::vector<std::string> fields;  ///< of quantity_names(), written beside a solution

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The design cycle of cases/naca_design with three shapes on coarse meshes: every mesh valid and on its own outline, the root that of the first tree,
-points outside the old mesh counted, the same bytes on any number of ranks.
+points outside the old mesh counted, the same bytes on any number of ranks. Then again with morphed meshes, whose cells stay; where their quality is said to
+be too low, with meshes made anew.
 
     run_design.py --quadloop PROGRAM [--ranks 1 3]
 """
@@ -17,8 +18,8 @@ COARSE = [word for text in ("adapt.cycles=1", "adapt.min=0.012", "spacing.min=0.
                             "boundary.airfoil.spacing=0.05", "adapt.max_nodes=4000") for word in ("--set", text)]
 
 
-def design(program, out, ranks):
-    return run([sys.executable, "-B", CASE / "run.py", "-o", out, "--quadloop", program, "--ranks", ranks, "--shapes", "3", *COARSE])
+def design(program, out, ranks, options=()):
+    return run([sys.executable, "-B", CASE / "run.py", "-o", out, "--quadloop", program, "--ranks", ranks, "--shapes", "3", *COARSE, *options])
 
 
 def frame(mesh):
@@ -64,6 +65,27 @@ def require_same(one, other):
             fail(f"{name}: {other} has other bytes than {one}")
 
 
+def cells_of(path):
+    mesh = NativeMesh(path)
+    return mesh.cells, mesh.boundaries
+
+
+def check_morphed(program, out, ranks):
+    """The cells of all shapes are those of the first; with a quality that no mesh has they are not."""
+    folders = [out / f"morphed_on_{number}" for number in ranks]
+    for folder, number in zip(folders, ranks):
+        design(program, folder, number, ["--set", "design.morph_to=0.2"])
+        require_same(folders[0], folder)
+    check_shapes(program, folders[0])
+    first = cells_of(max((folders[0] / "shape_00").glob("cycle_*")) / "mesh.mesh")
+    for number in (1, 2):
+        if cells_of(folders[0] / f"shape_{number:02d}.mesh") != first:
+            fail(f"shape {number}: its cells are not those of the first")
+    design(program, out / "anew", 1, ["--set", "design.morph_to=1"])
+    if cells_of(out / "anew" / "shape_02.mesh") == first:
+        fail("no cells have the quality 1, but they were kept")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
@@ -76,6 +98,7 @@ def main():
             require_same(folders[0], folder)
         check_table(table)
         check_shapes(args.quadloop, folders[0])
+        check_morphed(args.quadloop, Path(name), args.ranks)
     print("good")
 
 
