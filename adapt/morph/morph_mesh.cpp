@@ -1,6 +1,7 @@
 #include "adapt/morph/morph_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "adapt/morph/layer_motion.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "smoother/keep_layers.hpp"
+#include "smoother/rings.hpp"
 #include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
@@ -17,6 +19,7 @@ namespace {
 
 constexpr double quality_kept = 0.8;  // of the worst cell: below it the mesh is smoothed
 constexpr double least_move = 1e-9;   // of the outline's extent: what moves less stays, but for rounding
+constexpr int smoothed_rings = 4;
 constexpr int bisections = 7;
 
 /// The extent of those boundaries that move; 0 where none does.
@@ -35,6 +38,14 @@ double extent_of_moved(const BoundaryOutline& outline, std::span<const BoundaryN
     if (moves[loop] != 0) extent = std::max({extent, boxes[loop].width(), boxes[loop].height()});
   }
   return extent;
+}
+
+/// The quality of a cell whose nodes are where `place(node)` says.
+template <std::size_t width, class Place>
+double quality_at(const std::array<NodeId, width>& nodes, const Place& place) {
+  std::array<Point, width> corners;
+  for (std::size_t k = 0; k < width; ++k) corners[k] = place(nodes[k]);
+  return quality_of(corners);
 }
 
 /// A mesh as it was, and what moves each of its nodes.
@@ -93,13 +104,29 @@ class Morph {
   /// How far an owned node has gone.
   double way_of(NodeId node, const Mesh& mesh) const { return length(mesh.point(node) - halo_.point(node)); }
 
+  /// Flags owned nodes: those of cells whose quality has suffered, and some rings round them. *Collective.*
+  NodeFlags nodes_near_suffering(const Mesh& mesh) const {
+    std::vector<GlobalNodeId> nodes;
+    const auto look_at = [&](const auto& cell) {
+      const auto before = [&](NodeId node) { return halo_.point(node); };
+      const auto now = [&](NodeId node) { return mesh.point(node); };
+      if (quality_at(cell, now) >= quality_kept * quality_at(cell, before)) return;
+      for (const NodeId node : cell) nodes.push_back(mesh.global(node));
+    };
+    for (const auto& cell : mesh.triangles) look_at(cell);
+    for (const auto& cell : mesh.quads) look_at(cell);
+    NodeFlags near(halo_.points().size(), 0);
+    flag_at_owners(comm_, NodeOwners(comm_, mesh.first_node), nodes, near);
+    grow(halo_, near, smoothed_rings);
+    near.resize(halo_.owned_nodes());
+    return near;
+  }
+
   /// The quality of the worst cell outside layers, or of any that is inverted. *Collective.*
   double worst_quality(const Mesh& mesh) const {
     double worst = std::numeric_limits<double>::infinity();
     const auto look_at = [&](const auto& nodes) {
-      std::array<Point, std::tuple_size_v<std::remove_cvref_t<decltype(nodes)>>> corners;
-      for (std::size_t k = 0; k < corners.size(); ++k) corners[k] = mesh.point(nodes[k]);
-      const double quality = quality_of(corners);
+      const double quality = quality_at(nodes, [&](NodeId node) { return mesh.point(node); });
       if (quality <= 0 || !is_layer_cell(places_, nodes)) worst = std::min(worst, quality);
     };
     for (const auto& nodes : mesh.triangles) look_at(nodes);
@@ -136,11 +163,16 @@ class Morph {
   double reach_ = 0;
 };
 
-/// The cells outside layers made better; the boundary and the layers stay. *Collective.*
+/// Cells outside layers that have suffered, and those near them, made better; boundary and layers stay.
+/// *Collective.*
 void smooth_inside(const Communicator& comm, Mesh& mesh, const Morph& morph, const NodeFlags& interfaces) {
   SmoothOptions options;
   options.pinned = morph.boundary_nodes();
   for (const NodeId node : interfaces.ids()) options.pinned[node] |= interfaces[node];
+  const NodeFlags near = morph.nodes_near_suffering(mesh);
+  for (const NodeId node : near.ids()) {
+    if (near[node] == 0) options.pinned[node] = 1;
+  }
   options.level_lines = false;
   keep_layers(comm, mesh, options);
   smooth_mesh(comm, mesh, options);

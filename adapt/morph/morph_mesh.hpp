@@ -20,9 +20,10 @@ struct MorphReport {
 /// boundary_motion says, columns of layers on walls with their feet, all others follow the boundary and the
 /// fronts of layers (InverseDistance). Without smoothing, nodes are a smooth function of the new outline's
 /// points; so they stay unless the worst cell has lost more than a fifth of its quality, whereupon the cells
-/// outside layers are smoothed, but for owned nodes flagged in `interfaces`, if that is given. A mesh that
-/// cannot follow is left with inverted cells: the report tells how far it could. The same bits on any number
-/// of ranks. *Collective.* Throws InputError as boundary_motion().
+/// outside layers that have lost as much are smoothed, with those near them, but for owned nodes flagged in
+/// `interfaces`, if that is given. A mesh that cannot follow is left with inverted cells: the report tells
+/// how far it could. The same bits on any number of ranks. *Collective.* Throws InputError as
+/// boundary_motion().
 MorphReport morph_mesh(const Communicator& comm, Mesh& mesh, const OutlineChange& change,
                        const NodeFlags& interfaces = {});
 
