@@ -77,6 +77,7 @@ class LayerFit {
   }
 
   bool run() {
+    fixed_ = slide_.widths_at_fixed(heights_);
     nodes_ = nodes_near_misfits();
     if (!comm_.any(!nodes_.empty())) return false;
     list_cells();
@@ -119,17 +120,30 @@ class LayerFit {
     return height_of(cell, cell.nodes[0], mesh_.point(cell.nodes[0]));
   }
 
-  std::vector<NodeId> nodes_near_misfits() const {
+  /// Whether the widths of the front's edges differ much at an owned node.
+  bool is_uneven(NodeId node) const {
+    const auto [back, ahead] = fixed_[node.value()];
+    if (std::min(back, ahead) > 0) return std::max(back, ahead) > steepest * std::min(back, ahead);
+    return slide_.freedom(node) == NodeFreedom::sliding && slide_.unevenness(node) > steepest &&
+           slides_on_front(node);
+  }
+
+  /// Nodes of cells on the front whose height is a misfit, and those at which its widths jump; right for
+  /// owned nodes.
+  NodeFlags misfits() const {
     NodeFlags flags(mesh_.points().size(), 0);
     for (const FrontCell& cell : cells_) {
       const double ratio = height_of(cell) / cell.last_layer;
       if (ratio < lowest || ratio > highest) flag_all(cell.all(), flags);
     }
     for (const NodeId node : ids_below(NodeId{mesh_.owned_nodes()})) {
-      if (slide_.freedom(node) == NodeFreedom::sliding && slide_.unevenness(node) > steepest &&
-          slides_on_front(node))
-        flags[node] = 1;
+      if (is_uneven(node)) flags[node] = 1;
     }
+    return flags;
+  }
+
+  std::vector<NodeId> nodes_near_misfits() const {
+    NodeFlags flags = misfits();
     grow(mesh_, flags, rings);
     std::vector<NodeId> nodes;
     for (const NodeId node : ids_below(NodeId{mesh_.owned_nodes()})) {
