@@ -1,11 +1,10 @@
-// Edges of cells, owners of nodes, how coarse a mesh is at a place.
+// Edges of cells, owners of nodes.
 #include "mesher/mesh/topology.hpp"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "mesher/mesh/cell_reach.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -94,39 +93,6 @@ TEST(NodeExchange, CopiesGetWhatTheirOwnersHave) {
   values.resize(own + copies.size(), -1);
   exchange.update(values);
   for (std::size_t i = 0; i < copies.size(); ++i) EXPECT_EQ(values[own + i], copies[i].value());
-}
-
-struct Reach {
-  Mesh mesh = square_and_triangle();
-  std::vector<double> longest{8.1, 1};
-  CellReach reach{mesh, longest};
-};
-
-TEST(CellReach, LongCellsCountLessTheFartherTheyAre) {
-  Reach r;
-  EXPECT_EQ(r.reach.size_at({5, 0.25}, 100), 8.1) << "inside";
-  EXPECT_EQ(r.reach.size_at({0, 0.5}, 100), 8.1 - 0.5 * 1);
-  EXPECT_EQ(r.reach.size_at({0.5, 0.5}, 0.25), 1) << "enough is found before the triangle is looked for";
-}
-
-TEST(CellReach, BeyondItsReachTheNearestCellCounts) {
-  Reach r;
-  EXPECT_EQ(r.reach.size_at({-1000, 0}, 1), 1);
-  EXPECT_EQ(r.reach.longest_within({-1000, 0}, 1), 1);
-}
-
-TEST(CellReach, LongestWithinADistance) {
-  Reach r;
-  EXPECT_EQ(r.reach.longest_within({0, 0.5}, 0.9), 1);
-  EXPECT_EQ(r.reach.longest_within({0, 0.5}, 1), 8.1) << "closed";
-}
-
-TEST(CellReach, OfNoCellsIsNothing) {
-  const Mesh mesh;
-  const std::vector<double> longest;
-  CellReach reach(mesh, longest);
-  EXPECT_EQ(reach.size_at({0, 0}, 1), 0);
-  EXPECT_EQ(reach.longest_within({0, 0}, 1), 0);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "mesher/geometry/nearest_on_segment.hpp"
-#include "mesher/mesh/cell_reach.hpp"
+#include "mesher/mesh/check/cell_reach.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate_rules.hpp"
 

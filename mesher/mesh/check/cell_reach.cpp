@@ -1,4 +1,4 @@
-#include "mesher/mesh/cell_reach.hpp"
+#include "mesher/mesh/check/cell_reach.hpp"
 
 #include <algorithm>
 #include <array>

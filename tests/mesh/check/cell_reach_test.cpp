@@ -1,0 +1,56 @@
+// How coarse a mesh is at a place.
+#include "mesher/mesh/check/cell_reach.hpp"
+
+#include <gtest/gtest.h>
+
+namespace quadloop {
+namespace {
+
+constexpr NodeId node(std::int32_t number) { return NodeId{number}; }
+
+/// A unit square, and right of it a triangle of the same height, 8 long.
+Mesh square_and_triangle() {
+  Mesh mesh;
+  for (const Point p : {Point{0, 0}, Point{1, 0}, Point{1, 1}, Point{0, 1}, Point{9, 0}})
+    mesh.points.push_back(p);
+  mesh.owned_nodes = 5;
+  mesh.triangles = {{node(1), node(4), node(2)}};
+  mesh.quads = {{node(0), node(1), node(2), node(3)}};
+  return mesh;
+}
+
+struct Reach {
+  Mesh mesh = square_and_triangle();
+  std::vector<double> longest{8.1, 1};
+  CellReach reach{mesh, longest};
+};
+
+TEST(CellReach, LongCellsCountLessTheFartherTheyAre) {
+  Reach r;
+  EXPECT_EQ(r.reach.size_at({5, 0.25}, 100), 8.1) << "inside";
+  EXPECT_EQ(r.reach.size_at({0, 0.5}, 100), 8.1 - 0.5 * 1);
+  EXPECT_EQ(r.reach.size_at({0.5, 0.5}, 0.25), 1) << "enough is found before the triangle is looked for";
+}
+
+TEST(CellReach, BeyondItsReachTheNearestCellCounts) {
+  Reach r;
+  EXPECT_EQ(r.reach.size_at({-1000, 0}, 1), 1);
+  EXPECT_EQ(r.reach.longest_within({-1000, 0}, 1), 1);
+}
+
+TEST(CellReach, LongestWithinADistance) {
+  Reach r;
+  EXPECT_EQ(r.reach.longest_within({0, 0.5}, 0.9), 1);
+  EXPECT_EQ(r.reach.longest_within({0, 0.5}, 1), 8.1) << "closed";
+}
+
+TEST(CellReach, OfNoCellsIsNothing) {
+  const Mesh mesh;
+  const std::vector<double> longest;
+  CellReach reach(mesh, longest);
+  EXPECT_EQ(reach.size_at({0, 0}, 1), 0);
+  EXPECT_EQ(reach.longest_within({0, 0}, 1), 0);
+}
+
+}  // namespace
+}  // namespace quadloop
