@@ -11,6 +11,7 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_solid_file.hpp"
 #include "io/fluent/fluent_file.hpp"
+#include "io/fluent/fluent_solid_file.hpp"
 #include "io/foam/foam_file.hpp"
 #include "io/foam/foam_plane_file.hpp"
 #include "io/msh/msh_file.hpp"
@@ -52,7 +53,7 @@ LoadedMesh read_msh_or_fluent(const std::string& path) {
   return holds_fluent(path) ? read_fluent(path) : read_msh(path);
 }
 std::optional<SolidMesh> read_msh_solid_or_none(const std::string& path) {
-  return holds_fluent(path) ? std::nullopt : read_msh_solid(path);
+  return holds_fluent(path) ? read_fluent_solid(path) : read_msh_solid(path);
 }
 
 /// One for each version that is written; both are read under either name.
@@ -141,12 +142,16 @@ std::vector<FileFormat> rows_of_programs() {
            .patch_names = su2_marker_names},
           {.name = "fluent.msh",
            .program = "Fluent",
-           .places = {mesh, blocks, conditions},
+           .places = {mesh, blocks, conditions, solid},
            .read_mesh = read_fluent,
            .write_mesh = write_mesh_alone<write_fluent>,
            .write_blocks = write_fluent,
            .boundary_names = fluent_zone_names,
-           .unknown_boundary = "a wall"},
+           .unknown_boundary = "a wall",
+           .write_solid = write_fluent_solid,
+           .read_solid = read_fluent_solid,
+           .patch_names = fluent_zone_names,
+           .conditions_in_solid = true},
           msh_row<MshVersion::msh_2_2>("msh"),
           msh_row<MshVersion::msh_4_1>("msh41"),
           ugrid_row<std::endian::big>("b8.ugrid"),

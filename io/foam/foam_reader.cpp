@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "io/foam/foam_cells.hpp"
 #include "io/foam/foam_file.hpp"
 #include "io/foam/foam_patches.hpp"
 #include "io/foam/foam_scanner.hpp"
+#include "io/solid/cell_of_sides.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
