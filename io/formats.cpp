@@ -71,7 +71,8 @@ FileFormat msh_row(const std::string& name) {
           .write_solid = [](OutputSet& outputs, const SolidStream& mesh,
                             const std::string& path) { write_msh_solid(outputs, mesh, path, version); },
           .read_solid = read_msh_solid_or_none,
-          .patch_names = msh_group_names};
+          .patch_names = msh_group_names,
+          .blocks_in_solid = true};
 }
 
 /// One for each order of bytes.
@@ -116,7 +117,8 @@ std::vector<FileFormat> rows_with_solutions() {
            .write_blocks = write_vtu,
            .write_solid = write_vtu_solid,
            .read_solid = read_vtu_solid,
-           .solution_in_solid = true},
+           .solution_in_solid = true,
+           .blocks_in_solid = true},
           {.name = "pvtu",
            .program = "VTK",
            .places = {mesh, solution, blocks, layers, solid},
@@ -126,7 +128,8 @@ std::vector<FileFormat> rows_with_solutions() {
            .write_blocks = write_pvtu,
            .write_solid = write_pvtu_solid,
            .read_solid = read_pvtu_solid,
-           .solution_in_solid = true}};
+           .solution_in_solid = true,
+           .blocks_in_solid = true}};
 }
 
 /// Those that other programs read their meshes from.
@@ -151,7 +154,8 @@ std::vector<FileFormat> rows_of_programs() {
            .write_solid = write_fluent_solid,
            .read_solid = read_fluent_solid,
            .patch_names = fluent_zone_names,
-           .conditions_in_solid = true},
+           .conditions_in_solid = true,
+           .blocks_in_solid = true},
           msh_row<MshVersion::msh_2_2>("msh"),
           msh_row<MshVersion::msh_4_1>("msh41"),
           ugrid_row<std::endian::big>("b8.ugrid"),
@@ -165,15 +169,17 @@ std::vector<FileFormat> rows_of_programs() {
            .unknown_boundary = "of type 0 in the .mapbc"},
           {.name = "polyMesh",
            .program = "OpenFOAM",
-           .places = {mesh, conditions, solid},
+           .places = {mesh, blocks, conditions, solid},
            .read_mesh = read_foam_plane,
            .write_mesh = write_mesh_alone<write_foam_plane>,
+           .write_blocks = write_foam_plane,
            .boundary_names = foam_patch_names,
            .unknown_boundary = "a plain patch, no wall",
            .write_solid = write_foam,
            .read_solid = read_foam,
            .patch_names = foam_patch_names,
            .conditions_in_solid = true,
+           .blocks_in_solid = true,
            .is_folder = true}};
 }
 

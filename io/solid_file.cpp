@@ -95,9 +95,14 @@ std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& p
     });
   }
   std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
-  std::vector<std::string> losses{path + ": the blocks are written as one"};
-  if (dropped > 0) losses.back() += fmt::format("; the {} edges between them are no patch", dropped);
-  return losses;
+  const FileFormat* format = solid_format(path);
+  const bool holds_blocks = format != nullptr && format->blocks_in_solid;
+  std::string loss = holds_blocks ? "" : "the blocks are written as one";
+  if (dropped > 0)
+    loss += fmt::format("{}the {} edges between {} are no patch", holds_blocks ? "" : "; ", dropped,
+                        holds_blocks ? "two blocks" : "them");
+  if (loss.empty()) return {};
+  return {path + ": " + loss};
 }
 
 std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& path) {
@@ -120,6 +125,8 @@ std::vector<std::string> losses_in(const SolidMesh& mesh, const std::string& pat
   if (format == nullptr) return {};
   std::vector<std::string> names, losses;
   for (const SolidPatch& patch : mesh.patches) names.push_back(patch.name);
+  if (mesh.block_names.size() > 1 && !format->blocks_in_solid)
+    losses.push_back(path + ": the blocks are written as one");
   append_losses(*format, names, mesh.solution ? &*mesh.solution : nullptr, path, losses);
   const auto has_condition = [](const SolidPatch& patch) { return patch.condition != "none"; };
   if (!format->conditions_in_solid && std::ranges::any_of(mesh.patches, has_condition))

@@ -20,7 +20,8 @@ class FoamHeldWriter {
       : stream_{stream},
         mesh_{*stream.held()},
         faces_{mesh_, path},
-        staged_{outputs.stage_folder(path, foam_files)} {}
+        blocks_{stream},
+        staged_{outputs.stage_folder(path, foam_files(blocks_))} {}
 
   void write() {
     write_foam_points(stream_, staged_[0]);
@@ -34,6 +35,7 @@ class FoamHeldWriter {
       types.push_back(patch.is_empty ? "empty" : foam_patch_type(patch.condition));
     write_foam_boundary(stream_.communicator(), staged_[4], stream_.patches(), types,
                         std::ssize(faces_.internal()));
+    if (blocks_.several()) write_foam_zones(stream_, blocks_, staged_[5]);
   }
 
  private:
@@ -75,6 +77,7 @@ class FoamHeldWriter {
   const SolidStream& stream_;
   const SolidMesh& mesh_;
   HeldFaces faces_;
+  const SolidBlocks blocks_;
   std::vector<StagedFile> staged_;
 };
 

@@ -14,7 +14,8 @@ class FoamWriter {
       : comm_{outputs.communicator()},
         stream_{stream},
         mesh_{*stream.extruded()},
-        staged_{outputs.stage_folder(path, foam_files)},
+        blocks_{stream},
+        staged_{outputs.stage_folder(path, foam_files(blocks_))},
         faces_{comm_, mesh_} {
     all_faces_ = faces_.internal();
     for (const StreamedPatch& patch : stream_.patches()) all_faces_ += patch.faces();
@@ -26,6 +27,7 @@ class FoamWriter {
     write_owner();
     write_neighbour();
     write_boundary();
+    if (blocks_.several()) write_foam_zones(stream_, blocks_, staged_[5]);
   }
 
  private:
@@ -98,6 +100,7 @@ class FoamWriter {
   const Communicator& comm_;
   const SolidStream& stream_;
   const ExtrudedMesh& mesh_;
+  const SolidBlocks blocks_;
   std::vector<StagedFile> staged_;
   ExtrudedFaces faces_;
   std::int64_t all_faces_ = 0;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/loaded/loaded_mesh.hpp"
 #include "io/solid/solid_stream.hpp"
 
 namespace quadloop {
@@ -59,6 +61,9 @@ class SolidBlocks {
   std::vector<std::string> names_;
   std::array<std::vector<std::int32_t>, 9> of_;  ///< of cells of so many nodes, one for so many rows
 };
+
+/// Those of a whole mesh, named; one that has no name is "block_2", ... by its number.
+PlaneBlocks plane_blocks(const LoadedMesh& whole);
 
 /// This rank's cells of the plane, its triangles, then its quads, numbered over all ranks from 0 so that the
 /// cells of a block follow each other: block by block, of each triangles before quads, each in their order.

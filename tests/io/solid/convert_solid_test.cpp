@@ -54,8 +54,8 @@ SolidMesh through_file(const SolidMesh& mesh, const std::string& path) {
   return std::move(*back);
 }
 
-/// A polyMesh tells the faces of cells, not with which node they begin.
-bool keeps_first_nodes(const std::string& format) { return format != "polyMesh"; }
+/// These tell the faces of cells, not with which node they begin.
+bool keeps_first_nodes(const std::string& format) { return format != "polyMesh" && format != "fluent.msh"; }
 
 void expect_same(const SolidMesh& back, const SolidMesh& mesh, bool to_the_node) {
   EXPECT_EQ(back.points, mesh.points);
@@ -203,7 +203,7 @@ TEST(ConvertSolid, EmptyPatchesComeThroughAPolyMesh) {
   EXPECT_TRUE(back.patches[2].is_empty);
 }
 
-TEST(ConvertSolid, APolyMeshNeedsEachFaceOnce) {
+TEST(ConvertSolid, FormatsOfFacesNeedEachFaceOnce) {
   const test::TemporaryFolder folder;
   if (!test::world().is_root()) return;
   const Communicator alone(MPI_COMM_SELF);
@@ -211,8 +211,10 @@ TEST(ConvertSolid, APolyMeshNeedsEachFaceOnce) {
   open.patches[1].faces.clear();
   twice.patches[1].faces.push_back(twice.patches[0].faces[0]);
   stray.patches[1].faces.push_back({0, 2, 5, none});
-  for (const SolidMesh* mesh : {&open, &twice, &stray})
+  for (const SolidMesh* mesh : {&open, &twice, &stray}) {
     EXPECT_THROW(write_solid_of_root(alone, *mesh, folder.file("a.polyMesh")), OutputError);
+    EXPECT_THROW(write_solid_of_root(alone, *mesh, folder.file("a.fluent.msh")), OutputError);
+  }
 }
 
 }  // namespace
