@@ -18,8 +18,9 @@ void write_msh_solid(OutputSet& outputs, const SolidStream& mesh, const std::str
                      MshVersion version = MshVersion::msh_2_2);
 
 /// Reads a 3D mesh of Gmsh, MSH 2.2 or 4.1 text, on the calling rank alone; nothing where it has no cells of
-/// three dimensions. Physical surfaces become patches, physical volumes blocks; without a physical group a patch
-/// is "boundary_<tag of the surface>". Points and lines are passed over. Throws InputError "file:line: ...".
+/// three dimensions. Physical surfaces become patches, physical volumes blocks; without a physical group a
+/// patch is "boundary_<tag of the surface>". Points and lines are passed over. Throws InputError "file:line:
+/// ...".
 std::optional<SolidMesh> read_msh_solid(const std::string& path);
 
 }  // namespace quadloop
