@@ -23,7 +23,7 @@ TEST(Formats, AreListedByWhatTheyHold) {
             (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41", "ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "cgns", "vtu", "pvtu"}));
   EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh"}));
-  EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), Names{"fluent.msh"});
+  EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), (Names{"fluent.msh", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::layers}), (Names{"mesh", "cgns", "vtu", "pvtu"}));
 }
 
