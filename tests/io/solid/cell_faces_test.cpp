@@ -30,12 +30,13 @@ ExtrudedMesh extruded_sample(const Mesh& part) { return extruded(part, {0, 0.5, 
 std::vector<Face> written(const ExtrudedFaces& faces, const std::string& path) {
   OutputSet outputs(world());
   TextOutput file(outputs, path);
-  faces.write_internal(
-      file, 6, [](TextRows& text, const auto& nodes, std::int64_t owner, std::int64_t neighbour) {
-        text.put(owner, ' ');
-        text.put(neighbour, ' ');
-        for (std::size_t k = 0; k < nodes.size(); ++k) text.put(nodes[k], k + 1 < nodes.size() ? ' ' : '\n');
-      });
+  faces.write_internal(file, 6,
+                       [](TextRows& text, const auto& nodes, std::int64_t owner, std::int64_t neighbour) {
+                         text.put(owner, ' ');
+                         text.put(neighbour, ' ');
+                         for (std::size_t k = 0; k < nodes.size(); ++k)
+                           text.put(nodes[k], k + 1 < nodes.size() ? ' ' : '\n');
+                       });
   file.close();
   outputs.commit();
   std::vector<Face> found;
@@ -61,7 +62,8 @@ std::vector<Face> held(const std::string& path) {
   const HeldFaces faces(*mesh, path);
   std::vector<Face> found;
   for (const HeldFaces::Inner& face : faces.internal()) {
-    auto& [owner, neighbour, nodes] = found.emplace_back(face.owner, face.neighbour, std::vector<std::int64_t>{});
+    auto& [owner, neighbour, nodes] =
+        found.emplace_back(face.owner, face.neighbour, std::vector<std::int64_t>{});
     for (const std::int32_t node : faces.nodes(face)) {
       if (node != SolidPatch::no_node) nodes.push_back(node);
     }
