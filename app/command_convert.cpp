@@ -107,6 +107,7 @@ Figures figures_of(const SolidMesh& mesh) {
   figures.add("pyramids", count(mesh.pyramids));
   figures.add("prisms", count(mesh.prisms));
   figures.add("hexahedra", count(mesh.hexahedra));
+  if (!mesh.block_names.empty()) figures.add("blocks", count(mesh.block_names));
   figures.add("boundaries", count(mesh.patches));
   figures.add("variables", mesh.solution ? count(mesh.solution->names) : 0);
   return figures;

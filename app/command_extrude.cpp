@@ -7,6 +7,8 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
@@ -14,6 +16,7 @@
 #include "app/report/refusals.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/solid/solid_blocks.hpp"
 #include "io/solid_file.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
@@ -78,6 +81,7 @@ std::vector<double> heights_of(const Communicator& comm, const ExtrudeArguments&
 struct Plane {
   Mesh mesh;
   std::optional<Field> solution;
+  std::optional<PlaneBlocks> blocks;  ///< of several
 };
 
 /// What the root read, its inner boundaries left out; the others get an empty one. *Collective.*
@@ -98,11 +102,22 @@ LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments
   return whole;
 }
 
+/// In the order given, as scatter_mesh() spreads cells. *Collective.*
+void spread_blocks(const Communicator& comm, PlaneBlocks& blocks, const MeshOrder& order) {
+  blocks.names = broadcast_words(comm, blocks.names);
+  for (auto [of_cells, cells] :
+       {std::pair{&blocks.of_triangles, &order.triangles}, std::pair{&blocks.of_quads, &order.quads}})
+    *of_cells = scatter_ordered(comm, std::span<const std::int32_t>(*of_cells), *cells);
+}
+
 /// *Collective.*
 Plane spread(const Communicator& comm, LoadedMesh whole) {
-  if (comm.size() == 1) return {std::move(whole.mesh), std::move(whole.solution)};
+  std::optional<PlaneBlocks> blocks;
+  if (comm.any(whole.blocks > 1)) blocks = plane_blocks(whole);
+  if (comm.size() == 1) return {std::move(whole.mesh), std::move(whole.solution), std::move(blocks)};
   const MeshOrder order = comm.is_root() ? own_order(whole.mesh) : MeshOrder{};
-  Plane plane{scatter_mesh(comm, whole.mesh, order), std::nullopt};
+  Plane plane{scatter_mesh(comm, whole.mesh, order), std::nullopt, std::move(blocks)};
+  if (plane.blocks) spread_blocks(comm, *plane.blocks, order);
   whole.mesh = {};  // before the 3D mesh streams
   if (comm.any(whole.solution.has_value()))
     plane.solution = scatter_field(comm, whole.solution.value_or(Field{}), plane.mesh, order);
@@ -129,9 +144,10 @@ void run_extrude(const CommandContext& context, const ExtrudeArguments& argument
   LoadedMesh whole = load(context, arguments, warnings);
   const double area = comm.is_root() ? area_of(whole.mesh) : 0;
   const Plane plane = spread(comm, std::move(whole));
-  const ExtrudedMesh mesh =
+  ExtrudedMesh mesh =
       extruded(plane.mesh, std::move(heights), arguments.axis == "y" ? ExtrusionAxis::y : ExtrusionAxis::z,
                plane.solution ? &*plane.solution : nullptr);
+  mesh.blocks = plane.blocks ? &*plane.blocks : nullptr;
   const ExtrudedCounts counts(comm, mesh);
   for (std::string& loss : losses_in(mesh, arguments.output)) warnings.push_back(std::move(loss));
   OutputSet outputs(comm);

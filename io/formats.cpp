@@ -11,6 +11,7 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_solid_file.hpp"
 #include "io/fluent/fluent_file.hpp"
+#include "io/fluent/fluent_solid_file.hpp"
 #include "io/foam/foam_file.hpp"
 #include "io/foam/foam_plane_file.hpp"
 #include "io/msh/msh_file.hpp"
@@ -52,7 +53,7 @@ LoadedMesh read_msh_or_fluent(const std::string& path) {
   return holds_fluent(path) ? read_fluent(path) : read_msh(path);
 }
 std::optional<SolidMesh> read_msh_solid_or_none(const std::string& path) {
-  return holds_fluent(path) ? std::nullopt : read_msh_solid(path);
+  return holds_fluent(path) ? read_fluent_solid(path) : read_msh_solid(path);
 }
 
 /// One for each version that is written; both are read under either name.
@@ -70,7 +71,8 @@ FileFormat msh_row(const std::string& name) {
           .write_solid = [](OutputSet& outputs, const SolidStream& mesh,
                             const std::string& path) { write_msh_solid(outputs, mesh, path, version); },
           .read_solid = read_msh_solid_or_none,
-          .patch_names = msh_group_names};
+          .patch_names = msh_group_names,
+          .blocks_in_solid = true};
 }
 
 /// One for each order of bytes.
@@ -115,7 +117,8 @@ std::vector<FileFormat> rows_with_solutions() {
            .write_blocks = write_vtu,
            .write_solid = write_vtu_solid,
            .read_solid = read_vtu_solid,
-           .solution_in_solid = true},
+           .solution_in_solid = true,
+           .blocks_in_solid = true},
           {.name = "pvtu",
            .program = "VTK",
            .places = {mesh, solution, blocks, layers, solid},
@@ -125,7 +128,8 @@ std::vector<FileFormat> rows_with_solutions() {
            .write_blocks = write_pvtu,
            .write_solid = write_pvtu_solid,
            .read_solid = read_pvtu_solid,
-           .solution_in_solid = true}};
+           .solution_in_solid = true,
+           .blocks_in_solid = true}};
 }
 
 /// Those that other programs read their meshes from.
@@ -141,12 +145,17 @@ std::vector<FileFormat> rows_of_programs() {
            .patch_names = su2_marker_names},
           {.name = "fluent.msh",
            .program = "Fluent",
-           .places = {mesh, blocks, conditions},
+           .places = {mesh, blocks, conditions, solid},
            .read_mesh = read_fluent,
            .write_mesh = write_mesh_alone<write_fluent>,
            .write_blocks = write_fluent,
            .boundary_names = fluent_zone_names,
-           .unknown_boundary = "a wall"},
+           .unknown_boundary = "a wall",
+           .write_solid = write_fluent_solid,
+           .read_solid = read_fluent_solid,
+           .patch_names = fluent_zone_names,
+           .conditions_in_solid = true,
+           .blocks_in_solid = true},
           msh_row<MshVersion::msh_2_2>("msh"),
           msh_row<MshVersion::msh_4_1>("msh41"),
           ugrid_row<std::endian::big>("b8.ugrid"),
@@ -160,15 +169,17 @@ std::vector<FileFormat> rows_of_programs() {
            .unknown_boundary = "of type 0 in the .mapbc"},
           {.name = "polyMesh",
            .program = "OpenFOAM",
-           .places = {mesh, conditions, solid},
+           .places = {mesh, blocks, conditions, solid},
            .read_mesh = read_foam_plane,
            .write_mesh = write_mesh_alone<write_foam_plane>,
+           .write_blocks = write_foam_plane,
            .boundary_names = foam_patch_names,
            .unknown_boundary = "a plain patch, no wall",
            .write_solid = write_foam,
            .read_solid = read_foam,
            .patch_names = foam_patch_names,
            .conditions_in_solid = true,
+           .blocks_in_solid = true,
            .is_folder = true}};
 }
 

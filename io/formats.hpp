@@ -67,6 +67,7 @@ struct FileFormat {
   std::vector<std::string> (*patch_names)(const std::vector<std::string>& names) = nullptr;
   bool solution_in_solid = false;  ///< whether a 3D mesh has a place for one
   bool conditions_in_solid = false;
+  bool blocks_in_solid = false;
   bool is_folder = false;
 
   bool holds(Content content) const;

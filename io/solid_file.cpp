@@ -48,6 +48,19 @@ void append_losses(const FileFormat& format, const std::vector<std::string>& nam
                   *first.in1, *first.in2));
 }
 
+/// A line where no boundary has a condition and the format makes a statement of that.
+template <class Boundaries>
+void append_unknown(const FileFormat& format, const Boundaries& boundaries, const std::string& path,
+                    std::vector<std::string>& losses) {
+  const bool any_known =
+      std::ranges::any_of(boundaries, [](const auto& boundary) { return boundary.condition != "none"; });
+  if (format.unknown_boundary == nullptr || any_known || boundaries.empty()) return;
+  losses.push_back(
+      fmt::format("{}: nothing says which boundaries are walls; each is written as {}. A .cgns holds what "
+                  "the case says: begin with that",
+                  path, format.unknown_boundary));
+}
+
 }  // namespace
 
 void require_solid_suffix(const std::string& path) {
@@ -95,9 +108,14 @@ std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& p
     });
   }
   std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
-  std::vector<std::string> losses{path + ": the blocks are written as one"};
-  if (dropped > 0) losses.back() += fmt::format("; the {} edges between them are no patch", dropped);
-  return losses;
+  const FileFormat* format = solid_format(path);
+  const bool holds_blocks = format != nullptr && format->blocks_in_solid;
+  std::string loss = holds_blocks ? "" : "the blocks are written as one";
+  if (dropped > 0)
+    loss += fmt::format("{}the {} edges between {} are no patch", holds_blocks ? "" : "; ", dropped,
+                        holds_blocks ? "two blocks" : "them");
+  if (loss.empty()) return {};
+  return {path + ": " + loss};
 }
 
 std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& path) {
@@ -112,6 +130,7 @@ std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& 
   std::vector<std::string> names;
   for (const BoundaryEdges& boundary : mesh.plane.boundaries) names.push_back(boundary.name);
   append_losses(*format, names, mesh.solution, path, losses);
+  append_unknown(*format, mesh.plane.boundaries, path, losses);
   return losses;
 }
 
@@ -120,10 +139,13 @@ std::vector<std::string> losses_in(const SolidMesh& mesh, const std::string& pat
   if (format == nullptr) return {};
   std::vector<std::string> names, losses;
   for (const SolidPatch& patch : mesh.patches) names.push_back(patch.name);
+  if (mesh.block_names.size() > 1 && !format->blocks_in_solid)
+    losses.push_back(path + ": the blocks are written as one");
   append_losses(*format, names, mesh.solution ? &*mesh.solution : nullptr, path, losses);
   const auto has_condition = [](const SolidPatch& patch) { return patch.condition != "none"; };
   if (!format->conditions_in_solid && std::ranges::any_of(mesh.patches, has_condition))
     losses.push_back(path + ": this format has no place for boundary conditions, which are left out");
+  append_unknown(*format, mesh.patches, path, losses);
   return losses;
 }
 

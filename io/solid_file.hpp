@@ -32,7 +32,7 @@ void write_solid_of_root(const Communicator& comm, const SolidMesh& mesh, const 
 std::optional<SolidMesh> read_solid(const std::string& path);
 
 /// Takes the boundaries between two blocks out of a plane mesh with several of them: in space they lie inside
-/// the one zone that is written. What that loses, a line each, with the output's name.
+/// the mesh. What that loses, a line each, with the output's name.
 std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& path);
 
 /// What the format of the suffix has no place for and the mesh has: one line each, with the file's name; that

@@ -29,6 +29,27 @@ std::string patches_text(const std::vector<PatchFigures>& patches, std::size_t m
   return text;
 }
 
+std::string blocks_text(const std::vector<BlockFigures>& blocks, std::size_t most) {
+  std::string text;
+  for (std::size_t n = 0; n < std::min(blocks.size(), most); ++n)
+    text +=
+        fmt::format("    {:<22}{:>12}  volume {:.6g}\n", blocks[n].name, blocks[n].cells, blocks[n].volume);
+  if (blocks.size() > most)
+    text += fmt::format("    {} more; --verbose or --json shows them\n", blocks.size() - most);
+  return text;
+}
+
+std::string blocks_json(const std::vector<BlockFigures>& blocks) {
+  JsonObject all;
+  for (const BlockFigures& block : blocks) {
+    JsonObject one;
+    one.add("cells", block.cells);
+    one.add("volume", block.volume);
+    all.add(block.name, one);
+  }
+  return all.text();
+}
+
 std::string patches_json(const std::vector<PatchFigures>& patches) {
   JsonObject all;
   for (const PatchFigures& patch : patches) {
@@ -50,6 +71,11 @@ Figures figures_of(const SolidMesh& mesh, const SolidFigures& found, std::size_t
   figures.add("volume", found.volume, number);
   figures.add("least cell volume", found.least_volume, number);
   figures.add_member("least_place", json_of(coordinates(found.least_place)));
+  if (!found.blocks.empty()) {
+    figures.add("blocks", std::ssize(found.blocks));
+    figures.add_lines(blocks_text(found.blocks, most));
+    figures.add_member("block_figures", blocks_json(found.blocks));
+  }
   figures.add("patches", std::ssize(mesh.patches));
   figures.add_lines(patches_text(found.patches, most));
   figures.add_member("patch_figures", patches_json(found.patches));

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <optional>
 #include <set>
@@ -18,12 +17,6 @@
 namespace quadloop {
 
 namespace {
-
-std::string hexadecimal(std::int64_t number) {
-  std::string text(16, '0');
-  text.resize(std::to_chars(text.data(), text.data() + text.size(), number, 16).ptr - text.data());
-  return text;
-}
 
 /// Zones: 1 the nodes, 2, 3, ... the cells of each block, then the faces inside, then the boundaries.
 class FluentWriter {
@@ -84,7 +77,7 @@ class FluentWriter {
   }
 
   void write_nodes() {
-    const std::string nodes = hexadecimal(comm_.sum(mesh_.owned_nodes));
+    const std::string nodes = fluent_hexadecimal(comm_.sum(mesh_.owned_nodes));
     file_.write("(0 \"quadloop\")\n(2 2)\n(10 (0 1 " + nodes + " 0 2))\n(10 (1 1 " + nodes + " 1 2)(\n");
     file_.write_rows(mesh_.owned_nodes, 2, [&](TextRows& text, std::int64_t i) {
       text.put(mesh_.points[i].x, ' ');
@@ -96,14 +89,14 @@ class FluentWriter {
   /// A zone of both kinds lists the kind of each cell.
   void write_cells() {
     constexpr int triangle = 1, quad = 3;
-    file_.write("(12 (0 1 " + hexadecimal(triangles_ + quads_) + " 0))\n");
+    file_.write("(12 (0 1 " + fluent_hexadecimal(triangles_ + quads_) + " 0))\n");
     std::int64_t first = 1;
     for (std::int32_t block = 0; block < blocks(); ++block) {
       const std::int64_t triangles = count_in(block, &LoadedMesh::triangle_to_block, triangles_),
                          quads = count_in(block, &LoadedMesh::quad_to_block, quads_);
       const int kind = quads == 0 ? triangle : triangles == 0 ? quad : 0;
-      file_.write("(12 (" + hexadecimal(2 + block) + " " + hexadecimal(first) + " " +
-                  hexadecimal(first + triangles + quads - 1) + " 1 " + std::to_string(kind) + ")");
+      file_.write("(12 (" + fluent_hexadecimal(2 + block) + " " + fluent_hexadecimal(first) + " " +
+                  fluent_hexadecimal(first + triangles + quads - 1) + " 1 " + std::to_string(kind) + ")");
       if (kind == 0) {
         file_.write("(\n");
         file_.write_root_rows(triangles, 1, [](TextRows& text, std::int64_t) { text.put(triangle, ' '); });
@@ -136,9 +129,10 @@ class FluentWriter {
     });
     inner = comm_.sum(inner);
     has_inner_ = inner > 0;
-    file_.write("(13 (0 1 " + hexadecimal(inner + boundaries_.all_edges()) + " 0))\n");
+    file_.write("(13 (0 1 " + fluent_hexadecimal(inner + boundaries_.all_edges()) + " 0))\n");
     if (has_inner_) {
-      file_.write("(13 (" + hexadecimal(inner_zone()) + " 1 " + hexadecimal(inner) + " 2 2)(\n");
+      file_.write("(13 (" + fluent_hexadecimal(inner_zone()) + " 1 " + fluent_hexadecimal(inner) +
+                  " 2 2)(\n");
       write_inner();
       file_.write("))\n");
     }
@@ -182,9 +176,9 @@ class FluentWriter {
         [&](std::size_t n) {
           const std::int64_t last = first + boundaries_.edges_of(n) - 1;
           const std::string head = std::string(is_open ? "))\n" : "") + "(13 (" +
-                                   hexadecimal(inner_zone() + 1 + static_cast<std::int64_t>(n)) + " " +
-                                   hexadecimal(first) + " " + hexadecimal(last) + " " +
-                                   hexadecimal(type_of(n)) + " 2)(\n";
+                                   fluent_hexadecimal(inner_zone() + 1 + static_cast<std::int64_t>(n)) + " " +
+                                   fluent_hexadecimal(first) + " " + fluent_hexadecimal(last) + " " +
+                                   fluent_hexadecimal(type_of(n)) + " 2)(\n";
           first = last + 1;
           is_open = true;
           return head;

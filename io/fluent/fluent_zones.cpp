@@ -1,6 +1,7 @@
 #include "io/fluent/fluent_zones.hpp"
 
 #include <array>
+#include <charconv>
 
 namespace quadloop {
 
@@ -45,6 +46,12 @@ std::string condition_of_fluent(std::int64_t number) {
     if (number == zone.number) return zone.condition;
   }
   return "none";
+}
+
+std::string fluent_hexadecimal(std::int64_t number) {
+  std::string text(16, '0');
+  text.resize(std::to_chars(text.data(), text.data() + text.size(), number, 16).ptr - text.data());
+  return text;
 }
 
 }  // namespace quadloop

@@ -18,4 +18,7 @@ std::string fluent_word(const std::string& condition);
 /// The way back; "none" for a number that has no word of ours.
 std::string condition_of_fluent(std::int64_t number);
 
+/// A number as Fluent's sections have it.
+std::string fluent_hexadecimal(std::int64_t number);
+
 }  // namespace quadloop

@@ -5,6 +5,12 @@
 
 namespace quadloop {
 
+std::vector<std::string> foam_files(const SolidBlocks& blocks) {
+  std::vector<std::string> files{"points", "faces", "owner", "neighbour", "boundary"};
+  if (blocks.several()) files.emplace_back("cellZones");
+  return files;
+}
+
 std::string foam_head(const std::string& type, const std::string& object, const std::string& note) {
   std::string head =
       "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       " + type + ";\n";
@@ -53,6 +59,29 @@ void write_foam_points(const SolidStream& stream, const StagedFile& staged) {
     text.put(p.z, ')');
     text.mark('\n');
   });
+  file.write(")\n");
+  file.close();
+}
+
+void write_foam_zones(const SolidStream& stream, const SolidBlocks& blocks, const StagedFile& staged) {
+  const Communicator& comm = stream.communicator();
+  TextOutput file(comm, staged);
+  const std::vector<std::string> names = foam_patch_names(blocks.names());
+  file.write(foam_head("regIOobject", "cellZones") + std::to_string(names.size()) + "\n(\n");
+  for (std::int32_t block = 0; block < blocks.count(); ++block) {
+    std::int64_t cells = 0, before = 0;
+    for_each_kind_of_cell([&]<std::size_t width>() { cells += comm.sum(blocks.rows<width>(block).size()); });
+    file.write(names[block] + "\n{\n    type cellZone;\n    cellLabels      List<label>\n" +
+               std::to_string(cells) + "\n(\n");
+    for_each_kind_of_cell([&]<std::size_t width>() {
+      const BlockRows rows = blocks.rows<width>(block);
+      const std::int64_t first = before + comm.exclusive_sum(stream.cell_rows<width>());
+      file.write_rows(rows.size(), 1,
+                      [&](TextRows& text, std::int64_t i) { text.put(first + rows[i], '\n'); });
+      before += stream.all_cells<width>();
+    });
+    file.write(")\n;\n}\n");
+  }
   file.write(")\n");
   file.close();
 }

@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "io/solid/solid_blocks.hpp"
 #include "io/solid/solid_stream.hpp"
 #include "io/text/text_output.hpp"
 
 namespace quadloop {
 
-/// The five files of a polyMesh.
-inline const std::vector<std::string> foam_files{"points", "faces", "owner", "neighbour", "boundary"};
+/// The files of a polyMesh: the five that each has, and of several blocks the zones of cells.
+std::vector<std::string> foam_files(const SolidBlocks& blocks);
 
 /// The header of one of them.
 std::string foam_head(const std::string& type, const std::string& object, const std::string& note = {});
@@ -30,6 +31,9 @@ void write_foam_boundary(const Communicator& comm, const StagedFile& staged,
 
 /// The file `points`. *Collective.*
 void write_foam_points(const SolidStream& stream, const StagedFile& staged);
+
+/// The file `cellZones`: a zone for each block. *Collective.*
+void write_foam_zones(const SolidStream& stream, const SolidBlocks& blocks, const StagedFile& staged);
 
 /// A face takes room for one number more than it has nodes.
 template <class Node, std::size_t width>

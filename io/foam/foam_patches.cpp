@@ -29,7 +29,43 @@ FoamPatch read_patch(FoamScanner& scan) {
   return patch;
 }
 
+std::int32_t read_cell(FoamScanner& scan, std::int64_t end) {
+  const std::int64_t cell = scan.integer("the number of a cell");
+  if (cell < 0 || cell >= end)
+    scan.refuse(fmt::format("cell {} is none of the cells 0 to {}", cell, end - 1));
+  return static_cast<std::int32_t>(cell);
+}
+
+/// "NAME { type cellZone; cellLabels List<label> 3 (0 1 2); }"; an empty list is "0".
+FoamZone read_zone(FoamScanner& scan, std::int64_t end) {
+  FoamZone zone;
+  zone.name = scan.token("the name of a zone");
+  scan.expect("{");
+  for (std::string key(scan.token("}")); key != "}"; key = scan.token("}")) {
+    if (key != "cellLabels") {
+      while (scan.token(";") != ";") {
+      }
+      continue;
+    }
+    scan.expect("List<label>");
+    for (std::size_t left = scan.begin_list("cells of a zone", 2); left > 0; --left)
+      zone.cells.push_back(read_cell(scan, end));
+    scan.expect(")");
+    scan.expect(";");
+  }
+  return zone;
+}
+
 }  // namespace
+
+std::vector<FoamZone> read_foam_zones(const std::string& path, std::int64_t end) {
+  FoamScanner scan(path);
+  std::vector<FoamZone> zones;
+  for (std::size_t left = scan.begin_list("zones", 4); left > 0; --left)
+    zones.push_back(read_zone(scan, end));
+  scan.end_file();
+  return zones;
+}
 
 std::vector<FoamPatch> read_foam_boundary(const std::string& path) {
   FoamScanner scan(path);
@@ -43,12 +79,8 @@ std::vector<FoamPatch> read_foam_boundary(const std::string& path) {
 std::vector<std::int32_t> read_foam_labels(const std::string& path, std::int64_t end) {
   FoamScanner scan(path);
   std::vector<std::int32_t> labels;
-  for (std::size_t left = scan.begin_list("cells of faces", 2); left > 0; --left) {
-    const std::int64_t cell = scan.integer("the number of a cell");
-    if (cell < 0 || cell >= end)
-      scan.refuse(fmt::format("cell {} is none of the cells 0 to {}", cell, end - 1));
-    labels.push_back(static_cast<std::int32_t>(cell));
-  }
+  for (std::size_t left = scan.begin_list("cells of faces", 2); left > 0; --left)
+    labels.push_back(read_cell(scan, end));
   scan.end_file();
   return labels;
 }

@@ -1,7 +1,9 @@
 #include "io/foam/foam_plane_file.hpp"
 
 #include "io/foam/foam_file.hpp"
+#include "io/loaded/foreign_mesh.hpp"
 #include "io/solid/require_conforming.hpp"
+#include "io/solid/solid_blocks.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
 #include "mesher/solid/extruded_mesh.hpp"
@@ -29,14 +31,24 @@ Mesh without_interfaces(const Communicator& comm, const Mesh& mesh) {
   return result;
 }
 
-}  // namespace
-
-void write_foam_plane(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
+void write(OutputSet& outputs, const Mesh& mesh, const std::string& path, const PlaneBlocks* blocks) {
   const Communicator& comm = outputs.communicator();
   const Mesh plane = without_interfaces(comm, mesh);
   require_conforming(comm, plane, edge_cells(comm, plane), 0, path);
-  const ExtrudedMesh layer = extruded(plane, even_heights(1, 1), ExtrusionAxis::z);
+  ExtrudedMesh layer = extruded(plane, even_heights(1, 1), ExtrusionAxis::z);
+  layer.blocks = blocks;
   write_foam(outputs, SolidStream(comm, layer), path);
+}
+
+}  // namespace
+
+void write_foam_plane(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
+  write(outputs, mesh, path, nullptr);
+}
+
+void write_foam_plane(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
+  const PlaneBlocks blocks = plane_blocks(whole);
+  write(outputs, whole.mesh, path, whole.blocks > 1 ? &blocks : nullptr);
 }
 
 LoadedMesh read_foam_plane(const std::string& path) {
@@ -48,6 +60,21 @@ LoadedMesh read_foam_plane(const std::string& path) {
   return loaded_plane(*solid, path);
 }
 
+namespace {
+
+/// Those of the prisms and hexahedra; a plane mesh has the cells of a block one after another.
+void take_blocks(LoadedMesh& loaded, const SolidMesh& solid) {
+  if (solid.block_names.size() < 2) return;
+  loaded.blocks = static_cast<std::int32_t>(solid.block_names.size());
+  loaded.block_names = solid.block_names;
+  const auto quads = solid.cell_to_block.begin() + std::ssize(loaded.mesh.triangles);
+  loaded.triangle_to_block.assign(solid.cell_to_block.begin(), quads);
+  loaded.quad_to_block.assign(quads, solid.cell_to_block.end());
+  order_by_blocks(loaded);
+}
+
+}  // namespace
+
 LoadedMesh loaded_plane(const SolidMesh& solid, const std::string& path) {
   LoadedMesh loaded;
   PlaneOfSolid plane = plane_of_solid(solid, path);
@@ -56,6 +83,7 @@ LoadedMesh loaded_plane(const SolidMesh& solid, const std::string& path) {
   loaded.triangle_to_block.assign(loaded.mesh.triangles.size(), 0);
   loaded.quad_to_block.assign(loaded.mesh.quads.size(), 0);
   loaded.block_names = {"domain"};
+  take_blocks(loaded, solid);
   loaded.warnings = solid.warnings;
   return loaded;
 }

@@ -14,6 +14,9 @@ namespace quadloop {
 /// ranks.
 void write_foam_plane(OutputSet& outputs, const Mesh& mesh, const std::string& path);
 
+/// The same for a mesh that the set's only rank holds, its blocks as zones of cells.
+void write_foam_plane(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
+
 /// Reads a polyMesh that is one cell thick between patches of the type empty, on the calling rank alone, as
 /// plane_of_solid() says. Throws InputError.
 LoadedMesh read_foam_plane(const std::string& path);

@@ -4,10 +4,11 @@
 #include <filesystem>
 #include <utility>
 
-#include "io/foam/foam_cells.hpp"
 #include "io/foam/foam_file.hpp"
 #include "io/foam/foam_patches.hpp"
 #include "io/foam/foam_scanner.hpp"
+#include "io/solid/block_collector.hpp"
+#include "io/solid/cell_of_sides.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -85,12 +86,38 @@ class FoamReader {
       sides[ends[owner_[face]]++] = {faces_[face], true};
       if (face < neighbour_.size()) sides[ends[neighbour_[face]]++] = {faces_[face], false};
     }
+    const std::vector<std::int32_t> block_of = blocks_of_cells(std::ssize(ends));
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < ends.size(); ++cell) {
       const std::string fault = add_cell(mesh_, std::span(sides).subspan(begin, ends[cell] - begin));
       if (!fault.empty()) throw InputError(fmt::format("{}: cell {} {}", path_, cell, fault));
       begin = ends[cell];
+      blocks_.take(mesh_, block_of[cell]);
     }
+    blocks_.put_into(mesh_);
+  }
+
+  /// Zones of cells, where there are any; of a cell in several the first counts.
+  std::vector<std::int32_t> blocks_of_cells(std::int64_t cells) {
+    std::vector<std::int32_t> block_of(cells, -1);
+    std::int64_t again = 0;
+    const std::string path = file("cellZones");
+    if (std::error_code ignored; std::filesystem::exists(path, ignored)) {
+      for (const FoamZone& zone : read_foam_zones(path, cells)) {
+        const std::int32_t block = blocks_.named(zone.name);
+        for (const std::int32_t cell : zone.cells) {
+          again += block_of[cell] >= 0 ? 1 : 0;
+          if (block_of[cell] < 0) block_of[cell] = block;
+        }
+      }
+    }
+    if (again > 0)
+      mesh_.warnings.push_back(
+          fmt::format("{}: {} cells are in several zones; each is of the first alone", path_, again));
+    for (std::int32_t& block : block_of) {
+      if (block < 0) block = blocks_.named("domain");
+    }
+    return block_of;
   }
 
   void read_patches() {
@@ -117,6 +144,7 @@ class FoamReader {
   std::vector<SolidPatch::Face> faces_;
   std::vector<std::int32_t> owner_, neighbour_;
   SolidMesh mesh_;
+  BlockCollector blocks_;
 };
 
 }  // namespace

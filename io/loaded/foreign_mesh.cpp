@@ -195,6 +195,17 @@ void drop_unused_nodes(ForeignMesh& foreign, const std::string& path) {
       fmt::format("{}: {} nodes that belong to no cell were left out", path, dropped));
 }
 
+void order_by_blocks(LoadedMesh& loaded) {
+  Mesh& mesh = loaded.mesh;
+  if (!loaded.solution) loaded.solution.emplace();
+  CellValues& values = loaded.solution->cells;
+  const std::size_t width = values.width();
+  sort_by_block(mesh.triangles, loaded.triangle_to_block, values.values.begin(), width);
+  sort_by_block(mesh.quads, loaded.quad_to_block, values.values.begin() + mesh.triangles.size() * width,
+                width);
+  if (loaded.solution->empty()) loaded.solution.reset();
+}
+
 LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
   LoadedMesh& loaded = foreign.loaded;
   Mesh& mesh = loaded.mesh;
@@ -203,13 +214,7 @@ LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
   mesh.owned_nodes = size32(mesh.points);
   drop_empty_blocks(loaded);
   const std::int64_t turned = orient_cells(mesh);
-  if (!loaded.solution) loaded.solution.emplace();
-  CellValues& values = loaded.solution->cells;
-  const std::size_t width = values.width();
-  sort_by_block(mesh.triangles, loaded.triangle_to_block, values.values.begin(), width);
-  sort_by_block(mesh.quads, loaded.quad_to_block, values.values.begin() + mesh.triangles.size() * width,
-                width);
-  if (loaded.solution->empty()) loaded.solution.reset();
+  order_by_blocks(loaded);
   const std::int64_t inside = place_edges(foreign, scan);
   std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   if (mesh.boundaries.empty()) add_outer_boundary(mesh);

@@ -46,6 +46,9 @@ void drop_repeated(ForeignMesh& foreign, const std::string& path);
 /// Drops nodes that neither a cell nor an edge names; the others keep their order.
 void drop_unused_nodes(ForeignMesh& foreign, const std::string& path);
 
+/// Puts the cells of a block one after another, with their values.
+void order_by_blocks(LoadedMesh& loaded);
+
 /// What this program calls a mesh: cells counter-clockwise as their neighbours have it (orient_cells;
 /// inverted ones are validate()'s), the cells of a block one after another with their values, each boundary
 /// edge with its cell to the left, or between two blocks the one with the smaller number. Edges inside a

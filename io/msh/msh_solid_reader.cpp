@@ -2,6 +2,7 @@
 
 #include "io/msh/msh_solid_file.hpp"
 #include "io/msh/msh_text.hpp"
+#include "io/solid/block_collector.hpp"
 
 namespace quadloop {
 
@@ -19,9 +20,7 @@ class MshSolidReader {
     if (!text_.read_values().empty())
       mesh_.warnings.push_back(text_.scan().path() +
                                ": of three dimensions its solution ($NodeData, $ElementData) is not read");
-    if (volumes_.size() > 1)
-      mesh_.warnings.push_back(text_.scan().path() + ": its " + std::to_string(volumes_.size()) +
-                               " volumes are read as one");
+    blocks_.put_into(mesh_);
     return std::move(mesh_);
   }
 
@@ -48,8 +47,12 @@ class MshSolidReader {
 
   template <std::size_t width>
   void add(std::vector<std::array<std::int32_t, width>>& cells, const MshElement& element) {
-    volumes_[element.physical] = true;
     cells.push_back(element.as<std::int32_t, width>());
+    const auto [volume, is_new] = volumes_.try_emplace(std::abs(element.physical), 0);
+    if (is_new)
+      volume->second =
+          blocks_.named(volume->first == 0 ? "domain" : text_.groups().name_of(3, volume->first));
+    blocks_.take(mesh_, volume->second);
   }
 
   SolidPatch& patch_of(const MshElement& element) {
@@ -63,20 +66,31 @@ class MshSolidReader {
     return mesh_.patches[found->second];
   }
 
-  /// A cell in several groups stands there once for each, one after another in the order of the groups.
+  /// A cell in several groups stands there once for each, one after another in the order of the groups: it is
+  /// of the first.
   void drop_repeated_cells() {
     if (volumes_.size() < 2) return;
     for_each_kind_of_cell([&]<std::size_t width>() {
       auto& cells = cells_of<width>(mesh_);
       std::map<std::array<std::int32_t, width>, bool> seen;
-      std::erase_if(cells, [&](const auto& cell) { return !seen.try_emplace(cell, true).second; });
+      std::vector<char> again;
+      for (const auto& cell : cells) again.push_back(seen.try_emplace(cell, true).second ? 0 : 1);
+      drop(blocks_.of<width>(), again);
+      drop(cells, again);
     });
+  }
+
+  template <class Row>
+  static void drop(std::vector<Row>& rows, const std::vector<char>& flags) {
+    std::size_t i = 0;
+    std::erase_if(rows, [&](const Row&) { return flags[i++] != 0; });
   }
 
   MshText text_;
   SolidMesh mesh_;
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> patches_;  ///< by group, or surface
-  std::map<std::int64_t, bool> volumes_;
+  std::map<std::int64_t, std::int32_t> volumes_;                          ///< by group their blocks
+  BlockCollector blocks_;
 };
 
 }  // namespace

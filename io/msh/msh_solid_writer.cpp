@@ -1,6 +1,7 @@
 #include "io/msh/msh_output.hpp"
 #include "io/msh/msh_solid_file.hpp"
 #include "io/msh/msh_text.hpp"
+#include "io/solid/solid_blocks.hpp"
 
 namespace quadloop {
 
@@ -14,22 +15,23 @@ constexpr MshType type_of_cell = width == 4   ? msh_tetrahedron
 template <std::size_t width>
 constexpr MshType type_of_face = width == 3 ? msh_triangle : msh_quad;
 
-/// The patches, then the volume.
+/// The patches, then the blocks.
 std::vector<MshOutputGroup> groups_of(const SolidStream& stream) {
   std::vector<MshOutputGroup> groups;
   for (const std::string& name : stream.patch_names()) groups.push_back({2, name});
-  groups.push_back({3, "domain"});
+  const SolidBlocks blocks(stream);
+  for (const std::string& name : blocks.names()) groups.push_back({3, name});
   return groups;
 }
 
 class MshSolidWriter {
  public:
   MshSolidWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path, MshVersion version)
-      : stream_{stream}, output_{outputs, path, version, groups_of(stream)} {}
+      : stream_{stream}, blocks_{stream}, output_{outputs, path, version, groups_of(stream)} {}
 
   void write() {
     output_.write_nodes(stream_.point_rows(), [&](std::int64_t i) { return stream_.point(i); });
-    output_.begin_elements(blocks(),
+    output_.begin_elements(runs(),
                            stream_.counts().cells() + stream_.patch_triangles() + stream_.patch_quads());
     if (stream_.boundaries() != nullptr)
       output_.write_on_boundaries<4>(
@@ -39,20 +41,21 @@ class MshSolidWriter {
       write_faces<3>(n);
       write_faces<4>(n);
     }
-    for_each_kind_of_cell([&]<std::size_t width>() {
-      output_.write_elements<width>(type_of_cell<width>, std::ssize(stream_.patches()) + 1,
-                                    stream_.cell_rows<width>(),
-                                    [&](std::int64_t i) { return stream_.cell<width>(i); });
-    });
+    for (std::int32_t block = 0; block < blocks_.count(); ++block)
+      for_each_kind_of_cell([&]<std::size_t width>() { write_cells<width>(block); });
     output_.end_elements();
   }
 
  private:
-  std::int64_t blocks() const {
+  /// Of elements of one type in one group.
+  std::int64_t runs() const {
     std::int64_t count = 0;
     for (const StreamedPatch& patch : stream_.patches())
       count += (patch.triangles > 0 ? 1 : 0) + (patch.quads > 0 ? 1 : 0);
-    for_each_kind_of_cell([&]<std::size_t width>() { count += stream_.all_cells<width>() > 0 ? 1 : 0; });
+    for (std::int32_t block = 0; block < blocks_.count(); ++block)
+      for_each_kind_of_cell([&]<std::size_t width>() {
+        count += stream_.communicator().any(blocks_.rows<width>(block).size() > 0) ? 1 : 0;
+      });
     return count;
   }
 
@@ -63,7 +66,15 @@ class MshSolidWriter {
                                   [&](std::int64_t i) { return stream_.face<width>(patch, i); });
   }
 
+  template <std::size_t width>
+  void write_cells(std::int32_t block) {
+    const BlockRows rows = blocks_.rows<width>(block);
+    output_.write_elements<width>(type_of_cell<width>, std::ssize(stream_.patches()) + 1 + block, rows.size(),
+                                  [&](std::int64_t i) { return stream_.cell<width>(rows[i]); });
+  }
+
   const SolidStream& stream_;
+  const SolidBlocks blocks_;
   MshOutput output_;
 };
 

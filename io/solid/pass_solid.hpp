@@ -14,7 +14,7 @@ void pass_fields(Pipe& pipe, SolidPatch& patch) {
 template <class Pipe>
 void pass_fields(Pipe& pipe, SolidMesh& mesh) {
   pass(pipe, mesh.points, mesh.tetrahedra, mesh.pyramids, mesh.prisms, mesh.hexahedra, mesh.patches,
-       mesh.solution, mesh.warnings);
+       mesh.solution, mesh.block_names, mesh.cell_to_block, mesh.warnings);
 }
 
 }  // namespace quadloop

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "io/solid/block_collector.hpp"
 #include "io/text/text_scanner.hpp"
 #include "io/vtu/pvtu_solid_file.hpp"
 #include "io/vtu/vtu_document.hpp"
@@ -46,6 +47,7 @@ class PvtuSolidReader {
       scan_.refuse("its pieces have more than 2^31 - 1 nodes, which cannot be read on one rank");
     unite_nodes();
     drop_repeated();
+    blocks_.put_into(whole_);
     if (!names_.empty() || !cell_names_.empty())
       whole_.solution = Field{names_, std::move(values_), {}, {cell_names_, std::move(of_all_cells_)}};
     return std::move(whole_);
@@ -64,6 +66,7 @@ class PvtuSolidReader {
     for_each_kind_of_cell([&]<std::size_t width>() {
       for (const auto& cell : cells_of<width>(piece)) cells_of<width>(whole_).push_back(moved(cell));
     });
+    take_blocks(piece);
     for (const SolidPatch& patch : piece.patches) {
       auto found = std::ranges::find(whole_.patches, patch.name, &SolidPatch::name);
       if (found == whole_.patches.end())
@@ -71,6 +74,17 @@ class PvtuSolidReader {
       for (const SolidPatch::Face& face : patch.faces) found->faces.push_back(moved(face));
     }
     whole_.warnings.insert(whole_.warnings.end(), piece.warnings.begin(), piece.warnings.end());
+  }
+
+  /// A piece of one block does not say of which.
+  void take_blocks(const SolidMesh& piece) {
+    for (const std::string& name : piece.block_names) blocks_.named(name);
+    auto next = piece.cell_to_block.begin();
+    for_each_kind_of_cell([&]<std::size_t width>() {
+      std::vector<std::int32_t>& blocks = blocks_.of<width>();
+      for (std::size_t i = 0; i < cells_of<width>(piece).size(); ++i)
+        blocks.push_back(blocks_.named(piece.block_names.empty() ? "domain" : piece.block_names[*next++]));
+    });
   }
 
   void take_solution(const SolidMesh& piece, const std::string& source) {
@@ -137,6 +151,7 @@ class PvtuSolidReader {
           of_all_cells_.insert(of_all_cells_.end(), row, row + static_cast<std::ptrdiff_t>(width));
       }
       drop(cells_of<nodes>(whole_), flags);
+      drop(blocks_.of<nodes>(), flags);
     });
     for (SolidPatch& patch : whole_.patches) drop(patch.faces, repeated(patch.faces));
   }
@@ -144,6 +159,7 @@ class PvtuSolidReader {
   TextScanner scan_;
   std::vector<std::string> sources_;
   SolidMesh whole_;
+  BlockCollector blocks_;
   std::vector<std::string> names_, cell_names_;
   std::vector<double> values_;                   ///< rows for the points
   std::array<std::vector<double>, 9> of_cells_;  ///< rows for cells of so many nodes, of all pieces

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "io/solid/solid_blocks.hpp"
 #include "io/solid/solid_cell_values.hpp"
 #include "io/text/text_output.hpp"
 #include "io/vtu/pvtu_file.hpp"
@@ -52,6 +53,7 @@ void write_pvtu_solid(OutputSet& outputs, const SolidStream& mesh, const std::st
   PvtuList list;
   list.point_data = mesh.variables();
   list.cell_data = SolidCellValues(mesh).names();
+  if (SolidBlocks(mesh).several()) list.cell_marks.emplace_back("block");
   write_list(outputs, list, path);
   write_vtu_solid(outputs, mesh, pvtu_piece_path(path));
 }

@@ -13,7 +13,8 @@ namespace quadloop {
 /// wedges, hexahedra, then the faces of patches as triangles and quads. The cell data "boundary" and the
 /// field data "boundary_names" are as in write_vtu(). VTK has the first triangle of a wedge look outwards, so
 /// that the two last nodes of each of its triangles change places. The solution becomes point data and
-/// cell data; a face has the values of the cell beside it.
+/// cell data; a face has the values of the cell beside it. Of several blocks the cell data "block" is a
+/// cell's, from 1, 0 on faces, and the field data "block_names" tell the names.
 /// *Collective.* Throws OutputError on all ranks.
 void write_vtu_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "io/solid/block_collector.hpp"
 #include "io/vtu/vtu_arrays.hpp"
 #include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
@@ -28,7 +29,9 @@ class VtuSolidReader {
     if (std::ranges::none_of(types_, is_solid)) return std::nullopt;
     read_points();
     read_patches();
+    read_blocks();
     read_cells();
+    blocks_.put_into(mesh_);
     read_solution();
     std::erase_if(mesh_.patches, [](const SolidPatch& patch) { return patch.faces.empty(); });
     return std::move(mesh_);
@@ -66,6 +69,23 @@ class VtuSolidReader {
       patch_of_ = numbers_.integers(*array, document_.cells);
   }
 
+  /// Those that the file names; others are named as cells have them.
+  void read_blocks() {
+    const VtuArray* array = document_.find("CellData", "block");
+    if (array == nullptr || array->components != 1 || array->type.starts_with("Float")) return;
+    block_of_ = numbers_.integers(*array, document_.cells);
+    if (const VtuArray* names = document_.find("FieldData", "block_names"))
+      block_names_ = numbers_.texts(*names);
+    for (const std::string& name : block_names_) blocks_.named(name);
+  }
+
+  std::int32_t block_of(std::size_t cell) {
+    const std::int64_t number = block_of_.empty() ? 0 : block_of_[cell];
+    if (number <= 0) return blocks_.named("domain");
+    return blocks_.named(number <= std::ssize(block_names_) ? block_names_[number - 1]
+                                                            : "block_" + std::to_string(number));
+  }
+
   void read_cells() {
     const VtuArray& connectivity = needed("Cells", "connectivity");
     const VtuArray& offsets_array = needed("Cells", "offsets");
@@ -101,6 +121,7 @@ class VtuSolidReader {
   void add_cell(std::size_t cell, const std::array<std::int32_t, width>& nodes) {
     cells_of<width>(mesh_).push_back(nodes);
     places_[width].push_back(static_cast<std::int32_t>(cell));
+    if (!block_of_.empty()) blocks_.take(mesh_, block_of(cell));
   }
 
   void add(std::size_t cell, std::span<const std::int64_t> nodes) {
@@ -183,7 +204,9 @@ class VtuSolidReader {
   VtuDocument document_;
   VtuNumbers numbers_;
   SolidMesh mesh_;
-  std::vector<std::int64_t> types_, patch_of_;
+  std::vector<std::int64_t> types_, patch_of_, block_of_;
+  std::vector<std::string> block_names_;
+  BlockCollector blocks_;
   std::array<std::vector<std::int32_t>, 9>
       places_;             ///< of cells of so many nodes: which of the file's they are
   std::size_t place_ = 0;  ///< of the nodes of cells, for a refusal

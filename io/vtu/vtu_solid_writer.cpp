@@ -1,3 +1,4 @@
+#include "io/solid/solid_blocks.hpp"
 #include "io/solid/solid_cell_values.hpp"
 #include "io/solid/solid_stream.hpp"
 #include "io/vtu/vtu_appended.hpp"
@@ -33,7 +34,7 @@ struct Run {
 class VtuSolidWriter {
  public:
   VtuSolidWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path)
-      : stream_{stream}, cells_{stream}, file_{outputs, path} {
+      : stream_{stream}, cells_{stream}, blocks_{stream}, file_{outputs, path} {
     list_runs();
   }
 
@@ -71,6 +72,7 @@ class VtuSolidWriter {
     return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
            "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n" +
            vtu_text_array("boundary_names", stream_.patch_names()) +
+           (blocks_.several() ? vtu_text_array("block_names", blocks_.names()) : "") +
            vtu_name_arrays(stream_.patch_names(), 2) + "</FieldData>\n<Piece NumberOfPoints=\"" +
            std::to_string(stream_.counts().nodes) + "\" NumberOfCells=\"" + std::to_string(elements_) +
            "\">\n";
@@ -95,6 +97,21 @@ class VtuSolidWriter {
                             [this] { put_of_runs<std::uint8_t>([](const Run& run) { return run.type; }); });
     file_.add<std::int32_t>("CellData", "boundary", 1, elements_,
                             [this] { put_of_runs<std::int32_t>([](const Run& run) { return run.patch; }); });
+    if (blocks_.several())
+      file_.add<std::int32_t>("CellData", "block", 1, elements_, [this] { put_blocks(); });
+  }
+
+  /// Of cells from 1; 0 of the faces of patches, which come last.
+  void put_blocks() {
+    for_each_kind_of_cell([&]<std::size_t width>() {
+      file_.put_rows(stream_.cell_rows<width>(),
+                     [&](std::int64_t i) { return std::array{blocks_.of<width>(i) + 1}; });
+    });
+    stream_.on_root([&] {
+      Gathered<std::int32_t> none(file_);
+      for (std::int64_t i = stream_.counts().cells(); i < elements_; ++i) none.add(0);
+      none.flush();
+    });
   }
 
   void put_connectivity() {
@@ -164,6 +181,7 @@ class VtuSolidWriter {
 
   const SolidStream& stream_;
   const SolidCellValues cells_;
+  const SolidBlocks blocks_;
   VtuAppended file_;
   std::vector<Run> runs_;
   std::int64_t elements_ = 0, entries_ = 0;

@@ -138,10 +138,16 @@ class SolidCheck {
 
   void measure_cells() {
     LongSum sum;
+    std::vector<LongSum> of_blocks(mesh_.block_names.size());
+    for (const std::string& name : mesh_.block_names) figures_.blocks.push_back({name});
     figures_.least_volume = std::numeric_limits<double>::infinity();
     for_each_cell(mesh_, [&](const auto& nodes, std::int64_t cell) {
       const double volume = volume_of(nodes);
       sum.add(volume);
+      if (!of_blocks.empty()) {
+        of_blocks[mesh_.cell_to_block[cell]].add(volume);
+        ++figures_.blocks[mesh_.cell_to_block[cell]].cells;
+      }
       if (volume < figures_.least_volume) {
         figures_.least_volume = volume;
         figures_.least_place = middle(nodes);
@@ -150,6 +156,7 @@ class SolidCheck {
         report(SolidRule::positive, cell_name(cell) + " has no positive volume", middle(nodes));
     });
     figures_.volume = sum.value();
+    for (std::size_t b = 0; b < of_blocks.size(); ++b) figures_.blocks[b].volume = of_blocks[b].value();
   }
 
   void measure_patches() {

@@ -29,12 +29,19 @@ struct PatchFigures {
   double area = 0;
 };
 
+struct BlockFigures {
+  std::string name;
+  std::int64_t cells = 0;
+  double volume = 0;
+};
+
 struct SolidFigures {
   double volume = 0;
   double least_volume = 0;  ///< of a cell; 0 without cells
   Point3 least_place;       ///< the middle of that cell
   std::vector<PatchFigures> patches;
-  std::vector<SolidFault> faults;  ///< the first few of each rule
+  std::vector<BlockFigures> blocks;  ///< where there are several
+  std::vector<SolidFault> faults;    ///< the first few of each rule
   std::int64_t all_faults = 0;
 };
 

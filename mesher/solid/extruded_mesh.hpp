@@ -22,6 +22,13 @@ std::vector<double> even_heights(std::int64_t layers, double thickness);
 /// A node of the 3D mesh, numbered over all ranks, from 0.
 using SolidNode = std::int64_t;
 
+/// The blocks of a plane mesh, those of this rank's cells by their places among the names, which are the same
+/// on all ranks.
+struct PlaneBlocks {
+  std::vector<std::string> names;
+  std::vector<std::int32_t> of_triangles, of_quads;
+};
+
 /// A 3D mesh of prisms and hexahedra that is never held: a distributed plane mesh and the levels on which its
 /// nodes stand. Level 0 is the back, the last the front, from which the plane looks as it was drawn: cells
 /// are right-handed on both axes, the first three or four nodes of each on the level nearer to the back and
@@ -35,6 +42,7 @@ struct ExtrudedMesh {
   ExtrusionAxis axis = ExtrusionAxis::z;
   std::string back = "back", front = "front";  ///< names of the two ends; no boundary has one of them
   const Field* solution = nullptr;             ///< the same on each level, and in each layer
+  const PlaneBlocks* blocks = nullptr;         ///< of the plane; null: one
 
   std::int64_t levels() const { return std::ssize(heights); }
   std::int64_t layers() const { return levels() - 1; }

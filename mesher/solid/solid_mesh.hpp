@@ -30,7 +30,11 @@ struct SolidMesh {
   std::vector<std::array<std::int32_t, 6>> prisms;
   std::vector<std::array<std::int32_t, 8>> hexahedra;
   std::vector<SolidPatch> patches;
-  std::optional<Field> solution;      ///< rows of cells stand in the order of the kinds above
+  std::optional<Field> solution;  ///< rows of cells stand in the order of the kinds above
+  /// Where there are several blocks their names, and of each cell, in the order of the kinds above, its place
+  /// among them; else empty.
+  std::vector<std::string> block_names;
+  std::vector<std::int32_t> cell_to_block;
   std::vector<std::string> warnings;  ///< what the reader left out, with the file's name
 };
 

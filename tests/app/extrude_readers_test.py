@@ -11,6 +11,7 @@ import sys
 import unittest
 from pathlib import Path
 
+from convert_test import TWO_BLOCKS
 from program import ProgramTest
 
 CASES = Path(sys.argv[3]).resolve()
@@ -112,6 +113,26 @@ class Readers(ProgramTest):
             self.assertRegex(table, rf"nodes +{wanted['points'] // 2}\n")
             self.assertIn("(airfoil)", (self.folder / "back.mesh").read_text())
 
+    @program("fluent3DMeshToFoam")
+    def test_openfoam_reads_fluent_files_of_three_dimensions(self):
+        nodes, prisms, hexahedra = self.extruded("a.fluent.msh")
+        self.foam_case("solid")
+        self.tool("fluent3DMeshToFoam", "-case", "solid", "a.fluent.msh", env={**os.environ, "WM_PROJECT_DIR": FOAM})
+        self.assertEqual(self.check_foam("solid")[0], {"points": nodes, "prisms": prisms, "hexahedra": hexahedra})
+        self.tool("foamMeshToFluent", "-case", "solid", env={**os.environ, "WM_PROJECT_DIR": FOAM})  # and we what it writes
+        table = self.done("check", "solid/fluentInterface/solid.msh")[0]
+        self.assertRegex(table, rf"(?s)nodes +{nodes}\n.*prisms +{prisms}\n.*hexahedra +{hexahedra}\n.*airfoil +\d+")
+
+    @program("checkMesh")
+    def test_openfoam_finds_the_zones_of_blocks(self):
+        self.write("two.mesh", TWO_BLOCKS)
+        for name, layers in (("flat", "1"), ("thick", "2")):
+            self.foam_case(name)
+            self.done("extrude", "two.mesh", "-o", f"{name}/constant/polyMesh", "--layers", layers, "--thickness", "0.5", "-q")
+            said = self.check_foam(name)[1]
+            for zone, cells in (("block_1", 2), ("block_2", 1)):
+                self.assertRegex(said, rf"\n\s+{zone}\s+{cells * int(layers)}\s")
+
     @unittest.skipUnless(module("vtk"), "python3-vtk9 is not installed")
     def test_vtk_reads_fluent_files(self):
         import vtk
@@ -125,6 +146,26 @@ class Readers(ProgramTest):
         self.assertEqual(grid.GetNumberOfCells(), wanted["prisms"] + wanted["hexahedra"])
         areas = [grid.GetCell(c).ComputeArea() if grid.GetCellType(c) == 5 else 1 for c in range(grid.GetNumberOfCells())]
         self.assertGreater(min(areas), 0)
+
+    @unittest.skipUnless(module("vtk"), "python3-vtk9 is not installed")
+    def test_vtk_reads_fluent_files_of_three_dimensions(self):
+        import vtk
+        from vtk.util.numpy_support import vtk_to_numpy
+        nodes, prisms, hexahedra = self.extruded("a.fluent.msh")
+        vtk.vtkObject.GlobalWarningDisplayOff()
+        reader = vtk.vtkFLUENTReader()
+        reader.SetFileName(str(self.folder / "a.fluent.msh"))
+        reader.Update()
+        grid = reader.GetOutput().GetBlock(0)
+        types = vtk_to_numpy(grid.GetCellTypesArray())
+        self.assertEqual((grid.GetNumberOfPoints(), (types == 13).sum(), (types == 12).sum()), (nodes, prisms, hexahedra))
+        size = vtk.vtkCellSizeFilter()
+        size.SetInputData(grid)
+        size.Update()
+        volumes = vtk_to_numpy(size.GetOutput().GetCellData().GetArray("Volume"))
+        self.assertGreater(volumes[types == 12].min(), 0)
+        # VTK 9.1 makes every wedge of such a file inside out, of what OpenFOAM writes too.
+        self.assertLess(volumes[types == 13].max(), 0)
 
     @program("gmsh")
     def test_gmsh_reads_three_dimensions(self):

@@ -11,7 +11,7 @@ from program import ProgramTest
 
 GEOMETRY = "2\nfront\n4\n-4 -4\n6 -4\n6 4\n-4 4\nmy-wall\n3\n0 0\n1 0.2\n1 -0.2\n"
 CASE = '[geometry]\nfile = "a.geom"\n[spacing]\nmin = 0.25\nmax = 2\n[boundary.my-wall]\nbc = "wall"\n[output]\nformats = ["mesh", "cgns"]\n'
-OUTPUTS = ["a.cgns3.cgns", "a.vtu", "a.su2", "a.b8.ugrid", "a.lb8.ugrid", "polyMesh"]
+OUTPUTS = ["a.cgns3.cgns", "a.vtu", "a.su2", "a.fluent.msh", "a.b8.ugrid", "a.lb8.ugrid", "polyMesh"]
 EVEN = ("--layers", "3", "--thickness", "0.75")
 
 
@@ -94,6 +94,24 @@ class Extrude(ProgramTest):
         _, said = self.done("extrude", "two.mesh", "-o", "two.su2", *EVEN)
         self.assertIn("the blocks are written as one", said)
         self.assertEqual(self.record("check", "two.su2")["prisms"], 6)
+
+    def test_blocks_stay_where_the_format_has_a_place(self):
+        self.write("two.mesh", TWO_BLOCKS)
+        for name in ("two.vtu", "two.pvtu", "two.fluent.msh", "two.msh", "two.msh41", "polyMesh"):
+            with self.subTest(name=name):
+                _, said = self.done("extrude", "two.mesh", "-o", name, *EVEN)
+                self.assertNotIn("blocks", said)
+                self.assertEqual("nothing says which boundaries are walls" in said, name in ("two.fluent.msh", "polyMesh"))
+                alone = self.files(name)
+                for ranks in (2, 3, 5):
+                    self.done("extrude", "two.mesh", "-o", name, *EVEN, "-q", ranks=ranks)
+                    self.assertEqual(self.files(name), alone)
+                found = self.record("check", name)
+                self.assertEqual(found["blocks"], 2)
+                self.assertEqual({key: (value["cells"], value["volume"]) for key, value in found["block_figures"].items()},
+                                 {"block_1": (6, 0.75), "block_2": (3, 0.75)})
+                self.done("convert", name, "again.msh", "-q")
+                self.assertEqual(self.record("check", "again.msh")["blocks"], 2)
 
     def test_usage(self):
         for thickness in ("inf", "1e400", "nan"):

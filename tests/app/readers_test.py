@@ -159,6 +159,14 @@ class Readers(ProgramTest):
     def check_mesh(self, name):
         shutil.rmtree(self.folder / "case/constant/polyMesh", ignore_errors=True)
         shutil.move(self.folder / name, self.folder / "case/constant/polyMesh")
+        return self.check_case(name)
+
+    def fluent_foam(self, name):
+        shutil.rmtree(self.folder / "case/constant/polyMesh", ignore_errors=True)
+        self.tool("fluent3DMeshToFoam", "-case", "case", name, env={**os.environ, "WM_PROJECT_DIR": FOAM})
+        return self.check_case(name)
+
+    def check_case(self, name):
         said = self.tool("checkMesh", "-case", "case", env={**os.environ, "WM_PROJECT_DIR": FOAM})
         self.assertIn("Mesh OK.", said)
         number = lambda key: int(re.search(rf"\n\s+{key}:\s+(\d+)", said)[1])
@@ -199,6 +207,7 @@ class Readers(ProgramTest):
     def test_three_dimensions(self):
         table = {
             **IN_BOTH,
+            "fluent.msh": {"vtk_fluent": "vtk", "fluent_foam": "fluent3DMeshToFoam"},
             "b8.ugrid": {"meshio": "meshio"},
             "lb8.ugrid": {"meshio": "meshio"},
             "polyMesh": {"check_mesh": "checkMesh"},

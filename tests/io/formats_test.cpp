@@ -17,13 +17,13 @@ using Names = std::vector<std::string>;
 TEST(Formats, AreListedByWhatTheyHold) {
   EXPECT_EQ(formats_for({}), (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
                                     "b8.ugrid", "lb8.ugrid", "ugrid", "polyMesh", "csv", "dat"}));
-  EXPECT_EQ(formats_for({Content::solid}),
-            (Names{"cgns", "vtu", "pvtu", "su2", "msh", "msh41", "b8.ugrid", "lb8.ugrid", "polyMesh"}));
+  EXPECT_EQ(formats_for({Content::solid}), (Names{"cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
+                                                  "b8.ugrid", "lb8.ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh}),
             (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41", "ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "cgns", "vtu", "pvtu"}));
   EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh"}));
-  EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), Names{"fluent.msh"});
+  EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), (Names{"fluent.msh", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::layers}), (Names{"mesh", "cgns", "vtu", "pvtu"}));
 }
 

@@ -51,6 +51,20 @@ TEST(CheckSolid, MeasuresCellsOfEveryKind) {
   EXPECT_DOUBLE_EQ(figures.patches[0].area, 1.5);
 }
 
+TEST(CheckSolid, MeasuresBlocks) {
+  EXPECT_TRUE(check_solid(sample()).blocks.empty());
+  SolidMesh mesh = sample();
+  mesh.block_names = {"rest", "cube"};
+  mesh.cell_to_block = {0, 0, 0, 1};  // the hexahedron comes last
+  const SolidFigures figures = check_solid(mesh);
+  ASSERT_EQ(figures.blocks.size(), 2);
+  EXPECT_EQ(figures.blocks[0].cells, 3);
+  EXPECT_DOUBLE_EQ(figures.blocks[0].volume, 0.5 + 1.0 / 3 + 0.25);
+  EXPECT_EQ(figures.blocks[1].name, "cube");
+  EXPECT_EQ(figures.blocks[1].cells, 1);
+  EXPECT_DOUBLE_EQ(figures.blocks[1].volume, 1);
+}
+
 /// Among the faults once the sample has been changed.
 void expect_fault(SolidRule rule, const std::string& what, const std::function<void(SolidMesh&)>& change) {
   SolidMesh mesh = sample();

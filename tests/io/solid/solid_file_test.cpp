@@ -133,7 +133,7 @@ TEST(SolidFile, PlaneMeshesAreNone) {
 
 TEST(SolidFile, NamesOfFormatsStandInSentences) {
   EXPECT_EQ(suffixes_for({Content::solid}),
-            ".cgns, .vtu, .pvtu, .su2, .msh, .msh41, .b8.ugrid, .lb8.ugrid or polyMesh");
+            ".cgns, .vtu, .pvtu, .su2, .fluent.msh, .msh, .msh41, .b8.ugrid, .lb8.ugrid or polyMesh");
   EXPECT_EQ(format_of("a/constant/polyMesh/")->name, "polyMesh");
   EXPECT_EQ(format_of("a/b.polyMesh")->name, "polyMesh");
   EXPECT_EQ(format_of("a.lb8.ugrid")->name, "lb8.ugrid");
@@ -148,7 +148,8 @@ TEST(SolidFile, DamagedOnesAreRefusedOrRead) {
   const Field solution = test::sample_solution(whole);
   const Communicator alone(MPI_COMM_SELF);
   std::mt19937 random(7);  // NOLINT: the same each time
-  for (const char* name : {"cgns", "vtu", "pvtu", "su2", "msh", "b8.ugrid", "lb8.ugrid", "polyMesh"}) {
+  for (const char* name :
+       {"cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "b8.ugrid", "lb8.ugrid", "polyMesh"}) {
     const FileFormat& format = *format_named(name);
     const int damages = format.name == "cgns" ? 12 : 60;  // each in a process of its own
     for (int i = 0; i < damages; ++i) {
@@ -182,6 +183,10 @@ TEST(SolidFile, InterfacesBetweenBlocksAreNoPatch) {
   ASSERT_EQ(losses.size(), 1);
   EXPECT_NE(losses[0].find("the 1 edges between them are no patch"), std::string::npos) << losses[0];
   EXPECT_EQ(mesh.boundaries.size(), 2);
+  EXPECT_EQ(drop_interfaces(whole, "a.vtu"), std::vector<std::string>{});
+  mesh.boundaries.push_back({"between", "interface", {{mesh.quads[0][1], mesh.quads[0][2]}}});
+  EXPECT_EQ(drop_interfaces(whole, "a.vtu"),
+            std::vector<std::string>{"a.vtu: the 1 edges between two blocks are no patch"});
 }
 
 }  // namespace

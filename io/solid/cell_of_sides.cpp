@@ -1,4 +1,4 @@
-#include "io/foam/foam_cells.hpp"
+#include "io/solid/cell_of_sides.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,0 +1,51 @@
+#include "io/solid/solid_blocks.hpp"
+
+#include <algorithm>
+
+namespace quadloop {
+
+SolidBlocks::SolidBlocks(const SolidStream& stream)
+    : stream_{stream}, layers_{std::max<std::int64_t>(1, stream.layers())} {
+  if (const SolidMesh* held = stream.held(); held != nullptr) {
+    names_ = held->block_names;
+    auto next = held->cell_to_block.begin();
+    for_each_kind_of_cell([&]<std::size_t width>() {
+      if (!several()) return;
+      const auto end = next + std::ssize(cells_of<width>(*held));
+      of_[width].assign(next, end);
+      next = end;
+    });
+  } else if (const PlaneBlocks* blocks = stream.extruded()->blocks; blocks != nullptr) {
+    names_ = blocks->names;
+    of_[6] = blocks->of_triangles;
+    of_[8] = blocks->of_quads;
+  }
+  if (names_.empty()) names_ = {"domain"};
+}
+
+PlaneBlocks plane_blocks(const LoadedMesh& whole) {
+  PlaneBlocks blocks{whole.block_names, whole.triangle_to_block, whole.quad_to_block};
+  for (std::size_t b = blocks.names.size(); std::ssize(blocks.names) < whole.blocks; ++b)
+    blocks.names.push_back("block_" + std::to_string(b + 1));
+  return blocks;
+}
+
+std::vector<std::int64_t> numbers_by_block(const Communicator& comm, const PlaneBlocks& blocks) {
+  std::vector<std::int64_t> numbers(blocks.of_triangles.size() + blocks.of_quads.size());
+  std::int64_t next = 0;
+  for (std::int32_t block = 0; block < std::ssize(blocks.names); ++block) {
+    auto number = numbers.begin();
+    for (const auto* cells : {&blocks.of_triangles, &blocks.of_quads}) {
+      const std::int64_t own = std::ranges::count(*cells, block);
+      std::int64_t mine = next + comm.exclusive_sum(own);
+      for (const std::int32_t of_cell : *cells) {
+        if (of_cell == block) *number = mine++;
+        ++number;
+      }
+      next += comm.sum(own);
+    }
+  }
+  return numbers;
+}
+
+}  // namespace quadloop

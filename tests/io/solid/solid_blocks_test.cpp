@@ -1,0 +1,199 @@
+// Blocks of 3D meshes: extruded and held, through each format that has a place for them; those of a plane
+// polyMesh; how readers collect them. The first on several ranks.
+#include "io/solid/solid_blocks.hpp"
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <map>
+
+#include "io/formats.hpp"
+#include "io/mesh_file.hpp"
+#include "io/solid/block_collector.hpp"
+#include "io/solid_file.hpp"
+#include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/solid/cell_faces.hpp"
+#include "mesher/solid/check_solid.hpp"
+#include "tests/io/sample_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+using Names = std::vector<std::string>;
+
+/// Five quads, the last two of which are "right", under ten triangles, of which the last four are.
+LoadedMesh two_blocks() {
+  LoadedMesh whole;
+  whole.mesh = test::sample_mesh(5);
+  whole.blocks = 2;
+  whole.block_names = {"left", "right"};
+  whole.triangle_to_block = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1};
+  whole.quad_to_block = {0, 0, 0, 1, 1};
+  return whole;
+}
+
+/// Of each cell by its nodes, whatever their order.
+std::map<std::vector<std::int32_t>, std::string> blocks_by_nodes(const SolidMesh& mesh) {
+  std::map<std::vector<std::int32_t>, std::string> blocks;
+  for_each_cell(mesh, [&](const auto& cell, std::int64_t number) {
+    std::vector<std::int32_t> nodes(cell.begin(), cell.end());
+    std::ranges::sort(nodes);
+    blocks[nodes] = mesh.block_names.empty() ? "domain" : mesh.block_names[mesh.cell_to_block[number]];
+  });
+  return blocks;
+}
+
+Names formats_with_blocks() {
+  Names names = formats_for({Content::solid});
+  std::erase_if(names, [](const std::string& name) { return !format_named(name)->blocks_in_solid; });
+  return names;
+}
+
+std::string path_of(const test::TemporaryFolder& folder, const std::string& format) {
+  return folder.file("a." + format);
+}
+
+TEST(SolidBlocks, AnExtrudedMeshKeepsThemOnAnyRanks) {
+  const LoadedMesh whole = two_blocks();
+  const MeshOrder order = own_order(whole.mesh);
+  const Mesh part = scatter_mesh(world(), whole.mesh, order);
+  PlaneBlocks blocks = plane_blocks(whole);
+  blocks.of_triangles = scatter_triangles(world(), whole.triangle_to_block, order);
+  blocks.of_quads = scatter_ordered(world(), std::span<const std::int32_t>(whole.quad_to_block), order.quads);
+  ExtrudedMesh mesh = extruded(part, {0, 0.5, 2}, ExtrusionAxis::z);
+  mesh.blocks = &blocks;
+  EXPECT_EQ(formats_with_blocks(), (Names{"vtu", "pvtu", "fluent.msh", "msh", "msh41", "polyMesh"}));
+  for (const std::string& format : formats_with_blocks()) {
+    SCOPED_TRACE(format);
+    const test::TemporaryFolder folder;
+    OutputSet outputs(world());
+    write_solid(outputs, mesh, path_of(folder, format));
+    outputs.commit();
+    if (!world().is_root()) continue;
+    const std::optional<SolidMesh> back = read_solid(path_of(folder, format));
+    ASSERT_TRUE(back);
+    ASSERT_EQ(back->block_names, whole.block_names);
+    ASSERT_EQ(back->cell_to_block.size(), 30);
+    const SolidFigures figures = check_solid(*back);
+    EXPECT_TRUE(figures.faults.empty());
+    ASSERT_EQ(figures.blocks.size(), 2);
+    EXPECT_EQ(figures.blocks[0].cells, 18);
+    EXPECT_EQ(figures.blocks[1].cells, 12);
+    EXPECT_NEAR(figures.blocks[0].volume, 12, 1e-12);
+    EXPECT_NEAR(figures.blocks[1].volume, 8, 1e-12);
+  }
+}
+
+TEST(SolidBlocks, EveryPairOfFormatsKeepsThem) {
+  const test::TemporaryFolder folder;
+  if (!world().is_root()) return;
+  const Communicator alone(MPI_COMM_SELF);
+  SolidMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},    {1, 0, 1},
+                 {1, 1, 1}, {0, 1, 1}, {2, 0, 0}, {2, 0, 1}, {0.5, 0.5, 2}};
+  mesh.hexahedra = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  mesh.prisms = {{1, 8, 2, 5, 9, 6}};
+  mesh.pyramids = {{4, 5, 6, 7, 10}};
+  constexpr std::int32_t none = SolidPatch::no_node;
+  mesh.patches = {{"rest",
+                   "wall",
+                   {{3, 2, 1, 0},
+                    {1, 2, 8, none},
+                    {0, 1, 5, 4},
+                    {2, 3, 7, 6},
+                    {3, 0, 4, 7},
+                    {1, 8, 9, 5},
+                    {8, 2, 6, 9},
+                    {5, 9, 6, none},
+                    {4, 5, 10, none},
+                    {5, 6, 10, none},
+                    {6, 7, 10, none},
+                    {7, 4, 10, none}}}};
+  mesh.block_names = {"tip", "base"};
+  mesh.cell_to_block = {0, 1, 1};  // pyramid, prism, hexahedron
+  ASSERT_TRUE(check_solid(mesh).faults.empty());
+  for (const std::string& first : formats_with_blocks()) {
+    for (const std::string& second : formats_with_blocks()) {
+      SCOPED_TRACE(first + " to " + second);
+      write_solid_of_root(alone, mesh, path_of(folder, first));
+      const std::optional<SolidMesh> between = read_solid(path_of(folder, first));
+      write_solid_of_root(alone, *between, folder.file("b." + second));
+      const std::optional<SolidMesh> back = read_solid(folder.file("b." + second));
+      EXPECT_TRUE(back->warnings.empty());
+      EXPECT_EQ(blocks_by_nodes(*back), blocks_by_nodes(mesh));
+      EXPECT_TRUE(check_solid(*back).faults.empty());
+      for (const std::string& loss : losses_in(*between, folder.file("b." + second)))
+        EXPECT_EQ(loss.find("blocks"), std::string::npos) << loss;
+    }
+  }
+  const std::vector<std::string> losses = losses_in(mesh, "a.su2");
+  EXPECT_EQ(std::ranges::count(losses, "a.su2: the blocks are written as one"), 1);
+}
+
+TEST(SolidBlocks, APlanePolyMeshHasThemAsZones) {
+  const test::TemporaryFolder folder;
+  if (!world().is_root()) return;
+  const LoadedMesh whole = two_blocks();
+  write_mesh_of_root(Communicator(MPI_COMM_SELF), whole, folder.file("polyMesh"));
+  const LoadedMesh back = read_mesh(folder.file("polyMesh"));
+  EXPECT_TRUE(validate(back.mesh, {back.blocks, back.triangle_to_block, back.quad_to_block}).empty());
+  EXPECT_EQ(back.block_names, whole.block_names);
+  EXPECT_EQ(back.triangle_to_block, whole.triangle_to_block);
+  EXPECT_EQ(back.quad_to_block, whole.quad_to_block);
+}
+
+TEST(SolidBlocks, ZonesOfAPolyMeshMayOverlapAndLeaveCellsOut) {
+  const test::TemporaryFolder folder;
+  if (!world().is_root()) return;
+  const std::string path = folder.file("polyMesh");
+  write_mesh_of_root(Communicator(MPI_COMM_SELF), two_blocks(), path);
+  const auto write_zones = [&](const std::string& zones) {
+    test::write_bytes(path + "/cellZones", "FoamFile { format ascii; }\n" + zones);
+  };
+  write_zones(
+      "2 ( a { type cellZone; cellLabels List<label> 2(0 14); } b { cellLabels List<label> 2 ( 3 0 ); } )");
+  const std::optional<SolidMesh> back = read_solid(path);
+  EXPECT_EQ(back->block_names, (Names{"a", "b", "domain"}));
+  EXPECT_EQ(back->cell_to_block, (std::vector<std::int32_t>{0, 2, 2, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 0}));
+  ASSERT_EQ(back->warnings.size(), 1);
+  EXPECT_NE(back->warnings[0].find("1 cells are in several zones"), std::string::npos);
+  const LoadedMesh plane = read_mesh(path);  // has the cells of a block one after another
+  EXPECT_TRUE(std::ranges::is_sorted(plane.triangle_to_block));
+  EXPECT_TRUE(std::ranges::is_sorted(plane.quad_to_block));
+  write_zones("1 ( a { type cellZone; cellLabels List<label> 1(15); } )");
+  EXPECT_THROW(read_solid(path), InputError);
+  write_zones("1 ( a { type cellZone; cellLabels List<label> 0(); } )");
+  EXPECT_TRUE(read_solid(path)->block_names.empty());
+}
+
+TEST(SolidBlocks, CellsAreNumberedBlockByBlock) {
+  const Communicator alone(MPI_COMM_SELF);
+  const PlaneBlocks blocks{{"a", "b"}, {1, 0, 1}, {0, 1}};
+  EXPECT_EQ(numbers_by_block(alone, blocks), (std::vector<std::int64_t>{2, 0, 3, 1, 4}));
+}
+
+TEST(BlockCollector, LeavesOutBlocksWithoutCells) {
+  SolidMesh mesh;
+  BlockCollector blocks;
+  blocks.named("none");
+  mesh.prisms.push_back({0, 1, 2, 3, 4, 5});
+  blocks.take(mesh, blocks.named("b"));
+  mesh.tetrahedra.push_back({0, 1, 2, 6});
+  BlockCollector one = blocks;
+  one.take(mesh, one.named("b"));
+  blocks.take(mesh, blocks.named("a"));
+  blocks.put_into(mesh);
+  EXPECT_EQ(mesh.block_names, (Names{"b", "a"}));
+  EXPECT_EQ(mesh.cell_to_block, (std::vector<std::int32_t>{1, 0}));
+  SolidMesh single;
+  one.put_into(single);
+  EXPECT_TRUE(single.block_names.empty());
+  EXPECT_TRUE(single.cell_to_block.empty());
+}
+
+}  // namespace
+}  // namespace quadloop
