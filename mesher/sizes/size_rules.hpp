@@ -82,7 +82,8 @@ class SizeRules {
   std::optional<Proximity> proximity_;
   std::vector<double> spacing_;         ///< of each segment
   std::vector<double> corner_spacing_;  ///< of each vertex, 0 where it asks for none
-  std::vector<std::int64_t> turning_;   ///< of each vertex, in turning_unit, 0 where it is kept as a corner
+  /// Of each vertex, in turning_unit, 0 where it is kept as a corner; none without options_.curvature.
+  std::vector<std::int64_t> turning_;
   int finest_of_case_;
   int finest_;
   int coarsest_;
