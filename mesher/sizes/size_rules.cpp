@@ -33,10 +33,11 @@ SizeRules::SizeRules(const ShiftedOutline& outline, const Lattice& lattice, cons
              lattice.row_at(g.box().low.y), line_after(top, lattice.y(top), g.box().high.y)};
   if (options.gap) proximity_.emplace(g);
   spacing_.reserve(g.size());
-  corner_spacing_.reserve(g.size());
+  const bool any_corner =
+      std::ranges::any_of(g.boundaries(), [](const Boundary& b) { return b.corner_spacing > 0; });
   for (std::int32_t s = 0; s < g.size(); ++s) {
     spacing_.push_back(g.spacing_of(s));
-    corner_spacing_.push_back(g.corner_spacing_of(s));
+    if (any_corner) corner_spacing_.push_back(g.corner_spacing_of(s));
     if (options.curvature) turning_.push_back(std::llround(g.bend_degrees(s) / turning_unit));
   }
 }

@@ -26,7 +26,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +48,7 @@ class Task:
     settings: list       # of quadloop's
     loops: list          # arrays of points; the domain lies to their left
     largest: float       # edge asked for; 0: none
+    cells: int           # about how many triangles
     wall: float = 0.0    # edge asked for at the airfoil, from which sizes grow by SLOPE; 0: sizes are the outline's own
 
 
@@ -88,14 +89,14 @@ def task_named(name, cells):
     if name == "A":
         finer = 2.0 ** round(np.log2(cells / 135000) / 2)  # leaves halve; so many triangles where finer = 1
         values = {"spacing.min": 0.002, "spacing.max": 0.08, "boundary.airfoil.spacing": 0.005}
-        return Task(name, AIRFOIL, [f"{key}={value / finer!r}" for key, value in values.items()], airfoil_loops(), 0.08 / finer * 1.2)
+        return Task(name, AIRFOIL, [f"{key}={value / finer!r}" for key, value in values.items()], airfoil_loops(), 0.08 / finer * 1.2, cells)
     if name == "B":
         wall = 16.0 / cells
         settings = [f"spacing.min={wall / 2!r}", "spacing.max=2.0", f"spacing.gradation={1 + 2 * SLOPE!r}", f"boundary.airfoil.spacing={wall!r}"]
-        return Task(name, AIRFOIL, settings, airfoil_loops(), 0.0, wall)
+        return Task(name, AIRFOIL, settings, airfoil_loops(), 0.0, cells, wall)
     size = "high" if cells >= 500000 else "medium" if cells >= 100000 else "coarse"
     case = GULF / ("case.toml" if size == "coarse" else f"{size}.toml")
-    return Task(f"gulf {size}", case, [], read_geom(GULF / f"gulf_of_mexico_{size}.geom"), 0.0)
+    return Task(f"gulf {size}", case, [], read_geom(GULF / f"gulf_of_mexico_{size}.geom"), 0.0, cells)
 
 
 def timed(command, folder, timeout):
@@ -112,7 +113,7 @@ def timed(command, folder, timeout):
         said.seek(0)
         text = said.read()
     if child.returncode != 0:
-        print(f"{Path(str(command[0])).name}: {'took too long' if child.returncode == -9 else text[-400:]}", file=sys.stderr)
+        print(f"{Path(str(command[0])).name}: {'took too long' if child.returncode == -9 else ' '.join(re.findall('.*rror.*', text)[:3]) or text[-400:]}", file=sys.stderr)
         return None
     return text, usage.ru_utime + usage.ru_stime, os.times().elapsed - begin, usage.ru_maxrss * 1024
 
@@ -183,7 +184,7 @@ def write_geo(path, task):
     lines.append(f"Plane Surface(1) = {{{', '.join(str(i + 1) for i in order)}}};")
     lines += ["Mesh.MeshSizeFromPoints = 0;", "Mesh.MeshSizeExtendFromBoundary = 0;", "Mesh.Algorithm = 5;", "Mesh.MshFileVersion = 2.2;", "Mesh.Binary = 1;"]
     if task.wall > 0:
-        lines += ["Field[1] = Distance;", f"Field[1].CurvesList = {{1:{len(loops[0])}}};", "Field[1].Sampling = 100;", "Field[2] = MathEval;",
+        lines += ["Field[1] = Distance;", f"Field[1].CurvesList = {{1:{len(loops[0])}}};", "Field[1].NumPointsPerCurve = 100;", "Field[2] = MathEval;",
                   f'Field[2].F = "{task.wall!r} + {SLOPE} * F1";', "Background Field = 2;"]
     elif task.largest > 0:
         lines.append(f"Mesh.MeshSizeMax = {task.largest!r}; Mesh.MeshSizeMin = {task.largest!r};")
@@ -243,7 +244,7 @@ def split_loops(task):
             parts = max(1, int(np.ceil(np.linalg.norm(b - a) / wanted)))
             rows.append(a + (b - a) * np.arange(parts)[:, None] / parts)
         loops.append(np.vstack(rows))
-    return Task(task.name, task.case, task.settings, loops, task.largest, task.wall)
+    return replace(task, loops=loops)
 
 
 def write_medit(path, task, sizes_too):
@@ -256,6 +257,7 @@ def write_medit(path, task, sizes_too):
         if sizes_too:
             file.write("\nhVertices\n")
             file.writelines(f"{h!r}\n" for h in sizes_at(task).tolist())
+            file.write("\nSubDomain 1\n2 1 1 0\n")
         file.write("\nEnd\n")
 
 
@@ -329,7 +331,7 @@ def run_mmg(program, task, folder, timeout, _):
 
 def run_bamg(program, task, folder, timeout, _):
     write_medit(folder / "b.msh", split_loops(task), True)
-    done = timed([program, "-g", "b.msh", "-o", "c.mesh", "-nbv", "20000000", "-ratio", str(1 + SLOPE)], folder, timeout)
+    done = timed([program, "-g", "b.msh", "-o", "c.mesh", "-nbv", str(max(100000, 4 * task.cells)), "-ratio", str(1 + SLOPE)], folder, timeout)
     if done is None:
         return None
     _, process, wall, peak = done
