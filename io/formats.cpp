@@ -16,6 +16,7 @@
 #include "io/foam/foam_plane_file.hpp"
 #include "io/msh/msh_file.hpp"
 #include "io/msh/msh_solid_file.hpp"
+#include "io/native/binary_file.hpp"
 #include "io/native/native_file.hpp"
 #include "io/su2/su2_csv_file.hpp"
 #include "io/su2/su2_dat_file.hpp"
@@ -97,6 +98,11 @@ std::vector<FileFormat> rows_with_solutions() {
            .read_mesh = read_native,
            .write_mesh = write_native,
            .write_blocks = write_native},
+          {.name = "qmesh",
+           .places = {mesh, solution, constants, blocks, conditions, layers},
+           .read_mesh = read_binary,
+           .write_mesh = write_binary,
+           .write_blocks = write_binary},
           {.name = "cgns",
            .places = {mesh, solution, conditions, layers, solid},
            .by_default = true,

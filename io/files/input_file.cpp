@@ -26,6 +26,9 @@ bool pipes_allowed = false;
   throw InputError(path + ": cannot be opened (" + std::strerror(reason) + "); " + cure);
 }
 
+}  // namespace
+
+/// An open file.
 class Descriptor {
  public:
   explicit Descriptor(const std::string& path) : number_{::open(path.c_str(), O_RDONLY | O_CLOEXEC)} {
@@ -48,6 +51,8 @@ class Descriptor {
  private:
   int number_;
 };
+
+namespace {
 
 /// Before anything is opened: that alone waits for ever on a pipe that nobody writes to.
 struct stat require_readable_kind(const std::string& path, bool pipes) {
@@ -76,18 +81,12 @@ std::string read_file(const std::string& path, std::size_t size) {
 }
 
 std::string read_pipe(const std::string& path) {
-  const Descriptor pipe(path);
+  InputPieces pipe(path);
   std::string text;
-  for (std::size_t got = 1; got > 0;) {
-    const std::size_t used = text.size();
-    if (used > most_of_a_pipe)
-      throw InputError(path +
-                       ": a pipe that gives more than 256 MB; save what it gives as a file and name that");
-    text.resize(used + piece);
-    got = pipe.read(text.data() + used, piece, path);
-    text.resize(used + got);
+  for (std::size_t before = text.size();; before = text.size()) {
+    pipe.append_next(text);
+    if (text.size() == before) return text;
   }
-  return text;
 }
 
 }  // namespace
@@ -105,6 +104,37 @@ std::string read_input(const std::string& path) {
   }
   throw InputError(path + ": has " + std::to_string(size) +
                    " bytes, more than there is memory for; use a machine with more");
+}
+
+InputPieces::InputPieces(const std::string& path) : path_{path} {
+  const struct stat found = require_readable_kind(path, pipes_allowed);
+  is_pipe_ = !S_ISREG(found.st_mode);
+  if (!is_pipe_) bytes_left_ = found.st_size;
+  file_ = std::make_unique<Descriptor>(path);
+}
+
+InputPieces::~InputPieces() = default;
+
+void InputPieces::append_next(std::string& text) {
+  if (is_pipe_ && taken_ > most_of_a_pipe)
+    throw InputError(path_ +
+                     ": a pipe that gives more than 256 MB; save what it gives as a file and name that");
+  const std::size_t before = text.size();
+  text.resize(before + piece);
+  const std::size_t got = file_->read(text.data() + before, piece, path_);
+  text.resize(before + got);
+  taken_ += got;
+  bytes_left_ -= std::min(bytes_left_, got);
+}
+
+void InputPieces::read_all(char* into, std::size_t size) {
+  while (size > 0) {
+    const std::size_t got = file_->read(into, size, path_);
+    if (got == 0) throw InputError(path_ + ": ends while it is read; it may be under way of being written");
+    into += got;
+    size -= got;
+    bytes_left_ -= std::min(bytes_left_, got);
+  }
 }
 
 void allow_piped_input(bool allowed) { pipes_allowed = allowed; }

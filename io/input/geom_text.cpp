@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "io/input/line_reader.hpp"
@@ -24,7 +25,12 @@ Chain read_chain(LineReader& lines, std::int64_t number, std::int64_t total) {
   if (lines.words().size() != 1)
     lines.refuse(fmt::format("the number of points of boundary '{}' should stand here alone", chain.name));
   const std::int64_t count = lines.count(0, fmt::format("points of boundary '{}'", chain.name));
+  chain.points.reserve(std::min<std::size_t>(count, lines.most_points_left()));
   for (std::int64_t i = 1; i <= count; ++i) {
+    if (Point p; lines.next_point(p)) {
+      chain.points.push_back(p);
+      continue;
+    }
     lines.require_next(fmt::format("point {} of {} of boundary '{}'", i, count, chain.name));
     if (lines.words().size() != 2) {
       lines.refuse(fmt::format(

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "io/files/input_file.hpp"
 #include "io/text/decimal_comma.hpp"
@@ -31,15 +32,51 @@ std::optional<double> number_of(std::string_view word) {
 
 }  // namespace
 
-LineReader::LineReader(const std::string& path) : path_{path}, text_{read_input(path)} {
+LineReader::LineReader(const std::string& path) : path_{path}, file_{path} {
+  fill();
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // the byte order mark of some editors
 }
 
+void LineReader::fill() {
+  row_end_ = text_.find('\n', at_);
+  while (row_end_ == std::string::npos && !all_read_) {
+    text_.erase(0, std::exchange(at_, 0));
+    const std::size_t before = text_.size();
+    file_.append_next(text_);
+    all_read_ = text_.size() == before;
+    row_end_ = text_.find('\n', before);
+  }
+  if (row_end_ == std::string::npos) row_end_ = text_.size();
+}
+
+bool LineReader::next_point(Point& point) {
+  fill();
+  if (at_ >= text_.size()) return false;
+  const char* at = text_.data() + at_;
+  const char* const end = text_.data() + row_end_;
+  for (double* const value : {&point.x, &point.y}) {
+    while (at != end && is_blank(*at)) ++at;
+    const auto [stopped, error] = std::from_chars(at, end, *value);
+    if (error != std::errc{} || !std::isfinite(*value) || (stopped != end && !is_blank(*stopped)))
+      return false;
+    at = stopped;
+  }
+  while (at != end && is_blank(*at)) ++at;
+  if (at != end) return false;
+  at_ = row_end_ + 1;
+  ++line_;
+  return true;
+}
+
+std::size_t LineReader::most_points_left() const {
+  const std::size_t held = text_.size() - std::min(at_, text_.size());
+  return (held + file_.bytes_left()) / 4 + 1;  // "0 0" and a line end
+}
+
 bool LineReader::next() {
-  while (at_ < text_.size()) {
-    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    row_ = std::string_view(text_).substr(at_, end - at_);
-    at_ = end + 1;
+  while (fill(), at_ < text_.size()) {
+    row_ = std::string_view(text_).substr(at_, row_end_ - at_);
+    at_ = row_end_ + 1;
     ++line_;
     row_ = row_.substr(0, row_.find('#'));
     words_.clear();

@@ -6,6 +6,7 @@
 
 #include "io/tree/tree_layout.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/morton.hpp"
 
 namespace quadloop {
 
@@ -20,33 +21,35 @@ std::string text_of(const LeafRecord& leaf) {
 
 std::int64_t edge_of(const LeafRecord& leaf) { return std::int64_t{tree_lattice_edge} >> leaf.level; }
 
-/// What is wrong with a leaf by itself; empty where nothing is.
-std::string fault_of(const LeafRecord& leaf, const TreeAttributes& attributes) {
+/// What is wrong with a leaf by itself, with gaps for its numbers; null where nothing is.
+const char* fault_of(const LeafRecord& leaf, const TreeAttributes& attributes) {
   const auto within = [](auto value, auto low, auto high) { return value >= low && value <= high; };
   if (!within(leaf.tree_x, 0, attributes.trees_x - 1) || !within(leaf.tree_y, 0, attributes.trees_y - 1))
     return "is in none of the trees";
   if (!within(leaf.level, 0, deepest_tree_level)) return "has an impossible level";
   const auto on_lattice = [&](std::int32_t at) {
-    return within(at, 0, tree_lattice_edge - 1) && at % edge_of(leaf) == 0;
+    return within(at, 0, tree_lattice_edge - 1) && (at & (edge_of(leaf) - 1)) == 0;
   };
   if (!on_lattice(leaf.x) || !on_lattice(leaf.y)) return "lies beside the lattice of its level";
-  if (!within(leaf.wanted, 0, leaf.level))
-    return fmt::format("is coarser than its wanted level {}", leaf.wanted);
+  if (!within(leaf.wanted, 0, leaf.level)) return "is coarser than its wanted level {wanted}";
   if ((std::uint64_t{leaf.adapted} >> leaf.level) != 0)
-    return fmt::format("has splits below itself ('adapted' is {:#x})", leaf.adapted);
+    return "has splits below itself ('adapted' is {adapted:#x})";
   if (leaf.block < 0 || leaf.triangles < 0 || leaf.quads < 0)
     return "has a mark or a number of cells below 0";
   if (leaf.block == 0 && leaf.triangles + std::int64_t{leaf.quads} > 0)
     return "is outside the domain, but has cells";
-  return {};
+  return nullptr;
+}
+
+std::string text_of(const char* fault, const LeafRecord& leaf) {
+  return text_of(leaf) + " " +
+         fmt::format(fmt::runtime(fault), fmt::arg("wanted", leaf.wanted), fmt::arg("adapted", leaf.adapted));
 }
 
 /// Along the curve within a tree: bits of y and x in turn.
 std::int64_t curve_key(const LeafRecord& leaf) {
-  std::int64_t key = 0;
-  for (int bit = deepest_tree_level - 1; bit >= 0; --bit)
-    key = key << 2 | (leaf.y >> bit & 1) << 1 | (leaf.x >> bit & 1);
-  return key;
+  return static_cast<std::int64_t>(
+      morton_key(static_cast<std::uint32_t>(leaf.x), static_cast<std::uint32_t>(leaf.y)));
 }
 
 std::int64_t end_on_curve(const LeafRecord& leaf) { return curve_key(leaf) + edge_of(leaf) * edge_of(leaf); }
@@ -101,11 +104,11 @@ void require_whole_tree(const Communicator& comm, const TreeRecord& tree,
                         const std::optional<LeafRecord>& before, const std::string& path) {
   std::int64_t begun = 0, ended = 0, triangles = 0, quads = 0;
   comm.together([&] {
-    if (before && !fault_of(*before, tree.attributes).empty()) return;  // the rank that has it says so
+    if (before && fault_of(*before, tree.attributes) != nullptr) return;  // the rank that has it says so
     std::optional<LeafRecord> last = before;
     for (const LeafRecord& leaf : tree.leaves) {
-      const std::string fault = fault_of(leaf, tree.attributes);
-      if (!fault.empty()) throw InputError(path + ": " + text_of(leaf) + " " + fault + cure);
+      if (const char* const fault = fault_of(leaf, tree.attributes); fault != nullptr)
+        throw InputError(path + ": " + text_of(fault, leaf) + cure);
       if (!follows(last, leaf))
         throw InputError(path + ": " + text_of(leaf) + " does not follow the one before it" + cure);
       begun += curve_key(leaf) == 0 ? 1 : 0;

@@ -132,11 +132,6 @@ std::int32_t BoxTree::nearest(Point p, const SquaredDistance& squared_distance) 
   return best.number;
 }
 
-/// The box of a segment.
-inline Box box_of(Point a, Point b) {
-  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
-}
-
 class Geometry;
 /// The boxes of its segments, by the segments' numbers.
 BoxTree segment_tree(const Geometry& geometry);

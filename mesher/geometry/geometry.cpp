@@ -1,5 +1,7 @@
 #include "mesher/geometry/geometry.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <numbers>
 
@@ -13,7 +15,9 @@ namespace {
 class Digest {
  public:
   void add(std::uint64_t word) {
-    for (int byte = 0; byte < 8; ++byte) hash_ = (hash_ ^ ((word >> (8 * byte)) & 0xff)) * 0x100000001b3ULL;
+    int byte = 0;
+    for (; word != 0; ++byte, word >>= 8) hash_ = (hash_ ^ (word & 0xff)) * prime;
+    hash_ *= powers_of_prime[8 - byte];  // for the bytes that are 0
   }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
   void add(const std::string& text) {
@@ -23,6 +27,12 @@ class Digest {
   std::uint64_t value() const { return hash_; }
 
  private:
+  static constexpr std::uint64_t prime = 0x100000001b3ULL;
+  static constexpr std::array<std::uint64_t, 9> powers_of_prime = [] {
+    std::array<std::uint64_t, 9> powers{1};
+    for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = powers[i - 1] * prime;
+    return powers;
+  }();
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
 
@@ -37,6 +47,38 @@ void digest_layers(const LayerSpec& layers, Digest& digest) {
 
 const std::string& name_of(const Geometry& geometry, std::int32_t segment) {
   return geometry.boundary(geometry.boundary_of(segment)).name;
+}
+
+/// In degrees, 0 to 180.
+double turn_between(Point in, Point out) {
+  return std::abs(std::atan2(cross(in, out), dot(in, out))) * (180 / std::numbers::pi);
+}
+
+/// Compares turns with an angle: nearly all are told by products already, without an arc tangent.
+class TurnLimit {
+ public:
+  explicit TurnLimit(double degrees)
+      : degrees_{degrees}, tangent_{degrees < 89 ? std::tan(degrees * (std::numbers::pi / 180)) : 0} {}
+
+  bool exceeded_by(Point in, Point out) const {
+    const double across = std::abs(cross(in, out)), along = tangent_ * dot(in, out);
+    return !surely_less(across, along) && turn_between(in, out) > degrees_;
+  }
+  bool undercut_by(Point in, Point out) const {
+    const double across = std::abs(cross(in, out)), along = tangent_ * dot(in, out);
+    return !surely_less(along, across) && turn_between(in, out) < degrees_;
+  }
+
+ private:
+  static bool surely_less(double a, double b) { return b > 1e-290 && (1 + 1e-12) * a < b; }
+
+  double degrees_, tangent_;
+};
+
+std::vector<TurnLimit> corner_limits(const std::vector<Boundary>& boundaries) {
+  std::vector<TurnLimit> limits;
+  for (const Boundary& boundary : boundaries) limits.emplace_back(boundary.corner_degrees);
+  return limits;
 }
 
 /// The first segment of a loop before which the boundary changes, or -1 where it never does.
@@ -68,33 +110,27 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
       segment_boundary_{std::move(segment_boundary)} {
   QUADLOOP_REQUIRE(segment_boundary_.size() == points_.size(), "a geometry has one segment for each vertex");
   loop_of_.resize(points_.size());
-  next_.resize(points_.size());
-  previous_.resize(points_.size());
+  flags_.resize(points_.size());
   for (std::int32_t loop = 0; loop < loop_count(); ++loop) {
     const std::int32_t begin = loop_start(loop), end = loop_start(loop + 1);
-    for (std::int32_t v = begin; v < end; ++v) {
-      const std::size_t at = v;
-      loop_of_[at] = loop;
-      next_[at] = v + 1 < end ? v + 1 : begin;
-      previous_[at] = v > begin ? v - 1 : end - 1;
-    }
+    std::fill(loop_of_.begin() + begin, loop_of_.begin() + end, loop);
+    flags_[begin] |= is_first;
+    flags_[end - 1] |= is_last;
   }
   for (const Point p : points_) box_.include(p);
   kept_.resize(points_.size());
-  straight_.resize(points_.size());
-  bend_.resize(points_.size());
+  const std::vector<TurnLimit> corners = corner_limits(boundaries_);
+  const TurnLimit straight(straight_degrees);
   for (std::int32_t v = 0; v < size(); ++v) {
+    const Point in = point(v) - point(previous(v)), out = point(next(v)) - point(v);
     const BoundaryId before = boundary_of(previous(v)), after = boundary_of(v);
-    const double turn = turn_degrees(v);
-    kept_[v] = before != after || turn > boundary(after).corner_degrees;
-    straight_[v] = before == after && turn < straight_degrees;
-    bend_[v] = kept_[v] ? 0 : turn;
+    kept_[v] = before != after || corners[after.value()].exceeded_by(in, out);
+    if (before == after && straight.undercut_by(in, out)) flags_[v] |= is_straight;
   }
 }
 
 double Geometry::turn_degrees(std::int32_t v) const {
-  const Point in = point(v) - point(previous(v)), out = point(next(v)) - point(v);
-  return std::abs(std::atan2(cross(in, out), dot(in, out))) * (180 / std::numbers::pi);
+  return turn_between(point(v) - point(previous(v)), point(next(v)) - point(v));
 }
 
 Geometry Geometry::with(LocalDemands demands) const {

@@ -57,8 +57,12 @@ class Geometry {
   std::int32_t loop_of(std::int32_t v) const { return loop_of_[v]; }
 
   Point point(std::int32_t v) const { return points_[v]; }
-  std::int32_t next(std::int32_t v) const { return next_[v]; }
-  std::int32_t previous(std::int32_t v) const { return previous_[v]; }
+  std::int32_t next(std::int32_t v) const {
+    return (flags_[v] & is_last) == 0 ? v + 1 : loop_starts_[loop_of_[v]];
+  }
+  std::int32_t previous(std::int32_t v) const {
+    return (flags_[v] & is_first) == 0 ? v - 1 : loop_starts_[loop_of_[v] + 1] - 1;
+  }
   BoundaryId boundary_of(std::int32_t segment) const { return segment_boundary_[segment]; }
 
   std::span<const Boundary> boundaries() const { return boundaries_; }
@@ -71,12 +75,14 @@ class Geometry {
   bool kept(std::int32_t v) const { return kept_[v] != 0; }
   /// Whether the outline runs straight on through the vertex (to straight_degrees) within one boundary: such
   /// a point is no feature, so a mesh does not change when segments are split.
-  bool straight(std::int32_t v) const { return straight_[v] != 0; }
+  bool straight(std::int32_t v) const { return (flags_[v] & is_straight) != 0; }
   static constexpr double straight_degrees = 1e-6;
   /// By how much the outline turns at the vertex, in degrees, 0 to 180.
   double turn_degrees(std::int32_t v) const;
   /// By how much a smooth outline turns at the vertex, in degrees; 0 at kept ones.
-  double bend_degrees(std::int32_t v) const { return bend_[v]; }
+  double bend_degrees(std::int32_t v) const {
+    return !bend_.empty() ? bend_[v] : kept(v) ? 0 : turn_degrees(v);
+  }
   /// The length that the segment asks of the leaves which hold it: its boundary's spacing, else its own
   /// length.
   double spacing_of(std::int32_t segment) const;
@@ -92,11 +98,12 @@ class Geometry {
  private:
   std::vector<Boundary> boundaries_;
   std::vector<Point> points_;
-  std::vector<std::int32_t> loop_starts_, loop_of_, next_, previous_;
+  std::vector<std::int32_t> loop_starts_, loop_of_;
   std::vector<BoundaryId> segment_boundary_;
-  std::vector<double> spacing_;  ///< of each segment, where LocalDemands say so
-  std::vector<char> kept_, straight_;
-  std::vector<double> bend_;
+  std::vector<double> spacing_, bend_;  ///< of each segment, where LocalDemands say so
+  std::vector<char> kept_;
+  static constexpr std::uint8_t is_first = 1, is_last = 2, is_straight = 4;  // of its loop; of flags_
+  std::vector<std::uint8_t> flags_;
   Box box_;
 };
 

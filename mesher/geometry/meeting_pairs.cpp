@@ -17,6 +17,10 @@ constexpr std::int64_t most_counted = 1000;  // enough for a user to know that t
 }  // namespace
 
 FlatOutline::FlatOutline(const Outline& outline) {
+  std::size_t size = 0;
+  for (const OutlineLoop& loop : outline.loops) size += loop.points.size();
+  points.reserve(size);
+  loop_of.reserve(size);
   for (const OutlineLoop& loop : outline.loops) {
     loop_starts.push_back(size32(points));
     points.insert(points.end(), loop.points.begin(), loop.points.end());

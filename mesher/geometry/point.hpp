@@ -44,4 +44,9 @@ struct Box {
   }
 };
 
+/// The box of a segment.
+constexpr Box box_of(Point a, Point b) {
+  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+}
+
 }  // namespace quadloop

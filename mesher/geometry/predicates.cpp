@@ -150,12 +150,10 @@ int in_circle(Point a, Point b, Point c, Point d) {
   return exact_in_circle(a, b, c, d);
 }
 
-bool on_segment(Point p, Point a, Point b) {
-  return orientation(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) &&
-         std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
-}
+bool on_segment(Point p, Point a, Point b) { return box_of(a, b).contains(p) && orientation(a, b, p) == 0; }
 
 bool segments_meet(Point a, Point b, Point c, Point d) {
+  if (!box_of(a, b).meets(box_of(c, d))) return false;
   const int abc = orientation(a, b, c), abd = orientation(a, b, d);
   const int cda = orientation(c, d, a), cdb = orientation(c, d, b);
   if (abc * abd < 0 && cda * cdb < 0) return true;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+#include <functional>
+#include <limits>
+#include <queue>
 #include <set>
 
 #include "mesher/base/error.hpp"
@@ -29,13 +31,17 @@ class Sweep {
 
   /// Whether no two segments meet. Stops at the first sign that some do.
   bool run() {
-    std::vector<std::int32_t> order(flat_.points.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(),
-              [&](std::int32_t a, std::int32_t b) { return flat_.point(a) < flat_.point(b); });
-    for (std::size_t i = 0; i < order.size() && !met_; ++i) {
-      if (i > 0 && flat_.point(order[i]) == flat_.point(order[i - 1])) return false;
-      visit(order[i]);
+    const std::vector<Event> starts = local_starts();
+    auto start = starts.begin();
+    Point last{-std::numeric_limits<double>::infinity(), 0};
+    while (!met_ && (start != starts.end() || !coming_.empty())) {
+      const bool starts_first =
+          coming_.empty() || (start != starts.end() && start->place < coming_.top().place);
+      const Event event = starts_first ? *start++ : coming_.top();
+      if (!starts_first) coming_.pop();
+      if (event.place == last) return false;  // two points at one place
+      last = event.place;
+      visit(event.point);
     }
     return !met_;
   }
@@ -46,11 +52,35 @@ class Sweep {
  private:
   static constexpr std::int32_t none = -1;
 
+  /// A segment in the order along the line. At its end the one that continues it takes its place.
+  struct Crossed {
+    mutable std::int32_t segment;
+  };
   struct Below {
     Sweep* sweep;
-    bool operator()(std::int32_t s, std::int32_t t) const { return sweep->is_below(s, t); }
+    bool operator()(Crossed s, Crossed t) const { return sweep->is_below(s.segment, t.segment); }
   };
-  using Status = std::set<std::int32_t, Below>;
+  using Status = std::set<Crossed, Below>;
+
+  /// The line comes to a point.
+  struct Event {
+    Point place;
+    std::int32_t point;
+    friend bool operator>(const Event& a, const Event& b) { return a.place > b.place; }
+  };
+
+  /// The points with both neighbours to their right, from left to right. To all others the line is led by a
+  /// segment that it crosses: so no more need to be sorted than it crosses at a time.
+  std::vector<Event> local_starts() const {
+    std::vector<Event> starts;
+    const auto size = size32(flat_.points);
+    for (std::int32_t v = 0; v < size; ++v) {
+      const Point p = flat_.point(v);
+      if (p < flat_.point(flat_.next(v)) && p < flat_.point(flat_.previous(v))) starts.push_back({p, v});
+    }
+    std::sort(starts.begin(), starts.end(), [](const Event& a, const Event& b) { return b > a; });
+    return starts;
+  }
 
   Point left(std::int32_t s) const { return std::min(flat_.point(s), flat_.point(flat_.next(s))); }
   Point right(std::int32_t s) const { return std::max(flat_.point(s), flat_.point(flat_.next(s))); }
@@ -73,23 +103,49 @@ class Sweep {
     const std::int32_t before = flat_.previous(v), after = v;  // a segment has the number of its first point
     const bool first_ends = flat_.point(before) < flat_.point(v),
                second_ends = flat_.point(flat_.next(v)) < flat_.point(v);
-    if (first_ends) leave(before);
-    if (second_ends) leave(after);
-    if (!first_ends) enter(before);
-    if (!second_ends) enter(after);
-    if (!begun_[flat_.loop(v)]) note_below(v, before, after);
+    if (first_ends && second_ends) {
+      leave(before);
+      leave(after);
+    } else if (first_ends) {
+      carry_on(before, after);
+    } else if (second_ends) {
+      carry_on(after, before);
+    } else {
+      enter(before);
+      enter(after);
+      if (!begun_[flat_.loop(v)]) note_below(v, before, after);
+    }
   }
 
-  void enter(std::int32_t s) {
-    const auto at = status_.insert(s).first;
+  void enter(std::int32_t s) { place(s, status_.insert({s}).first); }
+
+  /// Neighbours were found not to meet `ended`: so the segment that goes on from its end is between them too.
+  void carry_on(std::int32_t ended, std::int32_t s) {
+    const auto at = status_at_[ended];
+    at->segment = s;
+    place(s, at);
+  }
+
+  void place(std::int32_t s, Status::iterator at) {
     status_at_[s] = at;
-    if (at != status_.begin()) check(*std::prev(at), s);
-    if (std::next(at) != status_.end()) check(s, *std::next(at));
+    if (at != status_.begin()) check(std::prev(at)->segment, s);
+    if (std::next(at) != status_.end()) check(s, std::next(at)->segment);
+    expect_end(s);
+  }
+
+  /// Where two segments end, the one that is walked rightwards announces it.
+  void expect_end(std::int32_t s) {
+    const std::int32_t next = flat_.next(s);
+    if (flat_.point(s) < flat_.point(next)) {
+      coming_.push({flat_.point(next), next});
+    } else if (flat_.point(flat_.previous(s)) > flat_.point(s)) {
+      coming_.push({flat_.point(s), s});
+    }
   }
 
   void leave(std::int32_t s) {
     const auto after = status_.erase(status_at_[s]);
-    if (after != status_.begin() && after != status_.end()) check(*std::prev(after), *after);
+    if (after != status_.begin() && after != status_.end()) check(std::prev(after)->segment, after->segment);
   }
 
   void check(std::int32_t s, std::int32_t t) { met_ = met_ || flat_.faulty(s, t); }
@@ -99,12 +155,13 @@ class Sweep {
     begun_[flat_.loop(v)] = 1;
     first_points_.push_back(v);
     const auto lower = status_at_[is_below(s, t) ? s : t];
-    if (lower != status_.begin()) below_[flat_.loop(v)] = *std::prev(lower);
+    if (lower != status_.begin()) below_[flat_.loop(v)] = std::prev(lower)->segment;
   }
 
   const FlatOutline& flat_;
   Status status_;
   std::vector<Status::iterator> status_at_;
+  std::priority_queue<Event, std::vector<Event>, std::greater<>> coming_;  ///< the leftmost first
   std::vector<std::int32_t> below_;         ///< by loop: the segment below its first point
   std::vector<char> begun_;                 ///< by loop
   std::vector<std::int32_t> first_points_;  ///< of the loops, from left to right

@@ -32,10 +32,13 @@ SizeRules::SizeRules(const ShiftedOutline& outline, const Lattice& lattice, cons
   domain_ = {lattice.column_at(g.box().low.x), line_after(right, lattice.x(right), g.box().high.x),
              lattice.row_at(g.box().low.y), line_after(top, lattice.y(top), g.box().high.y)};
   if (options.gap) proximity_.emplace(g);
+  spacing_.reserve(g.size());
+  const bool any_corner =
+      std::ranges::any_of(g.boundaries(), [](const Boundary& b) { return b.corner_spacing > 0; });
   for (std::int32_t s = 0; s < g.size(); ++s) {
     spacing_.push_back(g.spacing_of(s));
-    corner_spacing_.push_back(g.corner_spacing_of(s));
-    turning_.push_back(std::llround(g.bend_degrees(s) / turning_unit));
+    if (any_corner) corner_spacing_.push_back(g.corner_spacing_of(s));
+    if (options.curvature) turning_.push_back(std::llround(g.bend_degrees(s) / turning_unit));
   }
 }
 
@@ -82,7 +85,7 @@ int SizeRules::level_of_outline(const Quadrant& q, std::span<const std::int32_t>
   std::int64_t turning = 0;
   for (const std::int32_t s : segments) {
     spacing = std::min(spacing, spacing_[s]);
-    turning += turning_[s];
+    if (options_.curvature) turning += turning_[s];
   }
   if (options_.curvature && turning > 0) {
     const double turns = static_cast<double>(turning) * turning_unit / *options_.curvature;

@@ -81,8 +81,9 @@ class SizeRules {
   Unresolved unresolved_;
   std::optional<Proximity> proximity_;
   std::vector<double> spacing_;         ///< of each segment
-  std::vector<double> corner_spacing_;  ///< of each vertex, 0 where it asks for none
-  std::vector<std::int64_t> turning_;   ///< of each vertex, in turning_unit, 0 where it is kept as a corner
+  std::vector<double> corner_spacing_;  ///< of each vertex, or 0; empty where no boundary asks
+  /// Of each vertex, in turning_unit, 0 where it is kept as a corner; none without options_.curvature.
+  std::vector<std::int64_t> turning_;
   int finest_of_case_;
   int finest_;
   int coarsest_;

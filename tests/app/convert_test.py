@@ -71,7 +71,7 @@ class Convert(ProgramTest):
         """Through all formats that hold a solution, then through the others. Every pair is in tests/io/mesh_file_test.cpp."""
         text = self.mesh(kind)
         self.write("solved.mesh", with_solution(text))
-        for first, second in itertools.pairwise(("solved.mesh", "a.cgns", "a.vtu", "back.mesh")):
+        for first, second in itertools.pairwise(("solved.mesh", "a.qmesh", "b.qmesh", "a.cgns", "a.vtu", "back.mesh")):
             self.assertEqual(self.converted(first, second), "")
         self.assertEqual(self.bytes_of("back.mesh"), self.bytes_of("solved.mesh"))
         self.assertIn("no place for the solution", self.converted("solved.mesh", "a.su2"))

@@ -24,7 +24,7 @@ max = 0.5
 [smooth]
 sweeps = 0
 [output]
-formats = ["mesh", "cgns", "vtu", "su2", "msh"]
+formats = ["mesh", "qmesh", "cgns", "vtu", "su2", "msh"]
 [boundary.box]
 bc = "farfield"
 [solver]
@@ -34,7 +34,7 @@ initial = "vortex"
 [adapt]
 cycles = 1
 """
-SUFFIXES = [".mesh", ".cgns", ".vtu", ".su2", ".msh", ".tree.h5"]
+SUFFIXES = [".mesh", ".qmesh", ".cgns", ".vtu", ".su2", ".msh", ".tree.h5"]
 NO_SPACE = "cannot be written: No space left on device; free some space or name an output elsewhere"
 LONG = "x" * 250
 SECONDS = 60

@@ -16,6 +16,8 @@ namespace {
 constexpr const char* daemon = "OMPI_MCA_ess_singleton_isolated";
 constexpr const char* folder = "OMPI_MCA_orte_create_session_dirs";
 constexpr const char* network = "OMPI_MCA_pml";
+constexpr const char* transfer = "OMPI_MCA_btl";
+constexpr const char* devices = "HWLOC_PLUGINS_PATH";
 
 std::string value_of(const char* name) {
   const char* value = std::getenv(name);
@@ -30,7 +32,7 @@ class LoneProcessTest : public testing::Test {
  private:
   /// Also of what MPI_Init has set in the test itself.
   static void forget() {
-    std::vector<std::string> names{daemon, folder, network};
+    std::vector<std::string> names{daemon, folder, network, transfer, devices};
     for (char** entry = environ; *entry != nullptr; ++entry) {
       const std::string name = std::string(*entry).substr(0, std::string(*entry).find('='));
       if (set_by_launcher(name)) names.push_back(name);
@@ -45,10 +47,10 @@ TEST_F(LoneProcessTest, NeedsNeitherADaemonNorANetworkAndLeavesNoSettings) {
     EXPECT_EQ(value_of(daemon), "1");
     EXPECT_EQ(value_of(folder), "0");
     EXPECT_EQ(value_of(network), "ob1");
+    EXPECT_EQ(value_of(transfer), "self");
+    EXPECT_EQ(value_of(devices), "/dev/null");
   }
-  EXPECT_EQ(value_of(daemon), "none");
-  EXPECT_EQ(value_of(folder), "none");
-  EXPECT_EQ(value_of(network), "none");
+  for (const char* name : {daemon, folder, network, transfer, devices}) EXPECT_EQ(value_of(name), "none");
 }
 
 TEST_F(LoneProcessTest, LeavesWhatTheUserHasSet) {

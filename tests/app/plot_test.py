@@ -200,7 +200,7 @@ class Plot(unittest.TestCase):
 
     def test_refusals(self):
         self.refused(1, ".png, .svg or .pdf", "a.mesh", "-o", "a.jpg")
-        self.refused(1, "give a .mesh, .cgns, .vtu, .pvtu, .su2", "a.vtk", "-o", "a.png")
+        self.refused(1, "give a .mesh, .qmesh, .cgns, .vtu, .pvtu, .su2", "a.vtk", "-o", "a.png")
         self.refused(1, "do you mean 'a.mesh'", "a", "-o", "a.png")
         self.refused(1, "none.mesh", "none.mesh", "-o", "a.png")
         self.refused(1, "window is empty", "a.mesh", "-o", "a.png", "--window=1,1,0,1")

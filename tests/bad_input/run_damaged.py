@@ -21,10 +21,10 @@ bc = "wall"
 [smooth]
 sweeps = 0
 [output]
-formats = ["mesh", "cgns", "vtu", "su2", "msh"]
+formats = ["mesh", "qmesh", "cgns", "vtu", "su2", "msh"]
 """
 OUTLINE = "2\nbox\n4\n0 0\n2 0\n2 1\n0 1\nwall\n4\n0.7 0.4\n0.7 0.6\n0.9 0.6\n0.9 0.4\n"
-SUFFIXES = ("cgns", "tree.h5", "mesh", "vtu", "su2", "msh")
+SUFFIXES = ("cgns", "tree.h5", "mesh", "qmesh", "vtu", "su2", "msh")
 BY_LIBRARY = ("cgns", "tree.h5")  # the others, which are parsed here, are damaged by the thousand in tests/io/damaged_text_test
 LARGEST_MEMORY = 700 << 10  # KiB, of the program and of its child
 LARGEST_TIME = 25  # processor seconds: a child that loops is stopped after 5

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from quadloop_runs import MPIRUN, NativeMesh, fail, mesh_case, run
 
-FORMATS = ("mesh", "cgns", "vtu", "su2", "msh")
+FORMATS = ("mesh", "qmesh", "cgns", "vtu", "su2", "msh")
 
 
 def smooth(program, given, made, ranks=1, options=()):

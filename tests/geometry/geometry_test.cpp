@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
 
 #include "mesher/base/error.hpp"
 
@@ -23,6 +26,42 @@ TEST(Geometry, BendsWhereItIsNoCorner) {
   EXPECT_EQ(g.bend_degrees(0), 0) << "a kept corner";
   EXPECT_EQ(g.bend_degrees(2), g.turn_degrees(2));
   EXPECT_NEAR(g.bend_degrees(2), 11.42, 0.01);
+}
+
+/// Most turns are told without an arc tangent; that may change nothing, wherever the limit lies.
+TEST(Geometry, KeepsWhatTurnsByMoreThanItsBoundarysCorner) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(-1, 1);
+  std::vector<Point> points{{0, 0}};
+  double heading = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double turn = i % 4 == 0   ? 180 * share(random)
+                        : i % 4 == 1 ? 30
+                        : i % 4 == 2 ? 2e-6 * share(random)
+                                     : 0;
+    heading += turn * std::numbers::pi / 180;
+    const double step = std::exp(10 * share(random));
+    points.push_back(points.back() + Point{step * std::cos(heading), step * std::sin(heading)});
+  }
+  for (const double corner : {0.0, 1e-6, 30.0, 88.0, 89.0, 90.0, 120.0, 180.0}) {
+    const Geometry g({Boundary{"wall", 0, corner}}, points, {0, size32(points)},
+                     std::vector<BoundaryId>(points.size(), BoundaryId{0}));
+    for (std::int32_t v = 0; v < g.size(); ++v) {
+      EXPECT_EQ(g.kept(v), g.turn_degrees(v) > corner) << v;
+      EXPECT_EQ(g.straight(v), g.turn_degrees(v) < Geometry::straight_degrees) << v;
+    }
+  }
+}
+
+TEST(Geometry, LoopsCloseOnThemselves) {
+  const Geometry g({Boundary{"wall"}}, {{0, 0}, {9, 0}, {0, 9}, {1, 1}, {1, 2}, {2, 1}, {3, 1}}, {0, 3, 7},
+                   std::vector<BoundaryId>(7, BoundaryId{0}));
+  const std::vector<std::int32_t> next{1, 2, 0, 4, 5, 6, 3}, previous{2, 0, 1, 6, 3, 4, 5};
+  for (std::int32_t v = 0; v < g.size(); ++v) {
+    EXPECT_EQ(g.next(v), next[v]);
+    EXPECT_EQ(g.previous(v), previous[v]);
+    EXPECT_EQ(g.loop_of(v), v < 3 ? 0 : 1);
+  }
 }
 
 TEST(Geometry, DemandsOfSinglePlacesReplaceTheBoundarys) {

@@ -131,6 +131,39 @@ TEST(Validate, AgreesWithTryingAllPairs) {
   EXPECT_GT(valid, 100);
 }
 
+/// Long chains go on from segment to segment along the sweep line, and turn back where the outline does.
+TEST(Validate, AgreesWithTryingAllPairsOfLongLoops) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> share(0, 1);
+  int valid = 0, refused_ones = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const int size = 20 + trial % 60;
+    std::vector<Point> points;
+    for (int i = 0; i < size; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + (trial % 3 == 0 ? 1.2 : 0.9) * share(random)) / size;
+      const double radius = std::round(64 * (0.3 + share(random)));  // on a lattice some points coincide
+      points.push_back({std::round(radius * std::cos(angle)), std::round(radius * std::sin(angle))});
+    }
+    std::vector<Chain> chains{closed("one", points)};
+    std::vector<std::string> warnings;
+    clean_chains(chains, warnings);
+    const Outline outline = join_chains(chains);
+    const FlatOutline flat(outline);
+    bool simple = true;
+    for (std::int32_t s = 0; s < size32(flat.points); ++s) {
+      for (std::int32_t t = s + 1; t < size32(flat.points); ++t) simple = simple && !flat.faulty(s, t);
+    }
+    (simple ? valid : refused_ones) += 1;
+    if (simple) {
+      EXPECT_NO_THROW(validate(outline)) << trial;
+    } else {
+      EXPECT_THROW(validate(outline), InputError) << trial;
+    }
+  }
+  EXPECT_GT(valid, 100);
+  EXPECT_GT(refused_ones, 100);
+}
+
 TEST(Validate, FindsTheDepthOfEveryLoop) {
   std::vector<Chain> chains;
   for (int ring = 0; ring < 40; ++ring) chains.push_back(star("ring", {0, 0}, std::pow(1.5, ring), 64));

@@ -59,7 +59,7 @@ TEST_P(CellValuesIn, ComeBackFromAnyNumberOfRanks) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, CellValuesIn, testing::Values("mesh", "vtu", "cgns"));
+INSTANTIATE_TEST_SUITE_P(Formats, CellValuesIn, testing::Values("mesh", "qmesh", "vtu", "cgns"));
 
 TEST(CellValues, StayWithTheirCellsWhereBlocksAreSorted) {
   const TemporaryFolder folder;

@@ -143,6 +143,7 @@ void damage_written(const std::string& name) {
 }
 
 TEST(DamagedFile, OfTheNativeFormat) { damage_written("m.mesh"); }
+TEST(DamagedFile, OfTheBinaryFormat) { damage_written("m.qmesh"); }
 TEST(DamagedFile, OfVtk) { damage_written("m.vtu"); }
 TEST(DamagedFile, OfSu2) { damage_written("m.su2"); }
 TEST(DamagedFile, OfGmsh) { damage_written("m.msh"); }

@@ -12,6 +12,7 @@
 #include "io/cgns/cgns_file.hpp"
 #include "io/formats.hpp"
 #include "io/msh/msh_file.hpp"
+#include "io/native/binary_file.hpp"
 #include "io/native/native_file.hpp"
 #include "io/solution_file.hpp"
 #include "io/su2/su2_csv_file.hpp"
@@ -79,6 +80,27 @@ TEST(NativeFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   expect_same_solution(loaded, sample.solution);
   EXPECT_EQ(loaded.solution->names, sample.solution.names);
   EXPECT_EQ(loaded.solution->constants, sample.solution.constants);  // CGNS has no place for them
+  EXPECT_EQ(test::files_in(folder.path()), 2U);
+}
+
+TEST(BinaryFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
+  const TemporaryFolder folder;
+  const Sample sample;
+  const auto write = [&](const Communicator& comm, const Mesh& mesh, const Field& solution,
+                         const std::string& path) {
+    OutputSet outputs(comm);
+    write_binary(outputs, mesh, path, &solution);
+    outputs.commit();
+  };
+  write(world(), sample.own, sample.own_solution, folder.file("many.qmesh"));
+  if (!world().is_root()) return;
+  write(sample.alone, sample.mesh, sample.solution, folder.file("one.qmesh"));
+  EXPECT_TRUE(test::bytes_of(folder.file("many.qmesh")) == test::bytes_of(folder.file("one.qmesh")));
+  const LoadedMesh loaded = read_binary(folder.file("many.qmesh"));
+  expect_same_mesh(loaded, sample.mesh);
+  expect_same_solution(loaded, sample.solution);
+  EXPECT_EQ(loaded.solution->names, sample.solution.names);
+  EXPECT_EQ(loaded.solution->constants, sample.solution.constants);
   EXPECT_EQ(test::files_in(folder.path()), 2U);
 }
 

@@ -15,23 +15,24 @@ namespace {
 using Names = std::vector<std::string>;
 
 TEST(Formats, AreListedByWhatTheyHold) {
-  EXPECT_EQ(formats_for({}), (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
-                                    "b8.ugrid", "lb8.ugrid", "ugrid", "polyMesh", "csv", "dat"}));
-  EXPECT_EQ(formats_for({Content::solid}), (Names{"cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
-                                                  "b8.ugrid", "lb8.ugrid", "polyMesh"}));
-  EXPECT_EQ(formats_for({Content::mesh}),
-            (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41", "ugrid", "polyMesh"}));
-  EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "cgns", "vtu", "pvtu"}));
-  EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh"}));
-  EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), (Names{"fluent.msh", "polyMesh"}));
-  EXPECT_EQ(formats_for({Content::layers}), (Names{"mesh", "cgns", "vtu", "pvtu"}));
+  EXPECT_EQ(formats_for({}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh",
+                                    "msh41", "b8.ugrid", "lb8.ugrid", "ugrid", "polyMesh", "csv", "dat"}));
+  EXPECT_EQ(formats_for({Content::solid}),
+            (Names{"cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41", "b8.ugrid", "lb8.ugrid",
+                   "polyMesh"}));
+  EXPECT_EQ(formats_for({Content::mesh}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh",
+                                                 "msh", "msh41", "ugrid", "polyMesh"}));
+  EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu"}));
+  EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh", "qmesh"}));
+  EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), (Names{"qmesh", "fluent.msh", "polyMesh"}));
+  EXPECT_EQ(formats_for({Content::layers}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu"}));
 }
 
 TEST(Formats, StandInASentenceBySuffix) {
   EXPECT_EQ(suffixes_for({Content::mesh}),
-            ".mesh, .cgns, .vtu, .pvtu, .su2, .fluent.msh, .msh, .msh41, .ugrid or polyMesh");
-  EXPECT_EQ(suffixes_for({Content::solution}, "and"), ".mesh, .cgns, .vtu, .pvtu, .csv and .dat");
-  EXPECT_EQ(suffixes_for({Content::conditions}), ".cgns, .fluent.msh, .ugrid or polyMesh");
+            ".mesh, .qmesh, .cgns, .vtu, .pvtu, .su2, .fluent.msh, .msh, .msh41, .ugrid or polyMesh");
+  EXPECT_EQ(suffixes_for({Content::solution}, "and"), ".mesh, .qmesh, .cgns, .vtu, .pvtu, .csv and .dat");
+  EXPECT_EQ(suffixes_for({Content::conditions}), ".qmesh, .cgns, .fluent.msh, .ugrid or polyMesh");
 }
 
 TEST(Formats, AreFoundByNameAndSuffix) {
@@ -96,8 +97,8 @@ TEST(Formats, EachReadsWhatItWrites) {
 }
 
 TEST(Formats, OfPlaneMeshesAreWritten) {
-  EXPECT_EQ(written_formats(), (Names{"mesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
-                                      "ugrid", "polyMesh", "csv", "dat"}));
+  EXPECT_EQ(written_formats(), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh",
+                                      "msh41", "ugrid", "polyMesh", "csv", "dat"}));
 }
 
 TEST(Formats, AreWrittenBlockByBlockWhereBlocksHaveAPlace) {

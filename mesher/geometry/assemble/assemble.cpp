@@ -61,14 +61,19 @@ void warn_of_domains(const Outline& outline, const std::vector<LoopNesting>& nes
       outermost.size(), name, second.points.front().x, second.points.front().y));
 }
 
-Geometry to_geometry(const Outline& outline, const AssembleOptions& options) {
+Geometry to_geometry(Outline outline, const AssembleOptions& options) {
+  std::size_t size = 0;
+  for (const OutlineLoop& loop : outline.loops) size += loop.points.size();
   std::vector<Point> points;
   std::vector<BoundaryId> segment_boundary;
+  points.reserve(size);
+  segment_boundary.reserve(size);
   std::vector<std::int32_t> loop_starts{0};
-  for (const OutlineLoop& loop : outline.loops) {
+  for (OutlineLoop& loop : outline.loops) {
     points.insert(points.end(), loop.points.begin(), loop.points.end());
     segment_boundary.insert(segment_boundary.end(), loop.boundary.begin(), loop.boundary.end());
     loop_starts.push_back(size32(points));
+    loop = {};  // a long one is not held twice
   }
   std::vector<Boundary> boundaries =
       boundaries_by_rules(outline.names, options.rules, options.default_corner_degrees);
@@ -100,13 +105,13 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
   if (size > std::numeric_limits<std::int32_t>::max() / 2) {
     throw InputError(fmt::format("the geometry has {} points, more than can be numbered; thin it out", size));
   }
-  Outline outline = join_chains(chains);
+  Outline outline = join_chains(std::move(chains));
   const std::vector<LoopNesting> nestings = validate(outline);
   Warnings of_domain;
   orient(outline, nestings, of_domain);
   warn_of_domains(outline, nestings, of_domain);
   if (!options.domain_is_known) warnings.insert(warnings.end(), of_domain.begin(), of_domain.end());
-  Geometry geometry = to_geometry(outline, options);
+  Geometry geometry = to_geometry(std::move(outline), options);
   require_extent(geometry);
   return geometry;
 }

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
@@ -123,9 +125,22 @@ class ChainEnds {
   std::map<Point, std::vector<std::size_t>> at_;
 };
 
+/// How many different points there are, but no more than three.
+std::size_t distinct_up_to_three(const std::vector<Point>& points) {
+  std::array<Point, 3> found;
+  std::size_t count = 0;
+  for (const Point p : points) {
+    if (std::find(found.begin(), found.begin() + count, p) != found.begin() + count) continue;
+    found[count++] = p;
+    if (count == found.size()) break;
+  }
+  return count;
+}
+
 class Joiner {
  public:
-  explicit Joiner(const std::vector<Chain>& chains) : chains_{chains}, ends_{chains}, used_(chains.size()) {}
+  explicit Joiner(std::vector<Chain> chains)
+      : chains_{std::move(chains)}, ends_{chains_}, used_(chains_.size()) {}
 
   Outline run() {
     ends_.require_closed();
@@ -137,7 +152,7 @@ class Joiner {
       if (chains_[c].open) {
         join_from(c, loop);
       } else {
-        loop.points = chains_[c].points;
+        loop.points = std::move(chains_[c].points);
         loop.boundary.assign(loop.points.size(), numbers_.at(chains_[c].name));
       }
       require_area(chains_[c], loop);
@@ -167,17 +182,15 @@ class Joiner {
   }
 
   static void require_area(const Chain& chain, const OutlineLoop& loop) {
-    std::vector<Point> distinct = loop.points;
-    std::sort(distinct.begin(), distinct.end());
-    const auto count = std::unique(distinct.begin(), distinct.end()) - distinct.begin();
-    if (count >= 3) return;
+    const std::size_t count = distinct_up_to_three(loop.points);
+    if (count == 3) return;
     const std::string place = loop.points.empty() ? "" : " near " + text(loop.points.front());
     throw InputError(
         fmt::format("{}: boundary '{}'{} is a loop of {} distinct point{}; a loop needs at least three",
                     chain.source, chain.name, place, count, count == 1 ? "" : "s"));
   }
 
-  const std::vector<Chain>& chains_;
+  std::vector<Chain> chains_;
   ChainEnds ends_;
   std::vector<char> used_;
   std::unordered_map<std::string, BoundaryId> numbers_;
@@ -206,6 +219,6 @@ void clean_chains(std::vector<Chain>& chains, std::vector<std::string>& warnings
   }
 }
 
-Outline join_chains(const std::vector<Chain>& chains) { return Joiner(chains).run(); }
+Outline join_chains(std::vector<Chain> chains) { return Joiner(std::move(chains)).run(); }
 
 }  // namespace quadloop

@@ -13,6 +13,6 @@ void clean_chains(std::vector<Chain>& chains, std::vector<std::string>& warnings
 
 /// Joins clean chains into closed loops. Throws InputError for a loose end, for ends of more than two chains
 /// at one point, and for a loop of fewer than three distinct points.
-Outline join_chains(const std::vector<Chain>& chains);
+Outline join_chains(std::vector<Chain> chains);
 
 }  // namespace quadloop

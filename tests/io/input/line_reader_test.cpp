@@ -31,6 +31,44 @@ TEST(LineReader, PassesOverCommentsAndBlankLines) {
             std::string::npos);
 }
 
+TEST(LineReader, RowsMayLieAcrossThePiecesOfAFile) {
+  std::string text;
+  constexpr int count = 300000;  // more than a megabyte
+  for (int i = 0; i < count; ++i) text += std::to_string(i) + ' ' + std::to_string(-i) + '\n';
+  Rows rows(text + "# a row of its own: " + std::string(3 << 20, 'x') + "\nlast");
+  for (int i = 0; i < count; ++i) {
+    Point p;
+    ASSERT_TRUE(i % 2 == 0 ? rows.reader.next_point(p) : rows.reader.next()) << i;
+    if (i % 2 == 0) {
+      EXPECT_EQ(p, (Point{1.0 * i, -1.0 * i}));
+    } else {
+      EXPECT_EQ(rows.reader.words()[0], std::to_string(i));
+    }
+    EXPECT_EQ(rows.reader.line(), i + 1);
+  }
+  ASSERT_TRUE(rows.reader.next());
+  EXPECT_EQ(rows.reader.row(), "last");
+  EXPECT_EQ(rows.reader.line(), count + 2);
+  EXPECT_FALSE(rows.reader.next());
+}
+
+TEST(LineReader, OnlyRowsOfTwoFiniteNumbersArePoints) {
+  for (const char* text : {"", "1", "1 2 3", "1 x", "1 nan", "inf 1", "1 1e999", "1 2 # note", "# note",
+                           "1x 2", "1 2;", "1.5D0 2", "+1 2"}) {
+    Rows rows(std::string(text) + "\n");
+    Point p;
+    EXPECT_FALSE(rows.reader.next_point(p)) << text;
+    EXPECT_EQ(rows.reader.line(), 0) << text;
+  }
+  for (const char* text : {"1 2", " 1,\t2\r\n", "1e0 2.\f\n"}) {
+    Rows rows(text);
+    Point p;
+    EXPECT_TRUE(rows.reader.next_point(p)) << text;
+    EXPECT_EQ(p, (Point{1, 2})) << text;
+    EXPECT_FALSE(rows.reader.next_point(p) || rows.reader.next());
+  }
+}
+
 TEST(LineReader, ALastRowNeedsNoLineEnd) {
   Rows rows("1\n2");
   ASSERT_TRUE(rows.reader.next() && rows.reader.next());

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "io/files/output_file.hpp"
+#include "io/loaded/loaded_mesh.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// Writes the mesh as a .qmesh file (docs/formats.md) into the set: lines of text that say what follows, then
+/// nodes, cells, boundary edges and the solution as raw bytes, each rank its own at once. The bytes are the
+/// same on any number of ranks. A boundary without edges on any rank is left out. `solution`, where given,
+/// has a row for each owned node. *Collective.* Throws OutputError on all ranks.
+void write_binary(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution);
+
+/// Writes a mesh that the set's only rank holds whole, with its blocks and its solution. Throws OutputError.
+void write_binary(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
+
+/// Reads such a file on the calling rank alone. Boundaries of the same name become one. Throws InputError on
+/// anything that is not such a mesh; geometric faults are left to validate().
+LoadedMesh read_binary(const std::string& path);
+
+}  // namespace quadloop

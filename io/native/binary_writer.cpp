@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <span>
+
+#include "io/files/binary_output.hpp"
+#include "io/files/boundary_stream.hpp"
+#include "io/files/shared_output.hpp"
+#include "io/loaded/strip_text.hpp"
+#include "io/native/binary_file.hpp"
+#include "io/native/binary_header.hpp"
+#include "mesher/mesh/variable_names.hpp"
+
+namespace quadloop {
+
+namespace {
+
+class BinaryWriter {
+ public:
+  BinaryWriter(OutputSet& outputs, const Mesh& mesh, const Field* solution, const std::string& path)
+      : comm_{outputs.communicator()},
+        mesh_{mesh},
+        solution_{solution},
+        boundaries_{comm_, mesh},
+        file_{comm_, outputs.stage(path)} {
+    header_.nodes = comm_.sum(mesh.owned_nodes);
+    header_.node_bytes = node_bytes_for(header_.nodes);
+    for (std::size_t n = 0; n < boundaries_.present().size(); ++n) {
+      const BoundaryEdges& boundary = *boundaries_.present()[n];
+      header_.boundaries.push_back(
+          {boundary.name, boundary.condition, boundaries_.edges_of(n), boundary.layers});
+    }
+    for (const StripLayers& strip : mesh.strips) header_.strips += comments_of(strip);
+    if (solution == nullptr) return;
+    header_.constants = std::ssize(solution->constants);
+    for (const std::string& name : solution->names) header_.variables.push_back(word_of(name));
+    for (const std::string& name : solution->cells.names) header_.cell_variables.push_back(word_of(name));
+  }
+
+  /// Of a mesh that is one.
+  void one_block() {
+    header_.blocks = {{"domain", comm_.sum(std::ssize(mesh_.triangles)), comm_.sum(std::ssize(mesh_.quads))}};
+  }
+
+  /// Where one rank has all.
+  void blocks_of(const LoadedMesh& whole) {
+    for (std::int32_t b = 0; b < whole.blocks; ++b) {
+      const std::string name =
+          static_cast<std::size_t>(b) < whole.block_names.size() ? whole.block_names[b] : "domain";
+      header_.blocks.push_back(
+          {name, std::ranges::count(whole.triangle_to_block, b), std::ranges::count(whole.quad_to_block, b)});
+    }
+  }
+
+  void write() {
+    const std::string head = text_of(header_);
+    at_root(head);
+    write_rows(mesh_.owned_nodes, [&](std::size_t i) {
+      return std::array{mesh_.points[i].x, mesh_.points[i].y};
+    });
+    if (header_.node_bytes == 4)
+      write_connectivity<std::int32_t>();
+    else
+      write_connectivity<std::int64_t>();
+    if (solution_ != nullptr) write_solution(*solution_);
+    file_.close();
+  }
+
+ private:
+  /// Rank 0's bytes.
+  void at_root(std::string_view bytes) {
+    comm_.together([&] {
+      if (comm_.is_root()) file_.write_at(end_, bytes);
+    });
+    end_ += std::ssize(bytes);
+  }
+
+  /// The ranks' rows in the order of ranks, each an array that `make(i)` gives.
+  template <class Make>
+  void write_rows(std::size_t rows, const Make& make) {
+    using Row = decltype(make(0));
+    constexpr std::size_t rows_of_piece = (std::size_t{1} << 20) / sizeof(Row);
+    const auto own = static_cast<std::int64_t>(rows);
+    const std::int64_t begin = end_ + comm_.exclusive_sum(own) * std::int64_t{sizeof(Row)};
+    end_ += comm_.sum(own) * std::int64_t{sizeof(Row)};
+    comm_.together([&] {
+      std::vector<Row> piece;
+      for (std::size_t first = 0; first < rows; first += rows_of_piece) {
+        const std::size_t last = std::min(rows, first + rows_of_piece);
+        piece.clear();
+        for (std::size_t i = first; i < last; ++i) piece.push_back(in_order<std::endian::little>(make(i)));
+        file_.write_at(begin + static_cast<std::int64_t>(first * sizeof(Row)),
+                       bytes_of(std::span<const Row>(piece)));
+      }
+    });
+  }
+
+  template <class Number>
+  void write_connectivity() {
+    const auto numbers = [&]<std::size_t width>(const std::array<NodeId, width>& cell) {
+      std::array<Number, width> row;
+      for (std::size_t k = 0; k < width; ++k) row[k] = static_cast<Number>(mesh_.global(cell[k]).value());
+      return row;
+    };
+    write_rows(mesh_.triangles.size(), [&](std::size_t i) { return numbers(mesh_.triangles[i]); });
+    write_rows(mesh_.quads.size(), [&](std::size_t i) { return numbers(mesh_.quads[i]); });
+    write_edges<Number>();
+  }
+
+  /// Boundary after boundary: they come to rank 0 in that order.
+  template <class Number>
+  void write_edges() {
+    std::int64_t at = end_;
+    boundaries_.run([](std::size_t) {},
+                    [&](std::span<const BoundaryStream::Edge> edges) {
+                      std::vector<std::array<Number, 2>> rows;
+                      for (const auto& [from, to] : edges)
+                        rows.push_back(in_order<std::endian::little>(
+                            std::array{static_cast<Number>(from), static_cast<Number>(to)}));
+                      const auto bytes = bytes_of(std::span<const std::array<Number, 2>>(rows));
+                      file_.write_at(at, bytes);
+                      at += std::ssize(bytes);
+                    });
+    end_ += header_.edges() * 2 * header_.node_bytes;
+  }
+
+  void write_solution(const Field& solution) {
+    std::vector<double> constants;
+    for (const double value : solution.constants) constants.push_back(in_order<std::endian::little>(value));
+    at_root(bytes_of(std::span<const double>(constants)));
+    write_values(solution.values.data(), mesh_.owned_nodes * solution.width());
+    const std::size_t width = solution.cells.width(), triangles = mesh_.triangles.size() * width;
+    write_values(solution.cells.values.data(), triangles);
+    write_values(solution.cells.values.data() + triangles, mesh_.quads.size() * width);
+  }
+
+  void write_values(const double* values, std::size_t count) {
+    write_rows(count, [&](std::size_t i) { return std::array{values[i]}; });
+  }
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  const Field* solution_;
+  const BoundaryStream boundaries_;
+  SharedOutput file_;
+  BinaryHeader header_;
+  std::int64_t end_ = 0;  ///< of what is written, over all ranks
+};
+
+}  // namespace
+
+void write_binary(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution) {
+  BinaryWriter writer(outputs, mesh, solution, path);
+  writer.one_block();
+  writer.write();
+}
+
+void write_binary(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
+  BinaryWriter writer(outputs, whole.mesh, whole.solution ? &*whole.solution : nullptr, path);
+  writer.blocks_of(whole);
+  writer.write();
+}
+
+}  // namespace quadloop

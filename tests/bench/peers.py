@@ -1,0 +1,425 @@
+#!/usr/bin/python3 -B
+"""quadloop beside other mesh generators on the same outlines, in turns, one after another: Triangle, Gmsh, MMG2D and BAMG, whichever are on the PATH
+(`triangle`, `gmsh`, `mmg2d_O3`, `ffbamg` or `bamg`). Needs numpy.
+
+    peers.py --quadloop PROGRAM [--cells N] [--repeats N] [--cases A B gulf] [--sized PROGRAM] [--timeout S] [--update docs/performance.md]
+
+A       cases/naca0012, small cells in all of its far field
+B       the same airfoil, cells that grow by 0.3 of the distance from the wall: most of them near it
+gulf    the coast of cases/gulf_of_mexico: the others from the outline's vertices alone, quadloop with sizes as fine
+--cells    about how many triangles in A (within a factor of two) and B; the coast of the Gulf is the high one from 500 thousand on, the medium one from 100 thousand on
+--sized    Triangle built for B with the size function of airfoil_size.c, which stands in that file; without one it gets no sizes there
+--timeout  seconds for one run of another program; one that takes longer is left out of that case
+--update   puts the figures into the file, between this script's two markers
+
+Kernel is what each program says of itself, without reading and writing files (BAMG, which says nothing, has none): Triangle's and Gmsh's own clocks,
+quadloop's stages, smoothing among them. Process is the processor's time of all, files too; wall is the clock's. Ratios are times per triangle over
+those of quadloop's smoothed mesh. Quality is 4 sqrt(3) area over the sum of squared edges, over all triangles, by this script for all programs alike.
+"""
+import argparse
+import json
+import os
+import re
+import shutil
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from figures import add_update, tell
+
+ROOT = Path(__file__).resolve().parents[2]
+AIRFOIL = ROOT / "cases" / "naca0012" / "case.toml"
+GULF = ROOT / "cases" / "gulf_of_mexico"
+FAR = 10.0    # half width of the airfoil's far field
+SLOPE = 0.3   # of sizes in B
+
+
+@dataclass
+class Task:
+    """What is to be meshed."""
+    name: str
+    case: Path
+    settings: list       # of quadloop's
+    loops: list          # arrays of points; the domain lies to their left
+    largest: float       # edge asked for; 0: none
+    cells: int           # about how many triangles
+    wall: float = 0.0    # edge asked for at the airfoil, from which sizes grow by SLOPE; 0: sizes are the outline's own
+
+
+@dataclass
+class Run:
+    kernel: float  # seconds, nan where the program does not say
+    process: float
+    wall: float
+    peak: int      # bytes
+    points: np.ndarray
+    triangles: np.ndarray
+
+
+def read_geom(path):
+    """Loops of a .geom file, open chains joined end to end."""
+    rows = iter([line for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")])
+    closed, chains = [], []
+    for _ in range(int(next(rows))):
+        is_open = next(rows).split()[-1] == "open"
+        points = np.array([next(rows).replace(",", " ").split() for _ in range(int(next(rows)))], dtype=float)
+        (chains if is_open else closed).append(points)
+    while chains:
+        loop = chains.pop(0)
+        while (loop[0] != loop[-1]).any():
+            following = next(i for i, chain in enumerate(chains) if (chain[0] == loop[-1]).all())
+            loop = np.vstack([loop, chains.pop(following)[1:]])
+        closed.append(loop[:-1])
+    return closed
+
+
+def airfoil_loops():
+    body = read_geom(AIRFOIL.parent / "naca0012.geom")
+    centre = (np.min(body[0], axis=0) + np.max(body[0], axis=0)) / 2
+    return [*body, centre + FAR * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])]
+
+
+def task_named(name, cells):
+    if name == "A":
+        finer = 2.0 ** round(np.log2(cells / 135000) / 2)  # leaves halve; so many triangles where finer = 1
+        values = {"spacing.min": 0.002, "spacing.max": 0.08, "boundary.airfoil.spacing": 0.005}
+        return Task(name, AIRFOIL, [f"{key}={value / finer!r}" for key, value in values.items()], airfoil_loops(), 0.08 / finer * 1.2, cells)
+    if name == "B":
+        wall = 16.0 / cells
+        settings = [f"spacing.min={wall / 2!r}", "spacing.max=2.0", f"spacing.gradation={1 + 2 * SLOPE!r}", f"boundary.airfoil.spacing={wall!r}"]
+        return Task(name, AIRFOIL, settings, airfoil_loops(), 0.0, cells, wall)
+    size = "high" if cells >= 500000 else "medium" if cells >= 100000 else "coarse"
+    case = GULF / ("case.toml" if size == "coarse" else f"{size}.toml")
+    return Task(f"gulf {size}", case, [], read_geom(GULF / f"gulf_of_mexico_{size}.geom"), 0.0, cells)
+
+
+def timed(command, folder, timeout):
+    """Its output, processor and wall seconds, and bytes at most; none where it takes too long, or fails."""
+    begin = os.times().elapsed
+    with open(folder / "said.txt", "w+", encoding="utf-8", errors="replace") as said:
+        child = subprocess.Popen([str(word) for word in command], cwd=folder, stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT)
+        previous = signal.signal(signal.SIGALRM, lambda *_: child.kill())
+        signal.alarm(int(timeout))
+        _, status, usage = os.wait4(child.pid, 0)
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, previous)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        said.seek(0)
+        text = said.read()
+    if child.returncode != 0:
+        print(f"{Path(str(command[0])).name}: {'took too long' if child.returncode == -9 else ' '.join(re.findall('.*rror.*', text)[:3]) or text[-400:]}", file=sys.stderr)
+        return None
+    return text, usage.ru_utime + usage.ru_stime, os.times().elapsed - begin, usage.ru_maxrss * 1024
+
+
+def first_number(pattern, text):
+    found = re.search(pattern, text)
+    return float(found[1]) if found else float("nan")
+
+
+# --- files of others
+
+def ring_edges(loops):
+    """Each loop's edges by the numbers of all loops' points."""
+    first, edges = 0, []
+    for loop in loops:
+        numbers = first + np.arange(len(loop))
+        edges.append(np.column_stack([numbers, np.roll(numbers, -1)]))
+        first += len(loop)
+    return np.vstack(edges)
+
+
+def area_of(loop):
+    x, y = loop[:, 0], loop[:, 1]
+    return (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2
+
+
+def point_within(loop):
+    """A point inside it: the middle of the longest stretch between two crossings of a level that meets no point."""
+    levels = np.unique(loop[:, 1])
+    gap = np.argmax(np.diff(levels))
+    y = (levels[gap] + levels[gap + 1]) / 2
+    a, b = loop, np.roll(loop, -1, axis=0)
+    cross = (a[:, 1] < y) != (b[:, 1] < y)
+    a, b = a[cross], b[cross]
+    x = np.sort(a[:, 0] + (y - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0]))
+    widest = 2 * np.argmax(x[1::2] - x[0::2])
+    return (x[widest] + x[widest + 1]) / 2, y
+
+
+def write_poly(path, loops):
+    points, edges = np.vstack(loops), ring_edges(loops)
+    holes = [point_within(loop) for loop in loops if area_of(loop) < 0]
+    with open(path, "w", encoding="ascii") as file:
+        file.write(f"{len(points)} 2 0 0\n" + "".join(f"{i} {x!r} {y!r}\n" for i, (x, y) in enumerate(points.tolist())))
+        file.write(f"{len(edges)} 0\n" + "".join(f"{i} {a} {b}\n" for i, (a, b) in enumerate(edges.tolist())))
+        file.write(f"{len(holes)}\n" + "".join(f"{i} {x!r} {y!r}\n" for i, (x, y) in enumerate(holes)))
+
+
+def read_triangle(stem):
+    with open(f"{stem}.node", encoding="ascii") as file:
+        count = int(file.readline().split()[0])
+        points = np.fromfile(file, count=4 * count, sep=" ").reshape(count, 4)[:, 1:3]
+    with open(f"{stem}.ele", encoding="ascii") as file:
+        count = int(file.readline().split()[0])
+        return points, np.fromfile(file, count=4 * count, sep=" ", dtype=np.int64).reshape(count, 4)[:, 1:]
+
+
+def write_geo(path, task):
+    loops, lines, first = task.loops, [], 1
+    points = np.vstack(loops)
+    lines += [f"Point({i}) = {{{x!r}, {y!r}, 0}};" for i, (x, y) in enumerate(points.tolist(), 1)]
+    edges = ring_edges(loops) + 1
+    lines += [f"Line({i}) = {{{a}, {b}}};" for i, (a, b) in enumerate(edges.tolist(), 1)]
+    for number, loop in enumerate(loops, 1):
+        lines.append(f"Curve Loop({number}) = {{{first}:{first + len(loop) - 1}}};")
+        first += len(loop)
+    order = sorted(range(len(loops)), key=lambda i: -abs(area_of(loops[i])))
+    lines.append(f"Plane Surface(1) = {{{', '.join(str(i + 1) for i in order)}}};")
+    lines += ["Mesh.MeshSizeFromPoints = 0;", "Mesh.MeshSizeExtendFromBoundary = 0;", "Mesh.Algorithm = 5;", "Mesh.MshFileVersion = 2.2;", "Mesh.Binary = 1;"]
+    if task.wall > 0:
+        lines += ["Field[1] = Distance;", f"Field[1].CurvesList = {{1:{len(loops[0])}}};", "Field[1].NumPointsPerCurve = 100;", "Field[2] = MathEval;",
+                  f'Field[2].F = "{task.wall!r} + {SLOPE} * F1";', "Background Field = 2;"]
+    elif task.largest > 0:
+        lines.append(f"Mesh.MeshSizeMax = {task.largest!r}; Mesh.MeshSizeMin = {task.largest!r};")
+    else:
+        lines += ["Mesh.MeshSizeExtendFromBoundary = 1;", "Mesh.MeshSizeFromPoints = 1;"]
+        lengths = np.linalg.norm(points[edges[:, 1] - 1] - points[edges[:, 0] - 1], axis=1)
+        lines += [f"MeshSize{{{i}}} = {h!r};" for i, h in enumerate(lengths.tolist(), 1)]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def read_msh(path):
+    """Gmsh's binary 2.2, of whose elements the triangles are taken."""
+    data = path.read_bytes()
+    at = data.index(b"$Nodes\n") + 7
+    end = data.index(b"\n", at)
+    count = int(data[at:end])
+    nodes = np.frombuffer(data, dtype=[("number", "<i4"), ("at", "<f8", 3)], count=count, offset=end + 1)
+    at = data.index(b"$Elements\n", end + 1 + nodes.nbytes) + 10
+    end = data.index(b"\n", at)
+    left, at, triangles = int(data[at:end]), end + 1, []
+    while left > 0:
+        kind, some, tags = np.frombuffer(data, "<i4", 3, at)
+        nodes_of = {15: 1, 1: 2, 2: 3}[int(kind)]
+        rows = np.frombuffer(data, "<i4", int(some) * (1 + int(tags) + nodes_of), at + 12).reshape(int(some), -1)
+        if kind == 2:
+            triangles.append(rows[:, -3:])
+        at += 12 + rows.nbytes
+        left -= int(some)
+    index = np.zeros(nodes["number"].max() + 1, dtype=np.int64)
+    index[nodes["number"]] = np.arange(count)
+    return nodes["at"][:, :2], index[np.vstack(triangles)]
+
+
+def sizes_at(task):
+    """What each vertex of the outline asks for: its boundary's size, or the mean length of its segments."""
+    sizes = []
+    for number, loop in enumerate(task.loops):
+        lengths = np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)
+        own = (lengths + np.roll(lengths, 1)) / 2
+        if task.largest > 0:
+            own = np.minimum(own, task.largest)
+        if task.wall > 0:
+            own = np.full(len(loop), task.wall if number == 0 else task.wall + SLOPE * FAR)
+        sizes.append(own)
+    return np.concatenate(sizes)
+
+
+def split_loops(task):
+    """The outline with segments no longer than what they ask for: those two programs keep them as they are given."""
+    if task.wall == 0 and task.largest == 0:
+        return task
+    loops = []
+    for number, loop in enumerate(task.loops):
+        wanted = task.largest if task.wall == 0 else task.wall if number == 0 else task.wall + SLOPE * FAR
+        rows = []
+        for a, b in zip(loop, np.roll(loop, -1, axis=0)):
+            parts = max(1, int(np.ceil(np.linalg.norm(b - a) / wanted)))
+            rows.append(a + (b - a) * np.arange(parts)[:, None] / parts)
+        loops.append(np.vstack(rows))
+    return replace(task, loops=loops)
+
+
+def write_medit(path, task, sizes_too):
+    points, edges = np.vstack(task.loops), ring_edges(task.loops) + 1
+    with open(path, "w", encoding="ascii") as file:
+        file.write(f"MeshVersionFormatted {0 if sizes_too else 2}\n\nDimension 2\n\nVertices {len(points)}\n")
+        file.writelines(f"{x!r} {y!r} 1\n" for x, y in points.tolist())
+        file.write(f"\nEdges {len(edges)}\n")
+        file.writelines(f"{a} {b} 1\n" for a, b in edges.tolist())
+        if sizes_too:
+            file.write("\nhVertices\n")
+            file.writelines(f"{h!r}\n" for h in sizes_at(task).tolist())
+            file.write("\nSubDomain 1\n2 1 1 0\n")
+        file.write("\nEnd\n")
+
+
+def read_medit(path):
+    words = path.read_text(encoding="ascii").split()
+    def section(title, width):
+        begin = words.index(title)
+        count = int(words[begin + 1])
+        return np.array(words[begin + 2:begin + 2 + width * count], dtype=float).reshape(count, width)
+    return section("Vertices", 3)[:, :2], section("Triangles", 4)[:, :3].astype(np.int64) - 1
+
+
+# --- programs
+
+def run_quadloop(program, task, folder, timeout, sweeps):
+    sets = [word for text in [*task.settings, 'output.formats=["qmesh"]', 'mesh.type="delaunay"', *sweeps] for word in ("--set", text)]
+    done = timed([program, "mesh", task.case, "-o", "out", "--json", "-q", *sets], folder, timeout)
+    if done is None:
+        return None
+    text, process, wall, peak = done
+    seconds = json.loads(text[text.index("{"):])["seconds"]
+    kernel = sum(stage["slowest"] for name, stage in seconds.items() if name not in ("read", "write"))
+    return Run(kernel, process, wall, peak, *read_qmesh(folder / "out.qmesh"))
+
+
+def read_qmesh(path):
+    data = path.read_bytes()
+    size = int(data[:64].split(b"\n")[1].split()[1])
+    head = data[:size].decode().splitlines()
+    nodes = int(next(line for line in head if line.startswith("nodes ")).split()[1])
+    number = "<i4" if "node_bytes 4" in head else "<i8"
+    triangles = sum(int(line.split()[1]) for line in head if line.startswith("block "))
+    points = np.frombuffer(data, "<f8", 2 * nodes, size).reshape(nodes, 2)
+    return points, np.frombuffer(data, number, 3 * triangles, size + points.nbytes).reshape(triangles, 3)
+
+
+def run_triangle(program, task, folder, timeout, _):
+    write_poly(folder / "t.poly", task.loops)
+    sized = task.wall > 0 and "sized" in program.name
+    area = f"a{np.sqrt(3) / 4 * task.largest**2:.17f}" if task.largest > 0 else ""
+    done = timed([program, f"-pq30{'u' if sized else ''}{area}jz", "t.poly"], folder, timeout)
+    if done is None:
+        return None
+    text, process, wall, peak = done
+    stages = ("Delaunay", "Segment", "Hole", "Quality")
+    milliseconds = [first_number(rf"{stage} milliseconds: +([\d.]+)", text) for stage in stages]
+    return Run(np.nansum(milliseconds) / 1000, process, wall, peak, *read_triangle(folder / "t.1"))
+
+
+def run_gmsh(program, task, folder, timeout, _):
+    write_geo(folder / "g.geo", task)
+    done = timed([program, "-2", "-v", "5", "-nopopup", "-o", "g.msh", "g.geo"], folder, timeout)
+    if done is None:
+        return None
+    text, process, wall, peak = done
+    kernel = first_number(r"Done meshing 1D \(Wall ([\d.e+-]+)s", text) + first_number(r"Done meshing 2D \(Wall ([\d.e+-]+)s", text)
+    return Run(kernel, process, wall, peak, *read_msh(folder / "g.msh"))
+
+
+def run_mmg(program, task, folder, timeout, _):
+    write_medit(folder / "m.mesh", split_loops(task), False)
+    largest = task.largest or task.wall + SLOPE * FAR
+    sizes = ["-hgrad", str(1 + SLOPE), *(["-hmax", repr(largest)] if task.largest or task.wall else [])]
+    done = timed([program, "-in", "m.mesh", "-out", "n.mesh", "-nr", *sizes], folder, timeout)
+    if done is None:
+        return None
+    text, process, wall, peak = done
+    kernel = sum(map(float, re.findall(r"PHASE \d COMPLETED\. +([\d.]+)s", text))) or float("nan")
+    return Run(kernel, process, wall, peak, *read_medit(folder / "n.mesh"))
+
+
+def run_bamg(program, task, folder, timeout, _):
+    write_medit(folder / "b.msh", split_loops(task), True)
+    done = timed([program, "-g", "b.msh", "-o", "c.mesh", "-nbv", str(max(100000, 4 * task.cells)), "-ratio", str(1 + SLOPE)], folder, timeout)
+    if done is None:
+        return None
+    _, process, wall, peak = done
+    return Run(float("nan"), process, wall, peak, *read_medit(folder / "c.mesh"))
+
+
+def programs(args):
+    """{name: (how it is run, its program, what is passed on)}, quadloop's smoothed mesh first: the others are measured by it."""
+    ours = args.quadloop.resolve()
+    found = {"quadloop, smoothed": (run_quadloop, ours, []), "quadloop, cut": (run_quadloop, ours, ["smooth.sweeps=0"])}
+    for name, run, words in (("Triangle", run_triangle, ("triangle",)), ("Gmsh", run_gmsh, ("gmsh",)), ("MMG2D", run_mmg, ("mmg2d_O3", "mmg2d")),
+                             ("BAMG", run_bamg, ("ffbamg", "bamg"))):
+        program = next(filter(None, map(shutil.which, words)), None)
+        if program:
+            found[name] = (run, Path(program), None)
+    if args.sized:
+        found["Triangle, sized"] = (run_triangle, args.sized.resolve(), None)
+    return found
+
+
+# --- figures
+
+def shape_of(run):
+    """Smallest angle in degrees; mean and 1 % quality."""
+    corners = run.points[run.triangles]
+    sides = np.roll(corners, -1, axis=1) - corners
+    squared = (sides**2).sum(axis=2)
+    area = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]) / 2
+    quality = 4 * np.sqrt(3) * area / squared.sum(axis=1)
+    shortest = squared.min(axis=1)
+    sine = 2 * area / np.sqrt(squared.prod(axis=1) / shortest)  # between the two longer sides lies the smallest angle
+    return np.degrees(np.arcsin(np.clip(sine, 0, 1))).min(), quality.mean(), np.quantile(quality, 0.01)
+
+
+def measure(task, found, args):
+    """{name: its runs}, in turns; a program that fails once is left out."""
+    runs = {name: [] for name in found}
+    with tempfile.TemporaryDirectory(prefix="quadloop_peers_") as folder:
+        for _ in range(args.repeats):
+            for name in list(runs):
+                start, program, more = found[name]
+                run = start(program, task, Path(folder), args.timeout, more)
+                if run is None:
+                    del runs[name]
+                else:
+                    runs[name].append(run)
+    return runs
+
+
+def rows_of(task, runs):
+    def per_triangle(some, field):
+        return statistics.median(getattr(run, field) for run in some) / len(some[0].triangles)
+    ours = next((some for name, some in runs.items() if name == "quadloop, smoothed"), None)
+    rows = []
+    for name, some in runs.items():
+        kernel, process, wall, peak = (per_triangle(some, field) for field in ("kernel", "process", "wall", "peak"))
+        ratios = [here / per_triangle(ours, field) if ours else float("nan") for here, field in ((kernel, "kernel"), (wall, "wall"))]
+        angle, mean, worst = shape_of(some[0])
+        texts = [f"{value:.{digits}f}" if value == value else ""
+                 for value, digits in ((1e6 * kernel, 2), (ratios[0], 2), (1e6 * process, 2), (1e6 * wall, 2), (ratios[1], 2), (peak, 0), (angle, 1), (mean, 3), (worst, 3))]
+        rows.append(f"| {task.name} | {name} | {len(some[0].triangles)} | {' | '.join(texts)} |")
+    return rows
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quadloop", required=True, type=Path)
+    parser.add_argument("--cells", type=int, default=1000000)
+    parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--cases", nargs="+", choices=("A", "B", "gulf"), default=["A", "B", "gulf"])
+    parser.add_argument("--sized", type=Path)
+    parser.add_argument("--timeout", type=float, default=600)
+    add_update(parser)
+    args = parser.parse_args()
+    found = programs(args)
+    lines = [f"medians of {args.repeats} runs in turns.", "",
+             "| case | program | triangles | us of kernel a triangle | over quadloop's | us of the processor | us of wall | over quadloop's | bytes | smallest angle | mean quality | 1 % |",
+             "|---|---|---|---|---|---|---|---|---|---|---|---|"]
+    for name in args.cases:
+        task = task_named(name, args.cells)
+        if args.sized and task.wall > 0:
+            os.environ["AIRFOIL_SIZE"] = repr(task.wall)
+        of_case = {key: value for key, value in found.items() if key != "Triangle, sized" or task.wall > 0}
+        rows = rows_of(task, measure(task, of_case, args))
+        print("\n".join(rows), file=sys.stderr, flush=True)
+        lines += rows
+    tell("\n".join(lines), "peers.py", args.update)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,47 @@
+// A file that all ranks write at once.
+#include "io/files/shared_output.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "mesher/base/error.hpp"
+#include "tests/io/sample_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+TEST(SharedOutput, HoldsWhatEachRankWroteAtItsPlace) {
+  const test::TemporaryFolder folder;
+  OutputSet outputs(world());
+  SharedOutput file(world(), outputs.stage(folder.file("a.bin")));
+  world().together([&] {
+    for (int part = 1; part >= 0; --part)  // in no order
+      file.write_at(2 * world().rank() + part,
+                    std::string(1, static_cast<char>('a' + 2 * world().rank() + part)));
+  });
+  file.close();
+  outputs.commit();
+  if (world().is_root()) {
+    EXPECT_EQ(test::bytes_of(folder.file("a.bin")), std::string("abcdefghij").substr(0, 2 * world().size()));
+  }
+}
+
+TEST(SharedOutput, AFailureOfAnyRankEndsOnAll) {
+  const test::TemporaryFolder folder;
+  OutputSet outputs(world());
+  const StagedFile staged = outputs.stage(folder.file("a.bin"));
+  SharedOutput file(world(), staged);
+  const int last = world().size() - 1;
+  EXPECT_THROW(world().together([&] {
+    if (world().rank() == last) file.write_at(-1, "x");
+  }),
+               OutputError);
+  EXPECT_THROW(SharedOutput(world(), {"b.bin", folder.file("missing")}), OutputError);
+}
+
+}  // namespace
+}  // namespace quadloop
