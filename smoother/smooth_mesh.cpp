@@ -215,7 +215,9 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
     if (!comm.any(free.size() > settled)) return;
     settled = free.size();
     const NodeStars stars(halo, std::move(free), targets);
-    Sweeper sweeper(comm, halo, stars, slide, {options.method, options.objective, threshold}, bad, stale);
+    const bool tangled = surveyed.worst.inverted > 0;
+    Sweeper sweeper(comm, halo, stars, slide, {options.method, options.objective, threshold, tangled}, bad,
+                    stale);
     sweep_until_settled(sweeper, options.sweeps, report);
     report.free_nodes = comm.sum(std::ssize(stars));
   }

@@ -79,9 +79,8 @@ Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span
     bool must_wait = false;
     for_each_neighbour(i, [&](NodeId other) {
       const std::int8_t colour = colours[other];
-      if (colour == Colouring::none || other == nodes[i] || priority(other) < own) return;
-      must_wait = must_wait || colour == waiting;
-      if (colour != waiting) taken |= std::uint64_t{1} << colour;
+      if (colour >= 0) taken |= std::uint64_t{1} << colour;  // so it went before: it has not waited
+      if (colour == waiting && !must_wait) must_wait = other != nodes[i] && priority(other) > own;
     });
     if (must_wait) return false;
     QUADLOOP_REQUIRE(~taken != 0, "a node has fewer than 64 neighbours of different colours");
