@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace quadloop {
 
@@ -12,27 +13,33 @@ void put_smallest_first(std::array<Node, 3>& nodes) {
   std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end()), nodes.end());
 }
 
+/// A triangle that is gone.
+struct Gone {
+  std::array<std::int32_t, 3> nodes;
+  FreedTriangle triangle;
+  Point centroid;
+};
+
 /// The triangles that are gone around each node.
 class GoneTriangles {
  public:
-  struct Gone {
-    FreedTriangle triangle;
-    Point centroid;
-  };
-
-  void add(const std::array<std::int32_t, 3>& nodes, const Gone& gone) {
-    for (const std::int32_t node : nodes) around_.emplace_back(node, gone_.size());
-    gone_.push_back(gone);
+  GoneTriangles(std::size_t nodes, std::span<const Gone> gone)
+      : gone_{gone}, starts_(nodes + 2, 0), around_(3 * gone.size()) {
+    for (const Gone& g : gone) {
+      for (const std::int32_t node : g.nodes) ++starts_[node + std::size_t{2}];
+    }
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+    for (std::int32_t i = 0; i < std::ssize(gone); ++i) {
+      for (const std::int32_t node : gone[i].nodes) around_[starts_[node + std::size_t{1}]++] = i;
+    }
   }
-  void sort() { std::sort(around_.begin(), around_.end()); }
 
   /// The number of the one of a block around the node that is nearest to a point; of several as near the
   /// lowest.
-  std::int64_t nearest(std::int32_t node, Point p, std::int32_t block) const {
+  std::int64_t nearest(std::size_t node, Point p, std::int32_t block) const {
     std::pair best{std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max()};
-    for (auto at = std::lower_bound(around_.begin(), around_.end(), std::pair{node, std::size_t{0}});
-         at != around_.end() && at->first == node; ++at) {
-      const auto& [triangle, centroid] = gone_[at->second];
+    for (std::size_t at = starts_[node]; at < starts_[node + 1]; ++at) {
+      const auto& [nodes, triangle, centroid] = gone_[around_[at]];
       const Point off = centroid - p;
       if (triangle.block == block) best = std::min(best, {dot(off, off), triangle.number});
     }
@@ -40,8 +47,9 @@ class GoneTriangles {
   }
 
  private:
-  std::vector<Gone> gone_;
-  std::vector<std::pair<std::int32_t, std::size_t>> around_;  ///< node, index
+  std::span<const Gone> gone_;
+  std::vector<std::size_t> starts_;   ///< of each node, in around_
+  std::vector<std::int32_t> around_;  ///< indices of those that are gone
 };
 
 /// The nodes of the triangles at hand in the order of their numbers. Most are the rank's own, which need no
@@ -159,19 +167,19 @@ Point RegionTriangulation::centroid(const Triangle& nodes) const {
 /// A triangle may come back in another slot of the patch.
 void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) {
   std::vector<std::pair<Triangle, std::int32_t>> before, made;
-  GoneTriangles gone;
+  std::vector<Gone> gone;
   for (const auto& [nodes, freed] : changes.before) {
     before.emplace_back(nodes, freed.block);
     if (std::binary_search(changes.after.begin(), changes.after.end(), before.back())) continue;
-    gone.add(nodes, {freed, centroid(nodes)});
+    gone.push_back({nodes, freed, centroid(nodes)});
     if (halo.owns(number_of(nodes[0]))) freed_.push_back(freed);
   }
-  gone.sort();
+  const GoneTriangles gone_triangles(points_.size(), gone);
   std::set_difference(changes.after.begin(), changes.after.end(), before.begin(), before.end(),
                       std::back_inserter(made));
   for (const auto& [t, block] : made) {
     if (!halo.owns(number_of(t[0]))) continue;
-    MadeTriangle triangle{gone.nearest(t[0], centroid(t), block), {}, {}, block};
+    MadeTriangle triangle{gone_triangles.nearest(t[0], centroid(t), block), {}, {}, block};
     for (std::size_t k = 0; k < 3; ++k) {
       triangle.nodes[k] = number_of(t[k]);
       triangle.points[k] = points_[t[k]];
@@ -201,7 +209,10 @@ std::vector<RegionTriangulation::Edge> RegionTriangulation::outer_edges() const 
 }
 
 void RegionTriangulation::find_outgrown() {
-  if (new_triangles_.empty()) return;
+  const auto beside_core = [&](const Triangle& t) {
+    return is_core(t[0]) + is_core(t[1]) + is_core(t[2]) > 1;
+  };
+  if (std::all_of(new_triangles_.begin(), new_triangles_.end(), beside_core)) return;
   const std::vector<Edge> outer = outer_edges();
   for (std::size_t i = 0; i < new_triangles_.size(); ++i) {
     const Triangle& t = new_triangles_[i];

@@ -76,7 +76,7 @@ std::vector<GlobalNodeId> nodes_of_wrong_edges(const Communicator& comm, const M
     if (std::none_of(four.begin(), four.end(), [&](NodeId node) { return stirred[node] != 0; })) return;
     const auto point = [&](std::size_t k) { return halo.point(four[k]); };
     if (should_flip(point(0), point(1), point(2), point(3), [&](std::size_t k) { return rank_of(point(k)); }))
-      for (const NodeId node : four) found.push_back(halo.global(node));
+      found.insert(found.end(), {halo.global(four[0]), halo.global(four[1])});
   };
   for (const NodeId low : named.ids()) {
     const std::span<const Side> at = sides.at(low);

@@ -10,8 +10,8 @@
 namespace quadloop {
 
 /// Of the edges of a mesh of triangles with both ends among `nodes`, of which any rank may name any, those
-/// that give way to the other diagonal of their two triangles (should_flip): returns the four nodes of these
-/// two, in any order, some more than once, each edge's on one rank or several. `moved`, if not empty, has a
+/// that give way to the other diagonal of their two triangles (should_flip): returns their ends, some
+/// more than once, on one rank or several. `moved`, if not empty, has a
 /// flag for each of the mesh's points; an edge none of whose four nodes is flagged is not looked at.
 /// `rank_of` is a strict order of positions. *Collective.*
 std::vector<GlobalNodeId> nodes_of_wrong_edges(const Communicator& comm, const Mesh& mesh,
