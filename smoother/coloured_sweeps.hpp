@@ -55,9 +55,9 @@ class ColouredSweeps {
   std::vector<std::vector<std::int32_t>> by_colour_;
   std::vector<std::int32_t> visits_;  ///< of one colour
   NodeFlags& stale_;
-  std::vector<char> is_changed_;  ///< a flag for each star: what take_changed() will give
-  NodeFlags moved_;                    ///< nodes that have moved in this colour
-  std::vector<NodeId> own_moves_;      ///< the same, this rank's
+  std::vector<char> is_changed_;   ///< a flag for each star: what take_changed() will give
+  NodeFlags moved_;                ///< nodes that have moved in this colour
+  std::vector<NodeId> own_moves_;  ///< the same, this rank's
 };
 
 }  // namespace quadloop

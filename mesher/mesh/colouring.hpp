@@ -27,13 +27,14 @@ struct Colouring {
 class ColouringPriority {
  public:
   ColouringPriority(GlobalNodeId node, int block_bits)
-      : block_{mixed_bits((static_cast<std::uint64_t>(node.value()) >> block_bits) + golden_step)},
-        node_{node} {}
-  std::uint64_t block() const { return block_; }
-  friend auto operator<=>(const ColouringPriority&, const ColouringPriority&) = default;
+      : number_{static_cast<std::uint64_t>(node.value()) >> block_bits}, node_{node} {}
+  std::uint64_t block() const { return mixed_bits(number_ + golden_step); }
+  friend auto operator<=>(const ColouringPriority& a, const ColouringPriority& b) {
+    return a.number_ == b.number_ ? a.node_ <=> b.node_ : a.block() <=> b.block();
+  }
 
  private:
-  std::uint64_t block_;
+  std::uint64_t number_;  ///< of the block
   GlobalNodeId node_;
 };
 

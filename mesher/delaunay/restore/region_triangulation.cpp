@@ -20,6 +20,15 @@ struct Gone {
   Point centroid;
 };
 
+template <class Triangle>
+std::pair<Triangle, std::int32_t> nodes_and_block(const std::pair<Triangle, FreedTriangle>& before) {
+  return {before.first, before.second.block};
+}
+template <class Triangle>
+const std::pair<Triangle, std::int32_t>& nodes_and_block(const std::pair<Triangle, std::int32_t>& after) {
+  return after;
+}
+
 /// The triangles that are gone around each node.
 class GoneTriangles {
  public:
@@ -166,17 +175,22 @@ Point RegionTriangulation::centroid(const Triangle& nodes) const {
 
 /// A triangle may come back in another slot of the patch.
 void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) {
-  std::vector<std::pair<Triangle, std::int32_t>> before, made;
+  const auto& [before, after] = changes;
+  const auto goes_first = [](const auto& a, const auto& b) {
+    return nodes_and_block(a) < nodes_and_block(b);
+  };
+  std::vector<std::pair<Triangle, FreedTriangle>> lost;
+  std::vector<std::pair<Triangle, std::int32_t>> made;
+  std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(lost),
+                      goes_first);
+  std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(made),
+                      goes_first);
   std::vector<Gone> gone;
-  for (const auto& [nodes, freed] : changes.before) {
-    before.emplace_back(nodes, freed.block);
-    if (std::binary_search(changes.after.begin(), changes.after.end(), before.back())) continue;
+  for (const auto& [nodes, freed] : lost) {
     gone.push_back({nodes, freed, centroid(nodes)});
     if (halo.owns(number_of(nodes[0]))) freed_.push_back(freed);
   }
   const GoneTriangles gone_triangles(points_.size(), gone);
-  std::set_difference(changes.after.begin(), changes.after.end(), before.begin(), before.end(),
-                      std::back_inserter(made));
   for (const auto& [t, block] : made) {
     if (!halo.owns(number_of(t[0]))) continue;
     MadeTriangle triangle{gone_triangles.nearest(t[0], centroid(t), block), {}, {}, block};
@@ -190,13 +204,17 @@ void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) 
 }
 
 /// Those with one triangle at hand, between nodes that may have more triangles around them than the region
-/// has.
+/// has; of all, those that a new triangle may have.
 std::vector<RegionTriangulation::Edge> RegionTriangulation::outer_edges() const {
+  std::vector<char> asked(points_.size(), 0);  // for edges of new triangles
+  for (const Triangle& nodes : new_triangles_) {
+    for (const std::int32_t node : nodes) asked[node] = is_core(node) ? 0 : 1;
+  }
   std::vector<Edge> edges, single;
   for (const Triangle& nodes : triangles_) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax({nodes[k], nodes[(k + 1) % 3]});
-      if (!is_core(low) && !is_core(high)) edges.push_back({low, high});
+      if (asked[low] != 0 && asked[high] != 0) edges.push_back({low, high});
     }
   }
   std::sort(edges.begin(), edges.end());
@@ -209,10 +227,6 @@ std::vector<RegionTriangulation::Edge> RegionTriangulation::outer_edges() const 
 }
 
 void RegionTriangulation::find_outgrown() {
-  const auto beside_core = [&](const Triangle& t) {
-    return is_core(t[0]) + is_core(t[1]) + is_core(t[2]) > 1;
-  };
-  if (std::all_of(new_triangles_.begin(), new_triangles_.end(), beside_core)) return;
   const std::vector<Edge> outer = outer_edges();
   for (std::size_t i = 0; i < new_triangles_.size(); ++i) {
     const Triangle& t = new_triangles_[i];
