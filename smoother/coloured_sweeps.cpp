@@ -15,13 +15,16 @@ ColouredSweeps::ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const N
       moved_(mesh.points().size(), 0) {
   const Colouring colouring = colour_stars(comm, mesh, stars);
   by_colour_.resize(colouring.count);
-  for (std::size_t i = 0; i < stars.size(); ++i)
+  for (std::int32_t i = 0; i < std::ssize(stars); ++i)
     by_colour_[colouring.colour_of[stars.nodes()[i]]].push_back(i);
 }
 
 std::vector<std::int32_t> ColouredSweeps::take_changed() {
-  for (const std::int32_t star : changed_) is_changed_[star] = 0;
-  return std::exchange(changed_, {});
+  std::vector<std::int32_t> changed;
+  for (std::int32_t i = 0; i < std::ssize(is_changed_); ++i) {
+    if (std::exchange(is_changed_[i], 0) != 0) changed.push_back(i);
+  }
+  return changed;
 }
 
 void ColouredSweeps::move(std::size_t i, Point to) {
@@ -36,7 +39,7 @@ void ColouredSweeps::move(std::size_t i, Point to) {
 void ColouredSweeps::say_moved(NodeId node) {
   const auto look_again = [&](std::int32_t star) {
     stale_[stars_.nodes()[star]] = 1;
-    if (!std::exchange(is_changed_[star], 1)) changed_.push_back(star);
+    is_changed_[star] = 1;
   };
   if (const std::int32_t own = stars_.star_of(node); own >= 0) look_again(own);
   stars_.for_each_star_round(node, look_again);

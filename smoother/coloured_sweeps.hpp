@@ -18,7 +18,7 @@ class ColouredSweeps {
 
   /// Whether the i-th node or one that it shares a cell with has moved since it was last visited.
   bool is_stale(std::size_t i) const { return stale_[stars_.nodes()[i]] != 0; }
-  /// Those round which something has moved, other ranks' nodes too, since this was asked last.
+  /// Those round which something has moved, other ranks' nodes too, since this was asked last; ascending.
   std::vector<std::int32_t> take_changed();
 
   /// Asks `place(i)` for a new place, or none, of each stale node for which `is_active(i)`. Returns the
@@ -27,8 +27,13 @@ class ColouredSweeps {
   std::int64_t sweep(const IsActive& is_active, const Place& place) {
     std::int64_t moves = 0;
     for (const auto& nodes : by_colour_) {
-      for (const std::size_t i : nodes) {
-        if (!is_stale(i) || !is_active(i)) continue;
+      visits_.clear();  // known beforehand: nodes of one colour do not see each other
+      for (const std::int32_t i : nodes) {
+        if (is_stale(i) && is_active(i)) visits_.push_back(i);
+      }
+      for (std::size_t k = 0; k < visits_.size(); ++k) {
+        stars_.fetch_ahead(visits_, k);
+        const std::int32_t i = visits_[k];
         stale_[stars_.nodes()[i]] = 0;
         const std::optional<Point> to = place(i);
         if (!to) continue;
@@ -47,12 +52,12 @@ class ColouredSweeps {
 
   HaloMesh& mesh_;
   const NodeStars& stars_;
-  std::vector<std::vector<std::size_t>> by_colour_;
+  std::vector<std::vector<std::int32_t>> by_colour_;
+  std::vector<std::int32_t> visits_;  ///< of one colour
   NodeFlags& stale_;
-  std::vector<std::int32_t> changed_;  ///< what take_changed() will give,
-  std::vector<char> is_changed_;       ///< flagged
-  NodeFlags moved_;                    ///< nodes that have moved in this colour
-  std::vector<NodeId> own_moves_;      ///< the same, this rank's
+  std::vector<char> is_changed_;   ///< a flag for each star: what take_changed() will give
+  NodeFlags moved_;                ///< nodes that have moved in this colour
+  std::vector<NodeId> own_moves_;  ///< the same, this rank's
 };
 
 }  // namespace quadloop

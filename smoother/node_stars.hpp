@@ -22,6 +22,8 @@ class NodeStars {
 
   /// The star of the i-th free node, with the nodes where they are now.
   void gather(std::size_t i, Star& star) const;
+  /// Asks the processor for what gather() will need of the stars a little after `order[k]`.
+  void fetch_ahead(std::span<const std::int32_t> order, std::size_t k) const;
   /// Whether a corner in the star of the i-th free node costs more than `limit`, below 1 (Eq. 3.2).
   bool costs_more(std::size_t i, double limit) const;
 

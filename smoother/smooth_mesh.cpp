@@ -47,9 +47,8 @@ double cost_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes,
                const std::vector<CellTarget>& targets, std::size_t number) {
   const bool ideal = targets.empty() || targets[number].ideal();
   const auto corners = corners_of(mesh, nodes);
-  if (ideal && is_square(corners)) return 0;
-  return cell_cost(corners, ideal ? ideal_targets<width>()
-                                  : stretched_targets<width>(targets[number].w1, targets[number].w2));
+  if (!ideal) return cell_cost(corners, stretched_targets<width>(targets[number].w1, targets[number].w2));
+  return is_square(corners) ? 0 : cell_cost(corners, ideal_targets<width>());
 }
 
 template <std::size_t width>
@@ -215,7 +214,9 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
     if (!comm.any(free.size() > settled)) return;
     settled = free.size();
     const NodeStars stars(halo, std::move(free), targets);
-    Sweeper sweeper(comm, halo, stars, slide, {options.method, options.objective, threshold}, bad, stale);
+    const bool tangled = surveyed.worst.inverted > 0;
+    Sweeper sweeper(comm, halo, stars, slide, {options.method, options.objective, threshold, tangled}, bad,
+                    stale);
     sweep_until_settled(sweeper, options.sweeps, report);
     report.free_nodes = comm.sum(std::ssize(stars));
   }

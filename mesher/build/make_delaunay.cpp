@@ -84,7 +84,8 @@ class LeafTriangles {
     auto triangle = mesh_.triangles.cbegin();
     for (std::size_t i = 0; i < leaves.size(); ++i) {
       const auto end = triangle + leaves[i].triangles;
-      if (irregular[i] != 0) std::for_each(triangle, end, [&](const auto& nodes) { place(nodes); });
+      const LeafId leaf = graph_.from_local(static_cast<std::int32_t>(i));
+      if (irregular[i] != 0) std::for_each(triangle, end, [&](const auto& nodes) { place(nodes, leaf); });
       triangle = end;
     }
     NodeTable table(mesh_);
@@ -116,7 +117,8 @@ class LeafTriangles {
   }
 
  private:
-  void place(std::array<NodeId, 3> nodes) {
+  /// Most stand in the slots of their leaves already.
+  void place(std::array<NodeId, 3> nodes, LeafId slot) {
     const auto before = [&](NodeId a, NodeId b) { return mesh_.global(a) < mesh_.global(b); };
     std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end(), before), nodes.end());
     FreeTriangle t;
@@ -125,12 +127,16 @@ class LeafTriangles {
       t.points[k] = mesh_.point(nodes[k]);
     }
     const auto [column, row] = square_of(t.points);
-    const LeafId leaf = graph_.leaf_at(column, row);
+    const LeafId leaf = holds(graph_.leaf(slot), column, row) ? slot : graph_.leaf_at(column, row);
     if (graph_.is_local(leaf)) {
       placed_.push_back({graph_.local_index(leaf), t.nodes, nodes});
     } else {
       on_their_way_.add(graph_.rank_at(column, row), t);
     }
+  }
+
+  static bool holds(const Quadrant& leaf, std::int64_t column, std::int64_t row) {
+    return leaf.x <= column && column < leaf.x + leaf.size() && leaf.y <= row && row < leaf.y + leaf.size();
   }
 
   /// The unit square with the centroid; the nodes are added up in the order of their coordinates, for the

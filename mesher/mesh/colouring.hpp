@@ -27,13 +27,14 @@ struct Colouring {
 class ColouringPriority {
  public:
   ColouringPriority(GlobalNodeId node, int block_bits)
-      : block_{mixed_bits((static_cast<std::uint64_t>(node.value()) >> block_bits) + golden_step)},
-        node_{node} {}
-  std::uint64_t block() const { return block_; }
-  friend auto operator<=>(const ColouringPriority&, const ColouringPriority&) = default;
+      : number_{static_cast<std::uint64_t>(node.value()) >> block_bits}, node_{node} {}
+  std::uint64_t block() const { return mixed_bits(number_ + golden_step); }
+  friend auto operator<=>(const ColouringPriority& a, const ColouringPriority& b) {
+    return a.number_ == b.number_ ? a.node_ <=> b.node_ : a.block() <=> b.block();
+  }
 
  private:
-  std::uint64_t block_;
+  std::uint64_t number_;  ///< of the block
   GlobalNodeId node_;
 };
 
@@ -79,9 +80,8 @@ Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span
     bool must_wait = false;
     for_each_neighbour(i, [&](NodeId other) {
       const std::int8_t colour = colours[other];
-      if (colour == Colouring::none || other == nodes[i] || priority(other) < own) return;
-      must_wait = must_wait || colour == waiting;
-      if (colour != waiting) taken |= std::uint64_t{1} << colour;
+      if (colour >= 0) taken |= std::uint64_t{1} << colour;  // so it went before: it has not waited
+      if (colour == waiting && !must_wait) must_wait = other != nodes[i] && priority(other) > own;
     });
     if (must_wait) return false;
     QUADLOOP_REQUIRE(~taken != 0, "a node has fewer than 64 neighbours of different colours");

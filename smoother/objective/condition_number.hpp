@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numbers>
 
 #include "mesher/geometry/point.hpp"
 
@@ -32,8 +33,10 @@ struct CellTarget {
 CornerTarget corner_target(Point w1, Point w2);
 
 /// Of an equilateral triangle, the same from each of its corners; of a right angle with equal arms.
-CornerTarget equilateral_target();
-CornerTarget right_angle_target();
+constexpr CornerTarget equilateral_target() {
+  return {1 / std::numbers::sqrt3, -0.5 / std::numbers::sqrt3, 1 / std::numbers::sqrt3};
+}
+constexpr CornerTarget right_angle_target() { return {0.5, 0, 0.5}; }
 
 /// The same triangle (p, q, r) with its target seen from the next node: from q, whose edges go to r and to p.
 CornerTarget seen_from_next(const CornerTarget& target);
@@ -76,7 +79,11 @@ inline double corner_cost(const CornerForm& c, const CornerTarget& t, double ref
 /// The target of each corner of a cell of three or four nodes, seen from that corner; of an equilateral
 /// triangle or a square.
 template <std::size_t width>
-std::array<CornerTarget, width> ideal_targets();
+constexpr std::array<CornerTarget, width> ideal_targets() {
+  std::array<CornerTarget, width> targets;
+  targets.fill(width == 3 ? equilateral_target() : right_angle_target());
+  return targets;
+}
 
 /// The same for a cell that is stretched as the parallelogram of w1 (to the second node) and w2 (to the last)
 /// is.
@@ -85,6 +92,16 @@ std::array<CornerTarget, width> stretched_targets(Point w1, Point w2);
 
 /// The largest cost of a cell's corners: for a triangle all three cost the same.
 template <std::size_t width>
-double cell_cost(const std::array<Point, width>& cell, const std::array<CornerTarget, width>& targets);
+double cell_cost(const std::array<Point, width>& cell, const std::array<CornerTarget, width>& targets) {
+  double reference = 0, worst = 0;
+  std::array<CornerForm, width> forms;
+  for (std::size_t k = 0; k < width; ++k) {
+    forms[k] = corner_form(cell[k], cell[(k + 1) % width], cell[(k + width - 1) % width]);
+    reference += forms[k].uu / width;
+  }
+  for (std::size_t k = 0; k < width; ++k)
+    worst = std::max(worst, corner_cost(forms[k], targets[k], reference));
+  return worst;
+}
 
 }  // namespace quadloop

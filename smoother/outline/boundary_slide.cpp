@@ -32,7 +32,7 @@ BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
       boundaries_{boundaries},
       outline_{outline},
       freedom_(mesh.owned_nodes(), NodeFreedom::interior),
-      located_(mesh.points().size()) {
+      slot_(mesh.points().size(), -1) {
   for (const BoundaryEdges& boundary : boundaries)
     outlined_.push_back(outline != nullptr && outline->has(boundary.name) ? 1 : 0);
   if (outline != nullptr) find_tight_segments(comm);
@@ -41,9 +41,8 @@ BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
 
 std::optional<OutlinePath::Chord> BoundarySlide::chord_of(const HaloEdge& edge) const {
   if (!is_outlined(edge.boundary)) return std::nullopt;
-  const std::string& name = boundaries_[edge.boundary].name;
-  const Point a = mesh_.point(edge.from), b = mesh_.point(edge.to);
-  const OutlinePath::Chord chord{outline_->locate(a, name, true), outline_->locate(b, name, true), a, b};
+  const OutlinePath::Chord chord{place_of(edge.from, edge.boundary, true),
+                                 place_of(edge.to, edge.boundary, true), point(edge.from), point(edge.to)};
   if (!chord.from.valid() || chord.from.loop != chord.to.loop) return std::nullopt;
   return chord;
 }
@@ -137,7 +136,11 @@ BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
 }
 
 OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary, bool also_kept) const {
-  Located& last = located_[node];
+  if (slot_[node] < 0) {
+    slot_[node] = size32(located_);
+    located_.emplace_back();
+  }
+  Located& last = located_[slot_[node]];
   const bool valid_for_both = last.place.valid() && !last.also_kept;
   if (last.boundary != boundary || last.point != point(node) ||
       (last.also_kept != also_kept && !valid_for_both))

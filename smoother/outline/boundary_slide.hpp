@@ -89,7 +89,8 @@ class BoundarySlide {
     std::int32_t boundary = -1;
     bool also_kept = false;
   };
-  mutable IdVector<NodeId, Located> located_;
+  mutable std::vector<Located> located_;
+  mutable IdVector<NodeId, std::int32_t> slot_;  ///< of each node, in located_; -1 for those not asked for
   /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for:
   /// nodes there stay, as chords that keep clear of the other parts of the outline could still meet one
   /// another. Ascending.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace quadloop {
 
@@ -12,27 +13,42 @@ void put_smallest_first(std::array<Node, 3>& nodes) {
   std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end()), nodes.end());
 }
 
+/// A triangle that is gone.
+struct Gone {
+  std::array<std::int32_t, 3> nodes;
+  FreedTriangle triangle;
+  Point centroid;
+};
+
+template <class Triangle>
+std::pair<Triangle, std::int32_t> nodes_and_block(const std::pair<Triangle, FreedTriangle>& before) {
+  return {before.first, before.second.block};
+}
+template <class Triangle>
+const std::pair<Triangle, std::int32_t>& nodes_and_block(const std::pair<Triangle, std::int32_t>& after) {
+  return after;
+}
+
 /// The triangles that are gone around each node.
 class GoneTriangles {
  public:
-  struct Gone {
-    FreedTriangle triangle;
-    Point centroid;
-  };
-
-  void add(const std::array<std::int32_t, 3>& nodes, const Gone& gone) {
-    for (const std::int32_t node : nodes) around_.emplace_back(node, gone_.size());
-    gone_.push_back(gone);
+  GoneTriangles(std::size_t nodes, std::span<const Gone> gone)
+      : gone_{gone}, starts_(nodes + 2, 0), around_(3 * gone.size()) {
+    for (const Gone& g : gone) {
+      for (const std::int32_t node : g.nodes) ++starts_[node + std::size_t{2}];
+    }
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+    for (std::int32_t i = 0; i < std::ssize(gone); ++i) {
+      for (const std::int32_t node : gone[i].nodes) around_[starts_[node + std::size_t{1}]++] = i;
+    }
   }
-  void sort() { std::sort(around_.begin(), around_.end()); }
 
   /// The number of the one of a block around the node that is nearest to a point; of several as near the
   /// lowest.
-  std::int64_t nearest(std::int32_t node, Point p, std::int32_t block) const {
+  std::int64_t nearest(std::size_t node, Point p, std::int32_t block) const {
     std::pair best{std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max()};
-    for (auto at = std::lower_bound(around_.begin(), around_.end(), std::pair{node, std::size_t{0}});
-         at != around_.end() && at->first == node; ++at) {
-      const auto& [triangle, centroid] = gone_[at->second];
+    for (std::size_t at = starts_[node]; at < starts_[node + 1]; ++at) {
+      const auto& [nodes, triangle, centroid] = gone_[around_[at]];
       const Point off = centroid - p;
       if (triangle.block == block) best = std::min(best, {dot(off, off), triangle.number});
     }
@@ -40,8 +56,9 @@ class GoneTriangles {
   }
 
  private:
-  std::vector<Gone> gone_;
-  std::vector<std::pair<std::int32_t, std::size_t>> around_;  ///< node, index
+  std::span<const Gone> gone_;
+  std::vector<std::size_t> starts_;   ///< of each node, in around_
+  std::vector<std::int32_t> around_;  ///< indices of those that are gone
 };
 
 /// The nodes of the triangles at hand in the order of their numbers. Most are the rank's own, which need no
@@ -158,20 +175,25 @@ Point RegionTriangulation::centroid(const Triangle& nodes) const {
 
 /// A triangle may come back in another slot of the patch.
 void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) {
-  std::vector<std::pair<Triangle, std::int32_t>> before, made;
-  GoneTriangles gone;
-  for (const auto& [nodes, freed] : changes.before) {
-    before.emplace_back(nodes, freed.block);
-    if (std::binary_search(changes.after.begin(), changes.after.end(), before.back())) continue;
-    gone.add(nodes, {freed, centroid(nodes)});
+  const auto& [before, after] = changes;
+  const auto goes_first = [](const auto& a, const auto& b) {
+    return nodes_and_block(a) < nodes_and_block(b);
+  };
+  std::vector<std::pair<Triangle, FreedTriangle>> lost;
+  std::vector<std::pair<Triangle, std::int32_t>> made;
+  std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(lost),
+                      goes_first);
+  std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(made),
+                      goes_first);
+  std::vector<Gone> gone;
+  for (const auto& [nodes, freed] : lost) {
+    gone.push_back({nodes, freed, centroid(nodes)});
     if (halo.owns(number_of(nodes[0]))) freed_.push_back(freed);
   }
-  gone.sort();
-  std::set_difference(changes.after.begin(), changes.after.end(), before.begin(), before.end(),
-                      std::back_inserter(made));
+  const GoneTriangles gone_triangles(points_.size(), gone);
   for (const auto& [t, block] : made) {
     if (!halo.owns(number_of(t[0]))) continue;
-    MadeTriangle triangle{gone.nearest(t[0], centroid(t), block), {}, {}, block};
+    MadeTriangle triangle{gone_triangles.nearest(t[0], centroid(t), block), {}, {}, block};
     for (std::size_t k = 0; k < 3; ++k) {
       triangle.nodes[k] = number_of(t[k]);
       triangle.points[k] = points_[t[k]];
@@ -182,13 +204,17 @@ void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) 
 }
 
 /// Those with one triangle at hand, between nodes that may have more triangles around them than the region
-/// has.
+/// has; of all, those that a new triangle may have.
 std::vector<RegionTriangulation::Edge> RegionTriangulation::outer_edges() const {
+  std::vector<char> asked(points_.size(), 0);  // for edges of new triangles
+  for (const Triangle& nodes : new_triangles_) {
+    for (const std::int32_t node : nodes) asked[node] = is_core(node) ? 0 : 1;
+  }
   std::vector<Edge> edges, single;
   for (const Triangle& nodes : triangles_) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax({nodes[k], nodes[(k + 1) % 3]});
-      if (!is_core(low) && !is_core(high)) edges.push_back({low, high});
+      if (asked[low] != 0 && asked[high] != 0) edges.push_back({low, high});
     }
   }
   std::sort(edges.begin(), edges.end());
@@ -201,7 +227,6 @@ std::vector<RegionTriangulation::Edge> RegionTriangulation::outer_edges() const 
 }
 
 void RegionTriangulation::find_outgrown() {
-  if (new_triangles_.empty()) return;
   const std::vector<Edge> outer = outer_edges();
   for (std::size_t i = 0; i < new_triangles_.size(); ++i) {
     const Triangle& t = new_triangles_[i];

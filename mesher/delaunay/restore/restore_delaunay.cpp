@@ -6,6 +6,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/delaunay/restore/region_triangulation.hpp"
+#include "mesher/delaunay/restore/wrong_edges.hpp"
 #include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
@@ -186,6 +187,7 @@ std::optional<RegionTriangulation> changed_region(const Communicator& comm, cons
                    "a block for each triangle, or none");
   std::optional<RegionTriangulation> triangulation;
   if (!comm.any(!nodes.empty())) return triangulation;
+  nodes = nodes_of_wrong_edges(comm, mesh, nodes, known.moved, rank_of);
   Region region(comm, mesh, known);
   do {
     region.add(nodes);

@@ -4,10 +4,14 @@
 
 namespace quadloop {
 
-StarHalo::StarHalo(const Communicator& comm, const NodeOwners& owners, std::span<const NumberedTriangle> own)
+StarHalo::StarHalo(const Communicator& comm, const NodeOwners& owners, std::vector<NumberedTriangle> own)
     : comm_{comm}, owners_{owners} {
+  if (comm.size() == 1) {
+    triangles_ = std::move(own);
+    return;
+  }
   gather_stars(own);
-  if (comm.size() > 1) list_spokes();
+  list_spokes();
 }
 
 void StarHalo::list_spokes() {
@@ -40,7 +44,7 @@ void StarHalo::gather_stars(std::span<const NumberedTriangle> own) {
 }
 
 void StarHalo::add(const NumberedTriangle& triangle) {
-  if (comm_.size() > 1 && !numbers_.insert(triangle.number).second) return;
+  if (!numbers_.insert(triangle.number).second) return;
   triangles_.push_back(triangle);
   for (const GlobalNodeId node : triangle.nodes) {
     if (!known(node)) frontier_.insert(node);
@@ -82,6 +86,7 @@ void StarHalo::grow(bool wanted) {
 }
 
 bool StarHalo::at_rim(const NumberedTriangle& triangle) const {
+  if (complete()) return false;
   return std::count_if(triangle.nodes.begin(), triangle.nodes.end(),
                        [&](GlobalNodeId node) { return !known(node); }) > 1;
 }

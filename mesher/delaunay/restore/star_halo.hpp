@@ -28,7 +28,7 @@ class StarHalo {
  public:
   /// `own` are the triangles of the region that this rank keeps; `owners` must outlive the halo.
   /// *Collective.*
-  StarHalo(const Communicator& comm, const NodeOwners& owners, std::span<const NumberedTriangle> own);
+  StarHalo(const Communicator& comm, const NodeOwners& owners, std::vector<NumberedTriangle> own);
 
   /// Fetches the triangles around all nodes of those at hand, on ranks that want it. *Collective.*
   void grow(bool wanted);
