@@ -178,11 +178,12 @@ SolvedMesh compare(const Communicator& comm, const RemeshArguments& arguments, P
 }
 
 void report(const CommandContext& context, const CarriedMesh& carried, const StageTimes& times,
-            const Problem& problem, const std::optional<PartFigures>& parts) {
+            const AdaptationPlan& plan, const Problem& problem, const std::optional<PartFigures>& parts) {
   for (const std::string& file : problem.files) context.warn(renames_in(carried.generated.result.mesh, file));
   MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), problem.files);
   if (parts) add_parts(summary, *parts, problem.part_files);
-  const Figures of_transfer = transfer_figures(carried);
+  Figures of_transfer = transfer_figures(carried);
+  if (plan.estimate) of_transfer.add("interpolation error", *plan.estimate, "{:.3e}");
   context.record.figures = record_of(summary);
   context.record.figures.append(of_transfer.record());
   context.record.files = problem.files;
@@ -215,7 +216,7 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   context.warn(problem.input.warnings);
   context.warn(carried.generated.result.report.warnings);
   context.warn(plan.warnings);
-  report(context, carried, times, problem, parts);
+  report(context, carried, times, plan, problem, parts);
 }
 
 std::string solution_help() {
