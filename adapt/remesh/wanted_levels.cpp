@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/interpolation_error.hpp"
 #include "adapt/sensor/wanted_size.hpp"
 #include "mesher/base/error.hpp"
@@ -61,23 +62,23 @@ WantedLevels::WantedLevels(const Communicator& comm, const AdaptOptions& options
   const Field field = selected(solved.solution, options.variables, "adapt.variable");
   InterpolationError error = interpolation_error(comm, solved.mesh, field);
   error_ = norm_of(comm, error, norm_);
-  densities_ = leaf_densities(comm, solved.mesh, tree_.leaves, error, norm_);
+  cell_densities_ = cell_densities(error, norm_);
+  densities_ = CellsOfLeaves(comm, solved.mesh, tree_.leaves).largest(comm, cell_densities_);
   std::vector<double> terms;
-  for (std::size_t i = 0; i < error.bends.size(); ++i)
-    terms.push_back(error.areas[i] * std::pow(error.bends[i], norm_ / (norm_ + 1)));
+  for (std::size_t i = 0; i < cell_densities_.size(); ++i)
+    terms.push_back(error.areas[i] * cell_densities_[i]);
   total_ = reproducible_sum(comm, terms);
   cell_errors_ = std::move(error.mean);
-  bends_ = std::move(error.bends);
 }
 
 CellValues WantedLevels::of_cells(double complexity) const {
   CellValues cells{{"interpolation_error"}, cell_errors_};
   if (complexity == 0) return cells;
   cells = {{"interpolation_error", "wanted_size"}, {}};
-  for (std::size_t i = 0; i < bends_.size(); ++i) {
-    const double density = std::pow(bends_[i], norm_ / (norm_ + 1));
+  for (std::size_t i = 0; i < cell_errors_.size(); ++i) {
+    const double size = std::sqrt(total_ / (complexity * cell_densities_[i]));
     cells.values.push_back(cell_errors_[i]);
-    cells.values.push_back(std::min(std::sqrt(total_ / (complexity * density)), tree_.attributes.tree_edge));
+    cells.values.push_back(std::min(size, tree_.attributes.tree_edge));
   }
   return cells;
 }

@@ -46,8 +46,8 @@ class WantedLevels {
   int finest_;
   double norm_;
   double error_ = 0, total_ = 0;
-  std::vector<double> densities_;            ///< of leaves
-  std::vector<double> cell_errors_, bends_;  ///< of cells
+  std::vector<double> densities_;  ///< of leaves: the largest of their cells
+  std::vector<double> cell_errors_, cell_densities_;
 };
 
 /// Changes that lead to a number of nodes, and the complexity of the sizes that they follow.

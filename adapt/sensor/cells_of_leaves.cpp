@@ -1,6 +1,5 @@
 #include "adapt/sensor/cells_of_leaves.hpp"
 
-#include <algorithm>
 #include <functional>
 #include <numeric>
 #include <string>
@@ -34,36 +33,31 @@ CellsOfLeaves::CellsOfLeaves(const Communicator& comm, const Mesh& mesh, std::sp
                    "; give the tree file that was written with this mesh");
 }
 
-template <class Joined>
-std::vector<double> CellsOfLeaves::fold(const Communicator& comm, std::span<const double> of_cells,
-                                        const Joined& joined) const {
+template <class Better>
+std::vector<double> CellsOfLeaves::best(const Communicator& comm, std::span<const double> of_cells,
+                                        const Better& better) const {
   const std::vector<double> of_triangles = triangles_.bring(comm, of_cells.first(own_triangles_));
   const std::vector<double> of_quads = quads_.bring(comm, of_cells.subspan(own_triangles_));
   std::vector<double> of_leaves(leaves_.size(), 0);
   auto triangle = of_triangles.begin(), quad = of_quads.begin();
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
-    bool is_first = true;
-    const auto take = [&](double value) {
-      of_leaves[i] = is_first ? value : joined(of_leaves[i], value);
-      is_first = false;
-    };
-    for (std::int32_t k = 0; k < leaves_[i].triangles; ++k) take(*triangle++);
-    for (std::int32_t k = 0; k < leaves_[i].quads; ++k) take(*quad++);
+    if (!has_cells(leaves_[i])) continue;
+    double& value = of_leaves[i];
+    value = leaves_[i].triangles > 0 ? *triangle : *quad;
+    for (std::int32_t k = 0; k < leaves_[i].triangles; ++k, ++triangle)
+      value = better(*triangle, value) ? *triangle : value;
+    for (std::int32_t k = 0; k < leaves_[i].quads; ++k, ++quad) value = better(*quad, value) ? *quad : value;
   }
   return of_leaves;
 }
 
 std::vector<double> CellsOfLeaves::largest(const Communicator& comm, std::span<const double> of_cells) const {
-  return fold(comm, of_cells, [](double a, double b) { return std::max(a, b); });
+  return best(comm, of_cells, std::greater<>());
 }
 
 std::vector<double> CellsOfLeaves::smallest(const Communicator& comm,
                                             std::span<const double> of_cells) const {
-  return fold(comm, of_cells, [](double a, double b) { return std::min(a, b); });
-}
-
-std::vector<double> CellsOfLeaves::sums(const Communicator& comm, std::span<const double> of_cells) const {
-  return fold(comm, of_cells, std::plus<>());
+  return best(comm, of_cells, std::less<>());
 }
 
 }  // namespace quadloop

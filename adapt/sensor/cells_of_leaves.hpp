@@ -24,14 +24,11 @@ class CellsOfLeaves {
   /// cells, its triangles, then its quads. 0 for a leaf without cells. *Collective.*
   std::vector<double> largest(const Communicator& comm, std::span<const double> of_cells) const;
   std::vector<double> smallest(const Communicator& comm, std::span<const double> of_cells) const;
-  /// The sum of each local leaf's cells, its triangles before its quads. *Collective.*
-  std::vector<double> sums(const Communicator& comm, std::span<const double> of_cells) const;
 
  private:
-  /// `joined(a, b)` of all values of each leaf.
-  template <class Joined>
-  std::vector<double> fold(const Communicator& comm, std::span<const double> of_cells,
-                           const Joined& joined) const;
+  template <class Better>
+  std::vector<double> best(const Communicator& comm, std::span<const double> of_cells,
+                           const Better& better) const;
 
   std::span<const LeafRecord> leaves_;
   std::size_t own_triangles_;

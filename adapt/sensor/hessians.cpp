@@ -1,5 +1,6 @@
 #include "adapt/sensor/hessians.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -103,7 +104,7 @@ class Recovery {
   }
 
   IdVector<NodeId, Hessian> outside_layers() {
-    constexpr double weight_of_second = 0x1p-8;
+    constexpr double weight_of_second = 0x1p-12;
     OfNodes first = first_ring(), both = first;
     first.resize(halo_.points().size());
     halo_.exchange().update(first);
@@ -193,8 +194,8 @@ Hessian absolute(const Hessian& h) {
 
 double along(const Hessian& h, Point e) { return h.xx * e.x * e.x + 2 * h.xy * e.x * e.y + h.yy * e.y * e.y; }
 
-std::vector<Hessian> cell_hessians(const Communicator& comm, const Mesh& mesh, const ScaledField& field,
-                                   ValuesAt at) {
+std::vector<CellHessian> cell_hessians(const Communicator& comm, const Mesh& mesh, const ScaledField& field,
+                                       ValuesAt at) {
   const std::size_t cells = mesh.triangles.size() + mesh.quads.size();
   comm.together([&] {
     QUADLOOP_REQUIRE(field.values.size() == (at == ValuesAt::nodes ? mesh.points.size() : cells),
@@ -202,13 +203,17 @@ std::vector<Hessian> cell_hessians(const Communicator& comm, const Mesh& mesh, c
   });
   Recovery recovery(comm, mesh, field, at);
   const NodeHessians of_nodes = recovery.hessians();
-  std::vector<Hessian> of_cells;
+  std::vector<CellHessian> of_cells;
   of_cells.reserve(cells);
   const auto add = [&](const auto& nodes) {
     const auto& rows = recovery.in_layers(nodes) ? of_nodes.in_layers : of_nodes.outside;
     Hessian sum;
-    for (const NodeId node : nodes) sum = sum + rows[node];
-    of_cells.push_back(1.0 / static_cast<double>(nodes.size()) * sum);
+    double largest = 0;
+    for (const NodeId node : nodes) {
+      sum = sum + rows[node];
+      largest = std::max(largest, largest_eigenvalue(rows[node]));
+    }
+    of_cells.push_back({1.0 / static_cast<double>(nodes.size()) * sum, largest});
   };
   for (const auto& nodes : mesh.triangles) add(nodes);
   for (const auto& nodes : mesh.quads) add(nodes);

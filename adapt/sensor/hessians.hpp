@@ -34,18 +34,24 @@ double along(const Hessian& h, Point e);
 /// Where values of a variable stand.
 enum class ValuesAt { nodes, cells };
 
-/// For each of this rank's cells, triangles, then quads, the mean over its nodes of the absolute hessian
-/// there. At a node it is that of the quadratic which fits, by least squares, the values round the node:
-/// those of the cells that touch it, and, 2^-8 as heavy, of the cells that touch these. So it is exact for
-/// quadratics, at walls, between leaves of different sizes, on triangles and quads; of values of cells, which
-/// count at the centroids, but for the difference between a mean and the value there. What the points do not
-/// tell (across a channel of one cell) is 0.
+/// Absolute hessians at the nodes of a cell.
+struct CellHessian {
+  Hessian mean;
+  double largest = 0;  ///< eigenvalue at any of the nodes
+};
+
+/// For each of this rank's cells, triangles, then quads, what there is at its nodes. At a node it is that of
+/// the quadratic which fits, by least squares, the values round the node: those of the cells that touch it,
+/// and, 2^-12 as heavy, of the cells that touch these. So it is exact for quadratics, at walls, between
+/// leaves of different sizes, on triangles and quads; of values of cells, which count at the centroids, but
+/// for the difference between a mean and the value there. What the points do not tell (across a channel of
+/// one cell) is 0.
 ///
 /// Layers do not count there: nodes of their front are fitted from outside alone. In layers of walls it is
 /// the second derivative along the rows alone, as no split makes them thinner, and 0 in strips and in layers
 /// of values of cells. What may be the rounding of the variable is 0. `field` has a value for each owned node
 /// and copy, or for each cell. The same bits on any number of ranks. *Collective.*
-std::vector<Hessian> cell_hessians(const Communicator& comm, const Mesh& mesh, const ScaledField& field,
-                                   ValuesAt at);
+std::vector<CellHessian> cell_hessians(const Communicator& comm, const Mesh& mesh, const ScaledField& field,
+                                       ValuesAt at);
 
 }  // namespace quadloop

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/hessians.hpp"
 #include "adapt/sensor/scaled_field.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
@@ -18,14 +17,14 @@ void raise_by_variable(const Communicator& comm, const Mesh& mesh, std::vector<d
                        InterpolationError& error) {
   const ScaledField scaled = scaled_by_range(comm, std::move(values));
   if (scaled.constant) return;  // on every rank
-  const std::vector<Hessian> hessians = cell_hessians(comm, mesh, scaled, at);
+  const std::vector<CellHessian> hessians = cell_hessians(comm, mesh, scaled, at);
   std::vector<double> means(hessians.size(), 0);
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    means[cell] += along(hessians[cell], mesh.point(to) - mesh.point(from)) / 24;
+    means[cell] += along(hessians[cell].mean, mesh.point(to) - mesh.point(from)) / 24;
   });
   for (std::size_t i = 0; i < means.size(); ++i) {
     error.mean[i] = std::max(error.mean[i], means[i]);
-    error.bends[i] = std::max(error.bends[i], largest_eigenvalue(hessians[i]));
+    error.bends[i] = std::max(error.bends[i], hessians[i].largest);
   }
 }
 
@@ -52,17 +51,10 @@ double norm_of(const Communicator& comm, const InterpolationError& error, double
   return std::pow(reproducible_sum(comm, terms), 1 / p);
 }
 
-std::vector<double> leaf_densities(const Communicator& comm, const Mesh& mesh,
-                                   std::span<const LeafRecord> leaves, const InterpolationError& error,
-                                   double p) {
-  const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
-  std::vector<double> weighted;
-  for (std::size_t i = 0; i < error.bends.size(); ++i)
-    weighted.push_back(error.areas[i] * std::pow(error.bends[i], p / (p + 1)));
-  std::vector<double> densities = cells_of_leaves.sums(comm, weighted);
-  const std::vector<double> areas = cells_of_leaves.sums(comm, error.areas);
-  for (std::size_t i = 0; i < densities.size(); ++i)
-    densities[i] = areas[i] > 0 ? densities[i] / areas[i] : 0;
+std::vector<double> cell_densities(const InterpolationError& error, double p) {
+  std::vector<double> densities;
+  densities.reserve(error.bends.size());
+  for (const double bend : error.bends) densities.push_back(std::pow(bend, p / (p + 1)));
   return densities;
 }
 

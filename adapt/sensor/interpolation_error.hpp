@@ -1,12 +1,10 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
-#include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop {
 
@@ -14,7 +12,7 @@ namespace quadloop {
 /// in it (in quads bilinear), each over its range; of several variables the most.
 struct InterpolationError {
   std::vector<double> mean;   ///< mean of the absolute error over the cell
-  std::vector<double> bends;  ///< the largest second derivative in any direction, in 1 / length^2
+  std::vector<double> bends;  ///< the largest second derivative in any direction at any node, 1 / length^2
   std::vector<double> areas;  ///< of the cells
 };
 
@@ -28,13 +26,10 @@ InterpolationError interpolation_error(const Communicator& comm, const Mesh& mes
 /// number of ranks. *Collective.*
 double norm_of(const Communicator& comm, const InterpolationError& error, double p);
 
-/// Nodes per area that make the L^p norm least for their number, but for a factor, for each leaf of this
-/// rank's share: the mean over its cells of bends^(p / (p + 1)); 0 for leaves without cells. For a complexity
-/// N, the integral of 1 / h^2, the sizes are h = (integral of the density / (N * density))^(1/2): the optimum
-/// of Loseille and Alauzet's continuous meshes (SIAM J. Numer. Anal. 49, 2011) among those that do not
-/// stretch. *Collective.*
-std::vector<double> leaf_densities(const Communicator& comm, const Mesh& mesh,
-                                   std::span<const LeafRecord> leaves, const InterpolationError& error,
-                                   double p);
+/// For each cell nodes per area, but for a factor, that make the L^p norm least for their number:
+/// bends^(p / (p + 1)). For a complexity N, the integral of 1 / h^2, the sizes are
+/// h = (integral of the density / (N * density))^(1/2): the optimum of Loseille and Alauzet's continuous
+/// meshes (SIAM J. Numer. Anal. 49, 2011) among those that do not stretch.
+std::vector<double> cell_densities(const InterpolationError& error, double p);
 
 }  // namespace quadloop
