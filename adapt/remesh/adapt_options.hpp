@@ -17,8 +17,8 @@ namespace quadloop {
 struct AdaptOptions {
   /// Changes from one cycle to the next below which the cycles end; those that are given all count.
   struct Until {
-    std::optional<double> cl, cd;
-    std::optional<double> estimate;  ///< relative to the cycle before
+    std::optional<double> cl = {}, cd = {};
+    std::optional<double> estimate = {};  ///< relative to the cycle before
 
     bool empty() const { return !cl && !cd && !estimate; }
   };

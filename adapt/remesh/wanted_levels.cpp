@@ -139,9 +139,9 @@ SizedChanges changes_for_nodes(const Communicator& comm, const TreeRecord& tree,
     (fits ? low : high) = tried;
     if (fits) best = std::move(now);
     if (fits && share.least >= enough) break;
-    // Half of the steps by secants, should nodes grow by steps that these do not meet.
-    tried = step < most_steps / 2 ? next_complexity(tried, share.most * cap, aim * cap, low, high)
-                                  : next_complexity(tried, 0, aim * cap, low, high);
+    // Nodes grow by steps: secants find the place, halving the step.
+    const bool by_secant = step < 2 || step % 2 == 0;
+    tried = next_complexity(tried, by_secant ? share.most * cap : 0, aim * cap, low, high);
   }
   return best;
 }

@@ -56,8 +56,9 @@ struct SizedChanges {
   double complexity = 0;
 };
 
-/// Looks for the complexity that leads to 95 to 100 % of so many nodes; the most nodes that were found within
-/// the cap where none does, and what case and geometry alone ask for where that is more. *Collective.*
+/// Looks for the complexity that leads to 95 to 100 % of so many nodes; as leaves change by factors of two
+/// there may be none: then the most nodes that were found within the cap, and what case and geometry alone
+/// ask for where that is more. *Collective.*
 SizedChanges changes_for_nodes(const Communicator& comm, const TreeRecord& tree, const WantedLevels& wanted,
                                const TrialCount& count, std::int64_t nodes);
 

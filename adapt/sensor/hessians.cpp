@@ -104,24 +104,35 @@ class Recovery {
   }
 
   IdVector<NodeId, Hessian> outside_layers() {
-    constexpr double weight_of_second = 0x1p-12;
-    OfNodes first = first_ring(), both = first;
-    first.resize(halo_.points().size());
-    halo_.exchange().update(first);
+    const OfNodes first = first_ring();
+    // Centroids are one a cell: at corners of the domain two rings of cells may be four.
+    OfNodes all = at_ == ValuesAt::nodes
+                      ? with_neighbours(first, first, 0x1p-12)
+                      : with_neighbours(first, with_neighbours(first, first, 0x1p-6), 0x1p-6);
+    const double rounding = 256 * field_.rounding;  // the fit adds to it
+    IdVector<NodeId, Hessian> found;
+    for (const Moments& moments : all) found.push_back(absolute(moments.hessian(rounding)));
+    return found;
+  }
+
+  /// Those of `own` and, so much as heavy, those that the nodes in the cells round each node have of
+  /// `around`.
+  OfNodes with_neighbours(const OfNodes& own, OfNodes around, double weight) const {
+    around.resize(halo_.points().size());
+    halo_.exchange().update(around);
+    OfNodes both = own;
     halo_.for_each_cell([&](const auto& nodes) {
       if (in_layers(nodes)) return;
       for (const NodeId node : nodes) {
         if (!mesh_.owns(node)) continue;
         for (const NodeId other : nodes) {
           if (other == node) continue;
-          both[node].add(first[other], halo_.point(other) - halo_.point(node), bases_[other] - bases_[node],
-                         weight_of_second);
+          both[node].add(around[other], halo_.point(other) - halo_.point(node), bases_[other] - bases_[node],
+                         weight);
         }
       }
     });
-    IdVector<NodeId, Hessian> found;
-    for (const Moments& moments : both) found.push_back(absolute(moments.hessian(field_.rounding)));
-    return found;
+    return both;
   }
 
   /// The two neighbours of a node in its row.

@@ -42,10 +42,10 @@ struct CellHessian {
 
 /// For each of this rank's cells, triangles, then quads, what there is at its nodes. At a node it is that of
 /// the quadratic which fits, by least squares, the values round the node: those of the cells that touch it,
-/// and, 2^-12 as heavy, of the cells that touch these. So it is exact for quadratics, at walls, between
-/// leaves of different sizes, on triangles and quads; of values of cells, which count at the centroids, but
-/// for the difference between a mean and the value there. What the points do not tell (across a channel of
-/// one cell) is 0.
+/// and, much less heavy, of the cells that touch these (of values of cells three rings). So it is exact for
+/// quadratics, at walls, between leaves of different sizes, on triangles and quads; of values of cells, which
+/// count at the centroids, but for the difference between a mean and the value there. What the points do not
+/// tell (across a channel of one cell) is 0.
 ///
 /// Layers do not count there: nodes of their front are fitted from outside alone. In layers of walls it is
 /// the second derivative along the rows alone, as no split makes them thinner, and 0 in strips and in layers

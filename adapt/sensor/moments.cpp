@@ -20,7 +20,6 @@ struct Term {
 };
 constexpr std::array<Term, unknowns> terms{
     {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {2, 0, 0.5}, {1, 1, 1}, {0, 2, 0.5}}};
-constexpr std::size_t first_of_second_order = 3;
 
 struct NormalEquations {
   std::array<std::array<double, unknowns>, unknowns> matrix{};
@@ -39,7 +38,7 @@ struct NormalEquations {
 
   /// By elimination; an unknown that those before it leave nothing of is 0.
   std::array<double, unknowns> solution() {
-    constexpr double nothing = 1e-13;
+    constexpr double nothing = 1e-12;  // of 1: the points do not tell it
     for (std::size_t k = 0; k < unknowns; ++k) {
       if (matrix[k][k] <= nothing) continue;
       for (std::size_t i = k + 1; i < unknowns; ++i) {
@@ -104,9 +103,6 @@ Hessian Moments::hessian(double rounding) const {
     }
   }
   const std::array<double, unknowns> units = equations.scale();
-  // A little of a ridge: second derivatives that the points do not tell are small, and linear fields, which
-  // have none, stay exact.
-  for (std::size_t k = first_of_second_order; k < unknowns; ++k) equations.matrix[k][k] += 1e-9;
   const std::array<double, unknowns> found = equations.solution();
   const Hessian lift{found[3] * units[3], found[4] * units[4], found[5] * units[5]};
   if (!(largest_eigenvalue(lift) > rounding)) return {};

@@ -18,8 +18,8 @@ class Moments {
   /// `rise`, `weight` times.
   void add(const Moments& other, Point offset, double rise, double weight);
 
-  /// The second derivatives of the quadratic that fits the points best; where these do not tell them, the
-  /// smallest that do. Those that lift the quadratic by less than `rounding` over the points' distance are 0.
+  /// The second derivatives of the quadratic that fits the points best; one that they do not tell is 0. Those
+  /// that lift the quadratic by less than `rounding` over the points' distance are 0.
   Hessian hessian(double rounding) const;
 
  private:

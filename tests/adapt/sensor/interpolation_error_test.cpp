@@ -55,8 +55,8 @@ TEST(InterpolationErrors, AreThoseOfAQuadraticInTriangles) {
 
 double error_of_front(std::int32_t n, bool quads, double p) {
   const Mesh mesh = part_of({n, {1, 1}, quads});
-  const Field front = field_of(
-      mesh, "q", [](std::int64_t, Point at) { return std::tanh(6 * (at.x + 0.5 * at.y - 0.7)); });
+  const Field front =
+      field_of(mesh, "q", [](std::int64_t, Point at) { return std::tanh(6 * (at.x + 0.5 * at.y - 0.7)); });
   return norm_of(world(), interpolation_error(world(), mesh, front), p);
 }
 
