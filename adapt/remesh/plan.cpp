@@ -103,6 +103,9 @@ Made made_from(const Communicator& comm, const AdaptOptions& options, const Solv
   }
 }
 
+constexpr const char* text_of_bound =
+    "the mesh is kept to what --max-cells or free memory allows: fewer leaves are refined than are marked";
+
 void take(ChangedSplits changes, AdaptationPlan& plan) {
   plan.refined = changes.refined;
   plan.coarsened = changes.coarsened;
@@ -126,11 +129,7 @@ void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const 
   const ChangedSplits all = search.changes_at(1);
   ChangedSplits changes = all;
   const bool bounded = !count.allowed(all);
-  if (bounded) {
-    plan.warnings.emplace_back(
-        "the mesh is kept to what --max-cells or free memory allows: fewer leaves are refined than are "
-        "marked");
-  }
+  if (bounded) plan.warnings.emplace_back(text_of_bound);
   if (options.max_nodes || bounded) changes = search.within(options.max_nodes, all);
   if (options.max_nodes) warn_above_cap(count, *options.max_nodes, changes, plan);
   take(std::move(changes), plan);
@@ -154,6 +153,7 @@ void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const 
   if (!wanted.flat()) {
     SizedChanges sized = changes_for_nodes(comm, solved.tree, wanted, count, nodes);
     complexity = sized.complexity;
+    if (sized.bounded) plan.warnings.emplace_back(text_of_bound);
     if (complexity == 0) warn_above_cap(count, nodes, sized.changes, plan);
     take(std::move(sized.changes), plan);
   } else {

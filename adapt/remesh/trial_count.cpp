@@ -17,7 +17,7 @@ NodeBounds TrialCount::nodes_after(const ChangedSplits& changes) const {
 
 TrialCount::Share TrialCount::filled(const std::optional<std::int64_t>& most,
                                      const ChangedSplits& changes) const {
-  const double of_limit = share_after(changes);
+  const double of_limit = share_of_limit(changes);
   if (!most || of_limit > 1) return {of_limit, of_limit};
   const NodeBounds nodes = nodes_after(changes);
   const auto cap = static_cast<double>(*most);
@@ -25,7 +25,7 @@ TrialCount::Share TrialCount::filled(const std::optional<std::int64_t>& most,
           std::max(of_limit, static_cast<double>(nodes.most) / cap)};
 }
 
-double TrialCount::share_after(const ChangedSplits& changes) const {
+double TrialCount::share_of_limit(const ChangedSplits& changes) const {
   return share_of(limit_, trial_.estimate(DemandedSplits(comm_, changes.demands)));
 }
 

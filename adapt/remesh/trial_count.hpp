@@ -21,8 +21,9 @@ class TrialCount {
   /// `beyond` where the mesh would not be allowed. *Collective.*
   NodeBounds nodes_after(const ChangedSplits& changes) const;
 
-  /// Whether the mesh is within --max-cells and free memory, by an estimate. *Collective.*
-  bool allowed(const ChangedSplits& changes) const { return share_after(changes) <= 1; }
+  /// What the mesh would take of --max-cells or free memory, by an estimate. *Collective.*
+  double share_of_limit(const ChangedSplits& changes) const;
+  bool allowed(const ChangedSplits& changes) const { return share_of_limit(changes) <= 1; }
 
   /// Of cap and limit, what is used up of the one that is nearer to it, at least and at most; above 1: too
   /// many.
@@ -33,8 +34,6 @@ class TrialCount {
   Share filled(const std::optional<std::int64_t>& most, const ChangedSplits& changes) const;
 
  private:
-  double share_after(const ChangedSplits& changes) const;
-
   const Communicator& comm_;
   MeshTrial trial_;
   MeshLimit limit_;

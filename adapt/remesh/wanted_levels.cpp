@@ -123,7 +123,8 @@ SizedChanges changes_for_nodes(const Communicator& comm, const TreeRecord& tree,
   const auto changes_at = [&](double complexity) {
     return splits_for_levels(comm, tree, wanted.levels(complexity));
   };
-  SizedChanges best{changes_at(0), 0};
+  SizedChanges best{changes_at(0), 0, false};
+  bool bounded = false;
   if (wanted.flat()) return best;
   double low = 0, high = std::numeric_limits<double>::infinity(), tried = cap;
   for (int step = 0; step < most_steps; ++step) {
@@ -133,7 +134,8 @@ SizedChanges changes_for_nodes(const Communicator& comm, const TreeRecord& tree,
       tried = next_complexity(tried, leaves, cap, low, high);
       continue;
     }
-    SizedChanges now{changes_at(tried), tried};
+    SizedChanges now{changes_at(tried), tried, false};
+    bounded = bounded || !count.allowed(now.changes);
     const TrialCount::Share share = count.filled(nodes, now.changes);
     const bool fits = share.most <= 1;
     (fits ? low : high) = tried;
@@ -143,6 +145,8 @@ SizedChanges changes_for_nodes(const Communicator& comm, const TreeRecord& tree,
     const bool by_secant = step < 2 || step % 2 == 0;
     tried = next_complexity(tried, by_secant ? share.most * cap : 0, aim * cap, low, high);
   }
+  constexpr double near = 0.8;  // else it was but a step of the search that went beyond
+  best.bounded = bounded && count.share_of_limit(best.changes) > near;
   return best;
 }
 

@@ -54,6 +54,7 @@ class WantedLevels {
 struct SizedChanges {
   ChangedSplits changes;
   double complexity = 0;
+  bool bounded = false;  ///< --max-cells or free memory has kept them below the number wanted
 };
 
 /// Looks for the complexity that leads to 95 to 100 % of so many nodes; as leaves change by factors of two

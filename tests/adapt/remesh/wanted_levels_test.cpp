@@ -180,6 +180,19 @@ TEST(SizePlan, SaysWhenCaseAndGeometryPassTheCap) {
   EXPECT_NE(plan.warnings[0].find("adapt.max_nodes allows 20"), std::string::npos) << plan.warnings[0];
 }
 
+TEST(SizePlan, KeepsToWhatIsAllowedAndSaysSo) {
+  MeshInput input = square_input();
+  const SolvedMesh mesh = solved(world(), input, front);
+  input.mesh.limit.cells = 1500;
+  const AdaptationPlan plan = plan_adaptation(world(), input, sizes_for(20000), mesh);
+  ASSERT_FALSE(plan.warnings.empty());
+  EXPECT_NE(plan.warnings[0].find("--max-cells"), std::string::npos) << plan.warnings[0];
+  EXPECT_GT(plan.refined, 0);
+  input.mesh.limit.cells = MeshLimit::none;
+  EXPECT_LT(solved(world(), input, front, &plan).tree.attributes.nodes, 2500);
+  EXPECT_TRUE(plan_adaptation(world(), input, sizes_for(3000), mesh).warnings.empty());
+}
+
 TEST(SizePlan, IsTheSameOnAnyNumberOfRanks) {
   const MeshInput input = square_input();
   const Communicator alone(MPI_COMM_SELF);
