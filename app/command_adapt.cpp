@@ -85,6 +85,8 @@ std::string line_of(const CycleRecord& record) {
                                  record.nodes, record.worst_angle);
   if (record.cl) line += fmt::format("  cl {:.5f}  cd {:.5f}", *record.cl, *record.cd);
   if (record.residual) line += fmt::format("  residual {:.1e}", *record.residual);
+  if (record.estimate) line += fmt::format("  error {:.3e}", *record.estimate);
+  if (record.order) line += fmt::format("  order {:.2f}", *record.order);
   double seconds = 0;
   for (const auto& stage : record.seconds) seconds += stage.second;
   line += fmt::format("  {:.1f} s", seconds);
@@ -146,8 +148,11 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   context.record.figures.add("cycles", cycles);
   const LoopEnd end = run_in_folder(comm, *adaptive, folder, arguments.resume, report);
   if (comm.is_root()) context.record.figures.add("nothing_to_change", end.nothing_to_change);
+  if (comm.is_root() && !adaptive->adapt.until.empty()) context.record.figures.add("settled", end.settled);
   if (!context.shows_table()) return;
-  if (end.nothing_to_change)
+  if (end.settled)
+    std::cout << fmt::format("  cycle {} has settled by adapt.until, so no further cycle\n", end.last);
+  else if (end.nothing_to_change)
     std::cout << fmt::format("  cycle {} marks no leaf, so no further cycle: {}\n", end.last,
                              end.left->plan.reason_for_standing);
   std::cout << closing_line(folder, end);

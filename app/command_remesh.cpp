@@ -184,6 +184,7 @@ void report(const CommandContext& context, const CarriedMesh& carried, const Sta
   MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), problem.files);
   if (parts) add_parts(summary, *parts, problem.part_files);
   Figures of_transfer = transfer_figures(carried);
+  if (carried.estimate) of_transfer.add("interpolation error", *carried.estimate, "{:.3e}");
   if (problem.input.settings.morph_to)
     of_transfer.add_raw("morphed", carried.morphed ? "yes" : "no", carried.morphed ? "true" : "false");
   context.record.figures = record_of(summary);
@@ -220,6 +221,7 @@ CarriedMesh remesh(const Communicator& comm, const Problem& problem, const Solve
       adapt ? plan_adaptation(comm, mesh, *adapt, solved) : standing_plan(solved.tree, mesh);
   times.end();
   CarriedMesh carried = carry_over(comm, mesh, plan, solved);
+  carried.estimate = plan.estimate;
   const Warnings& of_mesh = carried.generated.result.report.warnings;
   warnings.insert(warnings.end(), of_mesh.begin(), of_mesh.end());
   warnings.insert(warnings.end(), plan.warnings.begin(), plan.warnings.end());

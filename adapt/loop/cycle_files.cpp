@@ -47,6 +47,9 @@ std::string log_text(const CycleRecord& record, const std::vector<std::string>& 
     text += fmt::format("first heights asked for on {}: {:.6g} to {:.6g}\n", boundary, least, largest);
   for (const std::string& line : notes) text += line + "\n";
   for (const std::string& line : warnings) text += "warning: " + line + "\n";
+  if (record.estimate) text += fmt::format("interpolation error {:.4g}", *record.estimate);
+  if (record.order) text += fmt::format(", order {:.2f}", *record.order);
+  if (record.estimate) text += "\n";
   text += fmt::format("marks for the next cycle: {} leaves to be split, {} to go\n", record.refined,
                       record.coarsened);
   for (const auto& [stage, seconds] : record.seconds) text += fmt::format("{} {:.2f} s\n", stage, seconds);
@@ -115,6 +118,15 @@ std::vector<std::string> CycleFiles::renames(const Mesh& mesh) const {
     for (std::string& line : renames_in(mesh, file)) lines.push_back(std::move(line));
   }
   return lines;
+}
+
+void CycleFiles::planned(const CycleEnd& end) {
+  if (!end.plan.estimate) return;
+  Field estimates;
+  estimates.cells = end.plan.estimates_of_cells;
+  OutputSet outputs(comm_);
+  write_mesh(outputs, end.solved.mesh, CyclePaths{folders_.under_way(cycle_)}.estimate(), &estimates);
+  outputs.commit();
 }
 
 void CycleFiles::finished(CycleRecord record, const std::vector<std::string>& notes,

@@ -57,10 +57,14 @@ class Loop {
                   observer_.place_of_solution(cycle)},
                  {}};
     end.plan = plan_adaptation(comm_, mesh_, adapt_, end.solved);
+    times.begin("write");
+    observer_.planned(end);
     times.end();
     append(warnings, flow.warnings);
     append(warnings, end.plan.warnings);
-    observer_.finished(record_of(cycle, carried, flow, end, times), flow.notes, warnings);
+    CycleRecord record = record_of(cycle, carried, flow, end, times);
+    settle(before, record, end);
+    observer_.finished(std::move(record), flow.notes, warnings);
     progress::set_prefix("");
     return end;
   }
@@ -69,6 +73,18 @@ class Loop {
   CarriedMesh next_mesh(const CycleEnd* before) const {
     if (before != nullptr) return carry_over(comm_, mesh_, before->plan, before->solved);
     return {generate_mesh(comm_, mesh_), {}, {}, {}};
+  }
+
+  /// Against the cycle before.
+  void settle(const CycleEnd* before, CycleRecord& record, CycleEnd& end) const {
+    const AdaptOptions::Until& until = adapt_.until;
+    end.values = values_of(record);
+    require_told(until, end.values);
+    if (before != nullptr) {
+      record.order = observed_order(before->values, end.values);
+      end.settled = have_settled(until, before->values, end.values);
+    }
+    if (!until.empty()) record.settled = end.settled;
   }
 
   CycleRecord record_of(int cycle, const CarriedMesh& carried, const SolvedFlow& flow, const CycleEnd& end,
@@ -85,6 +101,7 @@ class Loop {
     record.deviation = end.plan.deviation;
     record.refined = end.plan.refined;
     record.coarsened = end.plan.coarsened;
+    record.estimate = end.plan.estimate;
     record.outside = carried.report.outside;
     record.drift = carried.drifts();
     record.cl = flow.cl;
@@ -112,10 +129,11 @@ LoopEnd run_loop(const Communicator& comm, const MeshInput& mesh, const AdaptOpt
                  const FlowSolver& solver, CycleObserver& observer, int first,
                  std::optional<CycleEnd> before) {
   const Loop loop(comm, mesh, adapt, solver, observer);
-  LoopEnd end{first, first - 1, false, std::move(before)};
+  LoopEnd end{first, first - 1, false, false, std::move(before)};
   for (int cycle = first; cycle <= adapt.cycles; ++cycle) {
     end.nothing_to_change = end.left && !end.left->plan.changes_mesh();
-    if (end.nothing_to_change) return end;
+    end.settled = end.left && end.left->settled;
+    if (end.nothing_to_change || end.settled) return end;
     end.left = loop.run_cycle(cycle, end.left ? &*end.left : nullptr);
     end.last = cycle;
   }

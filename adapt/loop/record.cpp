@@ -75,10 +75,14 @@ JsonObject figures_of(const CycleRecord& record) {
   json.add("coarsened", record.coarsened);
   json.add("outside", record.outside);
   json.add("drift", object(record.drift));
-  for (const auto& [name, value] :
-       {std::pair{"cl", record.cl}, {"cd", record.cd}, {"residual", record.residual}}) {
+  for (const auto& [name, value] : {std::pair{"cl", record.cl},
+                                    {"cd", record.cd},
+                                    {"residual", record.residual},
+                                    {"estimate", record.estimate},
+                                    {"order", record.order}}) {
     if (value) json.add(name, *value);
   }
+  if (record.settled) json.add("settled", *record.settled);
   if (!record.forces.empty()) json.add("forces", record_of(record.forces));
   JsonObject heights;
   for (const auto& [boundary, least, largest] : record.first_heights)

@@ -29,7 +29,10 @@ struct CycleRecord {
   double worst_angle = 0;          ///< the smallest corner, degrees
   double mean = 0, deviation = 0;  ///< of log10 of the indicator
   std::int64_t refined = 0, coarsened = 0;
-  std::int64_t outside = 0;  ///< nodes that the transfer found outside the old mesh
+  std::optional<double> estimate;  ///< the norm of the interpolation error, where sizes follow from it
+  std::optional<double> order;     ///< at which it fell from the cycle before
+  std::optional<bool> settled;     ///< whether forces and estimate have, where that ends the run
+  std::int64_t outside = 0;        ///< nodes that the transfer found outside the old mesh
   /// How far each variable's integral drifted in the transfer into this cycle.
   std::vector<std::pair<std::string, double>> drift;
   std::optional<double> cl, cd, residual;

@@ -105,4 +105,10 @@ SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folde
   }
 }
 
+CycleValues read_earlier_values(const Communicator& comm, const std::string& folder) {
+  CycleValues values;
+  comm.together([&] { values = recorded_values(text_of_record(CyclePaths{folder}.record(), folder)); });
+  return values;
+}
+
 }  // namespace quadloop

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "adapt/loop/record.hpp"
+#include "adapt/loop/settling.hpp"
 #include "adapt/remesh/solved_mesh.hpp"
 
 namespace quadloop {
@@ -18,5 +19,9 @@ std::vector<std::string> require_same_run(const Communicator& comm, const std::s
 /// The mesh, the tree and the solution of a cycle that an earlier run left, by its files. They are compared
 /// with each other; a refusal says how to be rid of the damage. *Collective.*
 SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folder);
+
+/// What an earlier run's record of the cycle in `folder` tells of forces and estimate. Throws InputError
+/// where it cannot be read. *Collective.*
+CycleValues read_earlier_values(const Communicator& comm, const std::string& folder);
 
 }  // namespace quadloop

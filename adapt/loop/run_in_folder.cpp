@@ -68,11 +68,17 @@ FlowSolver solver_in(const CycleFolders& folders, const AdaptiveCase& adaptive) 
 /// What an earlier run's last whole cycle came to, by its files. A finished run is looked at too: whoever
 /// resumes it is told of damage. *Collective.*
 CycleEnd left_by_earlier_run(const Communicator& comm, const AdaptiveCase& adaptive,
-                             const std::string& folder, int cycle, const RunReport& report) {
+                             const CycleFolders& folders, int cycle, const RunReport& report) {
+  const std::string folder = folders.whole(cycle);
   for (const std::string& warning : require_same_run(comm, folder, record_of_case(adaptive)))
     report.warning(warning);
   CycleEnd left{read_earlier_cycle(comm, folder), {}};
-  if (cycle >= adaptive.adapt.cycles) return left;
+  left.values = read_earlier_values(comm, folder);
+  if (cycle > 0 && !adaptive.adapt.until.empty()) {
+    const CycleValues before = read_earlier_values(comm, folders.whole(cycle - 1));
+    left.settled = have_settled(adaptive.adapt.until, before, left.values);
+  }
+  if (cycle >= adaptive.adapt.cycles || left.settled) return left;
   left.plan = plan_adaptation(comm, adaptive.mesh, adaptive.adapt, left.solved);
   if (left.plan.changes_mesh()) return left;
   for (const std::string& warning : left.plan.warnings) report.warning(warning);
@@ -88,7 +94,7 @@ LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, co
   if (resume && first == 0)
     report.warning(folder + ": holds no whole cycle to go on after; the run begins with cycle 0");
   std::optional<CycleEnd> before;
-  if (first > 0) before = left_by_earlier_run(comm, adaptive, folders.whole(first - 1), first - 1, report);
+  if (first > 0) before = left_by_earlier_run(comm, adaptive, folders, first - 1, report);
   CycleFiles files(comm, folders, file_options(adaptive), report.cycle);
   return run_loop(comm, adaptive.mesh, adaptive.adapt, solver_in(folders, adaptive), files, first,
                   std::move(before));

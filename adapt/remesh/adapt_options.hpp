@@ -15,6 +15,13 @@ namespace quadloop {
 
 /// What a case says of adaptation.
 struct AdaptOptions {
+  /// Changes from one cycle to the next below which the cycles end; those that are given all count.
+  struct Until {
+    std::optional<double> cl = {}, cd = {};
+    std::optional<double> estimate = {};  ///< relative to the cycle before
+
+    bool empty() const { return !cl && !cd && !estimate; }
+  };
   /// What marks are made from: differences of variables, or a field that the solver wrote for it.
   enum class Source { variables, size, error };
   enum class Threshold { deviation, fraction, nodes };  ///< how many leaves are marked
@@ -29,6 +36,11 @@ struct AdaptOptions {
   /// Deviations above and below the mean, or shares of the leaves.
   double refine = DeviationRule{}.refine, coarsen = DeviationRule{}.coarsen;
   std::optional<std::int64_t> max_nodes;  ///< a cap; the target for Threshold::nodes
+  /// The p of the L^p norm of the interpolation error that sizes are to make least, for max_nodes nodes;
+  /// none: leaves are marked instead.
+  std::optional<double> norm;
+  std::optional<double> growth;  ///< with a norm: at most so many times the nodes of the mesh before
+  Until until;
   /// Leaf size that adaptation may reach, in the geometry's unit; none: that of the case.
   std::optional<double> min;
   TransferKind transfer = TransferKind::linear;

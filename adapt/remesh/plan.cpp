@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <optional>
 
 #include "adapt/remesh/followed_walls.hpp"
 #include "adapt/remesh/mark_family.hpp"
 #include "adapt/remesh/restart.hpp"
+#include "adapt/remesh/trial_count.hpp"
+#include "adapt/remesh/wanted_levels.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/build/mesh_estimate.hpp"
-#include "mesher/generate/mesh_trial.hpp"
 
 namespace quadloop {
 
@@ -20,42 +20,26 @@ namespace {
 /// Looks along the family for the marks that lead to a number of nodes from 95 to 100 % of the one allowed.
 class NodeSearch {
  public:
-  NodeSearch(const Communicator& comm, const MeshInput& input, const MeasuredWall& measured,
-             const SolvedMesh& solved, const MarkFamily& family, int finest)
-      : comm_{comm},
-        trial_{input, measured},
-        limit_{input.mesh.limit},
-        solved_{solved},
-        family_{family},
-        finest_{finest} {}
+  NodeSearch(const Communicator& comm, const TrialCount& count, const SolvedMesh& solved,
+             const MarkFamily& family, int finest)
+      : comm_{comm}, count_{count}, solved_{solved}, family_{family}, finest_{finest} {}
 
   ChangedSplits changes_at(double at) const {
     return changed_splits(comm_, solved_.tree, family_.marks(at), finest_);
   }
-
-  /// As many as no mesh has where the mesh would not be allowed.
-  NodeBounds nodes_after(const ChangedSplits& changes) const {
-    try {
-      return trial_.nodes(comm_, DemandedSplits(comm_, changes.demands));
-    } catch (const TooManyCells&) {  // by an estimate that all ranks make
-      return {beyond, beyond};
-    }
-  }
-
-  bool allowed(const ChangedSplits& changes) const { return share_after(changes) <= 1; }
 
   /// The largest meshes within the cap and within what is allowed, as far as they are found; the one of the
   /// fewest nodes where none is. Without a cap estimates do.
   ChangedSplits within(const std::optional<std::int64_t>& most, ChangedSplits all) const {
     constexpr double enough = 0.95;
     constexpr int most_steps = 24;
-    if (filled(most, all).most <= 1) return all;
+    if (count_.filled(most, all).most <= 1) return all;
     double low = -1, high = 1;
     ChangedSplits best = changes_at(low);
     for (int step = 0; step < most_steps; ++step) {
       const double middle = 0.5 * (low + high);
       ChangedSplits tried = changes_at(middle);
-      const Share share = filled(most, tried);
+      const TrialCount::Share share = count_.filled(most, tried);
       const bool fits = share.most <= 1;
       (fits ? low : high) = middle;
       if (fits) best = std::move(tried);
@@ -64,30 +48,9 @@ class NodeSearch {
     return best;
   }
 
-  static constexpr std::int64_t beyond = std::numeric_limits<std::int64_t>::max();
-
  private:
-  /// Of cap and limit, what is used up of the one that is nearer to it, at least and at most; above 1: too
-  /// many.
-  struct Share {
-    double least = 0, most = 0;
-  };
-  Share filled(const std::optional<std::int64_t>& most, const ChangedSplits& changes) const {
-    const double of_limit = share_after(changes);
-    if (!most || of_limit > 1) return {of_limit, of_limit};
-    const NodeBounds nodes = nodes_after(changes);
-    const auto cap = static_cast<double>(*most);
-    return {std::max(of_limit, static_cast<double>(nodes.least) / cap),
-            std::max(of_limit, static_cast<double>(nodes.most) / cap)};
-  }
-
-  double share_after(const ChangedSplits& changes) const {
-    return share_of(limit_, trial_.estimate(DemandedSplits(comm_, changes.demands)));
-  }
-
   const Communicator& comm_;
-  MeshTrial trial_;
-  MeshLimit limit_;
+  const TrialCount& count_;
   const SolvedMesh& solved_;
   const MarkFamily& family_;
   int finest_;
@@ -130,50 +93,94 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
 }
 
 /// What is wrong with the field is told with its file. *Collective.*
-MarkFamily family_of(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved) {
+template <class Made, class... Further>
+Made made_from(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
+               Further... further) {
   try {
-    return {comm, options, solved};
+    return {comm, options, solved, further...};
   } catch (const InputError& fault) {  // the same one on every rank
     throw InputError(solved.file.empty() ? fault.what() : solved.file + ": " + fault.what());
   }
+}
+
+constexpr const char* text_of_bound =
+    "the mesh is kept to what --max-cells or free memory allows: fewer leaves are refined than are marked";
+
+void take(ChangedSplits changes, AdaptationPlan& plan) {
+  plan.refined = changes.refined;
+  plan.coarsened = changes.coarsened;
+  plan.demands = std::move(changes.demands);
+}
+
+/// *Collective.*
+void warn_above_cap(const TrialCount& count, std::int64_t cap, const ChangedSplits& changes,
+                    AdaptationPlan& plan) {
+  const auto [least, nodes] = count.nodes_after(changes);
+  if (nodes <= cap || nodes == TrialCount::beyond) return;
+  plan.warnings.push_back(fmt::format(
+      "the mesh has {}{} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them",
+      least < nodes ? "up to " : "", nodes, cap));
+}
+
+void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
+                   const TrialCount& count, int finest, AdaptationPlan& plan) {
+  const auto family = made_from<MarkFamily>(comm, options, solved);
+  const NodeSearch search(comm, count, solved, family, finest);
+  const ChangedSplits all = search.changes_at(1);
+  ChangedSplits changes = all;
+  const bool bounded = !count.allowed(all);
+  if (bounded) plan.warnings.emplace_back(text_of_bound);
+  if (options.max_nodes || bounded) changes = search.within(options.max_nodes, all);
+  if (options.max_nodes) warn_above_cap(count, *options.max_nodes, changes, plan);
+  take(std::move(changes), plan);
+  plan.mean = family.mean();
+  plan.deviation = family.deviation();
+  if (!plan.changes_mesh())
+    plan.reason_for_standing = reason_for_standing(comm, options, solved, family, all);
+}
+
+/// By the sizes that make the L^p norm of the interpolation error least.
+void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
+                   const TrialCount& count, int finest, AdaptationPlan& plan) {
+  const auto wanted = made_from<WantedLevels>(comm, options, solved, finest);
+  std::int64_t nodes = *options.max_nodes;
+  if (options.growth) {
+    const double grown = std::floor(*options.growth * static_cast<double>(solved.tree.attributes.nodes));
+    if (grown < static_cast<double>(nodes)) nodes = static_cast<std::int64_t>(grown);
+  }
+  plan.estimate = wanted.error();
+  double complexity = 0;
+  if (!wanted.flat()) {
+    SizedChanges sized = changes_for_nodes(comm, solved.tree, wanted, count, nodes);
+    complexity = sized.complexity;
+    if (sized.bounded) plan.warnings.emplace_back(text_of_bound);
+    if (complexity == 0) warn_above_cap(count, nodes, sized.changes, plan);
+    take(std::move(sized.changes), plan);
+  } else {
+    plan.demands = adapted_splits(solved.tree);
+  }
+  plan.estimates_of_cells = wanted.of_cells(complexity);
+  if (plan.changes_mesh()) return;
+  plan.reason_for_standing = wanted.flat() ? "no variable has a second derivative"
+                                           : "all leaves have the sizes that are wanted of them";
 }
 
 }  // namespace
 
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved) {
-  const MarkFamily family = family_of(comm, options, solved);
   AdaptationPlan plan;
   plan.transfer = options.transfer;
   plan.measured_wall = wall_to_follow(comm, input, options, solved);
   plan.new_heights = other_heights(input, solved.tree.measured_wall, plan.measured_wall);
-  const NodeSearch search(comm, input, plan.measured_wall, solved, family, finest_level(input, options));
-  const ChangedSplits all = search.changes_at(1);
-  ChangedSplits changes = all;
-  const bool bounded = !search.allowed(all);
-  if (bounded) {
-    plan.warnings.emplace_back(
-        "the mesh is kept to what --max-cells or free memory allows: fewer leaves are refined than are "
-        "marked");
-  }
-  if (options.max_nodes || bounded) changes = search.within(options.max_nodes, all);
-  if (options.max_nodes) {
-    const auto [least, nodes] = search.nodes_after(changes);
-    if (nodes > *options.max_nodes && nodes != NodeSearch::beyond) {
-      plan.warnings.push_back(fmt::format(
-          "the mesh has {}{} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them",
-          least < nodes ? "up to " : "", nodes, *options.max_nodes));
-    }
-  }
-  plan.refined = changes.refined;
-  plan.coarsened = changes.coarsened;
-  if (!plan.changes_mesh()) {
-    plan.reason_for_standing = reason_for_standing(comm, options, solved, family, all);
+  const TrialCount count(comm, input, plan.measured_wall);
+  const int finest = finest_level(input, options);
+  if (options.norm)
+    plan_by_sizes(comm, options, solved, count, finest, plan);
+  else
+    plan_by_marks(comm, options, solved, count, finest, plan);
+  if (!plan.changes_mesh())
     plan.warnings.push_back("no leaf is marked, the mesh stays: " + plan.reason_for_standing);
-  }
-  plan.demands = std::move(changes.demands);
-  plan.mean = family.mean();
-  plan.deviation = family.deviation();
   return plan;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,11 @@ struct AdaptationPlan {
   std::vector<SplitDemand> demands;  ///< from this rank's share of leaves
   double mean = 0, deviation = 0;    ///< of log10 of the indicator; 0 for sizes
   std::int64_t refined = 0, coarsened = 0;
-  MeasuredWall measured_wall;  ///< that first heights of layers are to follow; the same on every rank
-  bool new_heights = false;    ///< they differ from those of the last mesh
+  /// Where the options have a norm: that of the interpolation error on the mesh that was solved on.
+  std::optional<double> estimate;
+  CellValues estimates_of_cells;  ///< then also `interpolation_error` and `wanted_size` of its cells
+  MeasuredWall measured_wall;     ///< that first heights of layers are to follow; the same on every rank
+  bool new_heights = false;       ///< they differ from those of the last mesh
   TransferKind transfer = TransferKind::linear;
   std::vector<std::string> warnings;
   std::string reason_for_standing;  ///< where no leaf is marked, why
@@ -29,9 +33,10 @@ struct AdaptationPlan {
 
 /// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where
 /// the number of nodes is bounded or wanted; the nodes are counted on the meshes themselves, unsmoothed
-/// (MeshTrial). Where walls want a y+ and the solution tells friction, first heights follow it, from the next
-/// mesh on if any changes by more than a twentieth.
-/// *Collective.* Throws InputError where the solution has no such variable, or one that is not finite.
+/// (MeshTrial); or, where the options have a norm, sizes wanted of the leaves, of any number of levels, that
+/// lead to a number of nodes. Where walls want a y+ and the solution tells friction, first heights follow it,
+/// from the next mesh on if any changes by more than a twentieth. *Collective.* Throws InputError where the
+/// solution has no such variable, or one that is not finite.
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@ struct CarriedMesh {
   StageTimes times;       ///< those of meshing, and "transfer"
   TransferReport report;  ///< none in a first mesh
   bool morphed = false;   ///< the cells are the old ones
+  std::optional<double> estimate = {};  ///< of the old mesh's interpolation error, where the plan has one
 
   /// The drift of each variable's integral, by its name.
   std::vector<std::pair<std::string, double>> drifts() const;

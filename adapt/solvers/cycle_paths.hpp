@@ -25,6 +25,8 @@ struct CyclePaths {
   std::string tree() const { return folder + "/" + mesh_stem + tree_suffix; }
   std::string walls() const { return folder + "/" + mesh_stem + wall_table_suffix; }
   std::string history() const { return folder + "/" + mesh_stem + history_suffix; }
+  /// Interpolation error and wanted size of each cell.
+  std::string estimate() const { return stem() + ".estimate.vtu"; }
   std::string record() const { return folder + "/record.json"; }
   std::string log() const { return folder + "/log.txt"; }
 };

@@ -42,6 +42,41 @@ void read_thresholds(const CaseTable& table, AdaptOptions& options) {
     table.refuse("coarsen", "lets leaves be refined and coarsened at once; make it larger than -refine");
 }
 
+/// Wanted sizes instead of marks.
+void read_norm(const CaseTable& table, AdaptOptions& options) {
+  options.norm = table.number("norm", {1, 100});
+  options.growth = table.number("growth", {1, 1000, true, false});
+  if (!options.norm) {
+    if (options.growth) table.refuse("growth", "bounds the nodes of wanted sizes; it needs norm");
+    return;
+  }
+  if (options.source != AdaptOptions::Source::variables)
+    table.refuse("norm", "makes sizes from variables; name these in variable, or leave norm out");
+  if (table.has("indicator") && options.indicator != Indicator::hessian)
+    table.refuse("indicator", "must be \"hessian\" with norm, or left out");
+  if (table.has("threshold") && options.threshold != AdaptOptions::Threshold::nodes)
+    table.refuse("threshold", "must be \"nodes\" with norm, or left out");
+  for (const char* key : {"refine", "coarsen"}) {
+    if (table.has(key))
+      table.refuse(key, "does nothing with norm: sizes follow from max_nodes; leave it out");
+  }
+  options.indicator = Indicator::hessian;
+  options.threshold = AdaptOptions::Threshold::nodes;
+  if (!options.max_nodes)
+    table.refuse("norm", "needs max_nodes: the number of nodes for which the error is to be least");
+}
+
+void read_until(const CaseTable& table, AdaptOptions& options) {
+  const auto until = table.table("until");
+  if (!until) return;
+  options.until = {until->number("cl", Range::positive()), until->number("cd", Range::positive()),
+                   until->number("estimate", Range::positive())};
+  until->finish();
+  if (options.until.empty())
+    table.refuse("until", "is empty; give changes of a cycle, as in until = { cl = 1e-3, cd = 1e-4 }");
+  if (options.until.estimate && !options.norm) table.refuse("until", "names the estimate, which needs norm");
+}
+
 }  // namespace
 
 std::optional<AdaptOptions> read_adapt_table(const CaseTable& root) {
@@ -61,6 +96,8 @@ std::optional<AdaptOptions> read_adapt_table(const CaseTable& root) {
     if (*nodes != std::floor(*nodes)) table->refuse("max_nodes", "must be a whole number of nodes");
     options.max_nodes = static_cast<std::int64_t>(*nodes);
   }
+  read_norm(*table, options);
+  read_until(*table, options);
   if (options.threshold == AdaptOptions::Threshold::nodes && !options.max_nodes) {
     table->refuse("threshold", "is \"nodes\", but max_nodes is missing: it is the number to be met");
   }

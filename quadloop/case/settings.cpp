@@ -283,8 +283,8 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
     settings.warnings.push_back(std::move(warning));
   read_output_table(root, case_path, settings);
   root.finish();
-  settings.values = root.values(
-      {"title", "output.prefix", "output.partitions", "adapt.cycles", "solver.timeout", "solver.ranks"});
+  settings.values = root.values({"title", "output.prefix", "output.partitions", "adapt.cycles", "adapt.until",
+                                 "solver.timeout", "solver.ranks"});
   return settings;
 }
 

@@ -90,6 +90,37 @@ TEST(RunInFolder, GoneOnWithItEndsWithTheSameFiles) {
   world().barrier();
 }
 
+TEST(RunInFolder, WithWantedSizesIsGoneOnWithToTheSameFilesAndEndsWhereItHasSettled) {
+  const auto sized = [](int cycles, double until) {
+    AdaptiveCase adaptive = vortex_case(cycles);
+    adaptive.adapt.norm = 2;
+    adaptive.adapt.max_nodes = 400;
+    if (until > 0) adaptive.adapt.until.estimate = until;
+    return adaptive;
+  };
+  const TemporaryFolder folder;
+  Heard whole, begun, resumed, settled, again;
+  const LoopEnd end = whole.run(sized(2, 0), folder.file("whole"), false);
+  EXPECT_FALSE(end.settled);
+  begun.run(sized(1, 0), folder.file("parts"), false);
+  resumed.run(sized(2, 0), folder.file("parts"), true);
+  EXPECT_EQ(resumed.cycles, (std::vector<int>{2}));
+  world().barrier();
+  for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.estimate.vtu"})
+    EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) ==
+                test::bytes_of(folder.file("parts/cycle_02/") + name))
+        << name;
+  // A change of under 1000 times the estimate: after the second cycle. Resumed it stays so.
+  EXPECT_TRUE(settled.run(sized(5, 1000), folder.file("settled"), false).settled);
+  EXPECT_EQ(settled.cycles, (std::vector<int>{0, 1}));
+  EXPECT_TRUE(again.run(sized(5, 1000), folder.file("settled"), true).settled);
+  EXPECT_TRUE(again.cycles.empty());
+  const std::string record = test::bytes_of(folder.file("settled/cycle_01/record.json"));
+  EXPECT_NE(record.find("\"settled\": true"), std::string::npos) << record;
+  EXPECT_NE(record.find("\"estimate\": "), std::string::npos) << record;
+  world().barrier();
+}
+
 /// Laminar flow along the floor of a channel, a few steps of it: too few to be right, enough to have
 /// friction.
 AdaptiveCase floor_case(int cycles) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "adapt/sensor/cells_of_leaves.hpp"
+#include "adapt/sensor/hessians.hpp"
 #include "adapt/sensor/indicator.hpp"
 #include "adapt/sensor/thresholds.hpp"
 #include "mesher/build/build_mesh.hpp"
@@ -88,6 +89,20 @@ TEST(BuiltMesh, LeavesAtAShockAreRefined) {
       if (marked.marks[i] == Mark::coarsen) {
         EXPECT_GT(far, 0);
       }
+    }
+  }
+}
+
+TEST(BuiltMesh, HessiansAreRightAtWallsAndBetweenLevels) {
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    const MeshResult result = round_a_circle(world(), type);
+    ScaledField field;
+    for (const Point p : result.mesh.points) field.values.push_back(p.x * p.x - 3 * p.x * p.y + p.y);
+    const Hessian expected = absolute({2, -3, 0});
+    for (const CellHessian& found : cell_hessians(world(), result.mesh, field, ValuesAt::nodes)) {
+      EXPECT_NEAR(found.mean.xx, expected.xx, 1e-4);
+      EXPECT_NEAR(found.mean.xy, expected.xy, 1e-4);
+      EXPECT_NEAR(found.mean.yy, expected.yy, 1e-4);
     }
   }
 }

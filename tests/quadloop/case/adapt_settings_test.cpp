@@ -42,6 +42,40 @@ TEST_F(Case, AnEmptyTableHasTheDefaults) {
   EXPECT_FALSE(options.max_nodes || options.min);
 }
 
+TEST_F(Case, ReadsWhatWantedSizesFollow) {
+  const AdaptOptions options = *adapt(
+      "[adapt]\nnorm = 2\nmax_nodes = 5000\ngrowth = 1.5\nuntil = { cl = 1e-3, cd = 1e-4, estimate = 0.1 "
+      "}\n");
+  EXPECT_EQ(options.norm, 2);
+  EXPECT_EQ(options.growth, 1.5);
+  EXPECT_EQ(options.threshold, AdaptOptions::Threshold::nodes);
+  EXPECT_EQ(options.until.cl, 1e-3);
+  EXPECT_EQ(options.until.cd, 1e-4);
+  EXPECT_EQ(options.until.estimate, 0.1);
+  const AdaptOptions by_marks = *adapt("[adapt]\nuntil = { cd = 1e-4 }\n");
+  EXPECT_FALSE(by_marks.norm || by_marks.growth || by_marks.until.cl);
+  EXPECT_TRUE(adapt("[adapt]\n")->until.empty());
+}
+
+TEST_F(Case, RefusesWhatWantedSizesDoNotFollow) {
+  const auto expect = [&](const std::string& text, const std::string& key) {
+    EXPECT_NE(refused(text).find("adapt." + key), std::string::npos) << text << refused(text);
+  };
+  expect("norm = 2\n", "norm");
+  expect("norm = 0.5\nmax_nodes = 100\n", "norm");
+  expect("norm = 2\nmax_nodes = 100\nrefine = 1\n", "refine");
+  expect("norm = 2\nmax_nodes = 100\ncoarsen = 1\n", "coarsen");
+  expect("norm = 2\nmax_nodes = 100\nthreshold = \"fraction\"\n", "threshold");
+  expect("norm = 2\nmax_nodes = 100\nindicator = \"difference\"\n", "indicator");
+  expect("norm = 2\nmax_nodes = 100\nvariable = { size = \"h\" }\n", "norm");
+  expect("growth = 2\n", "growth");
+  expect("norm = 2\nmax_nodes = 100\ngrowth = 1\n", "growth");
+  expect("until = {}\n", "until");
+  expect("until = { cm = 1 }\n", "until.cm");
+  expect("until = { cl = 0 }\n", "until.cl");
+  expect("until = { estimate = 0.1 }\n", "until");
+}
+
 TEST_F(Case, ReadsEveryKeyOfAdaptation) {
   const AdaptOptions options = *adapt(
       "[adapt]\ncycles = 3\nvariable = [\"density\", \"pressure\"]\nindicator = \"hessian\"\nthreshold = "

@@ -1,0 +1,61 @@
+#include "adapt/sensor/interpolation_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapt/sensor/hessians.hpp"
+#include "adapt/sensor/scaled_field.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
+#include "mesher/mesh/cells/cells_round_nodes.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+void raise_by_variable(const Communicator& comm, const Mesh& mesh, std::vector<double> values, ValuesAt at,
+                       InterpolationError& error) {
+  const ScaledField scaled = scaled_by_range(comm, std::move(values));
+  if (scaled.constant) return;  // on every rank
+  const std::vector<CellHessian> hessians = cell_hessians(comm, mesh, scaled, at);
+  std::vector<double> means(hessians.size(), 0);
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
+    means[cell] += along(hessians[cell].mean, mesh.point(to) - mesh.point(from)) / 24;
+  });
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    error.mean[i] = std::max(error.mean[i], means[i]);
+    error.bends[i] = std::max(error.bends[i], hessians[i].largest);
+  }
+}
+
+}  // namespace
+
+InterpolationError interpolation_error(const Communicator& comm, const Mesh& mesh, const Field& field) {
+  check_field(comm, mesh, field, FieldSign::any);
+  InterpolationError error;
+  for (const CellShape& shape : cell_shapes(mesh)) error.areas.push_back(shape.area);
+  error.mean.resize(error.areas.size(), 0);
+  error.bends.resize(error.areas.size(), 0);
+  const Field shared = with_copies(comm, mesh, field);
+  for (std::size_t i = 0; i < shared.width(); ++i)
+    raise_by_variable(comm, mesh, shared.column(i), ValuesAt::nodes, error);
+  for (std::size_t i = 0; i < field.cells.width(); ++i)
+    raise_by_variable(comm, mesh, field.cells.column(i), ValuesAt::cells, error);
+  return error;
+}
+
+double norm_of(const Communicator& comm, const InterpolationError& error, double p) {
+  std::vector<double> terms;
+  for (std::size_t i = 0; i < error.mean.size(); ++i)
+    terms.push_back(error.areas[i] * std::pow(error.mean[i], p));
+  return std::pow(reproducible_sum(comm, terms), 1 / p);
+}
+
+std::vector<double> cell_densities(const InterpolationError& error, double p) {
+  std::vector<double> densities;
+  densities.reserve(error.bends.size());
+  for (const double bend : error.bends) densities.push_back(std::pow(bend, p / (p + 1)));
+  return densities;
+}
+
+}  // namespace quadloop
