@@ -20,9 +20,9 @@ SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, Tree
 struct CarriedMesh {
   GeneratedMesh generated;
   Field start;
-  StageTimes times;       ///< those of meshing, and "transfer"
-  TransferReport report;  ///< none in a first mesh
-  bool morphed = false;   ///< the cells are the old ones
+  StageTimes times;                     ///< those of meshing, and "transfer"
+  TransferReport report;                ///< none in a first mesh
+  bool morphed = false;                 ///< the cells are the old ones
   std::optional<double> estimate = {};  ///< of the old mesh's interpolation error, where the plan has one
 
   /// The drift of each variable's integral, by its name.

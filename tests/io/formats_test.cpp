@@ -17,9 +17,8 @@ using Names = std::vector<std::string>;
 TEST(Formats, AreListedByWhatTheyHold) {
   EXPECT_EQ(formats_for({}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh",
                                     "msh41", "b8.ugrid", "lb8.ugrid", "ugrid", "polyMesh", "csv", "dat"}));
-  EXPECT_EQ(formats_for({Content::solid}),
-            (Names{"cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41", "b8.ugrid", "lb8.ugrid",
-                   "polyMesh"}));
+  EXPECT_EQ(formats_for({Content::solid}), (Names{"cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
+                                                  "b8.ugrid", "lb8.ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh",
                                                  "msh", "msh41", "ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu"}));
