@@ -14,6 +14,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"
+#include "mesher/geometry/assemble/mirrored_outline.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 #include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
@@ -164,6 +165,8 @@ void read_mesh_table(const CaseTable& root, Settings& settings) {
   const auto type = table->choice("type", {"hybrid", "delaunay"});
   if (type == "delaunay") settings.mesh.type = MeshType::delaunay;
   if (table->choice("quads", {"all", "parallel"}) == "parallel") settings.mesh.quads = QuadChoice::parallel;
+  if (const auto axis = table->choice("mirror", {"x", "y"}))
+    settings.mesh.mirror = *axis == "x" ? MirrorAxis::x : MirrorAxis::y;
   settings.mesh.snap = table->number("snap", {0, 0.5, false, true}).value_or(settings.mesh.snap);
   if (const auto root_values = table->numbers("root", 5)) {
     const auto& r = *root_values;
@@ -304,12 +307,15 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     apply(input.transform, of_file);
     std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
   }
+  if (settings.mesh.mirror) fit_to_mirror(chains, *settings.mesh.mirror, warnings);
   if (settings.far_field) {
     const auto& [half_width, where] = *settings.far_field;
     const Box square = far_field_box(chains, half_width, where);
     add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
   }
-  return assemble(std::move(chains), settings.outline, warnings);
+  Geometry geometry = assemble(std::move(chains), settings.outline, warnings);
+  if (settings.mesh.mirror) require_mirror_images(geometry, *settings.mesh.mirror);
+  return geometry;
 }
 
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
