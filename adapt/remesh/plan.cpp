@@ -8,6 +8,7 @@
 
 #include "adapt/remesh/followed_walls.hpp"
 #include "adapt/remesh/mark_family.hpp"
+#include "adapt/remesh/mirrored_leaves.hpp"
 #include "adapt/remesh/restart.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/build/mesh_estimate.hpp"
@@ -27,10 +28,14 @@ class NodeSearch {
         limit_{input.mesh.limit},
         solved_{solved},
         family_{family},
-        finest_{finest} {}
+        finest_{finest},
+        mirror_{input.mesh.mirror} {}
 
   ChangedSplits changes_at(double at) const {
-    return changed_splits(comm_, solved_.tree, family_.marks(at), finest_);
+    ChangedSplits changes = changed_splits(comm_, solved_.tree, family_.marks(at), finest_);
+    if (mirror_)  // the last mesh may be one without
+      changes.demands = with_images(*mirror_, solved_.tree.attributes, std::move(changes.demands));
+    return changes;
   }
 
   /// As many as no mesh has where the mesh would not be allowed.
@@ -91,6 +96,7 @@ class NodeSearch {
   const SolvedMesh& solved_;
   const MarkFamily& family_;
   int finest_;
+  std::optional<MirrorAxis> mirror_;
 };
 
 int finest_level(const MeshInput& input, const AdaptOptions& options) {
@@ -130,9 +136,10 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
 }
 
 /// What is wrong with the field is told with its file. *Collective.*
-MarkFamily family_of(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved) {
+MarkFamily family_of(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
+                     std::optional<MirrorAxis> mirror) {
   try {
-    return {comm, options, solved};
+    return {comm, options, solved, mirror};
   } catch (const InputError& fault) {  // the same one on every rank
     throw InputError(solved.file.empty() ? fault.what() : solved.file + ": " + fault.what());
   }
@@ -142,7 +149,7 @@ MarkFamily family_of(const Communicator& comm, const AdaptOptions& options, cons
 
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved) {
-  const MarkFamily family = family_of(comm, options, solved);
+  const MarkFamily family = family_of(comm, options, solved, input.mesh.mirror);
   AdaptationPlan plan;
   plan.transfer = options.transfer;
   plan.measured_wall = wall_to_follow(comm, input, options, solved);
