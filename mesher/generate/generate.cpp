@@ -15,7 +15,7 @@
 #include "mesher/generate/refine_front.hpp"
 #include "mesher/layers/add_layers.hpp"
 #include "mesher/layers/add_strips.hpp"
-#include "smoother/mirror/mirror_images.hpp"
+#include "mesher/mesh/mirror_images.hpp"
 #include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {

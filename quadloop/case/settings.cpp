@@ -271,6 +271,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   read_smooth_table(root, settings);
   settings.adapt = read_adapt_table(root);
   read_solver_table(root, settings.solver);
+  settings.solver.euler.mirror = settings.mesh.mirror;
   settings.warnings = layer_settings.unused(settings.solver);
   if (flow && settings.solver.kind != SolverSettings::Kind::euler) settings.stream = flow->stream();
   if (settings.adapt) settings.adapt->wall_flow = layer_settings.wall_flow(settings.solver);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
-#include "smoother/mirror/mirror_images.hpp"
+#include "mesher/mesh/mirror_images.hpp"
 
 namespace quadloop {
 

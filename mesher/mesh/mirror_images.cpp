@@ -1,4 +1,4 @@
-#include "smoother/mirror/mirror_images.hpp"
+#include "mesher/mesh/mirror_images.hpp"
 
 #include <fmt/format.h>
 
@@ -62,22 +62,29 @@ std::vector<Partner> find_cell_images(const Communicator& comm, const Mesh& mesh
 
 }  // namespace
 
-NodeImages find_node_images(const Communicator& comm, const Mesh& mesh, MirrorAxis axis) {
-  const auto owned = ids_below(NodeId{mesh.owned_nodes});
+NodeImages node_images(const Communicator& comm, std::int64_t first_node, std::span<const Point> owned,
+                       MirrorAxis axis) {
   std::vector<PairKey<2>> keys;
-  keys.reserve(mesh.owned_nodes);
-  for (const NodeId node : owned)
-    keys.push_back({key_of(mesh.point(node)), key_of(image_of(axis, mesh.point(node)))});
-  const std::vector<Partner> partners = find_partners<2>(comm, keys);
-  const RankRanges nodes(comm, mesh.first_node);
-  NodeImages images(mesh.points.size());
+  keys.reserve(owned.size());
+  for (const Point p : owned) keys.push_back({key_of(p), key_of(image_of(axis, p))});
+  const RankRanges nodes(comm, first_node);
+  NodeImages images;
+  images.reserve(owned.size());
+  for (const Partner& partner : find_partners<2>(comm, keys))
+    images.push_back(partner.found() ? GlobalNodeId{nodes.begin(partner.rank) + partner.item}
+                                     : GlobalNodeId{});
+  return images;
+}
+
+NodeImages find_node_images(const Communicator& comm, const Mesh& mesh, MirrorAxis axis) {
+  NodeImages images =
+      node_images(comm, mesh.first_node, std::span(mesh.points).first(mesh.owned_nodes), axis);
   Point lacking{nowhere, nowhere};
-  for (const NodeId node : owned) {
-    const Partner& partner = partners[node.value()];
-    if (partner.found()) images[node] = GlobalNodeId{nodes.begin(partner.rank) + partner.item};
-    if (!partner.found()) lacking = std::min(lacking, mesh.point(node));
+  for (const NodeId node : images.ids()) {
+    if (!images[node].valid()) lacking = std::min(lacking, mesh.point(node));
   }
   refuse_lacking(comm, axis, "node", lacking);
+  images.resize(mesh.points.size());
   NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.copies).update(images);
   return images;
 }

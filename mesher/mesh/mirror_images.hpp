@@ -13,9 +13,13 @@ namespace quadloop {
 
 using NodeImages = IdVector<NodeId, GlobalNodeId>;
 
-/// The mirror image of each of the mesh's points, owned and copies, by its number over all ranks. A node lies
-/// where its image does, mirrored, to the last bit. Throws InputError, naming the first place, where a node
-/// has none. *Collective.*
+/// The mirror image of each of this rank's owned nodes, by its number over all ranks: the node that lies at
+/// the node's place, mirrored, to the last bit; no node where there is none. *Collective.*
+NodeImages node_images(const Communicator& comm, std::int64_t first_node, std::span<const Point> owned,
+                       MirrorAxis axis);
+
+/// The same for each of the mesh's points, owned and copies. Throws InputError, naming the first place, where
+/// a node has none. *Collective.*
 NodeImages find_node_images(const Communicator& comm, const Mesh& mesh, MirrorAxis axis);
 
 /// Where the image of each of this rank's triangles stands, by its index there. Throws InputError, naming the
