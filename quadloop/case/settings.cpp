@@ -167,6 +167,15 @@ void read_mesh_table(const CaseTable& root, Settings& settings) {
   if (table->choice("quads", {"all", "parallel"}) == "parallel") settings.mesh.quads = QuadChoice::parallel;
   if (const auto axis = table->choice("mirror", {"x", "y"}))
     settings.mesh.mirror = *axis == "x" ? MirrorAxis::x : MirrorAxis::y;
+  if (const auto name = table->text("half")) {
+    if (!settings.mesh.mirror)
+      table->refuse("half", "needs mirror = \"x\" or \"y\" in the same table: of what it is the half");
+    if (name->empty()) table->refuse("half", "is empty; name the boundary along the axis");
+    settings.half = HalfDomain{*settings.mesh.mirror, *name};
+    settings.mesh.mirror.reset();  // the half is no image of itself
+    settings.outline.rules.insert(settings.outline.rules.begin(),
+                                  {*name, {}, {}, "symmetry", table->place("half"), false, true});
+  }
   settings.mesh.snap = table->number("snap", {0, 0.5, false, true}).value_or(settings.mesh.snap);
   if (const auto root_values = table->numbers("root", 5)) {
     const auto& r = *root_values;
@@ -308,15 +317,20 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     apply(input.transform, of_file);
     std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
   }
-  if (settings.mesh.mirror) fit_to_mirror(chains, *settings.mesh.mirror, warnings);
+  const std::optional<MirrorAxis> axis = settings.half ? settings.half->axis : settings.mesh.mirror;
+  if (axis) fit_to_mirror(chains, *axis, warnings);
   if (settings.far_field) {
     const auto& [half_width, where] = *settings.far_field;
     const Box square = far_field_box(chains, half_width, where);
     add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
   }
-  Geometry geometry = assemble(std::move(chains), settings.outline, warnings);
-  if (settings.mesh.mirror) require_mirror_images(geometry, *settings.mesh.mirror);
-  return geometry;
+  AssembleOptions options = settings.outline;
+  if (settings.half)  // of the half alone there is a boundary of that name
+    std::erase_if(options.rules, [&](const auto& rule) { return rule.pattern == settings.half->boundary; });
+  Geometry geometry = assemble(std::move(chains), options, warnings);
+  if (axis) require_mirror_images(geometry, *axis);
+  if (!settings.half) return geometry;
+  return assemble(half_outline(geometry, *axis, settings.half->boundary), settings.outline, warnings);
 }
 
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {

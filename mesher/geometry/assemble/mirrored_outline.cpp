@@ -37,13 +37,6 @@ class PointsAbove {
     return nearest;
   }
 
-  /// Of all of them; infinite where there are none.
-  double distance(Point p) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Point q : points_) least = std::min(least, length(q - p));
-    return least;
-  }
-
  private:
   std::vector<Point> points_;
   double tolerance_;
@@ -59,20 +52,33 @@ PointsAbove points_above(const std::vector<Chain>& chains, MirrorAxis axis, int 
   return {std::move(points), tolerance};
 }
 
-void refuse_point(const Chain& chain, Point p, MirrorAxis axis, const PointsAbove& others, const Box& box) {
+/// Where the image in the line through the middle of the chains' box is a point of them, the outline may be
+/// symmetric about that: what is to be done then.
+std::string advice_beside_axis(const std::vector<Chain>& chains, Point p, MirrorAxis axis, const Box& box) {
+  const double middle = height_over(axis, box.centre()), size = std::max(box.width(), box.height());
+  if (std::abs(middle) <= mirror_rounding * size) return {};
+  const Point shift = axis == MirrorAxis::x ? Point{0, 2 * middle} : Point{2 * middle, 0};
+  const Point image = image_of(axis, p) + shift;
+  const auto has_it = [&](const Chain& chain) {
+    return std::ranges::any_of(chain.points, [&](Point q) { return gap(q, image) <= 1e-6 * size; });
+  };
+  if (std::ranges::none_of(chains, has_it)) return {};
+  return fmt::format("; its middle is at {} = {:.17g}: move that onto the axis by geometry.translate",
+                     axis == MirrorAxis::x ? "y" : "x", middle);
+}
+
+[[noreturn]] void refuse_point(const std::vector<Chain>& chains, const Chain& chain, Point p, MirrorAxis axis,
+                               const Box& box) {
   const Point image = image_of(axis, p);
-  const double middle = height_over(axis, box.centre());
-  const std::string moved =
-      std::abs(middle) <= mirror_rounding * std::max(box.width(), box.height())
-          ? ""
-          : fmt::format("; the outline's middle is at {} = {:g}: geometry.translate moves it onto the axis",
-                        axis == MirrorAxis::x ? "y" : "x", middle);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Chain& other : chains)
+    for (const Point q : other.points) nearest = std::min(nearest, length(q - image));
   throw InputError(
       fmt::format("{}: boundary {}: the point ({}, {}) has no mirror image at ({}, {}), where mesh.mirror = "
                   "\"{}\" wants one; the nearest point is {:.3g} away; make the outline symmetric, or take "
                   "the key out{}",
-                  chain.source, chain.name, p.x, p.y, image.x, image.y, name_of(axis),
-                  others.distance(side_of(axis, p) > 0 ? p : image), moved));
+                  chain.source, chain.name, p.x, p.y, image.x, image.y, name_of(axis), nearest,
+                  advice_beside_axis(chains, p, axis, box)));
 }
 
 Box box_of(const std::vector<Chain>& chains) {
@@ -107,7 +113,7 @@ void fit_to_mirror(std::vector<Chain>& chains, MirrorAxis axis, Warnings& warnin
       if (side == 0) continue;
       const PointsAbove& others = side > 0 ? below : above;
       const Point* image = others.find(side > 0 ? p : image_of(axis, p));
-      if (image == nullptr) refuse_point(chain, p, axis, others, box);
+      if (image == nullptr) refuse_point(chains, chain, p, axis, box);
       if (side < 0) move(p, image_of(axis, *image));
     }
   }
@@ -173,6 +179,57 @@ void require_mirror_images(const Geometry& geometry, MirrorAxis axis) {
                       "image of",
                       geometry.boundary(image->boundary).name));
   }
+}
+
+namespace {
+
+/// The outline's parts above the axis, each of one boundary; open ones begin and end on the axis or where the
+/// next part goes on.
+std::vector<Chain> parts_above(const Geometry& geometry, MirrorAxis axis) {
+  std::vector<Chain> parts;
+  const auto on_axis = [&](Point p) { return axis == MirrorAxis::x ? Point{p.x, 0} : Point{0, p.y}; };
+  for (std::int32_t s = 0; s < geometry.size(); ++s) {
+    Point from = geometry.point(s), to = geometry.point(geometry.next(s));
+    if (side_of(axis, from) <= 0 && side_of(axis, to) <= 0) continue;
+    if (side_of(axis, from) < 0) from = on_axis(from);  // its own image: at a right angle to the axis
+    if (side_of(axis, to) < 0) to = on_axis(to);
+    const std::string& name = geometry.boundary(geometry.boundary_of(s)).name;
+    const bool goes_on = !parts.empty() && parts.back().name == name && parts.back().points.back() == from &&
+                         geometry.previous(s) == s - 1;
+    if (!goes_on) parts.push_back({name, true, {from}, "half of the outline"});
+    parts.back().points.push_back(to);
+  }
+  for (Chain& part : parts) {
+    part.open = part.points.front() != part.points.back();
+    if (!part.open) part.points.pop_back();
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<Chain> half_outline(const Geometry& geometry, MirrorAxis axis, const std::string& name) {
+  std::vector<Chain> chains = parts_above(geometry, axis);
+  struct Meeting {
+    double along;  ///< the way in which the domain above lies to the left
+    Point point;
+    bool leaves;  ///< the axis
+  };
+  std::vector<Meeting> meetings;
+  const auto add = [&](Point p, bool leaves) {
+    if (side_of(axis, p) == 0) meetings.push_back({axis == MirrorAxis::x ? p.x : -p.y, p, leaves});
+  };
+  for (const Chain& chain : chains) {
+    if (!chain.open) continue;
+    add(chain.points.front(), true);
+    add(chain.points.back(), false);
+  }
+  std::ranges::sort(meetings, {}, [](const Meeting& m) { return std::pair{m.along, m.leaves}; });
+  for (std::size_t i = 0; i + 1 < meetings.size(); ++i) {
+    if (meetings[i].leaves || !meetings[i + 1].leaves) continue;
+    chains.push_back({name, true, {meetings[i].point, meetings[i + 1].point}, "the mirror axis"});
+  }
+  return chains;
 }
 
 }  // namespace quadloop

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mesher/geometry/assemble/assemble.hpp"
@@ -20,5 +21,10 @@ void fit_to_mirror(std::vector<Chain>& chains, MirrorAxis axis, Warnings& warnin
 /// segment has its image, of the same boundary or of one that asks for the same spacing, corners and layers
 /// and is the image of this one everywhere.
 void require_mirror_images(const Geometry& geometry, MirrorAxis axis);
+
+/// Of an outline that is its own mirror image the half above the axis (on its right: of the y-axis), as open
+/// chains: the outline's parts there, and between them along the axis those of a boundary `name`. Where the
+/// outline crosses the axis within a segment, as a blunt edge may, there is a point then.
+std::vector<Chain> half_outline(const Geometry& geometry, MirrorAxis axis, const std::string& name);
 
 }  // namespace quadloop

@@ -70,7 +70,9 @@ TEST(MirroredOutline, OneBesideTheAxisIsToBeMoved) {
     for (Point& p : chain.points) p.y += 0.5;
   Warnings warnings;
   const std::string text = refusal([&] { fit_to_mirror(chains, MirrorAxis::x, warnings); });
-  EXPECT_NE(text.find("the outline's middle is at y = 0.5: geometry.translate"), std::string::npos) << text;
+  EXPECT_NE(text.find("its middle is at y = 0.5: move that onto the axis by geometry.translate"),
+            std::string::npos)
+      << text;
 }
 
 TEST(MirroredOutline, BoundariesMayBeEachOthersImages) {
@@ -98,6 +100,36 @@ TEST(MirroredOutline, AnImageIsOneBoundary) {
   const std::string text =
       refusal([&] { require_mirror_images(assemble(chains, {}, warnings), MirrorAxis::x); });
   EXPECT_NE(text.find("hold the mirror images of it"), std::string::npos) << text;
+}
+
+/// A box round a wedge on the axis, whose blunt end the axis cuts in the middle, and round a pair beside it.
+std::vector<Chain> wedge_in_box() {
+  std::vector<Chain> chains = pair_in_box();
+  chains.push_back({"wedge", false, {{-1, 0}, {3, 0.5}, {3, -0.5}}, "w"});
+  return chains;
+}
+
+TEST(MirroredOutline, ItsHalfHasABoundaryAlongTheAxis) {
+  Warnings warnings;
+  for (const bool turned : {false, true}) {
+    std::vector<Chain> chains = wedge_in_box();
+    for (Chain& chain : chains)
+      for (Point& p : chain.points)
+        p = turned ? Point{p.y, -p.x} : p;  // the upper half becomes the right one
+    const MirrorAxis axis = turned ? MirrorAxis::y : MirrorAxis::x;
+    const Geometry half = assemble(half_outline(assemble(chains, {}, warnings), axis, "cut"), {}, warnings);
+    EXPECT_EQ(half.loop_count(), 2) << "the box with half the wedge, the upper one of the pair";
+    double cut = 0;
+    for (std::int32_t s = 0; s < half.size(); ++s) {
+      const Point from = half.point(s), to = half.point(half.next(s));
+      EXPECT_GE(side_of(axis, from), 0);
+      const bool along = side_of(axis, from) == 0 && side_of(axis, to) == 0;
+      EXPECT_EQ(half.boundary(half.boundary_of(s)).name == "cut", along);
+      if (along) cut += turned ? from.y - to.y : to.x - from.x;
+    }
+    EXPECT_EQ(cut, 4) << "3 before the wedge, 1 behind it; the domain to its left";
+    for (const Boundary& boundary : half.boundaries()) EXPECT_NE(boundary.name, "lower");
+  }
 }
 
 }  // namespace
