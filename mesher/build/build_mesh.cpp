@@ -88,7 +88,8 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   const LeafGraph graph = refine_forest(comm, sizes, result.report.estimate.leaves);
 
   times.begin("cutting");
-  const CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap);
+  const CutForest cut =
+      cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap, options.mirror);
 
   times.begin("mesh");
   assemble_mesh(comm, geometry, sizes, graph, cut, result);

@@ -2,7 +2,7 @@
 """mesh.mirror: smoothed meshes of both types are their own mirror images, bit for bit, on several numbers of ranks; outlines and
 sizes that are none are refused; with --adapt cycles keep it, and the built-in solver finds no lift at zero incidence.
 
-    run_mirror.py --quadloop PROGRAM --case CASE.toml [--axis x|y] [--ranks 1 3]
+    run_mirror.py --quadloop PROGRAM --case CASE.toml [--axis x|y] [--ranks 1 3] [--set KEY=VALUE ...]
     run_mirror.py --quadloop PROGRAM --case CASE.toml --refusals
     run_mirror.py --quadloop PROGRAM --case CASE.toml --adapt [--mach 0.8 0.5] [--cycles 3] [--ranks 1]
 """
@@ -33,7 +33,7 @@ def mesh_both_types(args, folder):
         first = None
         for ranks in args.ranks:
             prefix = folder / f"{mesh_type}_{ranks}"
-            mesh_case(args.quadloop, args.case, prefix, ranks, ["--type", mesh_type, "--set", f'mesh.mirror="{args.axis}"'])
+            mesh_case(args.quadloop, args.case, prefix, ranks, ["--type", mesh_type, "--set", f'mesh.mirror="{args.axis}"', *args.set])
             found = [digest(f"{prefix}{suffix}") for suffix in (".mesh", ".tree.h5")]
             first = first or found
             if found != first:
@@ -87,6 +87,7 @@ def main():
     parser.add_argument("--case", required=True, type=Path)
     parser.add_argument("--axis", choices=MIRRORS, default="x")
     parser.add_argument("--ranks", type=int, nargs="+", default=[1])
+    parser.add_argument("--set", nargs="+", default=[], help="more settings of the case")
     parser.add_argument("--refusals", action="store_true")
     parser.add_argument("--adapt", action="store_true")
     parser.add_argument("--mach", type=float, nargs="+", default=[0.8, 0.5])
