@@ -9,12 +9,10 @@
 #include "flow/quantities/flow_quantities.hpp"
 #include "io/formats.hpp"
 #include "io/input/case_file.hpp"
-#include "io/input/geometry_file.hpp"
 #include "io/parts/part_files.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"
-#include "mesher/geometry/assemble/mirrored_outline.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 #include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
@@ -252,16 +250,6 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
   table->finish();
 }
 
-/// The far field where a saved tree has it, if its root is one of that size.
-Box saved_far_field(const Box& square, const TreeAttributes& saved) {
-  constexpr double rounding = 1e-9;
-  const Point low{saved.root_x, saved.root_y};
-  const bool is_root = saved.trees_x == 1 && saved.trees_y == 1 &&
-                       std::abs(square.width() - saved.tree_edge) <= rounding * saved.tree_edge;
-  if (!is_root || (square.low == low && square.width() == saved.tree_edge)) return square;
-  return {low, low + Point{saved.tree_edge, saved.tree_edge}};
-}
-
 }  // namespace
 
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments) {
@@ -301,36 +289,6 @@ const AdaptOptions& adapt_options(const Settings& settings, const std::string& c
 std::string format_suffix_of(const std::string& prefix) {
   const std::string suffix = std::filesystem::path(prefix).extension();
   return format_of(prefix) != nullptr || suffix == ".h5" ? suffix : std::string();
-}
-
-Geometry load_geometry(const Settings& settings, Warnings& warnings,
-                       const std::optional<TreeAttributes>& saved) {
-  std::vector<Chain> chains;
-  for (const GeometryInput& input : settings.files) {
-    std::error_code no_such_file;
-    if (!std::filesystem::exists(input.path, no_such_file)) {
-      throw InputError(fmt::format(
-          "{}: there is no file '{}'; check the name, which is relative to the case file's folder",
-          input.where, input.path));
-    }
-    std::vector<Chain> of_file = read_geometry(input.path, warnings);
-    apply(input.transform, of_file);
-    std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
-  }
-  const std::optional<MirrorAxis> axis = settings.half ? settings.half->axis : settings.mesh.mirror;
-  if (axis) fit_to_mirror(chains, *axis, warnings);
-  if (settings.far_field) {
-    const auto& [half_width, where] = *settings.far_field;
-    const Box square = far_field_box(chains, half_width, where);
-    add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
-  }
-  AssembleOptions options = settings.outline;
-  if (settings.half)  // of the half alone there is a boundary of that name
-    std::erase_if(options.rules, [&](const auto& rule) { return rule.pattern == settings.half->boundary; });
-  Geometry geometry = assemble(std::move(chains), options, warnings);
-  if (axis) require_mirror_images(geometry, *axis);
-  if (!settings.half) return geometry;
-  return assemble(half_outline(geometry, *axis, settings.half->boundary), settings.outline, warnings);
 }
 
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
