@@ -14,6 +14,7 @@
 #include "smoother/fit_to_layers.hpp"
 #include "smoother/level_lines.hpp"
 #include "smoother/rings.hpp"
+#include "smoother/smooth_mirrored.hpp"
 #include "smoother/sweeper.hpp"
 
 namespace quadloop {
@@ -315,6 +316,11 @@ SmoothOptions sparing_parallelograms(SmoothOptions options) {
 }
 
 SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
+  if (options.mirror) {
+    return smooth_mirrored(comm, mesh, options, [&](Mesh& half, const SmoothOptions& of_half) {
+      return smooth_mesh(comm, half, of_half);
+    });
+  }
   const BinaryUnit unit(comm, mesh);
   if (unit.is_one()) return smooth_ordinary(comm, mesh, options);
   SmoothOptions scaled_options = options;

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "mesher/delaunay/tie_order.hpp"
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "smoother/node/method.hpp"
 #include "smoother/objective/condition_number.hpp"
@@ -36,6 +38,7 @@ struct SmoothOptions {
   std::vector<std::int32_t> triangle_to_block;
   bool keep_slots = true;  ///< triangles made by flips take the slots in the order that become free, else
                            ///< those beside them; not with blocks
+  std::optional<MirrorAxis> mirror;  ///< the mesh is its own mirror image in this axis, and stays so
   std::vector<CellTarget> targets;  ///< the shape of each own cell, triangles, then quads; or none at all for
                                     ///< ideal ones. Not with `delaunay`
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "adapt/remesh/mirrored_leaves.hpp"
 #include "mesher/generate/outside_layers.hpp"
 
 namespace quadloop {
@@ -15,6 +16,7 @@ MeasuredWall wall_to_follow(const Communicator& comm, const MeshInput& input, co
   }
   MeasuredWall measured =
       measured_friction(comm, solved.mesh, solved.solution, walls, *options.wall_flow, solved.file);
+  if (input.mesh.mirror) agree_with_images(*input.mesh.mirror, measured);
   return measured.empty() ? solved.tree.measured_wall : measured;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapt/remesh/mirrored_leaves.hpp"
 #include "adapt/sensor/wanted_size.hpp"
 #include "mesher/base/error.hpp"
 
@@ -36,10 +37,13 @@ ThresholdRule rule_of(const AdaptOptions& options) {
 
 }  // namespace
 
-MarkFamily::MarkFamily(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved)
+MarkFamily::MarkFamily(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
+                       std::optional<MirrorAxis> mirror)
     : solved_{solved},
       by_size_{options.source == AdaptOptions::Source::size},
       values_{leaf_values(comm, options, solved)} {
+  if (mirror)
+    agree_with_images(comm, *mirror, solved.tree, by_size_ ? OfImages::smaller : OfImages::larger, values_);
   if (by_size_) return;
   order_.emplace(comm, solved.tree.leaves, values_);
   statistics_ = statistics_of(comm, *order_);

@@ -7,6 +7,7 @@
 #include "adapt/remesh/solved_mesh.hpp"
 #include "adapt/sensor/ordered_values.hpp"
 #include "adapt/sensor/thresholds.hpp"
+#include "mesher/geometry/mirror_axis.hpp"
 
 namespace quadloop {
 
@@ -15,9 +16,10 @@ namespace quadloop {
 /// to sixteenfold); towards -1 ever more leaves are coarsened, in the end all.
 class MarkFamily {
  public:
-  /// The communicator and what is solved must outlive the family. *Collective.* Throws InputError as
-  /// plan_adaptation does.
-  MarkFamily(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved);
+  /// The communicator and what is solved must outlive the family. With a mirror axis leaves that are each
+  /// other's images are marked alike. *Collective.* Throws InputError as plan_adaptation does.
+  MarkFamily(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
+             std::optional<MirrorAxis> mirror = {});
 
   /// From -1 to 1. *Collective.*
   std::vector<Mark> marks(double at) const;

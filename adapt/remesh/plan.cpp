@@ -8,6 +8,7 @@
 
 #include "adapt/remesh/followed_walls.hpp"
 #include "adapt/remesh/mark_family.hpp"
+#include "adapt/remesh/mirrored_leaves.hpp"
 #include "adapt/remesh/restart.hpp"
 #include "adapt/remesh/trial_count.hpp"
 #include "adapt/remesh/wanted_levels.hpp"
@@ -21,11 +22,19 @@ namespace {
 class NodeSearch {
  public:
   NodeSearch(const Communicator& comm, const TrialCount& count, const SolvedMesh& solved,
-             const MarkFamily& family, int finest)
-      : comm_{comm}, count_{count}, solved_{solved}, family_{family}, finest_{finest} {}
+             const MarkFamily& family, int finest, std::optional<MirrorAxis> mirror)
+      : comm_{comm},
+        count_{count},
+        solved_{solved},
+        family_{family},
+        finest_{finest},
+        mirror_{mirror} {}
 
   ChangedSplits changes_at(double at) const {
-    return changed_splits(comm_, solved_.tree, family_.marks(at), finest_);
+    ChangedSplits changes = changed_splits(comm_, solved_.tree, family_.marks(at), finest_);
+    if (mirror_)  // the last mesh may be one without
+      changes.demands = with_images(*mirror_, solved_.tree.attributes, std::move(changes.demands));
+    return changes;
   }
 
   /// The largest meshes within the cap and within what is allowed, as far as they are found; the one of the
@@ -54,6 +63,7 @@ class NodeSearch {
   const SolvedMesh& solved_;
   const MarkFamily& family_;
   int finest_;
+  std::optional<MirrorAxis> mirror_;
 };
 
 int finest_level(const MeshInput& input, const AdaptOptions& options) {
@@ -123,9 +133,9 @@ void warn_above_cap(const TrialCount& count, std::int64_t cap, const ChangedSpli
 }
 
 void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
-                   const TrialCount& count, int finest, AdaptationPlan& plan) {
-  const auto family = made_from<MarkFamily>(comm, options, solved);
-  const NodeSearch search(comm, count, solved, family, finest);
+                   const TrialCount& count, int finest, std::optional<MirrorAxis> mirror, AdaptationPlan& plan) {
+  const auto family = made_from<MarkFamily>(comm, options, solved, mirror);
+  const NodeSearch search(comm, count, solved, family, finest, mirror);
   const ChangedSplits all = search.changes_at(1);
   ChangedSplits changes = all;
   const bool bounded = !count.allowed(all);
@@ -141,8 +151,8 @@ void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const 
 
 /// By the sizes that make the L^p norm of the interpolation error least.
 void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
-                   const TrialCount& count, int finest, AdaptationPlan& plan) {
-  const auto wanted = made_from<WantedLevels>(comm, options, solved, finest);
+                   const TrialCount& count, int finest, std::optional<MirrorAxis> mirror, AdaptationPlan& plan) {
+  const auto wanted = made_from<WantedLevels>(comm, options, solved, finest, mirror);
   std::int64_t nodes = *options.max_nodes;
   if (options.growth) {
     const double grown = std::floor(*options.growth * static_cast<double>(solved.tree.attributes.nodes));
@@ -151,7 +161,7 @@ void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const 
   plan.estimate = wanted.error();
   double complexity = 0;
   if (!wanted.flat()) {
-    SizedChanges sized = changes_for_nodes(comm, solved.tree, wanted, count, nodes);
+    SizedChanges sized = changes_for_nodes(wanted, count, nodes);
     complexity = sized.complexity;
     if (sized.bounded) plan.warnings.emplace_back(text_of_bound);
     if (complexity == 0) warn_above_cap(count, nodes, sized.changes, plan);
@@ -176,9 +186,9 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   const TrialCount count(comm, input, plan.measured_wall);
   const int finest = finest_level(input, options);
   if (options.norm)
-    plan_by_sizes(comm, options, solved, count, finest, plan);
+    plan_by_sizes(comm, options, solved, count, finest, input.mesh.mirror, plan);
   else
-    plan_by_marks(comm, options, solved, count, finest, plan);
+    plan_by_marks(comm, options, solved, count, finest, input.mesh.mirror, plan);
   if (!plan.changes_mesh())
     plan.warnings.push_back("no leaf is marked, the mesh stays: " + plan.reason_for_standing);
   return plan;

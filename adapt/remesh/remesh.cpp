@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "adapt/remesh/mirrored_leaves.hpp"
 #include "adapt/remesh/restart.hpp"
 #include "io/loaded/loaded_mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -42,6 +43,8 @@ CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const A
 AdaptationPlan standing_plan(const TreeRecord& tree, const MeshInput& input) {
   AdaptationPlan plan;
   plan.demands = standing_splits(tree, input);
+  if (input.mesh.mirror)
+    plan.demands = with_images(*input.mesh.mirror, tree.attributes, std::move(plan.demands));
   plan.measured_wall = tree.measured_wall;
   return plan;
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "adapt/remesh/mirrored_leaves.hpp"
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/interpolation_error.hpp"
 #include "adapt/sensor/wanted_size.hpp"
@@ -57,13 +59,14 @@ ChangedSplits splits_for_levels(const Communicator& comm, const TreeRecord& tree
 }
 
 WantedLevels::WantedLevels(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
-                           int finest_level)
-    : comm_{comm}, tree_{solved.tree}, finest_{finest_level}, norm_{*options.norm} {
+                           int finest_level, std::optional<MirrorAxis> mirror)
+    : comm_{comm}, tree_{solved.tree}, finest_{finest_level}, mirror_{mirror}, norm_{*options.norm} {
   const Field field = selected(solved.solution, options.variables, "adapt.variable");
   InterpolationError error = interpolation_error(comm, solved.mesh, field);
   error_ = norm_of(comm, error, norm_);
   cell_densities_ = cell_densities(error, norm_);
   densities_ = CellsOfLeaves(comm, solved.mesh, tree_.leaves).largest(comm, cell_densities_);
+  if (mirror_) agree_with_images(comm, *mirror_, tree_, OfImages::larger, densities_);
   std::vector<double> terms;
   for (std::size_t i = 0; i < cell_densities_.size(); ++i)
     terms.push_back(error.areas[i] * cell_densities_[i]);
@@ -94,6 +97,12 @@ std::vector<std::int8_t> WantedLevels::levels(double complexity) const {
   return levels;
 }
 
+ChangedSplits WantedLevels::changes(double complexity) const {
+  ChangedSplits changes = splits_for_levels(comm_, tree_, levels(complexity));
+  if (mirror_) changes.demands = with_images(*mirror_, tree_.attributes, std::move(changes.demands));
+  return changes;
+}
+
 double WantedLevels::leaves_at(double complexity) const {
   const std::vector<std::int8_t> wanted = levels(complexity);
   std::vector<double> leaves;
@@ -115,15 +124,11 @@ double next_complexity(double tried, double nodes, double wanted, double low, do
 
 }  // namespace
 
-SizedChanges changes_for_nodes(const Communicator& comm, const TreeRecord& tree, const WantedLevels& wanted,
-                               const TrialCount& count, std::int64_t nodes) {
+SizedChanges changes_for_nodes(const WantedLevels& wanted, const TrialCount& count, std::int64_t nodes) {
   constexpr double enough = 0.95, aim = 0.975;
   constexpr int most_steps = 16;
   const auto cap = static_cast<double>(nodes);
-  const auto changes_at = [&](double complexity) {
-    return splits_for_levels(comm, tree, wanted.levels(complexity));
-  };
-  SizedChanges best{changes_at(0), 0, false};
+  SizedChanges best{wanted.changes(0), 0, false};
   bool bounded = false;
   if (wanted.flat()) return best;
   double low = 0, high = std::numeric_limits<double>::infinity(), tried = cap;
@@ -134,7 +139,7 @@ SizedChanges changes_for_nodes(const Communicator& comm, const TreeRecord& tree,
       tried = next_complexity(tried, leaves, cap, low, high);
       continue;
     }
-    SizedChanges now{changes_at(tried), tried, false};
+    SizedChanges now{wanted.changes(tried), tried, false};
     bounded = bounded || !count.allowed(now.changes);
     const TrialCount::Share share = count.filled(nodes, now.changes);
     const bool fits = share.most <= 1;

@@ -9,6 +9,7 @@
 #include "adapt/remesh/restart.hpp"
 #include "adapt/remesh/solved_mesh.hpp"
 #include "adapt/remesh/trial_count.hpp"
+#include "mesher/geometry/mirror_axis.hpp"
 
 namespace quadloop {
 
@@ -22,9 +23,10 @@ ChangedSplits splits_for_levels(const Communicator& comm, const TreeRecord& tree
 class WantedLevels {
  public:
   /// From the variables of the options, whose norm must be given. `solved` must outlive it. Throws InputError
-  /// where the solution has no such variable, or one that is not finite. *Collective.*
+  /// where the solution has no such variable, or one that is not finite. With a mirror axis leaves that are
+  /// each other's images want the same. *Collective.*
   WantedLevels(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
-               int finest_level);
+               int finest_level, std::optional<MirrorAxis> mirror = {});
 
   /// Whether all variables are linear, which asks for no sizes.
   bool flat() const { return !(total_ > 0); }
@@ -37,6 +39,8 @@ class WantedLevels {
   /// The level wanted of each of this rank's leaves, none finer than the finest, for sizes h of which the
   /// integral of 1 / h^2 is `complexity`.
   std::vector<std::int8_t> levels(double complexity) const;
+  /// The changes that lead to these. *Collective.*
+  ChangedSplits changes(double complexity) const;
   /// How many leaves these levels come to over all ranks, but for those that gradation adds. *Collective.*
   double leaves_at(double complexity) const;
 
@@ -44,6 +48,7 @@ class WantedLevels {
   const Communicator& comm_;
   const TreeRecord& tree_;
   int finest_;
+  std::optional<MirrorAxis> mirror_;
   double norm_;
   double error_ = 0, total_ = 0;
   std::vector<double> densities_;  ///< of leaves: the largest of their cells
@@ -60,7 +65,6 @@ struct SizedChanges {
 /// Looks for the complexity that leads to 95 to 100 % of so many nodes; as leaves change by factors of two
 /// there may be none: then the most nodes that were found within the cap, and what case and geometry alone
 /// ask for where that is more. *Collective.*
-SizedChanges changes_for_nodes(const Communicator& comm, const TreeRecord& tree, const WantedLevels& wanted,
-                               const TrialCount& count, std::int64_t nodes);
+SizedChanges changes_for_nodes(const WantedLevels& wanted, const TrialCount& count, std::int64_t nodes);
 
 }  // namespace quadloop

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "flow/euler/flow_run.hpp"
 #include "flow/euler/implicit/implicit_system.hpp"
+#include "flow/euler/mirrored_states.hpp"
 #include "flow/euler/residual_watch.hpp"
 #include "flow/euler/step_shares.hpp"
 #include "mesher/base/error.hpp"
@@ -124,11 +126,23 @@ class SteadyMarch {
       return true;
     }
     if (stall_.stalls(result_.residual) && run_.residual.limiter_is_live()) {
-      run_.residual.freeze_limiter();
-      shares_.restart();
+      keep_limiter();
       tell("the limiter's factors are kept from here on");
     }
     return false;
+  }
+
+  /// Factors of a flow that is not its own image would leave one that is not, however far the residual falls;
+  /// sweeps in an order that no mirror keeps make it so.
+  void keep_limiter() {
+    if (run_.options.mirror && !mirrored_)
+      mirrored_ = MirroredStates::find(run_.comm, run_.mesh, run_.model, *run_.options.mirror);
+    if (mirrored_) {
+      mirrored_->average(run_.states);
+      run_.residual.evaluate(run_.states);
+    }
+    run_.residual.freeze_limiter();
+    shares_.restart();
   }
 
   void tell(const std::string& what) const {
@@ -168,6 +182,7 @@ class SteadyMarch {
   RiseWatch rise_;
   CflLimit limit_;
   BestFlow best_;
+  std::optional<MirroredStates> mirrored_;
   std::vector<State> best_states_;
   double reference_ = 0, zero_ = 0;  ///< mass residuals: that which the tolerance is relative to; rounding
   int retries_ = 0, returns_ = 0;

@@ -88,20 +88,23 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   const LeafGraph graph = refine_forest(comm, sizes, result.report.estimate.leaves);
 
   times.begin("cutting");
-  const CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap);
+  const CutForest cut =
+      cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap, options.mirror);
 
   times.begin("mesh");
   assemble_mesh(comm, geometry, sizes, graph, cut, result);
   report_losses(comm, geometry, result.mesh, options.may_vanish, result.report);
 
+  const auto rank_of = [&](Point p) {
+    return tie_rank(domain.lattice, sizes.finest_level(), p, options.mirror);
+  };
   if (options.type == MeshType::delaunay) {
     times.begin("delaunay");
     const progress::Stage stage("delaunay");
-    make_delaunay(comm, domain.lattice, sizes.finest_level(), graph, cut, result.mesh, result.tree.leaves);
+    make_delaunay(comm, domain.lattice, rank_of, graph, cut, result.mesh, result.tree.leaves);
   }
   if (options.type == MeshType::hybrid && options.quads == QuadChoice::parallel) {
-    split_skew_quads(result.mesh, result.tree.leaves,
-                     [&](Point p) { return tie_rank(domain.lattice, sizes.finest_level(), p); });
+    split_skew_quads(result.mesh, result.tree.leaves, rank_of);
   }
   times.end();
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/lattice/size_options.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
@@ -55,6 +57,9 @@ struct MeshOptions {
   bool may_vanish = false;  ///< a boundary all of whose loops are smaller than the smallest leaf is dropped;
                             ///< otherwise it is refused
   MeshLimit limit;          ///< has no influence on the mesh, if there is one
+  /// The mesh is to be its own mirror image in this axis, as the geometry is. build_mesh() makes it so where
+  /// sizes and root are; the axis must be a line between leaves.
+  std::optional<MirrorAxis> mirror = {};
 };
 
 /// What a user is told of a mesh's making. The numbers are over all ranks, the same on each.

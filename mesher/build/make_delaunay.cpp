@@ -5,7 +5,6 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/build/split_quads.hpp"
-#include "mesher/cut/lattice_rank.hpp"
 #include "mesher/delaunay/restore/restore_delaunay.hpp"
 #include "mesher/forest/ghost_exchange.hpp"
 #include "mesher/mesh/node_table.hpp"
@@ -156,13 +155,13 @@ class LeafTriangles {
 
 }  // namespace
 
-void make_delaunay(const Communicator& comm, const Lattice& lattice, int finest_level, const LeafGraph& graph,
-                   const CutForest& cut, Mesh& mesh, std::vector<LeafRecord>& leaves) {
+void make_delaunay(const Communicator& comm, const Lattice& lattice,
+                   const std::function<TieRank(Point)>& rank_of, const LeafGraph& graph, const CutForest& cut,
+                   Mesh& mesh, std::vector<LeafRecord>& leaves) {
   split_quads(mesh, leaves, [&](std::size_t leaf, const std::array<NodeId, 4>&) {
     return diagonal_of(graph.leaf(graph.from_local(static_cast<std::int32_t>(leaf))));
   });
-  restore_delaunay_at(comm, mesh, nodes_of_cut_leaves(cut, mesh, leaves),
-                      [&](Point p) { return tie_rank(lattice, finest_level, p); });
+  restore_delaunay_at(comm, mesh, nodes_of_cut_leaves(cut, mesh, leaves), rank_of);
   const std::vector<char> irregular = irregular_leaves(comm, graph, cut);
   LeafTriangles triangles(lattice, graph, mesh);
   triangles.share_out(comm, irregular, leaves);

@@ -204,9 +204,10 @@ class ForestCutter {
 }  // namespace
 
 CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
-                     const ShiftedOutline& outline, const Interior& inside, double snap) {
+                     const ShiftedOutline& outline, const Interior& inside, double snap,
+                     std::optional<MirrorAxis> mirror) {
   const TracedForest traced = trace_forest(graph, sizes, outline);
-  std::vector<Snap> snaps = choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap);
+  std::vector<Snap> snaps = choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap, mirror);
   std::vector<LeafSnap> leaf_snaps = snaps_of_leaves(graph, snaps);
   ForestCutter cutter(graph, sizes.lattice(), outline, inside, traced);
   comm.together([&] { cutter.cut_all(leaf_snaps); });

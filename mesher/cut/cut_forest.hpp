@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
+
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/cut/leaf_cells.hpp"
 #include "mesher/forest/leaf_graph.hpp"
+#include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
@@ -45,9 +48,10 @@ struct CutForest {
 /// state from a local neighbour, or from an exact count of crossings. A snap that leaves a leaf unsound is
 /// taken back. *Collective.* Throws InputError on all ranks where boundaries come nearer to each other than
 /// double precision can resolve. `snap`: how near a crossing takes a lattice corner along, as a share of the
-/// local edge.
+/// local edge. With a mirror axis corners on it stay on it.
 CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
-                     const ShiftedOutline& outline, const Interior& inside, double snap);
+                     const ShiftedOutline& outline, const Interior& inside, double snap,
+                     std::optional<MirrorAxis> mirror = {});
 
 /// Whether this quadrant as a leaf needs to be refined to be cut: a whole loop inside it, chords that would
 /// cross, or that would stray too far from the outline.

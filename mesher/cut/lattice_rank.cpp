@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace quadloop {
 
@@ -21,8 +22,10 @@ TieRank line_rank(std::int64_t column, std::int64_t row) {
   return {low, high, 0, 0, 0, 0};
 }
 
-TieRank tie_rank(const Lattice& lattice, int finest_level, Point position) {
+TieRank tie_rank(const Lattice& lattice, int finest_level, Point position, std::optional<MirrorAxis> mirror) {
   TieRank rank = tie_rank(lattice.box().centre(), position);
+  // The coordinate along the axis goes first: it is the image's too.
+  if (mirror == MirrorAxis::y) std::swap(rank.x, rank.y);
   const std::int64_t column = lattice.column_at(position.x), row = lattice.row_at(position.y);
   if (lattice.x(column) != position.x || lattice.y(row) != position.y) return rank;
   const TieRank lines = line_rank(column, row);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "mesher/delaunay/tie_order.hpp"
+#include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/lattice/lattice.hpp"
 
 namespace quadloop {
@@ -10,6 +13,9 @@ TieRank line_rank(std::int64_t column, std::int64_t row);
 
 /// The rank of a node where the tree is known: nodes on its lines rank above all others, the coarser the line
 /// the higher.
-TieRank tie_rank(const Lattice& lattice, int finest_level, Point position);
+/// With a mirror axis nodes on the same side of it, which are told apart by their coordinates, rank as their
+/// images do.
+TieRank tie_rank(const Lattice& lattice, int finest_level, Point position,
+                 std::optional<MirrorAxis> mirror = {});
 
 }  // namespace quadloop

@@ -71,7 +71,8 @@ class WordDigest {
 
 // By name, so that an option more does not compile before it is thought of here.
 std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines) {
-  const auto& [type, quads, size, snap, may_vanish, limit] = options;  // the last two make no other mesh
+  const auto& [type, quads, size, snap, may_vanish, limit, mirror] = options;
+  // may_vanish and limit make no other mesh
   const auto& [min, max, gradation, curvature, gap, sources, root] = size;
   WordDigest digest;
   digest.add(static_cast<std::uint64_t>(type));
@@ -94,6 +95,7 @@ std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLin
   }
   digest.add(snap);
   for (const LayerLine& line : lines) digest.add(line);
+  if (mirror) digest.add(std::uint64_t{*mirror == MirrorAxis::x ? 1U : 2U});
   return digest.value();
 }
 

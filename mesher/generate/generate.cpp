@@ -15,6 +15,7 @@
 #include "mesher/generate/refine_front.hpp"
 #include "mesher/layers/add_layers.hpp"
 #include "mesher/layers/add_strips.hpp"
+#include "mesher/mesh/mirror_images.hpp"
 #include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
@@ -26,8 +27,18 @@ bool keeps_parallelograms(const MeshOptions& mesh) {
 }
 
 std::function<TieRank(Point)> order_of_nodes(const MeshInput& input, int finest_level) {
-  return [lattice = choose_root(input.geometry, input.mesh.size.root), finest_level](Point p) {
-    return tie_rank(lattice, finest_level, p);
+  return [lattice = choose_root(input.geometry, input.mesh.size.root), finest_level,
+          mirror = input.mesh.mirror](Point p) { return tie_rank(lattice, finest_level, p, mirror); };
+}
+
+/// The same for the cells of layers, but where the mesh is to be its own mirror image nodes rank as their
+/// images do: cells of four corners that are their own images are not divided, as no diagonal is its own
+/// image.
+std::function<TieRank(Point)> order_in_layers(const MeshInput& input, int finest_level) {
+  const std::function<TieRank(Point)> order = order_of_nodes(input, finest_level);
+  if (!input.mesh.mirror) return order;
+  return [order, axis = *input.mesh.mirror](Point p) {
+    return order(side_of(axis, p) < 0 ? image_of(axis, p) : p);
   };
 }
 
@@ -84,7 +95,7 @@ void name_layers(const Geometry& geometry, Mesh& mesh) {
 void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFront& front,
                  MeshResult& result) {
   DivideBy divide;
-  if (input.mesh.type == MeshType::delaunay) divide = order_of_nodes(input, result.report.finest_allowed);
+  if (input.mesh.type == MeshType::delaunay) divide = order_in_layers(input, result.report.finest_allowed);
   add_layers(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
   if (front.has_strips())
     add_strips(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
@@ -251,6 +262,7 @@ GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input,
 SmoothOptions smooth_options_for(const MeshInput& input, int finest_level) {
   SmoothOptions options = input.smooth;
   options.geometry = &input.geometry;
+  options.mirror = input.mesh.mirror;
   if (keeps_parallelograms(input.mesh)) options = sparing_parallelograms(options);
   if (input.mesh.type == MeshType::delaunay) options.delaunay = order_of_nodes(input, finest_level);
   return options;
@@ -261,6 +273,7 @@ GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, co
   GeneratedMesh generated = has_layers(input) ? generate_layered(comm, input, demanded, measured)
                                               : generate_plain(comm, input, demanded);
   MeshResult& result = generated.result;
+  if (input.mesh.mirror) require_mirror_images(comm, result.mesh, *input.mesh.mirror);
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);
   return generated;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/predicates.hpp"
@@ -36,6 +37,16 @@ void GrownMesh::add_triangle(std::int32_t leaf, const GrownNode& a, const GrownN
   triangles_.push_back({leaf, {a.id, b.id, c.id}});
 }
 
+/// Of four corners: the nodes at both ends of one diagonal rank as those of the other do.
+bool GrownMesh::diagonals_rank_alike(std::span<const GrownNode> corners) const {
+  const auto ends = [&](std::size_t from, std::size_t to) {
+    std::array ranks{divide_(corners[from].point), divide_(corners[to].point)};
+    std::ranges::sort(ranks);
+    return ranks;
+  };
+  return ends(0, 2) == ends(1, 3);
+}
+
 void GrownMesh::add_cell(std::int32_t leaf, std::span<const GrownNode> corners) {
   const std::size_t n = corners.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -44,12 +55,12 @@ void GrownMesh::add_cell(std::int32_t leaf, std::span<const GrownNode> corners) 
     if (orientation(a, b, c) <= 0 && !bad_) bad_ = {b, whose_, cure_};
   }
   if (n == 3) return add_triangle(leaf, corners[0], corners[1], corners[2]);
-  if (!divide_) {
+  const Point one = corners[2].point - corners[0].point, other = corners[3].point - corners[1].point;
+  const double first = dot(one, one), second = dot(other, other);
+  if (!divide_ || (first == second && diagonals_rank_alike(corners))) {
     quads_.push_back({leaf, {corners[0].id, corners[1].id, corners[2].id, corners[3].id}});
     return;
   }
-  const Point one = corners[2].point - corners[0].point, other = corners[3].point - corners[1].point;
-  const double first = dot(one, one), second = dot(other, other);
   const bool takes_first =
       first != second ? first < second : divide_(corners[2].point) > divide_(corners[3].point);
   add_triangle(leaf, corners[0], corners[1], corners[takes_first ? 2 : 3]);

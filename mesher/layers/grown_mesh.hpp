@@ -30,7 +30,8 @@ class GrownMesh {
  public:
   /// `added`: how many nodes come behind each of this rank's own. All must outlive it. With an order of nodes
   /// given, quadrilaterals are divided by their shorter diagonals, of equal ones by that through the third or
-  /// fourth corner, whichever has the higher rank. *Collective.*
+  /// fourth corner, whichever has the higher rank; not at all where the ends of both rank alike.
+  /// *Collective.*
   GrownMesh(const Communicator& comm, const std::vector<std::int32_t>& added, const DivideBy& divide,
             Mesh& mesh, std::vector<LeafRecord>& leaves);
 
@@ -61,6 +62,7 @@ class GrownMesh {
   };
 
   void use(const GrownNode& node);
+  bool diagonals_rank_alike(std::span<const GrownNode> corners) const;
   void add_triangle(std::int32_t leaf, const GrownNode& a, const GrownNode& b, const GrownNode& c);
   void refuse_bad_cells() const;
   void place_nodes(const std::function<void(NodeId, std::vector<Point>&)>& append_behind);

@@ -159,8 +159,24 @@ class CornerDecision {
     return stretch;
   }
 
+  /// Of a corner that moves along an axis the run's crossing there. Off the axis the outline may come as near
+  /// on both sides, and neither place is its own image.
+  std::optional<Point> crossing_on_axis(const Run& run) const {
+    std::optional<Point> nearest;
+    for (const std::size_t i : run) {
+      const Sight& s = sights_[i];
+      const LeafTrace view = traces_[s.trace];
+      const Piece& piece = view.pieces[s.piece];
+      const Point p = view.crossing(s.at_entry ? piece.entry : piece.exit).position;
+      if (!corner_.axis || side_of(*corner_.axis, p) != 0) continue;
+      if (!nearest || distance(p) < distance(*nearest)) nearest = p;
+    }
+    return nearest;
+  }
+
   /// The nearest point to the corner on the outline from a run's crossings on, as long as it stays near.
   Point nearest_point(const Run& run) const {
+    if (const auto on_axis = crossing_on_axis(run)) return *on_axis;
     Point nearest;
     double least = std::numeric_limits<double>::infinity();
     for (const std::size_t i : run) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 
+#include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/snap/capture_points.hpp"
 #include "mesher/snap/corner_sights.hpp"
 
@@ -14,6 +15,8 @@ struct SightedCorner {
   Point position;   ///< where the lattice has it
   double edge = 0;  ///< the shortest leaf edge there
   std::span<const Sight> sights;
+  /// On which it lies, if the mesh is to be its own mirror image in it: it moves along it alone.
+  std::optional<MirrorAxis> axis = {};
 };
 
 /// Decides where a corner goes that has a crossing nearer than `share` of the shortest edge there, if it

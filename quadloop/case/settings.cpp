@@ -9,7 +9,6 @@
 #include "flow/quantities/flow_quantities.hpp"
 #include "io/formats.hpp"
 #include "io/input/case_file.hpp"
-#include "io/input/geometry_file.hpp"
 #include "io/parts/part_files.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
@@ -164,6 +163,17 @@ void read_mesh_table(const CaseTable& root, Settings& settings) {
   const auto type = table->choice("type", {"hybrid", "delaunay"});
   if (type == "delaunay") settings.mesh.type = MeshType::delaunay;
   if (table->choice("quads", {"all", "parallel"}) == "parallel") settings.mesh.quads = QuadChoice::parallel;
+  if (const auto axis = table->choice("mirror", {"x", "y"}))
+    settings.mesh.mirror = *axis == "x" ? MirrorAxis::x : MirrorAxis::y;
+  if (const auto name = table->text("half")) {
+    if (!settings.mesh.mirror)
+      table->refuse("half", "needs mirror = \"x\" or \"y\" in the same table: of what it is the half");
+    if (name->empty()) table->refuse("half", "is empty; name the boundary along the axis");
+    settings.half = HalfDomain{*settings.mesh.mirror, *name};
+    settings.mesh.mirror.reset();  // the half is no image of itself
+    settings.outline.rules.insert(settings.outline.rules.begin(),
+                                  {*name, {}, {}, "symmetry", table->place("half"), false, true});
+  }
   settings.mesh.snap = table->number("snap", {0, 0.5, false, true}).value_or(settings.mesh.snap);
   if (const auto root_values = table->numbers("root", 5)) {
     const auto& r = *root_values;
@@ -247,16 +257,6 @@ void read_design_table(const CaseTable& root, Settings& settings) {
   table->finish();
 }
 
-/// The far field where a saved tree has it, if its root is one of that size.
-Box saved_far_field(const Box& square, const TreeAttributes& saved) {
-  constexpr double rounding = 1e-9;
-  const Point low{saved.root_x, saved.root_y};
-  const bool is_root = saved.trees_x == 1 && saved.trees_y == 1 &&
-                       std::abs(square.width() - saved.tree_edge) <= rounding * saved.tree_edge;
-  if (!is_root || (square.low == low && square.width() == saved.tree_edge)) return square;
-  return {low, low + Point{saved.tree_edge, saved.tree_edge}};
-}
-
 }  // namespace
 
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments) {
@@ -276,6 +276,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   settings.adapt = read_adapt_table(root);
   read_design_table(root, settings);
   read_solver_table(root, settings.solver);
+  settings.solver.euler.mirror = settings.mesh.mirror;
   settings.warnings = layer_settings.unused(settings.solver);
   if (flow && settings.solver.kind != SolverSettings::Kind::euler) settings.stream = flow->stream();
   if (settings.adapt) settings.adapt->wall_flow = layer_settings.wall_flow(settings.solver);
@@ -296,28 +297,6 @@ const AdaptOptions& adapt_options(const Settings& settings, const std::string& c
 std::string format_suffix_of(const std::string& prefix) {
   const std::string suffix = std::filesystem::path(prefix).extension();
   return format_of(prefix) != nullptr || suffix == ".h5" ? suffix : std::string();
-}
-
-Geometry load_geometry(const Settings& settings, Warnings& warnings,
-                       const std::optional<TreeAttributes>& saved) {
-  std::vector<Chain> chains;
-  for (const GeometryInput& input : settings.files) {
-    std::error_code no_such_file;
-    if (!std::filesystem::exists(input.path, no_such_file)) {
-      throw InputError(fmt::format(
-          "{}: there is no file '{}'; check the name, which is relative to the case file's folder",
-          input.where, input.path));
-    }
-    std::vector<Chain> of_file = read_geometry(input.path, warnings);
-    apply(input.transform, of_file);
-    std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
-  }
-  if (settings.far_field) {
-    const auto& [half_width, where] = *settings.far_field;
-    const Box square = far_field_box(chains, half_width, where);
-    add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
-  }
-  return assemble(std::move(chains), settings.outline, warnings);
 }
 
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {

@@ -30,6 +30,12 @@ struct FarField {
   std::string where;
 };
 
+/// That of a symmetric outline only the half above an axis is meshed.
+struct HalfDomain {
+  MirrorAxis axis;
+  std::string boundary;  ///< the name of the boundary along the axis
+};
+
 /// A case file as each module wants it.
 struct Settings {
   std::string title;
@@ -37,6 +43,7 @@ struct Settings {
   std::vector<std::pair<std::string, std::string>> values;
   std::vector<GeometryInput> files;
   std::optional<FarField> far_field;
+  std::optional<HalfDomain> half;
   AssembleOptions outline;
   std::optional<double> min, max;  ///< spacing.min and spacing.max, where given
   MeshOptions mesh;                ///< without the sizes min and max: those may follow from the geometry

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {
@@ -52,6 +53,9 @@ struct EulerOptions {
   double tolerance = 1e-8;  ///< steady: on the density residual, as EulerResult::residual is relative
   Limiter limiter = Limiter::venkatakrishnan;
   Initial initial = Initial::freestream;
+  /// The mesh is meant to be its own mirror image in this axis. Where it is, and the free stream runs along
+  /// the axis, the limiter's factors that are kept are those of a flow that is its own image.
+  std::optional<MirrorAxis> mirror;
   std::optional<Point> vortex_centre;  ///< none: the middle of the mesh's box
   /// Of the forces, in the geometry's units; also of the vortex and of the limiter's sense of small.
   double reference_length = 1;

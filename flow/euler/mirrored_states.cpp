@@ -1,0 +1,46 @@
+#include "flow/euler/mirrored_states.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadloop::euler {
+
+namespace {
+
+/// Of the state's entries the velocity across the axis.
+std::size_t across(MirrorAxis axis) { return axis == MirrorAxis::x ? 2 : 1; }
+
+}  // namespace
+
+std::optional<MirroredStates> MirroredStates::find(const Communicator& comm, const DualMesh& mesh,
+                                                   const FlowModel& model, MirrorAxis axis) {
+  if (model.free_stream[across(axis)] != 0) return {};
+  const std::span owned = std::span(mesh.halo().points()).first(mesh.owned_nodes());
+  const std::int64_t first = comm.exclusive_sum(mesh.owned_nodes());
+  NodeImages images = node_images(comm, first, owned, axis);
+  const bool lacks = std::ranges::any_of(images, [](GlobalNodeId image) { return !image.valid(); });
+  if (comm.any(lacks)) return {};
+  return MirroredStates(comm, mesh, axis, std::move(images));
+}
+
+MirroredStates::MirroredStates(const Communicator& comm, const DualMesh& mesh, MirrorAxis axis,
+                               NodeImages images)
+    : comm_{&comm}, mesh_{&mesh}, axis_{axis}, images_{std::move(images)} {}
+
+void MirroredStates::average(std::vector<State>& states) const {
+  const NodeOwners owners(*comm_, comm_->exclusive_sum(mesh_->owned_nodes()));
+  std::vector<int> ranks;
+  for (const GlobalNodeId image : images_) ranks.push_back(owners.rank_of(image));
+  const Exchange exchange(*comm_, ranks);
+  std::vector<State> of_images;
+  for (const GlobalNodeId asked : exchange.deliver(images_))
+    of_images.push_back(states[owners.local(asked).value()]);
+  of_images = exchange.answer(of_images);
+  for (std::size_t node = 0; node < of_images.size(); ++node) {
+    State& state = states[node];
+    of_images[node][across(axis_)] *= -1;
+    for (std::size_t k = 0; k < state.size(); ++k) state[k] = 0.5 * (state[k] + of_images[node][k]);
+  }
+}
+
+}  // namespace quadloop::euler

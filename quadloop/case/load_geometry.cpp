@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+
+#include "io/input/geometry_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/geometry/assemble/mirrored_outline.hpp"
+#include "quadloop/case/settings.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// The far field where a saved tree has it, if its root is one of that size.
+Box saved_far_field(const Box& square, const TreeAttributes& saved) {
+  constexpr double rounding = 1e-9;
+  const Point low{saved.root_x, saved.root_y};
+  const bool is_root = saved.trees_x == 1 && saved.trees_y == 1 &&
+                       std::abs(square.width() - saved.tree_edge) <= rounding * saved.tree_edge;
+  if (!is_root || (square.low == low && square.width() == saved.tree_edge)) return square;
+  return {low, low + Point{saved.tree_edge, saved.tree_edge}};
+}
+
+}  // namespace
+
+Geometry load_geometry(const Settings& settings, Warnings& warnings,
+                       const std::optional<TreeAttributes>& saved) {
+  std::vector<Chain> chains;
+  for (const GeometryInput& input : settings.files) {
+    std::error_code no_such_file;
+    if (!std::filesystem::exists(input.path, no_such_file)) {
+      throw InputError(fmt::format(
+          "{}: there is no file '{}'; check the name, which is relative to the case file's folder",
+          input.where, input.path));
+    }
+    std::vector<Chain> of_file = read_geometry(input.path, warnings);
+    apply(input.transform, of_file);
+    std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
+  }
+  const std::optional<MirrorAxis> axis = settings.half ? settings.half->axis : settings.mesh.mirror;
+  if (axis) fit_to_mirror(chains, *axis, warnings);
+  if (settings.far_field) {
+    const auto& [half_width, where] = *settings.far_field;
+    const Box square = far_field_box(chains, half_width, where);
+    add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
+  }
+  AssembleOptions options = settings.outline;
+  if (settings.half)  // of the half alone there is a boundary of that name
+    std::erase_if(options.rules, [&](const auto& rule) { return rule.pattern == settings.half->boundary; });
+  Geometry geometry = assemble(std::move(chains), options, warnings);
+  if (axis) require_mirror_images(geometry, *axis);
+  if (!settings.half) return geometry;
+  return assemble(half_outline(geometry, *axis, settings.half->boundary), settings.outline, warnings);
+}
+
+}  // namespace quadloop
