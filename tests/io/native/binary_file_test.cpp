@@ -160,7 +160,7 @@ TEST_F(BinaryFile, RefusesWhatIsNoSuchFile) {
   expect_refusal(with_line(bytes, "mesh 1\n", "mesh 2\n"), "m.qmesh: does not begin", "");
   expect_refusal(with_line(bytes, "224\n", "949\n"), "m.qmesh:2: ", "damaged");
   expect_refusal(with_line(bytes, "224\n", "-24\n"), "m.qmesh:2: ", "damaged");
-  expect_refusal(with_line(bytes, "224\n", "216\n"), "m.qmesh: ", "bytes follow its head");
+  expect_refusal(with_line(bytes, "224\n", "216\n"), "m.qmesh:12: ", "ends before its line 'end'");
   EXPECT_THROW(read_binary(folder_.path()), InputError);
   EXPECT_THROW(read_binary(folder_.file("missing.qmesh")), InputError);
 }
