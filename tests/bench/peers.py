@@ -92,7 +92,8 @@ def task_named(name, cells):
         return Task(name, AIRFOIL, [f"{key}={value / finer!r}" for key, value in values.items()], airfoil_loops(), 0.08 / finer * 1.2, cells)
     if name == "B":
         wall = 16.0 / cells
-        settings = [f"spacing.min={wall / 2!r}", "spacing.max=2.0", f"spacing.gradation={1 + 2 * SLOPE!r}", f"boundary.airfoil.spacing={wall!r}"]
+        leaf = 2 * wall  # that leaves stay below, by up to half, where the others' edges go beyond
+        settings = [f"spacing.min={leaf / 2!r}", "spacing.max=2.0", f"spacing.gradation={1 + 2 * SLOPE!r}", f"boundary.airfoil.spacing={leaf!r}"]
         return Task(name, AIRFOIL, settings, airfoil_loops(), 0.0, cells, wall)
     size = "high" if cells >= 500000 else "medium" if cells >= 100000 else "coarse"
     case = GULF / ("case.toml" if size == "coarse" else f"{size}.toml")

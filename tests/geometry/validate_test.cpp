@@ -140,7 +140,7 @@ TEST(Validate, AgreesWithTryingAllPairsOfLongLoops) {
     const int size = 20 + trial % 60;
     std::vector<Point> points;
     for (int i = 0; i < size; ++i) {
-      const double angle = 2 * std::numbers::pi * (i + (trial % 3 == 0 ? 1.2 : 0.9) * share(random)) / size;
+      const double angle = 2 * std::numbers::pi * (i + (trial % 2 == 0 ? 2.5 : 0.9) * share(random)) / size;
       const double radius = std::round(64 * (0.3 + share(random)));  // on a lattice some points coincide
       points.push_back({std::round(radius * std::cos(angle)), std::round(radius * std::sin(angle))});
     }

@@ -42,7 +42,7 @@ LoadedMesh two_blocks() {
 }
 
 const std::string head =
-    "quadloop binary mesh 1\nheader          248\nnodes 5\nnode_bytes 4\nblock 0 1 gas\nblock 1 0 membrane\n"
+    "quadloop binary mesh 1\nheader          224\nnodes 5\nnode_bytes 4\nblock 0 1 gas\nblock 1 0 membrane\n"
     "boundary 2 viscous_wall bow wave\nlayers 30 0.0118\nboundary 3 none out\nconstants 2\n"
     "variable density\ncell_variable depth\nend";
 
@@ -100,7 +100,7 @@ std::string with_number(std::string bytes, std::size_t offset, Number number) {
 TEST_F(BinaryFile, IsWhatTheDocumentSays) {
   const std::string bytes = written(two_blocks());
   ASSERT_EQ(bytes.substr(0, head.size()), head);
-  const std::size_t start = 248;
+  const std::size_t start = 224;
   EXPECT_EQ(bytes.substr(head.size(), start - head.size()), std::string(start - 1 - head.size(), ' ') + "\n");
   ASSERT_EQ(bytes.size(), start + 8 * (10 + 2 + 5 + 2) + 4 * (3 + 4 + 10));
   if constexpr (std::endian::native == std::endian::little) {
@@ -158,9 +158,9 @@ TEST_F(BinaryFile, RefusesWhatIsNoSuchFile) {
   expect_refusal("", "m.qmesh: does not begin", "of another kind");
   expect_refusal("#Number of grid points\n", "m.qmesh: does not begin", "");
   expect_refusal(with_line(bytes, "mesh 1\n", "mesh 2\n"), "m.qmesh: does not begin", "");
-  expect_refusal(with_line(bytes, "248\n", "949\n"), "m.qmesh:2: ", "damaged");
-  expect_refusal(with_line(bytes, "248\n", "-48\n"), "m.qmesh:2: ", "damaged");
-  expect_refusal(with_line(bytes, "248\n", "240\n"), "m.qmesh: ", "bytes follow its head");
+  expect_refusal(with_line(bytes, "224\n", "949\n"), "m.qmesh:2: ", "damaged");
+  expect_refusal(with_line(bytes, "224\n", "-24\n"), "m.qmesh:2: ", "damaged");
+  expect_refusal(with_line(bytes, "224\n", "216\n"), "m.qmesh:12: ", "ends before its line 'end'");
   EXPECT_THROW(read_binary(folder_.path()), InputError);
   EXPECT_THROW(read_binary(folder_.file("missing.qmesh")), InputError);
 }
@@ -184,7 +184,7 @@ TEST_F(BinaryFile, RefusesHeadsByLine) {
 TEST_F(BinaryFile, RefusesNumbers) {
   const std::string bytes = written(two_blocks());
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const std::size_t start = 248, cells = start + 80, constants = cells + 4 * 17;
+  const std::size_t start = 224, cells = start + 80, constants = cells + 4 * 17;
   expect_refusal(with_number(bytes, start + 16, none), "m.qmesh: node 1 lies at (nan, 0)", "not finite");
   expect_refusal(with_number(bytes, cells, std::int32_t{5}), "m.qmesh: triangle 0 has node 5", "0 to 4");
   expect_refusal(with_number(bytes, cells + 12, std::int32_t{-1}), "m.qmesh: quad 0 has node -1", "");
