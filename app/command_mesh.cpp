@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "adapt/remesh/restart.hpp"
+#include "adapt/remesh/demands/restart.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/part_report.hpp"

@@ -7,7 +7,7 @@
 
 #include "adapt/loop/record.hpp"
 #include "adapt/solvers/cycle_paths.hpp"
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {

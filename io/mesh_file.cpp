@@ -14,7 +14,7 @@
 #include "io/parts/part_index.hpp"
 #include "io/parts/part_reader.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/layer_nodes.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "adapt/remesh/solved_mesh.hpp"
+#include "adapt/remesh/demands/solved_mesh.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "flow/flow_solver.hpp"
 #include "mesher/base/error.hpp"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "smoother/coloured_sweeps.hpp"
+#include "smoother/sweeps/coloured_sweeps.hpp"
 
 namespace quadloop {
 

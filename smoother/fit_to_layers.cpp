@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "smoother/coloured_sweeps.hpp"
-#include "smoother/rings.hpp"
+#include "smoother/sweeps/coloured_sweeps.hpp"
+#include "smoother/sweeps/rings.hpp"
 
 namespace quadloop {
 

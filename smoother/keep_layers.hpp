@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
-#include "mesher/mesh/layer_nodes.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
 #include "smoother/smooth_options.hpp"
 
 namespace quadloop {

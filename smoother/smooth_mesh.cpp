@@ -13,9 +13,9 @@
 #include "smoother/even_widths.hpp"
 #include "smoother/fit_to_layers.hpp"
 #include "smoother/level_lines.hpp"
-#include "smoother/rings.hpp"
 #include "smoother/smooth_mirrored.hpp"
-#include "smoother/sweeper.hpp"
+#include "smoother/sweeps/rings.hpp"
+#include "smoother/sweeps/sweeper.hpp"
 
 namespace quadloop {
 

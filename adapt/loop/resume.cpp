@@ -7,7 +7,7 @@
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "adapt/solvers/cycle_paths.hpp"
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"

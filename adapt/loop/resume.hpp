@@ -5,7 +5,7 @@
 
 #include "adapt/loop/record.hpp"
 #include "adapt/loop/settling.hpp"
-#include "adapt/remesh/solved_mesh.hpp"
+#include "adapt/remesh/demands/solved_mesh.hpp"
 
 namespace quadloop {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "adapt/loop/record.hpp"
-#include "adapt/remesh/adapt_options.hpp"
+#include "adapt/remesh/demands/adapt_options.hpp"
 
 namespace quadloop {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "adapt/solvers/openfoam_template.hpp"
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/generate/digests.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "adapt/morph/boundary_motion.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
-#include "mesher/mesh/layer_nodes.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop {
 

@@ -10,8 +10,8 @@
 #include "adapt/morph/layer_motion.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "smoother/keep_layers.hpp"
-#include "smoother/rings.hpp"
 #include "smoother/smooth_mesh.hpp"
+#include "smoother/sweeps/rings.hpp"
 
 namespace quadloop {
 

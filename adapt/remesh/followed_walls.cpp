@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "adapt/remesh/mirrored_leaves.hpp"
+#include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "mesher/generate/outside_layers.hpp"
 
 namespace quadloop {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "adapt/remesh/adapt_options.hpp"
-#include "adapt/remesh/solved_mesh.hpp"
+#include "adapt/remesh/demands/adapt_options.hpp"
+#include "adapt/remesh/demands/solved_mesh.hpp"
 #include "mesher/generate/generate.hpp"
 
 namespace quadloop {

@@ -5,12 +5,12 @@
 #include <array>
 #include <limits>
 
-#include "adapt/remesh/restart.hpp"
+#include "adapt/remesh/demands/restart.hpp"
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/quality.hpp"
-#include "mesher/mesh/layer_nodes.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "adapt/remesh/solved_mesh.hpp"
+#include "adapt/remesh/demands/solved_mesh.hpp"
 
 namespace quadloop {
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <optional>
 
+#include "adapt/remesh/demands/mark_family.hpp"
+#include "adapt/remesh/demands/mirrored_leaves.hpp"
+#include "adapt/remesh/demands/restart.hpp"
+#include "adapt/remesh/demands/trial_count.hpp"
+#include "adapt/remesh/demands/wanted_levels.hpp"
 #include "adapt/remesh/followed_walls.hpp"
-#include "adapt/remesh/mark_family.hpp"
-#include "adapt/remesh/mirrored_leaves.hpp"
-#include "adapt/remesh/restart.hpp"
-#include "adapt/remesh/trial_count.hpp"
-#include "adapt/remesh/wanted_levels.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -23,12 +23,7 @@ class NodeSearch {
  public:
   NodeSearch(const Communicator& comm, const TrialCount& count, const SolvedMesh& solved,
              const MarkFamily& family, int finest, std::optional<MirrorAxis> mirror)
-      : comm_{comm},
-        count_{count},
-        solved_{solved},
-        family_{family},
-        finest_{finest},
-        mirror_{mirror} {}
+      : comm_{comm}, count_{count}, solved_{solved}, family_{family}, finest_{finest}, mirror_{mirror} {}
 
   ChangedSplits changes_at(double at) const {
     ChangedSplits changes = changed_splits(comm_, solved_.tree, family_.marks(at), finest_);
@@ -133,7 +128,8 @@ void warn_above_cap(const TrialCount& count, std::int64_t cap, const ChangedSpli
 }
 
 void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
-                   const TrialCount& count, int finest, std::optional<MirrorAxis> mirror, AdaptationPlan& plan) {
+                   const TrialCount& count, int finest, std::optional<MirrorAxis> mirror,
+                   AdaptationPlan& plan) {
   const auto family = made_from<MarkFamily>(comm, options, solved, mirror);
   const NodeSearch search(comm, count, solved, family, finest, mirror);
   const ChangedSplits all = search.changes_at(1);
@@ -151,7 +147,8 @@ void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const 
 
 /// By the sizes that make the L^p norm of the interpolation error least.
 void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
-                   const TrialCount& count, int finest, std::optional<MirrorAxis> mirror, AdaptationPlan& plan) {
+                   const TrialCount& count, int finest, std::optional<MirrorAxis> mirror,
+                   AdaptationPlan& plan) {
   const auto wanted = made_from<WantedLevels>(comm, options, solved, finest, mirror);
   std::int64_t nodes = *options.max_nodes;
   if (options.growth) {

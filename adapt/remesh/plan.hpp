@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "adapt/remesh/adapt_options.hpp"
-#include "adapt/remesh/solved_mesh.hpp"
+#include "adapt/remesh/demands/adapt_options.hpp"
+#include "adapt/remesh/demands/solved_mesh.hpp"
 #include "adapt/sensor/mark.hpp"
 #include "mesher/generate/generate.hpp"
 #include "mesher/mesh/field.hpp"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "adapt/remesh/mirrored_leaves.hpp"
-#include "adapt/remesh/restart.hpp"
+#include "adapt/remesh/demands/mirrored_leaves.hpp"
+#include "adapt/remesh/demands/restart.hpp"
 #include "io/loaded/loaded_mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 

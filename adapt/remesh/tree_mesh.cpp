@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "adapt/remesh/restart.hpp"
+#include "adapt/remesh/demands/restart.hpp"
 #include "adapt/remesh/smoothed_mesh.hpp"
 #include "io/mesh_file.hpp"
 #include "io/solution_file.hpp"

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "adapt/sensor/scaled_field.hpp"
+#include "adapt/sensor/recovery/scaled_field.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/word_table.hpp"
 #include "mesher/mesh/mesh.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapt/sensor/hessians.hpp"
-#include "adapt/sensor/scaled_field.hpp"
+#include "adapt/sensor/recovery/hessians.hpp"
+#include "adapt/sensor/recovery/scaled_field.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "mesher/mesh/topology.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adapt/sensor/mark.hpp"
-#include "adapt/sensor/scaled_field.hpp"
+#include "adapt/sensor/recovery/scaled_field.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"

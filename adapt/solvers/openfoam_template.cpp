@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/foam/foam_fields.hpp"
 #include "io/foam/foam_text.hpp"
 #include "mesher/base/error.hpp"

@@ -7,7 +7,7 @@
 #include "flow/su2/su2_config.hpp"
 #include "flow/su2/su2_history.hpp"
 #include "flow/su2/su2_variables.hpp"
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/base/error.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
-#include "mesher/mesh/layer_nodes.hpp"
-#include "mesher/mesh/layered_edges.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
+#include "mesher/mesh/layers/layered_edges.hpp"
 
 namespace quadloop {
 

@@ -10,7 +10,7 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_solid_file.hpp"
 #include "io/cgns/cgns_values.hpp"
-#include "io/files/separate_reader.hpp"
+#include "io/files/reading/separate_reader.hpp"
 #include "io/solid/pass_solid.hpp"
 #include "mesher/base/error.hpp"
 

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <optional>
 
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/foam/foam_patches.hpp"
 #include "io/foam/foam_text.hpp"
 #include "mesher/base/error.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <span>
 
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/gis/gdal_library.hpp"
 #include "io/gis/gis_formats.hpp"
 #include "io/input/geometry_file.hpp"

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <sstream>
 
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/text/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/text/decimal_comma.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/files/value_pipe.hpp"
+#include "io/files/reading/value_pipe.hpp"
 #include "io/loaded/loaded_mesh.hpp"
 
 namespace quadloop {

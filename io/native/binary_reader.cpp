@@ -9,7 +9,7 @@
 #include <span>
 
 #include "io/files/binary_output.hpp"
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/loaded/strip_text.hpp"
 #include "io/native/binary_file.hpp"
 #include "io/native/binary_header.hpp"

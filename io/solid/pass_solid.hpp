@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/files/value_pipe.hpp"
+#include "io/files/reading/value_pipe.hpp"
 #include "io/loaded/pass_mesh.hpp"
 #include "mesher/solid/solid_mesh.hpp"
 

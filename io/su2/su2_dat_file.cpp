@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "io/files/binary_output.hpp"
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/files/row_stream.hpp"
 #include "io/su2/su2_restart_table.hpp"
 #include "mesher/base/error.hpp"

@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/text/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
 

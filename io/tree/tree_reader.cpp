@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "io/files/hdf5_handle.hpp"
-#include "io/files/input_file.hpp"
-#include "io/files/separate_reader.hpp"
+#include "io/files/reading/input_file.hpp"
+#include "io/files/reading/separate_reader.hpp"
 #include "io/tree/tree_check.hpp"
 #include "io/tree/tree_file.hpp"
 #include "io/tree/tree_layout.hpp"

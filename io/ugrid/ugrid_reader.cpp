@@ -6,7 +6,7 @@
 #include <map>
 
 #include "io/files/binary_output.hpp"
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/ugrid/ugrid_file.hpp"
 #include "mesher/base/error.hpp"
 

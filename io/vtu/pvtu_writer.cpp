@@ -9,7 +9,7 @@
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_layers.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
-#include "mesher/mesh/layer_nodes.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop {
 

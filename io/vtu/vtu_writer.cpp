@@ -10,7 +10,7 @@
 #include "io/vtu/vtu_text.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
-#include "mesher/mesh/layer_nodes.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "adapt/remesh/adapt_options.hpp"
+#include "adapt/remesh/demands/adapt_options.hpp"
 #include "io/input/case_file.hpp"
 
 namespace quadloop {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "adapt/remesh/restart.hpp"
+#include "adapt/remesh/demands/restart.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/free_memory.hpp"

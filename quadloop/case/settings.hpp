@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "adapt/remesh/adapt_options.hpp"
+#include "adapt/remesh/demands/adapt_options.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/assemble/transform.hpp"

@@ -9,7 +9,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/shape_statistics.hpp"
 #include "mesher/mesh/check/validate.hpp"
-#include "mesher/mesh/layer_nodes.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/geometry/outlines.hpp"
 #include "tests/layers/walls.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "io/files/input_file.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"

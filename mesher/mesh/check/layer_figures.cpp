@@ -6,7 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "mesher/mesh/layered_edges.hpp"
+#include "mesher/mesh/layers/layered_edges.hpp"
 #include "mesher/mesh/part_names.hpp"
 #include "mesher/mesh/topology.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/check/quality.hpp"
-#include "mesher/mesh/layer_nodes.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapt/remesh/mark_family.hpp"
+#include "adapt/remesh/demands/mark_family.hpp"
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "mesher/base/error.hpp"

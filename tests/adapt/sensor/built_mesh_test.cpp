@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "adapt/sensor/cells_of_leaves.hpp"
-#include "adapt/sensor/hessians.hpp"
 #include "adapt/sensor/indicator.hpp"
+#include "adapt/sensor/recovery/hessians.hpp"
 #include "adapt/sensor/thresholds.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"

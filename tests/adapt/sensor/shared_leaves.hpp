@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "adapt/sensor/scaled_field.hpp"
+#include "adapt/sensor/recovery/scaled_field.hpp"
 #include "adapt/sensor/thresholds.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "smoother/node_stars.hpp"
+#include "smoother/sweeps/node_stars.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 

@@ -1,0 +1,76 @@
+#include "adapt/remesh/demands/mirrored_leaves.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "adapt/remesh/demands/restart.hpp"
+#include "mesher/base/parallel/partners.hpp"
+
+namespace quadloop {
+
+Quadrant image_of(MirrorAxis axis, const TreeAttributes& tree, const Quadrant& quadrant) {
+  Quadrant image = quadrant;
+  const auto mirrored = [&](std::int64_t low, std::int32_t trees) {
+    return (std::int64_t{trees} << Quadrant::unit_level) - low - quadrant.size();
+  };
+  if (axis == MirrorAxis::x) image.y = mirrored(quadrant.y, tree.trees_y);
+  if (axis == MirrorAxis::y) image.x = mirrored(quadrant.x, tree.trees_x);
+  return image;
+}
+
+void agree_with_images(const Communicator& comm, MirrorAxis axis, const TreeRecord& tree, OfImages of_images,
+                       std::vector<double>& values) {
+  const auto key_of = [](const Quadrant& q) {
+    return std::array{static_cast<std::uint64_t>(q.x), static_cast<std::uint64_t>(q.y),
+                      static_cast<std::uint64_t>(q.level)};
+  };
+  std::vector<PairKey<3>> keys;
+  keys.reserve(tree.leaves.size());
+  for (const LeafRecord& leaf : tree.leaves) {
+    const Quadrant q = quadrant_of(leaf);
+    keys.push_back({key_of(q), key_of(image_of(axis, tree.attributes, q))});
+  }
+  const std::vector<Partner> partners = find_partners<3>(comm, keys);
+  std::vector<std::size_t> with_partner;
+  std::vector<int> ranks;
+  std::vector<std::int64_t> items;
+  for (std::size_t i = 0; i < partners.size(); ++i) {
+    if (!partners[i].found()) continue;
+    with_partner.push_back(i);
+    ranks.push_back(partners[i].rank);
+    items.push_back(partners[i].item);
+  }
+  const Exchange exchange(comm, ranks);
+  std::vector<double> of_partner;
+  for (const std::int64_t item : exchange.deliver(items)) of_partner.push_back(values[item]);
+  of_partner = exchange.answer(of_partner);
+  for (std::size_t k = 0; k < with_partner.size(); ++k) {
+    double& value = values[with_partner[k]];
+    value = of_images == OfImages::larger ? std::max(value, of_partner[k]) : std::min(value, of_partner[k]);
+  }
+}
+
+std::vector<SplitDemand> with_images(MirrorAxis axis, const TreeAttributes& tree,
+                                     std::vector<SplitDemand> demands) {
+  const std::size_t own = demands.size();
+  demands.reserve(2 * own);
+  for (std::size_t i = 0; i < own; ++i)
+    demands.push_back({image_of(axis, tree, demands[i].leaf), demands[i].levels});
+  return demands;
+}
+
+void agree_with_images(MirrorAxis axis, MeasuredWall& wall) {
+  std::map<std::pair<Point, Point>, std::size_t> by_ends;
+  for (std::size_t i = 0; i < wall.size(); ++i) by_ends.emplace(std::pair{wall[i].from, wall[i].to}, i);
+  const MeasuredWall before = wall;
+  for (MeasuredEdge& edge : wall) {
+    const auto image = by_ends.find({image_of(axis, edge.to), image_of(axis, edge.from)});
+    if (image == by_ends.end()) continue;
+    const MeasuredEdge& other = before[image->second];
+    edge.wall_units_from = std::max(edge.wall_units_from, other.wall_units_to);
+    edge.wall_units_to = std::max(edge.wall_units_to, other.wall_units_from);
+  }
+}
+
+}  // namespace quadloop

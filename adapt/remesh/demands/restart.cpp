@@ -1,0 +1,158 @@
+#include "adapt/remesh/demands/restart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "adapt/sensor/cells_of_leaves.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+struct MarkedLeaf {
+  Quadrant leaf;
+  std::uint32_t adapted = 0;
+  Mark mark = Mark::keep;
+};
+
+constexpr std::int64_t siblings = 4;
+
+int child_number(const Quadrant& q) { return curve_index(quarter_at(q.x, q.y, q.level - 1)); }
+
+/// This rank's leaves with those before and after them, as many as a family may reach beyond them.
+class LeafRun {
+ public:
+  LeafRun(const Communicator& comm, std::vector<MarkedLeaf> own)
+      : first_{comm.exclusive_sum(std::ssize(own))} {
+    const auto count = std::ssize(own);
+    std::vector<Numbered> ends;
+    for (std::int64_t i = 0; i < count; ++i) {
+      if (i < siblings - 1 || i >= count - (siblings - 1)) ends.push_back({first_ + i, own[i]});
+    }
+    std::vector<MarkedLeaf> before, after;
+    for (const Numbered& end : comm.all_gather_values(std::span<const Numbered>(ends))) {
+      if (end.number < first_ && end.number >= first_ - (siblings - 1)) before.push_back(end.leaf);
+      if (end.number >= first_ + count && end.number < first_ + count + (siblings - 1))
+        after.push_back(end.leaf);
+    }
+    begin_ = first_ - std::ssize(before);
+    leaves_ = std::move(before);
+    leaves_.insert(leaves_.end(), own.begin(), own.end());
+    leaves_.insert(leaves_.end(), after.begin(), after.end());
+  }
+
+  /// Whether the leaf of this number is one of four siblings that are all to be coarsened.
+  bool family_goes(std::int64_t index) const {
+    const std::int64_t number = first_ + index;
+    const Quadrant& q = at(number).leaf;
+    const std::int64_t eldest = number - child_number(q);
+    if (eldest < begin_ || eldest + siblings > begin_ + std::ssize(leaves_)) return false;
+    for (std::int64_t k = 0; k < siblings; ++k) {
+      const MarkedLeaf& sibling = at(eldest + k);
+      if (sibling.leaf.level != q.level || child_number(sibling.leaf) != k || sibling.mark != Mark::coarsen)
+        return false;
+    }
+    return true;
+  }
+
+ private:
+  struct Numbered {
+    std::int64_t number;
+    MarkedLeaf leaf;
+  };
+  const MarkedLeaf& at(std::int64_t number) const { return leaves_[number - begin_]; }
+
+  /// Numbers over all ranks of this rank's first leaf, and of the first here.
+  std::int64_t first_, begin_ = 0;
+  std::vector<MarkedLeaf> leaves_;
+};
+
+}  // namespace
+
+Quadrant quadrant_of(const LeafRecord& leaf) {
+  return {(std::int64_t{leaf.tree_x} << Quadrant::unit_level) + leaf.x,
+          (std::int64_t{leaf.tree_y} << Quadrant::unit_level) + leaf.y, leaf.level};
+}
+
+std::vector<SplitDemand> adapted_splits(const TreeRecord& tree) {
+  std::vector<SplitDemand> demands;
+  for (const LeafRecord& leaf : tree.leaves) {
+    if (leaf.adapted != 0) demands.push_back({quadrant_of(leaf), leaf.adapted});
+  }
+  return demands;
+}
+
+std::vector<SplitDemand> wanted_splits(const TreeRecord& tree) {
+  std::vector<SplitDemand> demands;
+  for (const LeafRecord& leaf : tree.leaves) {
+    const std::uint32_t above = leaf.wanted > 0 ? 1U << (leaf.wanted - 1) : 0U;
+    if ((leaf.adapted | above) != 0) demands.push_back({quadrant_of(leaf), leaf.adapted | above});
+  }
+  return demands;
+}
+
+std::vector<SplitDemand> standing_splits(const TreeRecord& tree, const MeshInput& input) {
+  const bool same_geometry = tree.attributes.geometry_digest == input.geometry.digest();
+  const bool same_case = tree.attributes.case_digest == input.digest;
+  return same_geometry && !same_case ? wanted_splits(tree) : adapted_splits(tree);
+}
+
+ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks,
+                             int finest_level) {
+  QUADLOOP_REQUIRE(marks.size() == tree.leaves.size(), "one mark for each leaf");
+  const bool coarsens = comm.any(std::find(marks.begin(), marks.end(), Mark::coarsen) != marks.end());
+  std::vector<MarkedLeaf> own;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const LeafRecord& leaf = tree.leaves[i];
+    const bool goes_along = coarsens && marks[i] == Mark::keep &&
+                            !has_cells(leaf);  // has no values to keep it for: its siblings say
+    own.push_back({quadrant_of(leaf), leaf.adapted, goes_along ? Mark::coarsen : marks[i]});
+  }
+  const LeafRun run(comm, own);
+  ChangedSplits changed;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const auto& [leaf, adapted, mark] = own[i];
+    std::uint32_t levels = adapted;
+    if (mark == Mark::refine && leaf.level < finest_level) {
+      levels |= 1U << leaf.level;
+      ++changed.refined;
+    }
+    const std::uint32_t parent = leaf.level > 0 ? 1U << (leaf.level - 1) : 0U;
+    if (mark == Mark::coarsen && (adapted & parent) != 0 && run.family_goes(i)) {
+      levels &= ~parent;
+      ++changed.coarsened;
+    }
+    if (levels != 0) changed.demands.push_back({leaf, levels});
+  }
+  changed.refined = comm.sum(changed.refined);
+  changed.coarsened = comm.sum(changed.coarsened);
+  return changed;
+}
+
+void keep_root(const TreeAttributes& tree, MeshInput& input) {
+  if (!input.mesh.size.root) {
+    const Lattice lattice = choose_root(input.geometry, {});
+    const bool same = lattice.box().low == Point{tree.root_x, tree.root_y} &&
+                      lattice.tree_edge() == tree.tree_edge && lattice.trees_x() == tree.trees_x &&
+                      lattice.trees_y() == tree.trees_y;
+    if (same) return;
+  }
+  const Point low{tree.root_x, tree.root_y};
+  const Box root{low, low + Point{tree.trees_x * tree.tree_edge, tree.trees_y * tree.tree_edge}};
+  const Geometry& geometry = input.geometry;
+  for (std::int32_t v = 0; v < geometry.size(); ++v) {
+    const Point p = geometry.point(v);
+    if (root.contains(p)) continue;
+    throw InputError(
+        fmt::format("boundary {}: the point ({}, {}) lies outside the root of the saved tree, from ({}, {}) "
+                    "to ({}, {}); mesh without the tree",
+                    geometry.boundary(geometry.boundary_of(v)).name, p.x, p.y, root.low.x, root.low.y,
+                    root.high.x, root.high.y));
+  }
+  input.mesh.size.root = RootOptions{{tree.root_x, tree.root_y}, tree.tree_edge, tree.trees_x, tree.trees_y};
+}
+
+}  // namespace quadloop

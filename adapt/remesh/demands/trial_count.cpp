@@ -1,0 +1,32 @@
+#include "adapt/remesh/demands/trial_count.hpp"
+
+#include <algorithm>
+
+#include "mesher/base/error.hpp"
+#include "mesher/build/mesh_estimate.hpp"
+
+namespace quadloop {
+
+NodeBounds TrialCount::nodes_after(const ChangedSplits& changes) const {
+  try {
+    return trial_.nodes(comm_, DemandedSplits(comm_, changes.demands));
+  } catch (const TooManyCells&) {  // by an estimate that all ranks make
+    return {beyond, beyond};
+  }
+}
+
+TrialCount::Share TrialCount::filled(const std::optional<std::int64_t>& most,
+                                     const ChangedSplits& changes) const {
+  const double of_limit = share_of_limit(changes);
+  if (!most || of_limit > 1) return {of_limit, of_limit};
+  const NodeBounds nodes = nodes_after(changes);
+  const auto cap = static_cast<double>(*most);
+  return {std::max(of_limit, static_cast<double>(nodes.least) / cap),
+          std::max(of_limit, static_cast<double>(nodes.most) / cap)};
+}
+
+double TrialCount::share_of_limit(const ChangedSplits& changes) const {
+  return share_of(limit_, trial_.estimate(DemandedSplits(comm_, changes.demands)));
+}
+
+}  // namespace quadloop

@@ -1,0 +1,158 @@
+#include "adapt/remesh/demands/wanted_levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "adapt/remesh/demands/mirrored_leaves.hpp"
+#include "adapt/sensor/cells_of_leaves.hpp"
+#include "adapt/sensor/interpolation_error.hpp"
+#include "adapt/sensor/wanted_size.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Demands the splits of all quadrants of level `level` - 1 that lie in the leaf, or of the one that holds
+/// it.
+void demand_level(const Quadrant& leaf, int level, std::vector<SplitDemand>& demands) {
+  const int split = level - 1;
+  const std::uint32_t mask = 1U << split;
+  if (split <= leaf.level) {
+    demands.push_back({leaf, mask});
+    return;
+  }
+  const std::int64_t edge = std::int64_t{1} << (Quadrant::unit_level - split);
+  const std::int64_t count = std::int64_t{1} << (split - leaf.level);
+  for (std::int64_t row = 0; row < count; ++row) {
+    for (std::int64_t column = 0; column < count; ++column)
+      demands.push_back(
+          {{leaf.x + column * edge, leaf.y + row * edge, static_cast<std::int8_t>(split)}, mask});
+  }
+}
+
+}  // namespace
+
+ChangedSplits splits_for_levels(const Communicator& comm, const TreeRecord& tree,
+                                std::span<const std::int8_t> levels) {
+  QUADLOOP_REQUIRE(levels.size() == tree.leaves.size(), "there must be one level for each leaf");
+  ChangedSplits changed;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const LeafRecord& leaf = tree.leaves[i];
+    if (levels[i] > 0) demand_level(quadrant_of(leaf), levels[i], changed.demands);
+    if (levels[i] > leaf.level) ++changed.refined;
+  }
+  const DemandedSplits demanded(comm, changed.demands);
+  DemandPath path(demanded);
+  for (const LeafRecord& leaf : tree.leaves) {
+    if (leaf.level == 0) continue;
+    const std::uint32_t parent = 1U << (leaf.level - 1);
+    const Quadrant square = quadrant_of(leaf);
+    if ((leaf.adapted & parent) != 0 && (path.levels_above(square) & parent) == 0) ++changed.coarsened;
+  }
+  changed.refined = comm.sum(changed.refined);
+  changed.coarsened = comm.sum(changed.coarsened);
+  return changed;
+}
+
+WantedLevels::WantedLevels(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
+                           int finest_level, std::optional<MirrorAxis> mirror)
+    : comm_{comm}, tree_{solved.tree}, finest_{finest_level}, mirror_{mirror}, norm_{*options.norm} {
+  const Field field = selected(solved.solution, options.variables, "adapt.variable");
+  InterpolationError error = interpolation_error(comm, solved.mesh, field);
+  error_ = norm_of(comm, error, norm_);
+  cell_densities_ = cell_densities(error, norm_);
+  densities_ = CellsOfLeaves(comm, solved.mesh, tree_.leaves).largest(comm, cell_densities_);
+  if (mirror_) agree_with_images(comm, *mirror_, tree_, OfImages::larger, densities_);
+  std::vector<double> terms;
+  for (std::size_t i = 0; i < cell_densities_.size(); ++i)
+    terms.push_back(error.areas[i] * cell_densities_[i]);
+  total_ = reproducible_sum(comm, terms);
+  cell_errors_ = std::move(error.mean);
+}
+
+CellValues WantedLevels::of_cells(double complexity) const {
+  CellValues cells{{"interpolation_error"}, cell_errors_};
+  if (complexity == 0) return cells;
+  cells = {{"interpolation_error", "wanted_size"}, {}};
+  for (std::size_t i = 0; i < cell_errors_.size(); ++i) {
+    const double size = std::sqrt(total_ / (complexity * cell_densities_[i]));
+    cells.values.push_back(cell_errors_[i]);
+    cells.values.push_back(std::min(size, tree_.attributes.tree_edge));
+  }
+  return cells;
+}
+
+std::vector<std::int8_t> WantedLevels::levels(double complexity) const {
+  std::vector<std::int8_t> levels;
+  for (const double density : densities_) {
+    const double edge = std::sqrt(total_ / (complexity * density));  // infinite where nothing is wanted
+    const bool none = !(complexity * density > 0);
+    levels.push_back(static_cast<std::int8_t>(
+        none ? 0 : std::min(level_for_size(tree_.attributes.tree_edge, edge), finest_)));
+  }
+  return levels;
+}
+
+ChangedSplits WantedLevels::changes(double complexity) const {
+  ChangedSplits changes = splits_for_levels(comm_, tree_, levels(complexity));
+  if (mirror_) changes.demands = with_images(*mirror_, tree_.attributes, std::move(changes.demands));
+  return changes;
+}
+
+double WantedLevels::leaves_at(double complexity) const {
+  const std::vector<std::int8_t> wanted = levels(complexity);
+  std::vector<double> leaves;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    leaves.push_back(std::ldexp(1.0, 2 * (wanted[i] - tree_.leaves[i].level)));
+  return reproducible_sum(comm_, leaves);
+}
+
+namespace {
+
+/// The next complexity to try: as nodes grow with it, but between those that are known.
+double next_complexity(double tried, double nodes, double wanted, double low, double high) {
+  constexpr double far = 8;
+  const double least = low > 0 ? low : tried / far, most = std::isfinite(high) ? high : tried * far;
+  const double guess = tried * wanted / nodes;
+  const bool inside = guess > least * 1.001 && guess < most * 0.999;
+  return inside ? guess : std::sqrt(least * most);
+}
+
+}  // namespace
+
+SizedChanges changes_for_nodes(const WantedLevels& wanted, const TrialCount& count, std::int64_t nodes) {
+  constexpr double enough = 0.95, aim = 0.975;
+  constexpr int most_steps = 16;
+  const auto cap = static_cast<double>(nodes);
+  SizedChanges best{wanted.changes(0), 0, false};
+  bool bounded = false;
+  if (wanted.flat()) return best;
+  double low = 0, high = std::numeric_limits<double>::infinity(), tried = cap;
+  for (int step = 0; step < most_steps; ++step) {
+    const double leaves = wanted.leaves_at(tried);
+    if (leaves > 8 * cap) {  // of these most have nodes: not worth a mesh
+      high = tried;
+      tried = next_complexity(tried, leaves, cap, low, high);
+      continue;
+    }
+    SizedChanges now{wanted.changes(tried), tried, false};
+    bounded = bounded || !count.allowed(now.changes);
+    const TrialCount::Share share = count.filled(nodes, now.changes);
+    const bool fits = share.most <= 1;
+    (fits ? low : high) = tried;
+    if (fits) best = std::move(now);
+    if (fits && share.least >= enough) break;
+    // Nodes grow by steps: secants find the place, halving the step.
+    const bool by_secant = step < 2 || step % 2 == 0;
+    tried = next_complexity(tried, by_secant ? share.most * cap : 0, aim * cap, low, high);
+  }
+  constexpr double near = 0.8;  // else it was but a step of the search that went beyond
+  best.bounded = bounded && count.share_of_limit(best.changes) > near;
+  return best;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,62 @@
+#include "adapt/sensor/recovery/node_gradients.hpp"
+
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Integrals over cells.
+struct Integral {
+  double area = 0;
+  Point gradient;
+};
+
+/// Of one cell, from its outline: the field is linear along each edge. Counted from the first node, so that a
+/// constant field has no gradient at all and little is lost far from the origin.
+template <class Nodes>
+Integral integral_over(const Nodes& nodes, const HaloMesh& halo, const IdVector<NodeId, double>& values) {
+  const auto value = [&](NodeId node) { return values[node] - values[nodes[0]]; };
+  const auto place = [&](NodeId node) { return halo.point(node) - halo.point(nodes[0]); };
+  Integral sum;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const NodeId from = nodes[k], to = nodes[(k + 1) % nodes.size()];
+    const Point edge = place(to) - place(from), normal{edge.y, -edge.x};
+    sum.area += 0.5 * cross(place(from), place(to));
+    sum.gradient = sum.gradient + 0.5 * (value(from) + value(to)) * normal;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Point> node_gradients(const Communicator& comm, const Mesh& mesh,
+                                  std::span<const double> values) {
+  QUADLOOP_REQUIRE(values.size() == mesh.points.size(), "there must be one value for each node");
+  const HaloMesh halo(comm, mesh);
+  IdVector<NodeId, double> halo_values(std::vector<double>(values.begin(), values.end()));
+  halo_values.resize(halo.points().size());
+  halo.exchange().update(halo_values);
+
+  IdVector<NodeId, Integral> round_node(mesh.owned_nodes);
+  halo.for_each_cell([&](const auto& nodes) {  // in global order, so that ranks add up alike
+    const Integral cell = integral_over(nodes, halo, halo_values);
+    for (const NodeId node : nodes) {
+      if (!mesh.owns(node)) continue;
+      Integral& sum = round_node[node];
+      sum.area += cell.area;
+      sum.gradient = sum.gradient + cell.gradient;
+    }
+  });
+
+  std::vector<Point> gradients;
+  for (const Integral& sum : round_node)
+    gradients.push_back(sum.area > 0 ? (1 / sum.area) * sum.gradient : Point{});
+  gradients.resize(halo.points().size());
+  halo.exchange().update(gradients);
+  gradients.resize(mesh.points.size());  // the mesh's own copies come before the halo's
+  return gradients;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,142 @@
+#include "io/files/reading/input_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::size_t piece = std::size_t{1} << 20;
+constexpr std::size_t most_of_a_pipe = std::size_t{1} << 28;
+
+bool pipes_allowed = false;
+
+[[noreturn]] void refuse_opening(const std::string& path, int reason) {
+  const char* const cure = reason == ENAMETOOLONG ? "give a shorter name" : "check the name and its folder";
+  throw InputError(path + ": cannot be opened (" + std::strerror(reason) + "); " + cure);
+}
+
+}  // namespace
+
+/// An open file.
+class Descriptor {
+ public:
+  explicit Descriptor(const std::string& path) : number_{::open(path.c_str(), O_RDONLY | O_CLOEXEC)} {
+    if (number_ < 0) refuse_opening(path, errno);
+  }
+  ~Descriptor() { ::close(number_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  /// 0 at the end.
+  std::size_t read(char* into, std::size_t size, const std::string& path) const {
+    for (;;) {
+      const ssize_t got = ::read(number_, into, size);
+      if (got >= 0) return got;
+      if (errno != EINTR)
+        throw InputError(path + ": cannot be read to its end (" + std::strerror(errno) + ")");
+    }
+  }
+
+ private:
+  int number_;
+};
+
+namespace {
+
+/// Before anything is opened: that alone waits for ever on a pipe that nobody writes to.
+struct stat require_readable_kind(const std::string& path, bool pipes) {
+  struct stat found = {};
+  if (::stat(path.c_str(), &found) != 0) refuse_opening(path, errno);
+  if (S_ISDIR(found.st_mode)) throw InputError(path + ": is a folder; name a file in it");
+  if (S_ISFIFO(found.st_mode) && !pipes)
+    throw InputError(path +
+                     ": is a pipe, which cannot be read here; save what it gives as a file and name that");
+  if (!S_ISREG(found.st_mode) && !S_ISFIFO(found.st_mode))
+    throw InputError(path + ": is a device, not a file; name a file");
+  return found;
+}
+
+std::string read_file(const std::string& path, std::size_t size) {
+  const Descriptor file(path);
+  std::string text(size, '\0');
+  std::size_t used = 0;
+  while (used < size) {
+    const std::size_t got = file.read(text.data() + used, size - used, path);
+    if (got == 0) break;
+    used += got;
+  }
+  text.resize(used);
+  return text;
+}
+
+std::string read_pipe(const std::string& path) {
+  InputPieces pipe(path);
+  std::string text;
+  for (std::size_t before = text.size();; before = text.size()) {
+    pipe.append_next(text);
+    if (text.size() == before) return text;
+  }
+}
+
+}  // namespace
+
+void require_input_file(const std::string& path) { require_readable_kind(path, false); }
+
+std::string read_input(const std::string& path) {
+  const struct stat found = require_readable_kind(path, pipes_allowed);
+  if (!S_ISREG(found.st_mode)) return read_pipe(path);
+  const std::size_t size = found.st_size;
+  try {
+    return read_file(path, size);
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  }
+  throw InputError(path + ": has " + std::to_string(size) +
+                   " bytes, more than there is memory for; use a machine with more");
+}
+
+InputPieces::InputPieces(const std::string& path) : path_{path} {
+  const struct stat found = require_readable_kind(path, pipes_allowed);
+  is_pipe_ = !S_ISREG(found.st_mode);
+  if (!is_pipe_) bytes_left_ = found.st_size;
+  file_ = std::make_unique<Descriptor>(path);
+}
+
+InputPieces::~InputPieces() = default;
+
+void InputPieces::append_next(std::string& text) {
+  if (is_pipe_ && taken_ > most_of_a_pipe)
+    throw InputError(path_ +
+                     ": a pipe that gives more than 256 MB; save what it gives as a file and name that");
+  const std::size_t before = text.size();
+  text.resize(before + piece);
+  const std::size_t got = file_->read(text.data() + before, piece, path_);
+  text.resize(before + got);
+  taken_ += got;
+  bytes_left_ -= std::min(bytes_left_, got);
+}
+
+void InputPieces::read_all(char* into, std::size_t size) {
+  while (size > 0) {
+    const std::size_t got = file_->read(into, size, path_);
+    if (got == 0) throw InputError(path_ + ": ends while it is read; it may be under way of being written");
+    into += got;
+    size -= got;
+    bytes_left_ -= std::min(bytes_left_, got);
+  }
+}
+
+void allow_piped_input(bool allowed) { pipes_allowed = allowed; }
+
+}  // namespace quadloop

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "mesher/mesh/colouring.hpp"
+#include "smoother/sweeps/node_stars.hpp"
+
+namespace quadloop {
+
+/// Colours for the nodes that may move; neighbours are those that share a cell. *Collective.*
+inline Colouring colour_stars(const Communicator& comm, const HaloMesh& mesh, const NodeStars& stars) {
+  constexpr int block_bits = 6;
+  return colour_nodes(
+      comm, mesh, stars.nodes(),
+      [&](std::size_t i, const auto& visit) { stars.for_each_neighbour(i, visit); }, block_bits);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,138 @@
+#include "smoother/sweeps/node_stars.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mesher/base/ids.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Corners that a node of a cell hangs on.
+template <std::size_t width>
+constexpr std::size_t corners_of_cell = width == 3 ? 1 : 3;
+
+/// Targets as the nodes of a cell see its corners. A triangle: for each node its own corner. A quad: for each
+/// node its own corner, then that of the next node, then that of the previous one.
+template <std::size_t width>
+std::vector<CornerTarget> seen_targets(const std::array<CornerTarget, width>& of_corners) {
+  std::vector<CornerTarget> seen;
+  for (std::size_t k = 0; k < width; ++k) {
+    seen.push_back(of_corners[k]);
+    if (width == 3) continue;
+    seen.push_back(seen_from_next(seen_from_next(of_corners[(k + 1) % width])));
+    seen.push_back(seen_from_next(of_corners[(k + width - 1) % width]));
+  }
+  return seen;
+}
+
+template <std::size_t width>
+constexpr std::int32_t ideal_begin = width == 3 ? 0 : 3;
+
+}  // namespace
+
+NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
+                     const std::vector<CellTarget>& targets)
+    : mesh_{mesh},
+      nodes_{std::move(free_nodes)},
+      star_of_(mesh.points().size(), -1),
+      starts_(nodes_.size() + 1, 0) {
+  for (const auto& seen : {seen_targets<3>(ideal_targets<3>()), seen_targets<4>(ideal_targets<4>())}) {
+    targets_.insert(targets_.end(), seen.begin(), seen.end());
+  }
+  for (std::int32_t i = 0; const NodeId node : nodes_) star_of_[node] = i++;
+  mesh.for_each_cell([&](const auto& cell) {
+    for (const NodeId node : cell) {
+      const std::size_t i = star_of_[node] + 1;
+      if (i > 0) starts_[i] += corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
+    }
+  });
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  corners_.resize(starts_.back());
+  std::vector<std::size_t> ends(starts_.begin(), starts_.end() - 1);
+  std::size_t number = 0;
+  mesh.for_each_cell([&](const auto& cell) {
+    add_cell(cell, targets.empty() ? CellTarget{} : targets[number], ends);
+    ++number;
+  });
+  list_stars_round_copies();
+}
+
+/// Copies are few and lie at the borders of ranks.
+void NodeStars::list_stars_round_copies() {
+  copy_starts_.assign(mesh_.points().size() - mesh_.owned_nodes() + 1, 0);
+  const auto for_each_pair = [&](const auto& visit) {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      for_each_neighbour(i, [&](NodeId other) {
+        if (!mesh_.owns(other)) visit(other.value() - mesh_.owned_nodes(), static_cast<std::int32_t>(i));
+      });
+    }
+  };
+  for_each_pair([&](std::int32_t copy, std::int32_t) { ++copy_starts_[copy + 1]; });
+  std::partial_sum(copy_starts_.begin(), copy_starts_.end(), copy_starts_.begin());
+  copy_stars_.resize(copy_starts_.back());
+  std::vector<std::size_t> ends(copy_starts_.begin(), copy_starts_.end() - 1);
+  for_each_pair([&](std::int32_t copy, std::int32_t star) { copy_stars_[ends[copy]++] = star; });
+}
+
+template <std::size_t width>
+std::int32_t NodeStars::first_target(const CellTarget& target) {
+  if (target.ideal()) return ideal_begin<width>;
+  const auto begin = size32(targets_);
+  const auto seen = seen_targets<width>(stretched_targets<width>(target.w1, target.w2));
+  targets_.insert(targets_.end(), seen.begin(), seen.end());
+  return begin;
+}
+
+template <std::size_t width>
+void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
+                         std::vector<std::size_t>& ends) {
+  constexpr std::int32_t nodes{width}, per_node{corners_of_cell<width>};
+  std::int32_t targets = -1;
+  for (std::int32_t k = 0; k < nodes; ++k) {
+    const std::int32_t i = star_of_[cell[k]];
+    if (i < 0) continue;
+    if (targets < 0) targets = first_target<width>(target);
+    const NodeId next = cell[(k + 1) % width], previous = cell[(k + width - 1) % width];
+    const std::int32_t own = targets + per_node * k;
+    std::size_t& end = ends[i];
+    corners_[end++] = {next, previous, own, width == 3 ? CellAngle::all : CellAngle::at_p};
+    if constexpr (width == 4) {
+      const NodeId opposite = cell[(k + 2) % width];
+      corners_[end++] = {next, opposite, own + 1, CellAngle::at_q};
+      corners_[end++] = {opposite, previous, own + 2, CellAngle::at_r};
+    }
+  }
+}
+
+bool NodeStars::costs_more(std::size_t i, double limit) const {
+  const Point p = mesh_.point(nodes_[i]);
+  const double least = 1 - std::sqrt(limit);  // of 1 / condition number; above 0, so J must be, too
+  const auto corners = corners_of(i);
+  return std::any_of(corners.begin(), corners.end(), [&](const Corner& c) {
+    const CornerForm form = corner_form(p, mesh_.point(c.q), mesh_.point(c.r));
+    return !(form.jacobian > least * weighted_edges(form, targets_[c.target]));
+  });
+}
+
+void NodeStars::fetch_ahead(std::span<const std::int32_t> order, std::size_t k) const {
+  constexpr std::size_t far = 16, near = 8, line = 64 / sizeof(Corner);
+  if (k + 2 * far < order.size()) __builtin_prefetch(&starts_[order[k + 2 * far]]);
+  if (k + far < order.size()) {
+    const auto corners = corners_of(order[k + far]);
+    for (std::size_t c = 0; c < corners.size(); c += line) __builtin_prefetch(&corners[c]);
+  }
+  if (k + near < order.size()) {
+    for (const Corner& c : corners_of(order[k + near])) __builtin_prefetch(&mesh_.point(c.q));
+  }
+}
+
+void NodeStars::gather(std::size_t i, Star& star) const {
+  star.clear();
+  for (const Corner& c : corners_of(i))
+    star.add({mesh_.point(c.q), mesh_.point(c.r), targets_[c.target], c.angle});
+}
+
+}  // namespace quadloop

@@ -1,0 +1,60 @@
+#include "smoother/sweeps/sweeper.hpp"
+
+#include "smoother/node/untangle.hpp"
+
+namespace quadloop {
+
+Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide,
+                 const Rule& rule, const NodeFlags& bad, NodeFlags& stale)
+    : comm_{comm},
+      mesh_{mesh},
+      stars_{stars},
+      slide_{slide},
+      rule_{rule},
+      solver_{make_node_solver(rule.method)},
+      sweeps_(comm, mesh, stars, stale),
+      bad_(mesh.points().size(), 0),
+      bad_near_(stars.size(), 0) {
+  for (const NodeId free : stars.nodes()) bad_[free] = bad[free];
+  mesh.exchange().update(bad_);
+  for (const NodeId node : bad_.ids()) {
+    if (bad_[node] != 0) count_bad_near(node);
+  }
+}
+
+std::int64_t Sweeper::sweep() {
+  update_bad();
+  return comm_.sum(sweeps_.sweep([&](std::size_t i) { return bad_near_[i] > 0; },
+                                 [&](std::size_t i) { return better_place(i); }));
+}
+
+/// Flags the nodes of cells above the threshold, of other ranks too. One that was visited and round which all
+/// has stayed since keeps its flag, even where something moved in the sweep before it was visited.
+void Sweeper::update_bad() {
+  const NodeFlags before = bad_;
+  for (const std::int32_t i : sweeps_.take_changed()) {
+    if (sweeps_.is_stale(i)) bad_[node(i)] = stars_.costs_more(i, rule_.threshold) ? 1 : 0;
+  }
+  mesh_.exchange().update(bad_);
+  for (const NodeId node : bad_.ids()) {
+    if (bad_[node] != before[node]) count_bad_near(node);
+  }
+}
+
+/// A node has become bad, or good.
+void Sweeper::count_bad_near(NodeId node) {
+  const std::int32_t more = bad_[node] != 0 ? 1 : -1;
+  if (const std::int32_t own = stars_.star_of(node); own >= 0) bad_near_[own] += more;
+  stars_.for_each_star_round(node, [&](std::int32_t star) { bad_near_[star] += more; });
+}
+
+std::optional<Point> Sweeper::better_place(std::size_t i) {
+  stars_.gather(i, star_);
+  const Point p = mesh_.point(node(i));
+  if (slide_.freedom(node(i)) == NodeFreedom::sliding) return slide_.improve(node(i), star_, rule_.objective);
+  if (!rule_.tangled || star_.cost(p, rule_.objective).valid[0])
+    return solver_->improve(star_, p, rule_.objective);
+  return untangle(star_, p, rule_.objective);
+}
+
+}  // namespace quadloop

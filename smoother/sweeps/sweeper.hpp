@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "smoother/outline/boundary_slide.hpp"
+#include "smoother/sweeps/coloured_sweeps.hpp"
+
+namespace quadloop {
+
+/// Visits the nodes sweep by sweep, colour by colour: those of cells above a threshold and their neighbours,
+/// where something near has moved since they were visited.
+class Sweeper {
+ public:
+  /// How nodes are visited, and which.
+  struct Rule {
+    Method method;
+    Objective objective;
+    double threshold;
+    bool tangled;  ///< whether there may be stars with inverted corners; visits make no new ones
+  };
+  /// `stars` are those of the nodes that may move, `bad` flags the nodes of cells above the threshold;
+  /// `stale` as in ColouredSweeps. Mesh, stars, slide and `stale` must outlive it. *Collective.*
+  Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide,
+          const Rule& rule, const NodeFlags& bad, NodeFlags& stale);
+
+  /// Returns the number of nodes moved over all ranks. *Collective.*
+  std::int64_t sweep();
+
+ private:
+  NodeId node(std::size_t i) const { return stars_.nodes()[i]; }
+  void update_bad();
+  void count_bad_near(NodeId node);
+  std::optional<Point> better_place(std::size_t i);
+
+  const Communicator& comm_;
+  const HaloMesh& mesh_;
+  const NodeStars& stars_;
+  const BoundarySlide& slide_;
+  Rule rule_;
+  std::unique_ptr<NodeSolver> solver_;
+  ColouredSweeps sweeps_;
+  NodeFlags bad_;                       ///< free nodes of cells above the threshold, other ranks' too
+  std::vector<std::int32_t> bad_near_;  ///< of each free node: bad ones, itself too, as often as they are met
+  Star star_;
+};
+
+}  // namespace quadloop

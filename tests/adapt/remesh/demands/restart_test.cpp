@@ -1,0 +1,236 @@
+// A tree read from its record gives itself again; marks change it by a level, and the same marks take back
+// what they made.
+#include "adapt/remesh/demands/restart.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "mesher/base/error.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop {
+namespace {
+
+using test::world;
+
+Geometry disc_in_square() {
+  std::vector<Point> points{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  std::vector<BoundaryId> boundary(4, BoundaryId{0});
+  for (int i = 0; i < 48; ++i) {
+    const double angle = -2 * std::numbers::pi * i / 48;
+    points.push_back({0.3 + 0.2 * std::cos(angle), -0.1 + 0.2 * std::sin(angle)});
+    boundary.push_back(BoundaryId{1});
+  }
+  return {{{"frame", 0, 30, "none"}, {"disc", 0.03, 30, "wall"}}, points, {0, 4, 52}, boundary};
+}
+
+MeshInput disc_input() {
+  MeshInput input{disc_in_square(), {}, {}, 0};
+  input.mesh.size.min = 0.02;
+  input.mesh.size.max = 0.25;
+  input.smooth.sweeps = 0;
+  return input;
+}
+
+TreeRecord tree_of(const MeshInput& input, const std::vector<SplitDemand>& demands,
+                   const Communicator& comm = world()) {
+  return build_mesh(comm, input.geometry, input.mesh, DemandedSplits(comm, demands)).tree;
+}
+
+/// All ranks' leaves, bit for bit.
+std::vector<std::array<std::int64_t, 6>> all_leaves(const TreeRecord& tree,
+                                                    const Communicator& comm = world()) {
+  std::vector<std::array<std::int64_t, 6>> own;
+  for (const LeafRecord& leaf : tree.leaves) {
+    const Quadrant q = quadrant_of(leaf);
+    own.push_back({q.x, q.y, q.level, leaf.wanted, leaf.adapted, leaf.triangles + 1000 * leaf.quads});
+  }
+  return comm.all_gather_values(std::span<const std::array<std::int64_t, 6>>(own));
+}
+
+/// By place alone, so the same on any number of ranks: about one leaf in seven.
+bool chosen(const Quadrant& q) {
+  return (static_cast<std::uint64_t>(q.x * 31 + q.y * 17 + q.level) * 0x9e3779b97f4a7c15ULL >> 32) % 7 == 0;
+}
+
+constexpr int finest = 12;
+
+ChangedSplits refined_by_choice(const TreeRecord& tree, const Communicator& comm = world()) {
+  std::vector<Mark> marks;
+  for (const LeafRecord& leaf : tree.leaves)
+    marks.push_back(chosen(quadrant_of(leaf)) ? Mark::refine : Mark::keep);
+  return changed_splits(comm, tree, marks, finest);
+}
+
+class RestartUnderGradation : public testing::TestWithParam<double> {};
+
+/// Each rank alone makes the tree that all make together, also where demands of one rank's leaves reach into
+/// those of another: by gradation from leaf to leaf, and twice, so that the second demands stand on what the
+/// first led to.
+TEST_P(RestartUnderGradation, OneRankAndAllRanksMakeTheSameTree) {
+  MeshInput input = disc_input();
+  input.mesh.size.gradation = GetParam();
+  const Communicator alone(MPI_COMM_SELF);
+  TreeRecord together = tree_of(input, {}), single = tree_of(input, {}, alone);
+  ASSERT_EQ(all_leaves(together), all_leaves(single, alone));
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    const ChangedSplits by_all = refined_by_choice(together), by_one = refined_by_choice(single, alone);
+    EXPECT_EQ(by_all.refined, by_one.refined);
+    together = tree_of(input, by_all.demands);
+    single = tree_of(input, by_one.demands, alone);
+    ASSERT_EQ(all_leaves(together), all_leaves(single, alone)) << "refined " << cycle + 1 << " times";
+  }
+  for (int cycle = 0; cycle < 2; ++cycle) {
+    const std::vector<Mark> of_all(together.leaves.size(), Mark::coarsen),
+        of_one(single.leaves.size(), Mark::coarsen);
+    const ChangedSplits by_all = changed_splits(world(), together, of_all, finest),
+                        by_one = changed_splits(alone, single, of_one, finest);
+    EXPECT_EQ(by_all.coarsened, by_one.coarsened);
+    EXPECT_GT(by_all.coarsened, 0);
+    together = tree_of(input, by_all.demands);
+    single = tree_of(input, by_one.demands, alone);
+    ASSERT_EQ(all_leaves(together), all_leaves(single, alone)) << "coarsened " << cycle + 1 << " times";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Gradations, RestartUnderGradation, testing::Values(1.25, 1.5, 2.0));
+
+TEST(Restart, WithoutMarksTheTreeIsTheSame) {
+  const MeshInput input = disc_input();
+  const TreeRecord first = tree_of(input, {});
+  EXPECT_EQ(all_leaves(tree_of(input, standing_splits(first, input))), all_leaves(first));
+  const TreeRecord second = tree_of(input, refined_by_choice(first).demands);
+  EXPECT_EQ(all_leaves(tree_of(input, standing_splits(second, input))), all_leaves(second));
+}
+
+TEST(Restart, EveryMarkedLeafIsSplit) {
+  const MeshInput input = disc_input();
+  const TreeRecord first = tree_of(input, {});
+  const ChangedSplits changed = refined_by_choice(first);
+  const auto before = all_leaves(first), after = all_leaves(tree_of(input, changed.demands));
+  EXPECT_GT(changed.refined, 20);
+  for (const auto& leaf : before) {
+    if (!chosen({leaf[0], leaf[1], static_cast<int>(leaf[2])})) continue;
+    for (const auto& now : after) EXPECT_FALSE(now[0] == leaf[0] && now[1] == leaf[1] && now[2] <= leaf[2]);
+  }
+}
+
+TEST(Restart, RefiningThenCoarseningByTheSameMarksGivesTheTreeBack) {
+  const MeshInput input = disc_input();
+  const TreeRecord first = tree_of(input, {});
+  const TreeRecord second = tree_of(input, refined_by_choice(first).demands);
+  // The leaves in a quadrant that was marked go; its children may have been split further by gradation, then
+  // it takes a cycle for each level.
+  std::vector<Mark> marks(second.leaves.size(), Mark::coarsen);
+  TreeRecord third = tree_of(input, changed_splits(world(), second, marks, finest).demands);
+  for (int cycle = 0; cycle < 4; ++cycle) {
+    marks.assign(third.leaves.size(), Mark::coarsen);
+    third = tree_of(input, changed_splits(world(), third, marks, finest).demands);
+  }
+  EXPECT_EQ(all_leaves(third), all_leaves(first));
+}
+
+/// As a sensor leaves them: no mark where there are no cells.
+std::vector<Mark> marks_of_cells(const TreeRecord& tree, Mark mark,
+                                 const std::function<bool(const Quadrant&)>& where) {
+  std::vector<Mark> marks;
+  for (const LeafRecord& leaf : tree.leaves)
+    marks.push_back(leaf.triangles + leaf.quads > 0 && where(quadrant_of(leaf)) ? mark : Mark::keep);
+  return marks;
+}
+
+TEST(Restart, LeavesAtWallsGoBackThoughTheirSiblingsHaveNoCells) {
+  const MeshInput input = disc_input();
+  const auto everywhere = [](const Quadrant&) { return true; };
+  const TreeRecord first = tree_of(input, {});
+  TreeRecord tree = first;
+  for (int cycle = 0; cycle < 2; ++cycle) {
+    const auto marks = marks_of_cells(tree, Mark::refine,
+                                      [](const Quadrant& q) { return q.level >= 6; });  // those at the disc
+    tree = tree_of(input, changed_splits(world(), tree, marks, finest).demands);
+  }
+  EXPECT_GT(world().sum(std::ssize(tree.leaves)), 2 * world().sum(std::ssize(first.leaves)));
+  const std::vector<Mark> nothing(tree.leaves.size(), Mark::keep);
+  EXPECT_EQ(all_leaves(tree_of(input, changed_splits(world(), tree, nothing, finest).demands)),
+            all_leaves(tree));
+  for (int cycle = 0; cycle < 4; ++cycle) {
+    tree = tree_of(
+        input,
+        changed_splits(world(), tree, marks_of_cells(tree, Mark::coarsen, everywhere), finest).demands);
+  }
+  EXPECT_EQ(all_leaves(tree), all_leaves(first));
+}
+
+/// One cycle of a mark on every leaf.
+TreeRecord all_marked(const MeshInput& input, const TreeRecord& tree, Mark mark) {
+  const ChangedSplits changed =
+      changed_splits(world(), tree, std::vector<Mark>(tree.leaves.size(), mark), finest);
+  const std::int64_t leaves = world().sum(std::ssize(tree.leaves));
+  EXPECT_EQ(mark == Mark::refine ? changed.refined : changed.coarsened, leaves);
+  return tree_of(input, changed.demands);
+}
+
+/// Where a quadrant was split twice over, one cycle of marks takes back the last of the two splits, and no
+/// more. The case's own leaves are all of one size, so that gradation asks for nothing.
+TEST(Restart, CoarseningGoesBackALevelEachCycle) {
+  MeshInput input = disc_input();
+  input.mesh.size.min = input.mesh.size.max = 0.125;
+  const TreeRecord first = tree_of(input, {}), second = all_marked(input, first, Mark::refine),
+                   third = all_marked(input, second, Mark::refine);
+  const auto leaves = all_leaves(first).size();
+  EXPECT_EQ(all_leaves(second).size(), 4 * leaves);
+  EXPECT_EQ(all_leaves(third).size(), 16 * leaves);
+  const TreeRecord fourth = all_marked(input, third, Mark::coarsen);
+  EXPECT_EQ(all_leaves(fourth), all_leaves(second));
+  EXPECT_EQ(all_leaves(all_marked(input, fourth, Mark::coarsen)), all_leaves(first));
+}
+
+TEST(Restart, CoarseningNeverPassesTheCasesOwnTree) {
+  const MeshInput input = disc_input();
+  const TreeRecord first = tree_of(input, {});
+  const std::vector<Mark> marks(first.leaves.size(), Mark::coarsen);
+  const ChangedSplits changed = changed_splits(world(), first, marks, finest);
+  EXPECT_EQ(changed.coarsened, 0);
+  EXPECT_EQ(all_leaves(tree_of(input, changed.demands)), all_leaves(first));
+}
+
+TEST(Restart, LeavesOfTheFinestLevelAreNotSplit) {
+  const MeshInput input = disc_input();
+  const TreeRecord first = tree_of(input, {});
+  const std::vector<Mark> marks(first.leaves.size(), Mark::refine);
+  EXPECT_EQ(changed_splits(world(), first, marks, 1).refined, 0);
+}
+
+TEST(Restart, WantedLevelsStandUnderACoarserCase) {
+  const MeshInput input = disc_input();
+  const TreeRecord first = tree_of(input, {});
+  MeshInput coarser = input;
+  coarser.mesh.size.min = 0.1;
+  coarser.digest = 1;
+  const auto before = all_leaves(first),
+             after = all_leaves(tree_of(coarser, standing_splits(first, coarser)));
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_EQ((std::array{before[i][0], before[i][1], before[i][2]}),
+              (std::array{after[i][0], after[i][1], after[i][2]}));
+}
+
+TEST(Restart, TheRootStaysAndAGeometryOutsideIsRefused) {
+  MeshInput input = disc_input();
+  const TreeRecord first = tree_of(input, {});
+  keep_root(first.attributes, input);
+  EXPECT_FALSE(input.mesh.size.root.has_value()) << "the same root anyhow";
+  TreeAttributes larger = first.attributes, elsewhere = first.attributes;
+  larger.tree_edge *= 2;
+  keep_root(larger, input);
+  ASSERT_TRUE(input.mesh.size.root.has_value());
+  EXPECT_EQ(input.mesh.size.root->tree_edge, larger.tree_edge);
+  elsewhere.root_x += 0.5;
+  EXPECT_THROW(keep_root(elsewhere, input), InputError);
+}
+
+}  // namespace
+}  // namespace quadloop
