@@ -19,7 +19,6 @@
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "smoother/outline/outline_match.hpp"
 
@@ -37,12 +36,6 @@ struct MorphInput {
   MeshOrder order;
   std::optional<Geometry> to, from;
 };
-
-Geometry read_outline(const std::string& path, Warnings& warnings) {
-  AssembleOptions options;
-  options.domain_is_known = true;
-  return assemble(read_geometry(path, warnings), options, warnings);
-}
 
 /// *Collective.*
 MorphInput load(const CommandContext& context, const MorphArguments& arguments) {

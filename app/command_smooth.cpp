@@ -21,7 +21,6 @@
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
@@ -78,12 +77,6 @@ Warnings doubts_about_stretched(const Mesh& mesh, const std::string& path) {
       "{}: {} cells are more than {:g} times as long as wide; if these are layers at a wall they are evened "
       "out, unless a .mesh file says '# layers NAME COUNT' before the number of edges of that boundary",
       path, stretched, most_stretched)};
-}
-
-Geometry read_outline(const std::string& path, Warnings& warnings) {
-  AssembleOptions options;
-  options.domain_is_known = true;
-  return assemble(read_geometry(path, warnings), options, warnings);
 }
 
 void append(Warnings& warnings, const Warnings& more) {

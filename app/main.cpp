@@ -68,7 +68,6 @@ void add_commands(CLI::App& app, CommandContext& context) {
   app.add_flag("--json", context.json, about_json);
   add_mesh_command(app, context);
   add_smooth_command(app, context);
-  add_morph_command(app, context);
   add_adapt_command(app, context);
   add_solve_command(app, context);
   add_remesh_command(app, context);
@@ -76,6 +75,7 @@ void add_commands(CLI::App& app, CommandContext& context) {
   add_plot_command(app, context);
   add_convert_command(app, context);
   add_extrude_command(app, context);
+  add_morph_command(app, context);
   for (CLI::App* command : commands_of(app)) {
     command->footer(fmt::format(
         "With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n"

@@ -39,24 +39,16 @@ std::string blocks_text(const std::vector<BlockFigures>& blocks, std::size_t mos
   return text;
 }
 
-std::string blocks_json(const std::vector<BlockFigures>& blocks) {
+/// {name: {count_key: n, size_key: a}}
+template <class Row, class Count>
+std::string rows_json(const std::vector<Row>& rows, const char* count_key, Count Row::*count,
+                      const char* size_key, double Row::*size) {
   JsonObject all;
-  for (const BlockFigures& block : blocks) {
+  for (const Row& row : rows) {
     JsonObject one;
-    one.add("cells", block.cells);
-    one.add("volume", block.volume);
-    all.add(block.name, one);
-  }
-  return all.text();
-}
-
-std::string patches_json(const std::vector<PatchFigures>& patches) {
-  JsonObject all;
-  for (const PatchFigures& patch : patches) {
-    JsonObject one;
-    one.add("faces", patch.faces);
-    one.add("area", patch.area);
-    all.add(patch.name, one);
+    one.add(count_key, row.*count);
+    one.add(size_key, row.*size);
+    all.add(row.name, one);
   }
   return all.text();
 }
@@ -74,11 +66,13 @@ Figures figures_of(const SolidMesh& mesh, const SolidFigures& found, std::size_t
   if (!found.blocks.empty()) {
     figures.add("blocks", std::ssize(found.blocks));
     figures.add_lines(blocks_text(found.blocks, most));
-    figures.add_member("block_figures", blocks_json(found.blocks));
+    figures.add_member("block_figures", rows_json(found.blocks, "cells", &BlockFigures::cells, "volume",
+                                                  &BlockFigures::volume));
   }
   figures.add("patches", std::ssize(mesh.patches));
   figures.add_lines(patches_text(found.patches, most));
-  figures.add_member("patch_figures", patches_json(found.patches));
+  figures.add_member("patch_figures",
+                     rows_json(found.patches, "faces", &PatchFigures::faces, "area", &PatchFigures::area));
   return figures;
 }
 

@@ -10,6 +10,7 @@
 #include "io/input/airfoil_dat.hpp"
 #include "io/input/geom_text.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 
 namespace quadloop {
 
@@ -43,6 +44,12 @@ std::vector<Chain> read_geometry(const std::string& path, std::vector<std::strin
         fmt::format("{}: this program was linked without GDAL, which reads {} files", path, suffix));
   throw InputError(fmt::format("{}: '{}' is not the suffix of a geometry file; known: {}", path, suffix,
                                fmt::join(geometry_suffixes(), ", ")));
+}
+
+Geometry read_outline(const std::string& path, std::vector<std::string>& warnings) {
+  AssembleOptions options;
+  options.domain_is_known = true;
+  return assemble(read_geometry(path, warnings), options, warnings);
 }
 
 }  // namespace quadloop

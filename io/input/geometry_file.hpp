@@ -15,6 +15,10 @@ namespace quadloop {
 /// told by a warning each.
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings);
 
+/// The same as an outline, whose domain is known from a mesh on it: nobody is told of loops that were turned,
+/// nor of several domains. Throws InputError as assemble() does too.
+Geometry read_outline(const std::string& path, std::vector<std::string>& warnings);
+
 /// Drawings and maps, read by a library of their own (io/gis).
 inline const std::array<std::string, 4> gis_suffixes{".dxf", ".geojson", ".shp", ".gpkg"};
 

@@ -11,6 +11,7 @@
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "mesher/base/error.hpp"
+#include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -18,17 +19,7 @@ namespace {
 
 using test::world;
 
-MeshInput square_input() {
-  MeshInput input{{{{"side", 0, 30, "wall"}},
-                   {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
-                   {0, 4},
-                   std::vector<BoundaryId>(4, BoundaryId{0})},
-                  {},
-                  {},
-                  0};
-  input.mesh.size.min = input.mesh.size.max = 1.0 / 16;
-  return input;
-}
+MeshInput square_input() { return test::square_input(1.0 / 16); }
 
 AdaptOptions adapt_options() {
   AdaptOptions options;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "adapt/remesh/remesh.hpp"
+#include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -13,14 +14,7 @@ using test::world;
 
 /// A square of 8 x 8 leaves.
 MeshInput square_input() {
-  MeshInput input{{{{"side", 0, 30, "wall"}},
-                   {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
-                   {0, 4},
-                   std::vector<BoundaryId>(4, BoundaryId{0})},
-                  {},
-                  {},
-                  0};
-  input.mesh.size.min = input.mesh.size.max = 0.125;
+  MeshInput input = test::square_input(0.125);
   input.mesh.size.root = RootOptions{{0, 0}, 1, 1, 1};
   return input;
 }

@@ -11,6 +11,7 @@
 #include "adapt/remesh/remesh.hpp"
 #include "adapt/sensor/wanted_size.hpp"
 #include "mesher/base/error.hpp"
+#include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -20,14 +21,7 @@ using test::world;
 
 /// A square of 16 x 16 leaves of level 4.
 MeshInput square_input() {
-  MeshInput input{{{{"side", 0, 30, "wall"}},
-                   {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
-                   {0, 4},
-                   std::vector<BoundaryId>(4, BoundaryId{0})},
-                  {},
-                  {},
-                  0};
-  input.mesh.size.min = input.mesh.size.max = 1.0 / 16;
+  MeshInput input = test::square_input(1.0 / 16);
   input.mesh.size.root = RootOptions{{0, 0}, 1, 1, 1};
   return input;
 }
