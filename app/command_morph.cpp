@@ -19,6 +19,7 @@
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "smoother/outline/outline_match.hpp"
 

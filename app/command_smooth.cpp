@@ -21,6 +21,7 @@
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"

@@ -10,6 +10,7 @@ import argparse
 import json
 import subprocess
 import tempfile
+import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))

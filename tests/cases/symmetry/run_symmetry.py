@@ -7,6 +7,7 @@
 """
 import argparse
 import tempfile
+import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
