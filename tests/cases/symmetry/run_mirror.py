@@ -9,8 +9,8 @@ sizes that are none are refused; with --adapt cycles keep it, and the built-in s
 import argparse
 import json
 import subprocess
-import tempfile
 import sys
+import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))

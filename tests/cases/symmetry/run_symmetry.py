@@ -6,8 +6,8 @@
 --layers  triangles across the axis are left out: layers' cells there are symmetric trapeziums, of which no diagonal is
 """
 import argparse
-import tempfile
 import sys
+import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
