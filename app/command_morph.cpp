@@ -65,9 +65,11 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
 
 [[noreturn]] void refuse_way(const MorphArguments& arguments, const MorphReport& report) {
   throw InputError(
-      fmt::format("{}: its cells cannot follow to {}: some turn over after {:.0f} % of the way; go there in "
+      fmt::format("{}: its cells cannot follow to {}: near ({:g}, {:g}) some turn over after {:.0f} % of the "
+                  "way; go there in "
                   "steps that meshes still follow, or mesh the new outline anew",
-                  arguments.input, arguments.geometry, 100 * report.possible_way));
+                  arguments.input, arguments.geometry, report.worst_place.x, report.worst_place.y,
+                  100 * report.possible_way));
 }
 
 Figures figures_of(const MorphReport& report) {
@@ -90,7 +92,8 @@ void run_morph(const CommandContext& context, const MorphArguments& arguments) {
   if (comm.is_root() && input.whole.blocks > 1) interfaces = interface_nodes(input.whole);
   interfaces = NodeFlags(scatter_nodes(comm, interfaces, input.order));
   times.begin("morph");
-  const OutlineChange change{*input.to, arguments.geometry, input.from ? &*input.from : nullptr};
+  const OutlineChange change{*input.to, arguments.geometry, input.from ? &*input.from : nullptr,
+                             arguments.from};
   const MorphReport report = morph_mesh(comm, part, change, interfaces);
   if (!report.valid()) refuse_way(arguments, report);
   gather_mesh(comm, part, input.order, input.whole.mesh);

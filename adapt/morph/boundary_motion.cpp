@@ -15,7 +15,7 @@ namespace {
 /// Where each vertex of the mesh's outline goes, its own outline being what is known of the old one.
 std::vector<Point> images_by_mesh(const Geometry& outline, const OutlineChange& change) {
   const Geometry to = walked_as(outline, change.to);
-  const OutlineMap map(outline, to, false, change.file);
+  const OutlineMap map(outline, to, false, {change.file, "the mesh"});
   const OutlinePath path(outline);
   std::vector<Point> images;
   for (std::int32_t v = 0; v < outline.size(); ++v) {
@@ -27,7 +27,7 @@ std::vector<Point> images_by_mesh(const Geometry& outline, const OutlineChange& 
 
 std::vector<Point> images_by_outline(const Geometry& outline, const OutlineChange& change) {
   const Geometry from = walked_as(outline, *change.from), to = walked_as(outline, change.to);
-  const OutlineMap map(from, to, true, change.file);
+  const OutlineMap map(from, to, true, {change.file, change.from_file});
   const OutlinePath path(from);
   std::vector<Point> images;
   for (std::int32_t v = 0; v < outline.size(); ++v) {
@@ -38,13 +38,30 @@ std::vector<Point> images_by_outline(const Geometry& outline, const OutlineChang
     const OutlinePlace place = path.locate(p, name, true);
     if (!place.valid())
       throw InputError(
-          fmt::format("the mesh's node ({:.12g}, {:.12g}) is not on boundary '{}' of the outline "
-                      "that it is said to be made on; leave --from out, or give the outline that "
-                      "`quadloop mesh --geometry-out` wrote",
-                      p.x, p.y, name));
+          fmt::format("{}: the mesh's node ({:.12g}, {:.12g}) is not on boundary '{}' of this "
+                      "outline; leave --from out, or give the outline that `quadloop mesh "
+                      "--geometry-out` wrote",
+                      change.from_file, p.x, p.y, name));
     if (map.maps(place.loop)) images.back() = map.image(place.loop, place.arc);
   }
   return images;
+}
+
+/// A node that the boundary passes twice stands for one place of the new outline too.
+std::vector<BoundaryNodeMotion> each_once(std::vector<BoundaryNodeMotion> motions, const std::string& file) {
+  constexpr double rounding = 1e-9;
+  for (std::size_t k = 1; k < motions.size(); ++k) {
+    const RigidMotion &one = motions[k - 1].motion, &other = motions[k].motion;
+    if (motions[k].node != motions[k - 1].node || length(other.to - one.to) <= rounding * motions[k].width)
+      continue;
+    throw InputError(
+        fmt::format("{}: the mesh's boundary passes the node ({:g}, {:g}) twice, where the new outline "
+                    "parts; mesh that anew",
+                    file, one.from.x, one.from.y));
+  }
+  const auto again = std::ranges::unique(motions, {}, &BoundaryNodeMotion::node);
+  motions.erase(again.begin(), again.end());
+  return motions;
 }
 
 double angle_between(Point before, Point after) {
@@ -73,9 +90,7 @@ std::vector<BoundaryNodeMotion> boundary_motion(const BoundaryOutline& outline, 
                        (length(edge(previous)) + length(edge(v))) / 2});
   }
   std::ranges::stable_sort(motions, {}, &BoundaryNodeMotion::node);
-  const auto again = std::ranges::unique(motions, {}, &BoundaryNodeMotion::node);
-  motions.erase(again.begin(), again.end());
-  return motions;
+  return each_once(std::move(motions), change.file);
 }
 
 }  // namespace quadloop

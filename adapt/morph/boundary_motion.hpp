@@ -31,6 +31,7 @@ struct OutlineChange {
   /// The outline that the mesh was made on, if it is known: where `to` has as many points, nodes stay with
   /// their segment. Else they keep their share of the way between two corners.
   const Geometry* from = nullptr;
+  std::string from_file = {};
 };
 
 /// Of all boundary nodes, by their numbers, each once; those of boundaries that the new outline lacks stay. A

@@ -9,7 +9,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double far_away = 8;  // radii: from there on a node's sources count as one
+constexpr double far_away = 30;  // radii: from there on a node's sources count as one
 constexpr std::int32_t leaf_size = 4;
 
 }  // namespace

@@ -122,6 +122,24 @@ class Morph {
     return near;
   }
 
+  /// The first node of the worst cell over all ranks. *Collective.*
+  Point worst_place(const Mesh& mesh) const {
+    std::pair<double, Point> worst{std::numeric_limits<double>::infinity(), {}};
+    const auto look_at = [&](const auto& nodes) {
+      const double quality = quality_at(nodes, [&](NodeId node) { return mesh.point(node); });
+      worst = std::min(worst, std::pair(quality, mesh.point(nodes[0])));
+    };
+    for (const auto& nodes : mesh.triangles) look_at(nodes);
+    for (const auto& nodes : mesh.quads) look_at(nodes);
+    struct Found {
+      double quality;
+      Point place;
+    };
+    for (const Found& found : comm_.all_gather(Found{worst.first, worst.second}))
+      worst = std::min(worst, std::pair(found.quality, found.place));
+    return worst.second;
+  }
+
   /// The quality of the worst cell outside layers, or of any that is inverted. *Collective.*
   double worst_quality(const Mesh& mesh) const {
     double worst = std::numeric_limits<double>::infinity();
@@ -206,6 +224,7 @@ MorphReport morph_mesh(const Communicator& comm, Mesh& mesh, const OutlineChange
     report.worst_after = morph.worst_quality(mesh);
   }
   if (!report.valid()) {
+    report.worst_place = morph.worst_place(mesh);
     Mesh tried = mesh;
     report.possible_way = possible_way(morph, tried);
   }

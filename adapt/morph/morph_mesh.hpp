@@ -13,6 +13,7 @@ struct MorphReport {
   std::int64_t moved = 0;                    ///< nodes
   bool smoothed = false;
   double possible_way = 1;  ///< share of the way up to which no cell is inverted, before smoothing
+  Point worst_place;        ///< where cells that cannot follow turn over: a node of the worst one
   bool valid() const { return worst_after > 0; }
 };
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
@@ -96,21 +98,23 @@ std::vector<std::int32_t> sharpest_vertices(const Geometry& geometry, std::int32
   return found;
 }
 
-[[noreturn]] void refuse_corner(const std::string& file, const Geometry& to, std::int32_t v) {
-  throw InputError(
-      fmt::format("{}: the corner of boundary '{}' at ({:g}, {:g}) has no counterpart on the mesh's outline; "
-                  "mesh the new outline anew",
-                  file, name_of_segment(to, v), to.point(v).x, to.point(v).y));
+using Vertices = std::vector<std::int32_t>;
+
+Vertices all_vertices(const Geometry& geometry, std::int32_t loop) {
+  Vertices all;
+  for_each_vertex(geometry, loop, [&](std::int32_t v) { all.push_back(v); });
+  return all;
 }
 
-/// By how many vertices the corners `to` are walked on so that they stand for those of `from`: the names that
-/// follow are the same, and they lie nearest to them when the loops' centres are laid on each other.
-std::optional<std::size_t> turn_of(const Geometry& old_outline, std::span<const std::int32_t> from,
-                                   const Geometry& new_outline, std::span<const std::int32_t> to,
-                                   Point shift) {
+/// Of these numbers of vertices the one by which `to` is walked on so that they stand for those of `from`:
+/// the names that follow are the same, and they lie nearest to them when the loops' centres are laid on each
+/// other. None where names never are.
+std::optional<std::size_t> turn_of(const Geometry& old_outline, const Vertices& from,
+                                   const Geometry& new_outline, const Vertices& to, Point shift,
+                                   std::span<const std::size_t> turns) {
   std::optional<std::size_t> best;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t turn = 0; turn < to.size(); ++turn) {
+  for (const std::size_t turn : turns) {
     double sum = 0;
     for (std::size_t k = 0; k < from.size(); ++k) {
       const std::int32_t v = to[(k + turn) % to.size()];
@@ -126,6 +130,19 @@ std::optional<std::size_t> turn_of(const Geometry& old_outline, std::span<const 
   return best;
 }
 
+/// The turns that lay the first kept vertex of one loop on a kept one of another, as long; and none at all.
+std::vector<std::size_t> turns_of_kept(const Geometry& old_outline, const Vertices& from,
+                                       const Geometry& new_outline, const Vertices& to) {
+  std::vector<std::size_t> turns{0};
+  const auto first = std::ranges::find_if(from, [&](std::int32_t v) { return old_outline.kept(v); });
+  if (first == from.end()) return turns;
+  const std::size_t at = first - from.begin();
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    if (new_outline.kept(to[k])) turns.push_back((k + to.size() - at) % to.size());
+  }
+  return turns;
+}
+
 /// The way along a loop to its place nearest to p.
 double nearest_arc(const Geometry& geometry, const OutlinePath& path, std::int32_t loop, Point p) {
   double arc = 0, least = std::numeric_limits<double>::infinity();
@@ -139,16 +156,6 @@ double nearest_arc(const Geometry& geometry, const OutlinePath& path, std::int32
   return arc;
 }
 
-bool same_names(const Geometry& a, std::int32_t loop_a, const Geometry& b, std::int32_t loop_b) {
-  const std::int32_t begin_a = a.loop_start(loop_a), begin_b = b.loop_start(loop_b);
-  const std::int32_t count = a.loop_start(loop_a + 1) - begin_a;
-  if (b.loop_start(loop_b + 1) - begin_b != count) return false;
-  for (std::int32_t k = 0; k < count; ++k) {
-    if (name_of_segment(a, begin_a + k) != name_of_segment(b, begin_b + k)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 Geometry walked_as(const Geometry& like, const Geometry& outline) {
@@ -160,67 +167,82 @@ Geometry walked_as(const Geometry& like, const Geometry& outline) {
   return with_loops_turned(outline, against);
 }
 
-OutlineMap::OutlineMap(const Geometry& from, const Geometry& to, bool by_points, const std::string& name)
+OutlineMap::OutlineMap(const Geometry& from, const Geometry& to, bool by_points, const Names& names)
     : from_{from}, to_{to}, old_path_{from}, new_path_{to}, by_points_{by_points}, loops_(from.loop_count()) {
-  match_loops(name);
+  match_loops(names);
   for (std::int32_t loop = 0; loop < from.loop_count(); ++loop) {
-    if (maps(loop)) by_points_ = by_points_ && same_names(from, loop, to, loops_[loop].image);
-  }
-  for (std::int32_t loop = 0; loop < from.loop_count(); ++loop) {
-    if (maps(loop)) loops_[loop] = anchored(loop, loops_[loop].image, name);
+    if (!maps(loop)) continue;
+    const std::int32_t image = loops_[loop].image;
+    std::optional<LoopMap> map;
+    if (by_points) map = point_by_point(loop, image);
+    by_points_ = by_points_ && map;
+    loops_[loop] = map ? *map : by_corners(loop, image, names);
   }
 }
 
-void OutlineMap::match_loops(const std::string& name) {
+void OutlineMap::match_loops(const Names& names) {
   for (std::int32_t image = 0; image < to_.loop_count(); ++image) {
     const std::int32_t nearest =
         counterpart(to_, image, from_, [&](std::int32_t loop) { return !maps(loop); });
     if (nearest < 0)
-      throw InputError(fmt::format("{}: has more loops of {} than the mesh; mesh the new outline anew", name,
-                                   listed(names_of(to_, image))));
+      throw InputError(fmt::format("{}: has more loops of {} than {}; mesh the new outline anew", names.to,
+                                   listed(names_of(to_, image)), names.from));
     loops_[nearest].image = image;
   }
   for (std::int32_t loop = 0; loop < from_.loop_count(); ++loop) {
     if (maps(loop)) continue;
-    const NameSet names = names_of(from_, loop);
+    const NameSet own = names_of(from_, loop);
     for (std::int32_t image = 0; image < to_.loop_count(); ++image) {
       const NameSet other = names_of(to_, image);
-      const bool shared = std::ranges::any_of(names, [&](const auto& n) { return other.contains(n); });
-      if (shared)
-        throw InputError(
-            fmt::format("{}: the mesh has a loop of {} near ({:g}, {:g}) that has no counterpart; "
-                        "mesh the new outline anew",
-                        name, listed(names), centre_of(from_, loop).x, centre_of(from_, loop).y));
+      if (std::ranges::none_of(own, [&](const auto& n) { return other.contains(n); })) continue;
+      throw InputError(
+          fmt::format("{}: {} has a loop of {} near ({:g}, {:g}) that has no counterpart here; mesh the "
+                      "new outline anew",
+                      names.to, names.from, listed(own), centre_of(from_, loop).x, centre_of(from_, loop).y));
     }
   }
 }
 
-OutlineMap::LoopMap OutlineMap::anchored(std::int32_t loop, std::int32_t image,
-                                         const std::string& name) const {
+OutlineMap::LoopMap OutlineMap::anchored(std::int32_t image, const Vertices& corners,
+                                         const Vertices& counterparts, std::size_t turn) const {
   LoopMap map{image, {}, {}};
-  std::vector<std::int32_t> corners, counterparts;
-  std::size_t turn = 0;
-  const Point shift = centre_of(to_, image) - centre_of(from_, loop);
-  if (by_points_) {
-    for_each_vertex(from_, loop, [&](std::int32_t v) { corners.push_back(v); });
-    for_each_vertex(to_, image, [&](std::int32_t v) { counterparts.push_back(v); });
-  } else {
-    counterparts = kept_vertices(to_, image);
-    corners = sharpest_vertices(from_, loop, counterparts.size());
-    if (corners.size() < counterparts.size()) refuse_corner(name, to_, counterparts.back());
-    const auto found = turn_of(from_, corners, to_, counterparts, shift);
-    if (!found && !corners.empty()) refuse_corner(name, to_, counterparts.front());
-    turn = found.value_or(0);
-  }
   for (std::size_t k = 0; k < corners.size(); ++k) {
     double arc = new_path_.arc_of(counterparts[(k + turn) % counterparts.size()]);
     if (k + turn >= counterparts.size()) arc += new_path_.loop_length(image);
     map.from.push_back(old_path_.arc_of(corners[k]));
     map.to.push_back(arc);
   }
-  if (!corners.empty()) return map;
-  const Point first = from_.point(from_.loop_start(loop));
-  return {image, {0}, {nearest_arc(to_, new_path_, image, first + shift)}};
+  return map;
+}
+
+std::optional<OutlineMap::LoopMap> OutlineMap::point_by_point(std::int32_t loop, std::int32_t image) const {
+  const Vertices own = all_vertices(from_, loop), other = all_vertices(to_, image);
+  if (own.size() != other.size()) return {};
+  const Point shift = centre_of(to_, image) - centre_of(from_, loop);
+  const auto turn = turn_of(from_, own, to_, other, shift, turns_of_kept(from_, own, to_, other));
+  if (!turn) return {};
+  return anchored(image, own, other, *turn);
+}
+
+OutlineMap::LoopMap OutlineMap::by_corners(std::int32_t loop, std::int32_t image, const Names& names) const {
+  const Vertices counterparts = kept_vertices(to_, image);
+  const Vertices corners = sharpest_vertices(from_, loop, counterparts.size());
+  const Point shift = centre_of(to_, image) - centre_of(from_, loop);
+  if (counterparts.empty()) {
+    const Point first = from_.point(from_.loop_start(loop));
+    return {image, {0}, {nearest_arc(to_, new_path_, image, first + shift)}};
+  }
+  std::vector<std::size_t> turns(counterparts.size());
+  std::iota(turns.begin(), turns.end(), std::size_t{0});
+  std::optional<std::size_t> turn;
+  if (corners.size() == counterparts.size()) turn = turn_of(from_, corners, to_, counterparts, shift, turns);
+  if (turn) return anchored(image, corners, counterparts, *turn);
+  const Point centre = centre_of(to_, image);
+  throw InputError(
+      fmt::format("{}: the loop of {} round ({:g}, {:g}) has {} corners where {} has {}, or others between "
+                  "its boundaries; mesh the new outline anew",
+                  names.to, listed(names_of(to_, image)), centre.x, centre.y, counterparts.size(), names.from,
+                  corners.size()));
 }
 
 Point OutlineMap::image(std::int32_t loop, double arc) const {

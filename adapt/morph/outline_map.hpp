@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,14 +17,17 @@ Geometry walked_as(const Geometry& like, const Geometry& outline);
 
 /// Takes places of an outline to places of another one of the same shape in the large: loop by loop, between
 /// vertices that stand for each other by shares of the way. Those vertices are all of them where both
-/// outlines have as many and `by_points` is asked for, else the kept ones of the new outline and the sharpest
-/// of the old. Loops of names that the new outline lacks have no image. A smooth function of the new
-/// outline's points as long as the same vertices stand for each other.
+/// outlines have as many and `by_points` is asked for, wherever the loops begin, else the kept ones of the
+/// new outline and the sharpest of the old. Loops of names that the new outline lacks have no image. A smooth
+/// function of the new outline's points as long as the same vertices stand for each other.
 class OutlineMap {
  public:
-  /// Both outlines must outlive it. Throws InputError, with `name` of the new one's file, where a loop or a
-  /// corner has no counterpart.
-  OutlineMap(const Geometry& from, const Geometry& to, bool by_points, const std::string& name);
+  /// What messages call the outlines: the new one's file, the old one's or "the mesh".
+  struct Names {
+    std::string to, from;
+  };
+  /// Both outlines must outlive it. Throws InputError where a loop or a corner has no counterpart.
+  OutlineMap(const Geometry& from, const Geometry& to, bool by_points, const Names& names);
 
   bool maps(std::int32_t loop) const { return loops_[loop].image >= 0; }
   /// `arc`: the way along the loop from its first vertex.
@@ -36,8 +41,13 @@ class OutlineMap {
     std::int32_t image = -1;  ///< the new loop; -1: none
     std::vector<double> from, to;
   };
-  void match_loops(const std::string& name);
-  LoopMap anchored(std::int32_t loop, std::int32_t image, const std::string& name) const;
+  void match_loops(const Names& names);
+  /// Counterparts begin at the one numbered `turn`.
+  LoopMap anchored(std::int32_t image, const std::vector<std::int32_t>& corners,
+                   const std::vector<std::int32_t>& counterparts, std::size_t turn) const;
+  /// None where the loops have other numbers of points, or names.
+  std::optional<LoopMap> point_by_point(std::int32_t loop, std::int32_t image) const;
+  LoopMap by_corners(std::int32_t loop, std::int32_t image, const Names& names) const;
 
   const Geometry &from_, &to_;
   OutlinePath old_path_, new_path_;

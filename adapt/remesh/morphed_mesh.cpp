@@ -59,7 +59,9 @@ MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const
     return {{}, error.what()};
   }
   if (!report.valid())
-    return {{}, fmt::format("some cells turn over after {:.0f} % of the way", 100 * report.possible_way)};
+    return {{},
+            fmt::format("near ({:g}, {:g}) some cells turn over after {:.0f} % of the way",
+                        report.worst_place.x, report.worst_place.y, 100 * report.possible_way)};
   if (report.worst_after < least_quality)
     return {{}, fmt::format("the worst cell's quality fell to {:.3f}", report.worst_after)};
   if (const std::string fault = first_fault(comm, mesh); !fault.empty()) return {{}, fault};

@@ -73,6 +73,8 @@ class HeaderParser {
     } else if (take("layers ")) {
       if (header_.boundaries.empty()) refuse("layers stand behind their boundary");
       header_.boundaries.back().layers = layers_of_text(line_);
+      if (header_.boundaries.back().layers.count == 0)
+        refuse("layers are a count above 0, and a thickness where it is known");
     } else if (take("constants ")) {
       header_.constants = count("constants");
     } else if (take("variable ")) {

@@ -52,6 +52,11 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
   Geometry geometry = assemble(std::move(chains), options, warnings);
   if (axis) require_mirror_images(geometry, *axis);
   if (!settings.half) return geometry;
+  for (const Boundary& boundary : geometry.boundaries()) {
+    if (boundary.name == settings.half->boundary)
+      throw InputError(fmt::format(
+          "mesh.half: the geometry has a boundary '{}' already; give the axis another name", boundary.name));
+  }
   return assemble(half_outline(geometry, *axis, settings.half->boundary), settings.outline, warnings);
 }
 

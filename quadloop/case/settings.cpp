@@ -168,7 +168,10 @@ void read_mesh_table(const CaseTable& root, Settings& settings) {
   if (const auto name = table->text("half")) {
     if (!settings.mesh.mirror)
       table->refuse("half", "needs mirror = \"x\" or \"y\" in the same table: of what it is the half");
-    if (name->empty()) table->refuse("half", "is empty; name the boundary along the axis");
+    const bool is_word = std::ranges::all_of(*name, [](unsigned char c) { return c > ' ' && c != 127; });
+    if (name->empty() || name->front() == '#' || !is_word)
+      table->refuse("half",
+                    "is no name for a boundary; name the one along the axis by a word without blanks");
     settings.half = HalfDomain{*settings.mesh.mirror, *name};
     settings.mesh.mirror.reset();  // the half is no image of itself
     settings.outline.rules.insert(settings.outline.rules.begin(),
@@ -254,6 +257,9 @@ void read_design_table(const CaseTable& root, Settings& settings) {
   const auto table = root.table("design");
   if (!table) return;
   settings.morph_to = table->number("morph_to", {0, 1});
+  if (settings.morph_to && settings.mesh.mirror)
+    table->refuse("morph_to",
+                  "does not keep mirror images to the last bit, as mesh.mirror asks; take one out");
   table->finish();
 }
 

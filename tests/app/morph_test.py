@@ -109,12 +109,12 @@ class Morph(ProgramTest):
 
     def test_refusals(self):
         self.write("cut.geom", lens(cut=0.9))
-        self.refused(1, ["cut.geom", "'body'", "has no counterpart"], "morph", "in.mesh", "--geometry", "cut.geom", "-o", "out.mesh")
+        self.refused(1, ["cut.geom", "'body'", "corners where the mesh has"], "morph", "in.mesh", "--geometry", "cut.geom", "-o", "out.mesh")
         self.write("other.geom", lens().replace("body", "wing"))
         self.refused(1, ["other.geom", "'wing'"], "morph", "in.mesh", "--geometry", "other.geom", "-o", "out.mesh")
         self.write("far.geom", lens(camber=3.5))
-        self.refused(1, ["in.mesh", "far.geom", "% of the way"], "morph", "in.mesh", "--geometry", "far.geom", "-o", "out.mesh")
-        self.refused(1, ["is not on boundary 'body'"], "morph", "in.mesh", "--geometry", "far.geom", "--from", "far.geom", "-o", "out.mesh")
+        self.refused(1, ["in.mesh", "far.geom", "near (", "% of the way"], "morph", "in.mesh", "--geometry", "far.geom", "-o", "out.mesh")
+        self.refused(1, ["far.geom: the mesh's node (", "is not on boundary 'body'"], "morph", "in.mesh", "--geometry", "far.geom", "--from", "far.geom", "-o", "out.mesh")
         self.assertFalse((self.folder / "out.mesh").exists())
 
 

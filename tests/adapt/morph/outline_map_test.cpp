@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 
@@ -25,7 +27,7 @@ const std::vector<Point> house{{0, 0}, {1, -0.1}, {2, 0}, {2, 1}, {0, 1}};
 
 TEST(OutlineMap, SharesOfTheWayBetweenCorners) {
   const Geometry from = outline({loop("body", square)}), to = outline({loop("body", house)});
-  const OutlineMap map(from, to, false, "to.geom");
+  const OutlineMap map(from, to, false, {"to.geom", "the mesh"});
   EXPECT_EQ(map.image(0, 0), (Point{0, 0}));
   EXPECT_EQ(map.image(0, 1), (Point{2, 0})) << "the bend of 11 degrees is no corner";
   EXPECT_NEAR(map.image(0, 0.5).x, 1, 1e-14);
@@ -38,19 +40,31 @@ TEST(OutlineMap, ByPointsWhereThereAreAsMany) {
   std::vector<Point> moved = house;
   moved[1] = {0.5, -0.1};
   const Geometry from = outline({loop("body", house)}), to = outline({loop("body", moved)});
-  const OutlineMap by_points(from, to, true, "to.geom"), by_shares(from, to, false, "to.geom");
+  const OutlineMap by_points(from, to, true, {"to.geom", "the mesh"}),
+      by_shares(from, to, false, {"to.geom", "the mesh"});
   EXPECT_TRUE(by_points.is_by_points());
   const double bend = length(house[1] - house[0]);
   EXPECT_EQ(by_points.image(0, bend), moved[1]);
   EXPECT_NE(by_shares.image(0, bend), moved[1]);
-  EXPECT_FALSE(OutlineMap(outline({loop("body", square)}), to, true, "to.geom").is_by_points());
+  EXPECT_FALSE(OutlineMap(outline({loop("body", square)}), to, true, {"to.geom", "the mesh"}).is_by_points());
+}
+
+TEST(OutlineMap, ByPointsWhereverTheLoopsBegin) {
+  std::vector<Point> later = house;
+  std::ranges::rotate(later, later.begin() + 2);
+  const Geometry from = outline({loop("body", house)}), to = outline({loop("body", later)});
+  const OutlineMap map(from, to, true, {"to.geom", "the mesh"});
+  EXPECT_TRUE(map.is_by_points());
+  const double bend = length(house[1] - house[0]);
+  EXPECT_EQ(map.image(0, 0), house[0]);
+  EXPECT_EQ(map.image(0, bend), house[1]);
 }
 
 TEST(OutlineMap, LoopsThatTheNewOutlineLacksStay) {
   const std::vector<Point> frame{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}};
   const Geometry from = outline({loop("far", frame), loop("body", square)}),
                  to = outline({loop("body", square)});
-  const OutlineMap map(from, walked_as(from, to), false, "to.geom");
+  const OutlineMap map(from, walked_as(from, to), false, {"to.geom", "the mesh"});
   EXPECT_FALSE(map.maps(0));
   EXPECT_TRUE(map.maps(1));
 }
@@ -70,7 +84,7 @@ TEST(OutlineMap, RefusesLoopsAndCornersWithoutACounterpart) {
                  two = outline({loop("body", square), loop("body", beside)});
   const auto said = [](const Geometry& from, const Geometry& to) -> std::string {
     try {
-      const OutlineMap map(from, to, false, "to.geom");
+      const OutlineMap map(from, to, false, {"to.geom", "the mesh"});
     } catch (const InputError& error) {
       return error.what();
     }
@@ -78,7 +92,7 @@ TEST(OutlineMap, RefusesLoopsAndCornersWithoutACounterpart) {
   };
   EXPECT_NE(said(one, two).find("more loops of 'body'"), std::string::npos);
   EXPECT_NE(said(two, one).find("near (5.5, 0.5)"), std::string::npos);
-  EXPECT_NE(said(outline({loop("body", triangle)}), one).find("the corner of boundary 'body'"),
+  EXPECT_NE(said(outline({loop("body", triangle)}), one).find("has 4 corners where the mesh has 3"),
             std::string::npos);
 }
 
