@@ -27,11 +27,12 @@ bool EdgeTable::repeats() const {
   return false;
 }
 
-MeshTopology::MeshTopology(const Mesh& mesh) : table_{mesh} {
-  beyond_.reserve(3 * mesh.triangles.size() + 4 * mesh.quads.size());
+MeshTopology::MeshTopology(const Mesh& mesh, Kept kept) : table_{mesh} {
+  if (kept == Kept::all) beyond_.reserve(3 * mesh.triangles.size() + 4 * mesh.quads.size());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    beyond_.push_back(table_.cell_left_of(to, from));
-    if (beyond_.back() < 0 && table_.cell_left_of(from, to) == cell) outer_edges_.push_back({from, to});
+    const std::int32_t beyond = table_.cell_left_of(to, from);
+    if (kept == Kept::all) beyond_.push_back(beyond);
+    if (beyond < 0 && table_.cell_left_of(from, to) == cell) outer_edges_.push_back({from, to});
   });
 }
 

@@ -64,10 +64,13 @@ class MeshTopology {
     NodeId from, to;
   };
 
-  explicit MeshTopology(const Mesh& mesh);
+  /// What is kept: four bytes for each cell edge, or only those of the boundary.
+  enum class Kept { all, outer_edges };
+  explicit MeshTopology(const Mesh& mesh, Kept kept = Kept::all);
 
   const EdgeTable& table() const { return table_; }
   /// Of each cell edge, in the order of for_each_cell_edge(), the cell to its right, -1 where there is none.
+  /// Empty where outer edges alone are kept.
   std::span<const std::int32_t> beyond() const { return beyond_; }
   /// One of each directed edge, in the order of the cells.
   std::span<const OuterEdge> outer_edges() const { return outer_edges_; }

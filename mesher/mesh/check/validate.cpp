@@ -165,10 +165,12 @@ void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const MeshTopo
   const EdgeTable& table = topology.table();
   const std::vector<BoundaryEdge> bounded = check_boundary_edges(mesh, blocks, table, faults);
   const bool repeats = table.repeats();
-  auto beyond = topology.beyond().begin();
+  auto outer = topology.outer_edges().begin();
+  const auto end = topology.outer_edges().end();
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    const bool alone = *beyond++ < 0;
     const bool first = !repeats || table.cell_left_of(from, to) == cell;
+    const bool alone = first && outer != end && outer->from == from && outer->to == to;
+    if (alone) ++outer;
     if (!first) faults.add("an edge belongs to two cells in the same direction", from);
     if (!first || !alone || std::binary_search(bounded.begin(), bounded.end(), BoundaryEdge{from, to}))
       return;
@@ -201,9 +203,9 @@ std::vector<MeshFault> validate(const Mesh& mesh, const CellBlocks& blocks) {
   Faults faults;
   check_indices(mesh, faults);
   if (senseless(faults)) return faults;
-  const MeshTopology topology(mesh);
   check_coincident(mesh, faults);
   check_positive(mesh, faults);
+  const MeshTopology topology(mesh, MeshTopology::Kept::outer_edges);
   check_conforming(mesh, blocks, topology, faults);
   check_closed(mesh, topology, faults);
   check_area(mesh, topology, faults);
@@ -215,7 +217,7 @@ std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blo
   Faults faults;
   check_indices(mesh, faults);
   if (senseless(faults)) return faults;
-  const MeshTopology topology(mesh);
+  const MeshTopology topology(mesh, MeshTopology::Kept::outer_edges);
   check_conforming(mesh, blocks, topology, faults);
   check_closed(mesh, topology, faults);
   return faults;
