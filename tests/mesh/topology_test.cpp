@@ -7,6 +7,7 @@
 
 #include "mesher/mesh/node_exchange.hpp"
 #include "tests/mesh/grid_mesh.hpp"
+#include "tests/mesh/square_and_triangle.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -16,19 +17,8 @@ using test::world;
 
 constexpr NodeId node(std::int32_t number) { return NodeId{number}; }
 
-/// A unit square, and right of it a triangle of the same height, 8 long.
-Mesh square_and_triangle() {
-  Mesh mesh;
-  for (const Point p : {Point{0, 0}, Point{1, 0}, Point{1, 1}, Point{0, 1}, Point{9, 0}})
-    mesh.points.push_back(p);
-  mesh.owned_nodes = 5;
-  mesh.triangles = {{node(1), node(4), node(2)}};
-  mesh.quads = {{node(0), node(1), node(2), node(3)}};
-  return mesh;
-}
-
 TEST(EdgeTable, KnowsTheCellLeftOfEachEdge) {
-  const EdgeTable table(square_and_triangle());
+  const EdgeTable table(test::square_and_triangle());
   EXPECT_EQ(table.cell_left_of(node(2), node(1)), 0) << "the triangle";
   EXPECT_EQ(table.cell_left_of(node(1), node(2)), 1) << "the quad";
   EXPECT_EQ(table.cell_left_of(node(1), node(0)), -1) << "outside";
@@ -52,7 +42,7 @@ TEST(EdgeTable, OfAGridHasEveryEdgeOfEveryCell) {
 }
 
 TEST(EdgeTable, TheFirstOfTwoCellsOnOneSideIsFound) {
-  Mesh mesh = square_and_triangle();
+  Mesh mesh = test::square_and_triangle();
   mesh.triangles.push_back(mesh.triangles.front());
   const EdgeTable table(mesh);
   EXPECT_EQ(table.cell_left_of(node(2), node(1)), 0);

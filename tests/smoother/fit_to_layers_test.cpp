@@ -33,12 +33,13 @@ struct Fitted {
   std::map<std::int64_t, Point> positions;  ///< by the nodes' numbers
 };
 
-/// With a last layer of this height on the lower side.
-Fitted fitted(const Communicator& comm, const LowRow& low, double height) {
+/// With a last layer of this height on the lower side, and a node that stays, if any.
+Fitted fitted(const Communicator& comm, const LowRow& low, double height, std::int64_t stays = -1) {
   Mesh part = scatter_mesh(comm, low.mesh, own_order(low.mesh));
   HaloMesh halo(comm, part);
   const OutlinePath path(low.square);
-  const NodeFlags pinned;
+  NodeFlags pinned(part.owned_nodes, 0);
+  for (const NodeId node : pinned.ids()) pinned[node] = part.global(node).value() == stays ? 1 : 0;
   const BoundarySlide slide(comm, halo, part.boundaries, &path, pinned);
   Fitted result;
   result.moved = fit_to_layers(comm, halo, slide, std::vector<double>{height, 0, 0, 0});
@@ -77,6 +78,18 @@ TEST(FitToLayers, WhereWidthsJumpNodesSlideAndOthersFollow) {
   EXPECT_TRUE(fit.moved);
   EXPECT_LT(fit.positions.at(4).x, low.mesh.points[4].x - 0.1 * width);
   EXPECT_EQ(fit.positions.at(4).y, 0);
+}
+
+/// Widths are even on either side of the node, so that no other one is uneven.
+TEST(FitToLayers, WhereWidthsJumpAtANodeThatStaysItsNeighbourSlides) {
+  LowRow low(width);
+  constexpr double middle = 0.58;
+  for (std::int32_t i = 1; i < 8; ++i)
+    low.mesh.points[i].x = i <= 4 ? middle * i / 4 : middle + (1 - middle) * (i - 4) / 4;
+  const Fitted fit = fitted(test::self(), low, width, 4);
+  EXPECT_TRUE(fit.moved);
+  EXPECT_EQ(fit.positions.at(4), low.mesh.points[4]);
+  EXPECT_GT(fit.positions.at(3).x, low.mesh.points[3].x + 0.02 * width) << "towards the narrower side";
 }
 
 TEST(FitToLayers, IsTheSameOnAnyNumberOfRanks) {

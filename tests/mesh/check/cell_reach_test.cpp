@@ -3,24 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
+#include "tests/mesh/square_and_triangle.hpp"
+
 namespace quadloop {
 namespace {
 
-constexpr NodeId node(std::int32_t number) { return NodeId{number}; }
-
-/// A unit square, and right of it a triangle of the same height, 8 long.
-Mesh square_and_triangle() {
-  Mesh mesh;
-  for (const Point p : {Point{0, 0}, Point{1, 0}, Point{1, 1}, Point{0, 1}, Point{9, 0}})
-    mesh.points.push_back(p);
-  mesh.owned_nodes = 5;
-  mesh.triangles = {{node(1), node(4), node(2)}};
-  mesh.quads = {{node(0), node(1), node(2), node(3)}};
-  return mesh;
-}
-
 struct Reach {
-  Mesh mesh = square_and_triangle();
+  Mesh mesh = test::square_and_triangle();
   std::vector<double> longest{8.1, 1};
   CellReach reach{mesh, longest};
 };
