@@ -73,10 +73,12 @@ TreeMesh mesh_of_tree(const Communicator& comm, const TreeRecord& tree, const Me
     if (input.geometry.digest() == tree.attributes.geometry_digest) result.outline = &input.geometry;
   }
   std::optional<Mesh> found;
-  if (comm.is_root())
-    found = is_of(tree.attributes, solved) ? solved : mesh_in_files(tree.attributes, beside);
+  if (comm.is_root()) {
+    result.is_solved = is_of(tree.attributes, solved);
+    if (!result.is_solved) found = mesh_in_files(tree.attributes, beside);
+  }
   const auto input = std::ranges::find_if(inputs, fits);
-  result.known = comm.any(found.has_value());
+  result.known = comm.any(result.is_solved || found.has_value());
   if (!result.known && input != inputs.end()) {
     const GeneratedMesh made =
         generate_mesh(comm, *input, DemandedSplits(comm, adapted_splits(tree)), tree.measured_wall);
@@ -88,6 +90,7 @@ TreeMesh mesh_of_tree(const Communicator& comm, const TreeRecord& tree, const Me
 }
 
 void settle_mesh(const TreeMesh& of_tree, LoadedMesh& loaded, const std::string& path) {
+  if (of_tree.is_solved) return;
   if (!of_tree.known) return require_valid_cells(loaded.mesh, path);
   const std::string other = difference(loaded.mesh, of_tree.whole);
   if (other.empty()) {

@@ -15,8 +15,9 @@ namespace quadloop {
 /// root alone; `known` on every rank.
 struct TreeMesh {
   bool known = false;
-  Mesh whole;
+  Mesh whole;                         ///< empty where the solved mesh is the tree's own to the last bit
   const Geometry* outline = nullptr;  ///< that it was made for, where it is at hand: one of the inputs'
+  bool is_solved = false;             ///< on the root alone
 };
 
 /// Looks for it: first `solved`, the root's mesh that a solution came with, then the files in `beside`, of

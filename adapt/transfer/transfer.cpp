@@ -11,6 +11,7 @@
 #include "adapt/transfer/locate/locate_points.hpp"
 #include "adapt/transfer/locate/nearest_boundary.hpp"
 #include "adapt/transfer/locate/point_cells.hpp"
+#include "adapt/transfer/locate/standing_nodes.hpp"
 #include "adapt/transfer/locate/triangle_piece.hpp"
 #include "adapt/transfer/mesh_integrals.hpp"
 #include "mesher/base/parallel/exchange.hpp"
@@ -48,19 +49,23 @@ Exchange to_shares(const Communicator& comm, const CurveShares& shares, std::spa
   return {comm, ranks};
 }
 
-NodeShare gather_nodes(const Communicator& comm, const OldMesh& old) {
-  const auto points = owned_points(old.mesh);
+/// Only nodes that may lie at one of the points leave their rank.
+NodeShare gather_nodes(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
+  std::vector<Point> points;
+  std::vector<double> values;
+  for (const NodeId node : ids_below(NodeId{old.mesh.owned_nodes})) {
+    const Point p = old.mesh.point(node);
+    if (!cells.meet({p, p})) continue;
+    points.push_back(p);
+    const auto row = old.field.row(node);
+    values.insert(values.end(), row.begin(), row.end());
+  }
   const Exchange exchange = to_shares(comm, old.shares, points);
-  const std::size_t width = old.field.width();
-  return {exchange.deliver(points),
-          {old.field.names,
-           exchange.deliver(std::span(old.field.values).first(points.size() * width), width),
-           {}}};
+  return {exchange.deliver(points), {old.field.names, exchange.deliver(values, old.field.width()), {}}};
 }
 
 /// Only triangles that may hold one of the points leave their rank.
-TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, std::span<const Point> points) {
-  const PointCells cells(comm, old.shares.grid(), points);
+TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
   std::vector<CellTriangle> near;
   for (const CellTriangle& triangle : old.triangles) {
     Box box;
@@ -74,14 +79,15 @@ TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, std
 class Found {
  public:
   /// *Collective.*
-  Found(const Communicator& comm, const OldMesh& old, std::span<const Point> points)
-      : points_{points}, nodes_{gather_nodes(comm, old)} {
+  Found(const Communicator& comm, const OldMesh& old, std::span<const Point> points) : points_{points} {
+    const PointCells cells(comm, old.shares.grid(), points);
+    nodes_ = gather_nodes(comm, old, cells);
     at_node_ = find_equal_points(nodes_.points, points);
     std::vector<Point> moved;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (at_node_[i] < 0) moved.push_back(points[i]);
     }
-    piece_ = gather_triangles(comm, old, moved);
+    piece_ = gather_triangles(comm, old, cells);
     in_triangle_ = locate_points(piece_, moved);
   }
 
@@ -118,8 +124,15 @@ struct NewRows {
   std::vector<std::int32_t> outside;
 };
 
-/// What the old mesh has at the places of the owned nodes of a new one. *Collective.*
-NewRows ask(const Communicator& comm, const OldMesh& old, std::span<const Point> places) {
+/// Rows for places that are asked of the ranks in whose shares of the plane they lie, and whether they lie
+/// inside the old mesh.
+struct Answers {
+  std::vector<double> values;
+  std::vector<char> is_inside;
+};
+
+/// *Collective.*
+Answers ask(const Communicator& comm, const OldMesh& old, std::span<const Point> places) {
   const Exchange questions = to_shares(comm, old.shares, places);
   const std::vector<Point> points = questions.deliver(places);
   Found found(comm, old, points);
@@ -128,12 +141,29 @@ NewRows ask(const Communicator& comm, const OldMesh& old, std::span<const Point>
   std::vector<char> is_inside;
   for (std::size_t i = 0; i < points.size(); ++i)
     is_inside.push_back(found.next(std::span(rows).subspan(i * width, width)) ? 1 : 0);
-  NewRows answers{questions.answer(rows, width), {}};
-  is_inside = questions.answer(is_inside);
+  return {questions.answer(rows, width), questions.answer(is_inside)};
+}
+
+/// What the old mesh has at the places of the owned nodes of a new one. *Collective.*
+NewRows rows_at(const Communicator& comm, const OldMesh& old, std::span<const Point> places) {
+  const std::vector<std::int32_t> standing = standing_nodes(comm, old.mesh, places);
+  const std::size_t width = old.field.width();
+  NewRows rows{std::vector<double>(places.size() * width), {}};
+  std::vector<std::int32_t> others;
   for (std::int32_t node = 0; node < std::ssize(places); ++node) {
-    if (is_inside[node] == 0) answers.outside.push_back(node);
+    if (standing[node] >= 0)
+      std::ranges::copy(old.field.row(NodeId{standing[node]}), rows.values.begin() + node * width);
+    else
+      others.push_back(node);
   }
-  return answers;
+  std::vector<Point> asked;
+  for (const std::int32_t node : others) asked.push_back(places[node]);
+  const Answers answers = ask(comm, old, asked);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    std::copy_n(answers.values.begin() + i * width, width, rows.values.begin() + others[i] * width);
+    if (answers.is_inside[i] == 0) rows.outside.push_back(others[i]);
+  }
+  return rows;
 }
 
 /// Each rank that has an edge tells the values there. *Collective.*
@@ -244,7 +274,7 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field
   Transferred transferred;
   TransferReport& report = transferred.report;
   NewRows rows;
-  if (old.width() > 0) rows = ask(comm, {old_mesh, old, old_side.triangles, shares}, at);
+  if (old.width() > 0) rows = rows_at(comm, {old_mesh, old, old_side.triangles, shares}, at);
   report.outside = comm.sum(std::ssize(rows.outside));
   if (report.outside > 0) take_from_boundary(comm, old_mesh, old, at, rows);
   transferred.field = {old.names, std::move(rows.values), old.constants};

@@ -1,0 +1,103 @@
+#include "adapt/transfer/locate/standing_nodes.hpp"
+
+#include <algorithm>
+
+#include "adapt/transfer/locate/equal_points.hpp"
+#include "mesher/base/id_vector.hpp"
+#include "mesher/base/parallel/exchange.hpp"
+#include "mesher/mesh/node_exchange.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::int32_t behind = 16, ahead = 32;  ///< as refined leaves change the order
+constexpr std::size_t step = ahead;              ///< of the landmarks: what is removed at once may be longer
+
+/// Every so many-th of a list.
+std::vector<Point> landmarks(std::span<const Point> known) {
+  std::vector<Point> marks;
+  for (std::size_t i = 0; i < known.size(); i += step) marks.push_back(known[i]);
+  return marks;
+}
+
+/// Scatters numbers over all 64 bits, no two to the same.
+std::uint64_t scattered(GlobalNodeId node) {
+  std::uint64_t bits = static_cast<std::uint64_t>(node.value()) * 0x9e3779b97f4a7c15U;
+  bits = (bits ^ (bits >> 32)) * 0xd6e8feb86659fd93U;
+  return bits ^ (bits >> 32);
+}
+
+/// Adds for each corner of a cell the node after it and takes away the one before: round a node whose cells
+/// close a circle that cancels.
+void add_turns(const Mesh& mesh, std::span<const NodeId> cell, IdVector<NodeId, std::uint64_t>& turns) {
+  NodeId before = cell.back();
+  for (const NodeId node : cell) {
+    turns[before] += scattered(mesh.global(node));
+    turns[node] -= scattered(mesh.global(before));
+    before = node;
+  }
+}
+
+/// What an owned node misses of the circle round it; 0 inside the mesh. *Collective.*
+IdVector<NodeId, std::uint64_t> open_turns(const Communicator& comm, const Mesh& mesh) {
+  IdVector<NodeId, std::uint64_t> turns(mesh.points.size(), 0);
+  for (const auto& cell : mesh.triangles) add_turns(mesh, cell, turns);
+  for (const auto& cell : mesh.quads) add_turns(mesh, cell, turns);
+  struct Part {
+    NodeId node;  ///< on its owner
+    std::uint64_t turns;
+  };
+  const NodeOwners owners(comm, mesh.first_node);
+  Outbox<Part> parts;
+  for (std::size_t copy = 0; copy < mesh.copies.size(); ++copy) {
+    const GlobalNodeId node = mesh.copies[copy];
+    const NodeId here{mesh.owned_nodes + static_cast<std::int32_t>(copy)};
+    parts.add(owners.rank_of(node), {owners.local(node), turns[here]});
+  }
+  for (const Part& part : parts.deliver(comm)) turns[part.node] += part.turns;
+  return turns;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> find_in_order(std::span<const Point> known, std::span<const Point> points) {
+  const std::vector<std::int32_t> landmark = find_equal_points(landmarks(known), points);
+  const auto count = static_cast<std::int32_t>(known.size());
+  std::int32_t next = 0;  // up to here known points have been found
+  const auto nearby = [&](Point p) {
+    for (std::int32_t i = next; i < std::min(count, next + ahead); ++i) {
+      if (known[i] == p) return i;
+    }
+    for (std::int32_t i = next - 1; i >= std::max(0, next - behind); --i) {
+      if (known[i] == p) return i;
+    }
+    return -1;
+  };
+  std::vector<std::int32_t> found;
+  found.reserve(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    std::int32_t at = nearby(points[k]);
+    if (at >= 0) {
+      next = std::max(next, at + 1);
+    } else if (landmark[k] >= 0) {
+      at = landmark[k] * step;
+      next = at + 1;
+    }
+    found.push_back(at);
+  }
+  return found;
+}
+
+std::vector<std::int32_t> standing_nodes(const Communicator& comm, const Mesh& old_mesh,
+                                         std::span<const Point> places) {
+  std::vector<std::int32_t> found =
+      find_in_order(std::span(old_mesh.points).first(old_mesh.owned_nodes), places);
+  const IdVector<NodeId, std::uint64_t> turns = open_turns(comm, old_mesh);
+  for (std::int32_t& node : found) {
+    if (node >= 0 && turns[NodeId{node}] != 0) node = -1;
+  }
+  return found;
+}
+
+}  // namespace quadloop
