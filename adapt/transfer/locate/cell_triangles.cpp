@@ -20,6 +20,27 @@ std::array<std::array<NodeId, 3>, 2> halves(const std::array<NodeId, 4>& quad, s
   return {{{at(0), at(1), at(2)}, {at(2), at(3), at(0)}}};
 }
 
+bool are_counter_clockwise(const Mesh& mesh, const std::array<std::array<NodeId, 3>, 2>& triangles) {
+  return turn_of(mesh, triangles[0]) > 0 && turn_of(mesh, triangles[1]) > 0;
+}
+
+struct Split {
+  std::array<std::array<NodeId, 3>, 2> halves;
+  bool are_counter_clockwise = true;
+};
+
+/// What split_quad() says, and whether the halves are as they should be.
+Split split_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
+  std::array<TieRank, 4> ranks;
+  for (std::size_t k = 0; k < 4; ++k) ranks[k] = tie_rank(centre, mesh.point(quad[k]));
+  const std::size_t highest = std::max_element(ranks.begin(), ranks.end()) - ranks.begin();
+  const auto first = halves(quad, highest);
+  if (are_counter_clockwise(mesh, first)) return {first};
+  const auto second = halves(quad, highest + 1);
+  if (are_counter_clockwise(mesh, second)) return {second};
+  return {first, false};
+}
+
 void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int64_t number,
             std::vector<CellTriangle>& triangles) {
   const int turn = turn_of(mesh, nodes);
@@ -36,13 +57,7 @@ Point centre_of_nodes(const Communicator& comm, const Mesh& mesh) {
 
 std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
                                                 const std::array<NodeId, 4>& quad) {
-  std::array<TieRank, 4> ranks;
-  for (std::size_t k = 0; k < 4; ++k) ranks[k] = tie_rank(centre, mesh.point(quad[k]));
-  const std::size_t highest = std::max_element(ranks.begin(), ranks.end()) - ranks.begin();
-  const auto first = halves(quad, highest);
-  if (turn_of(mesh, first[0]) > 0 && turn_of(mesh, first[1]) > 0) return first;
-  const auto second = halves(quad, highest + 1);
-  return turn_of(mesh, second[0]) > 0 && turn_of(mesh, second[1]) > 0 ? second : first;
+  return split_of(mesh, centre, quad).halves;
 }
 
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre) {
@@ -53,9 +68,13 @@ std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& m
   triangles.reserve(mesh.triangles.size() + 2 * mesh.quads.size());
   for (const auto& nodes : mesh.triangles) append(mesh, nodes, 2 * number++, triangles);
   for (const auto& nodes : mesh.quads) {
-    const auto [first, second] = split_quad(mesh, centre, nodes);
-    append(mesh, first, 2 * quad_number, triangles);
-    append(mesh, second, 2 * quad_number + 1, triangles);
+    const auto [halves, are_counter_clockwise] = split_of(mesh, centre, nodes);
+    for (const std::int64_t half : {0, 1}) {
+      if (are_counter_clockwise)
+        triangles.push_back({halves[half], 2 * quad_number + half});
+      else
+        append(mesh, halves[half], 2 * quad_number + half, triangles);
+    }
     ++quad_number;
   }
   return triangles;

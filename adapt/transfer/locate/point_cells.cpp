@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::int64_t most_cells = 1 << 16, few_points = 8;
 constexpr CurveGrid::Square whole_grid{{}, 32};
+constexpr int coarse_bits = 16, above_coarse = 64 - coarse_bits;  // 256 by 256 coarse squares
 
 }  // namespace
 
@@ -26,6 +27,15 @@ PointCells::PointCells(const Communicator& comm, const CurveGrid& grid, std::spa
   });
   for (const Stretch& stretch : own) {  // squares lie in each other or apart
     if (stretches_.empty() || stretches_.back().last < stretch.first) stretches_.push_back(stretch);
+  }
+  mark_occupied();
+}
+
+void PointCells::mark_occupied() {
+  occupied_.assign(std::size_t{1} << coarse_bits, 0);
+  for (const Stretch& stretch : stretches_) {
+    const auto begin = occupied_.begin();
+    std::fill(begin + (stretch.first >> above_coarse), begin + (stretch.last >> above_coarse) + 1, 1);
   }
 }
 
@@ -55,8 +65,12 @@ const PointCells::Stretch* PointCells::next(std::uint64_t key) const {
 
 bool PointCells::meet(const Box& box) const {
   const CurveGrid::Steps steps = grid_->steps_of(box);
-  const Stretch* stretch = next(CurveGrid::key_at(steps.low));
-  if (stretch == nullptr || stretch->first > CurveGrid::key_at(steps.high)) return false;
+  const std::uint64_t low = CurveGrid::key_at(steps.low), high = CurveGrid::key_at(steps.high);
+  const bool in_one = low >> above_coarse == high >> above_coarse;
+  if (in_one && occupied_[low >> above_coarse] == 0) return false;
+  const Stretch* stretch = next(low);
+  if (stretch == nullptr || stretch->first > high) return false;
+  if (low == high) return true;
   return descend(steps, CurveGrid::square_around(steps));
 }
 

@@ -28,8 +28,11 @@ class PointCells {
   const Stretch* next(std::uint64_t key) const;
   bool descend(const CurveGrid::Steps& steps, const CurveGrid::Square& square) const;
 
+  void mark_occupied();
+
   const CurveGrid* grid_;
   std::vector<Stretch> stretches_;  ///< one after another, without overlaps
+  std::vector<char> occupied_;      ///< of the coarse squares that most boxes lie in, along the curve
 };
 
 }  // namespace quadloop
