@@ -5,7 +5,7 @@
 
 namespace quadloop {
 
-/// A text between the quotes of an XML attribute.
+/// A text between the quotes of an XML attribute, each control character as "_".
 std::string xml_escaped(const std::string& text);
 
 /// The codes of the texts' bytes, after each text a 0: what an array of strings holds, but under a type of

@@ -57,7 +57,10 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
       throw InputError(fmt::format(
           "mesh.half: the geometry has a boundary '{}' already; give the axis another name", boundary.name));
   }
-  return assemble(half_outline(geometry, *axis, settings.half->boundary), settings.outline, warnings);
+  options = settings.outline;
+  for (auto& rule : options.rules)
+    rule.must_match = false;  // each has matched; a name may be the dropped half's
+  return assemble(half_outline(geometry, *axis, settings.half->boundary), options, warnings);
 }
 
 }  // namespace quadloop

@@ -272,6 +272,21 @@ TEST(VtuFile, ComesBackWithBlocksBoundariesAndSolution) {
   EXPECT_TRUE(loaded.warnings.empty());
 }
 
+TEST(VtuWriter, ControlCharactersInNamesAreNoXml) {
+  const TemporaryFolder folder;
+  LoadedMesh whole;
+  whole.mesh = test::sample_mesh(3);
+  whole.mesh.boundaries[1].name = "inner\x01wall";
+  whole.solution = test::sample_solution(whole.mesh);
+  whole.solution->names = {"p\x02q", "pressure"};
+  OutputSet outputs(test::world());
+  write_vtu(outputs, whole, folder.file("m.vtu"));
+  outputs.commit();
+  const LoadedMesh loaded = read_vtu(folder.file("m.vtu"));
+  EXPECT_EQ(loaded.mesh.boundaries[1].name, "inner\x01wall");  // a list of codes holds it
+  EXPECT_EQ(loaded.solution->names, (std::vector<std::string>{"p_q", "pressure"}));
+}
+
 TEST(VtuWriter, NamesBoundariesForPeople) {
   const TemporaryFolder folder;
   Mesh mesh = test::sample_mesh(3);

@@ -390,26 +390,5 @@ TEST_F(SettingsTest, TheDigestFollowsTheSettingsOfTheMesh) {
   EXPECT_NE(base, digest({"source=[{disc=[0,0,1],spacing=1}]"}));
 }
 
-TEST_F(SettingsTest, AMirrorIsTheMeshsAndTheSolvers) {
-  const Settings settings = read("[mesh]\nmirror = \"y\"\n");
-  EXPECT_EQ(settings.mesh.mirror, MirrorAxis::y);
-  EXPECT_EQ(settings.solver.euler.mirror, MirrorAxis::y);
-  EXPECT_FALSE(settings.half);
-  MeshOptions across = settings.mesh, without = settings.mesh;
-  across.mirror = MirrorAxis::x;
-  without.mirror.reset();
-  EXPECT_NE(case_digest(settings.mesh), case_digest(across));
-  EXPECT_NE(case_digest(settings.mesh), case_digest(without));
-}
-
-TEST_F(SettingsTest, OfAHalfNoMirrorIsLeft) {
-  const Settings settings = read("[mesh]\nmirror = \"x\"\nhalf = \"middle\"\n");
-  EXPECT_FALSE(settings.mesh.mirror);
-  ASSERT_TRUE(settings.half);
-  EXPECT_EQ(settings.half->axis, MirrorAxis::x);
-  EXPECT_EQ(settings.half->boundary, "middle");
-  EXPECT_EQ(refused("[mesh]\nhalf = \"middle\"\n").find("case.toml:4: 'mesh.half' needs mirror"), 0u);
-}
-
 }  // namespace
 }  // namespace quadloop

@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "mesher/generate/digests.hpp"
+#include "quadloop/case/settings.hpp"
+#include "tests/io/input/temporary_file.hpp"
+
+namespace quadloop {
+namespace {
+
+/// A diamond in a box, both their own images in the x axis; its two sides have names of their own.
+class MirrorTest : public ::testing::Test {
+ protected:
+  MirrorTest() {
+    folder_.write(
+        "diamond.geom",
+        "3\nbox\n4\n-4 -4\n4 -4\n4 4\n-4 4\nlower open\n3\n1 0\n0 -1\n-1 0\nupper open\n3\n-1 0\n0 1\n1 0\n");
+  }
+
+  Settings read(const std::string& text) {
+    return read_settings(folder_.write("case.toml", "[geometry]\nfile = \"diamond.geom\"\n" + text), {});
+  }
+  Geometry load(const std::string& text) {
+    Warnings warnings;
+    return load_geometry(read(text), warnings);
+  }
+  std::string refused(const std::string& text) {
+    return test::refusal(folder_, [&] { load(text); });
+  }
+
+  test::InputFolder folder_;
+};
+
+TEST_F(MirrorTest, AMirrorIsTheMeshsAndTheSolvers) {
+  const Settings settings = read("[mesh]\nmirror = \"y\"\n");
+  EXPECT_EQ(settings.mesh.mirror, MirrorAxis::y);
+  EXPECT_EQ(settings.solver.euler.mirror, MirrorAxis::y);
+  EXPECT_FALSE(settings.half);
+  MeshOptions across = settings.mesh, without = settings.mesh;
+  across.mirror = MirrorAxis::x;
+  without.mirror.reset();
+  EXPECT_NE(case_digest(settings.mesh), case_digest(across));
+  EXPECT_NE(case_digest(settings.mesh), case_digest(without));
+}
+
+TEST_F(MirrorTest, OfAHalfNoMirrorIsLeft) {
+  const Settings settings = read("[mesh]\nmirror = \"x\"\nhalf = \"middle\"\n");
+  EXPECT_FALSE(settings.mesh.mirror);
+  ASSERT_TRUE(settings.half);
+  EXPECT_EQ(settings.half->axis, MirrorAxis::x);
+  EXPECT_EQ(settings.half->boundary, "middle");
+  EXPECT_EQ(refused("[mesh]\nhalf = \"middle\"\n").find("case.toml:4: 'mesh.half' needs mirror"), 0u);
+}
+
+TEST_F(MirrorTest, TablesOfTheDroppedSideMayStay) {
+  const std::string both =
+      "[spacing]\nmin = 0.1\nmax = 1\n[mesh]\nmirror = \"x\"\nhalf = \"middle\"\n[boundary.lower]\nspacing = "
+      "0.2\n"
+      "[boundary.upper]\nspacing = 0.2\n";
+  const Geometry half = load(both);
+  std::set<std::string> names;
+  for (const Boundary& boundary : half.boundaries()) names.insert(boundary.name);
+  EXPECT_EQ(names, (std::set<std::string>{"box", "middle", "upper"}));
+  EXPECT_NE(refused(both + "[boundary.uper]\nspacing = 0.2\n").find("matches 'uper'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace quadloop
