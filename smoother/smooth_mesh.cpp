@@ -13,6 +13,7 @@
 #include "smoother/even_widths.hpp"
 #include "smoother/fit_to_layers.hpp"
 #include "smoother/level_lines.hpp"
+#include "smoother/objective/cost_limit.hpp"
 #include "smoother/smooth_mirrored.hpp"
 #include "smoother/sweeps/rings.hpp"
 #include "smoother/sweeps/sweeper.hpp"
@@ -28,8 +29,8 @@ constexpr int most_attempts = 5;
 constexpr int most_even_sweeps = 40;
 constexpr std::int64_t few = 100;  ///< so many times fewer moves than in the busiest sweep end a round
 
-template <std::size_t width>
-std::array<Point, width> corners_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes) {
+template <class AnyMesh, std::size_t width>
+std::array<Point, width> corners_of(const AnyMesh& mesh, const std::array<NodeId, width>& nodes) {
   std::array<Point, width> points;
   for (std::size_t k = 0; k < width; ++k) points[k] = mesh.point(nodes[k]);
   return points;
@@ -42,45 +43,40 @@ bool is_square(const std::array<Point, 4>& p) {
 }
 bool is_square(const std::array<Point, 3>&) { return false; }
 
-/// The cost of a cell by its number in the halo mesh.
+/// The cost of a cell by its number in the halo mesh; 0 where it surely is below the limit.
 template <std::size_t width>
 double cost_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes,
-               const std::vector<CellTarget>& targets, std::size_t number) {
+               const std::vector<CellTarget>& targets, std::size_t number, const CostLimit& limit) {
   const bool ideal = targets.empty() || targets[number].ideal();
   const auto corners = corners_of(mesh, nodes);
   if (!ideal) return cell_cost(corners, stretched_targets<width>(targets[number].w1, targets[number].w2));
-  return is_square(corners) ? 0 : cell_cost(corners, ideal_targets<width>());
-}
-
-template <std::size_t width>
-double ideal_cost(const Mesh& mesh, const std::array<NodeId, width>& nodes) {
-  std::array<Point, width> points;
-  for (std::size_t k = 0; k < width; ++k) points[k] = mesh.point(nodes[k]);
-  return cell_cost(points, ideal_targets<width>());
+  if (is_square(corners) || limit.surely_kept_by(corners)) return 0;
+  return cell_cost(corners, ideal_targets<width>());
 }
 
 struct WorstCell {
   double cost = 0;
   std::int64_t inverted = 0;
+  CostLimit limit{0};  ///< of the cost
+
+  void include(double other, bool counts) {
+    inverted += other >= 1 && counts ? 1 : 0;
+    if (other <= cost) return;
+    cost = other;
+    limit = CostLimit(cost);
+  }
 };
 
 /// What has to be known before the first sweep: the worst cell, and the nodes that may come to move.
 struct Survey {
   WorstCell worst;
-  std::vector<double> costs;  ///< of each cell of the halo mesh
-  NodeFlags bad;              ///< of cells above the threshold; right for owned nodes
-  NodeFlags near;             ///< the same, and some rings round those
-  NodeFlags parallel;         ///< of parallelograms; right for owned nodes
+  NodeFlags bad;       ///< of cells above the threshold; right for owned nodes
+  NodeFlags near;      ///< the same, and some rings round those
+  NodeFlags parallel;  ///< of parallelograms; right for owned nodes
 };
 
 WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) {
   return {comm.maximum(worst.cost), comm.sum(worst.inverted)};
-}
-
-/// Adds a cell to a rank's worst; those that other ranks have too count where their first node is owned.
-void include(WorstCell& worst, const HaloMesh& mesh, NodeId first, double cost) {
-  worst.cost = std::max(worst.cost, cost);
-  worst.inverted += cost >= 1 && mesh.owns(first) ? 1 : 0;
 }
 
 bool is_parallelogram(const std::array<Point, 4>& p) { return is_square(p) || skew_of(p) <= parallel_skew; }
@@ -98,12 +94,13 @@ NodeFlags nodes_of_parallelograms(const HaloMesh& mesh) {
 Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets,
               double threshold) {
   Survey result;
+  WorstCell& worst = result.worst;
   result.bad.resize(mesh.points().size(), 0);
-  result.costs.reserve(mesh.points().size());
+  const CostLimit limit(threshold);
+  std::size_t number = 0;
   mesh.for_each_cell([&](const auto& nodes) {
-    const double cost = cost_of(mesh, nodes, targets, result.costs.size());
-    include(result.worst, mesh, nodes[0], cost);
-    result.costs.push_back(cost);
+    const double cost = cost_of(mesh, nodes, targets, number++, worst.cost < threshold ? worst.limit : limit);
+    worst.include(cost, mesh.owns(nodes[0]));  // other ranks may have the cell, too
     if (cost > threshold) flag_all(nodes, result.bad);
   });
   result.parallel = targets.empty() ? nodes_of_parallelograms(mesh) : NodeFlags(mesh.points().size(), 0);
@@ -118,10 +115,11 @@ Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<
 NodeFlags nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>& targets,
                              const Survey& surveyed, double bad) {
   NodeFlags flags(mesh.points().size(), 0);
+  const CostLimit limit(bad);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t cell = number++;
-    if (any_flagged(surveyed.near, nodes) && cost_of(mesh, nodes, targets, cell) > bad)
+    if (any_flagged(surveyed.near, nodes) && cost_of(mesh, nodes, targets, cell, limit) > bad)
       flag_all(nodes, flags);
   });
   return flags;
@@ -145,16 +143,12 @@ std::vector<NodeId> free_nodes(const Survey& surveyed, const HaloMesh& mesh, con
   return free;
 }
 
-/// The worst cell now; cells away from nodes that may have moved are as they were. *Collective.*
-WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets,
-                     const Survey& before) {
+/// The worst cell now. *Collective.*
+WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets) {
   WorstCell worst;
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& nodes) {
-    const double cost =
-        any_flagged(before.near, nodes) ? cost_of(mesh, nodes, targets, number) : before.costs[number];
-    include(worst, mesh, nodes[0], cost);
-    ++number;
+    worst.include(cost_of(mesh, nodes, targets, number++, worst.limit), mesh.owns(nodes[0]));
   });
   return over_ranks(comm, worst);
 }
@@ -180,9 +174,8 @@ bool any_turns_right(const Mesh& mesh) {
 WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
   WorstCell worst;
   for (const auto& nodes : mesh.triangles) {
-    const double cost = ideal_cost(mesh, nodes);
-    worst.cost = std::max(worst.cost, cost);
-    worst.inverted += cost >= 1 ? 1 : 0;
+    const auto corners = corners_of(mesh, nodes);
+    if (!worst.limit.surely_kept_by(corners)) worst.include(cell_cost(corners, ideal_targets<3>()), true);
   }
   return over_ranks(comm, worst);
 }
@@ -206,8 +199,12 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
                      const std::vector<CellTarget>& targets, const Survey& surveyed,
                      const SmoothOptions& options, SmoothReport& report) {
   NodeFlags yielding(halo.points().size(), 0), stale(halo.owned_nodes(), 1), bad = surveyed.bad;
+  const bool some_may_yield = comm.any(std::ranges::any_of(surveyed.near.ids(), [&](NodeId node) {
+    return surveyed.near[node] != 0 && surveyed.parallel[node] != 0;
+  }));
+  const int last_round = some_may_yield ? free_rings : 0;
   std::size_t settled = 0;
-  for (int round = 0; round <= free_rings; ++round) {
+  for (int round = 0; round <= last_round; ++round) {
     const double threshold = round == 0 ? options.threshold : options.bad;
     if (round > 0) bad = nodes_of_bad_cells(halo, targets, surveyed, threshold);
     if (round > 0) yield(halo, bad, round - 1, yielding);
@@ -232,34 +229,46 @@ bool fit_front(const Communicator& comm, HaloMesh& halo, const BoundarySlide& sl
   return fit_to_layers(comm, halo, slide, heights) || evened;
 }
 
-/// Sweeps, then flips; what the flips make of the worst cell is seen in the report. *Collective.*
-SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
-  SmoothReport report;
+/// What sweeps have made of a mesh.
+struct Swept {
+  WorstCell before, after;
+  bool any_moved = false;  ///< on any rank
+  NodeFlags moved;         ///< of the mesh's points
+};
+
+/// Moves the nodes, without flips. *Collective.*
+Swept move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& options, SmoothReport& report) {
   std::optional<OutlinePath> outline;
   if (options.geometry != nullptr) outline.emplace(*options.geometry);
   HaloMesh halo(comm, mesh);
   const std::vector<CellTarget> targets =
       comm.any(!options.targets.empty()) ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
   const BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
-  Survey before = survey(comm, halo, targets, options.threshold);
-  const WorstCell first = before.worst;
-  const bool may_move_lines = options.level_lines && options.sweeps > 0 && targets.empty();
+  Survey surveyed = survey(comm, halo, targets, options.threshold);
+  const WorstCell before = surveyed.worst;
+  const bool may_move_lines = options.level_lines && options.sweeps > 0 && targets.empty() &&
+                              comm.any(!mesh.quads.empty());  // the lines are theirs
   if (may_move_lines && move_level_lines(comm, halo, options.pinned, options.bad))
-    before = survey(comm, halo, targets, options.threshold);
-  sweep_in_rounds(comm, halo, slide, targets, before, options, report);
+    surveyed = survey(comm, halo, targets, options.threshold);
+  sweep_in_rounds(comm, halo, slide, targets, surveyed, options, report);
   const bool fitted = options.sweeps > 0 && fit_front(comm, halo, slide, options.front_heights);
-  if (fitted) before.near = NodeFlags(halo.points().size(), 1);
-  WorstCell after = worst_cell(comm, halo, targets, before);
-  const NodeFlags moved = take_positions(halo, mesh);
+  const WorstCell after = worst_cell(comm, halo, targets);
+  return {before, after, report.moves > 0 || fitted, take_positions(halo, mesh)};
+}
+
+/// Sweeps, then flips; what the flips make of the worst cell is seen in the report. *Collective.*
+SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
+  SmoothReport report;
+  auto [before, after, any_moved, moved] = move_nodes(comm, mesh, options, report);
   const bool sound = after.inverted == 0 || !comm.any(any_turns_right(mesh));
-  if (options.delaunay && sound && (report.moves > 0 || fitted)) {
+  if (options.delaunay && sound && any_moved) {
     if (options.keep_slots) restore_delaunay(comm, mesh, moved, options.delaunay, options.triangle_to_block);
     if (!options.keep_slots) report.standing = restore_delaunay_nearby(comm, mesh, moved, options.delaunay);
     after = worst_triangle(comm, mesh);
   }
-  report.worst_cost_before = first.cost;
+  report.worst_cost_before = before.cost;
   report.worst_cost_after = after.cost;
-  report.inverted_before = first.inverted;
+  report.inverted_before = before.inverted;
   report.inverted_after = after.inverted;
   return report;
 }
@@ -270,7 +279,7 @@ NodeFlags nodes_near_worse(const Communicator& comm, const Mesh& flipped, const 
                            int rings) {
   std::vector<GlobalNodeId> of_worse;
   for (const auto& nodes : flipped.triangles) {
-    if (ideal_cost(flipped, nodes) <= limit) continue;
+    if (cell_cost(corners_of(flipped, nodes), ideal_targets<3>()) <= limit) continue;
     for (const NodeId node : nodes) of_worse.push_back(flipped.global(node));
   }
   const HaloMesh halo(comm, before);

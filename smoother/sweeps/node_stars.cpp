@@ -14,24 +14,25 @@ namespace {
 template <std::size_t width>
 constexpr std::size_t corners_of_cell = width == 3 ? 1 : 3;
 
-/// Targets as the nodes of a cell see its corners. A triangle: for each node its own corner. A quad: for each
-/// node its own corner, then that of the next node, then that of the previous one.
-template <std::size_t width>
-std::vector<CornerTarget> seen_targets(const std::array<CornerTarget, width>& of_corners) {
-  std::vector<CornerTarget> seen;
-  for (std::size_t k = 0; k < width; ++k) {
-    seen.push_back(of_corners[k]);
-    if (width == 3) continue;
-    seen.push_back(seen_from_next(seen_from_next(of_corners[(k + 1) % width])));
-    seen.push_back(seen_from_next(of_corners[(k + width - 1) % width]));
-  }
-  return seen;
-}
-
 template <std::size_t width>
 constexpr std::int32_t ideal_begin = width == 3 ? 0 : 3;
 
 }  // namespace
+
+/// Targets as the nodes of a cell see its corners. A triangle: for each node its own corner. A quad: for each
+/// node its own corner, then that of the next node, then that of the previous one.
+template <std::size_t width>
+std::vector<NodeStars::SeenTarget> NodeStars::seen_targets(
+    const std::array<CornerTarget, width>& of_corners) {
+  std::vector<SeenTarget> seen;
+  for (std::size_t k = 0; k < width; ++k) {
+    seen.push_back({of_corners[k], width == 3 ? CellAngle::all : CellAngle::at_p});
+    if (width == 3) continue;
+    seen.push_back({seen_from_next(seen_from_next(of_corners[(k + 1) % width])), CellAngle::at_q});
+    seen.push_back({seen_from_next(of_corners[(k + width - 1) % width]), CellAngle::at_r});
+  }
+  return seen;
+}
 
 NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
                      const std::vector<CellTarget>& targets)
@@ -40,7 +41,7 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
       star_of_(mesh.points().size(), -1),
       starts_(nodes_.size() + 1, 0) {
   for (const auto& seen : {seen_targets<3>(ideal_targets<3>()), seen_targets<4>(ideal_targets<4>())}) {
-    targets_.insert(targets_.end(), seen.begin(), seen.end());
+    seen_.insert(seen_.end(), seen.begin(), seen.end());
   }
   for (std::int32_t i = 0; const NodeId node : nodes_) star_of_[node] = i++;
   mesh.for_each_cell([&](const auto& cell) {
@@ -78,11 +79,11 @@ void NodeStars::list_stars_round_copies() {
 }
 
 template <std::size_t width>
-std::int32_t NodeStars::first_target(const CellTarget& target) {
+std::int32_t NodeStars::first_seen(const CellTarget& target) {
   if (target.ideal()) return ideal_begin<width>;
-  const auto begin = size32(targets_);
+  const auto begin = size32(seen_);
   const auto seen = seen_targets<width>(stretched_targets<width>(target.w1, target.w2));
-  targets_.insert(targets_.end(), seen.begin(), seen.end());
+  seen_.insert(seen_.end(), seen.begin(), seen.end());
   return begin;
 }
 
@@ -90,19 +91,19 @@ template <std::size_t width>
 void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
                          std::vector<std::size_t>& ends) {
   constexpr std::int32_t nodes{width}, per_node{corners_of_cell<width>};
-  std::int32_t targets = -1;
+  std::int32_t seen = -1;
   for (std::int32_t k = 0; k < nodes; ++k) {
     const std::int32_t i = star_of_[cell[k]];
     if (i < 0) continue;
-    if (targets < 0) targets = first_target<width>(target);
+    if (seen < 0) seen = first_seen<width>(target);
     const NodeId next = cell[(k + 1) % width], previous = cell[(k + width - 1) % width];
-    const std::int32_t own = targets + per_node * k;
+    const std::int32_t own = seen + per_node * k;
     std::size_t& end = ends[i];
-    corners_[end++] = {next, previous, own, width == 3 ? CellAngle::all : CellAngle::at_p};
+    corners_[end++] = {next, previous, own};
     if constexpr (width == 4) {
       const NodeId opposite = cell[(k + 2) % width];
-      corners_[end++] = {next, opposite, own + 1, CellAngle::at_q};
-      corners_[end++] = {opposite, previous, own + 2, CellAngle::at_r};
+      corners_[end++] = {next, opposite, own + 1};
+      corners_[end++] = {opposite, previous, own + 2};
     }
   }
 }
@@ -113,7 +114,7 @@ bool NodeStars::costs_more(std::size_t i, double limit) const {
   const auto corners = corners_of(i);
   return std::any_of(corners.begin(), corners.end(), [&](const Corner& c) {
     const CornerForm form = corner_form(p, mesh_.point(c.q), mesh_.point(c.r));
-    return !(form.jacobian > least * weighted_edges(form, targets_[c.target]));
+    return !(form.jacobian > least * weighted_edges(form, seen_[c.seen].target));
   });
 }
 
@@ -131,8 +132,10 @@ void NodeStars::fetch_ahead(std::span<const std::int32_t> order, std::size_t k) 
 
 void NodeStars::gather(std::size_t i, Star& star) const {
   star.clear();
-  for (const Corner& c : corners_of(i))
-    star.add({mesh_.point(c.q), mesh_.point(c.r), targets_[c.target], c.angle});
+  for (const Corner& c : corners_of(i)) {
+    const SeenTarget& seen = seen_[c.seen];
+    star.add({mesh_.point(c.q), mesh_.point(c.r), seen.target, seen.angle});
+  }
 }
 
 }  // namespace quadloop

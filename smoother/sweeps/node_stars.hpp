@@ -43,7 +43,11 @@ class NodeStars {
  private:
   struct Corner {
     NodeId q, r;
-    std::int32_t target = 0;  ///< in targets_
+    std::int32_t seen = 0;  ///< what it should be, in seen_
+  };
+  /// What a corner should be, as a node of its cell sees it.
+  struct SeenTarget {
+    CornerTarget target;
     CellAngle angle = CellAngle::all;
   };
   std::span<const Corner> corners_of(std::size_t i) const {
@@ -53,7 +57,9 @@ class NodeStars {
   void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
                 std::vector<std::size_t>& ends);
   template <std::size_t width>
-  std::int32_t first_target(const CellTarget& target);
+  std::int32_t first_seen(const CellTarget& target);
+  template <std::size_t width>
+  static std::vector<SeenTarget> seen_targets(const std::array<CornerTarget, width>& of_corners);
   void list_stars_round_copies();
 
   const HaloMesh& mesh_;
@@ -61,7 +67,7 @@ class NodeStars {
   IdVector<NodeId, std::int32_t> star_of_;  ///< the index of each free node; -1 for others
   std::vector<std::size_t> starts_;
   std::vector<Corner> corners_;
-  std::vector<CornerTarget> targets_;
+  std::vector<SeenTarget> seen_;
   std::vector<std::size_t> copy_starts_;  ///< of each copy in copy_stars_
   std::vector<std::int32_t> copy_stars_;  ///< those that have the copy among their neighbours
 };

@@ -109,6 +109,15 @@ class NodeRow {
 
 RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) {
   gather_nodes(halo);
+  const Changes changes = flip(halo, rank_of);
+  if (uncertain_) return;
+  compare(halo, changes);
+  find_outgrown();
+}
+
+/// The patch, which is large, is gone before the changes are looked at.
+RegionTriangulation::Changes RegionTriangulation::flip(const StarHalo& halo,
+                                                       const std::function<TieRank(Point)>& rank_of) {
   const DelaunayPatch patch = make_patch(halo, rank_of);
   const std::vector<char> doubts = patch.doubtful();
   for (std::size_t t = 0; t < doubts.size() && !uncertain_; ++t) {
@@ -116,9 +125,7 @@ RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::functi
     uncertain_ = doubts[t] != 0 && std::any_of(nodes.begin(), nodes.end(),
                                                [&](std::int32_t node) { return halo.owns(number_of(node)); });
   }
-  if (uncertain_) return;
-  compare(halo, find_changes(halo, patch));
-  find_outgrown();
+  return uncertain_ ? Changes{} : find_changes(halo, patch);
 }
 
 void RegionTriangulation::gather_nodes(const StarHalo& halo) {
@@ -154,8 +161,13 @@ DelaunayPatch RegionTriangulation::make_patch(const StarHalo& halo,
 RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& halo,
                                                                const DelaunayPatch& patch) const {
   Changes changes;
+  const auto& now = patch.triangles();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) count += triangles_[i] == now[i] ? 0 : 1;
+  changes.before.reserve(count);
+  changes.after.reserve(count);
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    Triangle before = triangles_[i], after = patch.triangles()[i];
+    Triangle before = triangles_[i], after = now[i];
     if (before == after) continue;
     put_smallest_first(before);
     put_smallest_first(after);
@@ -186,11 +198,15 @@ void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) 
   std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(made),
                       goes_first);
   std::vector<Gone> gone;
+  gone.reserve(lost.size());
+  freed_.reserve(lost.size());
   for (const auto& [nodes, freed] : lost) {
     gone.push_back({nodes, freed, centroid(nodes)});
     if (halo.owns(number_of(nodes[0]))) freed_.push_back(freed);
   }
   const GoneTriangles gone_triangles(points_.size(), gone);
+  made_.reserve(made.size());
+  new_triangles_.reserve(made.size());
   for (const auto& [t, block] : made) {
     if (!halo.owns(number_of(t[0]))) continue;
     MadeTriangle triangle{gone_triangles.nearest(t[0], centroid(t), block), {}, {}, block};

@@ -49,6 +49,7 @@ class RegionTriangulation {
   };
 
   void gather_nodes(const StarHalo& halo);
+  Changes flip(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of);
   DelaunayPatch make_patch(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) const;
   Changes find_changes(const StarHalo& halo, const DelaunayPatch& patch) const;
   void compare(const StarHalo& halo, const Changes& changes);
