@@ -15,9 +15,12 @@
 #include "app/command_line.hpp"
 #include "io/formats.hpp"
 #include "io/input/case_file.hpp"
+#include "io/input/geom_text.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/build/islands.hpp"
 #include "quadloop/case/case_input.hpp"
+#include "quadloop/case/design_start.hpp"
 #include "quadloop/case/solver_settings.hpp"
 
 namespace quadloop {
@@ -25,7 +28,7 @@ namespace quadloop {
 namespace {
 
 struct AdaptArguments {
-  std::string case_path, folder;
+  std::string case_path, folder, from, geometry;
   std::optional<int> cycles;
   bool resume = false;
   std::vector<std::string> assignments;
@@ -57,8 +60,16 @@ void require_solver_files(const AdaptArguments& arguments, const CommandSolver& 
                                  "; write the solution to a file of its own");
 }
 
-AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, std::string& note) {
-  CaseInput input = load_case({arguments.case_path, arguments.assignments, {}, {}});
+/// Of each cycle, where the next shape's mesh is to be morphed from it.
+std::string outline_to_keep(const CaseInput& input) {
+  if (!input.settings.morph_to) return {};
+  MeshReport told_of_the_mesh;
+  return geom_text(without_small_islands(input.mesh->geometry, input.mesh->mesh.size.min, told_of_the_mesh));
+}
+
+AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<TreeAttributes>& saved,
+                           std::optional<double>& morph_to, Warnings& warnings, std::string& note) {
+  CaseInput input = load_case({arguments.case_path, arguments.assignments, arguments.geometry, saved});
   warnings = std::move(input.warnings);
   const Settings& settings = input.settings;
   const AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
@@ -67,6 +78,8 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
   if (!settings.solver.given)
     note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach,
                        flow.alpha);
+  morph_to = settings.morph_to;
+  const std::string outline = outline_to_keep(input);
   ChosenSolver solver =
       chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const CommandSolver* const command = command_of(solver)) require_solver_files(arguments, *command);
@@ -76,6 +89,7 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
                         settings.formats,       settings.values, settings.fields};
   adaptive.stream = settings.stream;
   adaptive.partitions = settings.partitions;
+  adaptive.outline = outline;
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   return adaptive;
 }
@@ -83,6 +97,7 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, Warnings& warnings, 
 std::string line_of(const CycleRecord& record) {
   std::string line = fmt::format("cycle {:>2}  {:>8} nodes  smallest angle {:>4.1f}", record.cycle,
                                  record.nodes, record.worst_angle);
+  if (record.morphed) line += *record.morphed ? "  same cells" : "  meshed anew";
   if (record.cl) line += fmt::format("  cl {:.5f}  cd {:.5f}", *record.cl, *record.cd);
   if (record.residual) line += fmt::format("  residual {:.1e}", *record.residual);
   if (record.estimate) line += fmt::format("  error {:.3e}", *record.estimate);
@@ -112,6 +127,15 @@ void keep(const CycleRecord& record, const std::string& folder, std::vector<Json
   of_run.files.insert(of_run.files.end(), files.begin(), files.end());
 }
 
+/// A line where the run ended before its last cycle; else empty.
+std::string why_ended(const LoopEnd& end) {
+  if (end.settled)
+    return fmt::format("  cycle {} has settled by adapt.until, so no further cycle\n", end.last);
+  if (!end.nothing_to_change) return {};
+  return fmt::format("  cycle {} marks no leaf, so no further cycle: {}\n", end.last,
+                     end.left->plan.reason_for_standing);
+}
+
 std::string closing_line(const std::string& folder, const LoopEnd& end) {
   const int first = end.first, last = end.last;
   if (first > last)
@@ -120,16 +144,32 @@ std::string closing_line(const std::string& folder, const LoopEnd& end) {
   return fmt::format("  wrote {}/cycle_{:02} to cycle_{:02}\n", folder, first, last);
 }
 
+std::string folder_of(const AdaptArguments& arguments) {
+  if (!arguments.folder.empty()) return arguments.folder;
+  return std::filesystem::path(arguments.case_path).stem().string() + ".adapt";
+}
+
+/// For messages.
+const std::string& outline_file(const AdaptArguments& arguments) {
+  return arguments.geometry.empty() ? arguments.case_path : arguments.geometry;
+}
+
 void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const Communicator& comm = context.comm;
   std::optional<AdaptiveCase> adaptive;
   Warnings warnings;
   std::string note;
-  comm.together([&] { adaptive = adaptive_case(arguments, warnings, note); });
+  std::optional<FormerMesh> former;
+  if (!arguments.from.empty()) former = find_former_mesh(comm, arguments.from);
+  std::optional<double> morph_to;
+  comm.together([&] {
+    std::optional<TreeAttributes> saved;
+    if (former) saved = former->tree.attributes;
+    adaptive = adaptive_case(arguments, saved, morph_to, warnings, note);
+  });
   adaptive->mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
   if (comm.is_root() && !note.empty()) log::information(note);
-  std::string folder = arguments.folder;
-  if (folder.empty()) folder = std::filesystem::path(arguments.case_path).stem().string() + ".adapt";
+  const std::string folder = folder_of(arguments);
   context.warn(warnings);
   std::set<std::string> told;
   std::vector<JsonObject> cycles;
@@ -146,16 +186,12 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   };
   context.record.figures.add("folder", folder);
   context.record.figures.add("cycles", cycles);
-  const LoopEnd end = run_in_folder(comm, *adaptive, folder, arguments.resume, report);
+  std::optional<DesignStart> start;
+  if (former) start = read_start(comm, *former, morph_to, outline_file(arguments));
+  const LoopEnd end = run_in_folder(comm, *adaptive, folder, arguments.resume, report, start);
   if (comm.is_root()) context.record.figures.add("nothing_to_change", end.nothing_to_change);
   if (comm.is_root() && !adaptive->adapt.until.empty()) context.record.figures.add("settled", end.settled);
-  if (!context.shows_table()) return;
-  if (end.settled)
-    std::cout << fmt::format("  cycle {} has settled by adapt.until, so no further cycle\n", end.last);
-  else if (end.nothing_to_change)
-    std::cout << fmt::format("  cycle {} marks no leaf, so no further cycle: {}\n", end.last,
-                             end.left->plan.reason_for_standing);
-  std::cout << closing_line(folder, end);
+  if (context.shows_table()) std::cout << why_ended(end) << closing_line(folder, end);
 }
 
 }  // namespace
@@ -166,6 +202,14 @@ void add_adapt_command(CLI::App& app, CommandContext& context) {
   add_case_argument(*command, arguments->case_path);
   command->add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")
       ->type_name("DIR");
+  command
+      ->add_option(
+          "--from", arguments->from,
+          "begin with what another run left, on the outline of now: its folder, that of a cycle, or a mesh "
+          "beside its tree")
+      ->type_name("RUN");
+  command->add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")
+      ->type_name("NEW.geom");
   command->add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")
       ->type_name("N")
       ->check(CLI::Range(0, 10000));

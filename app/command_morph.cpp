@@ -1,10 +1,15 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "adapt/morph/morph_derivative.hpp"
 #include "adapt/morph/morph_mesh.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
@@ -14,9 +19,12 @@
 #include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
+#include "io/input/point_table.hpp"
 #include "io/loaded/interface_nodes.hpp"
 #include "io/loaded/tidy_mesh.hpp"
 #include "io/mesh_file.hpp"
+#include "io/solution_file.hpp"
+#include "io/text/text_output.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
@@ -29,14 +37,36 @@ namespace {
 
 struct MorphArguments {
   std::string input, output, geometry, from;
+  std::string direction;                              ///< a table of what the outline's points do
+  std::string nodal_gradient, outline_gradient;       ///< a solution, and the table made from it
+  std::vector<std::string> fields{"dJ_dx", "dJ_dy"};  ///< of that solution
+
+  bool wants_derivative() const { return !direction.empty() || !outline_gradient.empty(); }
 };
+
+/// The fields that OUT gets of a direction.
+const std::vector<std::string> velocity_names{"dx_ds", "dy_ds"};
 
 /// Every rank has the outlines, the root the mesh.
 struct MorphInput {
   LoadedMesh whole;
   MeshOrder order;
   std::optional<Geometry> to, from;
+  std::vector<Point> direction;  ///< of each point of `to`
 };
+
+void require_outputs(const MorphArguments& arguments) {
+  if (arguments.nodal_gradient.empty() != arguments.outline_gradient.empty())
+    throw UsageError(
+        "--nodal-gradient and --outline-gradient go together: the one is read, the other written");
+  if (arguments.output.empty() && (arguments.outline_gradient.empty() || !arguments.direction.empty()))
+    throw UsageError("-o is required: the mesh on the new outline; see 'quadloop morph --help'");
+  if (arguments.direction.empty()) return;
+  require_writable_suffix(arguments.output);
+  if (!format_of(arguments.output)->holds(Content::solution))
+    throw InputError(arguments.output + ": this format has no place for the nodes' velocities; name a " +
+                     suffixes_for({Content::mesh, Content::solution}) + " file");
+}
 
 /// *Collective.*
 MorphInput load(const CommandContext& context, const MorphArguments& arguments) {
@@ -44,11 +74,16 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
   Warnings warnings;
   context.comm.together([&] {
     require_readable_suffix(arguments.input);
-    require_writable_suffix(arguments.output);
+    require_outputs(arguments);
+    if (!arguments.output.empty()) require_writable_suffix(arguments.output);
+    if (!arguments.nodal_gradient.empty()) require_solution_suffix(arguments.nodal_gradient);
     input.to = read_outline(arguments.geometry, warnings);
     if (!arguments.from.empty()) input.from = read_outline(arguments.from, warnings);
+    if (!arguments.direction.empty()) input.direction = read_point_table(arguments.direction, *input.to);
     if (!context.comm.is_root()) return;
-    require_possible_output(arguments.output);
+    for (const std::string& file : {arguments.output, arguments.outline_gradient}) {
+      if (!file.empty()) require_possible_output(file);
+    }
     input.whole = read_mesh(arguments.input);
     tidy_mesh(input.whole, arguments.input);
     require_valid_input(input.whole, arguments.input);
@@ -56,7 +91,7 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
       warnings.insert(warnings.end(), more.begin(), more.end());
     };
     append(input.whole.warnings);
-    append(losses_in(input.whole, arguments.output));
+    if (!arguments.output.empty()) append(losses_in(input.whole, arguments.output));
     input.order = space_filling_order(input.whole.mesh);
   });
   context.warn(warnings);
@@ -70,6 +105,70 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
                   "steps that meshes still follow, or mesh the new outline anew",
                   arguments.input, arguments.geometry, report.worst_place.x, report.worst_place.y,
                   100 * report.possible_way));
+}
+
+void require_derivative(const MorphArguments& arguments, const MorphReport& report) {
+  if (report.smoothed)
+    throw InputError(fmt::format(
+        "{}: its cells followed to {} by smoothing alone, so that nodes have no derivative there; begin "
+        "with a mesh nearer to that outline",
+        arguments.input, arguments.geometry));
+}
+
+/// The nodes' velocities join the whole mesh's solution. *Collective.*
+void add_velocities(const Communicator& comm, const Mesh& part, const std::vector<Point>& velocity,
+                    MorphInput& input) {
+  Field field{velocity_names, {}, {}};
+  for (const Point& v : velocity) field.values.insert(field.values.end(), {v.x, v.y});
+  const Field of_whole = gather_field(comm, field, part, input.order);
+  if (!comm.is_root()) return;
+  const Field before = input.whole.solution.value_or(Field{});
+  Field& joined = input.whole.solution.emplace(before);
+  std::erase_if(joined.names,
+                [](const std::string& name) { return std::ranges::count(velocity_names, name) > 0; });
+  const Field kept = selected(before, joined.names, "the mesh's solution");
+  joined.names.insert(joined.names.end(), velocity_names.begin(), velocity_names.end());
+  joined.values.clear();
+  for (const NodeId node : ids_below(NodeId{input.whole.mesh.owned_nodes})) {
+    for (const Field* rows : {&kept, &of_whole}) {
+      const auto row = rows->row(node);
+      joined.values.insert(joined.values.end(), row.begin(), row.end());
+    }
+  }
+}
+
+/// Reads dJ/dX of the morphed mesh's nodes and writes dJ/d(points) of the outline. *Collective.*
+void write_outline_gradient(const Communicator& comm, const MorphArguments& arguments,
+                            const MorphInput& input, const Mesh& part, const MorphDerivative& derivative) {
+  Field of_whole;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    const LoadedSolution solution = read_solution(arguments.nodal_gradient);
+    require_same_mesh(solution, input.whole.mesh);
+    of_whole = selected(solution.solution, arguments.fields, arguments.nodal_gradient);
+    of_whole.constants.clear();
+  });
+  const Field field = scatter_field(comm, of_whole, part, input.order);
+  std::vector<Point> of_nodes;
+  for (const NodeId node : ids_below(NodeId{part.owned_nodes}))
+    of_nodes.push_back({field.row(node)[0], field.row(node)[1]});
+  const std::vector<Point> gradient = derivative.gradient(of_nodes);
+  OutputSet outputs(comm);
+  TextOutput file(outputs, arguments.outline_gradient);
+  std::string text;
+  comm.together([&] {
+    if (comm.is_root()) text = point_table(*input.to, arguments.geometry, gradient, "dJ_dx,dJ_dy");
+  });
+  file.write(text);
+  file.close();
+  outputs.commit();
+}
+
+/// *Collective.*
+void use_derivative(const Communicator& comm, const MorphArguments& arguments, const Mesh& part,
+                    const MorphDerivative& derivative, MorphInput& input) {
+  if (!arguments.direction.empty()) add_velocities(comm, part, derivative.velocity(input.direction), input);
+  if (!arguments.outline_gradient.empty()) write_outline_gradient(comm, arguments, input, part, derivative);
 }
 
 Figures figures_of(const MorphReport& report) {
@@ -94,23 +193,56 @@ void run_morph(const CommandContext& context, const MorphArguments& arguments) {
   times.begin("morph");
   const OutlineChange change{*input.to, arguments.geometry, input.from ? &*input.from : nullptr,
                              arguments.from};
+  std::optional<MorphDerivative> derivative;
+  if (arguments.wants_derivative()) derivative.emplace(comm, part, change);
   const MorphReport report = morph_mesh(comm, part, change, interfaces);
   if (!report.valid()) refuse_way(arguments, report);
   gather_mesh(comm, part, input.order, input.whole.mesh);
   comm.together([&] {
-    if (comm.is_root()) require_valid(input.whole, arguments.output);
+    if (comm.is_root())
+      require_valid(input.whole, arguments.output.empty() ? arguments.geometry : arguments.output);
   });
+  if (derivative) {
+    require_derivative(arguments, report);
+    times.begin("derivative");
+    use_derivative(comm, arguments, part, *derivative, input);
+  }
   times.begin("write");
-  write_mesh_of_root(comm, input.whole, arguments.output);
+  if (!arguments.output.empty()) write_mesh_of_root(comm, input.whole, arguments.output);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
-  context.record.files = {arguments.output};
+  for (const std::string& file : {arguments.output, arguments.outline_gradient}) {
+    if (!file.empty()) context.record.files.push_back(file);
+  }
   if (!comm.is_root()) return;
   const Figures figures = figures_of(report);
   context.record.figures = figures.record();
   context.record.figures.add("seconds", record_of(stages));
   if (context.shows_table())
-    std::cout << figures.table(24) << stage_table(stages) << "  wrote " << arguments.output << "\n";
+    std::cout << figures.table(24) << stage_table(stages)
+              << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
+}
+
+void add_derivative_options(CLI::App& command, MorphArguments& arguments) {
+  command
+      .add_option(
+          "--direction", arguments.direction,
+          "a table boundary,x,y,dx,dy of what points of NEW.geom do: OUT has the nodes' velocities, as dx_ds "
+          "and dy_ds")
+      ->type_name("TABLE.csv");
+  command
+      .add_option(
+          "--nodal-gradient", arguments.nodal_gradient,
+          "dJ/dX at the nodes of the mesh on the new outline, in the fields dJ_dx and dJ_dy of an adjoint "
+          "solution")
+      ->type_name("SOLUTION");
+  command
+      .add_option("--outline-gradient", arguments.outline_gradient,
+                  "writes what J gains from the points of NEW.geom: boundary,x,y,dJ_dx,dJ_dy")
+      ->type_name("TABLE.csv");
+  command.add_option("--fields", arguments.fields, "the two fields of --nodal-gradient by other names")
+      ->expected(2)
+      ->type_name("NAME");
 }
 
 }  // namespace
@@ -135,8 +267,8 @@ void add_morph_command(CLI::App& app, CommandContext& context) {
   command
       ->add_option("-o,--output", arguments->output,
                    "the mesh on the new outline, in the format of its suffix")
-      ->required()
       ->type_name("OUT");
+  add_derivative_options(*command, *arguments);
   command->callback(
       [&context, arguments] { context.run = [&context, arguments] { run_morph(context, *arguments); }; });
 }

@@ -202,12 +202,9 @@ std::optional<CarriedMesh> morph(const Communicator& comm, const RemeshArguments
   const std::optional<double>& least = problem.input.settings.morph_to;
   if (!least) return {};
   const std::string& file = arguments.geometry.empty() ? arguments.case_path : arguments.geometry;
-  MorphedMesh morphed = morph_solved(comm, *problem.input.mesh, solved, *least, file);
-  if (!morphed.refusal.empty())
-    doubts.push_back(
-        fmt::format("{}: is meshed anew, as its cells cannot follow with a quality of {:g} "
-                    "(design.morph_to): {}",
-                    file, *least, morphed.refusal));
+  const MorphWish wish{*least, file};
+  MorphedMesh morphed = morph_solved(comm, *problem.input.mesh, solved, wish);
+  if (!morphed.refusal.empty()) doubts.push_back(why_anew(wish, morphed.refusal));
   return std::move(morphed.carried);
 }
 

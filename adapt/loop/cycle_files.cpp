@@ -74,6 +74,7 @@ void CycleFiles::meshed(const MeshResult& mesh, const Field& start) {
   write_mesh(outputs, mesh.mesh, paths.native_mesh(), starts_afresh_ ? nullptr : &start);
   write_tree(outputs, mesh.tree, paths.tree());
   outputs.commit();
+  if (!options_.outline.empty()) write_text(comm_, paths.outline(), options_.outline);
   if (options_.partitions == 0) return;
   cell_parts_ = partition(comm_, mesh.mesh, options_.partitions);
   write_parts_of(mesh.mesh, starts_afresh_ ? nullptr : &start);

@@ -20,6 +20,7 @@ struct CycleFileOptions {
   /// count.
   std::function<CycleRecord()> of_case;
   std::int32_t partitions = 0;  ///< parts of the mesh, in those of the formats that hold them
+  std::string outline = {};     ///< text of the file with it; empty: none is written
 };
 
 /// Writes what the loop does to the run's folder, a folder for each cycle, put in place when it is whole:

@@ -35,8 +35,8 @@ std::vector<std::pair<std::string, double>> seconds_of(const Communicator& comm,
 class Loop {
  public:
   Loop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt, const FlowSolver& solver,
-       CycleObserver& observer)
-      : comm_{comm}, mesh_{mesh}, adapt_{adapt}, solver_{solver}, observer_{observer} {}
+       CycleObserver& observer, const FirstMesh& start)
+      : comm_{comm}, mesh_{mesh}, adapt_{adapt}, solver_{solver}, observer_{observer}, start_{start} {}
 
   CycleEnd run_cycle(int cycle, const CycleEnd* before) const {
     StageTimes times;
@@ -72,6 +72,7 @@ class Loop {
  private:
   CarriedMesh next_mesh(const CycleEnd* before) const {
     if (before != nullptr) return carry_over(comm_, mesh_, before->plan, before->solved);
+    if (start_) return start_();
     return {generate_mesh(comm_, mesh_), {}, {}, {}};
   }
 
@@ -102,6 +103,7 @@ class Loop {
     record.refined = end.plan.refined;
     record.coarsened = end.plan.coarsened;
     record.estimate = end.plan.estimate;
+    if (cycle == 0 && start_) record.morphed = carried.morphed;
     record.outside = carried.report.outside;
     record.drift = carried.drifts();
     record.cl = flow.cl;
@@ -121,14 +123,15 @@ class Loop {
   const AdaptOptions& adapt_;
   const FlowSolver& solver_;
   CycleObserver& observer_;
+  const FirstMesh& start_;
 };
 
 }  // namespace
 
 LoopEnd run_loop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
-                 const FlowSolver& solver, CycleObserver& observer, int first,
-                 std::optional<CycleEnd> before) {
-  const Loop loop(comm, mesh, adapt, solver, observer);
+                 const FlowSolver& solver, CycleObserver& observer, int first, std::optional<CycleEnd> before,
+                 const FirstMesh& start) {
+  const Loop loop(comm, mesh, adapt, solver, observer, start);
   LoopEnd end{first, first - 1, false, false, std::move(before)};
   for (int cycle = first; cycle <= adapt.cycles; ++cycle) {
     end.nothing_to_change = end.left && !end.left->plan.changes_mesh();

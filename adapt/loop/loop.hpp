@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,9 @@ class CycleObserver {
   virtual std::string place_of_solution(int /*cycle*/) const { return {}; }
 };
 
+/// Makes the mesh of cycle 0 and the state to start from. *Collective.*
+using FirstMesh = std::function<CarriedMesh()>;
+
 /// Which cycles were made, and what the last one came to.
 struct LoopEnd {
   int first = 0, last = 0;         ///< first > last: none
@@ -56,9 +60,10 @@ struct LoopEnd {
 /// without it the first mesh is that of the case alone. The loop ends with a cycle that marks no leaf: the
 /// next one would solve on the same mesh again, or one whose forces and estimate have settled. Meshes and
 /// flows have the same bits on any number of ranks, and whether `before` comes from memory or from files of
-/// ours. Throws what meshing, solver and observer throw. *Collective.*
+/// ours. `start` takes the place of the case's own first mesh: one that another run left, with its flow.
+/// Throws what meshing, solver and observer throw. *Collective.*
 LoopEnd run_loop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
                  const FlowSolver& solver, CycleObserver& observer, int first = 0,
-                 std::optional<CycleEnd> before = {});
+                 std::optional<CycleEnd> before = {}, const FirstMesh& start = {});
 
 }  // namespace quadloop

@@ -73,6 +73,7 @@ JsonObject figures_of(const CycleRecord& record) {
   json.add("indicator", object({{"mean", record.mean}, {"deviation", record.deviation}}));
   json.add("refined", record.refined);
   json.add("coarsened", record.coarsened);
+  if (record.morphed) json.add("morphed", *record.morphed);
   json.add("outside", record.outside);
   json.add("drift", object(record.drift));
   for (const auto& [name, value] : {std::pair{"cl", record.cl},

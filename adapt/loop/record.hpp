@@ -32,6 +32,7 @@ struct CycleRecord {
   std::optional<double> estimate;  ///< the norm of the interpolation error, where sizes follow from it
   std::optional<double> order;     ///< at which it fell from the cycle before
   std::optional<bool> settled;     ///< whether forces and estimate have, where that ends the run
+  std::optional<bool> morphed;     ///< of a run's first mesh that another run left: whether its cells stay
   std::int64_t outside = 0;        ///< nodes that the transfer found outside the old mesh
   /// How far each variable's integral drifted in the transfer into this cycle.
   std::vector<std::pair<std::string, double>> drift;

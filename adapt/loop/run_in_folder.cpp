@@ -42,6 +42,7 @@ CycleFileOptions file_options(const AdaptiveCase& adaptive) {
                              return record_of_case(adaptive);
                            }};
   options.partitions = adaptive.partitions;
+  options.outline = adaptive.outline;
   if (const CommandSolver* const command = command_of(adaptive.solver)) {
     options.read_by_solver = {command->mesh};
     options.gamma = command->gamma;
@@ -88,7 +89,7 @@ CycleEnd left_by_earlier_run(const Communicator& comm, const AdaptiveCase& adapt
 }  // namespace
 
 LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
-                      bool resume, const RunReport& report) {
+                      bool resume, const RunReport& report, const std::optional<DesignStart>& start) {
   CycleFolders folders(comm, folder);
   const int first = folders.open(resume);
   if (resume && first == 0)
@@ -96,8 +97,13 @@ LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, co
   std::optional<CycleEnd> before;
   if (first > 0) before = left_by_earlier_run(comm, adaptive, folders, first - 1, report);
   CycleFiles files(comm, folders, file_options(adaptive), report.cycle);
+  FirstMesh first_mesh;
+  if (start)
+    first_mesh = [&] {
+      return continued_mesh(comm, adaptive.mesh, start->solved, start->wish, adaptive.adapt.transfer);
+    };
   return run_loop(comm, adaptive.mesh, adaptive.adapt, solver_in(folders, adaptive), files, first,
-                  std::move(before));
+                  std::move(before), first_mesh);
 }
 
 }  // namespace quadloop

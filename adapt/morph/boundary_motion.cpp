@@ -25,26 +25,64 @@ std::vector<Point> images_by_mesh(const Geometry& outline, const OutlineChange& 
   return images;
 }
 
+/// The places of a mesh's outline on the outline that it was made on.
+class PlacesOnOutline {
+ public:
+  PlacesOnOutline(const Geometry& outline, const OutlineChange& change)
+      : outline_{outline}, change_{change}, from_{walked_as(outline, *change.from)}, path_{from_} {}
+
+  const Geometry& from() const { return from_; }
+
+  /// Invalid where that outline lacks the boundary.
+  OutlinePlace of(std::int32_t v) const {
+    const Point p = outline_.point(v);
+    const std::string& name = outline_.boundary(outline_.boundary_of(v)).name;
+    if (!path_.has(name)) return {};
+    const OutlinePlace place = path_.locate(p, name, true);
+    if (place.valid()) return place;
+    throw InputError(
+        fmt::format("{}: the mesh's node ({:.12g}, {:.12g}) is not on boundary '{}' of this "
+                    "outline; leave --from out, or give the outline that `quadloop mesh "
+                    "--geometry-out` wrote",
+                    change_.from_file, p.x, p.y, name));
+  }
+
+ private:
+  const Geometry& outline_;
+  const OutlineChange& change_;
+  Geometry from_;
+  OutlinePath path_;
+};
+
 std::vector<Point> images_by_outline(const Geometry& outline, const OutlineChange& change) {
-  const Geometry from = walked_as(outline, *change.from), to = walked_as(outline, change.to);
-  const OutlineMap map(from, to, true, {change.file, change.from_file});
-  const OutlinePath path(from);
+  const PlacesOnOutline places(outline, change);
+  const Geometry to = walked_as(outline, change.to);
+  const OutlineMap map(places.from(), to, true, {change.file, change.from_file});
   std::vector<Point> images;
   for (std::int32_t v = 0; v < outline.size(); ++v) {
-    const Point p = outline.point(v);
-    const std::string& name = outline.boundary(outline.boundary_of(v)).name;
-    images.push_back(p);
-    if (!path.has(name)) continue;
-    const OutlinePlace place = path.locate(p, name, true);
-    if (!place.valid())
-      throw InputError(
-          fmt::format("{}: the mesh's node ({:.12g}, {:.12g}) is not on boundary '{}' of this "
-                      "outline; leave --from out, or give the outline that `quadloop mesh "
-                      "--geometry-out` wrote",
-                      change.from_file, p.x, p.y, name));
-    if (map.maps(place.loop)) images.back() = map.image(place.loop, place.arc);
+    const OutlinePlace place = places.of(v);
+    const bool stays = !place.valid() || !map.maps(place.loop);
+    images.push_back(stays ? outline.point(v) : map.image(place.loop, place.arc));
   }
   return images;
+}
+
+/// Vertices of walked_as(like, outline) as the outline itself numbers them.
+std::vector<std::int32_t> vertices_as_given(const Geometry& like, const Geometry& outline) {
+  const std::vector<char> against = loops_against(like, outline);
+  std::vector<std::int32_t> given(outline.size());
+  for (std::int32_t v = 0; v < outline.size(); ++v) {
+    const std::int32_t loop = outline.loop_of(v), begin = outline.loop_start(loop);
+    given[v] = against[loop] == 0 || v == begin ? v : begin + outline.loop_start(loop + 1) - v;
+  }
+  return given;
+}
+
+[[noreturn]] void refuse_shares(const OutlineChange& change) {
+  throw InputError(fmt::format(
+      "{}: what nodes do when one of its points moves is known where its points stand for those of the "
+      "outline that the mesh was made on; give that as --from, with as many points",
+      change.file));
 }
 
 /// A node that the boundary passes twice stands for one place of the new outline too.
@@ -76,10 +114,33 @@ Point RigidMotion::moved(Point p) const {
   return p + (to - from) + Point{-versed * arm.x - sine * arm.y, sine * arm.x - versed * arm.y};
 }
 
+std::vector<Point> images_of(const BoundaryOutline& outline, const OutlineChange& change) {
+  const Geometry& before = outline.geometry;
+  return change.from == nullptr ? images_by_mesh(before, change) : images_by_outline(before, change);
+}
+
+std::vector<PointShares> image_shares(const BoundaryOutline& outline, const OutlineChange& change) {
+  if (change.from == nullptr) refuse_shares(change);
+  const Geometry& before = outline.geometry;
+  const PlacesOnOutline places(before, change);
+  const Geometry to = walked_as(before, change.to);
+  const OutlineMap map(places.from(), to, true, {change.file, change.from_file});
+  const std::vector<std::int32_t> given = vertices_as_given(before, change.to);
+  std::vector<PointShares> all;
+  for (std::int32_t v = 0; v < before.size(); ++v) {
+    all.emplace_back();
+    const OutlinePlace place = places.of(v);
+    if (!place.valid() || !map.maps(place.loop)) continue;
+    const auto shares = map.shares(place.loop, place.arc);
+    if (!shares) refuse_shares(change);
+    all.back() = {given[shares->first], given[shares->second], shares->share};
+  }
+  return all;
+}
+
 std::vector<BoundaryNodeMotion> boundary_motion(const BoundaryOutline& outline, const OutlineChange& change) {
   const Geometry& before = outline.geometry;
-  const std::vector<Point> after =
-      change.from == nullptr ? images_by_mesh(before, change) : images_by_outline(before, change);
+  const std::vector<Point> after = images_of(outline, change);
   const auto edge = [&](std::int32_t v) { return before.point(before.next(v)) - before.point(v); };
   const auto turn = [&](std::int32_t v) { return angle_between(edge(v), after[before.next(v)] - after[v]); };
   std::vector<BoundaryNodeMotion> motions;
@@ -87,7 +148,8 @@ std::vector<BoundaryNodeMotion> boundary_motion(const BoundaryOutline& outline, 
     const std::int32_t previous = before.previous(v);
     motions.push_back({outline.nodes[v],
                        {before.point(v), after[v], (turn(previous) + turn(v)) / 2},
-                       (length(edge(previous)) + length(edge(v))) / 2});
+                       (length(edge(previous)) + length(edge(v))) / 2,
+                       v});
   }
   std::ranges::stable_sort(motions, {}, &BoundaryNodeMotion::node);
   return each_once(std::move(motions), change.file);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "adapt/morph/boundary_outline.hpp"
+#include "adapt/morph/outline_map.hpp"
 
 namespace quadloop {
 
@@ -22,6 +24,7 @@ struct BoundaryNodeMotion {
   GlobalNodeId node;
   RigidMotion motion;
   double width = 0;
+  std::int32_t vertex = -1;  ///< of the mesh's outline
 };
 
 /// Where a mesh's outline is to go.
@@ -38,5 +41,12 @@ struct OutlineChange {
 /// node turns by the mean of what its two edges do. Throws InputError as OutlineMap does, and where a node is
 /// not on `change.from`.
 std::vector<BoundaryNodeMotion> boundary_motion(const BoundaryOutline& outline, const OutlineChange& change);
+
+/// Where each vertex of a mesh's outline goes.
+std::vector<Point> images_of(const BoundaryOutline& outline, const OutlineChange& change);
+
+/// Of which points of `change.to` the image of each vertex of a mesh's outline is a mean. Throws InputError
+/// as boundary_motion(), and where a loop's points do not stand for those of `change.from`, one for one.
+std::vector<PointShares> image_shares(const BoundaryOutline& outline, const OutlineChange& change);
 
 }  // namespace quadloop

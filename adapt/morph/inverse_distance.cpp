@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "mesher/base/error.hpp"
 
@@ -9,39 +10,54 @@ namespace quadloop {
 
 namespace {
 
-constexpr double far_away = 30;  // radii: from there on a node's sources count as one
 constexpr std::int32_t leaf_size = 4;
 
 }  // namespace
 
-Point InverseDistance::Follower::displacement(Point arm) const {
-  return shift + Point{-versed * arm.x - sine * arm.y, sine * arm.x - versed * arm.y};
+LinearMotion& LinearMotion::operator+=(const LinearMotion& other) {
+  versed += other.versed;
+  sine += other.sine;
+  shift = shift + other.shift;
+  return *this;
 }
 
+LinearMotion operator*(double factor, const LinearMotion& motion) {
+  return {factor * motion.versed, factor * motion.sine, factor * motion.shift};
+}
+
+LinearMotion linear_motion(const RigidMotion& motion) {
+  const double half = std::sin(motion.angle / 2);
+  return {2 * half * half, std::sin(motion.angle), motion.to - motion.from};
+}
+
+LinearMotion members_gradient(Point arm, Point g) { return {-dot(arm, g), cross(arm, g), g}; }
+
 InverseDistance::InverseDistance(std::span<const MotionSource> sources, double reach)
-    : squared_reach_{reach * reach} {
+    : squared_reach_{reach * reach}, sources_(sources.begin(), sources.end()), given_as_(sources.size()) {
   QUADLOOP_REQUIRE(!sources.empty(), "the plane follows something");
-  for (const auto& [motion, width] : sources) {
-    const double half = std::sin(motion.angle / 2);
-    sources_.push_back(
-        {motion.from, width, 2 * half * half, std::sin(motion.angle), motion.to - motion.from});
-  }
+  std::iota(given_as_.begin(), given_as_.end(), 0);
   nodes_.reserve(sources_.size());
   build(0, size32(sources_));
+  std::vector<MotionSource> sorted;
+  sorted.reserve(sources_.size());
+  for (const std::int32_t s : given_as_) sorted.push_back(sources_[s]);
+  sources_ = std::move(sorted);
 }
 
 InverseDistance::Node InverseDistance::summary(std::int32_t begin, std::int32_t end) const {
-  const auto part = std::span(sources_).subspan(begin, end - begin);
+  const auto part = std::span(given_as_).subspan(begin, end - begin);
   Node node{{}, 0, begin, end, 0};
-  Follower& mean = node.mean;
-  for (const Follower& s : part) mean.width += s.width;
-  for (const Follower& s : part) mean.place = mean.place + (s.width / mean.width) * s.place;
-  for (const Follower& s : part) {
-    const double share = s.width / mean.width;
-    mean.versed += share * s.versed;
-    mean.sine += share * s.sine;
-    mean.shift = mean.shift + share * s.displacement(mean.place - s.place);
-    node.radius = std::max(node.radius, length(s.place - mean.place));
+  MotionSource& mean = node.mean;
+  for (const std::int32_t s : part) mean.width += sources_[s].width;
+  for (const std::int32_t s : part)
+    mean.place = mean.place + (sources_[s].width / mean.width) * sources_[s].place;
+  for (const std::int32_t s : part) {
+    const auto& [place, width, motion] = sources_[s];
+    const double share = width / mean.width;
+    mean.motion.versed += share * motion.versed;
+    mean.motion.sine += share * motion.sine;
+    mean.motion.shift = mean.motion.shift + share * motion.displacement(mean.place - place);
+    node.radius = std::max(node.radius, length(place - mean.place));
   }
   return node;
 }
@@ -51,12 +67,13 @@ void InverseDistance::build(std::int32_t begin, std::int32_t end) {
   nodes_.push_back(summary(begin, end));
   if (end - begin > leaf_size) {
     Box box;
-    for (std::int32_t s = begin; s < end; ++s) box.include(sources_[s].place);
+    for (std::int32_t s = begin; s < end; ++s) box.include(sources_[given_as_[s]].place);
     const bool by_x = box.width() >= box.height();
     const std::int32_t middle = begin + (end - begin) / 2;
-    std::stable_sort(sources_.begin() + begin, sources_.begin() + end,
-                     [&](const Follower& a, const Follower& b) {
-                       return by_x ? a.place.x < b.place.x : a.place.y < b.place.y;
+    std::stable_sort(given_as_.begin() + begin, given_as_.begin() + end,
+                     [&](std::int32_t one, std::int32_t other) {
+                       const Point a = sources_[one].place, b = sources_[other].place;
+                       return by_x ? a.x < b.x : a.y < b.y;
                      });
     build(begin, middle);
     build(middle, end);
@@ -67,23 +84,30 @@ void InverseDistance::build(std::int32_t begin, std::int32_t end) {
 Point InverseDistance::displacement(Point p) const {
   Point sum;
   double weights = 0;
-  const auto add = [&](const Follower& source) {
+  for_each_seen(p, [&](const MotionSource& source, std::int32_t) {
     const Point arm = p - source.place;
-    const double squared = dot(arm, arm);
-    const double weight = source.width * (1 + squared_reach_ / squared) / (squared * std::sqrt(squared));
-    weights += weight;
-    sum = sum + weight * source.displacement(arm);
-  };
-  for (std::int32_t n = 0; n < size32(nodes_);) {
-    const Node& node = nodes_[n];
-    const bool is_far = length(p - node.mean.place) > far_away * node.radius;
-    if (is_far) add(node.mean);
-    if (!is_far && node.after == n + 1) {
-      for (std::int32_t s = node.begin; s < node.end; ++s) add(sources_[s]);
-    }
-    n = is_far ? node.after : n + 1;
-  }
+    const double own = weight(source, arm);
+    weights += own;
+    sum = sum + own * source.motion.displacement(arm);
+  });
   return (1 / weights) * sum;
+}
+
+std::vector<LinearMotion> InverseDistance::gradient_of_sources(std::span<const LinearMotion> of_means) const {
+  std::vector<LinearMotion> gradient(sources_.size());
+  for (std::size_t s = 0; s < sources_.size(); ++s) gradient[given_as_[s]] += of_means[s];
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const auto& [mean, radius, begin, end, after] = nodes_[n];
+    const LinearMotion& of_mean = of_means[sources_.size() + n];
+    for (std::int32_t s = begin; s < end; ++s) {
+      const double share = sources_[s].width / mean.width;
+      LinearMotion own = members_gradient(mean.place - sources_[s].place, of_mean.shift);
+      own.versed += of_mean.versed;
+      own.sine += of_mean.sine;
+      gradient[given_as_[s]] += share * own;
+    }
+  }
+  return gradient;
 }
 
 }  // namespace quadloop

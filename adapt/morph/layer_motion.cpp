@@ -33,8 +33,7 @@ IdVector<NodeId, NodeId> nodes_below(const HaloMesh& mesh, const LayerPlaces& pl
 
 }  // namespace
 
-void move_columns(const Communicator& comm, const HaloMesh& mesh, const LayerPlaces& places,
-                  NodeMotions& motions) {
+void find_feet(const Communicator& comm, const HaloMesh& mesh, const LayerPlaces& places, NodeFeet& feet) {
   std::int32_t most = -1;
   for (const NodeId node : places.ids()) most = std::max(most, places[node].left);
   most = static_cast<std::int32_t>(comm.maximum(std::int64_t{most}));
@@ -42,11 +41,11 @@ void move_columns(const Communicator& comm, const HaloMesh& mesh, const LayerPla
   const IdVector<NodeId, NodeId> below = nodes_below(mesh, places);
   std::vector<std::vector<NodeId>> by_layers_left(most + 1);
   for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
-    if (below[node].valid() && !motions[node]) by_layers_left[places[node].left].push_back(node);
+    if (below[node].valid() && feet[node] < 0) by_layers_left[places[node].left].push_back(node);
   }
   for (std::int32_t left = most; left >= 0; --left) {
-    for (const NodeId node : by_layers_left[left]) motions[node] = motions[below[node]];
-    mesh.exchange().update(motions);
+    for (const NodeId node : by_layers_left[left]) feet[node] = feet[below[node]];
+    mesh.exchange().update(feet);
   }
 }
 

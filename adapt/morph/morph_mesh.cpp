@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <span>
 #include <vector>
 
-#include "adapt/morph/inverse_distance.hpp"
-#include "adapt/morph/layer_motion.hpp"
+#include "adapt/morph/mesh_motion.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "smoother/keep_layers.hpp"
 #include "smoother/smooth_mesh.hpp"
@@ -18,27 +16,8 @@ namespace quadloop {
 namespace {
 
 constexpr double quality_kept = 0.8;  // of the worst cell: below it the mesh is smoothed
-constexpr double least_move = 1e-9;   // of the outline's extent: what moves less stays, but for rounding
 constexpr int smoothed_rings = 4;
 constexpr int bisections = 7;
-
-/// The extent of those boundaries that move; 0 where none does.
-double extent_of_moved(const BoundaryOutline& outline, std::span<const BoundaryNodeMotion> boundary) {
-  const Geometry& geometry = outline.geometry;
-  const double enough = least_move * std::max(geometry.box().width(), geometry.box().height());
-  std::vector<char> moves(geometry.loop_count(), 0);
-  std::vector<Box> boxes(geometry.loop_count());
-  for (std::int32_t v = 0; v < geometry.size(); ++v) {
-    const auto at = std::ranges::lower_bound(boundary, outline.nodes[v], {}, &BoundaryNodeMotion::node);
-    if (length(at->motion.to - at->motion.from) > enough) moves[geometry.loop_of(v)] = 1;
-    boxes[geometry.loop_of(v)].include(geometry.point(v));
-  }
-  double extent = 0;
-  for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
-    if (moves[loop] != 0) extent = std::max({extent, boxes[loop].width(), boxes[loop].height()});
-  }
-  return extent;
-}
 
 /// The quality of a cell whose nodes are where `place(node)` says.
 template <std::size_t width, class Place>
@@ -48,57 +27,35 @@ double quality_at(const std::array<NodeId, width>& nodes, const Place& place) {
   return quality_of(corners);
 }
 
-/// A mesh as it was, and what moves each of its nodes.
+/// A mesh as it was, and where its nodes go.
 class Morph {
  public:
   /// `mesh` may be moved by this, and keeps its cells. *Collective.*
   Morph(const Communicator& comm, const Mesh& mesh, const OutlineChange& change)
-      : comm_{comm},
-        halo_{comm, mesh},
-        places_{layer_places(comm, mesh)},
-        motions_(halo_.points().size()),
-        is_boundary_(halo_.points().size(), 0) {
-    const BoundaryOutline outline = outline_of(comm, mesh);
-    const std::vector<BoundaryNodeMotion> boundary = boundary_motion(outline, change);
-    reach_ = extent_of_moved(outline, boundary);
-    halo_.exchange().update(halo_.points());
-    IdVector<NodeId, double> widths(halo_.points().size(), 0);
-    for (const NodeId node : ids_below(NodeId{halo_.owned_nodes()})) {
-      const auto at = std::ranges::lower_bound(boundary, mesh.global(node), {}, &BoundaryNodeMotion::node);
-      if (at == boundary.end() || at->node != mesh.global(node)) continue;
-      motions_[node] = at->motion;
-      widths[node] = at->width;
-      is_boundary_[node] = 1;
-    }
-    halo_.exchange().update(motions_);
-    LayerPlaces places = places_;
-    places.resize(halo_.points().size());
-    halo_.exchange().update(places);
-    move_columns(comm, halo_, places, motions_);
-    gather_sources(places, widths);
-  }
+      : comm_{comm}, motion_{comm, mesh, change}, halo_{motion_.before()} {}
 
   /// Puts the nodes where they are after a share of the way. *Collective.*
   void move(double share, Mesh& mesh) const {
-    std::vector<MotionSource> sources = sources_;
-    for (MotionSource& source : sources) source.motion = source.motion.part(share);
-    const InverseDistance field(sources, reach_);
+    const auto part_of = [&](std::int32_t foot) { return motion_.boundary()[foot].motion.part(share); };
+    const InverseDistance field =
+        motion_.field(motion_.reach(), [&](std::int32_t foot) { return linear_motion(part_of(foot)); });
     for (const NodeId node : ids_below(NodeId{mesh.owned_nodes})) {
       const Point p = halo_.point(node);
+      const std::int32_t foot = motion_.foot(node);
       Point& to = mesh.points[node.value()];
-      if (is_boundary_[node] != 0)
-        to = motions_[node]->part(share).to;
+      if (foot < 0)
+        to = p + field.displacement(p);
       else
-        to = motions_[node] ? motions_[node]->part(share).moved(p) : p + field.displacement(p);
+        to = motion_.is_boundary(node) ? part_of(foot).to : part_of(foot).moved(p);
     }
     const NodeExchange exchange(comm_, NodeOwners(comm_, mesh.first_node), mesh.owned_nodes, mesh.copies);
     exchange.update(mesh.points);
   }
 
-  bool moves() const { return reach_ > 0; }
+  bool moves() const { return motion_.reach() > 0; }
   NodeFlags boundary_nodes() const {
-    NodeFlags flags = is_boundary_;
-    flags.resize(halo_.owned_nodes());
+    NodeFlags flags(halo_.owned_nodes(), 0);
+    for (const NodeId node : flags.ids()) flags[node] = motion_.is_boundary(node) ? 1 : 0;
     return flags;
   }
   /// How far an owned node has gone.
@@ -145,7 +102,7 @@ class Morph {
     double worst = std::numeric_limits<double>::infinity();
     const auto look_at = [&](const auto& nodes) {
       const double quality = quality_at(nodes, [&](NodeId node) { return mesh.point(node); });
-      if (quality <= 0 || !is_layer_cell(places_, nodes)) worst = std::min(worst, quality);
+      if (quality <= 0 || !is_layer_cell(motion_.places(), nodes)) worst = std::min(worst, quality);
     };
     for (const auto& nodes : mesh.triangles) look_at(nodes);
     for (const auto& nodes : mesh.quads) look_at(nodes);
@@ -153,32 +110,9 @@ class Morph {
   }
 
  private:
-  /// The boundary, and the fronts of layers in the place of the walls below. *Collective.*
-  void gather_sources(const LayerPlaces& places, IdVector<NodeId, double>& widths) {
-    const auto is_front = [&](NodeId node) { return motions_[node] && places[node].left == 0; };
-    halo_.for_each_cell([&](const auto& nodes) {
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const NodeId a = nodes[k], b = nodes[(k + 1) % nodes.size()];
-        if (!is_front(a) || !is_front(b)) continue;
-        const double quarter = length(halo_.point(b) - halo_.point(a)) / 4;  // each edge has two cells
-        for (const NodeId node : {a, b}) widths[node] += is_boundary_[node] != 0 ? 0 : quarter;
-      }
-    });
-    std::vector<MotionSource> own;
-    for (const NodeId node : ids_below(NodeId{halo_.owned_nodes()})) {
-      if (motions_[node] && places[node].left <= 0 && widths[node] > 0)
-        own.push_back({*motions_[node], widths[node]});
-    }
-    sources_ = comm_.all_gather_values(std::span<const MotionSource>(own));
-  }
-
   const Communicator& comm_;
-  HaloMesh halo_;  ///< with the nodes where they were
-  LayerPlaces places_;
-  NodeMotions motions_;
-  NodeFlags is_boundary_;
-  std::vector<MotionSource> sources_;
-  double reach_ = 0;
+  MeshMotion motion_;
+  const HaloMesh& halo_;  ///< with the nodes where they were
 };
 
 /// Cells outside layers that have suffered, and those near them, made better; boundary and layers stay.

@@ -158,13 +158,17 @@ double nearest_arc(const Geometry& geometry, const OutlinePath& path, std::int32
 
 }  // namespace
 
-Geometry walked_as(const Geometry& like, const Geometry& outline) {
+std::vector<char> loops_against(const Geometry& like, const Geometry& outline) {
   std::vector<char> against;
   for (std::int32_t loop = 0; loop < outline.loop_count(); ++loop) {
     const std::int32_t other = counterpart(outline, loop, like, [](std::int32_t) { return true; });
     against.push_back(other >= 0 && area_of(outline, loop) * area_of(like, other) < 0 ? 1 : 0);
   }
-  return with_loops_turned(outline, against);
+  return against;
+}
+
+Geometry walked_as(const Geometry& like, const Geometry& outline) {
+  return with_loops_turned(outline, loops_against(like, outline));
 }
 
 OutlineMap::OutlineMap(const Geometry& from, const Geometry& to, bool by_points, const Names& names)
@@ -205,7 +209,7 @@ void OutlineMap::match_loops(const Names& names) {
 
 OutlineMap::LoopMap OutlineMap::anchored(std::int32_t image, const Vertices& corners,
                                          const Vertices& counterparts, std::size_t turn) const {
-  LoopMap map{image, {}, {}};
+  LoopMap map{image, {}, {}, {}};
   for (std::size_t k = 0; k < corners.size(); ++k) {
     double arc = new_path_.arc_of(counterparts[(k + turn) % counterparts.size()]);
     if (k + turn >= counterparts.size()) arc += new_path_.loop_length(image);
@@ -221,7 +225,9 @@ std::optional<OutlineMap::LoopMap> OutlineMap::point_by_point(std::int32_t loop,
   const Point shift = centre_of(to_, image) - centre_of(from_, loop);
   const auto turn = turn_of(from_, own, to_, other, shift, turns_of_kept(from_, own, to_, other));
   if (!turn) return {};
-  return anchored(image, own, other, *turn);
+  LoopMap map = anchored(image, own, other, *turn);
+  for (std::size_t k = 0; k < own.size(); ++k) map.to_vertices.push_back(other[(k + *turn) % other.size()]);
+  return map;
 }
 
 OutlineMap::LoopMap OutlineMap::by_corners(std::int32_t loop, std::int32_t image, const Names& names) const {
@@ -230,7 +236,7 @@ OutlineMap::LoopMap OutlineMap::by_corners(std::int32_t loop, std::int32_t image
   const Point shift = centre_of(to_, image) - centre_of(from_, loop);
   if (counterparts.empty()) {
     const Point first = from_.point(from_.loop_start(loop));
-    return {image, {0}, {nearest_arc(to_, new_path_, image, first + shift)}};
+    return {image, {0}, {nearest_arc(to_, new_path_, image, first + shift)}, {}};
   }
   std::vector<std::size_t> turns(counterparts.size());
   std::iota(turns.begin(), turns.end(), std::size_t{0});
@@ -245,15 +251,27 @@ OutlineMap::LoopMap OutlineMap::by_corners(std::int32_t loop, std::int32_t image
                   corners.size()));
 }
 
-Point OutlineMap::image(std::int32_t loop, double arc) const {
+OutlineMap::Stretch OutlineMap::stretch_at(std::int32_t loop, double arc) const {
   const LoopMap& map = loops_[loop];
-  const double old_length = old_path_.loop_length(loop), new_length = new_path_.loop_length(map.image);
+  const double old_length = old_path_.loop_length(loop);
   if (arc < map.from.front()) arc += old_length;
   const std::size_t k = std::ranges::upper_bound(map.from, arc) - map.from.begin() - 1;
-  const bool last = k + 1 == map.from.size();
-  const double old_end = last ? map.from.front() + old_length : map.from[k + 1],
-               new_end = last ? map.to.front() + new_length : map.to[k + 1];
-  const double share = (arc - map.from[k]) / (old_end - map.from[k]);
+  const double old_end = k + 1 == map.from.size() ? map.from.front() + old_length : map.from[k + 1];
+  return {k, (arc - map.from[k]) / (old_end - map.from[k])};
+}
+
+std::optional<PointShares> OutlineMap::shares(std::int32_t loop, double arc) const {
+  const std::vector<std::int32_t>& vertices = loops_[loop].to_vertices;
+  if (vertices.empty()) return {};
+  const auto [k, share] = stretch_at(loop, arc);
+  return PointShares{vertices[k], vertices[(k + 1) % vertices.size()], share};
+}
+
+Point OutlineMap::image(std::int32_t loop, double arc) const {
+  const LoopMap& map = loops_[loop];
+  const double new_length = new_path_.loop_length(map.image);
+  const auto [k, share] = stretch_at(loop, arc);
+  const double new_end = k + 1 == map.from.size() ? map.to.front() + new_length : map.to[k + 1];
   double on_new = map.to[k] + share * (new_end - map.to[k]);
   if (on_new >= new_length) on_new -= new_length;
   return new_path_.point_at(new_path_.place_at(map.image, on_new));

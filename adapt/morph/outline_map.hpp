@@ -15,6 +15,15 @@ namespace quadloop {
 /// an airfoil without its far field, does not know on which side the domain lies.
 Geometry walked_as(const Geometry& like, const Geometry& outline);
 
+/// A flag for each loop of the outline: whether walked_as() turns it.
+std::vector<char> loops_against(const Geometry& like, const Geometry& outline);
+
+/// A place as a mean of two points of an outline.
+struct PointShares {
+  std::int32_t first = -1, second = -1;  ///< vertices; -1: the place stays where it is
+  double share = 0;                      ///< of the second; 1 - share is the first one's
+};
+
 /// Takes places of an outline to places of another one of the same shape in the large: loop by loop, between
 /// vertices that stand for each other by shares of the way. Those vertices are all of them where both
 /// outlines have as many and `by_points` is asked for, wherever the loops begin, else the kept ones of the
@@ -32,6 +41,9 @@ class OutlineMap {
   bool maps(std::int32_t loop) const { return loops_[loop].image >= 0; }
   /// `arc`: the way along the loop from its first vertex.
   Point image(std::int32_t loop, double arc) const;
+  /// The same place as a mean of new points; none where the loop's points do not stand for each other, as the
+  /// way to it is then a function of all of them.
+  std::optional<PointShares> shares(std::int32_t loop, double arc) const;
   /// Whether all vertices stand for each other.
   bool is_by_points() const { return by_points_; }
 
@@ -40,7 +52,14 @@ class OutlineMap {
   struct LoopMap {
     std::int32_t image = -1;  ///< the new loop; -1: none
     std::vector<double> from, to;
+    std::vector<std::int32_t> to_vertices;  ///< the new ones, where all stand for each other
   };
+  /// The number of the stretch that an arc lies on, and its share of the way along that.
+  struct Stretch {
+    std::size_t number;
+    double share;
+  };
+  Stretch stretch_at(std::int32_t loop, double arc) const;
   void match_loops(const Names& names);
   /// Counterparts begin at the one numbered `turn`.
   LoopMap anchored(std::int32_t image, const std::vector<std::int32_t>& corners,

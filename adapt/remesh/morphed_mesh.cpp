@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesher/base/error.hpp"
+#include "mesher/build/islands.hpp"
 #include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -44,17 +45,41 @@ MeshReport report_of(const Communicator& comm, const TreeRecord& tree) {
   return report;
 }
 
+/// The solved mesh with other places of its nodes, as if it had been made on the input's outline. The tree is
+/// the old one, for these nodes. *Collective.*
+CarriedMesh with_nodes_of(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
+                          Mesh mesh) {
+  CarriedMesh carried;
+  MeshResult& result = carried.generated.result;
+  result.tree = old.tree;
+  result.tree.attributes.geometry_digest = input.geometry.digest();
+  result.tree.attributes.coordinate_digest = coordinate_digest(comm, mesh);
+  result.report = report_of(comm, old.tree);
+  result.mesh = std::move(mesh);
+  carried.start = old.solution;
+  carried.report.drift.assign(old.solution.width() + old.solution.cells.width(), 0);
+  carried.report.relative_drift = carried.report.drift;
+  carried.morphed = true;
+  return carried;
+}
+
+bool has_outline_of(const SolvedMesh& old, const MeshInput& input) {
+  return input.geometry.digest() == old.tree.attributes.geometry_digest;
+}
+
 }  // namespace
 
 MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
-                         double least_quality, const std::string& file) {
-  if (input.geometry.digest() == old.tree.attributes.geometry_digest) return {};
+                         const MorphWish& wish) {
+  if (has_outline_of(old, input)) return {};
   StageTimes times;
   times.begin("morph");
   Mesh mesh = old.mesh;
   MorphReport report;
   try {
-    report = morph_mesh(comm, mesh, {input.geometry, file});
+    MeshReport told_already;
+    const Geometry to = without_small_islands(input.geometry, input.mesh.size.min, told_already);
+    report = morph_mesh(comm, mesh, {to, wish.file, wish.from, wish.from_file});
   } catch (const InputError& error) {
     return {{}, error.what()};
   }
@@ -62,23 +87,34 @@ MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const
     return {{},
             fmt::format("near ({:g}, {:g}) some cells turn over after {:.0f} % of the way",
                         report.worst_place.x, report.worst_place.y, 100 * report.possible_way)};
-  if (report.worst_after < least_quality)
+  if (report.worst_after < wish.least_quality)
     return {{}, fmt::format("the worst cell's quality fell to {:.3f}", report.worst_after)};
   if (const std::string fault = first_fault(comm, mesh); !fault.empty()) return {{}, fault};
   times.end();
-  CarriedMesh carried;
-  carried.generated.result.tree = old.tree;
-  TreeAttributes& tree = carried.generated.result.tree.attributes;
-  tree.geometry_digest = input.geometry.digest();
-  tree.coordinate_digest = coordinate_digest(comm, mesh);
-  carried.generated.result.report = report_of(comm, old.tree);
-  carried.generated.result.mesh = std::move(mesh);
-  carried.start = old.solution;
-  carried.report.drift.assign(old.solution.width() + old.solution.cells.width(), 0);
-  carried.report.relative_drift = carried.report.drift;
-  carried.times = std::move(times);
-  carried.morphed = true;
-  return {std::move(carried), {}};
+  MorphedMesh morphed{with_nodes_of(comm, input, old, std::move(mesh)), {}};
+  morphed.carried->times = std::move(times);
+  return morphed;
+}
+
+std::string why_anew(const MorphWish& wish, const std::string& refusal) {
+  return fmt::format(
+      "{}: is meshed anew, as its cells cannot follow with a quality of {:g} (design.morph_to): {}",
+      wish.file, wish.least_quality, refusal);
+}
+
+CarriedMesh continued_mesh(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
+                           const std::optional<MorphWish>& wish, TransferKind transfer) {
+  if (has_outline_of(old, input) && old.tree.attributes.case_digest == input.digest)
+    return with_nodes_of(comm, input, old, old.mesh);
+  MorphedMesh morphed;
+  if (wish) morphed = morph_solved(comm, input, old, *wish);
+  if (morphed.carried) return std::move(*morphed.carried);
+  AdaptationPlan plan = standing_plan(old.tree, input);
+  plan.transfer = transfer;
+  CarriedMesh carried = carry_over(comm, input, plan, old);
+  if (!morphed.refusal.empty())
+    carried.generated.result.report.warnings.push_back(why_anew(*wish, morphed.refusal));
+  return carried;
 }
 
 }  // namespace quadloop

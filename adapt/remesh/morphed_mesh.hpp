@@ -14,11 +14,28 @@ struct MorphedMesh {
   std::string refusal;                 ///< why there is none; empty where the outline has not changed
 };
 
-/// Morphs the solved mesh to the input's outline, `file` in messages, if that is another than the tree's. It
-/// is taken if its worst cell outside layers has at least the quality `least_quality` and it is valid. The
-/// tree stays, for the mesh as it is now; so the next mesh that is made anew is made as if nothing had been
-/// morphed. *Collective.*
+/// How far cells may be taken along, and what is known of the outlines.
+struct MorphWish {
+  double least_quality = 0;  ///< of the worst cell outside layers
+  std::string file;          ///< of the new outline, for messages
+  /// The outline that the solved mesh was made on, where it is at hand, and its file: OutlineChange.
+  const Geometry* from = nullptr;
+  std::string from_file = {};
+};
+
+/// Morphs the solved mesh to the input's outline if that is another than the tree's. It is taken if its worst
+/// cell outside layers has at least the quality wished for and it is valid. The tree stays, for the mesh as
+/// it is now; so the next mesh that is made anew is made as if nothing had been morphed. *Collective.*
 MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
-                         double least_quality, const std::string& file);
+                         const MorphWish& wish);
+
+/// What a user is to be told where a mesh was not morphed as wished.
+std::string why_anew(const MorphWish& wish, const std::string& refusal);
+
+/// The solved mesh on the input's outline with its flow, and no leaf marked: the mesh itself where it is of
+/// this outline and case; morphed, if that is wished and allowed; else made anew by the tree as it stands,
+/// the flow carried over. Why it was not morphed joins the warnings of the mesh's report. *Collective.*
+CarriedMesh continued_mesh(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
+                           const std::optional<MorphWish>& wish, TransferKind transfer);
 
 }  // namespace quadloop

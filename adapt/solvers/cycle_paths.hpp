@@ -23,6 +23,8 @@ struct CyclePaths {
   /// The one that a run goes on from.
   std::string native_mesh() const { return mesh(native_format().name); }
   std::string tree() const { return folder + "/" + mesh_stem + tree_suffix; }
+  /// The outline as it was meshed, where a design cycle is to go on from it.
+  std::string outline() const { return stem() + ".geom"; }
   std::string walls() const { return folder + "/" + mesh_stem + wall_table_suffix; }
   std::string history() const { return folder + "/" + mesh_stem + history_suffix; }
   /// Interpolation error and wanted size of each cell.

@@ -107,6 +107,74 @@ class Morph(ProgramTest):
                     self.assertEqual(self.morph(text, ranks=ranks)[0], one, f"{kind}, {ranks} ranks")
             self.assertTrue(said["smoothed"])
 
+    def direction(self, text):
+        """A table in which the camber of an outline grows, point by point."""
+        points = [tuple(map(float, line.split())) for line in text.splitlines()[3:]]
+        rows = [f"body,{x!r},{y!r},0,{1 - x * x!r}\n" for x, y in points]
+        self.write("direction.csv", "boundary,x,y,dx,dy\n" + "".join(reversed(rows)))  # in any order
+
+    def fields_of(self, mesh, names):
+        """Rows of the solution at a native mesh's end, of these variables."""
+        head, _, rows = mesh.decode().partition("#names: ")[2].partition("\n")
+        columns = [head.split().index(name) for name in names]
+        return [[float(row.split()[k]) for k in columns] for row in rows.splitlines()]
+
+    def with_gradient(self, mesh):
+        """A mesh with numbers in the place of an adjoint's dJ/dX."""
+        plain = mesh.decode().partition("#Number of constants")[0]
+        rows = [[math.sin(3 * x + y), math.cos(x - 2 * y)] for x, y in nodes_of(mesh)]
+        text = "#Number of constants\n0\n#Number of variables\n2\n#names: dJ_dx dJ_dy\n" + "".join(f"{a!r} {b!r}\n" for a, b in rows)
+        self.write("adjoint.mesh", plain + text)
+        return rows
+
+    def outline_gradient(self, ranks=1):
+        self.done("morph", "in.mesh", "--geometry", "new.geom", "--from", "body.geom", "--nodal-gradient", "adjoint.mesh", "--outline-gradient",
+                  "gradient.csv", ranks=ranks)
+        return (self.folder / "gradient.csv").read_text()
+
+    def test_velocities_are_what_differences_say(self):
+        step = 1e-5
+        back, ahead = (nodes_of(self.morph(lens(0.05 + h), "--from", "body.geom")[0]) for h in (-step, step))
+        self.direction(lens(0.05))
+        moved, said = self.morph(lens(0.05), "--from", "body.geom", "--direction", "direction.csv")
+        velocities = self.fields_of(moved, ("dx_ds", "dy_ds"))
+        for (x, y), (u, v), (dx, dy) in zip(back, ahead, velocities, strict=True):
+            self.assertLess(math.hypot((u - x) / (2 * step) - dx, (v - y) / (2 * step) - dy), 1e-7)
+        self.assertGreater(max(dy for dx, dy in velocities), 0.99)
+        self.assertEqual(self.morph(lens(0.05), "--from", "body.geom", "--direction", "direction.csv", ranks=3)[0], moved)
+
+    def test_gradients_of_nodes_become_those_of_points(self):
+        self.direction(lens(0.05))
+        moved, said = self.morph(lens(0.05), "--from", "body.geom", "--direction", "direction.csv")
+        of_nodes = self.with_gradient(moved)
+        gain = sum(a * dx + b * dy for (a, b), (dx, dy) in zip(of_nodes, self.fields_of(moved, ("dx_ds", "dy_ds")), strict=True))
+        table = self.outline_gradient()
+        lines = table.splitlines()
+        self.assertEqual(lines[0], "boundary,x,y,dJ_dx,dJ_dy")
+        rows = [list(map(float, line.split(",")[1:])) for line in lines[1:]]
+        self.assertEqual([(x, y) for x, y, *_ in rows], [tuple(map(float, line.split())) for line in lens(0.05).splitlines()[3:]])
+        self.assertAlmostEqual(sum((1 - x * x) * gy for x, y, gx, gy in rows) / gain, 1, delta=1e-10)
+        for ranks in (2, 3, 5):
+            self.assertEqual(self.outline_gradient(ranks), table, f"{ranks} ranks")
+
+    def test_refusals_of_derivatives(self):
+        self.write("new.geom", lens(0.05))
+        self.direction(lens())
+        morph = ["morph", "in.mesh", "--geometry", "new.geom", "-o", "out.mesh"]
+        self.refused(1, ["direction.csv:2", "the outline has no point"], *morph, "--from", "body.geom", "--direction", "direction.csv")
+        self.direction(lens(0.05))
+        self.refused(1, ["new.geom", "--from"], *morph, "--direction", "direction.csv")
+        self.write("bad.csv", "boundary,x,y,dx,dy\nbody,0,0,1\n")
+        self.refused(1, ["bad.csv:2", "no row of a point"], *morph, "--from", "body.geom", "--direction", "bad.csv")
+        self.refused(2, ["go together"], *morph, "--nodal-gradient", "in.mesh")
+        morph += ["--from", "body.geom", "--outline-gradient", "gradient.csv", "--nodal-gradient"]
+        self.refused(1, ["in.mesh", "without a solution"], *morph, "in.mesh")
+        self.write("far.geom", lens(0.5))
+        self.with_gradient((self.folder / "in.mesh").read_bytes())
+        self.refused(1, ["far.geom", "smoothing"], "morph", "in.mesh", "--geometry", "far.geom", "--from", "body.geom", "--nodal-gradient", "adjoint.mesh",
+                     "--outline-gradient", "gradient.csv")
+        self.assertFalse((self.folder / "gradient.csv").exists())
+
     def test_refusals(self):
         self.write("cut.geom", lens(cut=0.9))
         self.refused(1, ["cut.geom", "'body'", "corners where the mesh has"], "morph", "in.mesh", "--geometry", "cut.geom", "-o", "out.mesh")

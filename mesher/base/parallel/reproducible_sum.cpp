@@ -7,6 +7,41 @@
 
 namespace quadloop {
 
+ReproducibleSums::ReproducibleSums(std::size_t sums, double largest, std::int64_t count)
+    : bits_{62 - static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count)))},
+      top_{std::ilogb(largest) + 1},
+      // 2^(bits - top) may be too large for a number: in two steps.
+      first_scale_{std::ldexp(1, (bits_ - top_) / 2)},
+      second_scale_{std::ldexp(1, bits_ - top_ - (bits_ - top_) / 2)},
+      parts_{std::ldexp(1, bits_)},
+      units_(2 * sums, 0) {}
+
+namespace {
+
+/// Entry by entry, over all ranks, in pieces that stay small whatever the number of ranks. *Collective.*
+std::vector<std::int64_t> sum_over(const Communicator& comm, std::span<const std::int64_t> own) {
+  constexpr std::size_t piece = std::size_t{1} << 16;
+  std::vector<std::int64_t> sums(own.size(), 0);
+  for (std::size_t begin = 0; begin < own.size(); begin += piece) {
+    const auto part = own.subspan(begin, std::min(piece, own.size() - begin));
+    const std::vector<std::int64_t> all = comm.all_gather_values(part);
+    for (std::size_t k = 0; k < all.size(); ++k) sums[begin + k % part.size()] += all[k];
+  }
+  return sums;
+}
+
+}  // namespace
+
+std::vector<double> ReproducibleSums::over(const Communicator& comm) const {
+  const std::vector<std::int64_t> units = sum_over(comm, units_);
+  std::vector<double> sums;
+  for (std::size_t k = 0; k < units.size(); k += 2) {
+    const auto high = static_cast<double>(units[k]), low = static_cast<double>(units[k + 1]);
+    sums.push_back(std::ldexp(high + std::ldexp(low, -bits_), top_ - bits_));
+  }
+  return sums;
+}
+
 double reproducible_sum(const Communicator& comm, std::span<const double> values) {
   double largest = 0;
   bool finite = true;
@@ -17,25 +52,9 @@ double reproducible_sum(const Communicator& comm, std::span<const double> values
   if (comm.any(!finite)) return std::numeric_limits<double>::quiet_NaN();
   largest = comm.maximum(largest);
   if (largest == 0) return 0;
-
-  // Each value is high + low / 2^bits units of 2^(top - bits), and both parts of all of them fit into a
-  // 64-bit sum.
-  const std::uint64_t count = comm.sum(std::ssize(values));
-  const int bits = 62 - static_cast<int>(std::bit_width(count)), top = std::ilogb(largest) + 1;
-  // 2^(bits - top) may be too large for a number: in two steps.
-  const double first_scale = std::ldexp(1, (bits - top) / 2),
-               second_scale = std::ldexp(1, bits - top - (bits - top) / 2), parts = std::ldexp(1, bits);
-  std::int64_t high = 0, low = 0;
-  for (const double value : values) {
-    const double scaled = value * first_scale * second_scale;
-    const auto whole = static_cast<std::int64_t>(scaled);
-    const double rest = (scaled - static_cast<double>(whole)) * parts;
-    high += whole;
-    low += static_cast<std::int64_t>(rest + std::copysign(0.5, rest));
-  }
-  high = comm.sum(high);
-  low = comm.sum(low);
-  return std::ldexp(static_cast<double>(high) + std::ldexp(static_cast<double>(low), -bits), top - bits);
+  ReproducibleSums sum(1, largest, comm.sum(std::ssize(values)));
+  for (const double value : values) sum.add(0, value);
+  return sum.over(comm).front();
 }
 
 }  // namespace quadloop

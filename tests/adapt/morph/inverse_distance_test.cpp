@@ -12,17 +12,22 @@ namespace {
 
 constexpr int circle_nodes = 200, frame_nodes = 80;
 
+MotionSource source(const RigidMotion& motion, double width) {
+  return {motion.from, width, linear_motion(motion)};
+}
+
 /// A unit circle that does what it is told, in a square of half width 8 that stays.
 std::vector<MotionSource> circle_in_square(const std::function<RigidMotion(Point)>& motion) {
   std::vector<MotionSource> sources;
   for (int k = 0; k < circle_nodes; ++k) {
     const double angle = 2 * std::numbers::pi * k / circle_nodes;
-    sources.push_back({motion({std::cos(angle), std::sin(angle)}), 2 * std::numbers::pi / circle_nodes});
+    sources.push_back(
+        source(motion({std::cos(angle), std::sin(angle)}), 2 * std::numbers::pi / circle_nodes));
   }
   for (int k = 0; k < frame_nodes; ++k) {
     const double t = -8 + 16.0 * k / frame_nodes;
     for (const Point p : {Point{t, -8}, {8, t}, {-t, 8}, {-8, -t}})
-      sources.push_back({{p, p, 0}, 16.0 / frame_nodes});
+      sources.push_back(source({p, p, 0}, 16.0 / frame_nodes));
   }
   return sources;
 }
@@ -59,13 +64,41 @@ TEST(InverseDistance, SourcesFarAwayCountAsOneWithLittleLoss) {
     Point sum;
     double weights = 0;
     for (const MotionSource& s : sources) {
-      const double r = length(p - s.motion.from), weight = s.width * (1 + 4 / (r * r)) / (r * r * r);
-      sum = sum + weight * (s.motion.moved(p) - p);
+      const double r = length(p - s.place), weight = s.width * (1 + 4 / (r * r)) / (r * r * r);
+      sum = sum + weight * s.motion.displacement(p - s.place);
       weights += weight;
     }
     const Point direct = (1 / weights) * sum;
     EXPECT_LT(length(field.displacement(p) - direct), 0.02 * largest) << p.x << ", " << p.y;
   }
+}
+
+TEST(InverseDistance, GradientsAreTheTranspose) {
+  const auto swell = [](Point p) { return RigidMotion{p, 1.1 * p, 0.05 * p.x}; };
+  const std::vector<MotionSource> sources = circle_in_square(swell);
+  const InverseDistance field(sources, 2);
+  std::vector<LinearMotion> of_means(field.mean_count());
+  double gain = 0;
+  for (const Point p : {Point{3, 0}, {0, 5}, {-4, -4}, {1.01, 0.02}}) {
+    const Point g{p.y - 1, 2 * p.x};
+    gain += dot(field.displacement(p), g);
+    field.add_gradient(p, g, [&](std::int32_t k, const LinearMotion& part) { of_means[k] += part; });
+  }
+  const std::vector<LinearMotion> gradient = field.gradient_of_sources(of_means);
+  double of_sources = 0;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const LinearMotion& motion = sources[s].motion;
+    of_sources += dot(gradient[s].shift, motion.shift) + gradient[s].versed * motion.versed +
+                  gradient[s].sine * motion.sine;
+  }
+  EXPECT_NEAR(of_sources, gain, 1e-13);
+  EXPECT_GT(std::abs(gain), 0.1);
+}
+
+TEST(LinearMotion, DoesWhatTheTurnDoes) {
+  const RigidMotion motion{{1, 1}, {1.5, 0.8}, 0.7};
+  const Point p{2, 3}, moved = p + linear_motion(motion).displacement(p - motion.from);
+  EXPECT_LT(length(moved - motion.moved(p)), 1e-14);
 }
 
 TEST(RigidMotion, TurnsAboutItsOwnPoint) {

@@ -73,5 +73,25 @@ TEST(ReproducibleSum, OfNothingIsZeroAndOfNonsenseIsNot) {
   EXPECT_TRUE(std::isnan(reproducible_sum(world(), share_of({1, std::numeric_limits<double>::infinity()}))));
 }
 
+TEST(ReproducibleSums, AreThoseOfEachAlone) {
+  const std::vector<double> values = random_values(20);
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  const auto sums = [&](const Communicator& comm, const std::vector<double>& share) {
+    ReproducibleSums all(3, 2 * largest, std::ssize(values));
+    for (const double value : share) {
+      all.add(0, value);
+      all.add(2, -2 * value);
+    }
+    return all.over(comm);
+  };
+  const std::vector<double> own = share_of(values), found = sums(world(), own);
+  EXPECT_NEAR(found[0], reproducible_sum(world(), own), 1e-15 * largest * static_cast<double>(values.size()));
+  EXPECT_EQ(found[1], 0);
+  EXPECT_EQ(found[2], -2 * found[0]);
+  const Communicator alone(MPI_COMM_SELF);
+  EXPECT_EQ(sums(alone, values), found);
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -1,0 +1,101 @@
+#include "quadloop/case/design_start.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "adapt/remesh/own_mesh.hpp"
+#include "adapt/remesh/remesh.hpp"
+#include "adapt/solvers/cycle_paths.hpp"
+#include "io/input/geometry_file.hpp"
+#include "io/mesh_file.hpp"
+#include "io/tree/tree_file.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_there(const std::string& path) {
+  std::error_code unreadable;
+  return fs::exists(path, unreadable);
+}
+
+constexpr const char* what_from_takes =
+    "--from takes the folder of a run of `quadloop adapt`, one of its cycles, or a mesh beside its tree";
+
+/// The last whole cycle of a run, or the folder itself where it is a cycle's.
+std::string cycle_folder(const std::string& from) {
+  std::string last;
+  for (int cycle = 0;; ++cycle) {
+    const std::string folder = fmt::format("{}/cycle_{:02}", from, cycle);
+    if (!is_there(CyclePaths{folder}.record())) break;
+    last = folder;
+  }
+  if (!last.empty()) return last;
+  if (is_there(CyclePaths{from}.native_mesh())) return from;
+  throw InputError(fmt::format("{}: holds no whole cycle to begin with; {}", from, what_from_takes));
+}
+
+/// The files alone.
+FormerMesh files_of(const std::string& from) {
+  FormerMesh former;
+  if (!is_there(from)) throw InputError(fmt::format("{}: is not there; {}", from, what_from_takes));
+  std::error_code unreadable;
+  if (fs::is_directory(from, unreadable)) {
+    const CyclePaths paths{cycle_folder(from)};
+    former.mesh_file = paths.native_mesh();
+    former.tree_file = paths.tree();
+    former.outline_file = paths.outline();
+  } else {
+    require_readable_suffix(from);
+    const std::string stem = fs::path(from).replace_extension().string();
+    former.mesh_file = from;
+    former.tree_file = stem + tree_suffix;
+    former.outline_file = stem + ".geom";
+  }
+  if (!is_there(former.tree_file))
+    throw InputError(former.tree_file +
+                     ": is not there; a run begins with a mesh and the tree that was written with it, "
+                     "under the same name");
+  if (!is_there(former.outline_file)) former.outline_file.clear();
+  return former;
+}
+
+}  // namespace
+
+FormerMesh find_former_mesh(const Communicator& comm, const std::string& from) {
+  FormerMesh former;
+  comm.together([&] {
+    former = files_of(from);
+    std::vector<std::string> told_when_it_was_meshed;
+    if (!former.outline_file.empty())
+      former.outline = read_outline(former.outline_file, told_when_it_was_meshed);
+  });
+  former.tree = read_tree(comm, former.tree_file);
+  return former;
+}
+
+DesignStart read_start(const Communicator& comm, FormerMesh& former, std::optional<double> morph_to,
+                       const std::string& file) {
+  LoadedMesh whole;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    whole = read_mesh(former.mesh_file);
+    const auto count = [](const auto& rows) { return std::ssize(rows); };
+    require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0},
+                   former.tree.attributes, former.mesh_file, former.tree_file);
+  });
+  DesignStart start{spread_solved(comm, whole, std::move(former.tree)), {}};
+  start.solved.file = former.mesh_file;
+  require_untouched_mesh(comm, start.solved, former.mesh_file, former.tree_file);
+  if (morph_to)
+    start.wish = MorphWish{*morph_to, file, former.outline ? &*former.outline : nullptr, former.outline_file};
+  return start;
+}
+
+}  // namespace quadloop
