@@ -1,0 +1,96 @@
+#include "flow/adjoint/goal_functional.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "flow/euler/scheme/residual.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
+
+namespace quadloop::euler {
+
+namespace {
+
+/// Of a push of 1 along the normal at a place: what it adds to the goal.
+double share_of(const Goal& goal, const FlowModel& model, Point normal, Point at, double length) {
+  const double speed = std::hypot(model.free_stream[1], model.free_stream[2]);
+  const Point wind{model.free_stream[1] / speed, model.free_stream[2] / speed};
+  const double scale = 1 / (0.5 * speed * speed * length);
+  switch (goal.quantity) {
+    case Goal::Quantity::lift: return scale * (normal.y * wind.x - normal.x * wind.y);
+    case Goal::Quantity::drag: return scale * dot(normal, wind);
+    case Goal::Quantity::moment: return -scale / length * cross(at - goal.about, normal);
+    case Goal::Quantity::pressure: return scale;
+  }
+  QUADLOOP_REQUIRE(false, "a goal without a quantity");
+  return 0;
+}
+
+/// Which of the boundaries count. Throws InputError for a name that is not among them.
+std::vector<bool> counted(const FlowModel& model, const std::vector<std::string>& boundaries,
+                          const Goal& goal) {
+  std::vector<bool> counts;
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    const Condition condition = model.boundaries[b].condition;
+    const bool named = std::ranges::find(goal.boundaries, boundaries[b]) != goal.boundaries.end();
+    counts.push_back(condition != Condition::none && (goal.boundaries.empty() ? feels_force(condition) : named));
+  }
+  return counts;
+}
+
+}  // namespace
+
+GoalFunctional::GoalFunctional(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
+                               const std::vector<std::string>& boundaries, const Goal& goal,
+                               double reference_length)
+    : comm_{comm}, mesh_{mesh}, outside_{model.free_stream[3]} {
+  if (model.free_stream[1] == 0 && model.free_stream[2] == 0)
+    throw InputError("solver.goal is a coefficient, and the free stream rests; set a solver.mach above 0");
+  const std::vector<bool> counts = counted(model, boundaries, goal);
+  const auto faces = mesh.faces();
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const BoundaryFace& face = faces[f];
+    if (!counts[face.boundary]) continue;
+    const Point from = mesh.point(face.from), to = mesh.point(face.to);
+    const auto share = [&](Point at) {
+      return share_of(goal, model, face.normal, at, reference_length);
+    };
+    parts_.push_back({f, share(0.25 * (3.0 * from + to)), share(0.25 * (from + 3.0 * to))});
+  }
+  if (comm.any(!parts_.empty())) return;
+  throw InputError(goal.boundaries.empty()
+                       ? std::string("solver.goal: no boundary feels a force; give one bc = \"wall\", or name "
+                                     "boundaries in solver.goal_on")
+                       : fmt::format("solver.goal_on: the mesh has no edges on {}",
+                                     fmt::join(goal.boundaries, ", ")));
+}
+
+double GoalFunctional::value(const std::vector<State>& states) const {
+  std::vector<double> terms;
+  for (const Part& part : parts_) {
+    const BoundaryFace& face = mesh_.faces()[part.face];
+    for (const auto& [own, other, weight] :
+         {std::tuple{face.from, face.to, part.of_from}, {face.to, face.from, part.of_to}}) {
+      if (!mesh_.is_owned(own)) continue;
+      const State state = state_at_half(face, states[own], states[other]);
+      terms.push_back(weight * ((state[3] - outside_) * face.half_size));
+    }
+  }
+  return reproducible_sum(comm_, terms);
+}
+
+std::vector<State> GoalFunctional::derivative() const {
+  std::vector<State> result(mesh_.nodes(), State{});
+  for (const Part& part : parts_) {
+    const BoundaryFace& face = mesh_.faces()[part.face];
+    const double of_other = face.blend / 6, from = face.half_size * part.of_from,
+                 to = face.half_size * part.of_to;
+    result[face.from][3] += (1 - of_other) * from + of_other * to;
+    result[face.to][3] += (1 - of_other) * to + of_other * from;
+  }
+  return result;
+}
+
+}  // namespace quadloop::euler
