@@ -7,6 +7,7 @@
 
 #include "flow/adjoint/goal_error.hpp"
 #include "flow/adjoint/parameter_derivative.hpp"
+#include "flow/adjoint/place_derivative.hpp"
 #include "flow/adjoint/solve_adjoint.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
@@ -50,6 +51,12 @@ void append_adjoint(const std::string& goal, const Adjoint& adjoint, Field& flow
   append(names, values, flow);
 }
 
+void append_places(const std::string& goal, const std::vector<Point>& derivative, Field& flow) {
+  std::vector<double> values;
+  for (const Point& of_node : derivative) values.insert(values.end(), {of_node.x, of_node.y});
+  append({goal + "_by_x", goal + "_by_y"}, values, flow);
+}
+
 void refuse(const EulerOptions& options) {
   if (options.time != EulerOptions::Time::steady)
     throw InputError("solver.goal needs a steady flow; set solver.time = \"steady\" or leave the goal out");
@@ -75,7 +82,9 @@ void estimate(const Mesh& mesh, const FlowRun& run, EulerResult& result) {
                             by_mach, adjoint.iterations, adjoint.residual, adjoint.converged});
     for (std::size_t node = 0; node < error.size(); ++node)
       error[node] += goal.weight * found.of_nodes[node];
-    if (run.options.adjoint_fields) append_adjoint(name_of(goal.quantity), adjoint, result.flow);
+    if (!run.options.adjoint_fields) continue;
+    append_adjoint(name_of(goal.quantity), adjoint, result.flow);
+    append_places(name_of(goal.quantity), place_derivative(linear, functional, adjoint.weights), result.flow);
   }
   append({error_name}, error, result.flow);
 }

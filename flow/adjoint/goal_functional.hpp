@@ -30,12 +30,18 @@ class GoalFunctional {
   /// Its derivative by the states: an entry for each node, of which those of owned nodes are whole.
   std::vector<State> derivative() const;
 
+  /// Adds to the owned nodes' sums its derivative by their places, the states being held.
+  void add_place_derivative(const std::vector<State>& states, std::vector<Point>& sums) const;
+
   /// In the order of the mesh's faces.
   const std::vector<Part>& parts() const { return parts_; }
 
  private:
   const Communicator& comm_;
   const DualMesh& mesh_;
+  Goal goal_;
+  Point wind_;           ///< of length 1
+  double scale_, length_;  ///< of coefficients; the reference length
   double outside_;  ///< the free stream's pressure
   std::vector<Part> parts_;
 };

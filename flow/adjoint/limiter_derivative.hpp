@@ -25,13 +25,20 @@ class LimiterDerivative {
   /// what is left to the owned nodes' `sums`, of states. *Collective.*
   void apply_transposed(std::vector<Gradient>& weights, std::vector<State>& sums) const;
 
+  /// What weights of the owned nodes' limited gradients make of the places of nodes and of the owned nodes'
+  /// areas, as far as the factors follow these: adds to the owned nodes' sums. *Collective.*
+  void add_place_weights(const std::vector<Gradient>& weights, std::vector<Point>& places,
+                         std::vector<double>& areas) const;
+
  private:
   /// Of one variable at one node.
   struct Part {
     double factor = 1;
-    double by_allowed = 0, by_change = 0;    ///< derivatives, with the sign of the side that decides
-    std::int32_t neighbour = -1;             ///< that has the value that decides
-    Point way;                               ///< to the middle of the edge whose change decides
+    double by_allowed = 0, by_change = 0;  ///< derivatives, with the sign of the side that decides
+    double by_small = 0;                   ///< by the square of what is small
+    std::int32_t neighbour = -1;           ///< that has the value that decides
+    std::int32_t along = -1;               ///< the neighbour along the edge whose change decides
+    Point way;                             ///< to that edge's middle
   };
   struct Side;
   void find(const Limiter& limiter, const std::vector<State>& states);
@@ -40,6 +47,7 @@ class LimiterDerivative {
   const DualMesh& mesh_;
   std::vector<Gradient> gradients_;
   std::vector<std::array<Part, 4>> parts_;  ///< of the owned nodes
+  std::vector<double> small_squared_;       ///< likewise
   bool live_;
 };
 

@@ -173,6 +173,13 @@ void LinearResidual::apply_transposed(std::vector<Flux>& weights, std::vector<St
   run_.residual.least_squares().add_transposed(gradients, sums);
 }
 
+std::vector<Gradient> LinearResidual::limited_gradient_weights(const std::vector<Flux>& weights) const {
+  std::vector<State> sums(run_.mesh.nodes());
+  std::vector<Gradient> gradients(run_.mesh.nodes());
+  transpose_edges(weights, sums, gradients);
+  return gradients;
+}
+
 void LinearResidual::transpose_edges(const std::vector<Flux>& weights, std::vector<State>& sums,
                                      std::vector<Gradient>& gradients) const {
   const auto edges = run_.mesh.edges();

@@ -25,6 +25,11 @@ class LinearResidual {
   /// The transpose: what weights of net fluxes make of the owned nodes' states. *Collective.*
   void apply_transposed(std::vector<Flux>& weights, std::vector<State>& sums) const;
 
+  /// The same weights' limited gradients, of the owned nodes: the part of what acts through them. The weights
+  /// must have copies.
+  std::vector<Gradient> limited_gradient_weights(const std::vector<Flux>& weights) const;
+  /// None where the scheme has no limiter.
+  const std::optional<LimiterDerivative>& limiter() const { return limiter_; }
   const FlowRun& run() const { return run_; }
 
  private:

@@ -64,7 +64,8 @@ struct EulerOptions {
   /// What the flow is solved for: their errors are estimated where a solver with adjoints is asked
   /// (flow/adjoint).
   std::vector<Goal> goals;
-  bool adjoint_fields = false;  ///< the adjoint solutions join the flow
+  /// The adjoint solutions join the flow, and how each goal answers to the place of each node.
+  bool adjoint_fields = false;
   /// Called on every rank after every `progress_every` steps and at the end.
   std::function<void(const EulerProgress&)> progress;
   int progress_every = 50;

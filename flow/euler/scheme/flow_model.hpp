@@ -50,7 +50,7 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
 ///   pressure and the density and speed that
 ///             the outgoing waves then carry
 ///
-/// For doubles, and for numbers with derivatives by the state.
+/// For doubles, and for numbers with derivatives by the state or the normal.
 template <class Real = double, class Vector = Point>
 FluxOf<Real> boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const StateOf<Real>& state,
                            const Vector& normal);

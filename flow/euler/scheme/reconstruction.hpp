@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 #include "flow/euler/scheme/dual_mesh.hpp"
@@ -25,6 +26,8 @@ class LeastSquares {
   /// The transpose of that: adds to the owned nodes' `sums` what `weights` of gradients make of the states.
   /// `weights` has an entry for each node, of which those of owned nodes count. *Collective.*
   void add_transposed(const std::vector<Gradient>& weights, std::vector<State>& sums) const;
+  /// The normal matrices' inverses times such weights, of all nodes. *Collective.*
+  std::vector<Gradient> solved(const std::vector<Gradient>& weights) const;
 
  private:
   struct Symmetric {
@@ -37,7 +40,8 @@ class LeastSquares {
 
 /// The factor by which a change must be made smaller so as to stay under what is allowed, both above zero.
 template <class Real = double>
-Real limiting_factor(const Real& allowed, const Real& change, double small_squared) {
+Real limiting_factor(const Real& allowed, const Real& change,
+                     const std::type_identity_t<Real>& small_squared) {
   if (2 * change <= allowed) return 1;
   const Real square = allowed * allowed + small_squared;
   return std::min<Real>(1.0,

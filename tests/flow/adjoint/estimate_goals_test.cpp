@@ -16,11 +16,6 @@ namespace {
 
 using test::world;
 
-struct Flow {
-  EulerResult result;
-  const GoalValue& goal(std::size_t k) const { return result.goals.at(k); }
-};
-
 EulerOptions of_ellipse(double mach, double alpha) {
   EulerOptions options;
   options.mach = mach;
@@ -64,6 +59,111 @@ TEST(EstimateGoals, DerivativesAreThoseOfFlowsSolvedAnew) {
   options.goals.push_back({Goal::Quantity::moment, {}, {0.2, 0.1}});
   options.goals.push_back({Goal::Quantity::pressure, {"wall"}});
   expect_derivatives(test::ring_mesh(48, 24, 0.3, 10), options, 1e-4);
+}
+
+std::vector<double> column(const EulerResult& result, const std::string& name) {
+  const auto at = std::ranges::find(result.flow.names, name);
+  EXPECT_NE(at, result.flow.names.end()) << name;
+  return result.flow.column(at - result.flow.names.begin());
+}
+
+/// A smooth motion of the plane that ends far from the body.
+Point motion(Point p) {
+  const double near = std::exp(-dot(p, p));
+  return {near * (0.3 + p.y), near * (0.5 * p.x - p.x * p.y)};
+}
+
+/// How goals answer to moved nodes: against central differences of flows on meshes so moved.
+void expect_place_derivatives(const Mesh& mesh, EulerOptions options, double tolerance) {
+  options.adjoint_fields = true;
+  const Communicator self(MPI_COMM_SELF);
+  const EulerResult flow = solved(self, mesh, options);
+  options.adjoint_fields = false;
+  constexpr double d = 1e-5;
+  const auto moved = [&](double by) {
+    Mesh other = mesh;
+    for (Point& p : other.points) p = p + by * motion(p);
+    return solved(self, other, options, flow.flow).goals;
+  };
+  const auto more = moved(d), less = moved(-d);
+  const Mesh ordered = scatter_mesh(self, mesh, space_filling_order(mesh));
+  for (std::size_t k = 0; k < options.goals.size(); ++k) {
+    const std::string name = flow.goals[k].name;
+    const std::vector<double> by_x = column(flow, name + "_by_x"), by_y = column(flow, name + "_by_y");
+    double sum = 0;
+    for (std::size_t node = 0; node < by_x.size(); ++node)
+      sum += dot(motion(ordered.points[node]), {by_x[node], by_y[node]});
+    const double difference = (more[k].value - less[k].value) / (2 * d);
+    EXPECT_NEAR(sum, difference, tolerance * std::abs(difference)) << name;
+    EXPECT_GT(std::abs(difference), 1e-3) << name;
+  }
+}
+
+TEST(EstimateGoals, NodesThatMoveDoWhatTheyDoToFlowsSolvedAnew) {
+  EulerOptions options = of_ellipse(0.4, 2);
+  options.goals.push_back({Goal::Quantity::moment, {}, {0.2, 0.1}});
+  options.goals.push_back({Goal::Quantity::pressure, {"wall"}});
+  expect_place_derivatives(test::ring_mesh(48, 24, 0.3, 10), options, 1e-4);
+}
+
+TEST(EstimateGoals, AShockIsNoHindranceWhereFactorsAreKept) {
+  EulerOptions options;
+  options.mach = 2;
+  options.tolerance = 1e-13;
+  options.iterations = 600;
+  options.goals = {{Goal::Quantity::drag}};
+  const EulerResult flow = solved(world(), test::wedge_mesh(36, 10), options);
+  EXPECT_LE(flow.goals.at(0).residual, 1e-8);
+  EXPECT_NEAR(flow.goals[0].corrected, flow.goals[0].value, 2 * flow.goals[0].error);
+}
+
+TEST(EstimateGoals, HaveTheSameBitsOnAnyNumberOfRanks) {
+  const Communicator self(MPI_COMM_SELF);
+  const Mesh whole = test::ring_mesh(24, 12, 0.3, 10);
+  EulerOptions options = of_ellipse(0.4, 2);
+  options.iterations = 30;  // need not have converged
+  options.adjoint_fields = true;
+  const Mesh part = scatter_mesh(world(), whole, space_filling_order(whole));
+  const EulerResult together = solved(world(), whole, options), alone = solved(self, whole, options);
+  ASSERT_EQ(together.flow.names, alone.flow.names);
+  const std::size_t width = alone.flow.width();
+  EXPECT_EQ(width, 4 + 2 * 6 + 1);
+  const auto first = alone.flow.values.begin() + static_cast<std::ptrdiff_t>(width * part.first_node);
+  EXPECT_TRUE(std::equal(together.flow.values.begin(), together.flow.values.end(), first));
+  for (std::size_t k = 0; k < alone.goals.size(); ++k) {
+    EXPECT_EQ(together.goals[k].corrected, alone.goals[k].corrected);
+    EXPECT_EQ(together.goals[k].error, alone.goals[k].error);
+    EXPECT_EQ(together.goals[k].by_alpha, alone.goals[k].by_alpha);
+    EXPECT_EQ(together.goals[k].iterations, alone.goals[k].iterations);
+  }
+}
+
+/// Corrected values are nearer to those of a fine mesh, whose own error is a sixteenth.
+TEST(EstimateGoals, CorrectedDragIsNearerToThatOfAFineMesh) {
+  EulerOptions options = of_ellipse(0.4, 0);
+  options.tolerance = 1e-10;
+  options.goals = {{Goal::Quantity::drag}};
+  const GoalValue coarse = solved(world(), test::ring_mesh(48, 24, 0.3, 10), options).goals[0],
+                  fine = solved(world(), test::ring_mesh(192, 96, 0.3, 10), options).goals[0];
+  EXPECT_LT(std::abs(coarse.corrected - fine.value), 0.5 * std::abs(coarse.value - fine.value))
+      << coarse.value << " " << coarse.corrected << " " << fine.value << " " << fine.corrected;
+  EXPECT_GT(coarse.error, 0.5 * std::abs(coarse.value - fine.value));
+  EXPECT_LT(fine.error, coarse.error / 8);
+}
+
+TEST(EstimateGoals, RefusesWhatHasNoAdjoint) {
+  EulerOptions viscous = of_ellipse(0.4, 0), unsteady = viscous, resting = viscous, elsewhere = viscous;
+  viscous.viscosity = 1e-3;
+  EXPECT_THROW(estimate_goals(viscous), InputError);
+  unsteady.time = EulerOptions::Time::accurate;
+  EXPECT_THROW(estimate_goals(unsteady), InputError);
+  resting.mach = 0;
+  resting.iterations = elsewhere.iterations = 0;
+  EXPECT_THROW(solved(world(), test::ring_mesh(8, 4, 0.3, 4), resting), InputError);
+  elsewhere.goals[0].boundaries = {"flap"};
+  EXPECT_THROW(solved(world(), test::ring_mesh(8, 4, 0.3, 4), elsewhere), InputError);
+  viscous.goals.clear();
+  EXPECT_FALSE(estimate_goals(viscous)) << "nothing to do";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "flow/adjoint/place_derivative.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 #include "tests/flow/adjoint/adjoint_run.hpp"
 
@@ -112,6 +113,78 @@ TEST(LinearResidual, TheTransposeIsTheTranspose) {
     return options;
   }());
   expect_transposed(ring);
+}
+
+/// A made-up adjoint times the residual, of made-up states on a moved mesh; the goal is held.
+struct PlaceCase {
+  PlaceCase(const EulerOptions& options, bool keeps) : options_{options}, keeps_{keeps} {}
+
+  Mesh moved(double by) const {
+    Mesh mesh = test::irregular_grid(9, {1, 1}, 0.2);
+    for (Point& p : mesh.points) p = p + by * way(p);
+    return mesh;
+  }
+  static Point way(Point p) { return {0.3 + p.y - p.x * p.x, 0.5 * std::sin(3 * p.x) - p.y}; }
+
+  double product(double by) const {
+    AdjointRun made(world(), moved(by), options_);
+    if (keeps_) made.residual.freeze_limiter();  // of factors 1
+    return dot(made.run, made.made_up(5), made.residual.evaluate(made.states));
+  }
+  /// As place_derivative() has it, but for the goal's part.
+  double derivative(const Goal& goal) const {
+    AdjointRun made(world(), moved(0), options_);
+    if (keeps_) made.residual.freeze_limiter();
+    const LinearResidual linear(made.run);
+    const GoalFunctional functional(made.run.comm, made.dual, made.model, made.names, goal, 1);
+    std::vector<Point> of_goal(made.dual.nodes());
+    functional.add_place_derivative(made.states, of_goal);
+    const std::vector<Point> all = place_derivative(linear, functional, made.made_up(5));
+    std::vector<double> terms;
+    for (std::int32_t node = 0; node < made.dual.owned_nodes(); ++node)
+      terms.push_back(dot_of(way(made.dual.point(node)), of_goal[node] - all[node]));
+    return reproducible_sum(made.run.comm, terms);
+  }
+  double goal(const Goal& goal, double by) const {
+    const AdjointRun made(world(), moved(by), options_);
+    return GoalFunctional(made.run.comm, made.dual, made.model, made.names, goal, 1).value(made.states);
+  }
+  double goal_derivative(const Goal& goal) const {
+    const AdjointRun made(world(), moved(0), options_);
+    const GoalFunctional functional(made.run.comm, made.dual, made.model, made.names, goal, 1);
+    std::vector<Point> sums(made.dual.nodes());
+    functional.add_place_derivative(made.states, sums);
+    std::vector<double> terms;
+    for (std::int32_t node = 0; node < made.dual.owned_nodes(); ++node)
+      terms.push_back(dot_of(way(made.dual.point(node)), sums[node]));
+    return reproducible_sum(made.run.comm, terms);
+  }
+  static double dot_of(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+
+  EulerOptions options_;
+  bool keeps_;
+};
+
+TEST(PlaceDerivative, OfTheResidualIsThatOfMovedMeshes) {
+  for (const double mach : {0.6, 1.5}) {
+    for (const bool keeps : {true, false}) {
+      const PlaceCase made(options_at(mach), keeps);
+      constexpr double d = 1e-6;
+      const double difference = (made.product(d) - made.product(-d)) / (2 * d);
+      EXPECT_NEAR(made.derivative({}), difference, 1e-7 * std::abs(difference)) << mach << keeps;
+      EXPECT_GT(std::abs(difference), 0.01);
+    }
+  }
+}
+
+TEST(PlaceDerivative, OfGoalsIsThatOfMovedMeshes) {
+  const PlaceCase made(options_at(0.6), true);
+  for (const auto& [word, quantity] : Goal::words) {
+    const Goal goal{quantity, {}, {0.3, 0.2}};
+    constexpr double d = 1e-6;
+    const double difference = (made.goal(goal, d) - made.goal(goal, -d)) / (2 * d);
+    EXPECT_NEAR(made.goal_derivative(goal), difference, 1e-7 * std::abs(difference)) << word;
+  }
 }
 
 TEST(LinearResidual, HasTheSameBitsOnAnyNumberOfRanks) {
