@@ -106,8 +106,9 @@ JsonObject record_of(const std::vector<GoalValue>& goals) {
 }
 
 std::string line_of(const GoalValue& goal) {
-  return fmt::format("{} {:.6f}, corrected {:.6f}, error at most {:.2e}; by alpha {:.5g}, by mach {:.5g}",
-                     goal.name, goal.value, goal.corrected, goal.error, goal.by_alpha, goal.by_mach);
+  return fmt::format(
+      "{} {:.6f}, corrected {:.6f}, error without signs {:.2e}; by alpha {:.5g}, by mach {:.5g}", goal.name,
+      goal.value, goal.corrected, goal.error, goal.by_alpha, goal.by_mach);
 }
 
 JsonObject record_of(const std::vector<BoundaryForce>& forces) {

@@ -61,7 +61,7 @@ FlowSolver outer_solver_in(const CycleFolders& folders, const ChosenSolver& chos
 }
 
 FlowSolver solver_in(const CycleFolders& folders, const AdaptiveCase& adaptive) {
-  if (const auto* options = std::get_if<EulerOptions>(&adaptive.solver)) 
+  if (const auto* options = std::get_if<EulerOptions>(&adaptive.solver))
     return euler_solver(*options, estimate_goals(*options));
   FlowSolver solver = outer_solver_in(folders, adaptive.solver);
   return adaptive.stream ? with_wall_quantities(std::move(solver), *adaptive.stream) : solver;

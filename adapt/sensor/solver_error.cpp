@@ -13,7 +13,8 @@ template <std::size_t width>
 double area_of(const HaloMesh& halo, const std::array<NodeId, width>& nodes) {
   double twice = 0;
   for (std::size_t i = 1; i + 1 < width; ++i)
-    twice += cross(halo.point(nodes[i]) - halo.point(nodes[0]), halo.point(nodes[i + 1]) - halo.point(nodes[0]));
+    twice +=
+        cross(halo.point(nodes[i]) - halo.point(nodes[0]), halo.point(nodes[i + 1]) - halo.point(nodes[0]));
   return 0.5 * twice;
 }
 

@@ -80,8 +80,7 @@ void estimate(const Mesh& mesh, const FlowRun& run, EulerResult& result) {
     const double value = functional.value(run.states);
     result.goals.push_back({name_of(goal.quantity), value, value - found.signed_sum, found.sum, by_alpha,
                             by_mach, adjoint.iterations, adjoint.residual, adjoint.converged});
-    for (std::size_t node = 0; node < error.size(); ++node)
-      error[node] += goal.weight * found.of_nodes[node];
+    for (std::size_t node = 0; node < error.size(); ++node) error[node] += goal.weight * found.of_nodes[node];
     if (!run.options.adjoint_fields) continue;
     append_adjoint(name_of(goal.quantity), adjoint, result.flow);
     append_places(name_of(goal.quantity), place_derivative(linear, functional, adjoint.weights), result.flow);

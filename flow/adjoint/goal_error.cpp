@@ -50,7 +50,8 @@ class CellParts {
   Flux flux(const State& state, Point normal) const { return physical_flux(run_.model.gas, state, normal); }
   Flux rise(std::int32_t a, std::int32_t b) const { return sum_of(1, adjoint_[b], -1, adjoint_[a]); }
 
-  /// The sum over the cell's edges of the adjoint's rise times the scheme's flux through the edge's face in it.
+  /// The sum over the cell's edges of the adjoint's rise times the scheme's flux through the edge's face in
+  /// it.
   template <class Nodes>
   double by_scheme(const Nodes& nodes, Point centre) const {
     double sum = 0;
@@ -66,7 +67,8 @@ class CellParts {
   double integral(const std::array<NodeId, 4>& nodes) const;
 
  private:
-  /// From a to b through the face between the edge's middle and the cell's centre; of quads also what is skew.
+  /// From a to b through the face between the edge's middle and the cell's centre; of quads also what is
+  /// skew.
   Flux flux_in_cell(std::int32_t a, std::int32_t b, Point centre, bool is_quad) const {
     const Point from = run_.mesh.point(a), to = run_.mesh.point(b), across = centre - 0.5 * (from + to);
     const double size = length(across);
@@ -101,8 +103,8 @@ double CellParts::integral(const std::array<NodeId, 3>& nodes) const {
     const std::int32_t a = nodes[i].value(), b = nodes[(i + 1) % 3].value();
     const State middle = state_between(a, b);
     for (std::size_t n = 0; n < 3; ++n) {
-      const Point opposite = run_.mesh.point(nodes[(n + 2) % 3].value()) -
-                             run_.mesh.point(nodes[(n + 1) % 3].value());
+      const Point opposite =
+          run_.mesh.point(nodes[(n + 2) % 3].value()) - run_.mesh.point(nodes[(n + 1) % 3].value());
       // half of the normal into the cell is the gradient of the node's shape function times the area
       const Point inward{-0.5 * opposite.y, 0.5 * opposite.x};
       sum += product(adjoint_[nodes[n].value()], flux(middle, inward)) / 3;
@@ -148,33 +150,28 @@ double CellParts::integral(const std::array<NodeId, 4>& nodes) const {
   return sum;
 }
 
-/// Adds up parts, of nodes and of all.
+/// Adds up parts, each shared out among its nodes: what varies from cell to cell cancels there (a partition
+/// of unity, Richter and Wick 2015), what a node is left with has a size.
 class Sums {
  public:
   explicit Sums(const FlowRun& run) : run_{run} { error_.of_nodes.resize(run.mesh.owned_nodes(), 0.0); }
 
-  /// The rank that owns the first of the nodes counts the part.
   template <class Nodes>
   void add(double part, const Nodes& nodes) {
-    const double size = std::abs(part);
-    if (run_.mesh.is_owned(nodes[0])) {
-      parts_.push_back(part);
-      sizes_.push_back(size);
-    }
     for (const std::int32_t node : nodes) {
-      if (run_.mesh.is_owned(node)) error_.of_nodes[node] += size / static_cast<double>(nodes.size());
+      if (run_.mesh.is_owned(node)) error_.of_nodes[node] += part / static_cast<double>(nodes.size());
     }
   }
 
   GoalError finish() {
-    error_.signed_sum = reproducible_sum(run_.comm, parts_);
-    error_.sum = reproducible_sum(run_.comm, sizes_);
+    error_.signed_sum = reproducible_sum(run_.comm, error_.of_nodes);
+    for (double& part : error_.of_nodes) part = std::abs(part);
+    error_.sum = reproducible_sum(run_.comm, error_.of_nodes);
     return std::move(error_);
   }
 
  private:
   const FlowRun& run_;
-  std::vector<double> parts_, sizes_;
   GoalError error_;
 };
 
@@ -195,8 +192,7 @@ void add_faces(const FlowRun& run, const GoalFunctional& goal, const std::vector
     const double from = along(face.from) - weights.of_from, to = along(face.to) - weights.of_to;
     const State &at_from = run.states[face.from], &at_to = run.states[face.to];
     const double middle = cells.state_between(face.from, face.to)[3];
-    const double exact =
-        face.half_size / 3 * (from * at_from[3] + 2 * (from + to) * middle + to * at_to[3]);
+    const double exact = face.half_size / 3 * (from * at_from[3] + 2 * (from + to) * middle + to * at_to[3]);
     const double scheme = face.half_size * (from * state_at_half(face, at_from, at_to)[3] +
                                             to * state_at_half(face, at_to, at_from)[3]);
     sums.add(exact - scheme, std::array{face.from, face.to});

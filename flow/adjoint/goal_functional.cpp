@@ -40,7 +40,8 @@ std::vector<bool> counted(const FlowModel& model, const std::vector<std::string>
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     const Condition condition = model.boundaries[b].condition;
     const bool named = std::ranges::find(goal.boundaries, boundaries[b]) != goal.boundaries.end();
-    counts.push_back(condition != Condition::none && (goal.boundaries.empty() ? feels_force(condition) : named));
+    counts.push_back(condition != Condition::none &&
+                     (goal.boundaries.empty() ? feels_force(condition) : named));
   }
   return counts;
 }
@@ -73,11 +74,11 @@ GoalFunctional::GoalFunctional(const Communicator& comm, const DualMesh& mesh, c
     parts_.push_back({f, share(0.25 * (3.0 * from + to)), share(0.25 * (from + 3.0 * to))});
   }
   if (comm.any(!parts_.empty())) return;
-  throw InputError(goal.boundaries.empty()
-                       ? std::string("solver.goal: no boundary feels a force; give one bc = \"wall\", or name "
-                                     "boundaries in solver.goal_on")
-                       : fmt::format("solver.goal_on: the mesh has no edges on {}",
-                                     fmt::join(goal.boundaries, ", ")));
+  throw InputError(
+      goal.boundaries.empty()
+          ? std::string("solver.goal: no boundary feels a force; give one bc = \"wall\", or name "
+                        "boundaries in solver.goal_on")
+          : fmt::format("solver.goal_on: the mesh has no edges on {}", fmt::join(goal.boundaries, ", ")));
 }
 
 double GoalFunctional::value(const std::vector<State>& states) const {

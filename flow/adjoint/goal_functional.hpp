@@ -14,13 +14,13 @@ class GoalFunctional {
  public:
   /// One of a boundary's faces.
   struct Part {
-    std::size_t face;                ///< of the dual mesh
-    double of_from = 0, of_to = 0;   ///< per pressure and length, of the halves at its two nodes
+    std::size_t face;               ///< of the dual mesh
+    double of_from = 0, of_to = 0;  ///< per pressure and length, of the halves at its two nodes
   };
 
-  /// `boundaries` are the names of the mesh's, in its order. Throws InputError where the free stream rests, or
-  /// where the goal names a boundary that there is not, or one without edges. What it is given must outlive
-  /// it. *Collective.*
+  /// `boundaries` are the names of the mesh's, in its order. Throws InputError where the free stream rests,
+  /// or where the goal names a boundary that there is not, or one without edges. What it is given must
+  /// outlive it. *Collective.*
   GoalFunctional(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
                  const std::vector<std::string>& boundaries, const Goal& goal, double reference_length);
 
@@ -40,9 +40,9 @@ class GoalFunctional {
   const Communicator& comm_;
   const DualMesh& mesh_;
   Goal goal_;
-  Point wind_;           ///< of length 1
+  Point wind_;             ///< of length 1
   double scale_, length_;  ///< of coefficients; the reference length
-  double outside_;  ///< the free stream's pressure
+  double outside_;         ///< the free stream's pressure
   std::vector<Part> parts_;
 };
 

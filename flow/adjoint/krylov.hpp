@@ -23,9 +23,9 @@ struct KrylovEnd {
   double residual = 0;  ///< of the right side's norm
 };
 
-/// Flexible GMRES, begun anew after every `restart` steps, from x = 0: until what is left is below `tolerance`
-/// of the right side, or so many iterations are done. Products of vectors are sums that do not depend on the
-/// number of ranks. *Collective.*
+/// Flexible GMRES, begun anew after every `restart` steps, from x = 0: until what is left is below
+/// `tolerance` of the right side, or so many iterations are done. Products of vectors are sums that do not
+/// depend on the number of ranks. *Collective.*
 KrylovEnd solve_by_gmres(const Communicator& comm, const KrylovSystem& system, const NodeRows& right,
                          NodeRows& x, double tolerance, int iterations, int restart);
 

@@ -6,7 +6,8 @@
 
 namespace quadloop::euler {
 
-/// Of one node: the first edge, for each variable, that has the largest (above 0) or smallest value and change.
+/// Of one node: the first edge, for each variable, that has the largest (above 0) or smallest value and
+/// change.
 struct LimiterDerivative::Side {
   std::array<std::int32_t, 4> neighbour{-1, -1, -1, -1};
   std::array<std::int32_t, 4> along{-1, -1, -1, -1};
@@ -15,10 +16,7 @@ struct LimiterDerivative::Side {
 
 LimiterDerivative::LimiterDerivative(const DualMesh& mesh, const Limiter& limiter,
                                      const std::vector<State>& states, std::vector<Gradient> gradients)
-    : mesh_{mesh},
-      gradients_{std::move(gradients)},
-      parts_(mesh.owned_nodes()),
-      live_{!limiter.frozen()} {
+    : mesh_{mesh}, gradients_{std::move(gradients)}, parts_(mesh.owned_nodes()), live_{!limiter.frozen()} {
   for (std::size_t node = 0; node < parts_.size(); ++node) {
     for (std::size_t k = 0; k < 4; ++k) parts_[node][k].factor = limiter.factors()[node][k];
     small_squared_.push_back(limiter.small_squared(node));

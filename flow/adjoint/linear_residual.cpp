@@ -80,8 +80,7 @@ LinearResidual::LinearResidual(const FlowRun& run) : run_{run} {
 void LinearResidual::differentiate_edges() {
   using Dual = DualNumber<8>;
   for (const DualEdge& edge : run_.mesh.edges()) {
-    const auto [left, right, reconstructed] =
-        states_at_middle(edge, run_.states, run_.residual.gradients());
+    const auto [left, right, reconstructed] = states_at_middle(edge, run_.states, run_.residual.gradients());
     const FluxOf<Dual> flux =
         roe_flux(run_.model.gas, as_variables<Dual>(left, 0), as_variables<Dual>(right, 4), edge.normal);
     edges_.push_back({slopes(flux, 0, edge.size), slopes(flux, 4, edge.size), reconstructed});
@@ -96,8 +95,8 @@ void LinearResidual::differentiate_skew() {
     const Gradient &low = gradients[edge.low], &high = gradients[edge.high];
     const State state = mean(run_.states[edge.low], run_.states[edge.high]);
     const FluxOf<Dual> flux =
-        skew_flux(run_.model.gas, skew, as_variables<Dual>(state, 0), as_variables<Dual>(mean(low.x, high.x), 4),
-                  as_variables<Dual>(mean(low.y, high.y), 8));
+        skew_flux(run_.model.gas, skew, as_variables<Dual>(state, 0),
+                  as_variables<Dual>(mean(low.x, high.x), 4), as_variables<Dual>(mean(low.y, high.y), 8));
     skew_.push_back({slopes(flux, 0, 1), slopes(flux, 4, 1), slopes(flux, 8, 1)});
   }
 }
@@ -137,7 +136,8 @@ void LinearResidual::apply_edges(const std::vector<State>& change, const std::ve
     const DualEdge& edge = edges[e];
     const double share = edges_[e].reconstructed ? 1 : 0;
     Flux through{};
-    add_product(edges_[e].by_left, stepped(change[edge.low], gradients[edge.low], share * edge.half), through);
+    add_product(edges_[e].by_left, stepped(change[edge.low], gradients[edge.low], share * edge.half),
+                through);
     add_product(edges_[e].by_right, stepped(change[edge.high], gradients[edge.high], -share * edge.half),
                 through);
     carry(edge, through);

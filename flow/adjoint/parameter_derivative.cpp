@@ -7,8 +7,8 @@ namespace quadloop::euler {
 
 namespace {
 
-/// What a goal is, and psi . residual, of the same flow in another free stream: of the residual what boundaries
-/// carry, as the rest does not know it.
+/// What a goal is, and psi . residual, of the same flow in another free stream: of the residual what
+/// boundaries carry, as the rest does not know it.
 double held(const FlowRun& run, const std::vector<std::string>& boundaries, const Goal& goal,
             const std::vector<Flux>& adjoint, double mach, double alpha) {
   FlowModel model = run.model;

@@ -196,8 +196,8 @@ void PlaceDerivative::add_boundaries() {
   }
 }
 
-/// Of the edges of all cells that touch an owned node, cell by cell: from the ranks that own the lower of their
-/// nodes, as this one does not know the whole face of an edge that it owns no node of.
+/// Of the edges of all cells that touch an owned node, cell by cell: from the ranks that own the lower of
+/// their nodes, as this one does not know the whole face of an edge that it owns no node of.
 std::vector<FaceWeights> PlaceDerivative::weights_of_cell_edges() const {
   using Key = std::array<GlobalNodeId, 2>;
   const HaloMesh& halo = run_.mesh.halo();
@@ -250,8 +250,7 @@ void PlaceDerivative::add_cell(const Nodes& nodes, std::vector<FaceWeights>::con
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t after = (i + 1) % n, before = (i + n - 1) % n;
     const FaceWeights& of_face = *(weights + static_cast<std::ptrdiff_t>(i));
-    const double side =
-        run_.mesh.global(nodes[i].value()) < run_.mesh.global(nodes[after].value()) ? 1 : -1;
+    const double side = run_.mesh.global(nodes[i].value()) < run_.mesh.global(nodes[after].value()) ? 1 : -1;
     const VectorOf<Dual> along = places[after] - places[i],
                          across = centre - 0.5 * (places[after] + places[i]), normal = side * turned(across);
     term = term + of_face.normal[0] * normal.x + of_face.normal[1] * normal.y;

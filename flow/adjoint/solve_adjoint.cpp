@@ -17,9 +17,9 @@ std::vector<Matrix4> states_by_conserved(const FlowRun& run) {
   std::vector<Matrix4> matrices(run.mesh.owned_nodes());
   for (std::size_t node = 0; node < matrices.size(); ++node) {
     const Conserved w = run.model.gas.conserved(run.states[node]);
-    const StateOf<Dual> state = run.model.gas.state(
-        ConservedOf<Dual>{Dual::variable(w.mass, 0), Dual::variable(w.x_momentum, 1),
-                          Dual::variable(w.y_momentum, 2), Dual::variable(w.energy, 3)});
+    const StateOf<Dual> state =
+        run.model.gas.state(ConservedOf<Dual>{Dual::variable(w.mass, 0), Dual::variable(w.x_momentum, 1),
+                                              Dual::variable(w.y_momentum, 2), Dual::variable(w.energy, 3)});
     for (std::size_t row = 0; row < 4; ++row) {
       for (std::size_t column = 0; column < 4; ++column)
         matrices[node][4 * row + column] = state[row].slopes[column];

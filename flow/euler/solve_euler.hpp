@@ -26,10 +26,10 @@ struct EulerResult {
   std::vector<HistoryRow> history;          ///< of every step and the end; accurate: of every tenth step
   /// The step whose flow this is: the last, or that of the best residual where it rose again.
   int kept_iteration = 0;
-  double last_residual = 0;  ///< after the last step
-  bool stalled = false;      ///< the residual did not halve in the second half of the steps
-  bool converged = false;    ///< steady: the tolerance is met; accurate: the end time is reached
-  double time = 0;           ///< of an accurate run
+  double last_residual = 0;      ///< after the last step
+  bool stalled = false;          ///< the residual did not halve in the second half of the steps
+  bool converged = false;        ///< steady: the tolerance is met; accurate: the end time is reached
+  double time = 0;               ///< of an accurate run
   std::vector<GoalValue> goals;  ///< of the options' goals, where something at the end finds them
 };
 
@@ -37,8 +37,8 @@ namespace euler {
 struct FlowRun;
 }
 
-/// Called on every rank with the run as it ends, before it is told: the flow that is kept, and what is found of
-/// it. May add to that. *Collective.*
+/// Called on every rank with the run as it ends, before it is told: the flow that is kept, and what is found
+/// of it. May add to that. *Collective.*
 using AtEnd = std::function<void(const Mesh& mesh, const euler::FlowRun& run, EulerResult& result)>;
 
 /// Solves the two-dimensional Euler equations, or with a viscosity those of laminar flow, on a mesh of

@@ -9,7 +9,7 @@ struct GoalValue {
   std::string name;
   double value = 0;
   double corrected = 0;  ///< less the estimated error, with its sign
-  double error = 0;      ///< the sum of what all cells add to that, by size: a cautious bound of it
+  double error = 0;      ///< the sum of what all nodes add to that, by size: no error cancels another
   double by_alpha = 0, by_mach = 0;  ///< derivatives, per degree and per unit
   int iterations = 0;                ///< of the adjoint solution
   double residual = 0;               ///< what is left of it

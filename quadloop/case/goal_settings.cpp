@@ -38,9 +38,10 @@ std::vector<Goal> read_quantities(const CaseTable& table) {
 
 void refuse_what_has_no_adjoint(const CaseTable& table, bool built_in, const EulerOptions& options) {
   if (!built_in)
-    table.refuse("goal",
-                 "needs the adjoint of the built-in solver, kind = \"euler\"; a solver of your own may write an "
-                 "error field of its own: adapt.variable = { error = \"name\" }");
+    table.refuse(
+        "goal",
+        "needs the adjoint of the built-in solver, kind = \"euler\"; a solver of your own may write an "
+        "error field of its own: adapt.variable = { error = \"name\" }");
   if (options.viscosity > 0)
     table.refuse("goal", "needs a flow without viscosity; leave out viscosity and reynolds, or the goal");
   if (options.time != EulerOptions::Time::steady)
@@ -83,8 +84,8 @@ std::vector<Goal> goals_on(const std::vector<Goal>& goals, const std::vector<std
     }
     for (const std::string& pattern : patterns) {
       if (std::ranges::none_of(boundaries, [&](const std::string& name) { return matches(pattern, name); }))
-        throw InputError(fmt::format("'solver.goal_on' names '{}', but no boundary of the geometry is so named",
-                                     pattern));
+        throw InputError(
+            fmt::format("'solver.goal_on' names '{}', but no boundary of the geometry is so named", pattern));
     }
   }
   return result;

@@ -64,8 +64,8 @@ WantedLevels::WantedLevels(const Communicator& comm, const AdaptOptions& options
     : comm_{comm}, tree_{solved.tree}, finest_{finest_level}, mirror_{mirror}, norm_{*options.norm} {
   const Field field = selected(solved.solution, options.variables, "adapt.variable");
   by_error_ = options.source == AdaptOptions::Source::error;
-  InterpolationError error = by_error_ ? solver_error(comm, solved.mesh, field)
-                                       : interpolation_error(comm, solved.mesh, field);
+  InterpolationError error =
+      by_error_ ? solver_error(comm, solved.mesh, field) : interpolation_error(comm, solved.mesh, field);
   error_ = norm_of(comm, error, norm_);
   cell_densities_ = cell_densities(error, norm_);
   densities_ = CellsOfLeaves(comm, solved.mesh, tree_.leaves).largest(comm, cell_densities_);

@@ -19,8 +19,8 @@ namespace quadloop {
 ChangedSplits splits_for_levels(const Communicator& comm, const TreeRecord& tree,
                                 std::span<const std::int8_t> levels);
 
-/// The sizes that make the L^p norm of the interpolation error, or of a solver's own, least, for more or fewer
-/// nodes.
+/// The sizes that make the L^p norm of the interpolation error, or of a solver's own, least, for more or
+/// fewer nodes.
 class WantedLevels {
  public:
   /// From the variables of the options, whose norm must be given. `solved` must outlive it. Throws InputError

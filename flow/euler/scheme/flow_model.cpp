@@ -152,8 +152,7 @@ template Flux boundary_flux(const FlowModel&, const BoundaryModel&, const State&
 template FluxOf<DualNumber<4>> boundary_flux(const FlowModel&, const BoundaryModel&,
                                              const StateOf<DualNumber<4>>&, const Point&);
 template FluxOf<DualNumber<4>> boundary_flux(const FlowModel&, const BoundaryModel&,
-                                             const StateOf<DualNumber<4>>&,
-                                             const VectorOf<DualNumber<4>>&);
+                                             const StateOf<DualNumber<4>>&, const VectorOf<DualNumber<4>>&);
 
 void add_boundary_matrix(const FlowModel& model, const BoundaryModel& boundary, const State& state,
                          Point normal, double factor, Matrix4& sum) {

@@ -68,8 +68,8 @@ class Limiter {
   struct Bounds {
     std::array<double, 4> low, high;
   };
-  /// What the last call found at the owned nodes: the factors, and what they were made from, which is not that
-  /// call's where they are frozen.
+  /// What the last call found at the owned nodes: the factors, and what they were made from, which is not
+  /// that call's where they are frozen.
   const std::vector<std::array<double, 4>>& factors() const { return factors_; }
   const Bounds& values(std::size_t node) const { return values_[node]; }
   const Bounds& changes(std::size_t node) const { return changes_[node]; }

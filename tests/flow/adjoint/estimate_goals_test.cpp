@@ -41,7 +41,7 @@ void expect_derivatives(const Mesh& mesh, const EulerOptions& options, double to
     other.alpha = alpha;
     return solved(world(), mesh, other, flow.flow).goals;
   };
-  constexpr double d = 1e-3;
+  constexpr double d = 2e-4;
   const auto more = at(options.mach, options.alpha + d), less = at(options.mach, options.alpha - d),
              faster = at(options.mach + d, options.alpha), slower = at(options.mach - d, options.alpha);
   for (std::size_t k = 0; k < options.goals.size(); ++k) {
@@ -54,11 +54,28 @@ void expect_derivatives(const Mesh& mesh, const EulerOptions& options, double to
   }
 }
 
-TEST(EstimateGoals, DerivativesAreThoseOfFlowsSolvedAnew) {
-  EulerOptions options = of_ellipse(0.4, 2);
+/// No body has its lift decided by a flow without viscosity but by its trailing edge; a bump in a channel
+/// has.
+Mesh bump_mesh(std::int32_t n) {
+  Mesh mesh = test::wedge_mesh(n, 0);
+  for (Point& p : mesh.points) {
+    const double along = p.x - 0.75;
+    p.y += (1 - p.y) * 0.05 * std::exp(-40 * along * along);
+  }
+  return mesh;
+}
+
+EulerOptions over_bump() {
+  EulerOptions options = of_ellipse(0.5, 0);
+  options.limiter = EulerOptions::Limiter::none;
+  options.boundaries = {{"outflow", "outflow", 1.0}};
   options.goals.push_back({Goal::Quantity::moment, {}, {0.2, 0.1}});
   options.goals.push_back({Goal::Quantity::pressure, {"wall"}});
-  expect_derivatives(test::ring_mesh(48, 24, 0.3, 10), options, 1e-4);
+  return options;
+}
+
+TEST(EstimateGoals, DerivativesAreThoseOfFlowsSolvedAnew) {
+  expect_derivatives(bump_mesh(24), over_bump(), 1e-5);
 }
 
 std::vector<double> column(const EulerResult& result, const std::string& name) {
@@ -100,10 +117,7 @@ void expect_place_derivatives(const Mesh& mesh, EulerOptions options, double tol
 }
 
 TEST(EstimateGoals, NodesThatMoveDoWhatTheyDoToFlowsSolvedAnew) {
-  EulerOptions options = of_ellipse(0.4, 2);
-  options.goals.push_back({Goal::Quantity::moment, {}, {0.2, 0.1}});
-  options.goals.push_back({Goal::Quantity::pressure, {"wall"}});
-  expect_place_derivatives(test::ring_mesh(48, 24, 0.3, 10), options, 1e-4);
+  expect_place_derivatives(bump_mesh(24), over_bump(), 1e-5);
 }
 
 TEST(EstimateGoals, AShockIsNoHindranceWhereFactorsAreKept) {
@@ -138,17 +152,17 @@ TEST(EstimateGoals, HaveTheSameBitsOnAnyNumberOfRanks) {
   }
 }
 
-/// Corrected values are nearer to those of a fine mesh, whose own error is a sixteenth.
+/// Corrected values are nearer to those of a fine mesh, whose own error is a ninth.
 TEST(EstimateGoals, CorrectedDragIsNearerToThatOfAFineMesh) {
   EulerOptions options = of_ellipse(0.4, 0);
   options.tolerance = 1e-10;
   options.goals = {{Goal::Quantity::drag}};
-  const GoalValue coarse = solved(world(), test::ring_mesh(48, 24, 0.3, 10), options).goals[0],
-                  fine = solved(world(), test::ring_mesh(192, 96, 0.3, 10), options).goals[0];
+  const GoalValue coarse = solved(world(), test::ring_mesh(32, 16, 0.3, 10), options).goals[0],
+                  fine = solved(world(), test::ring_mesh(96, 48, 0.3, 10), options).goals[0];
   EXPECT_LT(std::abs(coarse.corrected - fine.value), 0.5 * std::abs(coarse.value - fine.value))
       << coarse.value << " " << coarse.corrected << " " << fine.value << " " << fine.corrected;
   EXPECT_GT(coarse.error, 0.5 * std::abs(coarse.value - fine.value));
-  EXPECT_LT(fine.error, coarse.error / 8);
+  EXPECT_LT(fine.error, coarse.error / 3);
 }
 
 TEST(EstimateGoals, RefusesWhatHasNoAdjoint) {

@@ -53,8 +53,7 @@ TEST(Krylov, SolvesASystemThatIsNotSymmetric) {
 TEST(Krylov, EndsWhereItMay) {
   NodeRows x;
   EXPECT_EQ(solve_by_gmres(test::world(), system_of_rows(), right_side(), x, 1e-12, 5, 5).iterations, 5);
-  const KrylovEnd nothing =
-      solve_by_gmres(test::world(), system_of_rows(), NodeRows(rows), x, 1e-12, 50, 5);
+  const KrylovEnd nothing = solve_by_gmres(test::world(), system_of_rows(), NodeRows(rows), x, 1e-12, 50, 5);
   EXPECT_EQ(nothing.iterations, 0);
   EXPECT_EQ(nothing.residual, 0);
 }
