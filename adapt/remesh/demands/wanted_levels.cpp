@@ -66,7 +66,7 @@ WantedLevels::WantedLevels(const Communicator& comm, const AdaptOptions& options
   by_error_ = options.source == AdaptOptions::Source::error;
   InterpolationError error =
       by_error_ ? solver_error(comm, solved.mesh, field) : interpolation_error(comm, solved.mesh, field);
-  error_ = norm_of(comm, error, norm_);
+  error_ = norm_of(comm, error, by_error_ ? 1 : norm_);  // parts of an error add up to it
   cell_densities_ = cell_densities(error, norm_);
   densities_ = CellsOfLeaves(comm, solved.mesh, tree_.leaves).largest(comm, cell_densities_);
   if (mirror_) agree_with_images(comm, *mirror_, tree_, OfImages::larger, densities_);

@@ -31,7 +31,7 @@ class WantedLevels {
 
   /// Whether all variables are linear, which asks for no sizes.
   bool flat() const { return !(total_ > 0); }
-  /// The L^p norm of the error on the mesh that was solved on.
+  /// The L^p norm of the error, of a solver's own the sum of its parts, on the mesh that was solved on.
   double error() const { return error_; }
   /// For each cell its error, and the size wanted there at this complexity; at 0 without the
   /// sizes, and at most the edge of a tree.

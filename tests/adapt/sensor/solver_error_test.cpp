@@ -22,7 +22,8 @@ Mesh part_of(const test::Grid& grid) {
 
 TEST(SolverErrors, AtNodesAreSharedOutAndNothingIsLost) {
   const Mesh mesh = part_of({6, {1, 2}, true});
-  const Field field = field_of(mesh, "e", [](std::int64_t node, Point) { return 1.0 + node % 5; });
+  const Field field =
+      field_of(mesh, "e", [](std::int64_t node, Point) { return 1.0 + static_cast<double>(node % 5); });
   std::vector<double> given(field.values.begin(), field.values.begin() + mesh.owned_nodes);
   const InterpolationError error = solver_error(world(), mesh, field);
   ASSERT_EQ(error.mean.size(), mesh.triangles.size() + mesh.quads.size());
