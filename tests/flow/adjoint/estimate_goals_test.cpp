@@ -182,27 +182,6 @@ TEST(EstimateGoals, AShockIsNoHindranceWhereFactorsAreKept) {
   EXPECT_NEAR(flow.goals[0].corrected, flow.goals[0].value, 2 * flow.goals[0].error);
 }
 
-TEST(EstimateGoals, HaveTheSameBitsOnAnyNumberOfRanks) {
-  const Communicator self(MPI_COMM_SELF);
-  const Mesh whole = test::ring_mesh(24, 12, 0.3, 10);
-  EulerOptions options = of_ellipse(0.4, 2);
-  options.iterations = 30;  // need not have converged
-  options.adjoint_fields = true;
-  const Mesh part = scatter_mesh(world(), whole, space_filling_order(whole));
-  const EulerResult together = solved(world(), whole, options), alone = solved(self, whole, options);
-  ASSERT_EQ(together.flow.names, alone.flow.names);
-  const std::size_t width = alone.flow.width();
-  EXPECT_EQ(width, 4 + 2 * 6 + 1);
-  const auto first = alone.flow.values.begin() + static_cast<std::ptrdiff_t>(width * part.first_node);
-  EXPECT_TRUE(std::equal(together.flow.values.begin(), together.flow.values.end(), first));
-  for (std::size_t k = 0; k < alone.goals.size(); ++k) {
-    EXPECT_EQ(together.goals[k].corrected, alone.goals[k].corrected);
-    EXPECT_EQ(together.goals[k].error, alone.goals[k].error);
-    EXPECT_EQ(together.goals[k].by_alpha, alone.goals[k].by_alpha);
-    EXPECT_EQ(together.goals[k].iterations, alone.goals[k].iterations);
-  }
-}
-
 /// Corrected values are nearer to those of a fine mesh, whose own error is a ninth.
 TEST(EstimateGoals, CorrectedDragIsNearerToThatOfAFineMesh) {
   EulerOptions options = of_ellipse(0.4, 0);
