@@ -11,6 +11,7 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/summary.hpp"
+#include "flow/adjoint/estimate_goals.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "flow/euler/shortfall.hpp"
 #include "flow/quantities/flow_quantities.hpp"
@@ -145,7 +146,8 @@ EulerResult solve(const Communicator& comm, const Problem& problem, const Mesh& 
     log::information(fmt::format("step {}: residual {:.2e}, cl {:.6f}, cd {:.6f}{}", p.iteration, p.residual,
                                  p.cl, p.cd, time));
   };
-  return solve_euler(comm, part, options, scatter_field(comm, problem.start, part, problem.order));
+  return solve_euler(comm, part, options, scatter_field(comm, problem.start, part, problem.order),
+                     estimate_goals(options));
 }
 
 Figures result_figures(std::int64_t nodes, const EulerResult& result, const EulerOptions& options) {
@@ -162,11 +164,13 @@ Figures result_figures(std::int64_t nodes, const EulerResult& result, const Eule
     figures.add("cl friction", result.cl_friction, "{:.6f}");
   }
   std::string lines;
+  for (const GoalValue& goal : result.goals) lines += "  " + line_of(goal) + "\n";
   for (const BoundaryForce& force : result.forces) {
     const auto& [name, cl, cd, cl_friction, cd_friction] = force;
     lines += fmt::format("  forces on {}: cl {:.6f}, cd {:.6f}", name, cl, cd);
     lines += options.viscosity > 0 ? fmt::format(", cd friction {:.6f}\n", cd_friction) : "\n";
   }
+  if (!result.goals.empty()) figures.add_member("goals", record_of(result.goals).text());
   figures.add_member("forces", record_of(result.forces).text());
   figures.add_lines(lines);
   return figures;
@@ -188,6 +192,9 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   if (!comm.is_root()) return;
   context.warn(problem.warnings);
   if (!result.converged) context.warn({shortfall(result, problem.settings.solver.euler)});
+  for (const GoalValue& goal : result.goals) {
+    if (!goal.converged) context.warn({shortfall(goal)});
+  }
   const Figures figures = result_figures(nodes, result, problem.settings.solver.euler);
   context.record.figures = figures.record();
   context.record.figures.add("converged", result.converged);

@@ -7,6 +7,7 @@
 
 #include "flow/quantities/boundary_forces.hpp"
 #include "flow/quantities/free_stream.hpp"
+#include "flow/quantities/goal_value.hpp"
 #include "flow/quantities/history.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
@@ -23,6 +24,7 @@ struct SolvedFlow {
   std::vector<BoundaryForce> forces;         ///< of each boundary that feels a force
   Field at_walls = {};                       ///< rows of nodes, as wall_flow(); empty: those of the solution
   std::vector<HistoryRow> history;
+  std::vector<GoalValue> goals = {};  ///< what it was solved for, with an estimate of the error
 };
 
 /// Any flow solver: `start` is the state to begin with, a row for each of the mesh's owned nodes, or cells,

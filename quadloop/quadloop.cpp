@@ -8,6 +8,7 @@
 
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
+#include "flow/adjoint/estimate_goals.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "io/mesh_file.hpp"
 #include "io/tree/tree_file.hpp"
@@ -95,7 +96,8 @@ FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
     if (!std::holds_alternative<EulerOptions>(*chosen))
       throw InputError(path + ": 'solver.kind' is not the built-in solver; set kind = \"euler\"");
   });
-  return euler_solver(std::get<EulerOptions>(*chosen));
+  const auto& options = std::get<EulerOptions>(*chosen);
+  return euler_solver(options, estimate_goals(options));
 }
 
 Marks::Marks(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan)

@@ -46,8 +46,9 @@ std::string log_text(const CycleRecord& record, const std::vector<std::string>& 
   for (const auto& [boundary, least, largest] : record.first_heights)
     text += fmt::format("first heights asked for on {}: {:.6g} to {:.6g}\n", boundary, least, largest);
   for (const std::string& line : notes) text += line + "\n";
+  for (const GoalValue& goal : record.goals) text += line_of(goal) + "\n";
   for (const std::string& line : warnings) text += "warning: " + line + "\n";
-  if (record.estimate) text += fmt::format("interpolation error {:.4g}", *record.estimate);
+  if (record.estimate) text += fmt::format("error {:.4g}", *record.estimate);
   if (record.order) text += fmt::format(", order {:.2f}", *record.order);
   if (record.estimate) text += "\n";
   text += fmt::format("marks for the next cycle: {} leaves to be split, {} to go\n", record.refined,

@@ -84,12 +84,32 @@ JsonObject figures_of(const CycleRecord& record) {
     if (value) json.add(name, *value);
   }
   if (record.settled) json.add("settled", *record.settled);
+  if (!record.goals.empty()) json.add("goals", record_of(record.goals));
   if (!record.forces.empty()) json.add("forces", record_of(record.forces));
   JsonObject heights;
   for (const auto& [boundary, least, largest] : record.first_heights)
     heights.add(boundary, std::vector{least, largest});
   if (!record.first_heights.empty()) json.add("first_heights", heights);
   return json;
+}
+
+JsonObject record_of(const std::vector<GoalValue>& goals) {
+  JsonObject json;
+  for (const GoalValue& goal : goals) {
+    json.add(goal.name, object({{"value", goal.value},
+                                {"corrected", goal.corrected},
+                                {"error", goal.error},
+                                {"by_alpha", goal.by_alpha},
+                                {"by_mach", goal.by_mach},
+                                {"adjoint_residual", goal.residual}}));
+  }
+  return json;
+}
+
+std::string line_of(const GoalValue& goal) {
+  return fmt::format(
+      "{} {:.6f}, corrected {:.6f}, error without signs {:.2e}; by alpha {:.5g}, by mach {:.5g}", goal.name,
+      goal.value, goal.corrected, goal.error, goal.by_alpha, goal.by_mach);
 }
 
 JsonObject record_of(const std::vector<BoundaryForce>& forces) {

@@ -8,6 +8,7 @@
 
 #include "adapt/loop/case_settings.hpp"
 #include "flow/quantities/boundary_forces.hpp"
+#include "flow/quantities/goal_value.hpp"
 #include "mesher/base/json.hpp"
 
 namespace quadloop {
@@ -37,6 +38,7 @@ struct CycleRecord {
   /// How far each variable's integral drifted in the transfer into this cycle.
   std::vector<std::pair<std::string, double>> drift;
   std::optional<double> cl, cd, residual;
+  std::vector<GoalValue> goals;       ///< with an estimate of their errors
   std::vector<BoundaryForce> forces;  ///< of each boundary that feels a force
   /// Of boundaries that want a y+: the least and the largest first height that their layers were asked for.
   std::vector<FirstHeights> first_heights;
@@ -46,6 +48,12 @@ struct CycleRecord {
 /// What the cycle came to, without its case and the seconds that it took.
 JsonObject figures_of(const CycleRecord& record);
 JsonObject seconds_of(const CycleRecord& record);
+
+/// {goal: {"value": ..., "corrected": ..., "error": ..., "by_alpha": ..., "by_mach": ..., "adjoint_residual":
+/// ...}}
+JsonObject record_of(const std::vector<GoalValue>& goals);
+/// For people.
+std::string line_of(const GoalValue& goal);
 
 /// {boundary: {"cl": ..., "cd": ..., "cl_friction": ..., "cd_friction": ...}}
 JsonObject record_of(const std::vector<BoundaryForce>& forces);

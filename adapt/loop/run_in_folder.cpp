@@ -8,6 +8,7 @@
 #include "adapt/loop/resume.hpp"
 #include "adapt/loop/template_files.hpp"
 #include "adapt/solvers/wall_quantities.hpp"
+#include "flow/adjoint/estimate_goals.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "io/formats.hpp"
 
@@ -61,7 +62,8 @@ FlowSolver outer_solver_in(const CycleFolders& folders, const ChosenSolver& chos
 }
 
 FlowSolver solver_in(const CycleFolders& folders, const AdaptiveCase& adaptive) {
-  if (const auto* options = std::get_if<EulerOptions>(&adaptive.solver)) return euler_solver(*options);
+  if (const auto* options = std::get_if<EulerOptions>(&adaptive.solver))
+    return euler_solver(*options, estimate_goals(*options));
   FlowSolver solver = outer_solver_in(folders, adaptive.solver);
   return adaptive.stream ? with_wall_quantities(std::move(solver), *adaptive.stream) : solver;
 }

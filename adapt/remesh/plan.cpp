@@ -168,8 +168,10 @@ void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const 
   }
   plan.estimates_of_cells = wanted.of_cells(complexity);
   if (plan.changes_mesh()) return;
-  plan.reason_for_standing = wanted.flat() ? "no variable has a second derivative"
-                                           : "all leaves have the sizes that are wanted of them";
+  const bool by_error = options.source == AdaptOptions::Source::error;
+  plan.reason_for_standing =
+      wanted.flat() ? by_error ? "the error is 0 everywhere" : "no variable has a second derivative"
+                    : "all leaves have the sizes that are wanted of them";
 }
 
 }  // namespace

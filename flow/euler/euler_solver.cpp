@@ -30,16 +30,16 @@ FreeStream free_stream_of(const EulerOptions& options) {
           options.reference_length};
 }
 
-FlowSolver euler_solver(EulerOptions options) {
-  return [options = std::move(options)](const Communicator& comm, const Mesh& mesh, const Field& start,
-                                        int cycle) {
+FlowSolver euler_solver(EulerOptions options, AtEnd at_end) {
+  return [options = std::move(options), at_end = std::move(at_end)](
+             const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
     SolvedFlow flow;
     EulerOptions told = options;
     told.progress = [&](const EulerProgress& p) {
       flow.notes.push_back(fmt::format("iteration {}: residual {:.3e}, cl {:.6f}, cd {:.6f}", p.iteration,
                                        p.residual, p.cl, p.cd));
     };
-    const EulerResult result = solve_euler(comm, mesh, told, start);
+    const EulerResult result = solve_euler(comm, mesh, told, start, at_end);
     if (!result.converged)
       flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, shortfall(result, options)));
     flow.solution = flow_with_constants(result, options);
@@ -49,6 +49,10 @@ FlowSolver euler_solver(EulerOptions options) {
     flow.stream = free_stream_of(options);
     flow.forces = result.forces;
     flow.history = result.history;
+    flow.goals = result.goals;
+    for (const GoalValue& goal : result.goals) {
+      if (!goal.converged) flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, shortfall(goal)));
+    }
     return flow;
   };
 }

@@ -14,6 +14,6 @@ FreeStream free_stream_of(const EulerOptions& options);
 
 /// The built-in solver as any other: notes every step that solve_euler() tells of, warns where a flow did not
 /// converge.
-FlowSolver euler_solver(EulerOptions options);
+FlowSolver euler_solver(EulerOptions options, AtEnd at_end = {});
 
 }  // namespace quadloop

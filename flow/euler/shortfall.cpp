@@ -27,4 +27,11 @@ std::string shortfall(const EulerResult& result, const EulerOptions& options) {
          "try a smaller solver.cfl";
 }
 
+std::string shortfall(const GoalValue& goal) {
+  return fmt::format(
+      "the adjoint of {} was solved to {:.2e} in {} steps; its error is a guess where the flow has not "
+      "converged: lower solver.tolerance, raise solver.iterations",
+      goal.name, goal.residual, goal.iterations);
+}
+
 }  // namespace quadloop

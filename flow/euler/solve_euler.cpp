@@ -66,7 +66,7 @@ void take_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries,
 }  // namespace
 
 EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
-                        const Field& start) {
+                        const Field& start, const AtEnd& at_end) {
   validate(options);
   const FlowModel model = flow_model(comm, mesh, options);
   const DualMesh dual(comm, mesh);
@@ -79,6 +79,7 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
                               steady ? "steps" : "units of time");
   EulerResult result = steady ? march_to_steady(run) : march_in_time(run);
   take_flow(run, mesh.boundaries, result);
+  if (at_end) at_end(mesh, run, result);
   return result;
 }
 

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "flow/euler/scheme/euler_options.hpp"
 #include "flow/quantities/boundary_forces.hpp"
+#include "flow/quantities/goal_value.hpp"
 #include "flow/quantities/history.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
@@ -22,11 +26,20 @@ struct EulerResult {
   std::vector<HistoryRow> history;          ///< of every step and the end; accurate: of every tenth step
   /// The step whose flow this is: the last, or that of the best residual where it rose again.
   int kept_iteration = 0;
-  double last_residual = 0;  ///< after the last step
-  bool stalled = false;      ///< the residual did not halve in the second half of the steps
-  bool converged = false;    ///< steady: the tolerance is met; accurate: the end time is reached
-  double time = 0;           ///< of an accurate run
+  double last_residual = 0;      ///< after the last step
+  bool stalled = false;          ///< the residual did not halve in the second half of the steps
+  bool converged = false;        ///< steady: the tolerance is met; accurate: the end time is reached
+  double time = 0;               ///< of an accurate run
+  std::vector<GoalValue> goals;  ///< of the options' goals, where something at the end finds them
 };
+
+namespace euler {
+struct FlowRun;
+}
+
+/// Called on every rank with the run as it ends, before it is told: the flow that is kept, and what is found
+/// of it. May add to that. *Collective.*
+using AtEnd = std::function<void(const Mesh& mesh, const euler::FlowRun& run, EulerResult& result)>;
 
 /// Solves the two-dimensional Euler equations, or with a viscosity those of laminar flow, on a mesh of
 /// triangles and quadrilaterals. The flow starts from `start`, which has a row for each owned node; without
@@ -34,6 +47,6 @@ struct EulerResult {
 /// a mesh or options that it cannot use, or a start in which variable() does not find euler_names,
 /// SolverError, with the place, where the flow cannot be kept physical. *Collective.*
 EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
-                        const Field& start = {});
+                        const Field& start = {}, const AtEnd& at_end = {});
 
 }  // namespace quadloop

@@ -50,8 +50,8 @@ void read_norm(const CaseTable& table, AdaptOptions& options) {
     if (options.growth) table.refuse("growth", "bounds the nodes of wanted sizes; it needs norm");
     return;
   }
-  if (options.source != AdaptOptions::Source::variables)
-    table.refuse("norm", "makes sizes from variables; name these in variable, or leave norm out");
+  if (options.source == AdaptOptions::Source::size)
+    table.refuse("norm", "makes sizes from variables or an error; name these in variable, or leave norm out");
   if (table.has("indicator") && options.indicator != Indicator::hessian)
     table.refuse("indicator", "must be \"hessian\" with norm, or left out");
   if (table.has("threshold") && options.threshold != AdaptOptions::Threshold::nodes)

@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <limits>
 
+#include "flow/quantities/goal_value.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
+#include "quadloop/case/goal_settings.hpp"
 
 namespace quadloop {
 
@@ -104,6 +106,7 @@ void read_solver_table(const CaseTable& root, SolverSettings& settings) {
   if (const auto word = table->choice("kind", words_of(SolverSettings::kind_words)))
     settings.kind = *value_of(SolverSettings::kind_words, *word);
   read_euler_keys(*table, settings.euler);
+  read_goals(*table, settings.kind == SolverSettings::Kind::euler, settings.euler);
   read_command_keys(*table, settings);
   read_template(*table, settings);
   table->finish();
@@ -141,6 +144,7 @@ EulerOptions euler_options(const SolverSettings& settings, const std::vector<Bou
     }
     options.boundaries.push_back(std::move(choice));
   }
+  options.goals = goals_on(options.goals, names);
   return options;
 }
 
@@ -149,6 +153,12 @@ void require_known_variables(const SolverSettings& settings, const std::vector<s
   if (settings.kind != SolverSettings::Kind::euler) return;
   for (const std::string& name : variables) {
     if (std::find(euler_names.begin(), euler_names.end(), name) != euler_names.end()) continue;
+    if (name == error_name && !settings.euler.goals.empty()) continue;
+    if (name == error_name)
+      throw InputError(fmt::format(
+          "{}: 'adapt.variable' names '{}', which the built-in solver writes where it knows what of; set "
+          "solver.goal, as in goal = \"drag\"",
+          case_path, name));
     throw InputError(fmt::format(
         "{}: 'adapt.variable' names '{}', which the built-in solver does not write; it may be {}{}",
         case_path, name, fmt::join(euler_names, ", "),

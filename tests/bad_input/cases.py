@@ -63,6 +63,8 @@ CASES = [
     case_file("nodes without a number", CASE + "[adapt]\nthreshold = \"nodes\"\n", "case.toml:7:", "max_nodes"),
     case_file("two kinds of field", CASE + "[adapt]\nvariable = { size = \"h\", error = \"e\" }\n", "case.toml:7:", "variable"),
     case_file("command without a program", CASE + "[solver]\nkind = \"command\"\n", "case.toml:6:", "command"),
+    case_file("goal of a command", CASE + "[solver]\nkind = \"command\"\ncommand = [\"a\"]\ngoal = \"drag\"\n", "case.toml:9:", "goal"),
+    case_file("unknown goal", CASE + "[solver]\ngoal = \"range\"\n", "case.toml:7:", "goal"),
     case_file("solution outside the folder", CASE + "[solver]\nsolution = \"../a.mesh\"\n", "case.toml:7:", "solution"),
     case_file("half a sweep", CASE + "[smooth]\nsweeps = 2.5\n", "case.toml:7:", "sweeps"),
     case_file("unknown objective", CASE + "[smooth]\nobjective = \"best\"\n", "case.toml:7:", "objective", "power"),

@@ -8,6 +8,7 @@
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/interpolation_error.hpp"
+#include "adapt/sensor/solver_error.hpp"
 #include "adapt/sensor/wanted_size.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
@@ -62,8 +63,10 @@ WantedLevels::WantedLevels(const Communicator& comm, const AdaptOptions& options
                            int finest_level, std::optional<MirrorAxis> mirror)
     : comm_{comm}, tree_{solved.tree}, finest_{finest_level}, mirror_{mirror}, norm_{*options.norm} {
   const Field field = selected(solved.solution, options.variables, "adapt.variable");
-  InterpolationError error = interpolation_error(comm, solved.mesh, field);
-  error_ = norm_of(comm, error, norm_);
+  by_error_ = options.source == AdaptOptions::Source::error;
+  InterpolationError error =
+      by_error_ ? solver_error(comm, solved.mesh, field) : interpolation_error(comm, solved.mesh, field);
+  error_ = norm_of(comm, error, by_error_ ? 1 : norm_);  // parts of an error add up to it
   cell_densities_ = cell_densities(error, norm_);
   densities_ = CellsOfLeaves(comm, solved.mesh, tree_.leaves).largest(comm, cell_densities_);
   if (mirror_) agree_with_images(comm, *mirror_, tree_, OfImages::larger, densities_);
@@ -75,9 +78,10 @@ WantedLevels::WantedLevels(const Communicator& comm, const AdaptOptions& options
 }
 
 CellValues WantedLevels::of_cells(double complexity) const {
-  CellValues cells{{"interpolation_error"}, cell_errors_};
+  const char* const name = by_error_ ? "error_density" : "interpolation_error";
+  CellValues cells{{name}, cell_errors_};
   if (complexity == 0) return cells;
-  cells = {{"interpolation_error", "wanted_size"}, {}};
+  cells = {{name, "wanted_size"}, {}};
   for (std::size_t i = 0; i < cell_errors_.size(); ++i) {
     const double size = std::sqrt(total_ / (complexity * cell_densities_[i]));
     cells.values.push_back(cell_errors_[i]);

@@ -19,7 +19,8 @@ namespace quadloop {
 ChangedSplits splits_for_levels(const Communicator& comm, const TreeRecord& tree,
                                 std::span<const std::int8_t> levels);
 
-/// The sizes that make the L^p norm of the interpolation error least, for more or fewer nodes.
+/// The sizes that make the L^p norm of the interpolation error, or of a solver's own, least, for more or
+/// fewer nodes.
 class WantedLevels {
  public:
   /// From the variables of the options, whose norm must be given. `solved` must outlive it. Throws InputError
@@ -30,9 +31,9 @@ class WantedLevels {
 
   /// Whether all variables are linear, which asks for no sizes.
   bool flat() const { return !(total_ > 0); }
-  /// The L^p norm of the interpolation error on the mesh that was solved on.
+  /// The L^p norm of the error, of a solver's own the sum of its parts, on the mesh that was solved on.
   double error() const { return error_; }
-  /// For each cell its interpolation error, and the size wanted there at this complexity; at 0 without the
+  /// For each cell its error, and the size wanted there at this complexity; at 0 without the
   /// sizes, and at most the edge of a tree.
   CellValues of_cells(double complexity) const;
 
@@ -50,6 +51,7 @@ class WantedLevels {
   int finest_;
   std::optional<MirrorAxis> mirror_;
   double norm_;
+  bool by_error_ = false;  ///< by a solver's own error, not by what interpolation loses
   double error_ = 0, total_ = 0;
   std::vector<double> densities_;  ///< of leaves: the largest of their cells
   std::vector<double> cell_errors_, cell_densities_;

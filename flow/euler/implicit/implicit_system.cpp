@@ -27,6 +27,14 @@ void add(const Matrix4& matrix, double factor, Matrix4& sum) {
   for (std::size_t k = 0; k < 16; ++k) sum[k] += factor * matrix[k];
 }
 
+Matrix4 transposed(const Matrix4& matrix) {
+  Matrix4 result;
+  for (std::size_t row = 0; row < 4; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) result[4 * column + row] = matrix[4 * row + column];
+  }
+  return result;
+}
+
 /// What viscosity adds to how the flux from low to high answers to either. Returns the diffusivity times face
 /// over distance.
 double add_viscous_edge(const FlowModel& model, const DualEdge& edge, const State& low, const State& high,
@@ -42,9 +50,11 @@ double add_viscous_edge(const FlowModel& model, const DualEdge& edge, const Stat
 
 }  // namespace
 
-ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model)
+ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
+                               Sense sense)
     : mesh_{mesh},
       model_{model},
+      sense_{sense},
       no_slip_(mesh, model),
       colours_{colour_dual_nodes(comm, mesh)},
       lines_(comm, mesh, colours_),
@@ -161,6 +171,11 @@ void ImplicitSystem::add_edges(const std::vector<State>& states) {
     add(by_low, 1, diagonal_[low]);
     add(by_high, -1, diagonal_[high]);
     for (double& value : by_low) value = -value;
+    if (sense_ == Sense::transposed) {
+      by_low = transposed(by_low);
+      by_high = transposed(by_high);
+      std::swap(by_low, by_high);
+    }
     place(slots_[e].in_low, edge.low, edge.high, by_high);
     place(slots_[e].in_high, edge.high, edge.low, by_low);
     (slots_[e].in_low == in_line ? line_sums_ : wave_sums_)[low] += half * speed + diffusion;
@@ -196,6 +211,7 @@ void ImplicitSystem::add_time_terms(double cfl, const std::vector<double>& share
 
 void ImplicitSystem::invert_diagonal() {
   no_slip_.hold(diagonal_);
+  if (sense_ == Sense::transposed) std::ranges::transform(diagonal_, diagonal_.begin(), transposed);
   if (!lines_.empty()) lines_.factor(diagonal_);
   for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
     using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;

@@ -20,8 +20,12 @@ using Change = std::array<float, 4>;  ///< of what is conserved
 /// colour, and their couplings do not count in their nodes' time steps.
 class ImplicitSystem {
  public:
+  /// The transposed system has the transposed matrix.
+  enum class Sense { forward, transposed };
+
   /// Both must outlive it. *Collective.*
-  ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model);
+  ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
+                 Sense sense = Sense::forward);
 
   /// At these states, whose copies are up to date, with each node's own time step: of this CFL number times
   /// the owned node's share.
@@ -54,6 +58,7 @@ class ImplicitSystem {
 
   const DualMesh& mesh_;
   const FlowModel& model_;
+  Sense sense_;
   NoSlipNodes no_slip_;
   std::vector<char> held_;  ///< of each node: rows 1 to this one of its block row say what is known
   Colouring colours_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "flow/euler/scheme/goal.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/geometry/point.hpp"
 
@@ -60,6 +61,11 @@ struct EulerOptions {
   /// Of the forces, in the geometry's units; also of the vortex and of the limiter's sense of small.
   double reference_length = 1;
   std::vector<BoundaryChoice> boundaries;
+  /// What the flow is solved for: their errors are estimated where a solver with adjoints is asked
+  /// (flow/adjoint).
+  std::vector<Goal> goals;
+  /// The adjoint solutions join the flow, and how each goal answers to the place of each node.
+  bool adjoint_fields = false;
   /// Called on every rank after every `progress_every` steps and at the end.
   std::function<void(const EulerProgress&)> progress;
   int progress_every = 50;

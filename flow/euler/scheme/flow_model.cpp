@@ -51,25 +51,36 @@ BoundaryModel boundary_model(const BoundaryEdges& boundary, const EulerOptions& 
   return {condition, pressure, temperature};
 }
 
-Flux farfield_flux(const FlowModel& model, const State& state, Point normal) {
-  return roe_flux(model.gas, state, model.free_stream, normal);
+template <class Real>
+StateOf<Real> free_stream_as(const FlowModel& model) {
+  StateOf<Real> state;
+  std::ranges::copy(model.free_stream, state.begin());
+  return state;
 }
 
-Flux inflow_flux(const FlowModel& model, const State& state, Point normal) {
-  const double along = model.free_stream[1] * normal.x + model.free_stream[2] * normal.y;
-  return along <= -1 ? physical_flux(model.gas, model.free_stream, normal)
+template <class Real, class Vector>
+FluxOf<Real> farfield_flux(const FlowModel& model, const StateOf<Real>& state, const Vector& normal) {
+  return roe_flux(model.gas, state, free_stream_as<Real>(model), normal);
+}
+
+template <class Real, class Vector>
+FluxOf<Real> inflow_flux(const FlowModel& model, const StateOf<Real>& state, const Vector& normal) {
+  const auto along = model.free_stream[1] * normal.x + model.free_stream[2] * normal.y;
+  return along <= -1 ? physical_flux(model.gas, free_stream_as<Real>(model), normal)
                      : farfield_flux(model, state, normal);
 }
 
-Flux outflow_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state, Point normal) {
+template <class Real, class Vector>
+FluxOf<Real> outflow_flux(const FlowModel& model, const BoundaryModel& boundary, const StateOf<Real>& state,
+                          const Vector& normal) {
   const auto& [rho, u, v, p] = state;
-  const double sound = model.gas.sound_speed(state);
+  const Real sound = model.gas.sound_speed(state);
   if (!boundary.pressure || u * normal.x + v * normal.y >= sound)
     return physical_flux(model.gas, state, normal);
-  const double lost = p - *boundary.pressure, faster = lost / (rho * sound);
-  const double density = std::max(rho - lost / (sound * sound), 0.1 * rho);
-  return physical_flux(model.gas, {density, u + faster * normal.x, v + faster * normal.y, *boundary.pressure},
-                       normal);
+  const Real lost = p - *boundary.pressure, faster = lost / (rho * sound);
+  const Real density = std::max<Real>(rho - lost / (sound * sound), 0.1 * rho);
+  return physical_flux<Real>(
+      model.gas, {density, u + faster * normal.x, v + faster * normal.y, *boundary.pressure}, normal);
 }
 
 /// How a wall's push answers to the pressure.
@@ -121,7 +132,9 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
   return model;
 }
 
-Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state, Point normal) {
+template <class Real, class Vector>
+FluxOf<Real> boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const StateOf<Real>& state,
+                           const Vector& normal) {
   switch (boundary.condition) {
     case Condition::wall:
     case Condition::no_slip:
@@ -134,6 +147,12 @@ Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const 
   QUADLOOP_REQUIRE(false, no_face);
   return {};
 }
+
+template Flux boundary_flux(const FlowModel&, const BoundaryModel&, const State&, const Point&);
+template FluxOf<DualNumber<4>> boundary_flux(const FlowModel&, const BoundaryModel&,
+                                             const StateOf<DualNumber<4>>&, const Point&);
+template FluxOf<DualNumber<4>> boundary_flux(const FlowModel&, const BoundaryModel&,
+                                             const StateOf<DualNumber<4>>&, const VectorOf<DualNumber<4>>&);
 
 void add_boundary_matrix(const FlowModel& model, const BoundaryModel& boundary, const State& state,
                          Point normal, double factor, Matrix4& sum) {

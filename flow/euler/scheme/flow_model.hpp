@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "flow/euler/scheme/dual_number.hpp"
 #include "flow/euler/scheme/euler_options.hpp"
 #include "flow/euler/scheme/flux_jacobian.hpp"
 #include "flow/euler/scheme/gas.hpp"
@@ -48,7 +49,11 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
 ///   outflow   the flow itself where it is faster than sound or no pressure is given, else with the given
 ///   pressure and the density and speed that
 ///             the outgoing waves then carry
-Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state, Point normal);
+///
+/// For doubles, and for numbers with derivatives by the state or the normal.
+template <class Real = double, class Vector = Point>
+FluxOf<Real> boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const StateOf<Real>& state,
+                           const Vector& normal);
 
 /// Adds `factor` times how that flux answers to the state inside, as an implicit step takes it: at a wall or
 /// a plane of symmetry its derivative, elsewhere first-order upwind against what is outside.

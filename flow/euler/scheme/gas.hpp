@@ -13,27 +13,43 @@ using State = std::array<double, 4>;
 /// What crosses a face per time: mass, x momentum, y momentum, energy.
 using Flux = std::array<double, 4>;
 
+/// Either in another kind of number: functions of them are templates, so that derivatives can be taken of the
+/// same ones (dual_number.hpp).
+template <class Real>
+using StateOf = std::array<Real, 4>;
+template <class Real>
+using FluxOf = std::array<Real, 4>;
+
 /// What is conserved, per area: mass, x momentum, y momentum, energy.
-struct Conserved {
-  double mass, x_momentum, y_momentum, energy;
+template <class Real>
+struct ConservedOf {
+  Real mass, x_momentum, y_momentum, energy;
 };
+using Conserved = ConservedOf<double>;
 
 /// A perfect gas.
 struct Gas {
   double gamma = 1.4;  ///< ratio of specific heats
 
-  double sound_speed(const State& state) const { return std::sqrt(gamma * state[3] / state[0]); }
+  template <class Real = double>
+  Real sound_speed(const StateOf<Real>& state) const {
+    using std::sqrt;
+    return sqrt(gamma * state[3] / state[0]);
+  }
 
   /// Per mass.
-  double total_enthalpy(const State& state) const {
+  template <class Real = double>
+  Real total_enthalpy(const StateOf<Real>& state) const {
     return gamma / (gamma - 1) * state[3] / state[0] + 0.5 * (state[1] * state[1] + state[2] * state[2]);
   }
-  Conserved conserved(const State& state) const {
+  template <class Real = double>
+  ConservedOf<Real> conserved(const StateOf<Real>& state) const {
     const auto& [rho, u, v, p] = state;
     return {rho, rho * u, rho * v, p / (gamma - 1) + 0.5 * rho * (u * u + v * v)};
   }
-  State state(const Conserved& w) const {
-    const double u = w.x_momentum / w.mass, v = w.y_momentum / w.mass;
+  template <class Real = double>
+  StateOf<Real> state(const ConservedOf<Real>& w) const {
+    const Real u = w.x_momentum / w.mass, v = w.y_momentum / w.mass;
     return {w.mass, u, v, (gamma - 1) * (w.energy - 0.5 * (w.x_momentum * u + w.y_momentum * v))};
   }
 

@@ -53,4 +53,32 @@ void LeastSquares::compute(const std::vector<State>& states, std::vector<Gradien
   }
 }
 
+std::vector<Gradient> LeastSquares::solved(const std::vector<Gradient>& weights) const {
+  std::vector<Gradient> result(weights.size());
+  for (std::size_t node = 0; node < inverse_.size(); ++node) {
+    const Symmetric& m = inverse_[node];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double x = weights[node].x[k], y = weights[node].y[k];
+      result[node].x[k] = m.xx * x + m.xy * y;
+      result[node].y[k] = m.xy * x + m.yy * y;
+    }
+  }
+  mesh_.exchange().update(result);
+  return result;
+}
+
+void LeastSquares::add_transposed(const std::vector<Gradient>& weights, std::vector<State>& sums) const {
+  const std::vector<Gradient> of_sums = solved(weights);
+  for (const DualEdge& edge : mesh_.edges()) {
+    const double w = 0.5 * weight(edge);
+    const Gradient &at_low = of_sums[edge.low], &at_high = of_sums[edge.high];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double change =
+          w * ((at_low.x[k] + at_high.x[k]) * edge.half.x + (at_low.y[k] + at_high.y[k]) * edge.half.y);
+      sums[edge.high][k] += change;
+      sums[edge.low][k] -= change;
+    }
+  }
+}
+
 }  // namespace quadloop::euler

@@ -9,13 +9,6 @@ namespace {
 
 constexpr double smallness = 5;  ///< Venkatakrishnan's K
 
-/// The factor by which a change must be made smaller so as to stay under what is allowed, both above zero.
-double factor(double allowed, double change, double small_squared) {
-  if (2 * change <= allowed) return 1;
-  const double square = allowed * allowed + small_squared;
-  return std::min(1.0, (square + 2 * change * allowed) / (square + 2 * change * change + allowed * change));
-}
-
 }  // namespace
 
 Limiter::Limiter(const DualMesh& mesh, double reference_length)
@@ -77,8 +70,8 @@ void Limiter::find_factors(const std::vector<State>& states) {
     for (std::size_t k = 0; k < 4; ++k) {
       const double value = states[node][k], small_squared = small_squared_[node];
       factors_[node][k] =
-          std::min(factor(values_[node].high[k] - value, changes_[node].high[k], small_squared),
-                   factor(value - values_[node].low[k], -changes_[node].low[k], small_squared));
+          std::min(limiting_factor(values_[node].high[k] - value, changes_[node].high[k], small_squared),
+                   limiting_factor(value - values_[node].low[k], -changes_[node].low[k], small_squared));
     }
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <type_traits>
 #include <vector>
 
 #include "flow/euler/scheme/dual_mesh.hpp"
@@ -21,6 +23,12 @@ class LeastSquares {
   /// Of the owned nodes; `gradients` has an entry for each node. The states' copies must be up to date.
   void compute(const std::vector<State>& states, std::vector<Gradient>& gradients) const;
 
+  /// The transpose of that: adds to the owned nodes' `sums` what `weights` of gradients make of the states.
+  /// `weights` has an entry for each node, of which those of owned nodes count. *Collective.*
+  void add_transposed(const std::vector<Gradient>& weights, std::vector<State>& sums) const;
+  /// The normal matrices' inverses times such weights, of all nodes. *Collective.*
+  std::vector<Gradient> solved(const std::vector<Gradient>& weights) const;
+
  private:
   struct Symmetric {
     double xx = 0, xy = 0, yy = 0;
@@ -29,6 +37,16 @@ class LeastSquares {
   const DualMesh& mesh_;
   std::vector<Symmetric> inverse_;  ///< of each owned node's normal matrix
 };
+
+/// The factor by which a change must be made smaller so as to stay under what is allowed, both above zero.
+template <class Real = double>
+Real limiting_factor(const Real& allowed, const Real& change,
+                     const std::type_identity_t<Real>& small_squared) {
+  if (2 * change <= allowed) return 1;
+  const Real square = allowed * allowed + small_squared;
+  return std::min<Real>(1.0,
+                        (square + 2 * change * allowed) / (square + 2 * change * change + allowed * change));
+}
 
 /// Venkatakrishnan's limiter (1995): each variable's gradient at a node is scaled so that the values at the
 /// middles of its edges stay within those of the node and its neighbours, smoothly, and not at all where the
@@ -46,11 +64,18 @@ class Limiter {
   void release() { frozen_ = false; }
   bool frozen() const { return frozen_; }
 
- private:
   /// Of each variable, over a node and its neighbours.
   struct Bounds {
     std::array<double, 4> low, high;
   };
+  /// What the last call found at the owned nodes: the factors, and what they were made from, which is not
+  /// that call's where they are frozen.
+  const std::vector<std::array<double, 4>>& factors() const { return factors_; }
+  const Bounds& values(std::size_t node) const { return values_[node]; }
+  const Bounds& changes(std::size_t node) const { return changes_[node]; }
+  double small_squared(std::size_t node) const { return small_squared_[node]; }
+
+ private:
   void find_bounds(const std::vector<State>& states);
   void find_changes(const std::vector<Gradient>& gradients);
   void find_factors(const std::vector<State>& states);

@@ -96,17 +96,20 @@ void Residual::take_viscous_faces(const std::vector<State>& states) {
   }
 }
 
-/// Where a reconstructed density or pressure would come near zero, the edge takes the nodes' own states:
-/// first order.
+EdgeStates states_at_middle(const DualEdge& edge, const std::vector<State>& states,
+                            const std::vector<Gradient>& gradients) {
+  const std::size_t low = edge.low, high = edge.high;
+  const State left = extrapolated(states[low], gradients[low], edge.half.x, edge.half.y);
+  const State right = extrapolated(states[high], gradients[high], -edge.half.x, -edge.half.y);
+  if (!keeps_enough(left, states[low]) || !keeps_enough(right, states[high]))
+    return {states[low], states[high], false};
+  return {left, right, true};
+}
+
 void Residual::add_edges(const std::vector<State>& states) {
   for (const DualEdge& edge : mesh_.edges()) {
     const std::size_t low = edge.low, high = edge.high;
-    State left = extrapolated(states[low], gradients_[low], edge.half.x, edge.half.y);
-    State right = extrapolated(states[high], gradients_[high], -edge.half.x, -edge.half.y);
-    if (!keeps_enough(left, states[low]) || !keeps_enough(right, states[high])) {
-      left = states[low];
-      right = states[high];
-    }
+    const auto [left, right, reconstructed] = states_at_middle(edge, states, gradients_);
     const Flux flux = roe_flux(model_.gas, left, right, edge.normal);
     for (std::size_t k = 0; k < 4; ++k) {
       const double through = edge.size * flux[k];
@@ -126,12 +129,10 @@ void Residual::add_skew(const std::vector<State>& states) {
       along_x[k] = 0.5 * (gradients_[low].x[k] + gradients_[high].x[k]);
       along_y[k] = 0.5 * (gradients_[low].y[k] + gradients_[high].y[k]);
     }
-    const Flux from_x = flux_change(model_.gas, state, along_x, skew.with_x),
-               from_y = flux_change(model_.gas, state, along_y, skew.with_y);
+    const Flux through = skew_flux(model_.gas, skew, state, along_x, along_y);
     for (std::size_t k = 0; k < 4; ++k) {
-      const double through = from_x[k] + from_y[k];
-      sums_[low][k] += through;
-      sums_[high][k] -= through;
+      sums_[low][k] += through[k];
+      sums_[high][k] -= through[k];
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "flow/euler/scheme/dual_mesh.hpp"
 #include "flow/euler/scheme/flow_model.hpp"
+#include "flow/euler/scheme/flux.hpp"
 #include "flow/euler/scheme/no_slip.hpp"
 #include "flow/euler/scheme/reconstruction.hpp"
 #include "flow/euler/scheme/viscous.hpp"
@@ -33,6 +34,11 @@ class Residual {
   bool limiter_is_live() const { return limiter_ && !limiter_->frozen(); }
   bool limiter_is_frozen() const { return limiter_ && limiter_->frozen(); }
 
+  /// What the last evaluation was made with: gradients of all nodes, limited.
+  const std::vector<Gradient>& gradients() const { return gradients_; }
+  const LeastSquares& least_squares() const { return least_squares_; }
+  const Limiter* limiter() const { return limiter_ ? &*limiter_ : nullptr; }
+
  private:
   void add_edges(const std::vector<State>& states);
   void add_skew(const std::vector<State>& states);
@@ -51,6 +57,27 @@ class Residual {
   std::vector<ViscousGradient> viscous_gradients_;  ///< of a viscous flow
   std::vector<Point> friction_;
 };
+
+/// On both sides of an edge's middle.
+struct EdgeStates {
+  State left, right;
+  bool reconstructed;  ///< else they are the nodes' own
+};
+
+/// Where a reconstructed density or pressure would come near zero, the edge takes the nodes' own states:
+/// first order.
+EdgeStates states_at_middle(const DualEdge& edge, const std::vector<State>& states,
+                            const std::vector<Gradient>& gradients);
+
+/// What a SkewEdge adds to the flux through its edge's face, with the means of the two nodes' states and
+/// gradients.
+template <class Real = double>
+FluxOf<Real> skew_flux(const Gas& gas, const SkewEdge& skew, const StateOf<Real>& state,
+                       const StateOf<Real>& along_x, const StateOf<Real>& along_y) {
+  const FluxOf<Real> from_x = flux_change(gas, state, along_x, skew.with_x),
+                     from_y = flux_change(gas, state, along_y, skew.with_y);
+  return {from_x[0] + from_y[0], from_x[1] + from_y[1], from_x[2] + from_y[2], from_x[3] + from_y[3]};
+}
 
 /// What acts on one node's half of a boundary face: nearer to the node's own state than the half's middle is,
 /// which makes up for what the edge along the boundary leaves over (see SkewEdge). The fluxes of a linear

@@ -68,6 +68,8 @@ TEST_F(Case, RefusesWhatWantedSizesDoNotFollow) {
   expect("norm = 2\nmax_nodes = 100\nthreshold = \"fraction\"\n", "threshold");
   expect("norm = 2\nmax_nodes = 100\nindicator = \"difference\"\n", "indicator");
   expect("norm = 2\nmax_nodes = 100\nvariable = { size = \"h\" }\n", "norm");
+  EXPECT_EQ(adapt("[adapt]\nnorm = 1\nmax_nodes = 100\nvariable = { error = \"e\" }\n")->source,
+            AdaptOptions::Source::error);
   expect("growth = 2\n", "growth");
   expect("norm = 2\nmax_nodes = 100\ngrowth = 1\n", "growth");
   expect("until = {}\n", "until");
@@ -154,6 +156,9 @@ TEST_F(Case, TheBuiltInSolverWritesItsVariablesAlone) {
   EXPECT_NO_THROW(require_known_variables(euler, {"density", "pressure"}, "case.toml"));
   EXPECT_NO_THROW(require_known_variables(command, {"entropy"}, "case.toml"));
   EXPECT_THROW(require_known_variables(euler, {"density", "entropy"}, "case.toml"), InputError);
+  EXPECT_THROW(require_known_variables(euler, {"error"}, "case.toml"), InputError) << "of what?";
+  euler.euler.goals = {{Goal::Quantity::drag}};
+  EXPECT_NO_THROW(require_known_variables(euler, {"error"}, "case.toml"));
 }
 
 TEST_F(Case, TheSolverIsTheOneThatIsChosen) {

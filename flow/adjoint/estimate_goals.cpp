@@ -1,0 +1,99 @@
+#include "flow/adjoint/estimate_goals.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "flow/adjoint/goal_error.hpp"
+#include "flow/adjoint/parameter_derivative.hpp"
+#include "flow/adjoint/place_derivative.hpp"
+#include "flow/adjoint/solve_adjoint.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/progress.hpp"
+
+namespace quadloop {
+
+namespace {
+
+using namespace euler;
+
+constexpr std::array<const char*, 4> conserved{"mass", "x_momentum", "y_momentum", "energy"};
+
+std::string name_of(Goal::Quantity quantity) {
+  for (const auto& [word, value] : Goal::words) {
+    if (value == quantity) return word;
+  }
+  QUADLOOP_REQUIRE(false, "a goal without a word");
+  return {};
+}
+
+/// The flow's rows with more variables behind them.
+void append(const std::vector<std::string>& names, const std::vector<double>& values, Field& flow) {
+  const std::size_t before = flow.width(), more = names.size(), rows = values.size() / more;
+  std::vector<double> all;
+  all.reserve(rows * (before + more));
+  for (std::size_t row = 0; row < rows; ++row) {
+    all.insert(all.end(), flow.values.begin() + row * before, flow.values.begin() + (row + 1) * before);
+    all.insert(all.end(), values.begin() + row * more, values.begin() + (row + 1) * more);
+  }
+  flow.names.insert(flow.names.end(), names.begin(), names.end());
+  flow.values = std::move(all);
+}
+
+void append_adjoint(const std::string& goal, const Adjoint& adjoint, Field& flow) {
+  std::vector<std::string> names;
+  for (const char* const name : conserved) names.push_back(fmt::format("{}_adjoint_{}", goal, name));
+  std::vector<double> values;
+  const std::size_t rows = flow.values.size() / flow.width();
+  for (std::size_t row = 0; row < rows; ++row)
+    values.insert(values.end(), adjoint.weights[row].begin(), adjoint.weights[row].end());
+  append(names, values, flow);
+}
+
+void append_places(const std::string& goal, const std::vector<Point>& derivative, Field& flow) {
+  std::vector<double> values;
+  for (const Point& of_node : derivative) values.insert(values.end(), {of_node.x, of_node.y});
+  append({goal + "_by_x", goal + "_by_y"}, values, flow);
+}
+
+void refuse(const EulerOptions& options) {
+  if (options.time != EulerOptions::Time::steady)
+    throw InputError("solver.goal needs a steady flow; set solver.time = \"steady\" or leave the goal out");
+  if (options.viscosity > 0)
+    throw InputError(
+        "solver.goal needs a flow without viscosity; leave out solver.viscosity and solver.reynolds, or the "
+        "goal");
+}
+
+void estimate(const Mesh& mesh, const FlowRun& run, EulerResult& result) {
+  std::vector<std::string> boundaries;
+  for (const BoundaryEdges& boundary : mesh.boundaries) boundaries.push_back(boundary.name);
+  const LinearResidual linear(run);
+  std::vector<double> error(run.mesh.owned_nodes(), 0.0);
+  for (const Goal& goal : run.options.goals) {
+    const GoalFunctional functional(run.comm, run.mesh, run.model, boundaries, goal,
+                                    run.options.reference_length);
+    const Adjoint adjoint = solve_adjoint(linear, functional.derivative());
+    const GoalError found = goal_error(run, functional, adjoint.weights);
+    const auto [by_alpha, by_mach] = parameter_derivative(run, boundaries, goal, adjoint.weights);
+    const double value = functional.value(run.states);
+    result.goals.push_back({name_of(goal.quantity), value, value - found.signed_sum, found.sum, by_alpha,
+                            by_mach, adjoint.iterations, adjoint.residual, adjoint.converged});
+    for (std::size_t node = 0; node < error.size(); ++node) error[node] += goal.weight * found.of_nodes[node];
+    if (!run.options.adjoint_fields) continue;
+    append_adjoint(name_of(goal.quantity), adjoint, result.flow);
+    append_places(name_of(goal.quantity), place_derivative(linear, functional, adjoint.weights), result.flow);
+  }
+  append({error_name}, error, result.flow);
+}
+
+}  // namespace
+
+AtEnd estimate_goals(const EulerOptions& options) {
+  if (options.goals.empty()) return {};
+  refuse(options);
+  return estimate;
+}
+
+}  // namespace quadloop

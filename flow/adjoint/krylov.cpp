@@ -1,0 +1,132 @@
+#include "flow/adjoint/krylov.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/base/parallel/reproducible_sum.hpp"
+
+namespace quadloop::euler {
+
+namespace {
+
+/// One cycle between restarts.
+class Gmres {
+ public:
+  Gmres(const Communicator& comm, const KrylovSystem& system, int steps)
+      : comm_{comm}, system_{system}, steps_{steps} {}
+
+  double dot(const NodeRows& a, const NodeRows& b) const {
+    std::vector<double> terms(system_.owned);
+    for (std::size_t i = 0; i < system_.owned; ++i)
+      terms[i] = a[i][0] * b[i][0] + a[i][1] * b[i][1] + (a[i][2] * b[i][2] + a[i][3] * b[i][3]);
+    return reproducible_sum(comm_, terms);
+  }
+  double norm(const NodeRows& a) const { return std::sqrt(dot(a, a)); }
+
+  /// Betters x by steps in the space that `left`, what is left of the right side, spans, until its norm is
+  /// below `enough`. Returns how many.
+  int improve(const NodeRows& left, double enough, NodeRows& x) {
+    basis_.assign(1, left);
+    steps_taken_.clear();
+    columns_.clear();
+    rotations_.clear();
+    const double size = norm(left);
+    scale(1 / size, basis_[0]);
+    rest_.assign(1, size);
+    while (static_cast<int>(columns_.size()) < steps_ && std::abs(rest_.back()) > enough) {
+      extend();
+      if (!std::isfinite(rest_.back())) break;
+    }
+    add_steps(x);
+    return static_cast<int>(columns_.size());
+  }
+
+ private:
+  using Column = std::vector<double>;
+
+  static void scale(double factor, NodeRows& a) {
+    for (auto& row : a) {
+      for (double& value : row) value *= factor;
+    }
+  }
+  static void add(double factor, const NodeRows& a, NodeRows& sum) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      for (std::size_t k = 0; k < 4; ++k) sum[i][k] += factor * a[i][k];
+    }
+  }
+
+  /// One more vector (modified Gram-Schmidt), and the rotation that keeps the columns triangular.
+  void extend() {
+    NodeRows step(basis_.back().size()), product;
+    system_.precondition(basis_.back(), step);
+    system_.multiply(step, product);
+    Column column;
+    for (const NodeRows& earlier : basis_) {
+      column.push_back(dot(product, earlier));
+      add(-column.back(), earlier, product);
+    }
+    const double size = norm(product);
+    for (std::size_t i = 0; i < rotations_.size(); ++i) {
+      const auto [c, s] = rotations_[i];
+      const double upper = column[i], lower = column[i + 1];
+      column[i] = c * upper + s * lower;
+      column[i + 1] = c * lower - s * upper;
+    }
+    const double length = std::sqrt(column.back() * column.back() + size * size);
+    const double c = length > 0 ? column.back() / length : 1, s = length > 0 ? size / length : 0;
+    rotations_.push_back({c, s});
+    column.back() = length;
+    columns_.push_back(std::move(column));
+    const double last = rest_.back();
+    rest_.back() = c * last;
+    rest_.push_back(-s * last);
+    steps_taken_.push_back(std::move(step));
+    if (size > 0) scale(1 / size, product);
+    basis_.push_back(std::move(product));
+  }
+
+  void add_steps(NodeRows& x) const {
+    Column factors(columns_.size());
+    for (std::size_t i = columns_.size(); i-- > 0;) {
+      double sum = rest_[i];
+      for (std::size_t j = i + 1; j < columns_.size(); ++j) sum -= columns_[j][i] * factors[j];
+      factors[i] = columns_[i][i] != 0 ? sum / columns_[i][i] : 0;
+    }
+    for (std::size_t i = 0; i < factors.size(); ++i) add(factors[i], steps_taken_[i], x);
+  }
+
+  const Communicator& comm_;
+  const KrylovSystem& system_;
+  int steps_;
+  std::vector<NodeRows> basis_, steps_taken_;
+  std::vector<Column> columns_;                   ///< of the upper triangle
+  std::vector<std::array<double, 2>> rotations_;  ///< cosines and sines
+  Column rest_;                                   ///< the right side in the basis
+};
+
+}  // namespace
+
+KrylovEnd solve_by_gmres(const Communicator& comm, const KrylovSystem& system, const NodeRows& right,
+                         NodeRows& x, double tolerance, int iterations, int restart) {
+  Gmres gmres(comm, system, restart);
+  x.assign(right.size(), {});
+  const double whole = gmres.norm(right);
+  KrylovEnd end;
+  if (whole == 0) return end;
+  NodeRows left = right;
+  end.residual = 1;
+  while (end.iterations < iterations && end.residual > tolerance) {
+    end.iterations += gmres.improve(left, 0.5 * tolerance * whole, x);
+    NodeRows product;
+    system.multiply(x, product);
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      for (std::size_t k = 0; k < 4; ++k) left[i][k] = right[i][k] - product[i][k];
+    }
+    const double before = end.residual;
+    end.residual = gmres.norm(left) / whole;
+    if (!(end.residual < 0.999 * before)) break;  // no more comes of it
+  }
+  return end;
+}
+
+}  // namespace quadloop::euler

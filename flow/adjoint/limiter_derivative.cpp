@@ -1,0 +1,173 @@
+#include "flow/adjoint/limiter_derivative.hpp"
+
+#include <utility>
+
+#include "flow/euler/scheme/dual_number.hpp"
+
+namespace quadloop::euler {
+
+/// Of one node: the first edge, for each variable, that has the largest (above 0) or smallest value and
+/// change.
+struct LimiterDerivative::Side {
+  std::array<std::int32_t, 4> neighbour{-1, -1, -1, -1};
+  std::array<std::int32_t, 4> along{-1, -1, -1, -1};
+  std::array<Point, 4> way{};
+};
+
+LimiterDerivative::LimiterDerivative(const DualMesh& mesh, const Limiter& limiter,
+                                     const std::vector<State>& states, std::vector<Gradient> gradients)
+    : mesh_{mesh}, gradients_{std::move(gradients)}, parts_(mesh.owned_nodes()), live_{!limiter.frozen()} {
+  for (std::size_t node = 0; node < parts_.size(); ++node) {
+    for (std::size_t k = 0; k < 4; ++k) parts_[node][k].factor = limiter.factors()[node][k];
+    small_squared_.push_back(limiter.small_squared(node));
+  }
+  if (live_) find(limiter, states);
+}
+
+/// The sides of node n are at 2 n, upwards, and 2 n + 1.
+void LimiterDerivative::find_edges(const Limiter& limiter, const std::vector<State>& states,
+                                   std::vector<Side>& sides) const {
+  for (const DualEdge& edge : mesh_.edges()) {
+    for (const auto& [node, other, way] :
+         {std::tuple{edge.low, edge.high, edge.half}, {edge.high, edge.low, -1.0 * edge.half}}) {
+      if (!mesh_.is_owned(node)) continue;
+      const Gradient& gradient = gradients_[node];
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double change = gradient.x[k] * way.x + gradient.y[k] * way.y;
+        for (const bool up : {true, false}) {
+          Side& side = sides[2 * node + (up ? 0 : 1)];
+          const auto& of = [&](const Limiter::Bounds& bounds) { return up ? bounds.high[k] : bounds.low[k]; };
+          if (side.neighbour[k] < 0 && states[other][k] == of(limiter.values(node)))
+            side.neighbour[k] = other;
+          if (side.along[k] >= 0 || change != of(limiter.changes(node))) continue;
+          side.along[k] = other;
+          side.way[k] = way;
+        }
+      }
+    }
+  }
+}
+
+void LimiterDerivative::find(const Limiter& limiter, const std::vector<State>& states) {
+  using Dual = DualNumber<3>;
+  std::vector<Side> sides(2 * parts_.size());
+  find_edges(limiter, states, sides);
+  for (std::size_t node = 0; node < parts_.size(); ++node) {
+    const Limiter::Bounds &values = limiter.values(node), &changes = limiter.changes(node);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double value = states[node][k];
+      const Dual small = Dual::variable(small_squared_[node], 2);
+      const Dual up = limiting_factor(Dual::variable(values.high[k] - value, 0),
+                                      Dual::variable(changes.high[k], 1), small),
+                 down = limiting_factor(Dual::variable(value - values.low[k], 0),
+                                        Dual::variable(-changes.low[k], 1), small);
+      const bool is_up = !(down < up);
+      const Side& side = sides[2 * node + (is_up ? 0 : 1)];
+      const Dual& decides = is_up ? up : down;
+      const double sign = is_up ? 1 : -1;
+      Part& part = parts_[node][k];
+      part.by_allowed = sign * decides.slopes[0];
+      part.by_change = sign * decides.slopes[1];
+      part.by_small = decides.slopes[2];
+      part.along = side.along[k];
+      part.way = side.way[k];
+      // a node that has the largest value itself allows nothing, whatever the states do
+      part.neighbour = states[node][k] == (is_up ? values.high[k] : values.low[k]) ? -1 : side.neighbour[k];
+      if (part.neighbour < 0) part.by_allowed = 0;
+    }
+  }
+}
+
+void LimiterDerivative::apply(const std::vector<State>& change, std::vector<Gradient>& gradients) const {
+  for (std::size_t node = 0; node < parts_.size(); ++node) {
+    const Gradient& held = gradients_[node];
+    Gradient& gradient = gradients[node];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Part& part = parts_[node][k];
+      double factor = part.by_change * (gradient.x[k] * part.way.x + gradient.y[k] * part.way.y);
+      if (part.by_allowed != 0) factor += part.by_allowed * (change[part.neighbour][k] - change[node][k]);
+      gradient.x[k] = part.factor * gradient.x[k] + factor * held.x[k];
+      gradient.y[k] = part.factor * gradient.y[k] + factor * held.y[k];
+    }
+  }
+}
+
+namespace {
+
+/// What a node's factors hand to the neighbours whose values decide.
+struct Handed {
+  std::array<GlobalNodeId, 4> to;
+  State weight{};
+};
+
+}  // namespace
+
+void LimiterDerivative::apply_transposed(std::vector<Gradient>& weights, std::vector<State>& sums) const {
+  std::vector<Handed> handed(live_ ? mesh_.nodes() : 0);
+  for (std::size_t node = 0; node < parts_.size(); ++node) {
+    const Gradient& held = gradients_[node];
+    Gradient& weight = weights[node];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Part& part = parts_[node][k];
+      const double factor = held.x[k] * weight.x[k] + held.y[k] * weight.y[k];
+      weight.x[k] = part.factor * weight.x[k] + part.by_change * factor * part.way.x;
+      weight.y[k] = part.factor * weight.y[k] + part.by_change * factor * part.way.y;
+      if (part.by_allowed == 0) continue;
+      sums[node][k] -= part.by_allowed * factor;
+      handed[node].to[k] = mesh_.global(part.neighbour);
+      handed[node].weight[k] = part.by_allowed * factor;
+    }
+  }
+  if (!live_) return;
+  mesh_.exchange().update(handed);
+  for (const DualEdge& edge : mesh_.edges()) {
+    for (const auto& [from, to] : {std::pair{edge.low, edge.high}, {edge.high, edge.low}}) {
+      if (!mesh_.is_owned(to)) continue;
+      const GlobalNodeId name = mesh_.global(to);
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (handed[from].to[k] == name) sums[to][k] += handed[from].weight[k];
+      }
+    }
+  }
+}
+
+namespace {
+
+struct HandedPlace {
+  std::array<GlobalNodeId, 4> to;
+  std::array<Point, 4> weight{};
+};
+
+}  // namespace
+
+void LimiterDerivative::add_place_weights(const std::vector<Gradient>& weights, std::vector<Point>& places,
+                                          std::vector<double>& areas) const {
+  if (!live_) return;
+  std::vector<HandedPlace> handed(mesh_.nodes());
+  for (std::size_t node = 0; node < parts_.size(); ++node) {
+    const Gradient &held = gradients_[node], &weight = weights[node];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Part& part = parts_[node][k];
+      const double factor = held.x[k] * weight.x[k] + held.y[k] * weight.y[k];
+      // (K h)^3 goes with the area to the power of 3 / 2
+      areas[node] += factor * part.by_small * 1.5 * small_squared_[node] / mesh_.areas()[node];
+      if (part.by_change == 0 || part.along < 0) continue;
+      const Point half = 0.5 * factor * part.by_change * Point{held.x[k], held.y[k]};
+      places[node] = places[node] - half;
+      handed[node].to[k] = mesh_.global(part.along);
+      handed[node].weight[k] = half;
+    }
+  }
+  mesh_.exchange().update(handed);
+  for (const DualEdge& edge : mesh_.edges()) {
+    for (const auto& [from, to] : {std::pair{edge.low, edge.high}, {edge.high, edge.low}}) {
+      if (!mesh_.is_owned(to)) continue;
+      const GlobalNodeId name = mesh_.global(to);
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (handed[from].to[k] == name) places[to] = places[to] + handed[from].weight[k];
+      }
+    }
+  }
+}
+
+}  // namespace quadloop::euler

@@ -1,0 +1,42 @@
+#include "flow/adjoint/parameter_derivative.hpp"
+
+#include "flow/adjoint/goal_functional.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
+
+namespace quadloop::euler {
+
+namespace {
+
+/// What a goal is, and psi . residual, of the same flow in another free stream: of the residual what
+/// boundaries carry, as the rest does not know it.
+double held(const FlowRun& run, const std::vector<std::string>& boundaries, const Goal& goal,
+            const std::vector<Flux>& adjoint, double mach, double alpha) {
+  FlowModel model = run.model;
+  model.free_stream = model.gas.free_stream(mach, alpha);
+  std::vector<double> terms;
+  for (const BoundaryFace& face : run.mesh.faces()) {
+    const BoundaryModel& boundary = model.boundaries[face.boundary];
+    if (feels_force(boundary.condition) || boundary.condition == Condition::symmetry) continue;
+    for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
+      if (!run.mesh.is_owned(own)) continue;
+      const State state = state_at_half(face, run.states[own], run.states[other]);
+      const Flux flux = boundary_flux(model, boundary, state, face.normal);
+      for (std::size_t k = 0; k < 4; ++k) terms.push_back(-adjoint[own][k] * face.half_size * flux[k]);
+    }
+  }
+  const GoalFunctional functional(run.comm, run.mesh, model, boundaries, goal, run.options.reference_length);
+  return functional.value(run.states) + reproducible_sum(run.comm, terms);
+}
+
+}  // namespace
+
+ParameterDerivative parameter_derivative(const FlowRun& run, const std::vector<std::string>& boundaries,
+                                         const Goal& goal, const std::vector<Flux>& adjoint) {
+  constexpr double degrees = 1e-3, share = 1e-4;  // of functions as smooth as sines: off by some 1e-9
+  const double mach = run.options.mach, alpha = run.options.alpha, d_mach = share * mach;
+  const auto at = [&](double m, double a) { return held(run, boundaries, goal, adjoint, m, a); };
+  return {(at(mach, alpha + degrees) - at(mach, alpha - degrees)) / (2 * degrees),
+          (at(mach + d_mach, alpha) - at(mach - d_mach, alpha)) / (2 * d_mach)};
+}
+
+}  // namespace quadloop::euler

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace quadloop::euler {
+
+/// A number and its derivatives by `count` others: what is computed with such numbers instead of doubles
+/// comes out with its exact derivatives (forward differentiation). Comparisons look at the value alone, so a
+/// function with branches gets the derivative of the branch that it takes.
+template <std::size_t count>
+struct DualNumber {
+  double value = 0;
+  std::array<double, count> slopes{};
+
+  constexpr DualNumber() = default;
+  constexpr DualNumber(double constant) : value{constant} {}  // as doubles do
+  /// The k-th of the others.
+  static constexpr DualNumber variable(double value, std::size_t k) {
+    DualNumber number(value);
+    number.slopes[k] = 1;
+    return number;
+  }
+
+  friend constexpr DualNumber operator+(const DualNumber& a, const DualNumber& b) {
+    return combined(a.value + b.value, 1, a, 1, b);
+  }
+  friend constexpr DualNumber operator-(const DualNumber& a, const DualNumber& b) {
+    return combined(a.value - b.value, 1, a, -1, b);
+  }
+  friend constexpr DualNumber operator*(const DualNumber& a, const DualNumber& b) {
+    return combined(a.value * b.value, b.value, a, a.value, b);
+  }
+  friend constexpr DualNumber operator/(const DualNumber& a, const DualNumber& b) {
+    const double value = a.value / b.value;
+    return combined(value, 1 / b.value, a, -value / b.value, b);
+  }
+  friend constexpr DualNumber operator-(const DualNumber& a) { return combined(-a.value, -1, a, 0, a); }
+  friend constexpr bool operator<(const DualNumber& a, const DualNumber& b) { return a.value < b.value; }
+  friend constexpr bool operator>(const DualNumber& a, const DualNumber& b) { return a.value > b.value; }
+  friend constexpr bool operator<=(const DualNumber& a, const DualNumber& b) { return a.value <= b.value; }
+  friend constexpr bool operator>=(const DualNumber& a, const DualNumber& b) { return a.value >= b.value; }
+
+  friend DualNumber sqrt(const DualNumber& a) {
+    const double root = std::sqrt(a.value);
+    return combined(root, 0.5 / root, a, 0, a);
+  }
+  friend DualNumber abs(const DualNumber& a) { return a.value < 0 ? -a : a; }
+
+ private:
+  static constexpr DualNumber combined(double value, double of_a, const DualNumber& a, double of_b,
+                                       const DualNumber& b) {
+    DualNumber result(value);
+    for (std::size_t k = 0; k < count; ++k) result.slopes[k] = of_a * a.slopes[k] + of_b * b.slopes[k];
+    return result;
+  }
+};
+
+/// A vector in the plane of any kind of number.
+template <class Real>
+struct VectorOf {
+  Real x{}, y{};
+};
+
+}  // namespace quadloop::euler

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "flow/adjoint/goal_functional.hpp"
+#include "flow/euler/flow_run.hpp"
+#include "tests/flow/euler/flow_meshes.hpp"
+#include "tests/mesh/grid_mesh.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop::test {
+
+/// States that nothing has solved for, on a mesh over all ranks, and what a residual needs.
+struct AdjointRun {
+  AdjointRun(const Communicator& comm, const Mesh& whole, EulerOptions with)
+      : mesh{scatter_mesh(comm, whole, space_filling_order(whole))},
+        dual{comm, mesh},
+        options{std::move(with)},
+        model{euler::flow_model(comm, mesh, options)},
+        residual{dual, model, options},
+        states(dual.nodes(), model.free_stream),
+        run{comm, options, dual, model, residual, states} {
+    for (const BoundaryEdges& boundary : mesh.boundaries) names.push_back(boundary.name);
+    for (std::size_t node = 0; node < dual.nodes(); ++node) {
+      const std::int64_t number = dual.global(static_cast<std::int32_t>(node)).value();
+      for (int k = 0; k < 4; ++k) states[node][k] *= 1 + 0.2 * scattered(7, number, k);
+    }
+  }
+
+  /// Values for all nodes that their numbers alone decide.
+  std::vector<euler::State> made_up(std::uint64_t seed) const {
+    std::vector<euler::State> rows(dual.nodes());
+    for (std::size_t node = 0; node < rows.size(); ++node) {
+      for (int k = 0; k < 4; ++k)
+        rows[node][k] = scattered(seed, dual.global(static_cast<std::int32_t>(node)).value(), k);
+    }
+    return rows;
+  }
+
+  std::vector<std::string> names;
+  Mesh mesh;
+  euler::DualMesh dual;
+  EulerOptions options;
+  euler::FlowModel model;
+  euler::Residual residual;
+  std::vector<euler::State> states;
+  euler::FlowRun run;
+};
+
+}  // namespace quadloop::test

@@ -1,0 +1,62 @@
+#include "flow/adjoint/krylov.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/world.hpp"
+
+namespace quadloop::euler {
+namespace {
+
+constexpr std::size_t rows = 7;
+
+/// Each rank's own rows, coupled within the row alone: not symmetric, and of another size in each row.
+void multiply(NodeRows& x, NodeRows& product) {
+  product.assign(x.size(), {});
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t k = 0; k < 4; ++k)
+      product[i][k] = static_cast<double>(2 + i + k) * x[i][k] + 0.7 * x[i][(k + 1) % 4];
+  }
+}
+
+KrylovSystem system_of_rows() {
+  KrylovSystem system;
+  system.owned = rows;
+  system.multiply = multiply;
+  system.precondition = [](const NodeRows& right, NodeRows& x) { x = right; };
+  return system;
+}
+
+NodeRows right_side() {
+  NodeRows right(rows + 2);  // two that do not count
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    for (std::size_t k = 0; k < 4; ++k) right[i][k] = std::cos(static_cast<double>(4 * i + k));
+  }
+  return right;
+}
+
+TEST(Krylov, SolvesASystemThatIsNotSymmetric) {
+  for (const int restart : {40, 5}) {
+    NodeRows x, product;
+    const NodeRows right = right_side();
+    const KrylovEnd end = solve_by_gmres(test::world(), system_of_rows(), right, x, 1e-12, 400, restart);
+    EXPECT_LE(end.residual, 1e-12) << restart;
+    EXPECT_LE(end.iterations, restart == 40 ? 28 : 200);
+    multiply(x, product);
+    for (std::size_t i = 0; i < rows; ++i) {
+      for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(product[i][k], right[i][k], 1e-11);
+    }
+  }
+}
+
+TEST(Krylov, EndsWhereItMay) {
+  NodeRows x;
+  EXPECT_EQ(solve_by_gmres(test::world(), system_of_rows(), right_side(), x, 1e-12, 5, 5).iterations, 5);
+  const KrylovEnd nothing = solve_by_gmres(test::world(), system_of_rows(), NodeRows(rows), x, 1e-12, 50, 5);
+  EXPECT_EQ(nothing.iterations, 0);
+  EXPECT_EQ(nothing.residual, 0);
+}
+
+}  // namespace
+}  // namespace quadloop::euler

@@ -1,0 +1,215 @@
+// The residual's derivative against differences, and its transpose against itself.
+#include "flow/adjoint/linear_residual.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "flow/adjoint/place_derivative.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
+#include "tests/flow/adjoint/adjoint_run.hpp"
+
+namespace quadloop::euler {
+namespace {
+
+using test::AdjointRun;
+using test::world;
+
+EulerOptions options_at(double mach) {
+  EulerOptions options;
+  options.mach = mach;
+  options.alpha = 3;
+  options.boundaries = {{"wall", "wall", {}}, {"far", "farfield", {}}};
+  return options;
+}
+
+double dot(const FlowRun& run, const std::vector<State>& a, const std::vector<State>& b) {
+  std::vector<double> terms;
+  for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
+    for (std::size_t k = 0; k < 4; ++k) terms.push_back(a[node][k] * b[node][k]);
+  }
+  return reproducible_sum(run.comm, terms);
+}
+
+/// The largest of what the derivative along a direction is off from central differences, over the largest of
+/// them.
+double worst_difference(AdjointRun& made, const std::vector<State>& direction, double step) {
+  const LinearResidual linear(made.run);
+  std::vector<State> change = direction;
+  std::vector<Flux> slope;
+  linear.apply(change, slope);
+  const std::vector<State> held = made.states;
+  const auto at = [&](double share) {
+    for (std::size_t node = 0; node < held.size(); ++node) {
+      for (std::size_t k = 0; k < 4; ++k)
+        made.states[node][k] = held[node][k] + share * step * direction[node][k];
+    }
+    return std::vector<Flux>(made.residual.evaluate(made.states));
+  };
+  const std::vector<Flux> up = at(1), down = at(-1);
+  made.states = held;
+  double worst = 0, largest = 0;
+  for (std::int32_t node = 0; node < made.dual.owned_nodes(); ++node) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double difference = (up[node][k] - down[node][k]) / (2 * step);
+      worst = std::max(worst, std::abs(difference - slope[node][k]));
+      largest = std::max(largest, std::abs(difference));
+    }
+  }
+  return made.run.comm.maximum(worst) / made.run.comm.maximum(largest);
+}
+
+void expect_transposed(const AdjointRun& made) {
+  const LinearResidual linear(made.run);
+  std::vector<State> w = made.made_up(11), transposed;
+  std::vector<Flux> v = made.made_up(12), product;
+  linear.apply(w, product);
+  linear.apply_transposed(v, transposed);
+  const double there = dot(made.run, v, product), back = dot(made.run, transposed, w);
+  const double size = std::sqrt(dot(made.run, v, v) * dot(made.run, product, product));
+  EXPECT_NEAR(there, back, 1e-15 * size);
+  EXPECT_GT(size, 0);
+}
+
+TEST(LinearResidual, IsTheDerivativeWithTheLimiter) {
+  for (const double mach : {0.5, 0.9, 2.0}) {
+    AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options_at(mach));
+    const std::vector<State> direction = made.made_up(3);
+    EXPECT_LT(worst_difference(made, direction, 1e-7), 1e-6) << mach;
+  }
+}
+
+TEST(LinearResidual, IsTheDerivativeWhereFactorsAreKept) {
+  AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options_at(0.8));
+  made.residual.evaluate(made.states);
+  made.residual.freeze_limiter();
+  const std::vector<State> direction = made.made_up(3);
+  EXPECT_LT(worst_difference(made, direction, 1e-6), 1e-8);
+}
+
+TEST(LinearResidual, IsTheDerivativeWithoutLimiterAndOnEachBoundary) {
+  EulerOptions options = options_at(0.6);
+  options.limiter = EulerOptions::Limiter::none;
+  for (const char* const condition : {"farfield", "inflow", "outflow", "symmetry"}) {
+    options.boundaries[1] = {"far", condition, 0.9};
+    AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options);
+    const std::vector<State> direction = made.made_up(4);
+    EXPECT_LT(worst_difference(made, direction, 1e-6), 1e-8) << condition;
+  }
+}
+
+TEST(LinearResidual, TheTransposeIsTheTranspose) {
+  for (const double mach : {0.5, 0.9, 2.0}) {
+    for (const bool kept : {false, true}) {
+      AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options_at(mach));
+      made.residual.evaluate(made.states);
+      if (kept) made.residual.freeze_limiter();
+      expect_transposed(made);
+    }
+  }
+  AdjointRun ring(world(), test::ring_mesh(24, 8, 0.3, 5), [] {
+    EulerOptions options;
+    options.limiter = EulerOptions::Limiter::none;
+    return options;
+  }());
+  expect_transposed(ring);
+}
+
+/// A made-up adjoint times the residual, of made-up states on a moved mesh; the goal is held.
+struct PlaceCase {
+  PlaceCase(const EulerOptions& options, bool keeps) : options_{options}, keeps_{keeps} {}
+
+  Mesh moved(double by) const {
+    Mesh mesh = test::irregular_grid(9, {1, 1}, 0.2);
+    for (Point& p : mesh.points) p = p + by * way(p);
+    return mesh;
+  }
+  static Point way(Point p) { return {0.3 + p.y - p.x * p.x, 0.5 * std::sin(3 * p.x) - p.y}; }
+
+  double product(double by) const {
+    AdjointRun made(world(), moved(by), options_);
+    if (keeps_) made.residual.freeze_limiter();  // of factors 1
+    return dot(made.run, made.made_up(5), made.residual.evaluate(made.states));
+  }
+  /// As place_derivative() has it, but for the goal's part.
+  double derivative(const Goal& goal) const {
+    AdjointRun made(world(), moved(0), options_);
+    if (keeps_) made.residual.freeze_limiter();
+    const LinearResidual linear(made.run);
+    const GoalFunctional functional(made.run.comm, made.dual, made.model, made.names, goal, 1);
+    std::vector<Point> of_goal(made.dual.nodes());
+    functional.add_place_derivative(made.states, of_goal);
+    const std::vector<Point> all = place_derivative(linear, functional, made.made_up(5));
+    std::vector<double> terms;
+    for (std::int32_t node = 0; node < made.dual.owned_nodes(); ++node)
+      terms.push_back(dot_of(way(made.dual.point(node)), of_goal[node] - all[node]));
+    return reproducible_sum(made.run.comm, terms);
+  }
+  double goal(const Goal& goal, double by) const {
+    const AdjointRun made(world(), moved(by), options_);
+    return GoalFunctional(made.run.comm, made.dual, made.model, made.names, goal, 1).value(made.states);
+  }
+  double goal_derivative(const Goal& goal) const {
+    const AdjointRun made(world(), moved(0), options_);
+    const GoalFunctional functional(made.run.comm, made.dual, made.model, made.names, goal, 1);
+    std::vector<Point> sums(made.dual.nodes());
+    functional.add_place_derivative(made.states, sums);
+    std::vector<double> terms;
+    for (std::int32_t node = 0; node < made.dual.owned_nodes(); ++node)
+      terms.push_back(dot_of(way(made.dual.point(node)), sums[node]));
+    return reproducible_sum(made.run.comm, terms);
+  }
+  static double dot_of(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+
+  EulerOptions options_;
+  bool keeps_;
+};
+
+TEST(PlaceDerivative, OfTheResidualIsThatOfMovedMeshes) {
+  for (const double mach : {0.6, 1.5}) {
+    for (const bool keeps : {true, false}) {
+      const PlaceCase made(options_at(mach), keeps);
+      constexpr double d = 1e-6;
+      const double here = made.product(0), ahead = (made.product(d) - here) / d,
+                   behind = (here - made.product(-d)) / d, found = made.derivative({});
+      // where largest values of neighbours are equal the limiter has a kink: then the two differ
+      const double tolerance = keeps ? 1e-6 * std::abs(ahead) : 2e-5 * std::abs(ahead);
+      EXPECT_GT(found, std::min(ahead, behind) - tolerance) << mach << keeps;
+      EXPECT_LT(found, std::max(ahead, behind) + tolerance) << mach << keeps;
+      EXPECT_LT(std::abs(ahead - behind), 5e-5 * std::abs(ahead));
+      EXPECT_GT(std::abs(ahead), 0.01);
+    }
+  }
+}
+
+TEST(PlaceDerivative, OfGoalsIsThatOfMovedMeshes) {
+  const PlaceCase made(options_at(0.6), true);
+  for (const auto& [word, quantity] : Goal::words) {
+    const Goal goal{quantity, {}, {0.3, 0.2}};
+    constexpr double d = 1e-6;
+    const double difference = (made.goal(goal, d) - made.goal(goal, -d)) / (2 * d);
+    EXPECT_NEAR(made.goal_derivative(goal), difference, 1e-7 * std::abs(difference)) << word;
+  }
+}
+
+TEST(LinearResidual, HasTheSameBitsOnAnyNumberOfRanks) {
+  const Mesh whole = test::irregular_grid(9, {1, 1}, 0.2);
+  const Communicator self(MPI_COMM_SELF);
+  const AdjointRun part(world(), whole, options_at(0.8)), all(self, whole, options_at(0.8));
+  const auto products = [](const AdjointRun& made) {
+    const LinearResidual linear(made.run);
+    std::vector<State> w = made.made_up(11), transposed;
+    std::vector<Flux> v = made.made_up(12), product;
+    linear.apply(w, product);
+    linear.apply_transposed(v, transposed);
+    return std::pair{product, transposed};
+  };
+  const auto here = products(part), alone = products(all);
+  for (std::int32_t node = 0; node < part.dual.owned_nodes(); ++node) {
+    EXPECT_EQ(here.first[node], alone.first[part.mesh.first_node + node]);
+    EXPECT_EQ(here.second[node], alone.second[part.mesh.first_node + node]);
+  }
+}
+
+}  // namespace
+}  // namespace quadloop::euler
