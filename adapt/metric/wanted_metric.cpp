@@ -87,7 +87,7 @@ std::vector<Metric> WantedMetric::bounded(double factor) const {
 
 std::vector<LogMetric> WantedMetric::of_complexity(double complexity) const {
   constexpr int most_steps = 12;
-  constexpr double near = 0.01, longest_step = 8, least_factor = 1e-6;
+  constexpr double near = 0.02, longest_step = 8, least_factor = 1e-6;
   const double first = complexity / total_;
   double factor = first, factor_before = 0, found_before = 0;
   std::vector<Metric> metrics;

@@ -29,7 +29,7 @@ class WantedMetric {
   /// Whether all variables are linear: there is nothing to follow.
   bool flat() const { return !(total_ > 0); }
 
-  /// The metrics at owned nodes and copies whose complexity, within the bounds, is so much, to a hundredth; that of
+  /// The metrics at owned nodes and copies whose complexity, within the bounds, is so much, to a fiftieth; that of
   /// the bounds alone where they ask for more. *Collective.*
   std::vector<LogMetric> of_complexity(double complexity) const;
 
