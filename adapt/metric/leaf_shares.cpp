@@ -105,7 +105,8 @@ std::vector<PlacedTriangle> placed(const Communicator& comm, const LeafIndex& in
 
 }  // namespace
 
-void share_among_leaves(const Communicator& comm, const Lattice& lattice, const Mesh& mesh, MeshResult& result) {
+void share_among_leaves(const Communicator& comm, const Lattice& lattice, const Mesh& mesh,
+                        MeshResult& result) {
   std::vector<LeafRecord>& leaves = result.tree.leaves;
   const LeafIndex index(comm, lattice, leaves);
   const std::vector<PlacedTriangle> all = placed(comm, index, mesh);

@@ -42,7 +42,8 @@ std::vector<TravellingSide> sides_of_own(const Communicator& comm, const Mesh& m
 
 std::vector<LooseTriangle> loosened(const Communicator& comm, const Mesh& mesh,
                                     const std::vector<LogMetric>& metrics) {
-  QUADLOOP_REQUIRE(mesh.quads.empty() && metrics.size() == mesh.points.size(), "triangles, and metrics for all");
+  QUADLOOP_REQUIRE(mesh.quads.empty() && metrics.size() == mesh.points.size(),
+                   "triangles, and metrics for all");
   std::vector<LooseTriangle> loose(mesh.triangles.size());
   for (std::size_t t = 0; t < loose.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -152,7 +153,8 @@ Mesh joined(const Communicator& comm, const std::vector<LooseTriangle>& triangle
     auto& nodes = mesh.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) nodes[k] = numbering.local(t.nodes[k].id);
     for (std::size_t k = 0; k < 3; ++k) {
-      if (t.boundaries[k] >= 0) mesh.boundaries[t.boundaries[k]].edges.push_back({nodes[k], nodes[(k + 1) % 3]});
+      if (t.boundaries[k] >= 0)
+        mesh.boundaries[t.boundaries[k]].edges.push_back({nodes[k], nodes[(k + 1) % 3]});
     }
   }
   return mesh;

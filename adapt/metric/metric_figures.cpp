@@ -23,7 +23,8 @@ double MetricFigures::unit_share() const {
   return all > 0 ? static_cast<double>(edges[2] + edges[3]) / static_cast<double>(all) : 1;
 }
 
-MetricFigures metric_figures(const Communicator& comm, const Mesh& mesh, const std::vector<LogMetric>& metrics) {
+MetricFigures metric_figures(const Communicator& comm, const Mesh& mesh,
+                             const std::vector<LogMetric>& metrics) {
   MetricFigures figures;
   std::vector<Metric> at;
   at.reserve(metrics.size());
@@ -88,7 +89,8 @@ JsonObject record_of(const MetricFigures& figures) {
 
 std::string lines_of(const MetricFigures& figures) {
   return fmt::format(
-      "complexity of the metric {:.1f}\nedges by length in it {}\ntriangles by quality in it {}, worst {:.3f}\n",
+      "complexity of the metric {:.1f}\nedges by length in it {}\ntriangles by quality in it {}, worst "
+      "{:.3f}\n",
       figures.complexity, shares(MetricFigures::length_limits, figures.edges),
       shares(MetricFigures::quality_limits, figures.triangles), figures.worst_quality);
 }

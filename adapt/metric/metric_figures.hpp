@@ -34,6 +34,7 @@ JsonObject record_of(const MetricFigures& figures);
 std::string lines_of(const MetricFigures& figures);
 
 /// `metrics` has one for each owned node and copy. *Collective.*
-MetricFigures metric_figures(const Communicator& comm, const Mesh& mesh, const std::vector<LogMetric>& metrics);
+MetricFigures metric_figures(const Communicator& comm, const Mesh& mesh,
+                             const std::vector<LogMetric>& metrics);
 
 }  // namespace quadloop

@@ -71,8 +71,8 @@ class CarriedMetric {
   Field field_;
 };
 
-/// How many nodes layers will add: as many as they have in the solved mesh, where they were made the same way.
-/// *Collective.*
+/// How many nodes layers will add: as many as they have in the solved mesh, where they were made the same
+/// way. *Collective.*
 std::int64_t nodes_in_layers(const Communicator& comm, const Mesh& solved) {
   if (!has_layers(solved)) return 0;
   const LayerPlaces places = layer_places(comm, solved);
@@ -97,7 +97,10 @@ class Stretching {
         demand_{demand},
         outline_{input.geometry},
         walls_{outline_, names_of(result.mesh.boundaries), input.smooth.front_heights},
-        metric_{comm, solved, selected(solution, demand.variables, "adapt.variable"), demand.norm,
+        metric_{comm,
+                solved,
+                selected(solution, demand.variables, "adapt.variable"),
+                demand.norm,
                 {demand.min, largest_sizes(comm, result, solved), 0.5 * (input.mesh.size.gradation - 1)}},
         wanted_{demand.nodes - nodes_in_layers(comm, solved)} {}
 
@@ -155,7 +158,8 @@ StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, con
   const Mesh mesh = stretching.stretched(result.mesh);
   const TreeAttributes& a = result.tree.attributes;
   const Point low{a.root_x, a.root_y};
-  const Lattice lattice({low, low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge}}, a.trees_x, a.trees_y);
+  const Lattice lattice({low, low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge}}, a.trees_x,
+                        a.trees_y);
   share_among_leaves(comm, lattice, mesh, result);
   return std::move(stretching.report);
 }

@@ -26,11 +26,11 @@ struct StretchReport {
 };
 
 /// Adapts the mesh of triangles that a tree has made, without layers, to the metric of a solution on another
-/// mesh of the domain, which may have layers: sizes are those of the metric, but nowhere larger than the leaves
-/// nor smaller than the demand's least, and grow as the case's gradation says. Nodes come near to the number
-/// wanted, from below; walls keep to the outline of `input`, whose mesh it is, and the front of layers stays. The
-/// result's tree counts the new cells. It has the same bits on any number of ranks. Throws InputError where the
-/// solution has no such variables. *Collective.*
+/// mesh of the domain, which may have layers: sizes are those of the metric, but nowhere larger than the
+/// leaves nor smaller than the demand's least, and grow as the case's gradation says. Nodes come near to the
+/// number wanted, from below; walls keep to the outline of `input`, whose mesh it is, and the front of layers
+/// stays. The result's tree counts the new cells. It has the same bits on any number of ranks. Throws
+/// InputError where the solution has no such variables. *Collective.*
 StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, const Mesh& solved,
                            const Field& solution, const MetricDemand& demand, MeshResult& result);
 

@@ -58,12 +58,14 @@ std::vector<KeyedTriangle> sorted_over_ranks(const Communicator& comm, std::vect
   const auto by_order = [](const KeyedTriangle& a, const KeyedTriangle& b) { return a.order() < b.order(); };
   std::ranges::sort(rows, by_order);
   std::vector<std::uint64_t> keys;
-  for (std::size_t i = 0; i < samples && !rows.empty(); ++i) keys.push_back(rows[i * rows.size() / samples].key);
+  for (std::size_t i = 0; i < samples && !rows.empty(); ++i)
+    keys.push_back(rows[i * rows.size() / samples].key);
   keys = comm.all_gather_values(std::span<const std::uint64_t>(keys));
   std::ranges::sort(keys);
   std::vector<std::uint64_t> splits;
   for (int rank = 1; rank < comm.size() && !keys.empty(); ++rank)
-    splits.push_back(keys[static_cast<std::size_t>(rank) * keys.size() / static_cast<std::size_t>(comm.size())]);
+    splits.push_back(
+        keys[static_cast<std::size_t>(rank) * keys.size() / static_cast<std::size_t>(comm.size())]);
   std::vector<int> ranks;
   for (const KeyedTriangle& row : rows)
     ranks.push_back(static_cast<int>(std::ranges::upper_bound(splits, row.key) - splits.begin()));
@@ -87,7 +89,8 @@ struct Tiled {
 };
 
 /// *Collective.*
-Tiled cut_in_tiles(const Communicator& comm, const TileCut& cut, const std::vector<LooseTriangle>& triangles) {
+Tiled cut_in_tiles(const Communicator& comm, const TileCut& cut,
+                   const std::vector<LooseTriangle>& triangles) {
   const RoundCurve curve(comm, triangles, cut.round);
   std::vector<KeyedTriangle> rows;
   rows.reserve(triangles.size());

@@ -13,8 +13,8 @@ constexpr double settled = 0.003;  ///< nodes that come and go in a round, of al
 
 }  // namespace
 
-TileChanges adapt_to_metric(const Communicator& comm, Mesh& mesh, const MetricAt& metric_at, const Walls& walls,
-                            const UnitMeshOptions& options) {
+TileChanges adapt_to_metric(const Communicator& comm, Mesh& mesh, const MetricAt& metric_at,
+                            const Walls& walls, const UnitMeshOptions& options) {
   TileChanges changes;
   for (int round = 0; round < options.rounds; ++round) {
     std::vector<LooseTriangle> triangles = loosened(comm, mesh, metric_at(mesh));
@@ -23,7 +23,8 @@ TileChanges adapt_to_metric(const Communicator& comm, Mesh& mesh, const MetricAt
     mesh = joined(comm, triangles, mesh.boundaries);
     log::detail(fmt::format("metric: {} nodes, {} splits, {} collapses, {} flips, {} moves", nodes,
                             changes.splits, changes.collapses, changes.flips, changes.moves));
-    if (round + 1 >= least_rounds && static_cast<double>(changes.nodes()) < settled * static_cast<double>(nodes))
+    if (round + 1 >= least_rounds &&
+        static_cast<double>(changes.nodes()) < settled * static_cast<double>(nodes))
       break;
   }
   return changes;

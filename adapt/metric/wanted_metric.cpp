@@ -16,7 +16,8 @@ namespace {
 /// Of the largest eigenvalue anywhere: smaller ones are taken to be so large.
 constexpr double least_bend = 1e-8;
 
-/// The absolute hessians of the variables at owned nodes and copies, one within all; empty where all are linear.
+/// The absolute hessians of the variables at owned nodes and copies, one within all; empty where all are
+/// linear.
 std::vector<Symmetric> joint_hessians(const Communicator& comm, const Mesh& mesh, const Field& field) {
   const Field shared = with_copies(comm, mesh, field);
   std::vector<Symmetric> joint;

@@ -176,26 +176,45 @@ void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const 
                                            : "all leaves have the sizes that are wanted of them";
 }
 
+/// What --max-cells and free memory leave of them.
+std::int64_t allowed_nodes(const MeshLimit& limit, std::int64_t nodes) {
+  constexpr double cells_of_node = 2, bytes_of_node = 4096;
+  const double most = std::min(limit.cells / cells_of_node, limit.bytes / bytes_of_node);
+  return static_cast<double>(nodes) > most ? static_cast<std::int64_t>(most) : nodes;
+}
+
+void require_norm(const AdaptOptions& options) {
+  if (options.norm && options.max_nodes) return;
+  throw InputError(
+      "adapt.norm is missing: mesh.type = \"metric\" makes the L^p norm of the interpolation error least for "
+      "max_nodes nodes; give norm = 2 and max_nodes");
+}
+
+void require_at_nodes(const AdaptOptions& options, const SolvedMesh& solved) {
+  const CellValues in_cells = selected(solved.solution, options.variables, "adapt.variable").cells;
+  if (in_cells.width() == 0) return;
+  throw InputError(fmt::format(
+      "{}: '{}' stands in cells, but mesh.type = \"metric\" follows values at nodes; take another "
+      "type, or let the solver write it at nodes",
+      solved.file, in_cells.names.front()));
+}
+
 /// The tree is that of the case alone: what adaptation asked of one before counts no more. *Collective.*
 void plan_by_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                     const SolvedMesh& solved, AdaptationPlan& plan) {
-  if (!options.norm || !options.max_nodes)
-    throw InputError("adapt.norm is missing: mesh.type = \"metric\" makes the L^p norm of the interpolation error least "
-                     "for max_nodes nodes; give norm = 2 and max_nodes");
-  const CellValues in_cells = selected(solved.solution, options.variables, "adapt.variable").cells;
-  if (in_cells.width() > 0)
-    throw InputError(fmt::format("{}: '{}' stands in cells, but mesh.type = \"metric\" follows values at nodes; take "
-                                 "another type, or let the solver write it at nodes",
-                                 solved.file, in_cells.names.front()));
+  require_norm(options);
   const auto wanted = made_from<WantedLevels>(comm, options, solved, finest_level(input, options));
+  require_at_nodes(options, solved);
   plan.estimate = wanted.error();
   plan.estimates_of_cells = wanted.of_cells(0);
   if (wanted.flat()) {
     plan.reason_for_standing = "no variable has a second derivative";
     return;
   }
-  plan.metric = MetricDemand{options.variables, *options.norm, bounded_nodes(options, solved),
-                             options.min.value_or(input.mesh.size.min)};
+  const std::int64_t nodes = bounded_nodes(options, solved), allowed = allowed_nodes(input.mesh.limit, nodes);
+  if (allowed < nodes) plan.warnings.emplace_back(text_of_bound);
+  plan.metric =
+      MetricDemand{options.variables, *options.norm, allowed, options.min.value_or(input.mesh.size.min)};
 }
 
 }  // namespace

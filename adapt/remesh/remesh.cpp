@@ -33,7 +33,8 @@ CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const A
   if (plan.metric) {
     stretch = [&](const MeshInput& outer, MeshResult& result) {
       StretchReport report = stretch_mesh(comm, outer, old.mesh, old.solution, *plan.metric, result);
-      result.report.warnings.insert(result.report.warnings.end(), report.warnings.begin(), report.warnings.end());
+      result.report.warnings.insert(result.report.warnings.end(), report.warnings.begin(),
+                                    report.warnings.end());
       carried.stretched = report.figures;
     };
   }
@@ -55,6 +56,11 @@ AdaptationPlan standing_plan(const TreeRecord& tree, const MeshInput& input) {
   if (input.mesh.mirror)
     plan.demands = with_images(*input.mesh.mirror, tree.attributes, std::move(plan.demands));
   plan.measured_wall = tree.measured_wall;
+  if (input.mesh.type == MeshType::metric)
+    plan.warnings.emplace_back(
+        "mesh.type = \"metric\" has no table [adapt] to follow: the mesh is that of the tree, without "
+        "stretched "
+        "cells");
   return plan;
 }
 

@@ -126,7 +126,8 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
 }
 
 /// Before layers are filled. *Collective.*
-void change(const Communicator& comm, const MeshInput& input, const MeshChange& change, GeneratedMesh& generated) {
+void change(const Communicator& comm, const MeshInput& input, const MeshChange& change,
+            GeneratedMesh& generated) {
   if (!change) return;
   generated.times.begin("stretch");
   change(input, generated.result);
@@ -261,8 +262,8 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   return generated;
 }
 
-GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input,
-                             const DemandedSplits& demanded, const MeshChange& wanted) {
+GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
+                             const MeshChange& wanted) {
   GeneratedMesh generated = build(comm, input, demanded);
   smooth(comm, input, {}, generated);
   change(comm, input, wanted, generated);

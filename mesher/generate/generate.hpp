@@ -38,8 +38,9 @@ struct GeneratedMesh {
 /// the order of nodes that it has with leaves down to `finest_level`.
 SmoothOptions smooth_options_for(const MeshInput& input, int finest_level);
 
-/// What is done to a smoothed mesh before layers are filled: `input` is that of the mesh, the domain outside layers
-/// where there are any. Nodes on the front of layers must stay, and the tree must count the cells. *Collective.*
+/// What is done to a smoothed mesh before layers are filled: `input` is that of the mesh, the domain outside
+/// layers where there are any. Nodes on the front of layers must stay, and the tree must count the cells.
+/// *Collective.*
 using MeshChange = std::function<void(const MeshInput& input, MeshResult& result)>;
 
 /// Meshes and smooths; smoothing always begins with the mesh as it is cut, and a mesh of the Delaunay type

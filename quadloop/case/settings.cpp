@@ -166,7 +166,8 @@ void read_mesh_table(const CaseTable& root, Settings& settings) {
   if (table->choice("quads", {"all", "parallel"}) == "parallel") settings.mesh.quads = QuadChoice::parallel;
   if (const auto axis = table->choice("mirror", {"x", "y"})) {
     if (type == "metric" && !table->has("half"))
-      table->refuse("mirror", "keeps no mesh of type = \"metric\" symmetric; mesh one half of it: add half = \"axis\"");
+      table->refuse("mirror",
+                    "keeps no mesh of type = \"metric\" symmetric; mesh one half of it: add half = \"axis\"");
     settings.mesh.mirror = *axis == "x" ? MirrorAxis::x : MirrorAxis::y;
   }
   if (const auto name = table->text("half")) {
@@ -270,8 +271,9 @@ void read_design_table(const CaseTable& root, Settings& settings) {
 /// A mesh that follows a metric wants to be told how many nodes it may have, and what counts.
 void require_norm_of_metric(const CaseTable& root, const Settings& settings) {
   if (settings.mesh.type != MeshType::metric || !settings.adapt || settings.adapt->norm) return;
-  root.table("adapt")->refuse("norm", "is missing: mesh.type = \"metric\" makes the L^p norm of the interpolation "
-                                      "error least for max_nodes nodes; give norm = 2 and max_nodes");
+  root.table("adapt")->refuse("norm",
+                              "is missing: mesh.type = \"metric\" makes the L^p norm of the interpolation "
+                              "error least for max_nodes nodes; give norm = 2 and max_nodes");
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ def metric_case(folder):
     """The wedge's case for few nodes."""
     text = CASE.read_text()
     head = text[:text.index("[adapt]")].replace("min = 0.015", "min = 0.05").replace("max = 0.034", "max = 0.1")
-    solver = text[text.index("[solver]"):].replace("iterations = 1000", "iterations = 60")
-    adapt = '[mesh]\ntype = "metric"\n\n[adapt]\ncycles = 2\nvariable = "density"\nnorm = 2\nmax_nodes = 1200\nmin = 0.001\n\n'
+    solver = text[text.index("[solver]"):].replace("iterations = 1000", "iterations = 20")
+    adapt = '[mesh]\ntype = "metric"\n\n[adapt]\ncycles = 2\nvariable = "density"\nnorm = 2\nmax_nodes = 600\nmin = 0.001\n\n'
     folder.mkdir()
     shutil.copy(CASE.parent / "wedge.geom", folder)
     case = folder / "case.toml"
@@ -39,12 +39,12 @@ def check_cycles(folder):
     records = [json.loads((cycle / "record.json").read_text()) for cycle in sorted(folder.glob("cycle_*"))]
     require(len(records) == 3 and "metric" not in records[0], f"{len(records)} cycles")
     for record in records[1:]:
-        require(0.95 * 1200 <= record["nodes"] <= 1200, f"{record['nodes']} nodes")
+        require(0.95 * 600 <= record["nodes"] <= 600, f"{record['nodes']} nodes")
         edges = record["metric"]["edges"]["counts"]
         require(sum(edges[2:4]) > 0.93 * sum(edges), f"edges {edges}")
-        require(record["metric"]["complexity"] > 500, f"{record['metric']}")
+        require(record["metric"]["complexity"] > 300, f"{record['metric']}")
         require(record["quads"] == 0, "triangles alone")
-    require(records[2]["estimate"] < 0.3 * records[0]["estimate"], f"the error: {[r['estimate'] for r in records]}")
+    require(records[2]["estimate"] < 0.5 * records[0]["estimate"], f"the error: {[r['estimate'] for r in records]}")
 
 
 def check_ranks_and_resume(program, case, folder):

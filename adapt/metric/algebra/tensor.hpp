@@ -14,7 +14,9 @@ struct Symmetric {
   friend constexpr Symmetric operator+(const Symmetric& a, const Symmetric& b) {
     return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy};
   }
-  friend constexpr Symmetric operator*(double s, const Symmetric& a) { return {s * a.xx, s * a.xy, s * a.yy}; }
+  friend constexpr Symmetric operator*(double s, const Symmetric& a) {
+    return {s * a.xx, s * a.xy, s * a.yy};
+  }
 };
 
 /// Its eigenvalues, the larger first, and the unit vector that belongs to it.
@@ -59,11 +61,12 @@ double density_of(const Metric& m);
 Metric intersection(const Metric& a, const Metric& b);
 
 /// The metric that one at a distance `edge` allows here, where sizes may grow by `slope` for each unit of
-/// length: between growing in the plane, which makes it rounder, and in the metric (Alauzet 2010, mixed space).
+/// length: between growing in the plane, which makes it rounder, and in the metric (Alauzet 2010, mixed
+/// space).
 Metric grown(const Metric& m, Point edge, double slope);
 
-/// How near a triangle is to the equilateral one in a metric: 4 sqrt(3) area / (sum of squared edges), both in
-/// it; 1 at best, 0 and less where it is flat or turned over.
+/// How near a triangle is to the equilateral one in a metric: 4 sqrt(3) area / (sum of squared edges), both
+/// in it; 1 at best, 0 and less where it is flat or turned over.
 double quality_in(const Symmetric& m, Point a, Point b, Point c);
 
 }  // namespace quadloop

@@ -34,7 +34,8 @@ bool keeps_topology(const TileMesh& mesh, std::int32_t gone, std::int32_t stays,
 }
 
 /// The worst triangle after the join; none where it may not be.
-std::optional<double> worst_after(const TileMesh& mesh, std::int32_t gone, std::int32_t stays, double longest) {
+std::optional<double> worst_after(const TileMesh& mesh, std::int32_t gone, std::int32_t stays,
+                                  double longest) {
   double worst = 1;
   for (const std::int32_t t : mesh.star(gone)) {
     if (mesh.corner(t, stays) >= 0) continue;

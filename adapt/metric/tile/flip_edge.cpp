@@ -22,8 +22,10 @@ bool flip_edge(TileMesh& mesh, std::int32_t from, std::int32_t to) {
   if (!(after > gain * before)) return false;
   mesh.remove_triangle(left);
   mesh.remove_triangle(right);
-  mesh.add_triangle({{a, d, c}, {under.sides[(at_right + 1) % 3], TileSide{}, over.sides[(at_left + 2) % 3]}});
-  mesh.add_triangle({{d, b, c}, {under.sides[(at_right + 2) % 3], over.sides[(at_left + 1) % 3], TileSide{}}});
+  mesh.add_triangle(
+      {{a, d, c}, {under.sides[(at_right + 1) % 3], TileSide{}, over.sides[(at_left + 2) % 3]}});
+  mesh.add_triangle(
+      {{d, b, c}, {under.sides[(at_right + 2) % 3], over.sides[(at_left + 1) % 3], TileSide{}}});
   return true;
 }
 

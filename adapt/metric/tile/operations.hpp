@@ -4,8 +4,8 @@
 
 namespace quadloop {
 
-/// Each changes a tile's mesh where that is sound and leads nearer to the metric, or leaves it. Triangles stay
-/// positive, exactly. Returns whether it has changed it.
+/// Each changes a tile's mesh where that is sound and leads nearer to the metric, or leaves it. Triangles
+/// stay positive, exactly. Returns whether it has changed it.
 
 /// Divides an edge in its middle, one of a boundary at the middle of its way along the outline.
 bool split_edge(TileMesh& mesh, std::int32_t a, std::int32_t b);

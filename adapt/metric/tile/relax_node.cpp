@@ -29,8 +29,8 @@ std::optional<StarQuality> star_quality(const TileMesh& mesh, std::int32_t n, Po
   return found;
 }
 
-/// The metric at a place in the star, between those at the nodes of the triangle that holds it; that of the node
-/// where none does (on curved walls).
+/// The metric at a place in the star, between those at the nodes of the triangle that holds it; that of the
+/// node where none does (on curved walls).
 LogMetric metric_at(const TileMesh& mesh, std::int32_t n, Point at) {
   for (const std::int32_t t : mesh.star(n)) {
     const auto& nodes = mesh.triangle(t).nodes;

@@ -42,8 +42,10 @@ std::int32_t third_node(const TileMesh& mesh, std::int32_t t, const TileMesh::Ed
 bool is_sound(const TileMesh& mesh, const TileMesh::Edge& edge, const Division& division, std::int32_t t) {
   if (t < 0) return true;
   const std::int32_t c = third_node(mesh, t, edge);
-  const Point a = mesh.point(t == edge.left ? edge.a : edge.b), b = mesh.point(t == edge.left ? edge.b : edge.a);
-  if (!is_positive(a, division.at, mesh.point(c)) || !is_positive(division.at, b, mesh.point(c))) return false;
+  const Point a = mesh.point(t == edge.left ? edge.a : edge.b),
+              b = mesh.point(t == edge.left ? edge.b : edge.a);
+  if (!is_positive(a, division.at, mesh.point(c)) || !is_positive(division.at, b, mesh.point(c)))
+    return false;
   return length_between(exp_of(division.metric), mesh.metric(c), mesh.point(c) - division.at) >= shortest;
 }
 
@@ -67,10 +69,10 @@ bool split_edge(TileMesh& mesh, std::int32_t a, std::int32_t b) {
   const auto edge = mesh.edge(a, b);
   if (!edge || edge->side.locked) return false;
   const auto division = division_of(mesh, *edge);
-  if (!division || !is_sound(mesh, *edge, *division, edge->left) || !is_sound(mesh, *edge, *division, edge->right))
+  if (!division || !is_sound(mesh, *edge, *division, edge->left) ||
+      !is_sound(mesh, *edge, *division, edge->right))
     return false;
-  const std::int32_t m =
-      mesh.add_node(division->at, division->metric, division->freedom, division->boundary);
+  const std::int32_t m = mesh.add_node(division->at, division->metric, division->freedom, division->boundary);
   for (const std::int32_t t : {edge->left, edge->right}) {
     if (t < 0) continue;
     const int from = mesh.corner(t, t == edge->left ? edge->a : edge->b);

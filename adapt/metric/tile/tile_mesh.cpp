@@ -7,7 +7,8 @@
 
 namespace quadloop {
 
-TileMesh::TileMesh(const std::vector<TileNode>& nodes, std::vector<TileTriangle> triangles, const Walls& walls)
+TileMesh::TileMesh(const std::vector<TileNode>& nodes, std::vector<TileTriangle> triangles,
+                   const Walls& walls)
     : walls_{walls},
       nodes_{nodes},
       freedom_(nodes.size(), Freedom::free),
@@ -34,7 +35,8 @@ int TileMesh::corner(std::int32_t t, std::int32_t n) const {
 void TileMesh::lock_rim() {
   for (TileTriangle& t : triangles_) {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (t.sides[k].boundary < 0 && edge(t.nodes[k], t.nodes[(k + 1) % 3])->right < 0) t.sides[k].locked = true;
+      if (t.sides[k].boundary < 0 && edge(t.nodes[k], t.nodes[(k + 1) % 3])->right < 0)
+        t.sides[k].locked = true;
     }
   }
 }

@@ -17,8 +17,8 @@ struct TileNode {
   LogMetric metric;
 };
 
-/// Of an edge from a triangle's corner to the next: the boundary that it is of, below 0: none; whether it must
-/// stay as it is.
+/// Of an edge from a triangle's corner to the next: the boundary that it is of, below 0: none; whether it
+/// must stay as it is.
 struct TileSide {
   std::int32_t boundary = -1;
   bool locked = false;

@@ -32,7 +32,8 @@ std::vector<MeasuredEdge> measured(const TileMesh& mesh, const Holds& holds) {
 std::int64_t split_long(TileMesh& mesh) {
   auto edges = measured(mesh, [](double length) { return length > longest; });
   std::ranges::reverse(edges);
-  return std::ranges::count_if(edges, [&](const MeasuredEdge& e) { return split_edge(mesh, e.nodes[0], e.nodes[1]); });
+  return std::ranges::count_if(
+      edges, [&](const MeasuredEdge& e) { return split_edge(mesh, e.nodes[0], e.nodes[1]); });
 }
 
 std::int64_t collapse_short(TileMesh& mesh) {

@@ -20,9 +20,9 @@ struct TileChanges {
   }
 };
 
-/// Splits edges longer than sqrt(2) in the metric, the longest first, collapses those shorter than 1 / sqrt(2),
-/// flips, and moves nodes, in turn: a few times, so that no triangle becomes more than some 4^2 at once. The
-/// result depends on the tile's nodes and triangles in their order alone.
+/// Splits edges longer than sqrt(2) in the metric, the longest first, collapses those shorter than 1 /
+/// sqrt(2), flips, and moves nodes, in turn: a few times, so that no triangle becomes more than some 4^2 at
+/// once. The result depends on the tile's nodes and triangles in their order alone.
 TileChanges adapt_tile(TileMesh& mesh);
 
 }  // namespace quadloop

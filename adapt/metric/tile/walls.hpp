@@ -27,8 +27,8 @@ class Walls {
   }
 
   using Chord = OutlinePath::Chord;
-  /// Whether an edge of the boundary may be divided, or joined with the next one: both ends lie on the same loop
-  /// of the outline, the way between them is that of the chord, and no layers stand on it.
+  /// Whether an edge of the boundary may be divided, or joined with the next one: both ends lie on the same
+  /// loop of the outline, the way between them is that of the chord, and no layers stand on it.
   bool may_change(const Chord& chord) const;
   /// The place in the middle of the way that a chord stands for.
   OutlinePlace middle_of(const Chord& chord) const {

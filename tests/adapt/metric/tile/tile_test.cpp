@@ -1,12 +1,11 @@
 // A part of a triangulation that changes node by node.
-#include "adapt/metric/tile/tile_mesh.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "adapt/metric/tile/operations.hpp"
+#include "adapt/metric/tile/tile_mesh.hpp"
 #include "adapt/metric/tile/tile_passes.hpp"
 #include "adapt/metric/tile/walls.hpp"
 
@@ -33,7 +32,8 @@ struct Ring {
   static std::vector<TileNode> nodes(double size) {
     std::vector<TileNode> all;
     for (const double radius : {1.0, 2.0, 3.0}) {
-      for (std::int32_t i = 0; i < n; ++i) all.push_back({std::ssize(all), on(radius, i), log_of(isotropic(size))});
+      for (std::int32_t i = 0; i < n; ++i)
+        all.push_back({std::ssize(all), on(radius, i), log_of(isotropic(size))});
     }
     return all;
   }

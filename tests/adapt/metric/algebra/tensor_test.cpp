@@ -10,7 +10,8 @@ namespace {
 
 Metric stretched(double along, double across, double degrees) {
   const double turn = degrees * std::acos(-1.0) / 180;
-  return Metric{symmetric_of({1 / (across * across), 1 / (along * along), {-std::sin(turn), std::cos(turn)}})};
+  return Metric{
+      symmetric_of({1 / (across * across), 1 / (along * along), {-std::sin(turn), std::cos(turn)}})};
 }
 Point at(double degrees) {
   const double turn = degrees * std::acos(-1.0) / 180;
