@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "adapt/metric/tile/operations.hpp"
 #include "mesher/delaunay/flipper.hpp"
@@ -39,14 +40,32 @@ std::int32_t third_node(const TileMesh& mesh, std::int32_t t, const TileMesh::Ed
   return -1;
 }
 
+/// Beside an edge that must stay, however long it is in the metric, more and more nodes would come to lie on
+/// it.
+bool keeps_quality(const TileMesh& mesh, std::int32_t t, const std::array<std::int32_t, 3>& corners,
+                   const Division& division) {
+  constexpr double poor = 0.2;
+  const auto& sides = mesh.triangle(t).sides;
+  if (std::ranges::none_of(sides, [](const TileSide& side) { return side.locked; })) return true;
+  const auto [a, b, c] = corners;
+  const Metric middle = exp_of(division.metric);
+  const auto quality = [&](std::int32_t end, Point from, Point to) {
+    return quality_in(1.0 / 3 * (mesh.metric(end) + mesh.metric(c) + middle), from, to, mesh.point(c));
+  };
+  const double worst =
+      std::min(quality(a, mesh.point(a), division.at), quality(b, division.at, mesh.point(b)));
+  return worst >= std::min(poor, mesh.quality(t));
+}
+
 bool is_sound(const TileMesh& mesh, const TileMesh::Edge& edge, const Division& division, std::int32_t t) {
   if (t < 0) return true;
   const std::int32_t c = third_node(mesh, t, edge);
-  const Point a = mesh.point(t == edge.left ? edge.a : edge.b),
-              b = mesh.point(t == edge.left ? edge.b : edge.a);
-  if (!is_positive(a, division.at, mesh.point(c)) || !is_positive(division.at, b, mesh.point(c)))
+  const std::int32_t a = t == edge.left ? edge.a : edge.b, b = t == edge.left ? edge.b : edge.a;
+  if (!is_positive(mesh.point(a), division.at, mesh.point(c))) return false;
+  if (!is_positive(division.at, mesh.point(b), mesh.point(c))) return false;
+  if (length_between(exp_of(division.metric), mesh.metric(c), mesh.point(c) - division.at) < shortest)
     return false;
-  return length_between(exp_of(division.metric), mesh.metric(c), mesh.point(c) - division.at) >= shortest;
+  return keeps_quality(mesh, t, {a, b, c}, division);
 }
 
 /// A triangle becomes two, with the node m in the middle of its edge from corner k to the next.
