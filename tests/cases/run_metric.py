@@ -25,7 +25,7 @@ def require(holds, message):
 def metric_case(folder):
     """The wedge's case for few nodes."""
     text = CASE.read_text()
-    head = text[:text.index("[adapt]")].replace("min = 0.015", "min = 0.05").replace("max = 0.034", "max = 0.1")
+    head = text[:text.index("[adapt]")].replace("min = 0.015", "min = 0.05").replace("max = 0.034", "max = 0.2")
     solver = text[text.index("[solver]"):].replace("iterations = 1000", "iterations = 20")
     adapt = '[mesh]\ntype = "metric"\n\n[adapt]\ncycles = 2\nvariable = "density"\nnorm = 2\nmax_nodes = 600\nmin = 0.001\n\n'
     folder.mkdir()
