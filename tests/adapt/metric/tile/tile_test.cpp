@@ -182,5 +182,17 @@ TEST(AdaptTile, EdgesUnderLayersStay) {
   }
 }
 
+TEST(AdaptTile, CrowdsNoNodesOnEdgesThatStay) {
+  std::vector<double> heights(2 * 16 * Ring::n, 0);
+  std::fill(heights.begin() + 16 * Ring::n, heights.end(), 0.01);
+  Ring ring(0.06, heights);  // edges of the inner circle are 0.39 long
+  for (int round = 0; round < 3; ++round) adapt_tile(ring.mesh);
+  double worst = 1;
+  for (std::int32_t t = 0; t < ring.mesh.triangles(); ++t) {
+    if (ring.mesh.stands(t)) worst = std::min(worst, ring.mesh.quality(t));
+  }
+  EXPECT_GT(worst, 0.1);
+}
+
 }  // namespace
 }  // namespace quadloop
