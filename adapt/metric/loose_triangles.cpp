@@ -31,7 +31,8 @@ std::vector<TravellingSide> sides_of_own(const Communicator& comm, const Mesh& m
   auto cell = cells.of_boundary.begin();
   for (std::int32_t b = 0; b < std::ssize(mesh.boundaries); ++b) {
     for (const auto& edge : mesh.boundaries[b].edges) {
-      sides.add(triangles.rank_of(*cell), {*cell - cells.first_triangle, mesh.global(edge[0]).value(), b});
+      const int rank = triangles.rank_of(*cell);
+      sides.add(rank, {*cell - triangles.begin(rank), mesh.global(edge[0]).value(), b});
       ++cell;
     }
   }
