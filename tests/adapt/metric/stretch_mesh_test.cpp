@@ -18,6 +18,7 @@
 #include "adapt/metric/wanted_metric.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -158,6 +159,21 @@ TEST(LooseTriangles, MakeTheSameMeshAgain) {
   if (world().is_root()) {
     EXPECT_TRUE(validate(whole).empty());
   }
+}
+
+TEST(LooseTriangles, FindTheirBoundaryEdgesOnOtherRanks) {
+  const Mesh whole = test::Grid{8, {1, 1}, false}.mesh();
+  const Mesh mesh = scatter_mesh(world(), whole, test::shuffled_order(whole, 7));
+  std::int64_t edges = 0;
+  for (const LooseTriangle& t : loosened(world(), mesh, std::vector<LogMetric>(mesh.points.size()))) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (t.boundaries[k] < 0) continue;
+      ++edges;
+      const Point middle = 0.5 * (t.nodes[k].point + t.nodes[(k + 1) % 3].point);
+      EXPECT_TRUE(middle.x == 0 || middle.x == 1 || middle.y == 0 || middle.y == 1);
+    }
+  }
+  EXPECT_EQ(world().sum(edges), 32);
 }
 
 TEST(LimitGrowth, KeepsSizesWithinReachOfTheSmallest) {
