@@ -185,6 +185,10 @@ void report(const CommandContext& context, const CarriedMesh& carried, const Sta
   if (parts) add_parts(summary, *parts, problem.part_files);
   Figures of_transfer = transfer_figures(carried);
   if (carried.estimate) of_transfer.add("interpolation error", *carried.estimate, "{:.3e}");
+  if (carried.stretched) {
+    of_transfer.add_member("metric", record_of(*carried.stretched).text());
+    of_transfer.add_lines(lines_of(*carried.stretched));
+  }
   if (problem.input.settings.morph_to)
     of_transfer.add_raw("morphed", carried.morphed ? "yes" : "no", carried.morphed ? "true" : "false");
   context.record.figures = record_of(summary);

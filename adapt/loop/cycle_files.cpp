@@ -45,6 +45,7 @@ std::string log_text(const CycleRecord& record, const std::vector<std::string>& 
                   record.nodes, record.triangles, record.quads, record.worst_angle);
   for (const auto& [boundary, least, largest] : record.first_heights)
     text += fmt::format("first heights asked for on {}: {:.6g} to {:.6g}\n", boundary, least, largest);
+  if (record.metric) text += lines_of(*record.metric);
   for (const std::string& line : notes) text += line + "\n";
   for (const GoalValue& goal : record.goals) text += line_of(goal) + "\n";
   for (const std::string& line : warnings) text += "warning: " + line + "\n";

@@ -115,6 +115,7 @@ class Loop {
       if (row.y_plus > 0)
         record.first_heights.push_back({row.boundary, row.first_asked, row.first_asked_most});
     }
+    record.metric = carried.stretched;
     record.seconds = seconds_of(comm_, times);
     return record;
   }

@@ -90,6 +90,7 @@ JsonObject figures_of(const CycleRecord& record) {
   for (const auto& [boundary, least, largest] : record.first_heights)
     heights.add(boundary, std::vector{least, largest});
   if (!record.first_heights.empty()) json.add("first_heights", heights);
+  if (record.metric) json.add("metric", record_of(*record.metric));
   return json;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adapt/loop/case_settings.hpp"
+#include "adapt/metric/metric_figures.hpp"
 #include "flow/quantities/boundary_forces.hpp"
 #include "flow/quantities/goal_value.hpp"
 #include "mesher/base/json.hpp"
@@ -42,6 +43,7 @@ struct CycleRecord {
   std::vector<BoundaryForce> forces;  ///< of each boundary that feels a force
   /// Of boundaries that want a y+: the least and the largest first height that their layers were asked for.
   std::vector<FirstHeights> first_heights;
+  std::optional<MetricFigures> metric;  ///< that the mesh follows
   std::vector<std::pair<std::string, double>> seconds;
 };
 

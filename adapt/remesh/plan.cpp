@@ -145,16 +145,20 @@ void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const 
     plan.reason_for_standing = reason_for_standing(comm, options, solved, family, all);
 }
 
+/// That the options ask for.
+std::int64_t bounded_nodes(const AdaptOptions& options, const SolvedMesh& solved) {
+  const std::int64_t nodes = *options.max_nodes;
+  if (!options.growth) return nodes;
+  const double grown = std::floor(*options.growth * static_cast<double>(solved.tree.attributes.nodes));
+  return grown < static_cast<double>(nodes) ? static_cast<std::int64_t>(grown) : nodes;
+}
+
 /// By the sizes that make the L^p norm of the interpolation error least.
 void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
                    const TrialCount& count, int finest, std::optional<MirrorAxis> mirror,
                    AdaptationPlan& plan) {
   const auto wanted = made_from<WantedLevels>(comm, options, solved, finest, mirror);
-  std::int64_t nodes = *options.max_nodes;
-  if (options.growth) {
-    const double grown = std::floor(*options.growth * static_cast<double>(solved.tree.attributes.nodes));
-    if (grown < static_cast<double>(nodes)) nodes = static_cast<std::int64_t>(grown);
-  }
+  const std::int64_t nodes = bounded_nodes(options, solved);
   plan.estimate = wanted.error();
   double complexity = 0;
   if (!wanted.flat()) {
@@ -174,6 +178,47 @@ void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const 
                     : "all leaves have the sizes that are wanted of them";
 }
 
+/// What --max-cells and free memory leave of them.
+std::int64_t allowed_nodes(const MeshLimit& limit, std::int64_t nodes) {
+  constexpr double cells_of_node = 2, bytes_of_node = 4096;
+  const double most = std::min(limit.cells / cells_of_node, limit.bytes / bytes_of_node);
+  return static_cast<double>(nodes) > most ? static_cast<std::int64_t>(most) : nodes;
+}
+
+void require_norm(const AdaptOptions& options) {
+  if (options.norm && options.max_nodes) return;
+  throw InputError(
+      "adapt.norm is missing: mesh.type = \"metric\" makes the L^p norm of the interpolation error least for "
+      "max_nodes nodes; give norm = 2 and max_nodes");
+}
+
+void require_at_nodes(const AdaptOptions& options, const SolvedMesh& solved) {
+  const CellValues in_cells = selected(solved.solution, options.variables, "adapt.variable").cells;
+  if (in_cells.width() == 0) return;
+  throw InputError(fmt::format(
+      "{}: '{}' stands in cells, but mesh.type = \"metric\" follows values at nodes; take another "
+      "type, or let the solver write it at nodes",
+      solved.file, in_cells.names.front()));
+}
+
+/// The tree is that of the case alone: what adaptation asked of one before counts no more. *Collective.*
+void plan_by_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
+                    const SolvedMesh& solved, AdaptationPlan& plan) {
+  require_norm(options);
+  const auto wanted = made_from<WantedLevels>(comm, options, solved, finest_level(input, options));
+  require_at_nodes(options, solved);
+  plan.estimate = wanted.error();
+  plan.estimates_of_cells = wanted.of_cells(0);
+  if (wanted.flat()) {
+    plan.reason_for_standing = "no variable has a second derivative";
+    return;
+  }
+  const std::int64_t nodes = bounded_nodes(options, solved), allowed = allowed_nodes(input.mesh.limit, nodes);
+  if (allowed < nodes) plan.warnings.emplace_back(text_of_bound);
+  plan.metric =
+      MetricDemand{options.variables, *options.norm, allowed, options.min.value_or(input.mesh.size.min)};
+}
+
 }  // namespace
 
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
@@ -184,7 +229,9 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   plan.new_heights = other_heights(input, solved.tree.measured_wall, plan.measured_wall);
   const TrialCount count(comm, input, plan.measured_wall);
   const int finest = finest_level(input, options);
-  if (options.norm)
+  if (input.mesh.type == MeshType::metric)
+    plan_by_metric(comm, input, options, solved, plan);
+  else if (options.norm)
     plan_by_sizes(comm, options, solved, count, finest, input.mesh.mirror, plan);
   else
     plan_by_marks(comm, options, solved, count, finest, input.mesh.mirror, plan);

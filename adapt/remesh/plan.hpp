@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "adapt/metric/stretch_mesh.hpp"
 #include "adapt/remesh/demands/adapt_options.hpp"
 #include "adapt/remesh/demands/solved_mesh.hpp"
 #include "adapt/sensor/mark.hpp"
@@ -20,23 +21,25 @@ struct AdaptationPlan {
   std::int64_t refined = 0, coarsened = 0;
   /// Where the options have a norm: that of the interpolation error on the mesh that was solved on.
   std::optional<double> estimate;
-  CellValues estimates_of_cells;  ///< then also `interpolation_error` and `wanted_size` of its cells
-  MeasuredWall measured_wall;     ///< that first heights of layers are to follow; the same on every rank
-  bool new_heights = false;       ///< they differ from those of the last mesh
+  CellValues estimates_of_cells;       ///< then also `interpolation_error` and `wanted_size` of its cells
+  MeasuredWall measured_wall;          ///< that first heights of layers are to follow; the same on every rank
+  bool new_heights = false;            ///< they differ from those of the last mesh
+  std::optional<MetricDemand> metric;  ///< that the next mesh is to follow, on the tree of the case alone
   TransferKind transfer = TransferKind::linear;
   std::vector<std::string> warnings;
   std::string reason_for_standing;  ///< where no leaf is marked, why
 
   /// Without a mark that takes effect, or new heights, the next mesh would be the last one again.
-  bool changes_mesh() const { return refined + coarsened > 0 || new_heights; }
+  bool changes_mesh() const { return refined + coarsened > 0 || new_heights || metric.has_value(); }
 };
 
 /// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where
 /// the number of nodes is bounded or wanted; the nodes are counted on the meshes themselves, unsmoothed
 /// (MeshTrial); or, where the options have a norm, sizes wanted of the leaves, of any number of levels, that
-/// lead to a number of nodes. Where walls want a y+ and the solution tells friction, first heights follow it,
-/// from the next mesh on if any changes by more than a twentieth. *Collective.* Throws InputError where the
-/// solution has no such variable, or one that is not finite.
+/// lead to a number of nodes; or, in a mesh that is to stretch, the metric that it is to follow. Where walls
+/// want a y+ and the solution tells friction, first heights follow it, from the next mesh on if any changes
+/// by more than a twentieth. *Collective.* Throws InputError where the solution has no such variable, or one
+/// that is not finite.
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved);
 

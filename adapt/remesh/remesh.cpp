@@ -29,7 +29,17 @@ std::vector<std::pair<std::string, double>> CarriedMesh::drifts() const {
 CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan,
                        const SolvedMesh& old) {
   CarriedMesh carried;
-  carried.generated = generate_mesh(comm, input, DemandedSplits(comm, plan.demands), plan.measured_wall);
+  MeshChange stretch;
+  if (plan.metric) {
+    stretch = [&](const MeshInput& outer, MeshResult& result) {
+      StretchReport report = stretch_mesh(comm, outer, old.mesh, old.solution, *plan.metric, result);
+      result.report.warnings.insert(result.report.warnings.end(), report.warnings.begin(),
+                                    report.warnings.end());
+      carried.stretched = report.figures;
+    };
+  }
+  carried.generated =
+      generate_mesh(comm, input, DemandedSplits(comm, plan.demands), plan.measured_wall, stretch);
   carried.times.append(carried.generated.times);
   carried.times.begin("transfer");
   Transferred transferred =
@@ -46,6 +56,11 @@ AdaptationPlan standing_plan(const TreeRecord& tree, const MeshInput& input) {
   if (input.mesh.mirror)
     plan.demands = with_images(*input.mesh.mirror, tree.attributes, std::move(plan.demands));
   plan.measured_wall = tree.measured_wall;
+  if (input.mesh.type == MeshType::metric)
+    plan.warnings.emplace_back(
+        "mesh.type = \"metric\" has no table [adapt] to follow: the mesh is that of the tree, without "
+        "stretched "
+        "cells");
   return plan;
 }
 

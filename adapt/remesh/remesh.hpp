@@ -24,6 +24,7 @@ struct CarriedMesh {
   TransferReport report;                ///< none in a first mesh
   bool morphed = false;                 ///< the cells are the old ones
   std::optional<double> estimate = {};  ///< of the old mesh's interpolation error, where the plan has one
+  std::optional<MetricFigures> stretched = {};  ///< where it follows a metric
 
   /// The drift of each variable's integral, by its name.
   std::vector<std::pair<std::string, double>> drifts() const;

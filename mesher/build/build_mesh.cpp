@@ -98,7 +98,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   const auto rank_of = [&](Point p) {
     return tie_rank(domain.lattice, sizes.finest_level(), p, options.mirror);
   };
-  if (options.type == MeshType::delaunay) {
+  if (has_triangles_alone(options.type)) {
     times.begin("delaunay");
     const progress::Stage stage("delaunay");
     make_delaunay(comm, domain.lattice, rank_of, graph, cut, result.mesh, result.tree.leaves);

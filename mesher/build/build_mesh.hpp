@@ -18,8 +18,10 @@
 namespace quadloop {
 
 /// Which cells a mesh has: quadrilaterals where they fit and triangles, or triangles alone, constrained
-/// Delaunay over the whole domain.
-enum class MeshType { hybrid, delaunay };
+/// Delaunay over the whole domain; or such triangles until there is a solution, whose metric they then
+/// follow.
+enum class MeshType { hybrid, delaunay, metric };
+inline bool has_triangles_alone(MeshType type) { return type != MeshType::hybrid; }
 
 /// Which quadrilaterals a hybrid mesh keeps: all that are in good shape, or parallelograms alone, the others
 /// being divided.

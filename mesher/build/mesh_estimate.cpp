@@ -57,7 +57,7 @@ double cells_of_layers(const Geometry& geometry, const SizedDomain& domain) {
 
 MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain& domain) {
   const LeafEstimate leaves = estimate_leaves(domain.sizes, domain.inside);
-  const bool delaunay = type == MeshType::delaunay;
+  const bool delaunay = has_triangles_alone(type);
   MeshEstimate estimate;
   estimate.leaves = leaves.all();
   estimate.cells = (leaves.inside + leaves.cut) * (delaunay ? triangles_of_leaf : hybrid_cells_of_leaf);

@@ -74,7 +74,7 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
   const int finest = result.report.finest_allowed;
   SmoothOptions options = smooth_options_for(input, finest);
   if (!pinned.empty()) options.pinned = owned_among(pinned, result.mesh);
-  options.keep_slots = input.mesh.type != MeshType::delaunay;
+  options.keep_slots = !has_triangles_alone(input.mesh.type);
   const SmoothReport report = smooth_mesh(comm, result.mesh, options);
   if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
   if (keeps_parallelograms(input.mesh)) keep_parallelograms(comm, order_of_nodes(input, finest), result);
@@ -95,7 +95,7 @@ void name_layers(const Geometry& geometry, Mesh& mesh) {
 void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFront& front,
                  MeshResult& result) {
   DivideBy divide;
-  if (input.mesh.type == MeshType::delaunay) divide = order_in_layers(input, result.report.finest_allowed);
+  if (has_triangles_alone(input.mesh.type)) divide = order_in_layers(input, result.report.finest_allowed);
   add_layers(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
   if (front.has_strips())
     add_strips(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
@@ -125,6 +125,16 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
   require_area(comm, input.geometry, generated.result.report.area_dropped, generated.result.mesh, true);
 }
 
+/// Before layers are filled. *Collective.*
+void change(const Communicator& comm, const MeshInput& input, const MeshChange& change,
+            GeneratedMesh& generated) {
+  if (!change) return;
+  generated.times.begin("stretch");
+  change(input, generated.result);
+  generated.times.end();
+  require_area(comm, input.geometry, generated.result.report.area_dropped, generated.result.mesh, true);
+}
+
 /// The mesh outside, on which all columns can stand: where they could not it is made again, first as it is
 /// cut, with more nodes, then as it is smoothed, with less freedom. *Collective.*
 class OutsideMesh {
@@ -139,13 +149,14 @@ class OutsideMesh {
         lattice_{choose_root(input.geometry, input.mesh.size.root)},
         outer_{outside(input, front)} {}
 
-  GeneratedMesh made() {
+  GeneratedMesh made(const MeshChange& wanted) {
     cut();
     for (int attempt = 0; !columns_stand_when_smooth() && attempt < most_attempts; ++attempt) {
       discard();
       mesh_ = build(comm_, outer_, splits_);
     }
     forget_splits(demanded_, mesh_.result.tree);
+    change(comm_, outer_, wanted, mesh_);
     StageTimes times;
     if (!trials_.stages().empty()) times.append_as("trials", trials_);
     times.append(mesh_.times);
@@ -226,16 +237,17 @@ void add_strips_to(const LayerFront& front, bool divided, MeshEstimate& estimate
 }
 
 GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
-                               const DemandedSplits& demanded, const MeasuredWall& measured) {
+                               const DemandedSplits& demanded, const MeasuredWall& measured,
+                               const MeshChange& change) {
   StageTimes times;
   times.begin("front");
   MeshReport dropped;
   const Geometry geometry = geometry_with_layers(input, dropped);
   LayerFront front = front_of(input, geometry, measured);
   times.end();
-  GeneratedMesh generated = OutsideMesh(comm, input, demanded, front).made();
+  GeneratedMesh generated = OutsideMesh(comm, input, demanded, front).made(change);
   add_dropped(dropped, generated.result.report);
-  add_strips_to(front, input.mesh.type == MeshType::delaunay, generated.result.report.estimate);
+  add_strips_to(front, has_triangles_alone(input.mesh.type), generated.result.report.estimate);
   times.append(generated.times);
   times.begin("layers");
   generated.layers = report_layers(comm, front, generated.result.mesh);
@@ -250,10 +262,11 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   return generated;
 }
 
-GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input,
-                             const DemandedSplits& demanded) {
+GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
+                             const MeshChange& wanted) {
   GeneratedMesh generated = build(comm, input, demanded);
   smooth(comm, input, {}, generated);
+  change(comm, input, wanted, generated);
   return generated;
 }
 
@@ -264,14 +277,14 @@ SmoothOptions smooth_options_for(const MeshInput& input, int finest_level) {
   options.geometry = &input.geometry;
   options.mirror = input.mesh.mirror;
   if (keeps_parallelograms(input.mesh)) options = sparing_parallelograms(options);
-  if (input.mesh.type == MeshType::delaunay) options.delaunay = order_of_nodes(input, finest_level);
+  if (has_triangles_alone(input.mesh.type)) options.delaunay = order_of_nodes(input, finest_level);
   return options;
 }
 
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
-                            const MeasuredWall& measured) {
-  GeneratedMesh generated = has_layers(input) ? generate_layered(comm, input, demanded, measured)
-                                              : generate_plain(comm, input, demanded);
+                            const MeasuredWall& measured, const MeshChange& change) {
+  GeneratedMesh generated = has_layers(input) ? generate_layered(comm, input, demanded, measured, change)
+                                              : generate_plain(comm, input, demanded, change);
   MeshResult& result = generated.result;
   if (input.mesh.mirror) require_mirror_images(comm, result.mesh, *input.mesh.mirror);
   result.tree.attributes.case_digest = input.digest;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,10 +38,16 @@ struct GeneratedMesh {
 /// the order of nodes that it has with leaves down to `finest_level`.
 SmoothOptions smooth_options_for(const MeshInput& input, int finest_level);
 
+/// What is done to a smoothed mesh before layers are filled: `input` is that of the mesh, the domain outside
+/// layers where there are any. Nodes on the front of layers must stay, and the tree must count the cells.
+/// *Collective.*
+using MeshChange = std::function<void(const MeshInput& input, MeshResult& result)>;
+
 /// Meshes and smooths; smoothing always begins with the mesh as it is cut, and a mesh of the Delaunay type
 /// ends with flips, under the order of nodes that it was made with. First heights of layers that want a y+
 /// follow the measured wall, which the tree keeps. *Collective.* Throws InputError as build_mesh does.
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
-                            const DemandedSplits& demanded = {}, const MeasuredWall& measured = {});
+                            const DemandedSplits& demanded = {}, const MeasuredWall& measured = {},
+                            const MeshChange& change = {});
 
 }  // namespace quadloop

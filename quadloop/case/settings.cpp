@@ -160,11 +160,16 @@ SizeSource read_source(const CaseTable& table) {
 void read_mesh_table(const CaseTable& root, Settings& settings) {
   const auto table = root.table("mesh");
   if (!table) return;
-  const auto type = table->choice("type", {"hybrid", "delaunay"});
+  const auto type = table->choice("type", {"hybrid", "delaunay", "metric"});
   if (type == "delaunay") settings.mesh.type = MeshType::delaunay;
+  if (type == "metric") settings.mesh.type = MeshType::metric;
   if (table->choice("quads", {"all", "parallel"}) == "parallel") settings.mesh.quads = QuadChoice::parallel;
-  if (const auto axis = table->choice("mirror", {"x", "y"}))
+  if (const auto axis = table->choice("mirror", {"x", "y"})) {
+    if (type == "metric" && !table->has("half"))
+      table->refuse("mirror",
+                    "keeps no mesh of type = \"metric\" symmetric; mesh one half of it: add half = \"axis\"");
     settings.mesh.mirror = *axis == "x" ? MirrorAxis::x : MirrorAxis::y;
+  }
   if (const auto name = table->text("half")) {
     if (!settings.mesh.mirror)
       table->refuse("half", "needs mirror = \"x\" or \"y\" in the same table: of what it is the half");
@@ -263,6 +268,14 @@ void read_design_table(const CaseTable& root, Settings& settings) {
   table->finish();
 }
 
+/// A mesh that follows a metric wants to be told how many nodes it may have, and what counts.
+void require_norm_of_metric(const CaseTable& root, const Settings& settings) {
+  if (settings.mesh.type != MeshType::metric || !settings.adapt || settings.adapt->norm) return;
+  root.table("adapt")->refuse("norm",
+                              "is missing: mesh.type = \"metric\" makes the L^p norm of the interpolation "
+                              "error least for max_nodes nodes; give norm = 2 and max_nodes");
+}
+
 }  // namespace
 
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments) {
@@ -280,6 +293,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   read_mesh_table(root, settings);
   read_smooth_table(root, settings);
   settings.adapt = read_adapt_table(root);
+  require_norm_of_metric(root, settings);
   read_design_table(root, settings);
   read_solver_table(root, settings.solver);
   settings.solver.euler.mirror = settings.mesh.mirror;

@@ -79,6 +79,8 @@ CASES = [
     case_file("unknown suffix", CASE.replace("box.geom", "case.toml"), "'.toml' is not the suffix", ".geom"),
     case_file("far field too small", CASE.replace("[spacing]", "far_field = 2\n[spacing]"), "case.toml:3:", "far_field"),
     case_file("type", CASE + "[mesh]\ntype = \"voronoi\"\n", "case.toml:7:", "voronoi", "delaunay"),
+    case_file("metric without norm", CASE + "[mesh]\ntype = \"metric\"\n[adapt]\ncycles = 1\n", "adapt.norm", "max_nodes"),
+    case_file("metric and mirror", CASE + "[mesh]\ntype = \"metric\"\nmirror = \"x\"\n", "case.toml:8:", "half"),
     case_file("root too small", CASE + "[mesh]\nroot = [0, 0, 2, 1, 1]\n", "root"),
     case_file("min too small for the tree", CASE.replace("0.25", "1e-12"), "min"),
     case_file("unknown format", CASE + "[output]\nformats = [\"xyz\"]\n", "case.toml:7:", "xyz", "vtu, pvtu, su2, fluent.msh, msh"),

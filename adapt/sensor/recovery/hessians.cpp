@@ -231,4 +231,9 @@ std::vector<CellHessian> cell_hessians(const Communicator& comm, const Mesh& mes
   return of_cells;
 }
 
+std::vector<Hessian> node_hessians(const Communicator& comm, const Mesh& mesh, const ScaledField& field) {
+  const auto of_nodes = Recovery(comm, mesh, field, ValuesAt::nodes).hessians().outside;
+  return {of_nodes.begin(), of_nodes.begin() + std::ssize(mesh.points)};
+}
+
 }  // namespace quadloop

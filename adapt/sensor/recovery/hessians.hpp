@@ -54,4 +54,8 @@ struct CellHessian {
 std::vector<CellHessian> cell_hessians(const Communicator& comm, const Mesh& mesh, const ScaledField& field,
                                        ValuesAt at);
 
+/// The absolute hessians that cell_hessians() recovers at the nodes, from outside of layers: at owned nodes
+/// and copies; 0 within layers. `field` has a value for each of these. *Collective.*
+std::vector<Hessian> node_hessians(const Communicator& comm, const Mesh& mesh, const ScaledField& field);
+
 }  // namespace quadloop

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "adapt/metric/algebra/tensor.hpp"
+#include "mesher/base/json.hpp"
+#include "mesher/base/parallel/communicator.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// How a mesh of triangles keeps to a metric; the same on every rank.
+struct MetricFigures {
+  /// Of edge lengths in the metric: below the first of `length_limits`, ..., from the last on.
+  static constexpr std::array length_limits{0.5, 0.70710678118654752, 1.0, 1.4142135623730951, 2.0};
+  static constexpr std::array quality_limits{0.2, 0.4, 0.6, 0.8};
+
+  double complexity = 0;  ///< of the metric on this mesh: the integral of its density
+  std::array<std::int64_t, length_limits.size() + 1> edges{};
+  std::array<std::int64_t, quality_limits.size() + 1> triangles{};  ///< by quality_in() the metric
+  double worst_quality = 1;
+
+  /// The share of the edges from 1 / sqrt(2) to sqrt(2).
+  double unit_share() const;
+};
+
+/// {"complexity": ..., "edges": {"limits": [...], "counts": [...]}, "quality": {..., "worst": ...}}
+JsonObject record_of(const MetricFigures& figures);
+
+/// Two histograms for people, a line each.
+std::string lines_of(const MetricFigures& figures);
+
+/// `metrics` has one for each owned node and copy. *Collective.*
+MetricFigures metric_figures(const Communicator& comm, const Mesh& mesh,
+                             const std::vector<LogMetric>& metrics);
+
+}  // namespace quadloop

@@ -1,0 +1,167 @@
+#include "adapt/metric/stretch_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapt/metric/leaf_shares.hpp"
+#include "adapt/metric/unit_mesh.hpp"
+#include "adapt/metric/wanted_metric.hpp"
+#include "adapt/transfer/transfer.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Of equilateral triangles as dense as the halves of a square of edge 1.
+constexpr double size_for_leaf = 1.0745699318235418;
+
+/// The logarithm of the size that the leaves round each owned node allow at most. *Collective.*
+Field leaf_sizes(const Communicator& comm, const MeshResult& result) {
+  std::vector<double> of_cells;
+  for (const LeafRecord& leaf : result.tree.leaves) {
+    const double edge = std::ldexp(result.tree.attributes.tree_edge, -leaf.level);
+    of_cells.insert(of_cells.end(), static_cast<std::size_t>(leaf.triangles), size_for_leaf * edge);
+  }
+  const HaloMesh halo(comm, result.mesh);
+  of_cells = halo.spread(comm, of_cells);
+  Field sizes{{"size"}, std::vector<double>(static_cast<std::size_t>(result.mesh.owned_nodes), 0), {}};
+  std::size_t cell = 0;
+  halo.for_each_cell([&](const auto& nodes) {
+    for (const NodeId node : nodes) {
+      if (halo.owns(node)) sizes.values[node.value()] = std::max(sizes.values[node.value()], of_cells[cell]);
+    }
+    ++cell;
+  });
+  for (double& size : sizes.values) size = std::log(size);
+  return sizes;
+}
+
+/// At owned nodes and copies of the solved mesh. *Collective.*
+std::vector<double> largest_sizes(const Communicator& comm, const MeshResult& result, const Mesh& solved) {
+  const Field sizes = transfer(comm, result.mesh, leaf_sizes(comm, result), solved).field;
+  std::vector<double> largest = with_copies(comm, solved, sizes).values;
+  for (double& size : largest) size = std::exp(size);
+  return largest;
+}
+
+/// Metrics of the solved mesh brought to other meshes.
+class CarriedMetric {
+ public:
+  CarriedMetric(const Communicator& comm, const Mesh& solved, const std::vector<LogMetric>& metrics)
+      : comm_{comm}, solved_{solved}, field_{{"xx", "xy", "yy"}, {}, {}} {
+    for (std::int32_t n = 0; n < solved.owned_nodes; ++n)
+      field_.values.insert(field_.values.end(), {metrics[n].xx, metrics[n].xy, metrics[n].yy});
+  }
+  /// *Collective.*
+  std::vector<LogMetric> at(const Mesh& mesh) const {
+    const Field carried = with_copies(comm_, mesh, transfer(comm_, solved_, field_, mesh).field);
+    std::vector<LogMetric> metrics;
+    for (std::size_t i = 0; i < carried.values.size(); i += 3)
+      metrics.emplace_back(Symmetric{carried.values[i], carried.values[i + 1], carried.values[i + 2]});
+    return metrics;
+  }
+
+ private:
+  const Communicator& comm_;
+  const Mesh& solved_;
+  Field field_;
+};
+
+/// How many nodes layers will add: as many as they have in the solved mesh, where they were made the same
+/// way. *Collective.*
+std::int64_t nodes_in_layers(const Communicator& comm, const Mesh& solved) {
+  if (!has_layers(solved)) return 0;
+  const LayerPlaces places = layer_places(comm, solved);
+  std::int64_t nodes = 0;
+  for (std::int32_t n = 0; n < solved.owned_nodes; ++n) nodes += places[NodeId{n}].left > 0 ? 1 : 0;
+  return comm.sum(nodes);
+}
+
+std::vector<std::string> names_of(const std::vector<BoundaryEdges>& boundaries) {
+  std::vector<std::string> names;
+  for (const BoundaryEdges& boundary : boundaries) names.push_back(boundary.name);
+  return names;
+}
+
+/// Adapts, counts, and adapts again to a metric of more or fewer nodes.
+class Stretching {
+ public:
+  Stretching(const Communicator& comm, const MeshInput& input, const Mesh& solved, const Field& solution,
+             const MetricDemand& demand, const MeshResult& result)
+      : comm_{comm},
+        solved_{solved},
+        demand_{demand},
+        outline_{input.geometry},
+        walls_{outline_, names_of(result.mesh.boundaries), input.smooth.front_heights},
+        metric_{comm,
+                solved,
+                selected(solution, demand.variables, "adapt.variable"),
+                demand.norm,
+                {demand.min, largest_sizes(comm, result, solved), 0.5 * (input.mesh.size.gradation - 1)}},
+        wanted_{demand.nodes - nodes_in_layers(comm, solved)} {}
+
+  StretchReport report;
+
+  /// *Collective.*
+  Mesh stretched(Mesh mesh) {
+    constexpr int attempts = 5;
+    constexpr double enough = 0.95, aim = 0.975;
+    constexpr double nodes_of_unit = 1.3;  // a first guess
+    if (metric_.flat()) {
+      report.warnings.emplace_back("no variable has a second derivative: the mesh is that of the tree");
+      return mesh;
+    }
+    const auto wanted = static_cast<double>(std::max<std::int64_t>(wanted_, 1));
+    double complexity = wanted / nodes_of_unit;
+    int round = 0;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+      const CarriedMetric carried(comm_, solved_, metric_.of_complexity(complexity));
+      const auto metric_at = [&](const Mesh& m) { return carried.at(m); };
+      const int rounds = attempt == 0 ? 12 : 5;
+      adapt_to_metric(comm_, mesh, metric_at, walls_, {demand_.tile_size, rounds, round});
+      round += rounds;
+      report.figures = metric_figures(comm_, mesh, carried.at(mesh));
+      const auto nodes = static_cast<double>(comm_.sum(std::int64_t{mesh.owned_nodes}));
+      if (nodes <= wanted && nodes >= enough * wanted) return mesh;
+      complexity *= aim * wanted / nodes;
+    }
+    warn(comm_.sum(std::int64_t{mesh.owned_nodes}));
+    return mesh;
+  }
+
+ private:
+  void warn(std::int64_t nodes) {
+    if (nodes <= wanted_) return;
+    report.warnings.push_back(fmt::format(
+        "the mesh has {} nodes where adapt.max_nodes allows {}: the case's own sizes ask for them",
+        nodes + demand_.nodes - wanted_, demand_.nodes));
+  }
+
+  const Communicator& comm_;
+  const Mesh& solved_;
+  const MetricDemand& demand_;
+  OutlinePath outline_;
+  Walls walls_;
+  WantedMetric metric_;
+  std::int64_t wanted_;
+};
+
+}  // namespace
+
+StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, const Mesh& solved,
+                           const Field& solution, const MetricDemand& demand, MeshResult& result) {
+  Stretching stretching(comm, input, solved, solution, demand, result);
+  const Mesh mesh = stretching.stretched(result.mesh);
+  const TreeAttributes& a = result.tree.attributes;
+  const Point low{a.root_x, a.root_y};
+  const Lattice lattice({low, low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge}}, a.trees_x,
+                        a.trees_y);
+  share_among_leaves(comm, lattice, mesh, result);
+  return std::move(stretching.report);
+}
+
+}  // namespace quadloop

@@ -1,0 +1,42 @@
+#include "adapt/metric/tile/walls.hpp"
+
+#include <algorithm>
+
+namespace quadloop {
+
+namespace {
+
+/// Of the shorter chord: so far the outline may stray from chords, as it may in cutting.
+constexpr double stray_share = 0.15;
+/// A chord that stands for a part of the outline longer than so many times itself is left alone.
+constexpr double longest_way = 20;
+
+}  // namespace
+
+bool Walls::may_change(const Chord& chord) const {
+  if (!chord.from.valid() || !chord.to.valid() || chord.from.loop != chord.to.loop) return false;
+  if (outline_.way(chord.from, chord.to) > longest_way * length(chord.b - chord.a)) return false;
+  return heights_.empty() || !(heights_[middle_of(chord).segment] > 0);
+}
+
+double Walls::deviation(const Chord& whole, OutlinePlace at, Point p) const {
+  return std::max(deviation({whole.from, at, whole.a, p}), deviation({at, whole.to, p, whole.b}));
+}
+
+bool Walls::may_divide(const Chord& whole, OutlinePlace at, Point p) const {
+  return meets_nothing({whole.from, at, whole.a, p}) && meets_nothing({at, whole.to, p, whole.b}) &&
+         !outline_.sweeps_over(whole, p);
+}
+
+bool Walls::may_slide(const Chord& whole, OutlinePlace at, Point p, OutlinePlace before, Point q) const {
+  const double shorter = std::min(length(p - whole.a), length(whole.b - p));
+  const double allowed = std::max(deviation(whole, before, q), stray_share * shorter);
+  return deviation(whole, at, p) <= allowed && may_divide(whole, at, p) && !outline_.sweeps_over(whole, q);
+}
+
+bool Walls::may_join(const Chord& whole, OutlinePlace at, Point p) const {
+  const double allowed = std::max(deviation(whole, at, p), stray_share * length(whole.b - whole.a));
+  return deviation(whole) <= allowed && meets_nothing(whole) && !outline_.sweeps_over(whole, p);
+}
+
+}  // namespace quadloop

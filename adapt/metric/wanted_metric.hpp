@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "adapt/metric/algebra/tensor.hpp"
+#include "mesher/base/parallel/communicator.hpp"
+#include "mesher/mesh/field.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// Within which sizes a metric stays.
+struct SizeBounds {
+  double min = 0;            ///< no edge is wanted shorter than this, in any direction
+  std::vector<double> most;  ///< at each owned node and copy: nor longer than this
+  double slope = 0.25;       ///< by which sizes may grow for each unit of length: (gradation - 1) / 2
+};
+
+/// The metric that makes the L^p norm of the interpolation error least for its complexity, the integral of
+/// its density: det(H)^(-1 / (2 p + 2)) |H|, but for a factor, with the Hessian H of the variables over their
+/// ranges, of several the intersection (Loseille and Alauzet, SIAM J. Numer. Anal. 49, 2011). The same bits
+/// on any number of ranks.
+class WantedMetric {
+ public:
+  /// From values at the nodes; `mesh` must outlive it. Throws InputError for one that is not finite.
+  /// *Collective.*
+  WantedMetric(const Communicator& comm, const Mesh& mesh, const Field& field, double norm,
+               SizeBounds bounds);
+
+  /// Whether all variables are linear: there is nothing to follow.
+  bool flat() const { return !(total_ > 0); }
+
+  /// The metrics at owned nodes and copies whose complexity, within the bounds, is so much, to a fiftieth;
+  /// that of the bounds alone where they ask for more. *Collective.*
+  std::vector<LogMetric> of_complexity(double complexity) const;
+
+ private:
+  std::vector<Metric> bounded(double factor) const;
+  double integral(const std::vector<Metric>& metrics) const;
+  Metric within_bounds(const Metric& metric, double most) const;
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  SizeBounds bounds_;
+  std::vector<Metric> shapes_;  ///< at owned nodes and copies, but for a factor
+  std::vector<double> areas_;   ///< of cells
+  double total_ = 0;            ///< the integral of the shapes' density
+};
+
+}  // namespace quadloop

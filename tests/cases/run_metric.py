@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""Meshes that stretch (mesh.type = "metric") in the loop and in remesh, with the built-in solver past the wedge.
+
+    run_metric.py --quadloop PROGRAM
+
+The number of nodes is met, edges are mostly units of the metric, meshes are valid and on the outline; the same files on 1 and on 3 ranks, after a
+cycle that is made again, and from `remesh` of the same solution; less error for fewer nodes than the first mesh; refusals.
+"""
+import argparse
+import json
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from quadloop_runs import MPIRUN, ROOT, fail, run
+
+CASE = ROOT / "cases" / "wedge" / "case.toml"
+
+def require(holds, message):
+    if not holds:
+        fail(message)
+
+
+def metric_case(folder):
+    """The wedge's case for few nodes."""
+    text = CASE.read_text()
+    head = text[:text.index("[adapt]")].replace("min = 0.015", "min = 0.05").replace("max = 0.034", "max = 0.2")
+    solver = text[text.index("[solver]"):].replace("iterations = 1000", "iterations = 20")
+    adapt = '[mesh]\ntype = "metric"\n\n[adapt]\ncycles = 2\nvariable = "density"\nnorm = 2\nmax_nodes = 600\nmin = 0.001\n\n'
+    folder.mkdir()
+    shutil.copy(CASE.parent / "wedge.geom", folder)
+    case = folder / "case.toml"
+    case.write_text(head + adapt + solver)
+    return case
+
+
+def check_cycles(folder):
+    records = [json.loads((cycle / "record.json").read_text()) for cycle in sorted(folder.glob("cycle_*"))]
+    require(len(records) == 3 and "metric" not in records[0], f"{len(records)} cycles")
+    for record in records[1:]:
+        require(0.95 * 600 <= record["nodes"] <= 600, f"{record['nodes']} nodes")
+        edges = record["metric"]["edges"]["counts"]
+        require(sum(edges[2:4]) > 0.93 * sum(edges), f"edges {edges}")
+        require(record["metric"]["complexity"] > 300, f"{record['metric']}")
+        require(record["quads"] == 0, "triangles alone")
+    require(records[2]["estimate"] < 0.5 * records[0]["estimate"], f"the error: {[r['estimate'] for r in records]}")
+
+
+def check_ranks_and_resume(program, case, folder):
+    run([program, "-q", "adapt", case, "-o", folder / "one"])
+    check_cycles(folder / "one")
+    run([MPIRUN, "-n", "3", program, "-q", "adapt", case, "-o", folder / "three"])
+    shutil.copytree(folder / "one", folder / "again")
+    shutil.rmtree(folder / "again" / "cycle_02")
+    run([program, "-q", "adapt", case, "-o", folder / "again", "--resume"])
+    for cycle in ("cycle_01", "cycle_02"):
+        for name in ("mesh.mesh", "mesh.tree.h5"):
+            bytes_of = [(folder / one / cycle / name).read_bytes() for one in ("one", "three", "again")]
+            require(bytes_of[0] == bytes_of[1], f"{cycle}/{name} differs on 3 ranks")
+            require(bytes_of[0] == bytes_of[2], f"{cycle}/{name} differs after --resume")
+        run([program, "-q", "check", folder / "one" / cycle / "mesh.mesh", "--geometry", case.parent / "wedge.geom"])
+
+
+def check_remesh(program, case, folder):
+    last = folder / "one" / "cycle_01"
+    for ranks in (1, 2):
+        run([MPIRUN, "-n", str(ranks), program, "-q", "remesh", case, "--tree", last / "mesh.tree.h5", "--solution", last / "mesh.mesh",
+             "-o", folder / f"next_{ranks}"])
+    tree = (folder / "one" / "cycle_02" / "mesh.tree.h5").read_bytes()
+    require((folder / "next_1.tree.h5").read_bytes() == tree, "remesh makes another tree than the loop")
+    require((folder / "next_2.tree.h5").read_bytes() == tree, "remesh makes another tree on 2 ranks")
+    require((folder / "next_1.mesh").read_bytes() == (folder / "next_2.mesh").read_bytes(), "remesh makes another mesh on 2 ranks")
+
+
+def check_refusals(program, case, folder):
+    for assignment, words in (('mesh.mirror="x"', "half"), ("adapt.growth=0.5", "growth")):
+        told = subprocess.run([program, "adapt", case, "-o", folder / "refused", "--set", assignment], capture_output=True, text=True, check=False)
+        require(told.returncode == 1 and words in told.stderr, f"{assignment}: {told.returncode} {told.stderr}")
+    other = case.parent / "marks.toml"
+    other.write_text(case.read_text().replace("norm = 2\n", ""))
+    told = subprocess.run([program, "adapt", other, "-o", folder / "refused"], capture_output=True, text=True, check=False)
+    require(told.returncode == 1 and "'adapt.norm'" in told.stderr and "norm = 2" in told.stderr, f"without norm: {told.returncode} {told.stderr}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quadloop", required=True)
+    program = parser.parse_args().quadloop
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        case = metric_case(folder / "case")
+        check_refusals(program, case, folder)
+        check_ranks_and_resume(program, case, folder)
+        check_remesh(program, case, folder)
+
+
+main()
