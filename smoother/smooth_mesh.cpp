@@ -180,13 +180,14 @@ WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
   return over_ranks(comm, worst);
 }
 
-/// Sweeps until nothing moves any more, or as many as are asked for. *Collective.*
+/// Sweeps until next to nothing moves any more, or as many as are asked for. Those after the open ones are
+/// measured by the busiest of themselves: where few nodes are left, few moves count. *Collective.*
 void sweep_until_settled(Sweeper& sweeper, int sweeps, SmoothReport& report) {
   progress::Stage stage("smoothing", sweeps, "sweeps");
-  std::int64_t moves = 1, first = 0;
-  for (int sweep = 0; sweep < sweeps && moves > 0 && moves >= first / few; ++sweep, ++report.sweeps) {
+  std::int64_t moves = 1, busiest = 0;
+  for (int sweep = 0; sweep < sweeps && moves > 0 && moves >= busiest / few; ++sweep, ++report.sweeps) {
     moves = sweeper.sweep();
-    first = std::max(first, moves);
+    busiest = sweep == Sweeper::open_sweeps ? moves : std::max(busiest, moves);
     report.moves += moves;
     stage.say("sweep " + std::to_string(sweep + 1) + ", " + std::to_string(moves) + " nodes moved");
     stage.advance(sweep + 1);

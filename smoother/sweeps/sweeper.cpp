@@ -24,16 +24,24 @@ Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& star
 
 std::int64_t Sweeper::sweep() {
   update_bad();
+  ++done_;
   return comm_.sum(sweeps_.sweep([&](std::size_t i) { return bad_near_[i] > 0; },
                                  [&](std::size_t i) { return better_place(i); }));
 }
 
 /// Flags the nodes of cells above the threshold, of other ranks too. One that was visited and round which all
-/// has stayed since keeps its flag, even where something moved in the sweep before it was visited.
+/// has stayed since keeps its flag, even where something moved in the sweep before it was visited; after the
+/// open sweeps it loses that.
 void Sweeper::update_bad() {
   const NodeFlags before = bad_;
-  for (const std::int32_t i : sweeps_.take_changed()) {
-    if (sweeps_.is_stale(i)) bad_[node(i)] = stars_.costs_more(i, rule_.threshold) ? 1 : 0;
+  const auto look_at = [&](std::int32_t i) { bad_[node(i)] = stars_.costs_more(i, rule_.threshold) ? 1 : 0; };
+  const std::vector<std::int32_t> changed = sweeps_.take_changed();
+  if (done_ == open_sweeps) {
+    for (std::int32_t i = 0; i < std::ssize(stars_); ++i) look_at(i);
+  } else {
+    for (const std::int32_t i : changed) {
+      if (sweeps_.is_stale(i)) look_at(i);
+    }
   }
   mesh_.exchange().update(bad_);
   for (const NodeId node : bad_.ids()) {

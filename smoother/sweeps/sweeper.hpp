@@ -13,6 +13,10 @@ namespace quadloop {
 /// where something near has moved since they were visited.
 class Sweeper {
  public:
+  /// After so many sweeps, which have most of the gain, nodes are left out near which no cell is above the
+  /// threshold any more.
+  static constexpr int open_sweeps = 2;
+
   /// How nodes are visited, and which.
   struct Rule {
     Method method;
@@ -44,6 +48,7 @@ class Sweeper {
   NodeFlags bad_;                       ///< free nodes of cells above the threshold, other ranks' too
   std::vector<std::int32_t> bad_near_;  ///< of each free node: bad ones, itself too, as often as they are met
   Star star_;
+  int done_ = 0;  ///< sweeps
 };
 
 }  // namespace quadloop
