@@ -170,6 +170,7 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   adaptive->mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
   if (comm.is_root() && !note.empty()) log::information(note);
   const std::string folder = folder_of(arguments);
+  if (former) context.warn(former->warnings);
   context.warn(warnings);
   std::set<std::string> told;
   std::vector<JsonObject> cycles;

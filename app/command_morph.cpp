@@ -3,10 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "adapt/morph/morph_derivative.hpp"
@@ -59,6 +61,9 @@ void require_outputs(const MorphArguments& arguments) {
   if (arguments.nodal_gradient.empty() != arguments.outline_gradient.empty())
     throw UsageError(
         "--nodal-gradient and --outline-gradient go together: the one is read, the other written");
+  if (arguments.fields.front() == arguments.fields.back())
+    throw UsageError("--fields: '" + arguments.fields.front() +
+                     "' is named twice; name the fields of dJ/dx and of dJ/dy");
   if (arguments.output.empty() && (arguments.outline_gradient.empty() || !arguments.direction.empty()))
     throw UsageError("-o is required: the mesh on the new outline; see 'quadloop morph --help'");
   if (arguments.direction.empty()) return;
@@ -66,6 +71,30 @@ void require_outputs(const MorphArguments& arguments) {
   if (!format_of(arguments.output)->holds(Content::solution))
     throw InputError(arguments.output + ": this format has no place for the nodes' velocities; name a " +
                      suffixes_for({Content::mesh, Content::solution}) + " file");
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code none;  // where one of them is not there
+  return a == b || std::filesystem::equivalent(a, b, none);
+}
+
+/// Outputs that can be written, and over nothing that is read or written besides. Only the mesh may be
+/// replaced by its successor.
+void require_other_outputs(const MorphArguments& arguments) {
+  const std::string &mesh = arguments.output, &table = arguments.outline_gradient;
+  const auto require_other = [](const std::string& output, const std::string& other) {
+    if (!output.empty() && !other.empty() && is_same_file(output, other))
+      throw UsageError(output + ": is " + (output == other ? "" : other + ", ") +
+                       "named for two things, and would be written over; give the output another name");
+  };
+  for (const std::string& output : {mesh, table}) {
+    if (!output.empty()) require_possible_output(output);
+    for (const std::string& input :
+         {arguments.geometry, arguments.from, arguments.direction, arguments.nodal_gradient})
+      require_other(output, input);
+  }
+  require_other(table, arguments.input);
+  require_other(table, mesh);
 }
 
 /// *Collective.*
@@ -79,11 +108,10 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
     if (!arguments.nodal_gradient.empty()) require_solution_suffix(arguments.nodal_gradient);
     input.to = read_outline(arguments.geometry, warnings);
     if (!arguments.from.empty()) input.from = read_outline(arguments.from, warnings);
-    if (!arguments.direction.empty()) input.direction = read_point_table(arguments.direction, *input.to);
+    if (!arguments.direction.empty())
+      input.direction = read_point_table(arguments.direction, *input.to, {"dx", "dy"});
     if (!context.comm.is_root()) return;
-    for (const std::string& file : {arguments.output, arguments.outline_gradient}) {
-      if (!file.empty()) require_possible_output(file);
-    }
+    require_other_outputs(arguments);
     input.whole = read_mesh(arguments.input);
     tidy_mesh(input.whole, arguments.input);
     require_valid_input(input.whole, arguments.input);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "mesher/base/error.hpp"
@@ -102,18 +103,68 @@ std::string why_anew(const MorphWish& wish, const std::string& refusal) {
       wish.file, wish.least_quality, refusal);
 }
 
+namespace {
+
+constexpr const char* what_shapes_cells = "the settings that shape the mesh (mesh, spacing, layers)";
+
+std::vector<Point> sorted_points(const Geometry& outline) {
+  std::vector<Point> points;
+  for (std::int32_t v = 0; v < outline.size(); ++v) points.push_back(outline.point(v));
+  std::ranges::sort(points);
+  return points;
+}
+
+/// Whether the case asks for other cells than those of the solved mesh, as far as its tree and its outline
+/// tell: with other points too, what boundaries ask for is not known.
+bool has_other_settings(const MeshInput& input, const SolvedMesh& old, const MorphWish& wish) {
+  if (old.tree.attributes.case_digest != input.digest) return true;
+  if (wish.from == nullptr) return false;
+  MeshReport told_already;
+  const Geometry to = without_small_islands(input.geometry, input.mesh.size.min, told_already);
+  return sorted_points(*wish.from) == sorted_points(to);
+}
+
+/// Of a mesh that nobody wished to morph or that has no other outline to go to.
+std::string why_not_kept(const MeshInput& input, const SolvedMesh& old, bool wished) {
+  const std::string why = has_outline_of(old, input)
+                              ? fmt::format("{} are not those that it was made with", what_shapes_cells)
+                              : "its outline, or what its boundaries ask for, has changed";
+  const std::string cure =
+      wished || has_outline_of(old, input) ? "" : "; design.morph_to in the case file keeps the cells";
+  return fmt::format("{}: is meshed anew, as {}{}", old.file, why, cure);
+}
+
+/// What a mesh made anew by the tree alone leaves out.
+std::string without_stretched_cells(const SolvedMesh& old) {
+  return fmt::format(
+      "{}: mesh.type = \"metric\": cycle 0 is the mesh of the case's own tree, without stretched cells; an "
+      "adaptation makes them",
+      old.file);
+}
+
+}  // namespace
+
 CarriedMesh continued_mesh(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
                            const std::optional<MorphWish>& wish, TransferKind transfer) {
   if (has_outline_of(old, input) && old.tree.attributes.case_digest == input.digest)
     return with_nodes_of(comm, input, old, old.mesh);
   MorphedMesh morphed;
   if (wish) morphed = morph_solved(comm, input, old, *wish);
-  if (morphed.carried) return std::move(*morphed.carried);
+  if (morphed.carried) {
+    if (has_other_settings(input, old, *wish))
+      morphed.carried->generated.result.report.warnings.push_back(
+          fmt::format("{}: {} are not those that it was made with; its cells are kept, and the settings wait "
+                      "for the next mesh that is made anew",
+                      old.file, what_shapes_cells));
+    return std::move(*morphed.carried);
+  }
   AdaptationPlan plan = standing_plan(old.tree, input);
   plan.transfer = transfer;
   CarriedMesh carried = carry_over(comm, input, plan, old);
-  if (!morphed.refusal.empty())
-    carried.generated.result.report.warnings.push_back(why_anew(*wish, morphed.refusal));
+  std::vector<std::string>& warnings = carried.generated.result.report.warnings;
+  warnings.push_back(morphed.refusal.empty() ? why_not_kept(input, old, wish.has_value())
+                                             : why_anew(*wish, morphed.refusal));
+  if (input.mesh.type == MeshType::metric) warnings.push_back(without_stretched_cells(old));
   return carried;
 }
 

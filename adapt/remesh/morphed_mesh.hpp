@@ -34,7 +34,8 @@ std::string why_anew(const MorphWish& wish, const std::string& refusal);
 
 /// The solved mesh on the input's outline with its flow, and no leaf marked: the mesh itself where it is of
 /// this outline and case; morphed, if that is wished and allowed; else made anew by the tree as it stands,
-/// the flow carried over. Why it was not morphed joins the warnings of the mesh's report. *Collective.*
+/// the flow carried over. Why it is made anew joins the warnings of the mesh's report, and where cells are
+/// kept that other settings made, that. *Collective.*
 CarriedMesh continued_mesh(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
                            const std::optional<MorphWish>& wish, TransferKind transfer);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,10 +17,14 @@ namespace quadloop {
 std::string point_table(const Geometry& outline, const std::string& path, std::span<const Point> values,
                         const std::string& names);
 
+using ComponentNames = std::array<std::string, 2>;
+
 /// Of each vertex of the outline the components that the table at `path` has for it, 0 where it has no row.
-/// Rows come in any order, after a line of names; a row's point is the vertex with just its x and y. Throws
-/// InputError "file:line: ..." for a row that is none, a point that the outline does not have, or two rows
-/// for one.
-std::vector<Point> read_point_table(const std::string& path, const Geometry& outline);
+/// The first line names the columns, in any order: boundary, x, y and the components. A row's point is the
+/// vertex with just its x and y, on the boundary named. Throws InputError "file:line: ..." for other columns,
+/// a row that is none, a point that the outline does not have there, or two rows for one; and for a table
+/// without rows.
+std::vector<Point> read_point_table(const std::string& path, const Geometry& outline,
+                                    const ComponentNames& components);
 
 }  // namespace quadloop

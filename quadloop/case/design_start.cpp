@@ -29,12 +29,20 @@ constexpr const char* what_from_takes =
     "--from takes the folder of a run of `quadloop adapt`, one of its cycles, or a mesh beside its tree";
 
 /// The last whole cycle of a run, or the folder itself where it is a cycle's.
-std::string cycle_folder(const std::string& from) {
+std::string cycle_folder(const std::string& from, std::vector<std::string>& warnings) {
   std::string last;
   for (int cycle = 0;; ++cycle) {
     const std::string folder = fmt::format("{}/cycle_{:02}", from, cycle);
-    if (!is_there(CyclePaths{folder}.record())) break;
-    last = folder;
+    if (is_there(CyclePaths{folder}.record())) {
+      last = folder;
+      continue;
+    }
+    for (const std::string& torn : {folder, folder + ".part"}) {
+      if (!last.empty() && is_there(torn))
+        warnings.push_back(
+            fmt::format("{}: is not whole (its record is missing); {} is begun with", torn, last));
+    }
+    break;
   }
   if (!last.empty()) return last;
   if (is_there(CyclePaths{from}.native_mesh())) return from;
@@ -47,7 +55,7 @@ FormerMesh files_of(const std::string& from) {
   if (!is_there(from)) throw InputError(fmt::format("{}: is not there; {}", from, what_from_takes));
   std::error_code unreadable;
   if (fs::is_directory(from, unreadable)) {
-    const CyclePaths paths{cycle_folder(from)};
+    const CyclePaths paths{cycle_folder(from, former.warnings)};
     former.mesh_file = paths.native_mesh();
     former.tree_file = paths.tree();
     former.outline_file = paths.outline();

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "adapt/loop/run_in_folder.hpp"
 #include "mesher/base/parallel/communicator.hpp"
@@ -15,6 +16,7 @@ struct FormerMesh {
   std::string outline_file;         ///< empty: there is none
   TreeRecord tree;                  ///< this rank's share
   std::optional<Geometry> outline;  ///< on every rank
+  std::vector<std::string> warnings = {};
 };
 
 /// Finds the files of `from`: the folder of a run, of which the last whole cycle counts, or of a cycle, or a

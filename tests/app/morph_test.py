@@ -175,6 +175,39 @@ class Morph(ProgramTest):
                      "--outline-gradient", "gradient.csv")
         self.assertFalse((self.folder / "gradient.csv").exists())
 
+    def test_columns_of_a_direction_go_by_their_names(self):
+        self.direction(lens(0.05))
+        moved, said = self.morph(lens(0.05), "--from", "body.geom", "--direction", "direction.csv")
+        rows = [line.split(",") for line in (self.folder / "direction.csv").read_text().splitlines()]
+        table = "# by a script\n" + "".join(",".join((dy, x, name, y, dx)) + "\n" for name, x, y, dx, dy in rows)
+        self.write("swapped.csv", table)
+        self.assertEqual(self.morph(lens(0.05), "--from", "body.geom", "--direction", "swapped.csv")[0], moved)
+        morph = ["morph", "in.mesh", "--geometry", "new.geom", "-o", "out.mesh", "--from", "body.geom", "--direction", "bad.csv"]
+        for text, said in (
+                ("", ["bad.csv: has no row of a point"]),
+                ("boundary,x,y,dx,dy\n", ["bad.csv: has no row of a point"]),
+                ("boundary,x,y,dx,dz\n", ["bad.csv:1", "'dz' is the name of no column", "boundary,x,y,dx,dy"]),
+                ("boundary,x,y,dx\n", ["bad.csv:1", "there is no column 'dy'"]),
+                ("boundary,x,y,dx,dx,dy\n", ["bad.csv:1", "two columns are named 'dx'"]),
+                ("".join(",".join(row) + "\n" for row in rows[1:]), ["bad.csv:1", "'body' is the name of no column"]),
+                ("boundary,x,y,dx,dy\nfarfield," + ",".join(rows[1][1:]) + "\n", ["bad.csv:2", "of boundary 'body', not of 'farfield'"])):
+            self.write("bad.csv", text)
+            self.refused(1, said, *morph)
+
+    def test_no_input_is_written_over(self):
+        self.write("new.geom", lens(0.05))
+        self.direction(lens(0.05))
+        self.with_gradient((self.folder / "in.mesh").read_bytes())
+        morph = ["morph", "in.mesh", "--geometry", "new.geom", "--from", "body.geom", "--nodal-gradient", "adjoint.mesh", "--outline-gradient"]
+        (self.folder / "link.geom").symlink_to("new.geom")
+        for name in ("adjoint.mesh", "./adjoint.mesh", "in.mesh", "new.geom", "link.geom", "body.geom"):
+            before = (self.folder / name).read_bytes()
+            self.refused(2, [name, "written over"], *morph, name)
+            self.assertEqual((self.folder / name).read_bytes(), before)
+        self.refused(2, ["out.mesh", "written over"], *morph, "out.mesh", "-o", "out.mesh")
+        self.refused(2, ["adjoint.mesh", "written over"], *morph, "gradient.csv", "-o", "adjoint.mesh")
+        self.refused(2, ["--fields", "'a' is named twice"], *morph, "gradient.csv", "--fields", "a", "a")
+
     def test_refusals(self):
         self.write("cut.geom", lens(cut=0.9))
         self.refused(1, ["cut.geom", "'body'", "corners where the mesh has"], "morph", "in.mesh", "--geometry", "cut.geom", "-o", "out.mesh")

@@ -6,6 +6,7 @@ which; the flow is carried over; the same outline keeps the mesh to the last bit
 """
 import argparse
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -30,7 +31,7 @@ class Runs:
     def adapt(self, out, *words, ranks=1):
         """What --json says; the run is in `out`."""
         launcher = [ROOT / "scripts" / "mpirun", "-n", ranks] if ranks > 1 else []
-        return json.loads(run([*launcher, self.quadloop, "adapt", CASE, "-o", self.folder / out, "--json", *words, *COARSE]))
+        return json.loads(run([*launcher, self.quadloop, "adapt", CASE, "-o", self.folder / out, "--json", *COARSE, *words]))
 
     def refused(self, pieces, *words):
         done = subprocess.run([str(w) for w in (self.quadloop, "adapt", CASE, "-o", self.folder / "none", *words, *COARSE)], capture_output=True, text=True,
@@ -59,6 +60,11 @@ def require(holds, what):
         fail(what)
 
 
+def tables_of(case):
+    """The text of a case file, a piece for each table."""
+    return re.split(r"^(?=\[)", case.read_text(), flags=re.MULTILINE)
+
+
 def cells_of(mesh):
     return mesh.cells, mesh.boundaries
 
@@ -85,7 +91,7 @@ def check_kept_cells(runs, ranks):
     near = runs.shape("near.geom", 0.005, 0.118)
     said = runs.adapt("near_1", "--from", runs.folder / "first", "--geometry", near, "--cycles", 0)
     found, = said["cycles"]
-    require(found["morphed"] and not any("anew" in warning for warning in said["warnings"]), f"cells were to be kept: {said}")
+    require(found["morphed"] and not any("anew" in warning or "wait" in warning for warning in said["warnings"]), f"cells were to be kept: {said}")
     require(found["cl"] > 0.2 and found["residual"] < 1e-5, f"a flow was to come: {found}")
     require(cells_of(runs.mesh("near_1/cycle_00")) == cells_of(runs.mesh("first/cycle_01")), "the cells are not those of the first shape")
     run([runs.quadloop, "-q", "check", runs.folder / "near_1/cycle_00/mesh.mesh", "--geometry", runs.folder / "near_1/cycle_00/mesh.geom"])
@@ -107,6 +113,25 @@ def check_same_outline(runs):
     require(moved["cycles"][0]["morphed"] and runs.mesh("polar_of_near/cycle_00").nodes == runs.mesh("near_1/cycle_00").nodes, "nor does a morphed mesh change")
 
 
+def check_what_is_told(runs):
+    """Whatever the reason is for other cells, or for cells that other settings made."""
+    start, near = ["--cycles", 0, "--from", runs.folder / "first"], ["--geometry", runs.folder / "near.geom"]
+    coarser = ["--set", "spacing.gradation=1.4"]
+    for name, words, morphed, pieces in (
+            ("wall_kept", [*start, "--set", "boundary.airfoil.spacing=0.06"], True, ["its cells are kept", "(mesh, spacing, layers)"]),
+            ("set_kept", [*start, *near, *coarser], True, ["its cells are kept", "(mesh, spacing, layers)"]),
+            ("set_anew", [*start, *coarser], False, ["is meshed anew", "(mesh, spacing, layers)"])):
+        said = runs.adapt(name, *words)
+        require(said["cycles"][0]["morphed"] == morphed, f"{name}: {said}")
+        require(any(all(piece in warning for piece in pieces) for warning in said["warnings"]), f"{name}: it was to be said: {said['warnings']}")
+    case = runs.folder / "undesigned.toml"
+    case.write_text("".join(part for part in tables_of(CASE) if not part.startswith("[design]")))
+    words = [runs.quadloop, "adapt", case, "-o", runs.folder / "undesigned", "--json", *start, *near, *COARSE]
+    said = json.loads(run(words))
+    require(any("is meshed anew, as its outline, " in warning and "design.morph_to" in warning for warning in said["warnings"]),
+            f"it was to be said: {said['warnings']}")
+
+
 def check_meshed_anew(runs):
     """Where no mesh is good enough; then cycles as asked, resumed too."""
     words = ["--from", runs.folder / "first", "--geometry", runs.folder / "near.geom", "--set", "design.morph_to=1"]
@@ -115,10 +140,20 @@ def check_meshed_anew(runs):
     require(not zero["morphed"] and "morphed" not in one, f"no mesh has the quality 1: {said}")
     require(any("near.geom: is meshed anew" in warning and "design.morph_to" in warning for warning in said["warnings"]), f"it was to be said: {said['warnings']}")
     require(cells_of(runs.mesh("anew/cycle_00")) != cells_of(runs.mesh("first/cycle_01")), "its cells are the old ones")
+    check_what_is_told(runs)
     shutil.copytree(runs.folder / "anew", runs.folder / "resumed")
     shutil.rmtree(runs.folder / "resumed" / "cycle_01")
     runs.adapt("resumed", *words, "--cycles", 1, "--resume")
     require_same(runs.folder / "anew", runs.folder / "resumed")
+
+
+def check_last_whole_cycle(runs):
+    """Where the last cycle is not whole, the one before counts, and that is said."""
+    shutil.copytree(runs.folder / "first", runs.folder / "torn")
+    (runs.folder / "torn/cycle_01/record.json").unlink()
+    said = runs.adapt("from_torn", "--from", runs.folder / "torn", "--cycles", 0)
+    require(any("torn/cycle_01: is not whole" in warning and "cycle_00" in warning for warning in said["warnings"]), f"it was to be said: {said['warnings']}")
+    require(runs.mesh("from_torn/cycle_00").nodes == runs.mesh("first/cycle_00").nodes, "the cycle before was to count")
 
 
 def check_mesh_beside_its_tree(runs):
@@ -144,6 +179,7 @@ def main():
         check_kept_cells(runs, args.ranks)
         check_same_outline(runs)
         check_meshed_anew(runs)
+        check_last_whole_cycle(runs)
         check_mesh_beside_its_tree(runs)
     print("good")
 
