@@ -130,6 +130,10 @@ def check_what_is_told(runs):
     said = json.loads(run(words))
     require(any("is meshed anew, as its outline, " in warning and "design.morph_to" in warning for warning in said["warnings"]),
             f"it was to be said: {said['warnings']}")
+    without_marks = re.sub(r"^(indicator|threshold) = .*\n", "", case.read_text(), flags=re.MULTILINE)
+    case.write_text(without_marks.replace("variable = ", "norm = 2\nvariable = "))
+    said = json.loads(run([*words[:4], runs.folder / "metric", *words[5:], "--set", 'mesh.type="metric"']))
+    require(any("without stretched cells" in warning for warning in said["warnings"]), f"it was to be said: {said['warnings']}")
 
 
 def check_meshed_anew(runs):
