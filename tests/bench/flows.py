@@ -68,6 +68,13 @@ def about_airfoil(mach, alpha, **known):
     return Flow(f"NACA 0012, M {mach}, {alpha} degrees", AIRFOIL, mach, alpha, shapes.airfoil(0, 0, 0.12), **known)
 
 
+def in_far_field(half_width, kind):
+    """The airfoil in a square of this half width, in chords, against what lies beyond it."""
+    flow = about_airfoil(0.8, 1.25)
+    case = {**AIRFOIL, "geometry": {"far_field": half_width}}
+    return dataclasses.replace(flow, name=f"{flow.name}, {kind} far field {half_width:.0f} chords away", case=case, solver={"far_field": kind})
+
+
 def on_ramp(mach, degrees):
     lift, drag = exact.ramp_forces(mach, degrees)
     return Flow(f"ramp of {degrees} degrees, M {mach}", RAMP, mach, 0, shapes.ramp(degrees),
@@ -112,6 +119,7 @@ def all_flows():
         about_airfoil(0.85, 1),
         about_airfoil(0.95, 0, lift="0", source="symmetry"),
         about_airfoil(1.2, 0, lift="0", source="symmetry", figure="stagnation"),
+        *(in_far_field(half_width, kind) for kind in ("uniform", "vortex") for half_width in (15.0, 50.0, 150.0)),
         *(about_circle(mach) for mach in (0.1, 0.38, 2, 3)),
         *(on_ramp(mach, 10) for mach in (2, 2.5, 3)),
         on_ramp(3, 15),
