@@ -60,6 +60,11 @@ void append_places(const std::string& goal, const std::vector<Point>& derivative
 void refuse(const EulerOptions& options) {
   if (options.time != EulerOptions::Time::steady)
     throw InputError("solver.goal needs a steady flow; set solver.time = \"steady\" or leave the goal out");
+  if (options.far_field == EulerOptions::FarField::vortex)
+    throw InputError(
+        "solver.goal needs the free stream beyond the far field; set solver.far_field = \"uniform\", or "
+        "leave "
+        "the goal out");
   if (options.viscosity > 0)
     throw InputError(
         "solver.goal needs a flow without viscosity; leave out solver.viscosity and solver.reynolds, or the "

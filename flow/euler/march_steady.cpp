@@ -52,6 +52,7 @@ class SteadyMarch {
         system_(run.comm, run.mesh, run.model),
         change_(run.mesh.nodes()),
         shares_(run.mesh.owned_nodes()),
+        far_field_(run.comm, run.mesh, run.model),
         best_states_{run.states} {
     std::vector<State> uniform(run.mesh.nodes(), run.model.free_stream);
     reference_ = mass_residual(run, run.residual.evaluate(uniform));
@@ -60,6 +61,7 @@ class SteadyMarch {
 
   EulerResult march() {
     while (true) {
+      surround(run_, far_field_);
       const std::vector<Flux>& fluxes = run_.residual.evaluate(run_.states);
       measure(fluxes);
       if (!std::isfinite(result_.residual) || result_.residual > blown_up) {
@@ -177,6 +179,7 @@ class SteadyMarch {
   ImplicitSystem system_;
   std::vector<Change> change_;
   StepShares shares_;
+  FarField far_field_;
   EulerResult result_;
   StallWatch stall_;
   RiseWatch rise_;

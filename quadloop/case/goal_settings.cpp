@@ -46,6 +46,10 @@ void refuse_what_has_no_adjoint(const CaseTable& table, bool built_in, const Eul
     table.refuse("goal", "needs a flow without viscosity; leave out viscosity and reynolds, or the goal");
   if (options.time != EulerOptions::Time::steady)
     table.refuse("goal", "needs a steady flow; set time = \"steady\" or leave the goal out");
+  if (options.far_field == EulerOptions::FarField::vortex)
+    table.refuse(
+        "goal",
+        "needs the free stream beyond the far field; set far_field = \"uniform\", or leave the goal out");
   if (options.mach == 0) table.refuse("goal", "is a coefficient, which needs a mach above 0");
 }
 

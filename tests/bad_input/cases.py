@@ -64,6 +64,8 @@ CASES = [
     case_file("two kinds of field", CASE + "[adapt]\nvariable = { size = \"h\", error = \"e\" }\n", "case.toml:7:", "variable"),
     case_file("command without a program", CASE + "[solver]\nkind = \"command\"\n", "case.toml:6:", "command"),
     case_file("goal of a command", CASE + "[solver]\nkind = \"command\"\ncommand = [\"a\"]\ngoal = \"drag\"\n", "case.toml:9:", "goal"),
+    case_file("goal with a far-field vortex", CASE + "[solver]\nfar_field = \"vortex\"\ngoal = \"drag\"\n", "case.toml:8:", "far_field"),
+    case_file("unknown far field", CASE + "[solver]\nfar_field = \"swirl\"\n", "case.toml:7:", "far_field"),
     case_file("unknown goal", CASE + "[solver]\ngoal = \"range\"\n", "case.toml:7:", "goal"),
     case_file("solution outside the folder", CASE + "[solver]\nsolution = \"../a.mesh\"\n", "case.toml:7:", "solution"),
     case_file("half a sweep", CASE + "[smooth]\nsweeps = 2.5\n", "case.toml:7:", "sweeps"),

@@ -42,9 +42,8 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
 ///
 ///   wall, no_slip, symmetry
 ///             the pressure alone
-///   farfield  the upwind flux against the free stream, which lets waves out; there is no correction for the
-///   circulation, so lift errs by the order of
-///             chord over far-field distance
+///   farfield  the upwind flux against the free stream, which lets waves out: lift errs by the order of
+///             chord over far-field distance (Residual::surround for one with the lift's vortex)
 ///   inflow    the free stream where it comes in faster than sound, else as farfield
 ///   outflow   the flow itself where it is faster than sound or no pressure is given, else with the given
 ///   pressure and the density and speed that

@@ -137,12 +137,20 @@ void Residual::add_skew(const std::vector<State>& states) {
   }
 }
 
+/// A boundary face, with a state inside.
+Flux Residual::through(const BoundaryFace& face, const State& state) const {
+  const BoundaryModel& boundary = model_.boundaries[face.boundary];
+  if (!far_field_ || boundary.condition != Condition::farfield)
+    return boundary_flux(model_, boundary, state, face.normal);
+  const Point middle = 0.5 * (mesh_.point(face.from) + mesh_.point(face.to));
+  return roe_flux(model_.gas, state, far_field_->at(middle), face.normal);
+}
+
 void Residual::add_faces(const std::vector<State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
-    const BoundaryModel& boundary = model_.boundaries[face.boundary];
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
       const State state = state_at_half(face, states[own], states[other]);
-      const Flux flux = boundary_flux(model_, boundary, state, face.normal);
+      const Flux flux = through(face, state);
       for (std::size_t k = 0; k < 4; ++k) sums_[own][k] += face.half_size * flux[k];
     }
   }

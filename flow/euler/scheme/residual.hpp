@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "flow/euler/scheme/dual_mesh.hpp"
+#include "flow/euler/scheme/far_field.hpp"
 #include "flow/euler/scheme/flow_model.hpp"
 #include "flow/euler/scheme/flux.hpp"
 #include "flow/euler/scheme/no_slip.hpp"
@@ -28,6 +29,9 @@ class Residual {
   /// none where the flow is not viscous.
   const std::vector<Point>& friction() const { return friction_; }
 
+  /// What lies beyond far fields from now on: the free stream, until it is given a vortex.
+  void surround(const FarField& far_field) { far_field_ = far_field; }
+
   /// From now on the limiter's factors stay as they are.
   void freeze_limiter();
   void release_limiter();
@@ -43,6 +47,7 @@ class Residual {
   void add_edges(const std::vector<State>& states);
   void add_skew(const std::vector<State>& states);
   void add_faces(const std::vector<State>& states);
+  Flux through(const BoundaryFace& face, const State& state) const;
   void find_viscous_gradients(const std::vector<State>& states);
   void take_viscous_edges(const std::vector<State>& states);
   void take_viscous_faces(const std::vector<State>& states);
@@ -54,6 +59,7 @@ class Residual {
   std::vector<Gradient> gradients_;
   std::vector<Flux> sums_;
   NoSlipNodes no_slip_;
+  std::optional<FarField> far_field_;
   std::vector<ViscousGradient> viscous_gradients_;  ///< of a viscous flow
   std::vector<Point> friction_;
 };

@@ -48,6 +48,20 @@ TEST(Ranks, GiveTheSameBits) {
   }
 }
 
+TEST(Ranks, GiveTheSameBitsWithAVortexFarAway) {
+  EulerOptions options;
+  options.mach = 0.5;
+  options.alpha = 5;
+  options.iterations = 12;
+  options.far_field = EulerOptions::FarField::vortex;
+  const Mesh ring = test::ring_mesh(24, 8, 0.3, 5);
+  for (const auto time : {EulerOptions::Time::steady, EulerOptions::Time::accurate}) {
+    options.time = time;
+    expect_same_on_all_ranks(ring, space_filling_order(ring), options);
+    expect_same_on_all_ranks(ring, test::shuffled_order(ring, 5), options);
+  }
+}
+
 TEST(Ranks, GiveTheSameBitsInThinLayers) {
   EulerOptions options;
   options.mach = 0.5;

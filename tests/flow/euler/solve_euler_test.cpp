@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "mesher/base/error.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
@@ -80,6 +81,39 @@ TEST(UniformFlow, IsKeptBetweenWalls) {
     EXPECT_LT(departure(result, options), 1e-12);
     EXPECT_NEAR(result.cl, 0, 1e-10);
   }
+}
+
+/// An airfoil some 12 % thick (Karman and Trefftz 1918) with its trailing edge at a node, in a ring of cells
+/// that reaches so many chords out.
+Mesh airfoil_mesh(std::int32_t outwards, double far) {
+  constexpr double sharpness = 1.85;  // of the trailing edge, 2 for a cusp
+  constexpr double offset = 0.1;      // of the middle of the circle that becomes the airfoil
+  Mesh mesh = test::ring_mesh(64, outwards, 1, 2 * far);
+  for (Point& point : mesh.points) {
+    const std::complex<double> z =
+        2 * (1 + offset) * std::complex<double>{point.x, point.y} - std::complex<double>{offset, 0};
+    const std::complex<double> power = std::pow((z - 1.0) / (z + 1.0), sharpness);
+    const std::complex<double> w = 0.25 * sharpness * (1.0 + power) / (1.0 - power);
+    point = {w.real(), w.imag()};
+  }
+  return mesh;
+}
+
+TEST(SteadyFlow, LiftHardlyDependsOnHowFarAFarFieldWithAVortexIs) {
+  EulerOptions options;
+  options.mach = 0.5;
+  options.alpha = 2;
+  const auto lift = [&](std::int32_t outwards, double far) {
+    const EulerResult result = solve_euler(world(), shared(airfoil_mesh(outwards, far)), options);
+    EXPECT_TRUE(result.converged);
+    return result.cl;
+  };
+  const double near = lift(16, 8), distant = lift(32, 128);
+  options.far_field = EulerOptions::FarField::vortex;
+  const double near_vortex = lift(16, 8), distant_vortex = lift(32, 128);
+  EXPECT_LT(near, distant);
+  EXPECT_LT(std::abs(near_vortex - distant_vortex), 0.25 * std::abs(near - distant));
+  EXPECT_NEAR(distant_vortex, distant, 0.02 * distant);
 }
 
 TEST(SteadyFlow, RoundASymmetricBodyHasNoLiftAndEverLessDrag) {

@@ -66,6 +66,7 @@ TEST_F(GoalSettingsTest, RefusesFlowsWithoutAnAdjoint) {
   expect_refused("goal = \"lift\"\nviscosity = 0.001\n", "without viscosity");
   expect_refused("goal = \"lift\"\nreynolds = 5000\n", "without viscosity");
   expect_refused("goal = \"lift\"\ntime = \"accurate\"\nend_time = 1\n", "steady");
+  expect_refused("goal = \"lift\"\nfar_field = \"vortex\"\n", "far_field = \"uniform\"");
   expect_refused("goal = \"lift\"\nmach = 0\n", "mach above 0");
 }
 

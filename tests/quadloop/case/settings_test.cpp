@@ -209,6 +209,7 @@ TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(
       refused("[solver]\niterations = 1.5\n").find("case.toml:4: 'solver.iterations' must be a whole number"),
       0u);
+  EXPECT_EQ(refused("[solver]\nfar_field = \"swirl\"\n").find("case.toml:4: 'solver.far_field'"), 0u);
   EXPECT_EQ(refused("[solver]\ntime = \"accurate\"\n").find("case.toml:3: 'solver.end_time' is missing"), 0u);
   EXPECT_EQ(refused("[solver]\nkind = \"command\"\n").find("case.toml:3: 'solver.command' is missing"), 0u);
   EXPECT_EQ(refused("[boundary.box]\nbc = \"wall\"\npressure = 1\n")
@@ -300,6 +301,7 @@ iterations = 7
 tolerance = 1e-4
 limiter = "none"
 initial = "vortex"
+far_field = "vortex"
 reference_length = 2
 ranks = 3
 command = ["flow", "{mesh}"]
@@ -311,6 +313,7 @@ timeout = 60
   EXPECT_EQ(euler.mach, 0.5);
   EXPECT_EQ(euler.alpha, 2);
   EXPECT_EQ(euler.gamma, 1.3);
+  EXPECT_EQ(euler.far_field, EulerOptions::FarField::vortex);
   EXPECT_EQ(euler.time, EulerOptions::Time::accurate);
   EXPECT_EQ(euler.end_time, 3);
   EXPECT_EQ(euler.cfl, 5);
