@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
 
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/assemble/mirrored_outline.hpp"
 #include "quadloop/case/settings.hpp"
 
@@ -21,6 +23,22 @@ Box saved_far_field(const Box& square, const TreeAttributes& saved) {
                        std::abs(square.width() - saved.tree_edge) <= rounding * saved.tree_edge;
   if (!is_root || (square.low == low && square.width() == saved.tree_edge)) return square;
   return {low, low + Point{saved.tree_edge, saved.tree_edge}};
+}
+
+/// Their images stand for them.
+void warn_of_conditions_left_out(const Geometry& whole, const Geometry& half,
+                                 const IdVector<BoundaryId, BoundaryId>& images, Warnings& warnings) {
+  for (const BoundaryId b : ids_below(BoundaryId{size32(whole.boundaries())})) {
+    const Boundary& left_out = whole.boundary(b);
+    if (!images[b].valid()) continue;
+    const Boundary& image = whole.boundary(images[b]);
+    const bool stands = std::ranges::count(half.boundaries(), left_out.name, &Boundary::name) > 0;
+    if (stands || left_out.condition == image.condition) continue;
+    warnings.push_back(
+        fmt::format("mesh.half: boundary '{}' (bc {}) is in the half left out; its mirror image '{}' "
+                    "(bc {}) stands for it",
+                    left_out.name, left_out.condition, image.name, image.condition));
+  }
 }
 
 }  // namespace
@@ -50,7 +68,8 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
   if (settings.half)  // of the half alone there is a boundary of that name
     std::erase_if(options.rules, [&](const auto& rule) { return rule.pattern == settings.half->boundary; });
   Geometry geometry = assemble(std::move(chains), options, warnings);
-  if (axis) require_mirror_images(geometry, *axis);
+  if (!axis) return geometry;
+  const IdVector<BoundaryId, BoundaryId> images = require_mirror_images(geometry, *axis);
   if (!settings.half) return geometry;
   for (const Boundary& boundary : geometry.boundaries()) {
     if (boundary.name == settings.half->boundary)
@@ -60,7 +79,9 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
   options = settings.outline;
   for (auto& rule : options.rules)
     rule.must_match = false;  // each has matched; a name may be the dropped half's
-  return assemble(half_outline(geometry, *axis, settings.half->boundary), options, warnings);
+  Geometry half = assemble(half_outline(geometry, *axis, settings.half->boundary), options, warnings);
+  warn_of_conditions_left_out(geometry, half, images, warnings);
+  return half;
 }
 
 }  // namespace quadloop

@@ -129,7 +129,7 @@ namespace {
 
 bool asks_for_the_same(const Boundary& a, const Boundary& b) {
   return a.spacing == b.spacing && a.corner_degrees == b.corner_degrees &&
-         a.corner_spacing == b.corner_spacing && a.layers == b.layers && a.condition == b.condition;
+         a.corner_spacing == b.corner_spacing && a.layers == b.layers;
 }
 
 struct Segment {
@@ -157,7 +157,7 @@ std::vector<Segment> segments_by_ends(const Geometry& geometry) {
 
 }  // namespace
 
-void require_mirror_images(const Geometry& geometry, MirrorAxis axis) {
+IdVector<BoundaryId, BoundaryId> require_mirror_images(const Geometry& geometry, MirrorAxis axis) {
   const std::vector<Segment> segments = segments_by_ends(geometry);
   IdVector<BoundaryId, BoundaryId> image_of_boundary(geometry.boundaries().size());
   for (const Segment& s : segments) {
@@ -175,10 +175,11 @@ void require_mirror_images(const Geometry& geometry, MirrorAxis axis) {
     if (!asks_for_the_same(geometry.boundary(s.boundary), geometry.boundary(image->boundary)))
       refuse_segment(
           geometry, s, axis,
-          fmt::format("'{}', which asks for another spacing, corner, condition (bc) or other layers, is the "
-                      "mirror image of",
+          fmt::format("'{}', which asks for another spacing, corner or other layers, is the mirror "
+                      "image of",
                       geometry.boundary(image->boundary).name));
   }
+  return image_of_boundary;
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
 
@@ -19,8 +20,8 @@ void fit_to_mirror(std::vector<Chain>& chains, MirrorAxis axis, Warnings& warnin
 
 /// Throws InputError, naming the place, unless the outline is its own mirror image, to the last bit: each
 /// segment has its image, of the same boundary or of one that asks for the same spacing, corners and layers
-/// and is the image of this one everywhere.
-void require_mirror_images(const Geometry& geometry, MirrorAxis axis);
+/// and is the image of this one everywhere. The image of each boundary.
+IdVector<BoundaryId, BoundaryId> require_mirror_images(const Geometry& geometry, MirrorAxis axis);
 
 /// Of an outline that is its own mirror image the half above the axis (on its right: of the y-axis), as open
 /// chains: the outline's parts there, and between them along the axis those of a boundary `name`. Where the

@@ -83,15 +83,6 @@ TEST(MirroredOutline, BoundariesMayBeEachOthersImages) {
   EXPECT_NE(text.find("asks for another spacing"), std::string::npos) << text;
 }
 
-TEST(MirroredOutline, ConditionsOfImagesAreTheSame) {
-  AssembleOptions walls;
-  walls.rules.push_back({"upper", {}, {}, "viscous_wall", "case"});
-  const std::string text = refusal([&] { require_mirror_images(outline(walls), MirrorAxis::x); });
-  EXPECT_NE(text.find("condition (bc)"), std::string::npos) << text;
-  walls.rules.push_back({"lower", {}, {}, "viscous_wall", "case"});
-  EXPECT_NO_THROW(require_mirror_images(outline(walls), MirrorAxis::x));
-}
-
 TEST(MirroredOutline, EverySegmentHasItsImage) {
   const std::string text = refusal([&] { require_mirror_images(outline(), MirrorAxis::y); });
   EXPECT_NE(text.find("there is no mirror image of the part from (0, "), std::string::npos) << text;

@@ -22,14 +22,15 @@ class MirrorTest : public ::testing::Test {
     return read_settings(folder_.write("case.toml", "[geometry]\nfile = \"diamond.geom\"\n" + text), {});
   }
   Geometry load(const std::string& text) {
-    Warnings warnings;
-    return load_geometry(read(text), warnings);
+    warnings_.clear();
+    return load_geometry(read(text), warnings_);
   }
   std::string refused(const std::string& text) {
     return test::refusal(folder_, [&] { load(text); });
   }
 
   test::InputFolder folder_;
+  Warnings warnings_;
 };
 
 TEST_F(MirrorTest, AMirrorIsTheMeshsAndTheSolvers) {
@@ -62,7 +63,16 @@ TEST_F(MirrorTest, TablesOfTheDroppedSideMayStay) {
   std::set<std::string> names;
   for (const Boundary& boundary : half.boundaries()) names.insert(boundary.name);
   EXPECT_EQ(names, (std::set<std::string>{"box", "middle", "upper"}));
+  EXPECT_TRUE(warnings_.empty()) << warnings_.front();
   EXPECT_NE(refused(both + "[boundary.uper]\nspacing = 0.2\n").find("matches 'uper'"), std::string::npos);
+}
+
+TEST_F(MirrorTest, AConditionThatTheImageHasNotIsToldOf) {
+  const std::string half = "[spacing]\nmin = 0.1\nmax = 1\n[mesh]\nmirror = \"x\"\nhalf = \"middle\"\n";
+  load(half + "[boundary.lower]\nbc = \"farfield\"\n[boundary.upper]\nbc = \"wall\"\n");
+  ASSERT_EQ(warnings_.size(), 1U);
+  EXPECT_NE(warnings_[0].find("'lower' (bc farfield) is in the half left out"), std::string::npos)
+      << warnings_[0];
 }
 
 }  // namespace
