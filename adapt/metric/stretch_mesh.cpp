@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapt/metric/crossing_walls.hpp"
 #include "adapt/metric/leaf_shares.hpp"
 #include "adapt/metric/unit_mesh.hpp"
 #include "adapt/metric/wanted_metric.hpp"
 #include "adapt/transfer/transfer.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
@@ -106,6 +109,30 @@ class Stretching {
 
   StretchReport report;
 
+  /// None of its walls cross. *Collective.*
+  Mesh sound(const Mesh& start) {
+    const std::vector<WallEdge> known = wall_edges(comm_, start);
+    Mesh mesh = stretched(start);
+    const auto met = crossing_walls(wall_edges(comm_, mesh), known);
+    if (!met) return mesh;
+    const Point at = met->one.from();
+    log::detail(fmt::format("metric: walls meet near ({:.6g}, {:.6g}): their nodes are kept", at.x, at.y));
+    walls_.keep_nodes();
+    report = {};
+    mesh = stretched(start);
+    if (const auto still = crossing_walls(wall_edges(comm_, mesh), known)) refuse(mesh, *still);
+    return mesh;
+  }
+
+ private:
+  [[noreturn]] static void refuse(const Mesh& mesh, const CrossingWalls& met) {
+    const Point at = 0.5 * (met.one.from() + met.one.to());
+    throw InputError(fmt::format(
+        "mesh.type = \"metric\": edges of the boundaries \"{}\" and \"{}\" meet near ({:.6g}, {:.6g}): "
+        "give them a smaller `spacing`, or take a larger adapt.min",
+        mesh.boundaries[met.one.boundary].name, mesh.boundaries[met.other.boundary].name, at.x, at.y));
+  }
+
   /// *Collective.*
   Mesh stretched(Mesh mesh) {
     constexpr int attempts = 5;
@@ -133,7 +160,6 @@ class Stretching {
     return mesh;
   }
 
- private:
   void warn(std::int64_t nodes) {
     if (nodes <= wanted_) return;
     report.warnings.push_back(fmt::format(
@@ -155,7 +181,7 @@ class Stretching {
 StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, const Mesh& solved,
                            const Field& solution, const MetricDemand& demand, MeshResult& result) {
   Stretching stretching(comm, input, solved, solution, demand, result);
-  const Mesh mesh = stretching.stretched(result.mesh);
+  const Mesh mesh = stretching.sound(result.mesh);
   const TreeAttributes& a = result.tree.attributes;
   const Point low{a.root_x, a.root_y};
   const Lattice lattice({low, low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge}}, a.trees_x,
