@@ -133,9 +133,13 @@ class Stretching {
         mesh.boundaries[met.one.boundary].name, mesh.boundaries[met.other.boundary].name, at.x, at.y));
   }
 
+  struct Attempt {
+    double complexity = 0, nodes = 0;
+  };
+
   /// *Collective.*
   Mesh stretched(Mesh mesh) {
-    constexpr int attempts = 5;
+    constexpr int attempts = 5, most_attempts = 10;  // more than the first while nodes are too many
     constexpr double enough = 0.95, aim = 0.975;
     constexpr double nodes_of_unit = 1.3;  // a first guess
     if (metric_.flat()) {
@@ -143,28 +147,51 @@ class Stretching {
       return mesh;
     }
     const auto wanted = static_cast<double>(std::max<std::int64_t>(wanted_, 1));
-    double complexity = wanted / nodes_of_unit;
+    Attempt last, now{wanted / nodes_of_unit, 0};
     int round = 0;
-    for (int attempt = 0; attempt < attempts; ++attempt) {
-      const CarriedMetric carried(comm_, solved_, metric_.of_complexity(complexity));
-      const auto metric_at = [&](const Mesh& m) { return carried.at(m); };
-      const int rounds = attempt == 0 ? 12 : 5;
-      adapt_to_metric(comm_, mesh, metric_at, walls_, {demand_.tile_size, rounds, round});
-      round += rounds;
-      report.figures = metric_figures(comm_, mesh, carried.at(mesh));
-      const auto nodes = static_cast<double>(comm_.sum(std::int64_t{mesh.owned_nodes}));
-      if (nodes <= wanted && nodes >= enough * wanted) return mesh;
-      complexity *= aim * wanted / nodes;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+      now.nodes = adapt(mesh, now.complexity, attempt == 0 ? 12 : 5, round);
+      if (now.nodes <= wanted && now.nodes >= enough * wanted) return mesh;
+      if (attempt + 1 >= attempts && (now.nodes <= wanted || is_floor(last, now))) break;
+      last = now;
+      now.complexity *= aim * wanted / now.nodes;
     }
-    warn(comm_.sum(std::int64_t{mesh.owned_nodes}));
+    warn(last, now);
     return mesh;
   }
 
-  void warn(std::int64_t nodes) {
-    if (nodes <= wanted_) return;
-    report.warnings.push_back(fmt::format(
-        "the mesh has {} nodes where adapt.max_nodes allows {}: the case's own sizes ask for them",
-        nodes + demand_.nodes - wanted_, demand_.nodes));
+  /// The number of nodes then. *Collective.*
+  double adapt(Mesh& mesh, double complexity, int rounds, int& round) {
+    const CarriedMetric carried(comm_, solved_, metric_.of_complexity(complexity));
+    const auto metric_at = [&](const Mesh& m) { return carried.at(m); };
+    adapt_to_metric(comm_, mesh, metric_at, walls_, {demand_.tile_size, rounds, round});
+    round += rounds;
+    report.figures = metric_figures(comm_, mesh, carried.at(mesh));
+    return static_cast<double>(comm_.sum(std::int64_t{mesh.owned_nodes}));
+  }
+
+  /// Less complexity takes hardly any nodes away.
+  static bool is_floor(const Attempt& last, const Attempt& now) {
+    return now.complexity < 0.99 * last.complexity && now.nodes > 0.998 * last.nodes;
+  }
+  /// More complexity brings hardly any nodes.
+  static bool is_ceiling(const Attempt& last, const Attempt& now) {
+    return now.complexity > 1.04 * last.complexity && now.nodes < 1.01 * last.nodes;
+  }
+
+  void warn(const Attempt& last, const Attempt& now) {
+    const auto nodes = static_cast<std::int64_t>(now.nodes);
+    const std::int64_t all = nodes + demand_.nodes - wanted_;
+    if (nodes <= wanted_) {
+      if (is_ceiling(last, now))
+        report.warnings.push_back(
+            fmt::format("the mesh has {} of the {} nodes of adapt.max_nodes: adapt.min allows no more", all,
+                        demand_.nodes));
+      return;
+    }
+    report.warnings.push_back(
+        fmt::format("the mesh has {} nodes where adapt.max_nodes allows {}: {}", all, demand_.nodes,
+                    is_floor(last, now) ? "the case's own sizes ask for them" : "it came no nearer"));
   }
 
   const Communicator& comm_;
