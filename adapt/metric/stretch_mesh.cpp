@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapt/metric/crossing_walls.hpp"
 #include "adapt/metric/leaf_shares.hpp"
 #include "adapt/metric/unit_mesh.hpp"
 #include "adapt/metric/wanted_metric.hpp"
 #include "adapt/transfer/transfer.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
@@ -106,9 +109,37 @@ class Stretching {
 
   StretchReport report;
 
+  /// None of its walls cross. *Collective.*
+  Mesh sound(const Mesh& start) {
+    const std::vector<WallEdge> known = wall_edges(comm_, start);
+    Mesh mesh = stretched(start);
+    const auto met = crossing_walls(wall_edges(comm_, mesh), known);
+    if (!met) return mesh;
+    const Point at = met->one.from();
+    log::detail(fmt::format("metric: walls meet near ({:.6g}, {:.6g}): their nodes are kept", at.x, at.y));
+    walls_.keep_nodes();
+    report = {};
+    mesh = stretched(start);
+    if (const auto still = crossing_walls(wall_edges(comm_, mesh), known)) refuse(mesh, *still);
+    return mesh;
+  }
+
+ private:
+  [[noreturn]] static void refuse(const Mesh& mesh, const CrossingWalls& met) {
+    const Point at = 0.5 * (met.one.from() + met.one.to());
+    throw InputError(fmt::format(
+        "mesh.type = \"metric\": edges of the boundaries \"{}\" and \"{}\" meet near ({:.6g}, {:.6g}): "
+        "give them a smaller `spacing`, or take a larger adapt.min",
+        mesh.boundaries[met.one.boundary].name, mesh.boundaries[met.other.boundary].name, at.x, at.y));
+  }
+
+  struct Attempt {
+    double complexity = 0, nodes = 0;
+  };
+
   /// *Collective.*
   Mesh stretched(Mesh mesh) {
-    constexpr int attempts = 5;
+    constexpr int attempts = 5, most_attempts = 10;  // more than the first while nodes are too many
     constexpr double enough = 0.95, aim = 0.975;
     constexpr double nodes_of_unit = 1.3;  // a first guess
     if (metric_.flat()) {
@@ -116,29 +147,51 @@ class Stretching {
       return mesh;
     }
     const auto wanted = static_cast<double>(std::max<std::int64_t>(wanted_, 1));
-    double complexity = wanted / nodes_of_unit;
+    Attempt last, now{wanted / nodes_of_unit, 0};
     int round = 0;
-    for (int attempt = 0; attempt < attempts; ++attempt) {
-      const CarriedMetric carried(comm_, solved_, metric_.of_complexity(complexity));
-      const auto metric_at = [&](const Mesh& m) { return carried.at(m); };
-      const int rounds = attempt == 0 ? 12 : 5;
-      adapt_to_metric(comm_, mesh, metric_at, walls_, {demand_.tile_size, rounds, round});
-      round += rounds;
-      report.figures = metric_figures(comm_, mesh, carried.at(mesh));
-      const auto nodes = static_cast<double>(comm_.sum(std::int64_t{mesh.owned_nodes}));
-      if (nodes <= wanted && nodes >= enough * wanted) return mesh;
-      complexity *= aim * wanted / nodes;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+      now.nodes = adapt(mesh, now.complexity, attempt == 0 ? 12 : 5, round);
+      if (now.nodes <= wanted && now.nodes >= enough * wanted) return mesh;
+      if (attempt + 1 >= attempts && (now.nodes <= wanted || is_floor(last, now))) break;
+      last = now;
+      now.complexity *= aim * wanted / now.nodes;
     }
-    warn(comm_.sum(std::int64_t{mesh.owned_nodes}));
+    warn(last, now);
     return mesh;
   }
 
- private:
-  void warn(std::int64_t nodes) {
-    if (nodes <= wanted_) return;
-    report.warnings.push_back(fmt::format(
-        "the mesh has {} nodes where adapt.max_nodes allows {}: the case's own sizes ask for them",
-        nodes + demand_.nodes - wanted_, demand_.nodes));
+  /// The number of nodes then. *Collective.*
+  double adapt(Mesh& mesh, double complexity, int rounds, int& round) {
+    const CarriedMetric carried(comm_, solved_, metric_.of_complexity(complexity));
+    const auto metric_at = [&](const Mesh& m) { return carried.at(m); };
+    adapt_to_metric(comm_, mesh, metric_at, walls_, {demand_.tile_size, rounds, round});
+    round += rounds;
+    report.figures = metric_figures(comm_, mesh, carried.at(mesh));
+    return static_cast<double>(comm_.sum(std::int64_t{mesh.owned_nodes}));
+  }
+
+  /// Less complexity takes hardly any nodes away.
+  static bool is_floor(const Attempt& last, const Attempt& now) {
+    return now.complexity < 0.99 * last.complexity && now.nodes > 0.998 * last.nodes;
+  }
+  /// More complexity brings hardly any nodes.
+  static bool is_ceiling(const Attempt& last, const Attempt& now) {
+    return now.complexity > 1.04 * last.complexity && now.nodes < 1.01 * last.nodes;
+  }
+
+  void warn(const Attempt& last, const Attempt& now) {
+    const auto nodes = static_cast<std::int64_t>(now.nodes);
+    const std::int64_t all = nodes + demand_.nodes - wanted_;
+    if (nodes <= wanted_) {
+      if (is_ceiling(last, now))
+        report.warnings.push_back(
+            fmt::format("the mesh has {} of the {} nodes of adapt.max_nodes: adapt.min allows no more", all,
+                        demand_.nodes));
+      return;
+    }
+    report.warnings.push_back(
+        fmt::format("the mesh has {} nodes where adapt.max_nodes allows {}: {}", all, demand_.nodes,
+                    is_floor(last, now) ? "the case's own sizes ask for them" : "it came no nearer"));
   }
 
   const Communicator& comm_;
@@ -155,7 +208,7 @@ class Stretching {
 StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, const Mesh& solved,
                            const Field& solution, const MetricDemand& demand, MeshResult& result) {
   Stretching stretching(comm, input, solved, solution, demand, result);
-  const Mesh mesh = stretching.stretched(result.mesh);
+  const Mesh mesh = stretching.sound(result.mesh);
   const TreeAttributes& a = result.tree.attributes;
   const Point low{a.root_x, a.root_y};
   const Lattice lattice({low, low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge}}, a.trees_x,

@@ -30,7 +30,8 @@ struct StretchReport {
 /// leaves nor smaller than the demand's least, and grow as the case's gradation says. Nodes come near to the
 /// number wanted, from below; walls keep to the outline of `input`, whose mesh it is, and the front of layers
 /// stays. The result's tree counts the new cells. It has the same bits on any number of ranks. Throws
-/// InputError where the solution has no such variables. *Collective.*
+/// InputError where the solution has no such variables, and where edges of the
+/// boundary cannot be kept from crossing. *Collective.*
 StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, const Mesh& solved,
                            const Field& solution, const MetricDemand& demand, MeshResult& result);
 

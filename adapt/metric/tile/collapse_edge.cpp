@@ -12,13 +12,24 @@ namespace {
 /// A triangle of this quality is good enough, whatever stood there before.
 constexpr double good = 0.5;
 
-/// A node of a boundary goes along it alone: a-b is one of its two edges there.
+/// Whether triangles at the node lie beyond the tile's rim.
+bool on_rim(const TileMesh& mesh, std::int32_t n) {
+  return std::ranges::any_of(mesh.star(n), [&](std::int32_t t) {
+    const auto k = static_cast<std::size_t>(mesh.corner(t, n));
+    const auto is_rim = [](const TileSide& side) { return side.locked && side.boundary < 0; };
+    const auto& sides = mesh.triangle(t).sides;
+    return is_rim(sides[k]) || is_rim(sides[(k + 2) % 3]);
+  });
+}
+
+/// A node of a boundary goes along it alone: a-b is one of its two edges there. A hole of three edges stays.
 bool may_go(const TileMesh& mesh, std::int32_t gone, const TileMesh::Edge& edge) {
   if (mesh.freedom(gone) == TileMesh::Freedom::fixed) return false;
   if (mesh.freedom(gone) == TileMesh::Freedom::free) return true;
   if (edge.side.boundary < 0) return false;
   const auto [before, after] = mesh.neighbours_on_wall(gone);
-  if (before == after) return false;
+  if (before == after || mesh.edge(before, after)) return false;
+  if (on_rim(mesh, before) && on_rim(mesh, after)) return false;  // a third edge of the hole may be hidden
   const Walls& walls = mesh.walls();
   Walls::Chord whole = mesh.chord(before, after, edge.side.boundary);
   const OutlinePlace at = walls.place_of(mesh.point(gone), edge.side.boundary);

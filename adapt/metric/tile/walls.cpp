@@ -29,12 +29,14 @@ bool Walls::may_divide(const Chord& whole, OutlinePlace at, Point p) const {
 }
 
 bool Walls::may_slide(const Chord& whole, OutlinePlace at, Point p, OutlinePlace before, Point q) const {
+  if (keeps_nodes_) return false;
   const double shorter = std::min(length(p - whole.a), length(whole.b - p));
   const double allowed = std::max(deviation(whole, before, q), stray_share * shorter);
   return deviation(whole, at, p) <= allowed && may_divide(whole, at, p) && !outline_.sweeps_over(whole, q);
 }
 
 bool Walls::may_join(const Chord& whole, OutlinePlace at, Point p) const {
+  if (keeps_nodes_) return false;
   const double allowed = std::max(deviation(whole, at, p), stray_share * length(whole.b - whole.a));
   return deviation(whole) <= allowed && meets_nothing(whole) && !outline_.sweeps_over(whole, p);
 }

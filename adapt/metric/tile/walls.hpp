@@ -18,6 +18,9 @@ class Walls {
   Walls(const OutlinePath& outline, std::vector<std::string> boundaries, std::vector<double> front_heights)
       : outline_{outline}, boundaries_{std::move(boundaries)}, heights_{std::move(front_heights)} {}
 
+  /// From now on edges are divided alone: nodes stay where they are.
+  void keep_nodes() { keeps_nodes_ = true; }
+
   OutlinePlace place_of(Point p, std::int32_t boundary) const {
     return outline_.locate(p, boundaries_[boundary], true);
   }
@@ -54,6 +57,7 @@ class Walls {
   const OutlinePath& outline_;
   std::vector<std::string> boundaries_;
   std::vector<double> heights_;
+  bool keeps_nodes_ = false;
 };
 
 }  // namespace quadloop

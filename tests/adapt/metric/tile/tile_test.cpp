@@ -132,6 +132,37 @@ TEST(TileMesh, CollapseTakesBackASplit) {
   EXPECT_FALSE(collapse_edge(wall.mesh, Ring::n, Ring::n + 1, 0.1)) << "edges would be too long";
 }
 
+/// Whether a hole of three edges, whose outline bulges to both sides, loses one of them; of the triangles
+/// round it the first `shown` are at hand.
+bool hole_of_three_closes(std::size_t shown) {
+  const std::vector<Point> outline{{-9, -9}, {9, -9},   {9, 9}, {-9, 9},
+                                   {-1, 0},  {0, 0.05}, {1, 0}, {0, -0.05}};
+  std::vector<BoundaryId> of_segments(4, BoundaryId{0});
+  of_segments.resize(8, BoundaryId{1});
+  const Geometry geometry{{{"outer"}, {"inner", 0, 180}}, outline, {0, 4, 8}, of_segments};
+  const OutlinePath path(geometry);
+  const Walls walls(path, {"outer", "inner"}, {});
+  std::vector<TileNode> nodes;
+  for (const Point p : {Point{-1, 0}, {1, 0}, {0, 0.05}, {0, 3}, {-3, -3}, {3, -3}})
+    nodes.push_back({std::ssize(nodes), p, log_of(isotropic(1))});
+  const TileSide wall{1, false};
+  std::vector<TileTriangle> triangles{{{1, 3, 2}, {{{}, {}, wall}}},
+                                      {{2, 3, 0}, {{{}, {}, wall}}},
+                                      {{1, 0, 5}, {{wall, {}, {}}}},
+                                      {{0, 4, 5}, {}},
+                                      {{1, 5, 3}, {}},
+                                      {{0, 3, 4}, {}}};
+  triangles.resize(shown);
+  TileMesh mesh(nodes, triangles, walls);
+  EXPECT_EQ(mesh.freedom(2), TileMesh::Freedom::slides);
+  return collapse_edge(mesh, 2, 0, 100);
+}
+
+TEST(TileMesh, AHoleKeepsThreeEdges) {
+  EXPECT_FALSE(hole_of_three_closes(6));
+  EXPECT_FALSE(hole_of_three_closes(2)) << "the third edge is beyond the tile's rim";
+}
+
 TEST(TileMesh, FlipsToTheBetterPairOnce) {
   Ring ring(1);
   const double before = area_of(ring.mesh);
