@@ -34,6 +34,16 @@ void tell_progress(const FlowRun& run, const EulerResult& result) {
 
 }  // namespace
 
+void surround(const FlowRun& run, FarField& far_field) {
+  if (run.options.far_field != EulerOptions::FarField::vortex) return;
+  run.mesh.exchange().update(run.states);
+  const ForceCoefficients forces = wall_forces(run.comm, run.mesh, run.model, run.states,
+                                               run.residual.friction(), run.options.reference_length);
+  const double speed = std::hypot(run.model.free_stream[1], run.model.free_stream[2]);
+  far_field.set_circulation(0.5 * speed * run.options.reference_length * forces.cl);
+  run.residual.surround(far_field);
+}
+
 void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end) {
   tell_progress(run, result);
   const bool is_told =

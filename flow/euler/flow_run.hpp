@@ -22,6 +22,9 @@ struct FlowRun {
 /// Root mean square of the owned nodes' net mass fluxes; not a number where any is not finite. *Collective.*
 double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes);
 
+/// Gives the far field the vortex of the lift that the states have, where the options ask for it. *Collective.*
+void surround(const FlowRun& run, FarField& far_field);
+
 /// Keeps the history, and hands the options' callback what it is due. *Collective.*
 void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end);
 

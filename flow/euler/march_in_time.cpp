@@ -72,7 +72,9 @@ EulerResult march_in_time(const FlowRun& run) {
   const double cfl = std::min(run.options.cfl, largest_cfl);
   EulerResult result;
   double reference = 0;
+  FarField far_field(run.comm, run.mesh, run.model);
   while (true) {
+    surround(run, far_field);
     const std::vector<Flux>& fluxes = run.residual.evaluate(run.states);
     const double norm = mass_residual(run, fluxes);
     if (!std::isfinite(norm)) {

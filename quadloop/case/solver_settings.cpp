@@ -52,6 +52,8 @@ void read_euler_keys(const CaseTable& table, EulerOptions& options) {
     options.limiter = EulerOptions::Limiter::none;
   if (table.choice("initial", {"freestream", "vortex"}) == "vortex")
     options.initial = EulerOptions::Initial::vortex;
+  if (table.choice("far_field", {"uniform", "vortex"}) == "vortex")
+    options.far_field = EulerOptions::FarField::vortex;
   options.reference_length =
       table.number("reference_length", Range::positive()).value_or(options.reference_length);
 }

@@ -51,14 +51,10 @@ BoundaryModel boundary_model(const BoundaryEdges& boundary, const EulerOptions& 
   return {condition, pressure, temperature};
 }
 
-Flux farfield_flux(const FlowModel& model, const State& state, Point normal) {
-  return roe_flux(model.gas, state, model.free_stream, normal);
-}
-
 Flux inflow_flux(const FlowModel& model, const State& state, Point normal) {
   const double along = model.free_stream[1] * normal.x + model.free_stream[2] * normal.y;
   return along <= -1 ? physical_flux(model.gas, model.free_stream, normal)
-                     : farfield_flux(model, state, normal);
+                     : roe_flux(model.gas, state, model.free_stream, normal);
 }
 
 Flux outflow_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state, Point normal) {
@@ -121,12 +117,13 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
   return model;
 }
 
-Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state, Point normal) {
+Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state,
+                   const State& outside, Point normal) {
   switch (boundary.condition) {
     case Condition::wall:
     case Condition::no_slip:
     case Condition::symmetry: return {0, state[3] * normal.x, state[3] * normal.y, 0};
-    case Condition::farfield: return farfield_flux(model, state, normal);
+    case Condition::farfield: return roe_flux(model.gas, state, outside, normal);
     case Condition::inflow: return inflow_flux(model, state, normal);
     case Condition::outflow: return outflow_flux(model, boundary, state, normal);
     case Condition::none: break;

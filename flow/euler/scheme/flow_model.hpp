@@ -41,14 +41,22 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
 ///
 ///   wall, no_slip, symmetry
 ///             the pressure alone
-///   farfield  the upwind flux against the free stream, which lets waves out; there is no correction for the
-///   circulation, so lift errs by the order of
-///             chord over far-field distance
+///   farfield  the upwind flux against the free stream, which lets waves out; without FarField's vortex lift
+///             errs by the order of chord over far-field distance, and drag by its square
 ///   inflow    the free stream where it comes in faster than sound, else as farfield
 ///   outflow   the flow itself where it is faster than sound or no pressure is given, else with the given
 ///   pressure and the density and speed that
 ///             the outgoing waves then carry
-Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state, Point normal);
+///
+/// `outside` is the state beyond a far field.
+Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state,
+                   const State& outside, Point normal);
+
+/// The same with the free stream outside.
+inline Flux boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const State& state,
+                          Point normal) {
+  return boundary_flux(model, boundary, state, model.free_stream, normal);
+}
 
 /// Adds `factor` times how that flux answers to the state inside, as an implicit step takes it: at a wall or
 /// a plane of symmetry its derivative, elsewhere first-order upwind against what is outside.

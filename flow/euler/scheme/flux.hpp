@@ -34,15 +34,15 @@ struct WaveSpeeds {
 /// An entropy fix after Harten (1983): a speed below delta becomes (speed^2 + delta^2) / (2 delta). For the
 /// sound waves delta is a fifth of |q| + c, so that no expansion shock stands at a sonic line. For the middle
 /// wave, which carries entropy and shear, it is a fiftieth: enough to damp the odd-even decay of grid-aligned
-/// shocks, and little dissipation of the slow flow near a stagnation point.
-inline WaveSpeeds wave_speeds(double along, double sound) {
+/// shocks, and little dissipation of the slow flow near a stagnation point. Beside a strong shock it is `least_middle`.
+inline WaveSpeeds wave_speeds(double along, double sound, double least_middle = 0) {
   const double largest = std::abs(along) + sound;
   const auto kept = [](double speed, double delta) {
     speed = std::abs(speed);
     return speed < delta ? (speed * speed + delta * delta) / (2 * delta) : speed;
   };
   return {kept(along + sound, 0.2 * largest), kept(along - sound, 0.2 * largest),
-          kept(along, 0.02 * largest)};
+          kept(along, std::max(0.02, least_middle) * largest)};
 }
 
 /// The state between two states that linearises the jump from one to the other (Roe 1981).
@@ -73,12 +73,14 @@ inline UpwindPart upwind_part(const WaveSpeeds& waves, double sound, double pres
 }
 
 /// What crosses a face of length 1 with this unit normal, which points from `left` to `right` (Roe 1981). The
-/// flux of two equal states is the physical one but for rounding.
-inline Flux roe_flux(const Gas& gas, const State& left, const State& right, Point normal) {
+/// flux of two equal states is the physical one but for rounding. `least_middle` is the least speed of the middle
+/// wave, as a share of the largest (ShockSensor).
+inline Flux roe_flux(const Gas& gas, const State& left, const State& right, Point normal,
+                     double least_middle = 0) {
   const Flux of_left = physical_flux(gas, left, normal), of_right = physical_flux(gas, right, normal);
   const RoeAverage mean = roe_average(gas, left, right);
   const double along = mean.x_velocity * normal.x + mean.y_velocity * normal.y;
-  const WaveSpeeds waves = wave_speeds(along, mean.sound);
+  const WaveSpeeds waves = wave_speeds(along, mean.sound, least_middle);
   const double d_pressure = right[3] - left[3];
   const double d_along = (right[1] - left[1]) * normal.x + (right[2] - left[2]) * normal.y;
   const UpwindPart part = upwind_part(waves, mean.sound, d_pressure, mean.density * d_along);

@@ -32,16 +32,20 @@ Residual::Residual(const DualMesh& mesh, const FlowModel& model, const EulerOpti
     viscous_gradients_.resize(mesh.nodes());
     friction_.resize(mesh.nodes());
   }
-  if (options.limiter == EulerOptions::Limiter::venkatakrishnan)
+  if (options.limiter == EulerOptions::Limiter::venkatakrishnan) {
     limiter_.emplace(mesh, options.reference_length);
+    shocks_.emplace(mesh, model.free_stream[3]);
+  }
 }
 
 void Residual::freeze_limiter() {
   if (limiter_) limiter_->freeze();
+  if (shocks_) shocks_->freeze();
 }
 
 void Residual::release_limiter() {
   if (limiter_) limiter_->release();
+  if (shocks_) shocks_->release();
 }
 
 const std::vector<Flux>& Residual::evaluate(std::vector<State>& states) {
@@ -50,6 +54,7 @@ const std::vector<Flux>& Residual::evaluate(std::vector<State>& states) {
   if (model_.is_viscous()) find_viscous_gradients(states);
   if (limiter_) limiter_->apply(states, gradients_);
   mesh_.exchange().update(gradients_);
+  if (shocks_) shocks_->find(states);
   for (Flux& sum : sums_) sum = {};
   add_edges(states);
   add_skew(states);
@@ -107,7 +112,8 @@ void Residual::add_edges(const std::vector<State>& states) {
       left = states[low];
       right = states[high];
     }
-    const Flux flux = roe_flux(model_.gas, left, right, edge.normal);
+    const double least_middle = shocks_ ? shocks_->least_middle(edge) : 0;
+    const Flux flux = roe_flux(model_.gas, left, right, edge.normal, least_middle);
     for (std::size_t k = 0; k < 4; ++k) {
       const double through = edge.size * flux[k];
       sums_[low][k] += through;
@@ -139,9 +145,11 @@ void Residual::add_skew(const std::vector<State>& states) {
 void Residual::add_faces(const std::vector<State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
     const BoundaryModel& boundary = model_.boundaries[face.boundary];
+    const State outside = far_field_ ? far_field_->at(0.5 * (mesh_.point(face.from) + mesh_.point(face.to)))
+                                     : model_.free_stream;
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
       const State state = state_at_half(face, states[own], states[other]);
-      const Flux flux = boundary_flux(model_, boundary, state, face.normal);
+      const Flux flux = boundary_flux(model_, boundary, state, outside, face.normal);
       for (std::size_t k = 0; k < 4; ++k) sums_[own][k] += face.half_size * flux[k];
     }
   }

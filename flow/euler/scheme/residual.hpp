@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "flow/euler/scheme/dual_mesh.hpp"
+#include "flow/euler/scheme/far_field.hpp"
 #include "flow/euler/scheme/flow_model.hpp"
 #include "flow/euler/scheme/no_slip.hpp"
 #include "flow/euler/scheme/reconstruction.hpp"
+#include "flow/euler/scheme/shock_sensor.hpp"
 #include "flow/euler/scheme/viscous.hpp"
 
 namespace quadloop::euler {
@@ -27,6 +29,9 @@ class Residual {
   /// none where the flow is not viscous.
   const std::vector<Point>& friction() const { return friction_; }
 
+  /// What lies beyond far fields from now on: the free stream, until it is given a vortex.
+  void surround(const FarField& far_field) { far_field_ = far_field; }
+
   /// From now on the limiter's factors stay as they are.
   void freeze_limiter();
   void release_limiter();
@@ -45,9 +50,11 @@ class Residual {
   const FlowModel& model_;
   LeastSquares least_squares_;
   std::optional<Limiter> limiter_;
+  std::optional<ShockSensor> shocks_;  ///< where gradients are limited
   std::vector<Gradient> gradients_;
   std::vector<Flux> sums_;
   NoSlipNodes no_slip_;
+  std::optional<FarField> far_field_;
   std::vector<ViscousGradient> viscous_gradients_;  ///< of a viscous flow
   std::vector<Point> friction_;
 };
