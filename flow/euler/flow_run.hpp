@@ -39,4 +39,8 @@ EulerResult march_to_steady(const FlowRun& run);
 /// Explicit steps of one size to the end time. *Collective.*
 EulerResult march_in_time(const FlowRun& run);
 
+/// A flow that found no steady state carried on in time, by the options' unsteady_time, with a limiter that follows it;
+/// lift and drag become means. `steady` is what the march to a steady state came to. *Collective.*
+EulerResult carry_on(const FlowRun& run, const EulerResult& steady);
+
 }  // namespace quadloop::euler

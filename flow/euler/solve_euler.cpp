@@ -78,7 +78,14 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
   const progress::Stage stage("solving", steady ? options.iterations : options.end_time,
                               steady ? "steps" : "units of time");
   EulerResult result = steady ? march_to_steady(run) : march_in_time(run);
+  const bool carried = steady && !result.converged && options.unsteady_time > 0;
+  if (carried) result = carry_on(run, result);
+  const double mean_lift = result.cl, mean_drag = result.cd;
   take_flow(run, mesh.boundaries, result);
+  if (carried) {
+    result.cl = mean_lift;
+    result.cd = mean_drag;
+  }
   return result;
 }
 

@@ -25,7 +25,10 @@ struct EulerResult {
   double last_residual = 0;  ///< after the last step
   bool stalled = false;      ///< the residual did not halve in the second half of the steps
   bool converged = false;    ///< steady: the tolerance is met; accurate: the end time is reached
-  double time = 0;           ///< of an accurate run
+  double time = 0;           ///< of an accurate run, or how long the flow was carried on in time
+  /// Of a flow that was carried on in time, over the second half of that: half the range of the forces, whose means are
+  /// cl and cd.
+  double cl_swing = 0, cd_swing = 0;
 };
 
 /// Solves the two-dimensional Euler equations, or with a viscosity those of laminar flow, on a mesh of

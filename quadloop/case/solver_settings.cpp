@@ -45,6 +45,7 @@ void read_euler_keys(const CaseTable& table, EulerOptions& options) {
   if (options.time == EulerOptions::Time::accurate && !table.has("end_time")) {
     table.refuse("end_time", "is missing; time = \"accurate\" needs the time at which it ends");
   }
+  options.unsteady_time = table.number("unsteady_time", {0}).value_or(options.unsteady_time);
   options.cfl = table.number("cfl", Range::positive()).value_or(options.cfl);
   options.iterations = whole_number(table, "iterations", options.iterations);
   options.tolerance = table.number("tolerance", {0, 1}).value_or(options.tolerance);

@@ -48,6 +48,8 @@ struct EulerOptions {
   double prandtl = 0.72;
   Time time = Time::steady;
   double end_time = 1;  ///< of an accurate run
+  /// Steady: a flow that finds no steady state is carried on in time for so long; 0: it is not.
+  double unsteady_time = 0;
   /// Steady: of the first steps, it grows as the residual falls; accurate: no more than 0.8 is used.
   double cfl = 20;
   int iterations = 2000;    ///< at most; an accurate run that needs more ends early
