@@ -16,7 +16,7 @@ struct Course {
   double mean = 0, swing = 0;
 };
 
-Course course(std::span<const HistoryRow> rows, double HistoryRow::* value) {
+Course course(std::span<const HistoryRow> rows, double HistoryRow::*value) {
   if (rows.size() < 2) return {rows.empty() ? 0 : rows[0].*value, 0};
   double sum = 0, low = rows[0].*value, high = low;
   for (std::size_t k = 1; k < rows.size(); ++k) {
@@ -31,7 +31,8 @@ Course course(std::span<const HistoryRow> rows, double HistoryRow::* value) {
 
 EulerResult carry_on(const FlowRun& run, const EulerResult& steady) {
   if (run.comm.is_root())
-    log::detail(fmt::format("no steady state was found: carried on in time by {}", run.options.unsteady_time));
+    log::detail(
+        fmt::format("no steady state was found: carried on in time by {}", run.options.unsteady_time));
   EulerOptions options = run.options;
   options.time = EulerOptions::Time::accurate;
   options.end_time = options.unsteady_time;

@@ -22,7 +22,8 @@ struct FlowRun {
 /// Root mean square of the owned nodes' net mass fluxes; not a number where any is not finite. *Collective.*
 double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes);
 
-/// Gives the far field the vortex of the lift that the states have, where the options ask for it. *Collective.*
+/// Gives the far field the vortex of the lift that the states have, where the options ask for it.
+/// *Collective.*
 void surround(const FlowRun& run, FarField& far_field);
 
 /// Keeps the history, and hands the options' callback what it is due. *Collective.*
@@ -39,8 +40,9 @@ EulerResult march_to_steady(const FlowRun& run);
 /// Explicit steps of one size to the end time. *Collective.*
 EulerResult march_in_time(const FlowRun& run);
 
-/// A flow that found no steady state carried on in time, by the options' unsteady_time, with a limiter that follows it;
-/// lift and drag become means. `steady` is what the march to a steady state came to. *Collective.*
+/// A flow that found no steady state carried on in time, by the options' unsteady_time, with a limiter that
+/// follows it; lift and drag become means. `steady` is what the march to a steady state came to.
+/// *Collective.*
 EulerResult carry_on(const FlowRun& run, const EulerResult& steady);
 
 }  // namespace quadloop::euler

@@ -22,12 +22,12 @@ namespace {
 
 /// Of a step's linear system: fewer leave waves in a far field of many cells long under way.
 constexpr int sweeps = 40;
-constexpr double largest_cfl = 1000;    ///< first-order matrices do not bear out more
-constexpr double growth = 0.75;         ///< the CFL number grows as the residual falls, to this power
-constexpr double settled = 0.01;        ///< below it factors that are kept may be those of the end
-constexpr double blown_up = 1000;       ///< a relative residual that no sound start reaches
-constexpr double exploding = 20;        ///< one that hardly any sound start reaches
-constexpr int most_retries = 8;         ///< after a flow blew up
+constexpr double largest_cfl = 1000;  ///< first-order matrices do not bear out more
+constexpr double growth = 0.75;       ///< the CFL number grows as the residual falls, to this power
+constexpr double settled = 0.01;      ///< below it factors that are kept may be those of the end
+constexpr double blown_up = 1000;     ///< a relative residual that no sound start reaches
+constexpr double exploding = 20;      ///< one that hardly any sound start reaches
+constexpr int most_retries = 8;       ///< after a flow blew up
 /// After the residual rose: a flow that has no steady state may swing as it likes then.
 constexpr int most_returns = 8;
 
@@ -174,8 +174,8 @@ class SteadyMarch {
     if (pilot_.fails_often()) change_limiter();
   }
 
-  /// Where Newton steps fail the limiter's factors that swing may be why, or factors that were kept of a flow that has
-  /// moved on.
+  /// Where Newton steps fail the limiter's factors that swing may be why, or factors that were kept of a flow
+  /// that has moved on.
   void change_limiter() {
     if (run_.residual.limiter_is_live() && result_.residual < std::min(settled, keep_below_)) {
       run_.residual.evaluate(run_.states);
@@ -203,7 +203,8 @@ class SteadyMarch {
   std::optional<MirroredStates> mirrored_;
   std::vector<State> best_states_;
   double reference_ = 0, zero_ = 0;  ///< mass residuals: that which the tolerance is relative to; rounding
-  double kept_at_ = 0, keep_below_ = 1;      ///< residuals: where the limiter's factors were kept; where they may be
+  double kept_at_ = 0,
+         keep_below_ = 1;  ///< residuals: where the limiter's factors were kept; where they may be
   int retries_ = 0, returns_ = 0;
 };
 

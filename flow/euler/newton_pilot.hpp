@@ -6,9 +6,9 @@
 
 namespace quadloop::euler {
 
-/// When a steady run tries Newton steps, and with what CFL number: from the time on at which the flow has its shape,
-/// with one that grows threefold as long as whole steps lower the residual and their linear systems are solved. Where
-/// shocks still move they fail; then plain steps follow, more after each failure.
+/// When a steady run tries Newton steps, and with what CFL number: from the time on at which the flow has its
+/// shape, with one that grows threefold as long as whole steps lower the residual and their linear systems
+/// are solved. Where shocks still move they fail; then plain steps follow, more after each failure.
 class NewtonPilot {
  public:
   /// Whether the next step is to be one.

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t directions = 40;  ///< 48 numbers each for a node: 2 kB
 constexpr double linear_tolerance = 0.1;
 constexpr int sweeps = 30;      ///< of the preconditioner
-constexpr double nudge = 1e-6;    ///< the largest entry of the difference that a derivative is taken from
+constexpr double nudge = 1e-6;  ///< the largest entry of the difference that a derivative is taken from
 constexpr int most_halvings = 5;
 
 }  // namespace

@@ -11,7 +11,8 @@ std::string shortfall(const EulerResult& result, const EulerOptions& options) {
   }
   if (result.time > 0) {
     return fmt::format(
-        "the flow found no steady state (residual {:.2e}) and was carried on in time by {:.6g}: over the second half "
+        "the flow found no steady state (residual {:.2e}) and was carried on in time by {:.6g}: over the "
+        "second half "
         "of that CL is {:.6f}, give or take {:.6f}, and CD {:.6f}, give or take {:.6f}",
         result.residual, result.time, result.cl, result.cl_swing, result.cd, result.cd_swing);
   }

@@ -26,8 +26,8 @@ struct EulerResult {
   bool stalled = false;      ///< the residual did not halve in the second half of the steps
   bool converged = false;    ///< steady: the tolerance is met; accurate: the end time is reached
   double time = 0;           ///< of an accurate run, or how long the flow was carried on in time
-  /// Of a flow that was carried on in time, over the second half of that: half the range of the forces, whose means are
-  /// cl and cd.
+  /// Of a flow that was carried on in time, over the second half of that: half the range of the forces, whose
+  /// means are cl and cd.
   double cl_swing = 0, cd_swing = 0;
 };
 

@@ -8,9 +8,9 @@
 
 namespace quadloop::euler {
 
-/// Solves A x = b by flexible GMRES without restarts (Saad 1993): the preconditioner need be no fixed matrix. Vectors
-/// have an entry for each owned node. Inner products are reproducible_sum, so that the result has the same bits
-/// on any number of ranks.
+/// Solves A x = b by flexible GMRES without restarts (Saad 1993): the preconditioner need be no fixed matrix.
+/// Vectors have an entry for each owned node. Inner products are reproducible_sum, so that the result has the
+/// same bits on any number of ranks.
 class Gmres {
  public:
   using Vector = std::vector<Flux>;
@@ -41,9 +41,9 @@ class Gmres {
 
   const Communicator& comm_;
   std::size_t directions_;
-  std::vector<Vector> basis_;                   ///< orthonormal
-  std::vector<std::vector<Change>> changes_;    ///< what the preconditioner made of them
-  std::vector<double> hessenberg_;              ///< column by column, made triangular by the rotations
+  std::vector<Vector> basis_;                    ///< orthonormal
+  std::vector<std::vector<Change>> changes_;     ///< what the preconditioner made of them
+  std::vector<double> hessenberg_;               ///< column by column, made triangular by the rotations
   std::vector<double> cosines_, sines_, right_;  ///< rotations; the right side that they turn
 };
 

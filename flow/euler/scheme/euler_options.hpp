@@ -56,8 +56,8 @@ struct EulerOptions {
   double tolerance = 1e-8;  ///< steady: on the density residual, as EulerResult::residual is relative
   Limiter limiter = Limiter::venkatakrishnan;
   Initial initial = Initial::freestream;
-  /// Beyond far fields: the free stream alone, or with the vortex of the body's lift (FarField), for flows slower than
-  /// sound.
+  /// Beyond far fields: the free stream alone, or with the vortex of the body's lift (FarField), for flows
+  /// slower than sound.
   FarField far_field = FarField::uniform;
   /// The mesh is meant to be its own mirror image in this axis. Where it is, and the free stream runs along
   /// the axis, the limiter's factors that are kept are those of a flow that is its own image.

@@ -26,7 +26,8 @@ State FarField::at(Point place) const {
   const double swirl = circulation_ * std::sqrt(1 - speed * speed) /
                        (2 * std::numbers::pi * (square - speed * speed * across * across));
   const double x = u + swirl * way.y, y = v - swirl * way.x;
-  const double g = gas_.gamma, heat = 1 + 0.5 * (g - 1) * (speed * speed - x * x - y * y);  // of the sound's speed squared
+  const double g = gas_.gamma,
+               heat = 1 + 0.5 * (g - 1) * (speed * speed - x * x - y * y);  // of the sound's speed squared
   const double density = std::pow(heat, 1 / (g - 1));
   return {density, x, y, density * heat / g};
 }

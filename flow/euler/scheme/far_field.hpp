@@ -1,14 +1,15 @@
 #pragma once
 
+#include "flow/euler/scheme/dual_mesh.hpp"
 #include "flow/euler/scheme/flow_model.hpp"
 #include "mesher/base/parallel/communicator.hpp"
-#include "flow/euler/scheme/dual_mesh.hpp"
 
 namespace quadloop::euler {
 
-/// The flow outside the far field: the free stream, or with the compressible point vortex that has the body's lift
-/// (Thomas and Salas 1986), for a free stream slower than sound. It stands in the middle of the box of the walls
-/// that feel a force. Density and pressure follow from the speed by constant total enthalpy and entropy.
+/// The flow outside the far field: the free stream, or with the compressible point vortex that has the body's
+/// lift (Thomas and Salas 1986), for a free stream slower than sound. It stands in the middle of the box of
+/// the walls that feel a force. Density and pressure follow from the speed by constant total enthalpy and
+/// entropy.
 class FarField {
  public:
   /// Without lift. *Collective.*

@@ -34,7 +34,8 @@ struct WaveSpeeds {
 /// An entropy fix after Harten (1983): a speed below delta becomes (speed^2 + delta^2) / (2 delta). For the
 /// sound waves delta is a fifth of |q| + c, so that no expansion shock stands at a sonic line. For the middle
 /// wave, which carries entropy and shear, it is a fiftieth: enough to damp the odd-even decay of grid-aligned
-/// shocks, and little dissipation of the slow flow near a stagnation point. Beside a strong shock it is `least_middle`.
+/// shocks, and little dissipation of the slow flow near a stagnation point. Beside a strong shock it is
+/// `least_middle`.
 inline WaveSpeeds wave_speeds(double along, double sound, double least_middle = 0) {
   const double largest = std::abs(along) + sound;
   const auto kept = [](double speed, double delta) {
@@ -72,16 +73,16 @@ inline UpwindPart upwind_part(const WaveSpeeds& waves, double sound, double pres
           even * momentum + odd * pressure / sound};
 }
 
-/// How much of the jump of the speed along the normal waves of sound damp: the larger Mach number, up to 1. With all
-/// of it Roe's flux damps slow flow more the slower it is (Rieper 2011).
+/// How much of the jump of the speed along the normal waves of sound damp: the larger Mach number, up to 1.
+/// With all of it Roe's flux damps slow flow more the slower it is (Rieper 2011).
 inline double slow_flow_share(const Gas& gas, const State& left, const State& right) {
   const auto square = [&](const State& s) { return (s[1] * s[1] + s[2] * s[2]) * s[0] / (gas.gamma * s[3]); };
   return std::sqrt(std::min(1.0, std::max(square(left), square(right))));
 }
 
 /// What crosses a face of length 1 with this unit normal, which points from `left` to `right` (Roe 1981). The
-/// flux of two equal states is the physical one but for rounding. `least_middle` is the least speed of the middle
-/// wave, as a share of the largest (ShockSensor).
+/// flux of two equal states is the physical one but for rounding. `least_middle` is the least speed of the
+/// middle wave, as a share of the largest (ShockSensor).
 inline Flux roe_flux(const Gas& gas, const State& left, const State& right, Point normal,
                      double least_middle = 0) {
   const Flux of_left = physical_flux(gas, left, normal), of_right = physical_flux(gas, right, normal);
@@ -89,8 +90,8 @@ inline Flux roe_flux(const Gas& gas, const State& left, const State& right, Poin
   const double along = mean.x_velocity * normal.x + mean.y_velocity * normal.y;
   const WaveSpeeds waves = wave_speeds(along, mean.sound, least_middle);
   const double d_pressure = right[3] - left[3];
-  const double d_along = slow_flow_share(gas, left, right) *
-                         ((right[1] - left[1]) * normal.x + (right[2] - left[2]) * normal.y);
+  const double d_along =
+      slow_flow_share(gas, left, right) * ((right[1] - left[1]) * normal.x + (right[2] - left[2]) * normal.y);
   const UpwindPart part = upwind_part(waves, mean.sound, d_pressure, mean.density * d_along);
   const Conserved l = gas.conserved(left), r = gas.conserved(right);
   const auto average = [](double a, double b, double dissipation) { return 0.5 * (a + b - dissipation); };

@@ -7,7 +7,8 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr double weakest = 0.7, range = 1;  ///< jumps at which the least speed begins to grow; until it is full
+constexpr double weakest = 0.7,
+                 range = 1;  ///< jumps at which the least speed begins to grow; until it is full
 constexpr double largest_share = 0.3;
 
 /// Rises from 0 to 1 between 0 and 1, smoothly.
@@ -18,7 +19,8 @@ double ramp(double x) {
 
 }  // namespace
 
-ShockSensor::ShockSensor(const DualMesh& mesh, double least_pressure) : mesh_{mesh}, least_pressure_{least_pressure}, jumps_(mesh.nodes()), shares_(mesh.nodes()) {}
+ShockSensor::ShockSensor(const DualMesh& mesh, double least_pressure)
+    : mesh_{mesh}, least_pressure_{least_pressure}, jumps_(mesh.nodes()), shares_(mesh.nodes()) {}
 
 void ShockSensor::find(const std::vector<State>& states) {
   if (frozen_) return;

@@ -7,10 +7,10 @@
 
 namespace quadloop::euler {
 
-/// Where strong shocks stand. Roe's flux lets a shock along cells break up (the carbuncle, Quirk 1994), as nothing damps
-/// what varies along it; edges of a node with a strong pressure jump beside it get a middle wave of a least speed,
-/// as in the H-correction of Sanders, Morano and Druguet (1998). Shocks of a normal Mach number below some 1.3
-/// count for nothing.
+/// Where strong shocks stand. Roe's flux lets a shock along cells break up (the carbuncle, Quirk 1994), as
+/// nothing damps what varies along it; edges of a node with a strong pressure jump beside it get a middle
+/// wave of a least speed, as in the H-correction of Sanders, Morano and Druguet (1998). Shocks of a normal
+/// Mach number below some 1.3 count for nothing.
 class ShockSensor {
  public:
   /// The mesh must outlive the sensor. Jumps count relative to no less than that pressure.
@@ -29,7 +29,8 @@ class ShockSensor {
  private:
   const DualMesh& mesh_;
   double least_pressure_;
-  std::vector<double> jumps_;   ///< of each node: the largest to a neighbour, over the lower of the two pressures
+  std::vector<double>
+      jumps_;  ///< of each node: the largest to a neighbour, over the lower of the two pressures
   std::vector<double> shares_;  ///< of each node
   bool frozen_ = false;
 };

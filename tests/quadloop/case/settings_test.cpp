@@ -209,6 +209,8 @@ TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(
       refused("[solver]\niterations = 1.5\n").find("case.toml:4: 'solver.iterations' must be a whole number"),
       0u);
+  EXPECT_EQ(refused("[solver]\nunsteady_time = -1\n").find("case.toml:4: 'solver.unsteady_time'"), 0u);
+  EXPECT_EQ(refused("[solver]\nfar_field = \"swirl\"\n").find("case.toml:4: 'solver.far_field'"), 0u);
   EXPECT_EQ(refused("[solver]\ntime = \"accurate\"\n").find("case.toml:3: 'solver.end_time' is missing"), 0u);
   EXPECT_EQ(refused("[solver]\nkind = \"command\"\n").find("case.toml:3: 'solver.command' is missing"), 0u);
   EXPECT_EQ(refused("[boundary.box]\nbc = \"wall\"\npressure = 1\n")
@@ -295,6 +297,8 @@ alpha = 2
 gamma = 1.3
 time = "accurate"
 end_time = 3
+unsteady_time = 4
+far_field = "vortex"
 cfl = 5
 iterations = 7
 tolerance = 1e-4
@@ -313,6 +317,8 @@ timeout = 60
   EXPECT_EQ(euler.gamma, 1.3);
   EXPECT_EQ(euler.time, EulerOptions::Time::accurate);
   EXPECT_EQ(euler.end_time, 3);
+  EXPECT_EQ(euler.unsteady_time, 4);
+  EXPECT_EQ(euler.far_field, EulerOptions::FarField::vortex);
   EXPECT_EQ(euler.cfl, 5);
   EXPECT_EQ(euler.iterations, 7);
   EXPECT_EQ(euler.tolerance, 1e-4);

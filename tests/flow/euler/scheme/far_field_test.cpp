@@ -63,7 +63,8 @@ TEST(FarField, KeepsTotalEnthalpyAndEntropy) {
   far_field.set_circulation(2);
   const State state = far_field.at({3, 1});
   EXPECT_GT(std::abs(state[0] - 1), 0.01);
-  EXPECT_NEAR(ring.model.gas.total_enthalpy(state), ring.model.gas.total_enthalpy(ring.model.free_stream), 1e-12);
+  EXPECT_NEAR(ring.model.gas.total_enthalpy(state), ring.model.gas.total_enthalpy(ring.model.free_stream),
+              1e-12);
   EXPECT_NEAR(state[3] * 1.4, std::pow(state[0], 1.4), 1e-12);
 }
 
