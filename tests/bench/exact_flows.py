@@ -1,4 +1,4 @@
-"""Exact relations of a perfect gas of gamma 1.4 that the table of flows is measured by (NACA Report 1135). Angles in radians. Standard library only."""
+"""Exact relations of a perfect gas of gamma 1.4 that the table of flows is measured by (NACA Report 1135). Radians."""
 import math
 
 GAMMA = 1.4

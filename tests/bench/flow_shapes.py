@@ -76,8 +76,8 @@ def blunt_body():
 
 
 def stretched_mesh(around, outwards, ratio, far, seed):
-    """A .mesh text of triangles about the NACA 0012, `ratio` times as long along the wall as across it there, out to a circle; diagonals and places are
-    a little irregular by the seed."""
+    """A .mesh text of triangles about the NACA 0012, `ratio` times as long along the wall as across it there, out to a circle; diagonals
+    and places are a little irregular by the seed."""
     chance = random.Random(seed)
     wall = naca4(0, 0, 0.12, around // 2)
     growth = far_growth(outwards, 2.0 / around / ratio, far)
