@@ -121,7 +121,7 @@ def all_flows():
         about_diamond(0), about_diamond(3),
         Flow("bump of 10 %, M 0.5", BUMP, 0.5, 0, bump, drag="0", source=ALEMBERT),
         Flow("bump of 10 %, M 0.675", BUMP, 0.675, 0, bump),
-        Flow("forward step, M 3", STEP, 3, 0, step, figure="stagnation", solver={"iterations": 1000, "unsteady_time": 4.0}),
+        Flow("forward step, M 3", STEP, 3, 0, step, figure="stagnation", solver={"iterations": 1000}),
         Flow("blunt body, M 3", BLUNT, 3, 0, shapes.blunt_body(), figure="stagnation"),
         three_elements(0.2, solver={"far_field": "vortex"}),
         Flow("NACA 2412, M 0.73, 1 degrees", AIRFOIL, 0.73, 1, shapes.airfoil(0.02, 0.4, 0.12)),

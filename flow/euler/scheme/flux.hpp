@@ -82,16 +82,16 @@ inline double slow_flow_share(const Gas& gas, const State& left, const State& ri
 
 /// What crosses a face of length 1 with this unit normal, which points from `left` to `right` (Roe 1981). The
 /// flux of two equal states is the physical one but for rounding. `least_middle` is the least speed of the
-/// middle wave, as a share of the largest (ShockSensor).
+/// middle wave, as a share of the largest (ShockSensor); `slow_flow` asks for slow_flow_share.
 inline Flux roe_flux(const Gas& gas, const State& left, const State& right, Point normal,
-                     double least_middle = 0) {
+                     double least_middle = 0, bool slow_flow = false) {
   const Flux of_left = physical_flux(gas, left, normal), of_right = physical_flux(gas, right, normal);
   const RoeAverage mean = roe_average(gas, left, right);
   const double along = mean.x_velocity * normal.x + mean.y_velocity * normal.y;
   const WaveSpeeds waves = wave_speeds(along, mean.sound, least_middle);
   const double d_pressure = right[3] - left[3];
-  const double d_along =
-      slow_flow_share(gas, left, right) * ((right[1] - left[1]) * normal.x + (right[2] - left[2]) * normal.y);
+  const double d_along = (slow_flow ? slow_flow_share(gas, left, right) : 1) *
+                         ((right[1] - left[1]) * normal.x + (right[2] - left[2]) * normal.y);
   const UpwindPart part = upwind_part(waves, mean.sound, d_pressure, mean.density * d_along);
   const Conserved l = gas.conserved(left), r = gas.conserved(right);
   const auto average = [](double a, double b, double dissipation) { return 0.5 * (a + b - dissipation); };

@@ -1,5 +1,7 @@
 #include "flow/euler/scheme/residual.hpp"
 
+#include <cmath>
+
 #include "flow/euler/scheme/flux.hpp"
 
 namespace quadloop::euler {
@@ -104,6 +106,8 @@ void Residual::take_viscous_faces(const std::vector<State>& states) {
 /// Where a reconstructed density or pressure would come near zero, the edge takes the nodes' own states:
 /// first order.
 void Residual::add_edges(const std::vector<State>& states) {
+  // behind a bow shock less dissipation keeps the flow from coming to rest
+  const bool slow_flow = std::hypot(model_.free_stream[1], model_.free_stream[2]) < 1;
   for (const DualEdge& edge : mesh_.edges()) {
     const std::size_t low = edge.low, high = edge.high;
     State left = extrapolated(states[low], gradients_[low], edge.half.x, edge.half.y);
@@ -113,7 +117,7 @@ void Residual::add_edges(const std::vector<State>& states) {
       right = states[high];
     }
     const double least_middle = shocks_ ? shocks_->least_middle(edge) : 0;
-    const Flux flux = roe_flux(model_.gas, left, right, edge.normal, least_middle);
+    const Flux flux = roe_flux(model_.gas, left, right, edge.normal, least_middle, slow_flow);
     for (std::size_t k = 0; k < 4; ++k) {
       const double through = edge.size * flux[k];
       sums_[low][k] += through;
