@@ -1,6 +1,7 @@
 """What the tests of the adaptive loop share: a tiny case with a solver that can be told to fail, and folders compared. Standard library only."""
 import filecmp
 import json
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -34,6 +35,31 @@ timeout = 100
 def require(holds, message):
     if not holds:
         fail(message)
+
+
+def sets(assignments):
+    return [word for text in assignments for word in ("--set", text)]
+
+
+def records(folder):
+    return [json.loads((cycle / "record.json").read_text()) for cycle in sorted(folder.glob("cycle_*"))]
+
+
+def adapt_three_ways(program, case, folder, options):
+    """Two cycles on one rank, on three, and with the second one made again by --resume: meshes, trees and estimates are the same. {way: its records}."""
+    words = ["--cycles", "2", *options]
+    run([program, "-q", "adapt", case, "-o", folder / "one", *words])
+    run([MPIRUN, "-n", "3", program, "-q", "adapt", case, "-o", folder / "three", *words])
+    shutil.copytree(folder / "one", folder / "again")
+    shutil.rmtree(folder / "again" / "cycle_02")
+    run([program, "-q", "adapt", case, "-o", folder / "again", "--resume", *words])
+    for cycle in ("cycle_01", "cycle_02"):
+        for name in ("mesh.mesh", "mesh.tree.h5", "mesh.estimate.vtu"):
+            one = folder / "one" / cycle / name
+            for way in ("three", "again"):
+                other = folder / way / cycle / name
+                require(one.read_bytes() == other.read_bytes(), f"{one} and {other} differ")
+    return {way: records(folder / way) for way in ("one", "three", "again")}
 
 
 def tiny_case(folder, solver=None, text=TINY):

@@ -10,12 +10,12 @@ fewer cycles.
 """
 import argparse
 import json
-import shutil
 import subprocess
 import tempfile
 from pathlib import Path
 
-from quadloop_runs import MPIRUN, ROOT, fail, run
+from adapt_runs import adapt_three_ways, records, require, sets
+from quadloop_runs import ROOT, run
 
 CASES = ROOT / "cases" / "naca0012_m08"
 GOALS = CASES / "goals.toml"
@@ -24,37 +24,11 @@ MARKS = {"nodes": 15729, "cycle": 3}  # docs/adaptation.md; run_wanted_sizes.py 
 FEW = ["solver.iterations=60", "adapt.max_nodes=5000", "adapt.min=0.003"]
 
 
-def require(holds, message):
-    if not holds:
-        fail(message)
-
-
-def sets(assignments):
-    return [word for text in assignments for word in ("--set", text)]
-
-
-def records(folder):
-    return [json.loads((cycle / "record.json").read_text()) for cycle in sorted(folder.glob("cycle_*"))]
-
-
-def same_files(one, other):
-    for name in ("mesh.mesh", "mesh.tree.h5", "mesh.estimate.vtu"):
-        require((one / name).read_bytes() == (other / name).read_bytes(), f"{one / name} and {other / name} differ")
-
-
 def check_ranks_and_resume(program, folder):
-    options = sets(FEW)
-    run([program, "-q", "adapt", GOALS, "-o", folder / "one", "--cycles", "2", *options])
-    run([MPIRUN, "-n", "3", program, "-q", "adapt", GOALS, "-o", folder / "three", "--cycles", "2", *options])
-    shutil.copytree(folder / "one", folder / "again")
-    shutil.rmtree(folder / "again" / "cycle_02")
-    run([program, "-q", "adapt", GOALS, "-o", folder / "again", "--cycles", "2", "--resume", *options])
-    for cycle in ("cycle_01", "cycle_02"):
-        same_files(folder / "one" / cycle, folder / "three" / cycle)
-        same_files(folder / "one" / cycle, folder / "again" / cycle)
-    found = [[cycle["goals"] for cycle in records(folder / name)] for name in ("one", "three", "again")]
+    ways = adapt_three_ways(program, GOALS, folder, sets(FEW))
+    found = [[cycle["goals"] for cycle in ways[way]] for way in ("one", "three", "again")]
     require(found[0] == found[1] == found[2], f"goals of one run, of three ranks, resumed: {found}")
-    cycles = records(folder / "one")
+    cycles = ways["one"]
     for cycle in cycles:
         require(abs(cycle["goals"]["lift"]["value"] - cycle["cl"]) < 1e-13, f"lift is not cl: {cycle}")
         require(abs(cycle["goals"]["drag"]["value"] - cycle["cd"]) < 1e-13, f"drag is not cd: {cycle}")

@@ -8,51 +8,25 @@ order in the records. With --full: lift and drag within 0.5 % of those of the fi
 need, in fewer cycles; a table of what is met and missed.
 """
 import argparse
-import json
-import shutil
 import tempfile
 from pathlib import Path
 
-from quadloop_runs import MPIRUN, ROOT, fail, run
+from adapt_runs import adapt_three_ways, records, require, sets
+from quadloop_runs import ROOT, run
 
 CASES = ROOT / "cases" / "naca0012_m08"
 FINEST = {"cl": 0.3478, "cd": 0.02244}
 FEW = ["solver.iterations=40", "adapt.max_nodes=5000", "adapt.norm=2", "adapt.min=0.003", "adapt.variable=density"]
 
 
-def require(holds, message):
-    if not holds:
-        fail(message)
-
-
-def sets(assignments):
-    return [word for text in assignments for word in ("--set", text)]
-
-
-def records(folder):
-    return [json.loads((cycle / "record.json").read_text()) for cycle in sorted(folder.glob("cycle_*"))]
-
-
-def same_files(one, other):
-    for name in ("mesh.mesh", "mesh.tree.h5", "mesh.estimate.vtu"):
-        require((one / name).read_bytes() == (other / name).read_bytes(), f"{one / name} and {other / name} differ")
-
-
 def check_ranks_and_resume(program, folder):
     options = sets([*FEW, "adapt.until={estimate=1e-9}"])
     case = CASES / "sizes.toml"
-    run([program, "-q", "adapt", case, "-o", folder / "one", "--cycles", "2", *options])
-    run([MPIRUN, "-n", "3", program, "-q", "adapt", case, "-o", folder / "three", "--cycles", "2", *options])
-    shutil.copytree(folder / "one", folder / "again")
-    shutil.rmtree(folder / "again" / "cycle_02")
-    run([program, "-q", "adapt", case, "-o", folder / "again", "--cycles", "2", "--resume", *options])
-    for cycle in ("cycle_01", "cycle_02"):
-        same_files(folder / "one" / cycle, folder / "three" / cycle)
-        same_files(folder / "one" / cycle, folder / "again" / cycle)
-    cycles = records(folder / "one")
+    ways = adapt_three_ways(program, case, folder, options)
+    cycles = ways["one"]
     require(len(cycles) == 3, f"{len(cycles)} cycles")
     for key in ("estimate", "order", "settled", "cl", "cd"):
-        found = [[cycle.get(key) for cycle in records(folder / run)] for run in ("one", "three", "again")]
+        found = [[cycle.get(key) for cycle in ways[way]] for way in ("one", "three", "again")]
         require(found[0] == found[1] == found[2], f"{key} of one run, of three ranks, resumed: {found}")
     require(all(cycle["estimate"] > 0 and cycle["settled"] is False for cycle in cycles), f"{cycles}")
     require(cycles[1]["order"] > 0 and cycles[1]["estimate"] < cycles[0]["estimate"], f"the error grows: {cycles}")
