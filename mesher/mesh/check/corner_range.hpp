@@ -9,10 +9,10 @@
 namespace quadloop {
 
 /// A cell's corner, as it can be compared without its angle.
-struct Corner {
+struct CellCorner {
   double cross, dot;  ///< of the sides to the next node and to the previous one
 
-  Corner(Point previous, Point p, Point next)
+  CellCorner(Point previous, Point p, Point next)
       : cross{quadloop::cross(next - p, previous - p)}, dot{quadloop::dot(next - p, previous - p)} {}
   /// 0 to 180 where the corner turns left, negative where it is inverted.
   double degrees() const { return std::atan2(cross, dot) * (180 / std::numbers::pi); }
@@ -23,7 +23,7 @@ struct Corner {
 /// same bits in any order.
 class CornerRange {
  public:
-  void include(const Corner& corner) {
+  void include(const CellCorner& corner) {
     if (lies_within(corner)) return;
     const double degrees = corner.degrees();
     if (degrees < smallest_) {
@@ -48,7 +48,7 @@ class CornerRange {
 
   static double below(double x) { return x - rounding * (1 + std::abs(x)); }
   static double above(double x) { return x + rounding * (1 + std::abs(x)); }
-  bool lies_within(const Corner& corner) const {
+  bool lies_within(const CellCorner& corner) const {
     return corner.cross > 0 && corner.dot < most_cotangent_ * corner.cross &&
            corner.dot > least_cotangent_ * corner.cross;
   }

@@ -47,7 +47,7 @@ struct Tally {
 
 }  // namespace
 
-double corner_degrees(Point previous, Point p, Point next) { return Corner(previous, p, next).degrees(); }
+double corner_degrees(Point previous, Point p, Point next) { return CellCorner(previous, p, next).degrees(); }
 
 double quality_of(std::span<const Point> cell) {
   if (cell.size() == 3) return quality_of_triangle(cell[0], cell[1], cell[2]);

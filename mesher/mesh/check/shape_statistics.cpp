@@ -92,7 +92,7 @@ void count_corner(double degrees, ShapeStatistics& shape) {
 }
 
 /// Whether a corner has surely between 30 and 150 degrees: what is counted is outside.
-bool is_ordinary(const Corner& corner) {
+bool is_ordinary(const CellCorner& corner) {
   constexpr double tangent_of_30 = 0.57735, slightly_more = 1 + 1e-4;
   return corner.cross > tangent_of_30 * slightly_more * std::abs(corner.dot);
 }
@@ -134,7 +134,7 @@ void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, con
     const std::size_t width = nodes.size();
     for (std::size_t k = 0; k < width; ++k) {
       const Point p = mesh.point(nodes[k]);
-      const Corner corner(mesh.point(nodes[(k + width - 1) % width]), p, mesh.point(nodes[(k + 1) % width]));
+      const CellCorner corner(mesh.point(nodes[(k + width - 1) % width]), p, mesh.point(nodes[(k + 1) % width]));
       ++shape.corners;
       if (is_ordinary(corner)) {
         range.include(corner);

@@ -15,24 +15,24 @@ struct Extremes {
   double smallest, largest;
 };
 
-Extremes measured(const std::vector<Corner>& corners) {
+Extremes measured(const std::vector<CellCorner>& corners) {
   Extremes extremes{1e9, -1e9};
-  for (const Corner& corner : corners) {
+  for (const CellCorner& corner : corners) {
     extremes.smallest = std::min(extremes.smallest, corner.degrees());
     extremes.largest = std::max(extremes.largest, corner.degrees());
   }
   return extremes;
 }
 
-void expect_same(const std::vector<Corner>& corners) {
+void expect_same(const std::vector<CellCorner>& corners) {
   CornerRange range;
-  for (const Corner& corner : corners) range.include(corner);
+  for (const CellCorner& corner : corners) range.include(corner);
   const Extremes extremes = measured(corners);
   EXPECT_EQ(range.smallest(), extremes.smallest);
   EXPECT_EQ(range.largest(), extremes.largest);
 }
 
-Corner corner_of(double degrees, double turned, double length = 1) {
+CellCorner corner_of(double degrees, double turned, double length = 1) {
   const auto at = [&](double angle) {
     return length * Point{std::cos(angle * std::numbers::pi / 180), std::sin(angle * std::numbers::pi / 180)};
   };
@@ -48,7 +48,7 @@ TEST(CornerRange, HasTheBitsOfAllMeasured) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> degrees(0.001, 179.999), turned(0, 360), exponent(-9, 9);
   for (int trial = 0; trial < 200; ++trial) {
-    std::vector<Corner> corners;
+    std::vector<CellCorner> corners;
     for (int i = 0; i < 100; ++i)
       corners.push_back(corner_of(degrees(random), turned(random), std::pow(10, exponent(random))));
     expect_same(corners);
@@ -60,7 +60,7 @@ TEST(CornerRange, TellsAnglesThatRoundingParts) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> turned(0, 360);
   for (const double degrees : {0.01, 30.0, 45.0, 90.0, 135.0, 179.99}) {
-    std::vector<Corner> corners;
+    std::vector<CellCorner> corners;
     for (int i = 0; i < 2000; ++i) corners.push_back(corner_of(degrees, turned(random)));
     expect_same(corners);
   }
@@ -69,12 +69,12 @@ TEST(CornerRange, TellsAnglesThatRoundingParts) {
 TEST(CornerRange, TakesFlatAndInvertedCorners) {
   const std::vector<double> all = {60, -20, 90, 0, 120, -170, 180, 30};
   for (std::size_t first = 0; first < all.size(); ++first) {
-    std::vector<Corner> corners;
+    std::vector<CellCorner> corners;
     for (std::size_t i = 0; i < all.size(); ++i)
       corners.push_back(corner_of(all[(first + i) % all.size()], 10));
     expect_same(corners);
   }
-  expect_same({Corner({0, 0}, {0, 0}, {0, 0}), corner_of(20, 0), corner_of(40, 0)});
+  expect_same({CellCorner({0, 0}, {0, 0}, {0, 0}), corner_of(20, 0), corner_of(40, 0)});
 }
 
 }  // namespace
