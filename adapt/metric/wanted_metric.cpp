@@ -86,9 +86,9 @@ std::vector<Metric> WantedMetric::bounded(double factor) const {
   return metrics;
 }
 
-std::vector<LogMetric> WantedMetric::of_complexity(double complexity) const {
+std::vector<LogMetric> WantedMetric::of_complexity(double complexity, double near) const {
   constexpr int most_steps = 12;
-  constexpr double near = 0.02, longest_step = 8, least_factor = 1e-6;
+  constexpr double longest_step = 8, least_factor = 1e-6;
   const double first = complexity / total_;
   double factor = first, factor_before = 0, found_before = 0;
   std::vector<Metric> metrics;

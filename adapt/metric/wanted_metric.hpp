@@ -31,9 +31,9 @@ class WantedMetric {
   /// Whether all variables are linear: there is nothing to follow.
   bool flat() const { return !(total_ > 0); }
 
-  /// The metrics at owned nodes and copies whose complexity, within the bounds, is so much, to a fiftieth;
-  /// that of the bounds alone where they ask for more. *Collective.*
-  std::vector<LogMetric> of_complexity(double complexity) const;
+  /// The metrics at owned nodes and copies whose complexity, within the bounds, is so much, but for
+  /// a share `near` of it; that of the bounds alone where they ask for more. *Collective.*
+  std::vector<LogMetric> of_complexity(double complexity, double near = 0.02) const;
 
  private:
   std::vector<Metric> bounded(double factor) const;
