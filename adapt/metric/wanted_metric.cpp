@@ -42,6 +42,13 @@ std::vector<Symmetric> joint_hessians(const Communicator& comm, const Mesh& mesh
   return joint;
 }
 
+std::vector<LogMetric> logs_of(const std::vector<Metric>& metrics) {
+  std::vector<LogMetric> logs;
+  logs.reserve(metrics.size());
+  for (const Metric& m : metrics) logs.push_back(log_of(m));
+  return logs;
+}
+
 }  // namespace
 
 WantedMetric::WantedMetric(const Communicator& comm, const Mesh& mesh, const Field& field, double norm,
@@ -86,9 +93,9 @@ std::vector<Metric> WantedMetric::bounded(double factor) const {
   return metrics;
 }
 
-std::vector<LogMetric> WantedMetric::of_complexity(double complexity, double near) const {
+std::vector<LogMetric> WantedMetric::of_complexity(double complexity) const {
   constexpr int most_steps = 12;
-  constexpr double longest_step = 8, least_factor = 1e-6;
+  constexpr double near = 0.02, longest_step = 8, least_factor = 1e-6;
   const double first = complexity / total_;
   double factor = first, factor_before = 0, found_before = 0;
   std::vector<Metric> metrics;
@@ -103,10 +110,11 @@ std::vector<LogMetric> WantedMetric::of_complexity(double complexity, double nea
     found_before = found;
     factor = std::clamp(next, factor / longest_step, factor * longest_step);
   }
-  std::vector<LogMetric> logs;
-  logs.reserve(metrics.size());
-  for (const Metric& m : metrics) logs.push_back(log_of(m));
-  return logs;
+  return logs_of(metrics);
+}
+
+std::vector<LogMetric> WantedMetric::before_bounds(double complexity) const {
+  return logs_of(bounded(complexity / total_));
 }
 
 }  // namespace quadloop

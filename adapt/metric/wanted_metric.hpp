@@ -31,9 +31,13 @@ class WantedMetric {
   /// Whether all variables are linear: there is nothing to follow.
   bool flat() const { return !(total_ > 0); }
 
-  /// The metrics at owned nodes and copies whose complexity, within the bounds, is so much, but for
-  /// a share `near` of it; that of the bounds alone where they ask for more. *Collective.*
-  std::vector<LogMetric> of_complexity(double complexity, double near = 0.02) const;
+  /// The metrics at owned nodes and copies whose complexity, within the bounds, is so much, to a fiftieth;
+  /// that of the bounds alone where they ask for more. *Collective.*
+  std::vector<LogMetric> of_complexity(double complexity) const;
+
+  /// Those whose complexity is so much before they are brought within the bounds: where these take away from
+  /// it nothing is added elsewhere. *Collective.*
+  std::vector<LogMetric> before_bounds(double complexity) const;
 
  private:
   std::vector<Metric> bounded(double factor) const;

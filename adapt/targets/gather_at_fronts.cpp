@@ -32,9 +32,8 @@ Field wanted_metric(const Communicator& comm, const MeshInput& input, const Mesh
                             bounds);
   Field field{{"xx", "xy", "yy"}, {}, {}};
   if (wanted.flat()) return field;
-  constexpr double near = 0.1;
   const auto nodes = static_cast<double>(comm.sum(std::int64_t{result.mesh.owned_nodes}));
-  const std::vector<LogMetric> metrics = wanted.of_complexity(nodes, near);
+  const std::vector<LogMetric> metrics = wanted.before_bounds(nodes);
   for (std::int32_t n = 0; n < solved.owned_nodes; ++n)
     field.values.insert(field.values.end(), {metrics[n].xx, metrics[n].xy, metrics[n].yy});
   return field;
