@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "adapt/remesh/demands/restart.hpp"
+#include "adapt/remesh/remesh.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/part_report.hpp"
@@ -148,6 +149,11 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   times.end();
   context.warn(prepared.input.warnings);
   context.warn(generated.result.report.warnings);
+  if (const char* setting = saved ? setting_that_follows(input) : nullptr)
+    context.warn(
+        {fmt::format("{}: a tree knows no solution: its mesh is made without stretched cells; adapt and "
+                     "remesh make them",
+                     setting)});
   for (const std::string& file : prepared.files) context.warn(renames_in(generated.result.mesh, file));
   MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
   if (parts) add_parts(summary, *parts, prepared.part_files);

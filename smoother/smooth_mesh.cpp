@@ -214,8 +214,8 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
     settled = free.size();
     const NodeStars stars(halo, std::move(free), targets);
     const bool tangled = surveyed.worst.inverted > 0;
-    Sweeper sweeper(comm, halo, stars, slide, {options.method, options.objective, threshold, tangled}, bad,
-                    stale);
+    Sweeper sweeper(comm, halo, stars, slide,
+                    {options.method, options.objective, threshold, tangled, targets.empty()}, bad, stale);
     sweep_until_settled(sweeper, options.sweeps, report);
     report.free_nodes = comm.sum(std::ssize(stars));
   }

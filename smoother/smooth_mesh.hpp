@@ -26,9 +26,10 @@ struct SmoothReport {
 
 /// Moves nodes to better the cells' shapes, T 3.7; connectivity stays but for the flips of a Delaunay mesh.
 /// The positions are the same bits on any number of ranks, those of the mesh's copies too. Neither the
-/// largest cost nor the smallest angle of the mesh gets worse, after flips either: where they would make the
-/// largest cost worse, nodes near stay. A mesh with inverted cells is untangled as far as may be: whether any
-/// are left stands in the report. Lengths may be of any size that a double holds. *Collective.*
+/// largest cost nor, without targets, the smallest angle of the mesh gets worse, after flips either: where
+/// they would make the largest cost worse, nodes near stay. A mesh with inverted cells is untangled as far as
+/// may be: whether any are left stands in the report. Lengths may be of any size that a double holds.
+/// *Collective.*
 SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options);
 
 }  // namespace quadloop

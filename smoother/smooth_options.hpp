@@ -40,7 +40,7 @@ struct SmoothOptions {
                            ///< those beside them; not with blocks
   std::optional<MirrorAxis> mirror;  ///< the mesh is its own mirror image in this axis, and stays so
   std::vector<CellTarget> targets;  ///< the shape of each own cell, triangles, then quads; or none at all for
-                                    ///< ideal ones. Not with `delaunay`
+                                    ///< ideal ones; with any, angles may get smaller. Not with `delaunay`
 };
 
 }  // namespace quadloop

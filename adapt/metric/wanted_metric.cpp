@@ -42,6 +42,13 @@ std::vector<Symmetric> joint_hessians(const Communicator& comm, const Mesh& mesh
   return joint;
 }
 
+std::vector<LogMetric> logs_of(const std::vector<Metric>& metrics) {
+  std::vector<LogMetric> logs;
+  logs.reserve(metrics.size());
+  for (const Metric& m : metrics) logs.push_back(log_of(m));
+  return logs;
+}
+
 }  // namespace
 
 WantedMetric::WantedMetric(const Communicator& comm, const Mesh& mesh, const Field& field, double norm,
@@ -103,10 +110,11 @@ std::vector<LogMetric> WantedMetric::of_complexity(double complexity) const {
     found_before = found;
     factor = std::clamp(next, factor / longest_step, factor * longest_step);
   }
-  std::vector<LogMetric> logs;
-  logs.reserve(metrics.size());
-  for (const Metric& m : metrics) logs.push_back(log_of(m));
-  return logs;
+  return logs_of(metrics);
+}
+
+std::vector<LogMetric> WantedMetric::before_bounds(double complexity) const {
+  return logs_of(bounded(complexity / total_));
 }
 
 }  // namespace quadloop

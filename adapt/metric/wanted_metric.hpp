@@ -35,6 +35,10 @@ class WantedMetric {
   /// that of the bounds alone where they ask for more. *Collective.*
   std::vector<LogMetric> of_complexity(double complexity) const;
 
+  /// Those whose complexity is so much before they are brought within the bounds: where these take away from
+  /// it nothing is added elsewhere. *Collective.*
+  std::vector<LogMetric> before_bounds(double complexity) const;
+
  private:
   std::vector<Metric> bounded(double factor) const;
   double integral(const std::vector<Metric>& metrics) const;

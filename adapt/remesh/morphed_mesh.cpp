@@ -135,11 +135,10 @@ std::string why_not_kept(const MeshInput& input, const SolvedMesh& old, bool wis
 }
 
 /// What a mesh made anew by the tree alone leaves out.
-std::string without_stretched_cells(const SolvedMesh& old) {
+std::string without_stretched_cells(const SolvedMesh& old, const char* setting) {
   return fmt::format(
-      "{}: mesh.type = \"metric\": cycle 0 is the mesh of the case's own tree, without stretched cells; an "
-      "adaptation makes them",
-      old.file);
+      "{}: {}: cycle 0 is the mesh of the case's own tree, without stretched cells; an adaptation makes them",
+      old.file, setting);
 }
 
 }  // namespace
@@ -164,7 +163,8 @@ CarriedMesh continued_mesh(const Communicator& comm, const MeshInput& input, con
   std::vector<std::string>& warnings = carried.generated.result.report.warnings;
   warnings.push_back(morphed.refusal.empty() ? why_not_kept(input, old, wish.has_value())
                                              : why_anew(*wish, morphed.refusal));
-  if (input.mesh.type == MeshType::metric) warnings.push_back(without_stretched_cells(old));
+  if (const char* setting = setting_that_follows(input))
+    warnings.push_back(without_stretched_cells(old, setting));
   return carried;
 }
 

@@ -139,6 +139,7 @@ void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const 
   if (options.max_nodes || bounded) changes = search.within(options.max_nodes, all);
   if (options.max_nodes) warn_above_cap(count, *options.max_nodes, changes, plan);
   take(std::move(changes), plan);
+  plan.flat = family.flat();
   plan.mean = family.mean();
   plan.deviation = family.deviation();
   if (!plan.changes_mesh())
@@ -160,6 +161,7 @@ void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const 
   const auto wanted = made_from<WantedLevels>(comm, options, solved, finest, mirror);
   const std::int64_t nodes = bounded_nodes(options, solved);
   plan.estimate = wanted.error();
+  plan.flat = wanted.flat();
   double complexity = 0;
   if (!wanted.flat()) {
     SizedChanges sized = changes_for_nodes(wanted, count, nodes);
@@ -192,13 +194,23 @@ void require_norm(const AdaptOptions& options) {
       "max_nodes nodes; give norm = 2 and max_nodes");
 }
 
-void require_at_nodes(const AdaptOptions& options, const SolvedMesh& solved) {
+void require_at_nodes(const AdaptOptions& options, const SolvedMesh& solved, const char* setting) {
   const CellValues in_cells = selected(solved.solution, options.variables, "adapt.variable").cells;
   if (in_cells.width() == 0) return;
   throw InputError(fmt::format(
-      "{}: '{}' stands in cells, but mesh.type = \"metric\" follows values at nodes; take another "
-      "type, or let the solver write it at nodes",
-      solved.file, in_cells.names.front()));
+      "{}: '{}' stands in cells, but {} follows values at nodes; leave that out, or let the solver write it "
+      "at nodes",
+      solved.file, in_cells.names.front(), setting));
+}
+
+TargetDemand target_demand(const MeshInput& input, const AdaptOptions& options, const SolvedMesh& solved) {
+  require_at_nodes(options, solved, "smooth.targets = \"solution\"");
+  TargetDemand demand;
+  demand.variables = options.variables;
+  demand.norm = options.norm.value_or(demand.norm);
+  demand.min = options.min.value_or(input.mesh.size.min);
+  demand.stretch = *input.stretch;
+  return demand;
 }
 
 /// The tree is that of the case alone: what adaptation asked of one before counts no more. *Collective.*
@@ -206,7 +218,7 @@ void plan_by_metric(const Communicator& comm, const MeshInput& input, const Adap
                     const SolvedMesh& solved, AdaptationPlan& plan) {
   require_norm(options);
   const auto wanted = made_from<WantedLevels>(comm, options, solved, finest_level(input, options));
-  require_at_nodes(options, solved);
+  require_at_nodes(options, solved, "mesh.type = \"metric\"");
   plan.estimate = wanted.error();
   plan.estimates_of_cells = wanted.of_cells(0);
   if (wanted.flat()) {
@@ -235,6 +247,7 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
     plan_by_sizes(comm, options, solved, count, finest, input.mesh.mirror, plan);
   else
     plan_by_marks(comm, options, solved, count, finest, input.mesh.mirror, plan);
+  if (input.stretch && !plan.flat) plan.targets = target_demand(input, options, solved);
   if (!plan.changes_mesh())
     plan.warnings.push_back("no leaf is marked, the mesh stays: " + plan.reason_for_standing);
   return plan;

@@ -9,6 +9,7 @@
 #include "adapt/remesh/demands/adapt_options.hpp"
 #include "adapt/remesh/demands/solved_mesh.hpp"
 #include "adapt/sensor/mark.hpp"
+#include "adapt/targets/gather_at_fronts.hpp"
 #include "mesher/generate/generate.hpp"
 #include "mesher/mesh/field.hpp"
 
@@ -25,12 +26,16 @@ struct AdaptationPlan {
   MeasuredWall measured_wall;          ///< that first heights of layers are to follow; the same on every rank
   bool new_heights = false;            ///< they differ from those of the last mesh
   std::optional<MetricDemand> metric;  ///< that the next mesh is to follow, on the tree of the case alone
+  std::optional<TargetDemand> targets;  ///< that the nodes of the next mesh are to be moved by
   TransferKind transfer = TransferKind::linear;
   std::vector<std::string> warnings;
+  bool flat = false;                ///< the solution asks for nothing anywhere
   std::string reason_for_standing;  ///< where no leaf is marked, why
 
   /// Without a mark that takes effect, or new heights, the next mesh would be the last one again.
-  bool changes_mesh() const { return refined + coarsened > 0 || new_heights || metric.has_value(); }
+  bool changes_mesh() const {
+    return refined + coarsened > 0 || new_heights || metric.has_value() || targets.has_value();
+  }
 };
 
 /// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where

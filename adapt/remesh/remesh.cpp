@@ -1,5 +1,7 @@
 #include "adapt/remesh/remesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
@@ -30,6 +32,11 @@ CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const A
                        const SolvedMesh& old) {
   CarriedMesh carried;
   MeshChange stretch;
+  if (plan.targets) {
+    stretch = [&](const MeshInput& outer, MeshResult& result) {
+      gather_at_fronts(comm, outer, old.mesh, old.solution, *plan.targets, result);
+    };
+  }
   if (plan.metric) {
     stretch = [&](const MeshInput& outer, MeshResult& result) {
       StretchReport report = stretch_mesh(comm, outer, old.mesh, old.solution, *plan.metric, result);
@@ -56,12 +63,15 @@ AdaptationPlan standing_plan(const TreeRecord& tree, const MeshInput& input) {
   if (input.mesh.mirror)
     plan.demands = with_images(*input.mesh.mirror, tree.attributes, std::move(plan.demands));
   plan.measured_wall = tree.measured_wall;
-  if (input.mesh.type == MeshType::metric)
-    plan.warnings.emplace_back(
-        "mesh.type = \"metric\" has no table [adapt] to follow: the mesh is that of the tree, without "
-        "stretched "
-        "cells");
+  if (const char* setting = setting_that_follows(input))
+    plan.warnings.push_back(fmt::format(
+        "{} has no table [adapt] to follow: the mesh is that of the tree, without stretched cells", setting));
   return plan;
+}
+
+const char* setting_that_follows(const MeshInput& input) {
+  if (input.mesh.type == MeshType::metric) return "mesh.type = \"metric\"";
+  return input.stretch ? "smooth.targets = \"solution\"" : nullptr;
 }
 
 }  // namespace quadloop

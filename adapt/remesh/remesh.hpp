@@ -34,6 +34,10 @@ struct CarriedMesh {
 CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan,
                        const SolvedMesh& old);
 
+/// What in a case makes cells that follow a solution, as a text for messages; null where nothing does. A tree
+/// keeps none of it.
+const char* setting_that_follows(const MeshInput& input);
+
 /// No marks: the tree stands, but for what case and geometry now ask for.
 AdaptationPlan standing_plan(const TreeRecord& tree, const MeshInput& input);
 

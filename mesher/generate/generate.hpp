@@ -24,6 +24,9 @@ struct MeshInput {
   SmoothOptions smooth;      ///< without the geometry
   std::uint64_t digest = 0;  ///< of the case: case_digest() of its own mesh options and lines
   std::vector<LayerLine> lines = {};
+  /// Where cells are to follow the solution on the last mesh: so many times thinner at most than the tree
+  /// makes them (adapt/targets).
+  std::optional<double> stretch = {};
 };
 
 /// A smoothed mesh and its tree record, complete but for what a file adds.

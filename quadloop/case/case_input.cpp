@@ -51,7 +51,7 @@ CaseInput load_case(const CaseArguments& arguments) {
   for (std::string& warning : spacing_warnings(options, geometry))
     input.warnings.push_back(std::move(warning));
   input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth,
-                               case_digest(options, settings.lines), settings.lines});
+                               case_digest(options, settings.lines), settings.lines, settings.stretch});
   if (arguments.saved) keep_root(*arguments.saved, *input.mesh);
   return input;
 }

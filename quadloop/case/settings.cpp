@@ -17,6 +17,7 @@
 #include "mesher/lattice/lattice.hpp"
 #include "quadloop/case/adapt_settings.hpp"
 #include "quadloop/case/layer_settings.hpp"
+#include "quadloop/case/smooth_settings.hpp"
 
 namespace quadloop {
 
@@ -197,21 +198,6 @@ void read_mesh_table(const CaseTable& root, Settings& settings) {
   table->finish();
 }
 
-void read_smooth_table(const CaseTable& root, Settings& settings) {
-  const auto table = root.table("smooth");
-  if (!table) return;
-  if (const auto sweeps = table->number("sweeps", {0, 100000})) {
-    if (*sweeps != std::floor(*sweeps))
-      table->refuse("sweeps", "must be a whole number, 0 or more; 0 leaves the mesh as it is cut");
-    settings.smooth.sweeps = static_cast<int>(*sweeps);
-  }
-  if (const auto word = table->choice("objective", words_of(objective_words)))
-    settings.smooth.objective = *value_of(objective_words, *word);
-  if (const auto word = table->choice("method", words_of(method_words)))
-    settings.smooth.method = *value_of(method_words, *word);
-  table->finish();
-}
-
 void read_output_table(const CaseTable& root, const std::string& case_path, Settings& settings) {
   settings.output_prefix = std::filesystem::path(case_path).stem().string();
   settings.formats = default_formats();
@@ -294,6 +280,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   read_smooth_table(root, settings);
   settings.adapt = read_adapt_table(root);
   require_norm_of_metric(root, settings);
+  require_variables_of_targets(root, settings);
   read_design_table(root, settings);
   read_solver_table(root, settings.solver);
   settings.solver.euler.mirror = settings.mesh.mirror;

@@ -48,6 +48,7 @@ struct Settings {
   std::optional<double> min, max;  ///< spacing.min and spacing.max, where given
   MeshOptions mesh;                ///< without the sizes min and max: those may follow from the geometry
   SmoothOptions smooth;            ///< without the geometry
+  std::optional<double> stretch;   ///< MeshInput::stretch
   std::vector<LayerLine> lines;    ///< wakes and free lines with layers
   SolverSettings solver;
   std::optional<FreeStream> stream;   ///< of a solver of the user's, where [flow] tells it

@@ -18,6 +18,7 @@ double nodal_cost(double largest, double mean) {
 namespace {
 
 constexpr const char* no_cost = "an objective without a cost";
+constexpr double no_cotangent = -std::numeric_limits<double>::infinity();
 
 /// The largest cotangent of a triangle's angles that count, times J.
 template <class Values>
@@ -60,7 +61,7 @@ StarCost<places> Star::evaluate(const Eigen::Array<double, places, 1>& x,
   }
   cost.valid = soundness > 0;
   cost.largest_defect = defects;
-  cost.largest_cotangent = cotangents;
+  cost.largest_cotangent = angles_count_ ? cotangents : Values::Constant(no_cotangent);
   switch (objective) {
     case Objective::power: cost.objective = squares; return cost;
     case Objective::thesis:
@@ -143,7 +144,7 @@ StarModel Star::model(Point p) const {
   model.reference /= static_cast<double>(corners_.size());
   model.cost.objective[0] = squares;
   model.cost.largest_defect[0] = defects;
-  model.cost.largest_cotangent[0] = cotangents;
+  model.cost.largest_cotangent[0] = angles_count_ ? cotangents : no_cotangent;
   model.cost.valid[0] = soundness > 0;
   return model;
 }

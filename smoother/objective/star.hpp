@@ -53,6 +53,8 @@ class Star {
   void add(const StarCorner& corner) { corners_.push_back(corner); }
   const std::vector<StarCorner>& corners() const { return corners_; }
   bool empty() const { return corners_.empty(); }
+  /// Corners that are to be stretched have small angles: from now on largest_cotangent is below all others.
+  void leave_out_angles() { angles_count_ = false; }
 
   StarCost<batch> cost(const Batch& x, const Batch& y, Objective objective) const;
   StarCost<1> cost(Point p, Objective objective) const;
@@ -85,6 +87,7 @@ class Star {
   double thesis_and_gradient(Point p, Point& gradient) const;
 
   std::vector<StarCorner> corners_;
+  bool angles_count_ = true;
 };
 
 /// Eq. 3.4 from the largest and the mean of the corners' costs. Up to 1 a blend of the two; above, where a

@@ -15,6 +15,7 @@ Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& star
       sweeps_(comm, mesh, stars, stale),
       bad_(mesh.points().size(), 0),
       bad_near_(stars.size(), 0) {
+  if (!rule.angles) star_.leave_out_angles();
   for (const NodeId free : stars.nodes()) bad_[free] = bad[free];
   mesh.exchange().update(bad_);
   for (const NodeId node : bad_.ids()) {

@@ -22,7 +22,8 @@ class Sweeper {
     Method method;
     Objective objective;
     double threshold;
-    bool tangled;  ///< whether there may be stars with inverted corners; visits make no new ones
+    bool tangled;        ///< whether there may be stars with inverted corners; visits make no new ones
+    bool angles = true;  ///< whether a move may not make the smallest angle smaller
   };
   /// `stars` are those of the nodes that may move, `bad` flags the nodes of cells above the threshold;
   /// `stale` as in ColouredSweeps. Mesh, stars, slide and `stale` must outlive it. *Collective.*

@@ -192,5 +192,27 @@ TEST(OwnMesh, CountsNodesAndCells) {
   }
 }
 
+/// Targets of cells follow the solution: where no leaf is marked too, but not where nothing bends.
+TEST(Plan, TargetsMoveNodesWhereNoLeafIsMarked) {
+  MeshInput input = square_input();
+  input.stretch = 4;
+  AdaptOptions options = adapt_options();
+  options.refine = options.coarsen = 100;
+  SolvedMesh solved = solved_front(world(), input);
+  const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
+  EXPECT_EQ(plan.refined, 0);
+  ASSERT_TRUE(plan.targets);
+  EXPECT_EQ(plan.targets->stretch, 4);
+  EXPECT_TRUE(plan.changes_mesh());
+  const CarriedMesh next = carry_over(world(), input, plan, solved);
+  ASSERT_EQ(next.generated.result.mesh.points.size(), solved.mesh.points.size());
+  const std::int64_t moved = next.generated.result.mesh.points != solved.mesh.points ? 1 : 0;
+  EXPECT_GT(world().sum(moved), 0);
+  std::ranges::fill(solved.solution.values, 2.0);
+  EXPECT_FALSE(plan_adaptation(world(), input, options, solved).changes_mesh());
+  input.stretch.reset();
+  EXPECT_FALSE(plan_adaptation(world(), input, options, solved_front(world(), input)).targets);
+}
+
 }  // namespace
 }  // namespace quadloop
