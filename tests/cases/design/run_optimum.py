@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The optimiser of cases/naca_design: after some iterations drag has fallen, lift and area are held, and every shape was evaluated on the first one's cells.
+"""The optimiser of cases/naca_design, by the adjoint: after some iterations drag has fallen, lift and area are held, and every shape was evaluated on the first one's cells.
 
     run_optimum.py --quadloop PROGRAM [--small]
 """
@@ -33,6 +33,8 @@ def main():
         said = json.loads((out / "history.json").read_text())
         history, last = said["history"], said["best"]
         best = json.loads((out / "best" / "cycle_00" / "record.json").read_text())
+    if said["evaluations"] > 3 * len(history):
+        fail(f"{said['evaluations']} flows for {len(history)} iterations: each was to need one, and one more for each shorter step")
     first = history[0]
     if len(history) < 2 or not last["cd"] < share * first["cd"]:
         fail(f"drag went from {first['cd']} to {last['cd']}, not below {share} of it")
