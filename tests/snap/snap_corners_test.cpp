@@ -213,8 +213,8 @@ TEST(SnapCorners, LeavesKnowTheirSnapsByTheirSites) {
 /// The outline comes as near to (3, 3) on its right as above it. Which of the two places the corner takes
 /// depends on the axis alone, as its image must take the image.
 TEST(SnapCorners, OfPlacesEquallyNearAMirrorTakesTheOneNearerToItsAxis) {
-  const Geometry geometry = test::loops_of(
-      {{{0.5, 0.5}, {3.125, 0.5}, {3.125, 3.0625}, {3.0625, 3.125}, {0.5, 3.125}}}, none_kept);
+  const Geometry geometry =
+      test::loops_of({{{0.5, 0.5}, {3.125, 0.5}, {3.125, 3.0625}, {3.0625, 3.125}, {0.5, 3.125}}}, none_kept);
   const Box everywhere{{0, 0}, {4, 4}};
   EXPECT_EQ(at(snapped(geometry, everywhere, MirrorAxis::x), {3, 3})->position, (Point{3.125, 3}));
   EXPECT_EQ(at(snapped(geometry, everywhere, MirrorAxis::y), {3, 3})->position, (Point{3, 3.125}));
