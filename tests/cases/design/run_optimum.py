@@ -25,7 +25,7 @@ def main():
         import scipy  # noqa: F401
     except ImportError:
         skip("python3-scipy is not installed")
-    iterations, options, share = (3, COARSE, 0.5) if args.small else (6, [], 0.4)
+    iterations, options, share = (5, COARSE, 0.5) if args.small else (6, [], 0.4)
     with tempfile.TemporaryDirectory(prefix="quadloop_optimum_") as name:
         out = Path(name) / "optimum"
         print(run([sys.executable, "-B", CASE / "optimise.py", "--quadloop", args.quadloop.resolve(), "-o", out, "--iterations", iterations,
