@@ -188,7 +188,7 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   context.record.figures.add("folder", folder);
   context.record.figures.add("cycles", cycles);
   std::optional<DesignStart> start;
-  if (former) start = read_start(comm, *former, morph_to, outline_file(arguments));
+  if (former) start = read_start(comm, *former, morph_to, outline_file(arguments), adaptive->settings);
   const LoopEnd end = run_in_folder(comm, *adaptive, folder, arguments.resume, report, start);
   if (comm.is_root()) context.record.figures.add("nothing_to_change", end.nothing_to_change);
   if (comm.is_root() && !adaptive->adapt.until.empty()) context.record.figures.add("settled", end.settled);

@@ -28,6 +28,7 @@
 #include "io/vtu/pvtu_solid_file.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
+#include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop {
 
@@ -232,6 +233,11 @@ std::string renames_of_variables(const FileFormat& format, const Field& solution
   if (renamed == 0) return {};
   return fmt::format("{}: {} variable{} renamed, as this format cannot hold every name; the first, {} there",
                      path, renamed, renamed == 1 ? " is" : "s are", first);
+}
+
+void require_distinct_variables(const Field& solution, const std::string& path) {
+  require_distinct(solution.names, path);
+  require_distinct(solution.cells.names, path);
 }
 
 const FileFormat* format_named(const std::string& name) {

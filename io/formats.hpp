@@ -80,6 +80,9 @@ const std::vector<FileFormat>& file_formats();
 /// A line on variables whose names a format cannot hold; empty where there are none.
 std::string renames_of_variables(const FileFormat& format, const Field& solution, const std::string& path);
 
+/// Throws InputError where two variables, of nodes or of cells, have one name to the letter.
+void require_distinct_variables(const Field& solution, const std::string& path);
+
 /// The format of this name, or the one that the path's suffix tells; null where it is none.
 const FileFormat* format_named(const std::string& name);
 const FileFormat* format_of(const std::string& path);

@@ -66,7 +66,9 @@ void require_readable_suffix(const std::string& path) {
 
 LoadedMesh read_mesh(const std::string& path) {
   require_readable_suffix(path);
-  return is_part_index(path) ? read_parts(path) : mesh_format(path)->read_mesh(path);
+  LoadedMesh loaded = is_part_index(path) ? read_parts(path) : mesh_format(path)->read_mesh(path);
+  if (loaded.solution) require_distinct_variables(*loaded.solution, path);
+  return loaded;
 }
 
 void require_writable_suffix(const std::string& path) {

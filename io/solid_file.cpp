@@ -95,7 +95,10 @@ std::optional<SolidMesh> read_solid(const std::string& path) {
   std::error_code failure;
   const bool in_place = format != nullptr && (std::filesystem::is_regular_file(path, failure) ||
                                               format->is_folder || !format->holds(Content::mesh));
-  return in_place ? format->read_solid(path) : std::nullopt;
+  std::optional<SolidMesh> solid;
+  if (in_place) solid = format->read_solid(path);
+  if (solid && solid->solution) require_distinct_variables(*solid->solution, path);
+  return solid;
 }
 
 std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& path) {

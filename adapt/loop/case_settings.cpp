@@ -46,6 +46,13 @@ bool may_change_in_a_run(const std::string& key) {
          key == "output.formats" || key == "output.fields" || key.starts_with(template_files_key);
 }
 
+bool shapes_cells_at_boundaries(const std::string& key) {
+  if (key == "spacing.corner") return true;
+  if (!key.starts_with("boundary.")) return false;
+  return key.ends_with(".spacing") || key.ends_with(".corner") || key.ends_with(".corner_spacing") ||
+         key.ends_with(".layers") || key.find(".layers.") != std::string::npos;
+}
+
 std::uint64_t run_digest(const CaseSettings& settings, std::uint64_t geometry_digest) {
   std::string text = fmt::format("geometry {:x}", geometry_digest);
   for (const auto& [key, value] : settings) {

@@ -27,6 +27,9 @@ std::vector<ChangedSetting> changed_settings(const CaseSettings& before, const C
 /// or gives it more steps; the cycles that are whole stay as they are.
 bool may_change_in_a_run(const std::string& key);
 
+/// Whether the cells at boundaries depend on this key: spacing, corners and layers of a boundary.
+bool shapes_cells_at_boundaries(const std::string& key);
+
 /// A number that changes with the outline and with every setting that may not change in a run. Settings are
 /// compared as the text of their values: a file that a key names counts by its name alone. The outline, which
 /// geometry.file names, is in it by `geometry_digest`, that of Geometry; a case that comes to name another

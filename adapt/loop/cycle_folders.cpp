@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include "io/files/output_path.hpp"
@@ -29,12 +30,16 @@ void on_disk(const std::string& path, const Work& work) {
 }
 
 /// Empty, or but for what is left of a first cycle that failed.
-bool holds_nothing_whole(const fs::path& folder, const fs::path& first_under_way) {
+bool holds_nothing_whole(const fs::path& folder, const fs::path& first_under_way, const fs::path& start) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().filename() != first_under_way.filename()) return false;
+    const fs::path name = entry.path().filename();
+    if (name != first_under_way.filename() && name != start.filename()) return false;
   }
   return true;
 }
+
+/// The digest that the line of a start begins with.
+std::string digest_in(const std::string& start) { return start.substr(0, start.find(' ')); }
 
 }  // namespace
 
@@ -70,7 +75,32 @@ int CycleFolders::count_whole() const {
   return cycles;
 }
 
-int CycleFolders::open(bool resume) {
+std::string CycleFolders::start_file() const { return folder_ + "/start.txt"; }
+
+void CycleFolders::settle_start(bool resume, const std::string& start) const {
+  std::string before;
+  std::getline(std::ifstream(start_file()), before);
+  const bool has_begun = !before.empty() || fs::exists(under_way(0));
+  if (resume && has_begun && digest_in(before) != digest_in(start)) {
+    if (before.empty())
+      throw InputError(folder_ +
+                       ": the run in it was begun without --from and holds no whole cycle yet; "
+                       "resume it without, or name another folder with -o");
+    throw InputError(
+        fmt::format("{}: the run in it was begun with --from, by {}, and holds no whole cycle "
+                    "yet; resume it with the same, or name another folder with -o",
+                    folder_, before.substr(before.find(' ') + 1)));
+  }
+  fs::remove(start_file());
+  if (start.empty()) return;
+  std::ofstream file(start_file());
+  file << start << "\n";
+  file.close();
+  if (!file) refuse_output(start_file(), EIO);
+  bring_to_disk(start_file(), start_file());
+}
+
+int CycleFolders::open(bool resume, const std::string& start) {
   int cycles = 0;
   comm_.together([&] {
     if (!comm_.is_root()) return;
@@ -79,11 +109,12 @@ int CycleFolders::open(bool resume) {
         throw InputError(folder_ + ": is a file, but a folder is wanted; name another one");
       fs::create_directories(folder_);
       lock();
-      if (!resume && !holds_nothing_whole(folder_, under_way(0))) {
+      if (!resume && !holds_nothing_whole(folder_, under_way(0), start_file())) {
         throw InputError(
             folder_ + ": is not empty; --resume goes on with the run in it, or name another folder with -o");
       }
       cycles = count_whole();
+      if (cycles == 0) settle_start(resume, start);
       fs::remove_all(under_way(cycles));
     });
   });

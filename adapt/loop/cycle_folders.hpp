@@ -19,7 +19,9 @@ class CycleFolders {
   /// may work there; the lock leaves no file. Throws InputError where the folder holds more than a first
   /// cycle that is not whole and the run is not to be resumed, where another run is at work in it, or where a
   /// cycle is missing before a later one; OutputError where it cannot be made.
-  int open(bool resume);
+  /// `start`, one line that begins with a digest, is what cycle 0 begins with; empty: with a mesh of its own.
+  /// As long as no cycle is whole a run is resumed with the same digest alone: else an InputError.
+  int open(bool resume, const std::string& start = {});
 
   const std::string& folder() const { return folder_; }
   std::string whole(int cycle) const;
@@ -33,6 +35,8 @@ class CycleFolders {
  private:
   void lock();
   int count_whole() const;
+  std::string start_file() const;
+  void settle_start(bool resume, const std::string& start) const;
 
   const Communicator& comm_;
   std::string folder_;

@@ -1,5 +1,7 @@
 #include "adapt/loop/run_in_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -88,12 +90,17 @@ CycleEnd left_by_earlier_run(const Communicator& comm, const AdaptiveCase& adapt
   return left;
 }
 
+/// Tells the mesh of one start from that of another.
+std::string begun_with(const DesignStart& start) {
+  return fmt::format("{:016x} {}", start.solved.tree.attributes.coordinate_digest, start.solved.file);
+}
+
 }  // namespace
 
 LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
                       bool resume, const RunReport& report, const std::optional<DesignStart>& start) {
   CycleFolders folders(comm, folder);
-  const int first = folders.open(resume);
+  const int first = folders.open(resume, start ? begun_with(*start) : std::string());
   if (resume && first == 0)
     report.warning(folder + ": holds no whole cycle to go on after; the run begins with cycle 0");
   std::optional<CycleEnd> before;

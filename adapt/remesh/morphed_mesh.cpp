@@ -114,10 +114,10 @@ std::vector<Point> sorted_points(const Geometry& outline) {
   return points;
 }
 
-/// Whether the case asks for other cells than those of the solved mesh, as far as its tree and its outline
-/// tell: with other points too, what boundaries ask for is not known.
+/// Whether the case asks for other cells than those of the solved mesh, as far as its tree, its outline and
+/// what was written of its case tell.
 bool has_other_settings(const MeshInput& input, const SolvedMesh& old, const MorphWish& wish) {
-  if (old.tree.attributes.case_digest != input.digest) return true;
+  if (old.tree.attributes.case_digest != input.digest || !wish.changed.empty()) return true;
   if (wish.from == nullptr) return false;
   MeshReport told_already;
   const Geometry to = without_small_islands(input.geometry, input.mesh.size.min, told_already);
@@ -152,9 +152,9 @@ CarriedMesh continued_mesh(const Communicator& comm, const MeshInput& input, con
   if (morphed.carried) {
     if (has_other_settings(input, old, *wish))
       morphed.carried->generated.result.report.warnings.push_back(
-          fmt::format("{}: {} are not those that it was made with; its cells are kept, and the settings wait "
-                      "for the next mesh that is made anew",
-                      old.file, what_shapes_cells));
+          fmt::format("{}: {} are not those that it was made with{}; its cells are kept, and the settings "
+                      "wait for the next mesh that is made anew",
+                      old.file, what_shapes_cells, wish->changed.empty() ? "" : ": " + wish->changed));
     return std::move(*morphed.carried);
   }
   AdaptationPlan plan = standing_plan(old.tree, input);

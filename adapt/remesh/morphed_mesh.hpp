@@ -21,6 +21,9 @@ struct MorphWish {
   /// The outline that the solved mesh was made on, where it is at hand, and its file: OutlineChange.
   const Geometry* from = nullptr;
   std::string from_file = {};
+  /// What boundaries are asked for now and were not by the case that the mesh was made for, for messages;
+  /// empty: nothing, or it is not known.
+  std::string changed = {};
 };
 
 /// Morphs the solved mesh to the input's outline if that is another than the tree's. It is taken if its worst

@@ -13,8 +13,12 @@
 
 namespace quadloop {
 
+SharedOutput::SharedOutput(const Communicator& comm, std::string path)
+    : comm_{comm}, path_{std::move(path)} {}
+
+// From here on the destructor is due, also where another rank cannot open the file.
 SharedOutput::SharedOutput(const Communicator& comm, const StagedFile& staged)
-    : comm_{comm}, path_{staged.path} {
+    : SharedOutput(comm, staged.path) {
   const std::string temporary = broadcast_words(comm, {staged.temporary}).front();
   comm_.together([&] {
     descriptor_ = ::open(temporary.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);

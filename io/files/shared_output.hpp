@@ -29,6 +29,8 @@ class SharedOutput {
   void close();
 
  private:
+  SharedOutput(const Communicator& comm, std::string path);
+
   const Communicator& comm_;
   std::string path_;  ///< as messages name it
   int descriptor_ = -1;

@@ -33,8 +33,8 @@ class BinaryWriter {
     for (const StripLayers& strip : mesh.strips) header_.strips += comments_of(strip);
     if (solution == nullptr) return;
     header_.constants = std::ssize(solution->constants);
-    for (const std::string& name : solution->names) header_.variables.push_back(word_of(name));
-    for (const std::string& name : solution->cells.names) header_.cell_variables.push_back(word_of(name));
+    header_.variables = distinct_words(solution->names, path);
+    header_.cell_variables = distinct_words(solution->cells.names, path);
   }
 
   /// Of a mesh that is one.

@@ -13,7 +13,7 @@ namespace {
 class NativeWriter {
  public:
   NativeWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
-      : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path} {}
+      : comm_{outputs.communicator()}, mesh_{mesh}, path_{path}, file_{outputs, path} {}
 
   void write_mesh() {
     write_nodes();
@@ -40,7 +40,7 @@ class NativeWriter {
     const std::vector<char> text = constants.take();
     head.append(text.begin(), text.end());
     head += "#Number of variables\n" + std::to_string(solution.names.size()) + "\n#names:";
-    for (const std::string& name : solution.names) head += " " + word_of(name);
+    for (const std::string& name : distinct_words(solution.names, path_)) head += " " + name;
     file_.write(head + "\n");
     write_real_rows(mesh_.owned_nodes, solution.values.data(), solution.names.size());
     if (solution.cells.width() > 0) write_cell_values(solution.cells);
@@ -65,7 +65,7 @@ class NativeWriter {
 
   void write_cell_values(const CellValues& cells) {
     std::string head = "#Number of cell variables\n" + std::to_string(cells.width()) + "\n#names:";
-    for (const std::string& name : cells.names) head += " " + word_of(name);
+    for (const std::string& name : distinct_words(cells.names, path_)) head += " " + name;
     file_.write(head + "\n");
     const std::size_t triangles = mesh_.triangles.size();
     write_real_rows(triangles, cells.values.data(), cells.width());
@@ -113,6 +113,7 @@ class NativeWriter {
 
   const Communicator& comm_;
   const Mesh& mesh_;
+  std::string path_;
   TextOutput file_;
 };
 

@@ -92,6 +92,14 @@ std::string word_of(const std::string& name) {
   return word;
 }
 
+void require_distinct(std::span<const std::string> names, const std::string& where) {
+  std::vector<std::string> sorted(names.begin(), names.end());
+  std::ranges::sort(sorted);
+  const auto first = std::ranges::adjacent_find(sorted);
+  if (first != sorted.end())
+    throw InputError(where + ": two variables are named '" + *first + "'; give one of them another name");
+}
+
 std::vector<std::string> distinct_words(std::span<const std::string> names, const std::string& where) {
   std::vector<std::string> words;
   for (const std::string& name : names) {

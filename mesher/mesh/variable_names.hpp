@@ -24,4 +24,7 @@ std::string word_of(const std::string& name);
 /// and names both where two are then the same.
 std::vector<std::string> distinct_words(std::span<const std::string> names, const std::string& where);
 
+/// Throws an InputError that begins with `where` where two names are the same to the letter.
+void require_distinct(std::span<const std::string> names, const std::string& where);
+
 }  // namespace quadloop

@@ -1,7 +1,9 @@
 #include "mesher/snap/snap_corner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "mesher/geometry/nearest_on_segment.hpp"
 
@@ -163,15 +165,27 @@ class CornerDecision {
   /// on both sides, and neither place is its own image.
   std::optional<Point> crossing_on_axis(const Run& run) const {
     std::optional<Point> nearest;
+    if (!corner_.mirror || side_of(*corner_.mirror, corner_.position) != 0) return nearest;
     for (const std::size_t i : run) {
       const Sight& s = sights_[i];
       const LeafTrace view = traces_[s.trace];
       const Piece& piece = view.pieces[s.piece];
       const Point p = view.crossing(s.at_entry ? piece.entry : piece.exit).position;
-      if (!corner_.axis || side_of(*corner_.axis, p) != 0) continue;
+      if (side_of(*corner_.mirror, p) != 0) continue;
       if (!nearest || distance(p) < distance(*nearest)) nearest = p;
     }
     return nearest;
+  }
+
+  /// Of two places equally near, whether the first is taken instead of the second, which was found before:
+  /// an order that a mirror image keeps, if there is to be one.
+  bool goes_before(Point p, Point found) const {
+    if (!corner_.mirror) return false;
+    const auto rank = [&](Point q) {
+      const double height = height_over(*corner_.mirror, q);
+      return std::pair(std::abs(height), *corner_.mirror == MirrorAxis::x ? q.x : q.y);
+    };
+    return rank(p) < rank(found);
   }
 
   /// The nearest point to the corner on the outline from a run's crossings on, as long as it stays near.
@@ -183,7 +197,7 @@ class CornerDecision {
       for (const std::int32_t s : stretch_from(sights_[i]).segments) {
         const Point p =
             nearest_on_segment(corner_.position, geometry_.point(s), geometry_.point(geometry_.next(s)));
-        if (distance(p) >= least) continue;
+        if (distance(p) > least || (distance(p) == least && !goes_before(p, nearest))) continue;
         least = distance(p);
         nearest = p;
       }

@@ -15,8 +15,9 @@ struct SightedCorner {
   Point position;   ///< where the lattice has it
   double edge = 0;  ///< the shortest leaf edge there
   std::span<const Sight> sights;
-  /// On which it lies, if the mesh is to be its own mirror image in it: it moves along it alone.
-  std::optional<MirrorAxis> axis = {};
+  /// If the mesh is to be its own mirror image: a corner on the axis moves along it alone, and of places
+  /// equally near to a corner beside it the one is taken whose image the corner's image takes.
+  std::optional<MirrorAxis> mirror = {};
 };
 
 /// Decides where a corner goes that has a crossing nearer than `share` of the shortest edge there, if it

@@ -56,10 +56,8 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
     while (end < sights.size() && sights[end].corner == corner) ++end;
     const auto seen = std::span<const Sight>(sights).subspan(begin, end - begin);
     if (!is_captured && !may_claim(seen, share)) continue;
-    const Point position = lattice.corner(corner);
-    const bool on_axis = mirror && side_of(*mirror, position) == 0;
-    const SightedCorner sighted{corner, position, shortest_edge_at(graph, lattice, corner), seen,
-                                on_axis ? mirror : std::nullopt};
+    const SightedCorner sighted{corner, lattice.corner(corner), shortest_edge_at(graph, lattice, corner),
+                                seen, mirror};
     auto snap = is_captured ? snap_captured(geometry, traced.traces, sighted, share, *captured++)
                             : snap_corner(geometry, traced.traces, sighted, share);
     if (snap) snaps.push_back(std::move(*snap));

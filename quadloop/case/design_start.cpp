@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "adapt/loop/record.hpp"
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "adapt/solvers/cycle_paths.hpp"
+#include "io/files/reading/input_file.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/tree/tree_file.hpp"
@@ -49,6 +51,22 @@ std::string cycle_folder(const std::string& from, std::vector<std::string>& warn
   throw InputError(fmt::format("{}: holds no whole cycle to begin with; {}", from, what_from_takes));
 }
 
+/// Of a cycle's record; none where it is not whole, or there is none.
+CaseSettings settings_of_cycle(const CyclePaths& paths) {
+  if (!is_there(paths.record())) return {};
+  const auto recorded = recorded_case(read_input(paths.record()));
+  return recorded ? recorded->settings : CaseSettings{};
+}
+
+/// What boundaries are asked for otherwise than before; empty where that is not known.
+std::string changes_at_boundaries(const CaseSettings& before, const CaseSettings& now) {
+  if (before.empty()) return {};
+  std::vector<ChangedSetting> changed = changed_settings(before, now);
+  std::erase_if(changed,
+                [](const ChangedSetting& change) { return !shapes_cells_at_boundaries(change.key); });
+  return text_of(changed);
+}
+
 /// The files alone.
 FormerMesh files_of(const std::string& from) {
   FormerMesh former;
@@ -59,6 +77,7 @@ FormerMesh files_of(const std::string& from) {
     former.mesh_file = paths.native_mesh();
     former.tree_file = paths.tree();
     former.outline_file = paths.outline();
+    former.settings = settings_of_cycle(paths);
   } else {
     require_readable_suffix(from);
     const std::string stem = fs::path(from).replace_extension().string();
@@ -89,7 +108,7 @@ FormerMesh find_former_mesh(const Communicator& comm, const std::string& from) {
 }
 
 DesignStart read_start(const Communicator& comm, FormerMesh& former, std::optional<double> morph_to,
-                       const std::string& file) {
+                       const std::string& file, const CaseSettings& settings) {
   LoadedMesh whole;
   comm.together([&] {
     if (!comm.is_root()) return;
@@ -102,7 +121,8 @@ DesignStart read_start(const Communicator& comm, FormerMesh& former, std::option
   start.solved.file = former.mesh_file;
   require_untouched_mesh(comm, start.solved, former.mesh_file, former.tree_file);
   if (morph_to)
-    start.wish = MorphWish{*morph_to, file, former.outline ? &*former.outline : nullptr, former.outline_file};
+    start.wish = MorphWish{*morph_to, file, former.outline ? &*former.outline : nullptr, former.outline_file,
+                           changes_at_boundaries(former.settings, settings)};
   return start;
 }
 

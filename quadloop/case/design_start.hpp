@@ -16,6 +16,7 @@ struct FormerMesh {
   std::string outline_file;         ///< empty: there is none
   TreeRecord tree;                  ///< this rank's share
   std::optional<Geometry> outline;  ///< on every rank
+  CaseSettings settings = {};       ///< of the case that it was made for; empty: not known
   std::vector<std::string> warnings = {};
 };
 
@@ -24,9 +25,9 @@ struct FormerMesh {
 FormerMesh find_former_mesh(const Communicator& comm, const std::string& from);
 
 /// Reads the mesh and its flow. `former` must outlive what is returned; its tree is moved out. With
-/// `morph_to` cells are to be kept on the outline in `file`, for messages. Throws InputError where mesh and
-/// tree do not belong together. *Collective.*
+/// `morph_to` cells are to be kept on the outline in `file`, for messages, by a case with these settings.
+/// Throws InputError where mesh and tree do not belong together. *Collective.*
 DesignStart read_start(const Communicator& comm, FormerMesh& former, std::optional<double> morph_to,
-                       const std::string& file);
+                       const std::string& file, const CaseSettings& settings);
 
 }  // namespace quadloop

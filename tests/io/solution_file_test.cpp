@@ -2,11 +2,14 @@
 // solutions of another mesh. On one rank alone.
 #include "io/solution_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "io/cgns/cgns_file.hpp"
+#include "io/mesh_file.hpp"
 #include "io/native/native_file.hpp"
 #include "io/su2/su2_csv_file.hpp"
 #include "io/vtu/vtu_file.hpp"
@@ -253,6 +256,49 @@ TEST(SolutionNames, TwoOfOneNameAreRefused) {
   const std::string both = refusal_of([] { read_text("wave height,b,wave_height\n1,2,3\n"); });
   for (const char* part : {"s.csv", "'wave height'", "'wave_height'"}) expect_in(both, part);
   EXPECT_EQ(read_text("h,H\n1,2\n").solution.names.size(), 2U);  // told apart by case where the name is exact
+}
+
+/// Three variables, at nodes and in cells.
+Field three_variables(const Mesh& mesh) {
+  Field solution{{"hhh", "q", "ggg"}, std::vector<double>(3 * mesh.points.size(), 1.5), {}};
+  solution.cells = {{"HHH", "Q", "GGG"},
+                    std::vector<double>(3 * (mesh.triangles.size() + mesh.quads.size()), 2.5)};
+  return solution;
+}
+
+TEST(SolutionNames, AMeshWithTwoOfOneNameIsRefused) {
+  const TemporaryFolder folder;
+  const Mesh mesh = test::sample_mesh(5);
+  const Field solution = three_variables(mesh);
+  for (const char* name : {"a.mesh", "a.qmesh", "a.vtu"}) {
+    const std::string path = folder.file(name);
+    OutputSet outputs(test::world());
+    write_mesh(outputs, mesh, path, &solution);
+    outputs.commit();
+    EXPECT_EQ(read_mesh(path).solution->cells.names, solution.cells.names);
+    const std::string bytes = test::bytes_of(path);
+    for (const auto& [one, other] : {std::pair{"ggg", "hhh"}, {"GGG", "HHH"}}) {
+      test::write_bytes(path, replaced(bytes, one, other));
+      expect_in(refusal_of([&] { read_mesh(path); }),
+                fmt::format("{}: two variables are named '{}'", path, other));
+    }
+  }
+}
+
+TEST(SolutionNames, TwoThatAreOneAsWordsAreNotWritten) {
+  const TemporaryFolder folder;
+  const Mesh mesh = test::sample_mesh(5);
+  for (const char* name : {"a.mesh", "a.qmesh"}) {
+    for (const bool in_cells : {false, true}) {
+      Field solution = three_variables(mesh);
+      (in_cells ? solution.cells.names : solution.names) = {"wave height", "q", "wave_height"};
+      const std::string fault = refusal_of([&] {
+        OutputSet outputs(test::world());
+        write_mesh(outputs, mesh, folder.file(name), &solution);
+      });
+      for (const char* part : {name, "'wave height'", "'wave_height'"}) expect_in(fault, part);
+    }
+  }
 }
 
 TEST(SolutionFile, ValuesThatOverflowAreRefused) {

@@ -57,5 +57,10 @@ TEST(Words, HoldNoBlanks) {
       << "a name given takes the place of one made up";
 }
 
+TEST(Distinct, TellsNamesByTheirLetters) {
+  EXPECT_NO_THROW(require_distinct(Names{"p", "P", "p_", ""}, "s"));
+  EXPECT_THROW(require_distinct(Names{"p", "q", "p"}, "s"), InputError);
+}
+
 }  // namespace
 }  // namespace quadloop

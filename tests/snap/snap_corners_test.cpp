@@ -48,9 +48,11 @@ std::vector<Moved> agreed(const TracedLeaves& leaves, const std::vector<Snap>& s
   return all;
 }
 
-std::vector<Moved> snapped(const Geometry& geometry, const Box& fine = {{0, 0}, {4, 4}}) {
+std::vector<Moved> snapped(const Geometry& geometry, const Box& fine = {{0, 0}, {4, 4}},
+                           std::optional<MirrorAxis> mirror = {}) {
   const TracedLeaves leaves(geometry, fine);
-  return agreed(leaves, choose_snaps(leaves.graph, leaves.lattice, leaves.geometry, leaves.traced, share));
+  return agreed(leaves,
+                choose_snaps(leaves.graph, leaves.lattice, leaves.geometry, leaves.traced, share, mirror));
 }
 
 /// Of these the one at a corner; none where there is none.
@@ -206,6 +208,16 @@ TEST(SnapCorners, LeavesKnowTheirSnapsByTheirSites) {
   }
   std::sort(seen.begin(), seen.end());
   EXPECT_EQ(seen, expected);
+}
+
+/// The outline comes as near to (3, 3) on its right as above it. Which of the two places the corner takes
+/// depends on the axis alone, as its image must take the image.
+TEST(SnapCorners, OfPlacesEquallyNearAMirrorTakesTheOneNearerToItsAxis) {
+  const Geometry geometry =
+      test::loops_of({{{0.5, 0.5}, {3.125, 0.5}, {3.125, 3.0625}, {3.0625, 3.125}, {0.5, 3.125}}}, none_kept);
+  const Box everywhere{{0, 0}, {4, 4}};
+  EXPECT_EQ(at(snapped(geometry, everywhere, MirrorAxis::x), {3, 3})->position, (Point{3.125, 3}));
+  EXPECT_EQ(at(snapped(geometry, everywhere, MirrorAxis::y), {3, 3})->position, (Point{3, 3.125}));
 }
 
 }  // namespace

@@ -29,14 +29,14 @@ bool pipes_allowed = false;
 }  // namespace
 
 /// An open file.
-class Descriptor {
+class InputDescriptor {
  public:
-  explicit Descriptor(const std::string& path) : number_{::open(path.c_str(), O_RDONLY | O_CLOEXEC)} {
+  explicit InputDescriptor(const std::string& path) : number_{::open(path.c_str(), O_RDONLY | O_CLOEXEC)} {
     if (number_ < 0) refuse_opening(path, errno);
   }
-  ~Descriptor() { ::close(number_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  ~InputDescriptor() { ::close(number_); }
+  InputDescriptor(const InputDescriptor&) = delete;
+  InputDescriptor& operator=(const InputDescriptor&) = delete;
 
   /// 0 at the end.
   std::size_t read(char* into, std::size_t size, const std::string& path) const {
@@ -68,7 +68,7 @@ struct stat require_readable_kind(const std::string& path, bool pipes) {
 }
 
 std::string read_file(const std::string& path, std::size_t size) {
-  const Descriptor file(path);
+  const InputDescriptor file(path);
   std::string text(size, '\0');
   std::size_t used = 0;
   while (used < size) {
@@ -110,7 +110,7 @@ InputPieces::InputPieces(const std::string& path) : path_{path} {
   const struct stat found = require_readable_kind(path, pipes_allowed);
   is_pipe_ = !S_ISREG(found.st_mode);
   if (!is_pipe_) bytes_left_ = found.st_size;
-  file_ = std::make_unique<Descriptor>(path);
+  file_ = std::make_unique<InputDescriptor>(path);
 }
 
 InputPieces::~InputPieces() = default;

@@ -6,7 +6,7 @@
 
 namespace quadloop {
 
-class Descriptor;
+class InputDescriptor;
 
 /// Throws InputError where no file can be read at the path: nothing there, a name too long, a folder, a
 /// device (which may have no end), a pipe.
@@ -32,7 +32,7 @@ class InputPieces {
 
  private:
   std::string path_;
-  std::unique_ptr<Descriptor> file_;
+  std::unique_ptr<InputDescriptor> file_;
   bool is_pipe_ = false;
   std::size_t bytes_left_ = 0, taken_ = 0;
 };

@@ -103,6 +103,34 @@ TEST(CycleFolders, TwoRunsDoNotShareAFolder) {
             std::string::npos);
 }
 
+/// What is refused to a run of this start that is resumed; empty: nothing.
+std::string refusal_to_resume(const TemporaryFolder& temporary, const std::string& start) {
+  return test::refusal_text([&] { CycleFolders(world(), temporary.file("run")).open(true, start); });
+}
+
+TEST(CycleFolders, AFirstCycleIsResumedAsItWasBegun) {
+  const TemporaryFolder temporary;
+  const auto begin = [&](const std::string& start) {
+    CycleFolders run(world(), temporary.file("run"));
+    run.open(false, start);
+    run.begin(0);
+  };
+  begin("0123456789abcdef base/mesh.mesh");
+  for (const char* other : {"", "fedcba9876543210 base/mesh.mesh"})
+    EXPECT_NE(refusal_to_resume(temporary, other).find("begun with --from, by base/mesh.mesh"),
+              std::string::npos)
+        << other;
+  {
+    CycleFolders run(world(), temporary.file("run"));
+    EXPECT_EQ(run.open(true, "0123456789abcdef elsewhere/mesh.mesh"), 0);  // the same mesh
+  }
+  begin("");  // anew, with a mesh of its own
+  EXPECT_NE(refusal_to_resume(temporary, "0123456789abcdef base").find("begun without --from"),
+            std::string::npos);
+  CycleFolders run(world(), temporary.file("run"));
+  EXPECT_EQ(run.open(true), 0);
+}
+
 TEST(CycleFolders, AFileIsNoFolder) {
   const TemporaryFolder temporary;
   write(temporary.file("run"));

@@ -34,8 +34,8 @@ class Runs:
         return json.loads(run([*launcher, self.quadloop, "adapt", CASE, "-o", self.folder / out, "--json", *COARSE, *words]))
 
     def refused(self, pieces, *words):
-        done = subprocess.run([str(w) for w in (self.quadloop, "adapt", CASE, "-o", self.folder / "none", *words, *COARSE)], capture_output=True, text=True,
-                              check=False)
+        folder = [] if "-o" in words else ["-o", self.folder / "none"]
+        done = subprocess.run([str(w) for w in (self.quadloop, "adapt", CASE, *folder, *words, *COARSE)], capture_output=True, text=True, check=False)
         if done.returncode != 1 or any(piece not in done.stderr for piece in pieces):
             fail(f"{words}: exit status {done.returncode}, not the refusal that was expected: {done.stderr}")
 
@@ -119,6 +119,8 @@ def check_what_is_told(runs):
     coarser = ["--set", "spacing.gradation=1.4"]
     for name, words, morphed, pieces in (
             ("wall_kept", [*start, "--set", "boundary.airfoil.spacing=0.06"], True, ["its cells are kept", "(mesh, spacing, layers)"]),
+            ("wall_moved", [*start, *near, "--set", "boundary.airfoil.spacing=0.06"], True,
+             ["its cells are kept", "boundary.airfoil.spacing was 0.05, is now 0.06"]),
             ("set_kept", [*start, *near, *coarser], True, ["its cells are kept", "(mesh, spacing, layers)"]),
             ("set_anew", [*start, *coarser], False, ["is meshed anew", "(mesh, spacing, layers)"])):
         said = runs.adapt(name, *words)
@@ -149,6 +151,17 @@ def check_meshed_anew(runs):
     shutil.rmtree(runs.folder / "resumed" / "cycle_01")
     runs.adapt("resumed", *words, "--cycles", 1, "--resume")
     require_same(runs.folder / "anew", runs.folder / "resumed")
+
+
+def check_first_cycle_resumed(runs):
+    """A run that ended in its first cycle goes on as it was begun, or not at all."""
+    words = ["--geometry", runs.folder / "near.geom", "--cycles", 0]
+    (runs.folder / "killed/cycle_00.part").mkdir(parents=True)
+    shutil.copy(runs.folder / "near_1/start.txt", runs.folder / "killed")
+    for others in ([], ["--from", runs.folder / "first/cycle_00"]):
+        runs.refused(["begun with --from, by", "first/cycle_01"], "--resume", "-o", runs.folder / "killed", *words, *others)
+    runs.adapt("killed", "--resume", "--from", runs.folder / "first", *words)
+    require_same(runs.folder / "near_1", runs.folder / "killed")
 
 
 def check_last_whole_cycle(runs):
@@ -183,6 +196,7 @@ def main():
         check_kept_cells(runs, args.ranks)
         check_same_outline(runs)
         check_meshed_anew(runs)
+        check_first_cycle_resumed(runs)
         check_last_whole_cycle(runs)
         check_mesh_beside_its_tree(runs)
     print("good")

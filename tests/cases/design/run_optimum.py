@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The optimiser of cases/naca_design: after some iterations drag has fallen, lift and area are held, and every shape was evaluated on the first one's cells.
+"""The optimiser of cases/naca_design, by the adjoint: after some iterations drag has fallen, lift and area are held, and every shape was evaluated on the first one's cells.
 
     run_optimum.py --quadloop PROGRAM [--small]
 """
@@ -25,7 +25,7 @@ def main():
         import scipy  # noqa: F401
     except ImportError:
         skip("python3-scipy is not installed")
-    iterations, options, share = (3, COARSE, 0.5) if args.small else (6, [], 0.4)
+    iterations, options, share = (5, COARSE, 0.5) if args.small else (6, [], 0.4)
     with tempfile.TemporaryDirectory(prefix="quadloop_optimum_") as name:
         out = Path(name) / "optimum"
         print(run([sys.executable, "-B", CASE / "optimise.py", "--quadloop", args.quadloop.resolve(), "-o", out, "--iterations", iterations,
@@ -33,6 +33,8 @@ def main():
         said = json.loads((out / "history.json").read_text())
         history, last = said["history"], said["best"]
         best = json.loads((out / "best" / "cycle_00" / "record.json").read_text())
+    if said["evaluations"] > 3 * len(history):
+        fail(f"{said['evaluations']} flows for {len(history)} iterations: each was to need one, and one more for each shorter step")
     first = history[0]
     if len(history) < 2 or not last["cd"] < share * first["cd"]:
         fail(f"drag went from {first['cd']} to {last['cd']}, not below {share} of it")

@@ -2,7 +2,11 @@
 #include "io/files/shared_output.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "mesher/base/error.hpp"
@@ -41,6 +45,41 @@ TEST(SharedOutput, AFailureOfAnyRankEndsOnAll) {
   }),
                OutputError);
   EXPECT_THROW(SharedOutput(world(), {"b.bin", folder.file("missing")}), OutputError);
+}
+
+/// Files that this process has open, the folder that tells of them among them.
+std::ptrdiff_t open_files() {
+  return std::ranges::distance(std::filesystem::directory_iterator("/proc/self/fd"));
+}
+
+/// No further file can be opened as long as it lives.
+class NoFurtherFile {
+ public:
+  NoFurtherFile() {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    rlimit none = before_;
+    none.rlim_cur = 0;
+    ::setrlimit(RLIMIT_NOFILE, &none);
+  }
+  ~NoFurtherFile() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  NoFurtherFile(const NoFurtherFile&) = delete;
+  NoFurtherFile& operator=(const NoFurtherFile&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST(SharedOutput, NoRankKeepsAFileOpenThatAnotherCouldNotOpen) {
+  const test::TemporaryFolder folder;
+  OutputSet outputs(world());
+  const StagedFile staged = outputs.stage(folder.file("a.bin"));
+  const std::ptrdiff_t before = open_files();
+  {
+    std::optional<NoFurtherFile> limit;
+    if (world().rank() == world().size() - 1) limit.emplace();
+    EXPECT_THROW(SharedOutput(world(), staged), OutputError);
+  }
+  EXPECT_EQ(open_files(), before);
 }
 
 }  // namespace

@@ -7,9 +7,11 @@ solver asks for.
 import argparse
 import json
 import math
+import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from adapt_runs import TINY, adapt, require, tiny_case
 from quadloop_runs import skip
 

@@ -11,9 +11,11 @@ fewer cycles.
 import argparse
 import json
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from adapt_runs import adapt_three_ways, records, require, sets
 from quadloop_runs import ROOT, run
 

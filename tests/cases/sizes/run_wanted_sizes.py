@@ -8,9 +8,11 @@ order in the records. With --full: lift and drag within 0.5 % of those of the fi
 need, in fewer cycles; a table of what is met and missed.
 """
 import argparse
+import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from adapt_runs import adapt_three_ways, records, require, sets
 from quadloop_runs import ROOT, run
 

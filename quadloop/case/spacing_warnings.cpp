@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+#include "mesher/base/id_vector.hpp"
+#include "mesher/lattice/lattice.hpp"
+#include "quadloop/case/settings.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// A corner spacing that is out of reach, or of a boundary without a sharp corner.
+Warnings corner_warnings(const Geometry& geometry, double min) {
+  IdVector<BoundaryId, char> has_corner(geometry.boundaries().size(), 0);
+  for (std::int32_t v = 0; v < geometry.size(); ++v) {
+    if (geometry.corner_spacing_of(v) == 0) continue;
+    for (const std::int32_t segment : {geometry.previous(v), v})
+      has_corner[geometry.boundary_of(segment)] = 1;
+  }
+  Warnings warnings;
+  for (const BoundaryId b : has_corner.ids()) {
+    const Boundary& boundary = geometry.boundary(b);
+    if (boundary.corner_spacing > 0 && has_corner[b] == 0) {
+      warnings.push_back(
+          fmt::format("boundary '{}' has no corner for its corner_spacing = {}: it turns by more than its "
+                      "corner = {} degrees nowhere",
+                      boundary.name, boundary.corner_spacing, boundary.corner_degrees));
+    } else if (boundary.corner_spacing > 0 && boundary.corner_spacing < min) {
+      warnings.push_back(fmt::format(
+          "boundary '{}' asks for a corner_spacing of {}, but spacing.min = {} ends the refinement before",
+          boundary.name, boundary.corner_spacing, min));
+    }
+  }
+  return warnings;
+}
+
+}  // namespace
+
+Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
+  Warnings warnings;
+  const double min = options.size.min;
+  const Lattice lattice = choose_root(geometry, options.size.root);
+  const Box root = lattice.box();
+  if (const double finest = lattice.edge(lattice.finest_level(min)); finest > options.size.max) {
+    warnings.push_back(
+        fmt::format("leaves stay at {}, above spacing.max = {}: sizes halve from the root's, and spacing.min "
+                    "= {} forbids the next one; "
+                    "make spacing.min {} or less",
+                    finest, options.size.max, min, finest / 2));
+  }
+  for (const Boundary& b : geometry.boundaries()) {
+    if (b.spacing > 0 && b.spacing < min) {
+      warnings.push_back(fmt::format(
+          "boundary '{}' asks for a spacing of {}, but spacing.min = {} ends the refinement before", b.name,
+          b.spacing, min));
+    }
+  }
+  for (std::string& warning : corner_warnings(geometry, min)) warnings.push_back(std::move(warning));
+  for (const SizeSource& source : options.size.sources) {
+    if (source.spacing < min) {
+      warnings.push_back(fmt::format(
+          "{}: this [[source]] asks for a spacing of {}, but spacing.min = {} ends the refinement before",
+          source.where, source.spacing, min));
+    }
+    if (!meets(source, root)) {
+      warnings.push_back(
+          fmt::format("{}: this [[source]] lies outside the root, which reaches from ({}, {}) to ({}, {}), "
+                      "and does nothing; move it",
+                      source.where, root.low.x, root.low.y, root.high.x, root.high.y));
+    }
+  }
+  return warnings;
+}
+
+}  // namespace quadloop
