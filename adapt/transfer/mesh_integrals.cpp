@@ -1,6 +1,9 @@
 #include "adapt/transfer/mesh_integrals.hpp"
 
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
@@ -9,25 +12,35 @@ namespace quadloop {
 
 namespace {
 
-/// Of the node values that `value_of` gives. The halves of a quad make one term: sums cost more than terms.
-template <class ValueOf>
-double integral(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles,
-                const ValueOf& value_of) {
-  std::vector<double> terms;
-  terms.reserve(triangles.size());
-  std::int64_t last_cell = -1;
-  for (const CellTriangle& triangle : triangles) {
-    const auto& [a, b, c] = triangle.nodes;
-    const double third = cross(mesh.point(b) - mesh.point(a), mesh.point(c) - mesh.point(a)) / 6;
-    const double term = third * (value_of(a) + value_of(b) + value_of(c));
-    if (triangle.number / 2 == last_cell) {
-      terms.back() += term;
-    } else {
-      terms.push_back(term);
+/// Of some columns, of what `of_value` makes of each value. The halves of a quad make one term: sums cost more
+/// than terms.
+template <class OfValue>
+std::vector<double> integrals(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field,
+                              std::span<const std::size_t> columns, const OfValue& of_value) {
+  std::vector<std::vector<double>> terms(columns.size());
+  for (std::vector<double>& of_column : terms) of_column.reserve(mesh.triangles.size() + mesh.quads.size());
+  const auto add = [&](const CellParts& parts) {
+    std::array<double, 2> thirds{};
+    for (std::size_t part = 0; part < parts.count; ++part) {
+      const auto& [a, b, c] = parts.nodes[part];
+      thirds[part] = cross(mesh.point(b) - mesh.point(a), mesh.point(c) - mesh.point(a)) / 6;
     }
-    last_cell = triangle.number / 2;
-  }
-  return reproducible_sum(comm, terms);
+    for (std::size_t k = 0; k < columns.size() && parts.count > 0; ++k) {
+      const auto value = [&](NodeId node) { return of_value(field.row(node)[columns[k]]); };
+      double term = 0;
+      for (std::size_t part = 0; part < parts.count; ++part) {
+        const auto& [a, b, c] = parts.nodes[part];
+        const double of_part = thirds[part] * (value(a) + value(b) + value(c));
+        term = part == 0 ? of_part : term + of_part;
+      }
+      terms[k].push_back(term);
+    }
+  };
+  for (const auto& triangle : mesh.triangles) add(parts_of(mesh, centre, triangle));
+  for (const auto& quad : mesh.quads) add(parts_of(mesh, centre, quad));
+  std::vector<double> sums;
+  for (const std::vector<double>& of_column : terms) sums.push_back(reproducible_sum(comm, of_column));
+  return sums;
 }
 
 /// Over the nodes of all ranks.
@@ -40,24 +53,24 @@ bool has_negative(const Communicator& comm, const Field& field, std::size_t colu
 
 }  // namespace
 
-std::vector<double> integrate(const Communicator& comm, const Mesh& mesh,
-                              std::span<const CellTriangle> triangles, const Field& field) {
-  std::vector<double> integrals;
-  for (std::size_t k = 0; k < field.width(); ++k) {
-    integrals.push_back(integral(comm, mesh, triangles, [&](NodeId node) { return field.row(node)[k]; }));
-  }
-  return integrals;
+std::vector<double> integrate(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field) {
+  std::vector<std::size_t> all(field.width());
+  std::iota(all.begin(), all.end(), 0);
+  return integrals(comm, mesh, centre, field, all, [](double value) { return value; });
 }
 
-std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh,
-                                    std::span<const CellTriangle> triangles, const Field& field,
-                                    const std::vector<double>& of_values) {
-  std::vector<double> integrals = of_values;  // densities and pressures are their own absolute values
-  for (std::size_t k = 0; k < integrals.size(); ++k) {
-    if (!has_negative(comm, field, k)) continue;
-    integrals[k] = integral(comm, mesh, triangles, [&](NodeId node) { return std::abs(field.row(node)[k]); });
+std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh, Point centre,
+                                    const Field& field, const std::vector<double>& of_values) {
+  std::vector<double> sizes = of_values;  // densities and pressures are their own absolute values
+  std::vector<std::size_t> others;
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    if (has_negative(comm, field, k)) others.push_back(k);
   }
-  return integrals;
+  if (others.empty()) return sizes;
+  const std::vector<double> of_others =
+      integrals(comm, mesh, centre, field, others, [](double value) { return std::abs(value); });
+  for (std::size_t i = 0; i < others.size(); ++i) sizes[others[i]] = of_others[i];
+  return sizes;
 }
 
 CellIntegrals integrate_cells(const Communicator& comm, const Mesh& mesh, const CellValues& cells) {

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 
+#include "mesher/base/morton.hpp"
+
 namespace quadloop {
 
 namespace {
 
 constexpr std::int64_t most_cells = 1 << 16, few_points = 8;
 constexpr CurveGrid::Square whole_grid{{}, 32};
-constexpr int coarse_bits = 16, above_coarse = 64 - coarse_bits;  // 256 by 256 coarse squares
+constexpr int coarse_bits = 11, above_coarse = 32 - coarse_bits;  // 2048 by 2048 coarse squares
+constexpr int word_bits = 64;
 
 }  // namespace
 
@@ -32,11 +35,27 @@ PointCells::PointCells(const Communicator& comm, const CurveGrid& grid, std::spa
 }
 
 void PointCells::mark_occupied() {
-  occupied_.assign(std::size_t{1} << coarse_bits, 0);
+  occupied_.assign((std::size_t{1} << 2 * coarse_bits) / word_bits, 0);
   for (const Stretch& stretch : stretches_) {
-    const auto begin = occupied_.begin();
-    std::fill(begin + (stretch.first >> above_coarse), begin + (stretch.last >> above_coarse) + 1, 1);
+    const std::uint64_t last = stretch.last >> 2 * above_coarse;
+    for (std::uint64_t square = stretch.first >> 2 * above_coarse; square <= last; ++square)
+      occupied_[square / word_bits] |= std::uint64_t{1} << square % word_bits;
   }
+}
+
+/// False only where no coarse square that these steps meet is occupied; of many nothing is said.
+bool PointCells::may_be_occupied(const CurveGrid::Steps& steps) const {
+  constexpr std::uint32_t few = 2;
+  const std::uint32_t left = steps.low.x >> above_coarse, right = steps.high.x >> above_coarse,
+                      low = steps.low.y >> above_coarse, high = steps.high.y >> above_coarse;
+  if (right - left > few || high - low > few) return true;
+  for (std::uint32_t y = low; y <= high; ++y) {
+    for (std::uint32_t x = left; x <= right; ++x) {
+      const std::uint64_t square = morton_key(x, y);
+      if ((occupied_[square / word_bits] >> square % word_bits & 1) != 0) return true;
+    }
+  }
+  return false;
 }
 
 /// `keys` are those in the square, ascending.
@@ -65,9 +84,8 @@ const PointCells::Stretch* PointCells::next(std::uint64_t key) const {
 
 bool PointCells::meet(const Box& box) const {
   const CurveGrid::Steps steps = grid_->steps_of(box);
+  if (!may_be_occupied(steps)) return false;
   const std::uint64_t low = CurveGrid::key_at(steps.low), high = CurveGrid::key_at(steps.high);
-  const bool in_one = low >> above_coarse == high >> above_coarse;
-  if (in_one && occupied_[low >> above_coarse] == 0) return false;
   const Stretch* stretch = next(low);
   if (stretch == nullptr || stretch->first > high) return false;
   if (low == high) return true;
