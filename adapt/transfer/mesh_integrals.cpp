@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 
 #include "mesher/base/parallel/reproducible_sum.hpp"
@@ -12,11 +11,15 @@ namespace quadloop {
 
 namespace {
 
-/// Of some columns, of what `of_value` makes of each value. The halves of a quad make one term: sums cost more
-/// than terms.
-template <class OfValue>
+/// What is summed up: a variable, or its absolute value.
+struct Column {
+  std::size_t variable = 0;
+  bool of_size = false;
+};
+
+/// The halves of a quad make one term: sums cost more than terms.
 std::vector<double> integrals(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field,
-                              std::span<const std::size_t> columns, const OfValue& of_value) {
+                              std::span<const Column> columns) {
   std::vector<std::vector<double>> terms(columns.size());
   for (std::vector<double>& of_column : terms) of_column.reserve(mesh.triangles.size() + mesh.quads.size());
   const auto add = [&](const CellParts& parts) {
@@ -26,14 +29,15 @@ std::vector<double> integrals(const Communicator& comm, const Mesh& mesh, Point 
       thirds[part] = cross(mesh.point(b) - mesh.point(a), mesh.point(c) - mesh.point(a)) / 6;
     }
     for (std::size_t k = 0; k < columns.size() && parts.count > 0; ++k) {
-      const auto value = [&](NodeId node) { return of_value(field.row(node)[columns[k]]); };
-      double term = 0;
-      for (std::size_t part = 0; part < parts.count; ++part) {
+      const auto value = [&, column = columns[k]](NodeId node) {
+        const double of_node = field.row(node)[column.variable];
+        return column.of_size ? std::abs(of_node) : of_node;
+      };
+      const auto term = [&](std::size_t part) {
         const auto& [a, b, c] = parts.nodes[part];
-        const double of_part = thirds[part] * (value(a) + value(b) + value(c));
-        term = part == 0 ? of_part : term + of_part;
-      }
-      terms[k].push_back(term);
+        return thirds[part] * (value(a) + value(b) + value(c));
+      };
+      terms[k].push_back(parts.count == 1 ? term(0) : term(0) + term(1));
     }
   };
   for (const auto& triangle : mesh.triangles) add(parts_of(mesh, centre, triangle));
@@ -41,6 +45,12 @@ std::vector<double> integrals(const Communicator& comm, const Mesh& mesh, Point 
   std::vector<double> sums;
   for (const std::vector<double>& of_column : terms) sums.push_back(reproducible_sum(comm, of_column));
   return sums;
+}
+
+std::vector<Column> all_variables(const Field& field) {
+  std::vector<Column> columns;
+  for (std::size_t k = 0; k < field.width(); ++k) columns.push_back({k, false});
+  return columns;
 }
 
 /// Over the nodes of all ranks.
@@ -54,23 +64,20 @@ bool has_negative(const Communicator& comm, const Field& field, std::size_t colu
 }  // namespace
 
 std::vector<double> integrate(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field) {
-  std::vector<std::size_t> all(field.width());
-  std::iota(all.begin(), all.end(), 0);
-  return integrals(comm, mesh, centre, field, all, [](double value) { return value; });
+  return integrals(comm, mesh, centre, field, all_variables(field));
 }
 
-std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh, Point centre,
-                                    const Field& field, const std::vector<double>& of_values) {
-  std::vector<double> sizes = of_values;  // densities and pressures are their own absolute values
-  std::vector<std::size_t> others;
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    if (has_negative(comm, field, k)) others.push_back(k);
+NodalIntegrals integrate_with_sizes(const Communicator& comm, const Mesh& mesh, Point centre,
+                                    const Field& field) {
+  std::vector<Column> columns = all_variables(field);
+  for (std::size_t k = 0; k < field.width(); ++k) {  // densities and pressures are their own absolute values
+    if (has_negative(comm, field, k)) columns.push_back({k, true});
   }
-  if (others.empty()) return sizes;
-  const std::vector<double> of_others =
-      integrals(comm, mesh, centre, field, others, [](double value) { return std::abs(value); });
-  for (std::size_t i = 0; i < others.size(); ++i) sizes[others[i]] = of_others[i];
-  return sizes;
+  const std::vector<double> sums = integrals(comm, mesh, centre, field, columns);
+  NodalIntegrals found{{sums.begin(), sums.begin() + std::ssize(field.names)}, {}};
+  found.sizes = found.values;
+  for (std::size_t k = field.width(); k < sums.size(); ++k) found.sizes[columns[k].variable] = sums[k];
+  return found;
 }
 
 CellIntegrals integrate_cells(const Communicator& comm, const Mesh& mesh, const CellValues& cells) {

@@ -229,23 +229,18 @@ CellValues carried_cells(const Communicator& comm, const CurveShares& shares, co
   return {old_cells.names, std::move(carried.values)};
 }
 
-/// What the old mesh had of each variable: its integral, and that of its absolute value.
-struct OldIntegrals {
-  std::vector<double> of_values, of_sizes;
-};
-
-OldIntegrals integrals_of(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field) {
-  OldIntegrals integrals{integrate(comm, mesh, centre, field), {}};
-  integrals.of_sizes = integrate_sizes(comm, mesh, centre, field, integrals.of_values);
+/// What the old mesh had of each variable, at nodes, then in cells.
+NodalIntegrals integrals_of(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field) {
+  NodalIntegrals integrals = integrate_with_sizes(comm, mesh, centre, field);
   if (field.cells.width() == 0) return integrals;
   const CellIntegrals of_cells = integrate_cells(comm, mesh, field.cells);
-  integrals.of_values.insert(integrals.of_values.end(), of_cells.values.begin(), of_cells.values.end());
-  integrals.of_sizes.insert(integrals.of_sizes.end(), of_cells.sizes.begin(), of_cells.sizes.end());
+  integrals.values.insert(integrals.values.end(), of_cells.values.begin(), of_cells.values.end());
+  integrals.sizes.insert(integrals.sizes.end(), of_cells.sizes.begin(), of_cells.sizes.end());
   return integrals;
 }
 
 void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& field,
-                  const OldIntegrals& before, TransferReport& report) {
+                  const NodalIntegrals& before, TransferReport& report) {
   std::vector<double> after = integrate(comm, new_mesh, centre_of_nodes(comm, new_mesh),
                                         with_copies(comm, new_mesh, field));
   if (field.cells.width() > 0) {
@@ -253,8 +248,8 @@ void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& f
     after.insert(after.end(), of_cells.values.begin(), of_cells.values.end());
   }
   for (std::size_t k = 0; k < after.size(); ++k) {
-    report.drift.push_back(after[k] - before.of_values[k]);
-    report.relative_drift.push_back(before.of_sizes[k] > 0 ? report.drift[k] / before.of_sizes[k] : 0);
+    report.drift.push_back(after[k] - before.values[k]);
+    report.relative_drift.push_back(before.sizes[k] > 0 ? report.drift[k] / before.sizes[k] : 0);
   }
 }
 

@@ -21,7 +21,7 @@ struct SizedQuadrant {
   Box box;
   std::span<const std::int32_t> segments;  ///< that meet its inside
   std::span<const std::int32_t> corners;   ///< vertices with a size of their own that it touches
-  bool demanded = false;                   ///< it is to be split whatever the rules say
+  int finest_demanded = 0;  ///< level of the finest leaves demanded inside; 0: it need not be split for any
   bool made_by_demand = false;             ///< its parent was
 };
 
