@@ -115,7 +115,7 @@ Figures transfer_figures(const CarriedMesh& carried) {
 struct Problem {
   TreeRecord tree;
   CaseInput input;
-  LoadedMesh whole;  ///< until it is spread
+  LoadedMesh whole;                     ///< until it is spread
   std::vector<std::string> files;       ///< to be written
   std::vector<std::string> part_files;  ///< and these, where parts are asked for
   PartRequest parts;

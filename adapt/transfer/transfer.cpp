@@ -241,8 +241,8 @@ NodalIntegrals integrals_of(const Communicator& comm, const Mesh& mesh, Point ce
 
 void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& field,
                   const NodalIntegrals& before, TransferReport& report) {
-  std::vector<double> after = integrate(comm, new_mesh, centre_of_nodes(comm, new_mesh),
-                                        with_copies(comm, new_mesh, field));
+  std::vector<double> after =
+      integrate(comm, new_mesh, centre_of_nodes(comm, new_mesh), with_copies(comm, new_mesh, field));
   if (field.cells.width() > 0) {
     const CellIntegrals of_cells = integrate_cells(comm, new_mesh, field.cells);
     after.insert(after.end(), of_cells.values.begin(), of_cells.values.end());
@@ -278,8 +278,7 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field
     if (old.cells.width() > 0)
       transferred.field.cells = carried_cells(comm, shares, old_side, old.cells, new_side, report);
   }
-  report_drift(comm, new_mesh, transferred.field, integrals_of(comm, old_mesh, centre, old),
-               report);
+  report_drift(comm, new_mesh, transferred.field, integrals_of(comm, old_mesh, centre, old), report);
   return transferred;
 }
 

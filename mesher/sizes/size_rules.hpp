@@ -22,7 +22,7 @@ struct SizedQuadrant {
   std::span<const std::int32_t> segments;  ///< that meet its inside
   std::span<const std::int32_t> corners;   ///< vertices with a size of their own that it touches
   int finest_demanded = 0;  ///< level of the finest leaves demanded inside; 0: it need not be split for any
-  bool made_by_demand = false;             ///< its parent was
+  bool made_by_demand = false;  ///< its parent was
 };
 
 /// What the case and the geometry in a quadrant ask of the leaves there, one quadrant alone. The answers

@@ -31,7 +31,8 @@ std::vector<SplitDemand> some_demands() {
   std::vector<SplitDemand> demands;
   for (int i = 0; i < 40; ++i) {
     const int level = 3 + i % 4;
-    const std::int64_t size = std::int64_t{1} << (Quadrant::unit_level - level), count = std::int64_t{1} << level;
+    const std::int64_t size = std::int64_t{1} << (Quadrant::unit_level - level),
+                       count = std::int64_t{1} << level;
     demands.push_back({{(7 * i % count) * size, (11 * i % count) * size, level}, 1U << level});
   }
   return demands;

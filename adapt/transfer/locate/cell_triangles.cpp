@@ -134,7 +134,8 @@ CellParts parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& 
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre) {
   std::vector<CellTriangle> triangles;
   triangles.reserve(mesh.triangles.size() + 2 * mesh.quads.size());
-  append_all(comm, mesh, centre, [](const auto&) { return true; }, triangles);
+  append_all(
+      comm, mesh, centre, [](const auto&) { return true; }, triangles);
   return triangles;
 }
 

@@ -33,7 +33,7 @@ class PointCells {
 
   const CurveGrid* grid_;
   std::vector<Stretch> stretches_;  ///< one after another, without overlaps
-  /// A bit for each of the coarse squares of which most boxes meet few, along the curve.
+  /// A bit for each of the coarse squares, of which most boxes meet few, row by row.
   std::vector<std::uint64_t> occupied_;
 };
 
