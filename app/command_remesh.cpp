@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "adapt/remesh/morphed_mesh.hpp"
 #include "adapt/remesh/own_mesh.hpp"
@@ -114,7 +115,7 @@ Figures transfer_figures(const CarriedMesh& carried) {
 struct Problem {
   TreeRecord tree;
   CaseInput input;
-  LoadedMesh whole;
+  LoadedMesh whole;                     ///< until it is spread
   std::vector<std::string> files;       ///< to be written
   std::vector<std::string> part_files;  ///< and these, where parts are asked for
   PartRequest parts;
@@ -172,7 +173,7 @@ Problem load(const Communicator& comm, const RemeshArguments& arguments) {
 SolvedMesh compare(const Communicator& comm, const RemeshArguments& arguments, Problem& problem,
                    Warnings& doubts) {
   doubts = settle(comm, arguments, problem.tree, problem.input, problem.whole);
-  SolvedMesh solved = spread_solved(comm, problem.whole, std::move(problem.tree));
+  SolvedMesh solved = spread_solved(comm, std::exchange(problem.whole, {}), std::move(problem.tree));
   solved.file = arguments.solution;
   require_own_mesh(comm, solved, arguments.solution, arguments.tree);
   return solved;

@@ -39,12 +39,12 @@ struct AdaptationPlan {
 };
 
 /// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where
-/// the number of nodes is bounded or wanted; the nodes are counted on the meshes themselves, unsmoothed
-/// (MeshTrial); or, where the options have a norm, sizes wanted of the leaves, of any number of levels, that
-/// lead to a number of nodes; or, in a mesh that is to stretch, the metric that it is to follow. Where walls
-/// want a y+ and the solution tells friction, first heights follow it, from the next mesh on if any changes
-/// by more than a twentieth. *Collective.* Throws InputError where the solution has no such variable, or one
-/// that is not finite.
+/// the number of nodes is bounded or wanted; the nodes are counted on the trees themselves (MeshTrial); or,
+/// where the options have a norm, sizes wanted of the leaves, of any number of levels, that lead to a number
+/// of nodes; or, in a mesh that is to stretch, the metric that it is to follow. Where walls want a y+ and the
+/// solution tells friction, first heights follow it, from the next mesh on if any changes by more than a
+/// twentieth. *Collective.* Throws InputError where the solution has no such variable, or one that is not
+/// finite.
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved);
 

@@ -4,28 +4,59 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
 
+namespace {
+
+/// Values that are not negative are in the order of their bits; the first of these, exponent and four digits
+/// behind it, tell in which part a value is.
+std::size_t part_of(double value) { return std::bit_cast<std::uint64_t>(value) >> 48; }
+constexpr std::size_t parts = std::size_t{1} << 15;
+
+}  // namespace
+
 OrderedValues::OrderedValues(const Communicator& comm, std::span<const LeafRecord> leaves,
                              std::span<const double> values)
     : comm_{&comm} {
+  std::vector<double> unordered;
+  unordered.reserve(values.size());
   comm.together([&] {
     QUADLOOP_REQUIRE(leaves.size() == values.size(), "there must be one indicator for each leaf");
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!has_cells(leaves[i])) continue;
       QUADLOOP_REQUIRE(std::isfinite(values[i]) && values[i] >= 0,
                        "an indicator must be finite and not negative");
-      own_.push_back(values[i] + 0.0);  // -0 becomes 0, whose bits are in order with the others
+      unordered.push_back(values[i] + 0.0);  // -0 becomes 0, whose bits are in order with the others
     }
   });
-  std::sort(own_.begin(), own_.end());
+  put_into_parts(unordered);
   count_ = comm.sum(std::ssize(own_));
   if (count_ == 0) return;
-  smallest_ = comm.minimum(own_.empty() ? std::numeric_limits<double>::infinity() : own_.front());
-  largest_ = comm.maximum(own_.empty() ? 0 : own_.back());
+  const auto [least, most] = std::ranges::minmax_element(own_);
+  smallest_ = comm.minimum(own_.empty() ? std::numeric_limits<double>::infinity() : *least);
+  largest_ = comm.maximum(own_.empty() ? 0 : *most);
+}
+
+void OrderedValues::put_into_parts(std::span<const double> values) {
+  begins_.assign(parts + 1, 0);
+  sorted_.assign(parts, 0);
+  for (const double value : values) ++begins_[part_of(value) + 1];
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  std::vector<std::int64_t> next(begins_.begin(), begins_.end() - 1);
+  own_.resize(values.size());
+  for (const double value : values) own_[next[part_of(value)]++] = value;
+}
+
+std::int64_t OrderedValues::count_up_to(double bound) const {
+  const std::size_t part = part_of(bound);
+  const auto begin = own_.begin() + begins_[part], end = own_.begin() + begins_[part + 1];
+  if (sorted_[part] == 0) std::sort(begin, end);
+  sorted_[part] = 1;
+  return std::upper_bound(begin, end, bound) - own_.begin();
 }
 
 double OrderedValues::kth_smallest(std::int64_t k) const {
@@ -35,8 +66,7 @@ double OrderedValues::kth_smallest(std::int64_t k) const {
   auto low = std::bit_cast<std::uint64_t>(smallest_), high = std::bit_cast<std::uint64_t>(largest_);
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;
-    const auto last = std::upper_bound(own_.begin(), own_.end(), std::bit_cast<double>(middle));
-    if (comm_->sum(last - own_.begin()) >= k) {
+    if (comm_->sum(count_up_to(std::bit_cast<double>(middle))) >= k) {
       high = middle;
     } else {
       low = middle + 1;

@@ -9,15 +9,15 @@
 
 namespace quadloop {
 
-/// All ranks' indicators of leaves with cells, in ascending order, to ask for the k-th. Nothing here depends
-/// on the order or the ranks of the leaves. Time and memory n log n for this rank's leaves; each question
-/// costs at most 64 short rounds over all ranks.
+/// All ranks' indicators of leaves with cells, to ask for the k-th of them in ascending order. Nothing here
+/// depends on the order or the ranks of the leaves. Parts of near values follow each other; one is sorted
+/// where a question falls into it. Each question costs at most 64 short rounds over all ranks.
 class OrderedValues {
  public:
   /// Values are finite and not negative, one for each leaf of this rank's share. *Collective.*
   OrderedValues(const Communicator& comm, std::span<const LeafRecord> leaves, std::span<const double> values);
 
-  std::span<const double> own() const { return own_; }  ///< this rank's
+  std::span<const double> own() const { return own_; }  ///< this rank's, in no order
   std::int64_t count() const { return count_; }         ///< over all ranks
   double smallest() const { return smallest_; }         ///< over all ranks; 0 where there is none
   double largest() const { return largest_; }
@@ -38,8 +38,14 @@ class OrderedValues {
  private:
   std::int64_t count_of_share(double share) const;
 
+  void put_into_parts(std::span<const double> values);
+  /// This rank's that are no larger; `bound` is finite and not negative.
+  std::int64_t count_up_to(double bound) const;
+
   const Communicator* comm_;
-  std::vector<double> own_;
+  mutable std::vector<double> own_;   ///< part by part
+  mutable std::vector<char> sorted_;  ///< of each part, whether it is
+  std::vector<std::int64_t> begins_;  ///< of each part in own_, and the end
   std::int64_t count_ = 0;
   double smallest_ = 0, largest_ = 0;
 };

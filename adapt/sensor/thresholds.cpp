@@ -50,6 +50,7 @@ IndicatorStatistics statistics_of(const Communicator& comm, const OrderedValues&
   if (largest == 0) return statistics;
   statistics.floor = std::max(1e-6 * largest, std::numeric_limits<double>::denorm_min());
   std::vector<double> terms;
+  terms.reserve(values.own().size());
   for (const double value : values.own()) terms.push_back(std::log10(std::max(value, statistics.floor)));
   const auto count = static_cast<double>(values.count());
   statistics.mean = reproducible_sum(comm, terms) / count;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "adapt/transfer/locate/cell_triangles.hpp"
@@ -8,16 +7,16 @@
 
 namespace quadloop {
 
-/// For each variable area times the mean of the corners, summed over the triangles of all ranks; the same
-/// bits on any number of ranks. *Collective.*
-std::vector<double> integrate(const Communicator& comm, const Mesh& mesh,
-                              std::span<const CellTriangle> triangles, const Field& field);
+/// For each variable area times the mean of the corners, summed over the triangles (parts_of()) of all ranks;
+/// the same bits on any number of ranks. The field has rows for copies. *Collective.*
+std::vector<double> integrate(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field);
 
-/// The same of the variables' absolute values, where the integrals of the values themselves are known.
-/// *Collective.*
-std::vector<double> integrate_sizes(const Communicator& comm, const Mesh& mesh,
-                                    std::span<const CellTriangle> triangles, const Field& field,
-                                    const std::vector<double>& of_values);
+/// The same, and that of the variables' absolute values. *Collective.*
+struct NodalIntegrals {
+  std::vector<double> values, sizes;
+};
+NodalIntegrals integrate_with_sizes(const Communicator& comm, const Mesh& mesh, Point centre,
+                                    const Field& field);
 
 /// For each variable of the cells area times mean, and area times its absolute value, summed over the cells
 /// of all ranks; the same bits on any number of ranks.

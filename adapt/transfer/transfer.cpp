@@ -28,7 +28,7 @@ namespace {
 struct OldMesh {
   const Mesh& mesh;
   const Field& field;
-  std::span<const CellTriangle> triangles;
+  Point centre;  ///< by which its quads are split
   const CurveShares& shares;
 };
 
@@ -64,14 +64,10 @@ NodeShare gather_nodes(const Communicator& comm, const OldMesh& old, const Point
   return {exchange.deliver(points), {old.field.names, exchange.deliver(values, old.field.width()), {}}};
 }
 
-/// Only triangles that may hold one of the points leave their rank.
+/// Only triangles of cells that may hold one of the points leave their rank.
 TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
-  std::vector<CellTriangle> near;
-  for (const CellTriangle& triangle : old.triangles) {
-    Box box;
-    for (const NodeId node : triangle.nodes) box.include(old.mesh.point(node));
-    if (cells.meet(box)) near.push_back(triangle);
-  }
+  const auto may_hold = [&](const Box& box) { return cells.meet(box); };
+  const std::vector<CellTriangle> near = cell_triangles(comm, old.mesh, old.centre, may_hold);
   return gather_piece(comm, old.shares, old.mesh, old.field, near);
 }
 
@@ -233,33 +229,27 @@ CellValues carried_cells(const Communicator& comm, const CurveShares& shares, co
   return {old_cells.names, std::move(carried.values)};
 }
 
-/// What the old mesh had of each variable: its integral, and that of its absolute value.
-struct OldIntegrals {
-  std::vector<double> of_values, of_sizes;
-};
-
-OldIntegrals integrals_of(const Communicator& comm, const Mesh& mesh, std::span<const CellTriangle> triangles,
-                          const Field& field) {
-  OldIntegrals integrals{integrate(comm, mesh, triangles, field), {}};
-  integrals.of_sizes = integrate_sizes(comm, mesh, triangles, field, integrals.of_values);
+/// What the old mesh had of each variable, at nodes, then in cells.
+NodalIntegrals integrals_of(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field) {
+  NodalIntegrals integrals = integrate_with_sizes(comm, mesh, centre, field);
   if (field.cells.width() == 0) return integrals;
   const CellIntegrals of_cells = integrate_cells(comm, mesh, field.cells);
-  integrals.of_values.insert(integrals.of_values.end(), of_cells.values.begin(), of_cells.values.end());
-  integrals.of_sizes.insert(integrals.of_sizes.end(), of_cells.sizes.begin(), of_cells.sizes.end());
+  integrals.values.insert(integrals.values.end(), of_cells.values.begin(), of_cells.values.end());
+  integrals.sizes.insert(integrals.sizes.end(), of_cells.sizes.begin(), of_cells.sizes.end());
   return integrals;
 }
 
 void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& field,
-                  const OldIntegrals& before, TransferReport& report) {
-  const auto triangles = cell_triangles(comm, new_mesh, centre_of_nodes(comm, new_mesh));
-  std::vector<double> after = integrate(comm, new_mesh, triangles, with_copies(comm, new_mesh, field));
+                  const NodalIntegrals& before, TransferReport& report) {
+  std::vector<double> after =
+      integrate(comm, new_mesh, centre_of_nodes(comm, new_mesh), with_copies(comm, new_mesh, field));
   if (field.cells.width() > 0) {
     const CellIntegrals of_cells = integrate_cells(comm, new_mesh, field.cells);
     after.insert(after.end(), of_cells.values.begin(), of_cells.values.end());
   }
   for (std::size_t k = 0; k < after.size(); ++k) {
-    report.drift.push_back(after[k] - before.of_values[k]);
-    report.relative_drift.push_back(before.of_sizes[k] > 0 ? report.drift[k] / before.of_sizes[k] : 0);
+    report.drift.push_back(after[k] - before.values[k]);
+    report.relative_drift.push_back(before.sizes[k] > 0 ? report.drift[k] / before.sizes[k] : 0);
   }
 }
 
@@ -268,18 +258,19 @@ void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& f
 Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
                      const Mesh& new_mesh, TransferKind kind) {
   const Field old = with_copies(comm, old_mesh, old_field);
-  const TransferSide old_side{old_mesh, cell_triangles(comm, old_mesh, centre_of_nodes(comm, old_mesh))};
+  const Point centre = centre_of_nodes(comm, old_mesh);
   const CurveShares shares(comm, owned_points(old_mesh), owned_points(new_mesh));
   const std::vector<Point> at = column_places(comm, old_mesh, new_mesh);
   Transferred transferred;
   TransferReport& report = transferred.report;
   NewRows rows;
-  if (old.width() > 0) rows = rows_at(comm, {old_mesh, old, old_side.triangles, shares}, at);
+  if (old.width() > 0) rows = rows_at(comm, {old_mesh, old, centre, shares}, at);
   report.outside = comm.sum(std::ssize(rows.outside));
   if (report.outside > 0) take_from_boundary(comm, old_mesh, old, at, rows);
   transferred.field = {old.names, std::move(rows.values), old.constants};
   const bool conserves = kind == TransferKind::conservative && old.width() > 0;
   if (conserves || old.cells.width() > 0) {
+    const TransferSide old_side{old_mesh, cell_triangles(comm, old_mesh, centre)};
     const Mesh moved = moved_to(comm, new_mesh, at);
     const TransferSide new_side{moved, cell_triangles(comm, moved, centre_of_nodes(comm, new_mesh))};
     if (conserves)
@@ -287,8 +278,7 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field
     if (old.cells.width() > 0)
       transferred.field.cells = carried_cells(comm, shares, old_side, old.cells, new_side, report);
   }
-  report_drift(comm, new_mesh, transferred.field, integrals_of(comm, old_mesh, old_side.triangles, old),
-               report);
+  report_drift(comm, new_mesh, transferred.field, integrals_of(comm, old_mesh, centre, old), report);
   return transferred;
 }
 

@@ -15,6 +15,8 @@ class NodeNumbering {
   NodeNumbering(const Communicator& comm, const Lattice& lattice, const LeafGraph& graph,
                 const CutForest& cut);
 
+  /// How many nodes this rank owns.
+  std::int32_t owned() const { return owned_; }
   /// The node at a lattice site of an inside leaf.
   NodeId of_leaf(LeafId leaf, Site site) const;
   /// A node of a cut leaf, from its number in CutForest::nodes.

@@ -1,6 +1,7 @@
 #include "mesher/forest/leaf_graph.hpp"
 
 #include <bit>
+#include <utility>
 
 #include "mesher/base/ids.hpp"
 #include "mesher/forest/ghost_layer.hpp"
@@ -9,19 +10,18 @@ namespace quadloop {
 
 LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest)
     : owners_{forest.owners()}, rank_{comm.rank()}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()} {
-  const std::vector<Quadrant> local = forest.leaves();
+  std::vector<Quadrant> local = forest.leaves();
   const std::vector<Ghost> ghosts = ghost_layer(comm, lattice, owners_, local);
   for (const auto& ghost : ghosts) local_begin_ += ghost.owner < rank_ ? 1 : 0;
   local_count_ = size32(local);
-  leaves_.reserve(local.size() + ghosts.size());
+  std::vector<Quadrant> before, after;
   for (const auto& ghost : ghosts) {
-    if (ghost.owner < rank_) leaves_.push_back(ghost.quadrant);
+    (ghost.owner < rank_ ? before : after).push_back(ghost.quadrant);
     ghost_owners_.push_back({ghost.owner, ghost.index});
   }
-  leaves_.insert(leaves_.end(), local.begin(), local.end());
-  for (const auto& ghost : ghosts) {
-    if (ghost.owner > rank_) leaves_.push_back(ghost.quadrant);
-  }
+  leaves_ = std::move(local);
+  leaves_.insert(leaves_.begin(), before.begin(), before.end());
+  leaves_.insert(leaves_.end(), after.begin(), after.end());
   build_trees(lattice);
   around_.resize(leaves_.size());
   const int nx = lattice.trees_x(), ny = lattice.trees_y();

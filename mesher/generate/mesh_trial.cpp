@@ -1,5 +1,6 @@
 #include "mesher/generate/mesh_trial.hpp"
 
+#include "mesher/build/count_nodes.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 
 namespace quadloop {
@@ -13,9 +14,13 @@ MeshTrial::MeshTrial(const MeshInput& input, const MeasuredWall& measured) : inp
 }
 
 NodeBounds MeshTrial::nodes(const Communicator& comm, const DemandedSplits& demanded) const {
+  if (!front_) {
+    const std::int64_t nodes = count_nodes(comm, meshed().geometry, meshed().mesh, demanded);
+    return {nodes, nodes};
+  }
   const MeshResult made = build_mesh(comm, meshed().geometry, meshed().mesh, demanded);
   const std::int64_t outer = made.tree.attributes.nodes;
-  const NodeBounds layers = front_ ? layer_nodes(comm, *front_, made.mesh) : NodeBounds{};
+  const NodeBounds layers = layer_nodes(comm, *front_, made.mesh);
   return {outer + layers.least, outer + layers.most};
 }
 

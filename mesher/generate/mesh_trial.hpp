@@ -16,9 +16,9 @@ class MeshTrial {
   MeshTrial(const MeshTrial&) = delete;
   MeshTrial& operator=(const MeshTrial&) = delete;
 
-  /// The nodes that generate_mesh() would make, those of layers too, from the mesh outside the layers, which
-  /// is not smoothed. The bounds differ at sharp edges alone (layer_nodes()). Throws as build_mesh does.
-  /// *Collective.*
+  /// The nodes that generate_mesh() would make: counted on the leaves (count_nodes()); with layers on the
+  /// mesh outside them, which is not smoothed, with the nodes of the layers. The bounds differ at sharp edges
+  /// alone (layer_nodes()). Throws as these do. *Collective.*
   NodeBounds nodes(const Communicator& comm, const DemandedSplits& demanded) const;
 
   /// The same on any number of ranks; not collective.

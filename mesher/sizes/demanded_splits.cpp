@@ -86,12 +86,23 @@ void DemandedSplits::assign(const KeysOfLevels& asked) {
                  level == 0 ? std::span<const Key>{} : std::span<const Key>(all[level - 1]), first);
     first = begin;
     finest_ = static_cast<int>(level) + 1;
+    finest_in_.resize(masks_.size(), static_cast<std::int8_t>(finest_));
   }
+  raise_finest();
   roots_ = all[0];
   std::int32_t children = 0;
   for (std::size_t i = 0; i < masks_.size(); ++i) {
     if (i % block == 0) children_before_.push_back(children);
     children += std::popcount(static_cast<unsigned>(masks_[i] & children_bits));
+  }
+}
+
+/// From the last quadrant to the first, whose children are the last that are left.
+void DemandedSplits::raise_finest() {
+  std::size_t child = masks_.size();
+  for (std::size_t i = masks_.size(); i-- > 0;) {
+    const int children = std::popcount(static_cast<unsigned>(masks_[i] & children_bits));
+    for (int k = 0; k < children; ++k) finest_in_[i] = std::max(finest_in_[i], finest_in_[--child]);
   }
 }
 

@@ -18,8 +18,8 @@ struct SplitDemand {
 };
 
 /// The quadrants that adaptation has asked to split, whatever case and geometry say, with all quadrants above
-/// them. Every rank has them all, in little more than a byte for each: a third of a byte for a leaf of the
-/// tree.
+/// them. Every rank has them all, in little more than two bytes for each: two thirds of a byte for a leaf of
+/// the tree.
 class DemandedSplits {
  public:
   static constexpr std::int32_t none = -1;
@@ -43,6 +43,8 @@ class DemandedSplits {
 
   /// Whether this quadrant was asked for itself.
   bool asked(std::int32_t number) const;
+  /// The level of the finest leaves that are asked for inside a split quadrant.
+  int finest_level_in(std::int32_t number) const { return finest_in_[number]; }
 
  private:
   /// Key of a quadrant on the Morton curve over all trees, among those of its level.
@@ -53,10 +55,12 @@ class DemandedSplits {
   void append_asked(KeysOfLevels& asked) const;
   void append_level(std::span<const Key> all, std::span<const Key> asked, std::span<const Key> above,
                     std::int32_t first_above);
+  void raise_finest();
 
   // In the order of levels, then along the curve: bits 0 to 3 for children that are split, bit 4 where the
   // quadrant itself was asked for.
   std::vector<std::uint8_t> masks_;
+  std::vector<std::int8_t> finest_in_;         ///< of each its finest_level_in()
   std::vector<std::int32_t> children_before_;  ///< for each block of masks: split quadrants below the roots
                                                ///< that come before the block's children
   std::vector<Key> roots_;

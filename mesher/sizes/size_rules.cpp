@@ -51,8 +51,9 @@ std::vector<std::int32_t> SizeRules::sized_corners() const {
 }
 
 SizeRules::Judgement SizeRules::judge(const SizedQuadrant& q) const {
-  const bool fine_inside = !q.segments.empty() || q.demanded;
-  Judgement said{!fine_inside && !q.made_by_demand, fine_inside ? finest_ : coarsest_};
+  const bool is_demanded = q.finest_demanded > 0;
+  Judgement said{q.segments.empty() && !is_demanded && !q.made_by_demand,
+                 std::max(q.segments.empty() ? coarsest_ : finest_of_case_, q.finest_demanded)};
   if (q.made_by_demand) said.finest = std::max(said.finest, q.quadrant.level);
   const auto ask_for = [&](double spacing) {
     said.plain = false;
@@ -96,7 +97,7 @@ int SizeRules::level_of_outline(const Quadrant& q, std::span<const std::int32_t>
 
 bool SizeRules::wants_split(const SizedQuadrant& sized) const {
   const Quadrant& q = sized.quadrant;
-  if (sized.demanded) return true;
+  if (sized.finest_demanded > 0) return true;
   if (q.level >= finest_of_case_) return false;
   const Box& box = sized.box;
   if (q.level < coarsest_ && in_domains_box(q)) return true;

@@ -21,8 +21,8 @@ struct SizedQuadrant {
   Box box;
   std::span<const std::int32_t> segments;  ///< that meet its inside
   std::span<const std::int32_t> corners;   ///< vertices with a size of their own that it touches
-  bool demanded = false;                   ///< it is to be split whatever the rules say
-  bool made_by_demand = false;             ///< its parent was
+  int finest_demanded = 0;  ///< level of the finest leaves demanded inside; 0: it need not be split for any
+  bool made_by_demand = false;  ///< its parent was
 };
 
 /// What the case and the geometry in a quadrant ask of the leaves there, one quadrant alone. The answers

@@ -87,7 +87,7 @@ SizedQuadrant SizeTree::sized(const Node& node) const {
           lattice().box_of(node.quadrant),
           segments_of(node),
           part(corners_, node.corners_begin, node.corners_end),
-          node.demanded != DemandedSplits::none,
+          node.demanded == DemandedSplits::none ? 0 : demanded().finest_level_in(node.demanded),
           node.parent >= 0 && this->node(node.parent).demanded != DemandedSplits::none};
 }
 

@@ -92,7 +92,15 @@ TEST(DemandedSplits, HoldWhatWasAskedForAndAllAbove) {
     EXPECT_EQ(path.levels_above(leaf), expected);
     for (int level = 0; level <= leaf.level; ++level) {
       const auto [l, x, y] = place_of(leaf, level);
-      EXPECT_EQ(number_of(splits, {x, y, l}) != DemandedSplits::none, split.contains(place_of(leaf, level)));
+      const std::int32_t number = number_of(splits, {x, y, l});
+      EXPECT_EQ(number != DemandedSplits::none, split.contains(place_of(leaf, level)));
+      if (number == DemandedSplits::none) continue;
+      int finest = 0;
+      for (const auto& [deep, deep_x, deep_y] : asked) {
+        const Quadrant inside{deep_x, deep_y, deep};
+        if (Quadrant{x, y, l}.contains(inside)) finest = std::max(finest, deep + 1);
+      }
+      EXPECT_EQ(splits.finest_level_in(number), finest);
     }
   }
 }

@@ -74,7 +74,7 @@ struct Descent {
     for (const std::int32_t v : rules.sized_corners()) {
       if (box.contains(rules.outline().geometry().point(v))) corners.push_back(v);
     }
-    const SizedQuadrant sized{q, box, segments, corners, false, false};
+    const SizedQuadrant sized{q, box, segments, corners, 0, false};
     promises.push_back(rules.judge(sized));
     if (rules.wants_split(sized)) {
       ++splits;

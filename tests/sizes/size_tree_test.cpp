@@ -68,7 +68,7 @@ TEST(SizeRules, ADemandIsGranted) {
   const Sizes sizes;
   const SizeTree tree = sizes.tree();
   SizedQuadrant q = sizes.at(quadrant(8, 9, 9));
-  q.demanded = true;
+  q.finest_demanded = 10;
   EXPECT_TRUE(tree.rules().wants_split(q));
 }
 
@@ -87,6 +87,10 @@ TEST(SizeRules, PlainIsWhereNothingAsksForMore) {
   made.made_by_demand = true;
   EXPECT_FALSE(judged(made).plain);
   EXPECT_EQ(judged(made).finest, 7);
+  SizedQuadrant demanded = sizes.at(quadrant(4, 9, 9));
+  demanded.finest_demanded = 6;
+  EXPECT_FALSE(judged(demanded).plain);
+  EXPECT_EQ(judged(demanded).finest, 6);
 }
 
 TEST(SizeTree, NodesHoldWhatMeetsThem) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <optional>
 
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "mesher/base/error.hpp"
@@ -12,48 +12,49 @@ namespace quadloop {
 
 namespace {
 
-struct MarkedLeaf {
-  Quadrant leaf;
-  std::uint32_t adapted = 0;
-  Mark mark = Mark::keep;
-};
-
 constexpr std::int64_t siblings = 4;
 
 int child_number(const Quadrant& q) { return curve_index(quarter_at(q.x, q.y, q.level - 1)); }
 
+/// One without cells has no values to keep it for: its siblings say.
+bool may_go(const LeafRecord& leaf, Mark mark) {
+  return mark == Mark::coarsen || (mark == Mark::keep && !has_cells(leaf));
+}
+
+/// A leaf as its siblings look at it.
+struct MarkedLeaf {
+  Quadrant leaf;
+  bool goes = false;
+};
+
 /// This rank's leaves with those before and after them, as many as a family may reach beyond them.
 class LeafRun {
  public:
-  LeafRun(const Communicator& comm, std::vector<MarkedLeaf> own)
-      : first_{comm.exclusive_sum(std::ssize(own))} {
-    const auto count = std::ssize(own);
+  /// Tree and marks must outlive it. *Collective.*
+  LeafRun(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks)
+      : leaves_{tree.leaves}, marks_{marks}, first_{comm.exclusive_sum(std::ssize(tree.leaves))} {
+    const auto count = std::ssize(leaves_);
     std::vector<Numbered> ends;
     for (std::int64_t i = 0; i < count; ++i) {
-      if (i < siblings - 1 || i >= count - (siblings - 1)) ends.push_back({first_ + i, own[i]});
+      if (i == siblings - 1) i = std::max(i, count - (siblings - 1));
+      if (i < count) ends.push_back({first_ + i, own(i)});
     }
-    std::vector<MarkedLeaf> before, after;
     for (const Numbered& end : comm.all_gather_values(std::span<const Numbered>(ends))) {
-      if (end.number < first_ && end.number >= first_ - (siblings - 1)) before.push_back(end.leaf);
+      if (end.number < first_ && end.number >= first_ - (siblings - 1)) before_.push_back(end.leaf);
       if (end.number >= first_ + count && end.number < first_ + count + (siblings - 1))
-        after.push_back(end.leaf);
+        after_.push_back(end.leaf);
     }
-    begin_ = first_ - std::ssize(before);
-    leaves_ = std::move(before);
-    leaves_.insert(leaves_.end(), own.begin(), own.end());
-    leaves_.insert(leaves_.end(), after.begin(), after.end());
   }
 
   /// Whether the leaf of this number is one of four siblings that are all to be coarsened.
   bool family_goes(std::int64_t index) const {
-    const std::int64_t number = first_ + index;
-    const Quadrant& q = at(number).leaf;
-    const std::int64_t eldest = number - child_number(q);
-    if (eldest < begin_ || eldest + siblings > begin_ + std::ssize(leaves_)) return false;
+    const Quadrant q = own(index).leaf;
+    const std::int64_t eldest = index - child_number(q);
+    if (eldest < -std::ssize(before_) || eldest + siblings > std::ssize(leaves_) + std::ssize(after_))
+      return false;
     for (std::int64_t k = 0; k < siblings; ++k) {
-      const MarkedLeaf& sibling = at(eldest + k);
-      if (sibling.leaf.level != q.level || child_number(sibling.leaf) != k || sibling.mark != Mark::coarsen)
-        return false;
+      const MarkedLeaf sibling = at(eldest + k);
+      if (sibling.leaf.level != q.level || child_number(sibling.leaf) != k || !sibling.goes) return false;
     }
     return true;
   }
@@ -63,11 +64,19 @@ class LeafRun {
     std::int64_t number;
     MarkedLeaf leaf;
   };
-  const MarkedLeaf& at(std::int64_t number) const { return leaves_[number - begin_]; }
 
-  /// Numbers over all ranks of this rank's first leaf, and of the first here.
-  std::int64_t first_, begin_ = 0;
-  std::vector<MarkedLeaf> leaves_;
+  MarkedLeaf own(std::int64_t index) const {
+    return {quadrant_of(leaves_[index]), may_go(leaves_[index], marks_[index])};
+  }
+  MarkedLeaf at(std::int64_t index) const {
+    if (index < 0) return before_[std::ssize(before_) + index];
+    return index < std::ssize(leaves_) ? own(index) : after_[index - std::ssize(leaves_)];
+  }
+
+  std::span<const LeafRecord> leaves_;
+  std::span<const Mark> marks_;
+  std::int64_t first_;  ///< number over all ranks of this rank's first leaf
+  std::vector<MarkedLeaf> before_, after_;
 };
 
 }  // namespace
@@ -103,29 +112,23 @@ std::vector<SplitDemand> standing_splits(const TreeRecord& tree, const MeshInput
 ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks,
                              int finest_level) {
   QUADLOOP_REQUIRE(marks.size() == tree.leaves.size(), "one mark for each leaf");
-  const bool coarsens = comm.any(std::find(marks.begin(), marks.end(), Mark::coarsen) != marks.end());
-  std::vector<MarkedLeaf> own;
+  std::optional<LeafRun> run;  // where some leaf is to be coarsened
+  if (comm.any(std::find(marks.begin(), marks.end(), Mark::coarsen) != marks.end()))
+    run.emplace(comm, tree, marks);
+  ChangedSplits changed;
   for (std::size_t i = 0; i < marks.size(); ++i) {
     const LeafRecord& leaf = tree.leaves[i];
-    const bool goes_along = coarsens && marks[i] == Mark::keep &&
-                            !has_cells(leaf);  // has no values to keep it for: its siblings say
-    own.push_back({quadrant_of(leaf), leaf.adapted, goes_along ? Mark::coarsen : marks[i]});
-  }
-  const LeafRun run(comm, own);
-  ChangedSplits changed;
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    const auto& [leaf, adapted, mark] = own[i];
-    std::uint32_t levels = adapted;
-    if (mark == Mark::refine && leaf.level < finest_level) {
+    std::uint32_t levels = leaf.adapted;
+    if (marks[i] == Mark::refine && leaf.level < finest_level) {
       levels |= 1U << leaf.level;
       ++changed.refined;
     }
     const std::uint32_t parent = leaf.level > 0 ? 1U << (leaf.level - 1) : 0U;
-    if (mark == Mark::coarsen && (adapted & parent) != 0 && run.family_goes(i)) {
+    if (run && (leaf.adapted & parent) != 0 && may_go(leaf, marks[i]) && run->family_goes(i)) {
       levels &= ~parent;
       ++changed.coarsened;
     }
-    if (levels != 0) changed.demands.push_back({leaf, levels});
+    if (levels != 0) changed.demands.push_back({quadrant_of(leaf), levels});
   }
   changed.refined = comm.sum(changed.refined);
   changed.coarsened = comm.sum(changed.coarsened);

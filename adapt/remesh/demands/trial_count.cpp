@@ -8,8 +8,12 @@
 namespace quadloop {
 
 NodeBounds TrialCount::nodes_after(const ChangedSplits& changes) const {
+  return nodes_of({comm_, changes.demands});
+}
+
+NodeBounds TrialCount::nodes_of(const DemandedSplits& demanded) const {
   try {
-    return trial_.nodes(comm_, DemandedSplits(comm_, changes.demands));
+    return trial_.nodes(comm_, demanded);
   } catch (const TooManyCells&) {  // by an estimate that all ranks make
     return {beyond, beyond};
   }
@@ -17,9 +21,10 @@ NodeBounds TrialCount::nodes_after(const ChangedSplits& changes) const {
 
 TrialCount::Share TrialCount::filled(const std::optional<std::int64_t>& most,
                                      const ChangedSplits& changes) const {
-  const double of_limit = share_of_limit(changes);
+  const DemandedSplits demanded(comm_, changes.demands);
+  const double of_limit = share_of(limit_, trial_.estimate(demanded));
   if (!most || of_limit > 1) return {of_limit, of_limit};
-  const NodeBounds nodes = nodes_after(changes);
+  const NodeBounds nodes = nodes_of(demanded);
   const auto cap = static_cast<double>(*most);
   return {std::max(of_limit, static_cast<double>(nodes.least) / cap),
           std::max(of_limit, static_cast<double>(nodes.most) / cap)};

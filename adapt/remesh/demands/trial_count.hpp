@@ -9,7 +9,7 @@
 
 namespace quadloop {
 
-/// Counts the nodes that changes of a tree lead to, on meshes of their own, unsmoothed (MeshTrial).
+/// Counts the nodes that changes of a tree lead to, from trees of their own (MeshTrial).
 class TrialCount {
  public:
   /// `input` and the communicator must outlive it. Throws as MeshTrial does.
@@ -34,6 +34,8 @@ class TrialCount {
   Share filled(const std::optional<std::int64_t>& most, const ChangedSplits& changes) const;
 
  private:
+  NodeBounds nodes_of(const DemandedSplits& demanded) const;
+
   const Communicator& comm_;
   MeshTrial trial_;
   MeshLimit limit_;

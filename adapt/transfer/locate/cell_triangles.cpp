@@ -24,6 +24,37 @@ bool are_counter_clockwise(const Mesh& mesh, const std::array<std::array<NodeId,
   return turn_of(mesh, triangles[0]) > 0 && turn_of(mesh, triangles[1]) > 0;
 }
 
+/// Its sides lie along the axes: most quads are whole leaves.
+bool is_rectangle(const std::array<Point, 4>& p) {
+  return p[0].y == p[1].y && p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x && p[0].x < p[1].x &&
+         p[1].y < p[2].y;
+}
+
+/// That of the highest tie_rank().
+std::size_t highest_corner(Point centre, const std::array<Point, 4>& corners) {
+  struct Rank {
+    double farther, nearer, x, y;
+    bool below(const Rank& other) const {
+      if (farther != other.farther) return farther < other.farther;
+      if (nearer != other.nearer) return nearer < other.nearer;
+      return x != other.x ? x < other.x : y < other.y;
+    }
+  };
+  const auto rank_of = [centre](Point p) {
+    const TieRank rank = tie_rank(centre, p);
+    return Rank{rank.farther, rank.nearer, rank.x, rank.y};
+  };
+  std::size_t highest = 0;
+  Rank best = rank_of(corners[0]);
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    const Rank other = rank_of(corners[k]);
+    if (!best.below(other)) continue;
+    best = other;
+    highest = k;
+  }
+  return highest;
+}
+
 struct Split {
   std::array<std::array<NodeId, 3>, 2> halves;
   bool are_counter_clockwise = true;
@@ -31,22 +62,47 @@ struct Split {
 
 /// What split_quad() says, and whether the halves are as they should be.
 Split split_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
-  std::array<TieRank, 4> ranks;
-  for (std::size_t k = 0; k < 4; ++k) ranks[k] = tie_rank(centre, mesh.point(quad[k]));
-  const std::size_t highest = std::max_element(ranks.begin(), ranks.end()) - ranks.begin();
+  std::array<Point, 4> corners;
+  for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.point(quad[k]);
+  const std::size_t highest = highest_corner(centre, corners);
   const auto first = halves(quad, highest);
-  if (are_counter_clockwise(mesh, first)) return {first};
+  if (is_rectangle(corners) || are_counter_clockwise(mesh, first)) return {first};
   const auto second = halves(quad, highest + 1);
   if (are_counter_clockwise(mesh, second)) return {second};
   return {first, false};
 }
 
-void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int64_t number,
-            std::vector<CellTriangle>& triangles) {
+void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int8_t half, CellParts& parts) {
   const int turn = turn_of(mesh, nodes);
   if (turn == 0) return;
   if (turn < 0) std::swap(nodes[1], nodes[2]);
-  triangles.push_back({nodes, number});
+  parts.half[parts.count] = half;
+  parts.nodes[parts.count++] = nodes;
+}
+
+/// Those of one kind of cells; `number` is the first one's over all ranks.
+template <class Cells, class Wanted>
+void append(const Mesh& mesh, Point centre, const Cells& cells, std::int64_t number, const Wanted& wanted,
+            std::vector<CellTriangle>& triangles) {
+  for (const auto& nodes : cells) {
+    if (wanted(nodes)) {
+      const CellParts parts = parts_of(mesh, centre, nodes);
+      for (std::size_t k = 0; k < parts.count; ++k)
+        triangles.push_back({parts.nodes[k], 2 * number + parts.half[k]});
+    }
+    ++number;
+  }
+}
+
+/// Of the cells that are wanted. *Collective.*
+template <class Wanted>
+void append_all(const Communicator& comm, const Mesh& mesh, Point centre, const Wanted& wanted,
+                std::vector<CellTriangle>& triangles) {
+  const auto own_triangles = std::ssize(mesh.triangles), own_quads = std::ssize(mesh.quads);
+  const std::int64_t first = comm.exclusive_sum(own_triangles);
+  const std::int64_t first_quad = comm.sum(own_triangles) + comm.exclusive_sum(own_quads);
+  append(mesh, centre, mesh.triangles, first, wanted, triangles);
+  append(mesh, centre, mesh.quads, first_quad, wanted, triangles);
 }
 
 }  // namespace
@@ -60,23 +116,38 @@ std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
   return split_of(mesh, centre, quad).halves;
 }
 
+CellParts parts_of(const Mesh& mesh, Point, const std::array<NodeId, 3>& triangle) {
+  CellParts parts;
+  append(mesh, triangle, 0, parts);
+  return parts;
+}
+
+CellParts parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
+  const auto [halves, are_counter_clockwise] = split_of(mesh, centre, quad);
+  if (are_counter_clockwise) return {halves, {0, 1}, 2};
+  CellParts parts;
+  append(mesh, halves[0], 0, parts);
+  append(mesh, halves[1], 1, parts);
+  return parts;
+}
+
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre) {
-  const auto own_triangles = std::ssize(mesh.triangles), own_quads = std::ssize(mesh.quads);
-  std::int64_t number = comm.exclusive_sum(own_triangles);
-  std::int64_t quad_number = comm.sum(own_triangles) + comm.exclusive_sum(own_quads);
   std::vector<CellTriangle> triangles;
   triangles.reserve(mesh.triangles.size() + 2 * mesh.quads.size());
-  for (const auto& nodes : mesh.triangles) append(mesh, nodes, 2 * number++, triangles);
-  for (const auto& nodes : mesh.quads) {
-    const auto [halves, are_counter_clockwise] = split_of(mesh, centre, nodes);
-    for (const std::int64_t half : {0, 1}) {
-      if (are_counter_clockwise)
-        triangles.push_back({halves[half], 2 * quad_number + half});
-      else
-        append(mesh, halves[half], 2 * quad_number + half, triangles);
-    }
-    ++quad_number;
-  }
+  append_all(
+      comm, mesh, centre, [](const auto&) { return true; }, triangles);
+  return triangles;
+}
+
+std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre,
+                                         const std::function<bool(const Box&)>& wanted) {
+  std::vector<CellTriangle> triangles;
+  const auto has_wanted_box = [&](const auto& nodes) {
+    Box box;
+    for (const NodeId node : nodes) box.include(mesh.point(node));
+    return wanted(box);
+  };
+  append_all(comm, mesh, centre, has_wanted_box, triangles);
   return triangles;
 }
 

@@ -14,36 +14,26 @@ std::uint64_t hash_of(Point p) {
   return mixed ^ (mixed >> 32);
 }
 
-/// A hash table of points with open addressing, at most half full.
-class PointTable {
- public:
-  explicit PointTable(std::span<const Point> points)
-      : points_{points}, slots_(std::bit_ceil(2 * points.size() + 1), -1) {
-    for (std::int32_t i = 0; i < std::ssize(points); ++i) {
-      std::int32_t& slot = slot_of(points[i]);
-      if (slot < 0) slot = i;
-    }
-  }
-
-  std::int32_t find(Point p) { return slot_of(p); }
-
- private:
-  /// That of an equal point, or else an empty one.
-  std::int32_t& slot_of(Point p) {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t at = hash_of(p) & mask;
-    while (slots_[at] >= 0 && !(points_[slots_[at]] == p)) at = (at + 1) & mask;
-    return slots_[at];
-  }
-
-  std::span<const Point> points_;
-  std::vector<std::int32_t> slots_;
-};
-
 }  // namespace
 
+PointTable::PointTable(std::span<const Point> points)
+    : points_{points}, slots_(std::bit_ceil(2 * points.size() + 1), -1) {
+  for (std::int32_t i = 0; i < std::ssize(points); ++i) {
+    std::int32_t& slot = slots_[slot_of(points[i])];
+    if (slot < 0) slot = i;
+  }
+}
+
+/// That of an equal point, or else an empty one.
+std::size_t PointTable::slot_of(Point p) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = hash_of(p) & mask;
+  while (slots_[at] >= 0 && !(points_[slots_[at]] == p)) at = (at + 1) & mask;
+  return at;
+}
+
 std::vector<std::int32_t> find_equal_points(std::span<const Point> known, std::span<const Point> points) {
-  PointTable table(known);
+  const PointTable table(known);
   std::vector<std::int32_t> found;
   found.reserve(points.size());
   for (const Point p : points) found.push_back(table.find(p));

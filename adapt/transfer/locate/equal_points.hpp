@@ -8,6 +8,22 @@
 
 namespace quadloop {
 
+/// A hash table of points by their coordinates.
+class PointTable {
+ public:
+  /// `points` must outlive it.
+  explicit PointTable(std::span<const Point> points);
+
+  /// The index of a point with the same coordinates, the first of several; -1 where there is none.
+  std::int32_t find(Point p) const { return slots_[slot_of(p)]; }
+
+ private:
+  std::size_t slot_of(Point p) const;
+
+  std::span<const Point> points_;
+  std::vector<std::int32_t> slots_;  ///< open addressing, at most half full
+};
+
 /// For each of `points` the index of one of the `known` points with the same coordinates, the first of
 /// several; -1 where there is none. O(n + m).
 std::vector<std::int32_t> find_equal_points(std::span<const Point> known, std::span<const Point> points);

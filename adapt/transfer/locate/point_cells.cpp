@@ -8,7 +8,18 @@ namespace {
 
 constexpr std::int64_t most_cells = 1 << 16, few_points = 8;
 constexpr CurveGrid::Square whole_grid{{}, 32};
-constexpr int coarse_bits = 16, above_coarse = 64 - coarse_bits;  // 256 by 256 coarse squares
+constexpr int coarse_bits = 11, above_coarse = 32 - coarse_bits;  // 2048 by 2048 coarse squares
+constexpr int word_bits = 64;
+
+/// The first, third, fifth ... bit of a key, side by side: the inverse of spread_bits().
+std::uint64_t every_other_bit(std::uint64_t key) {
+  std::uint64_t bits = key & 0x5555555555555555ULL;
+  bits = (bits | bits >> 1) & 0x3333333333333333ULL;
+  bits = (bits | bits >> 2) & 0x0f0f0f0f0f0f0f0fULL;
+  bits = (bits | bits >> 4) & 0x00ff00ff00ff00ffULL;
+  bits = (bits | bits >> 8) & 0x0000ffff0000ffffULL;
+  return (bits | bits >> 16) & 0x00000000ffffffffULL;
+}
 
 }  // namespace
 
@@ -32,11 +43,31 @@ PointCells::PointCells(const Communicator& comm, const CurveGrid& grid, std::spa
 }
 
 void PointCells::mark_occupied() {
-  occupied_.assign(std::size_t{1} << coarse_bits, 0);
+  occupied_.assign((std::size_t{1} << 2 * coarse_bits) / word_bits, 0);
   for (const Stretch& stretch : stretches_) {
-    const auto begin = occupied_.begin();
-    std::fill(begin + (stretch.first >> above_coarse), begin + (stretch.last >> above_coarse) + 1, 1);
+    const std::uint64_t last = stretch.last >> 2 * above_coarse;
+    for (std::uint64_t square = stretch.first >> 2 * above_coarse; square <= last; ++square) {
+      const std::uint64_t at = every_other_bit(square >> 1) << coarse_bits | every_other_bit(square);
+      occupied_[at / word_bits] |= std::uint64_t{1} << at % word_bits;
+    }
   }
+}
+
+/// False only where no coarse square that these steps meet is occupied; of boxes that are wide nothing is
+/// said.
+bool PointCells::may_be_occupied(const CurveGrid::Steps& steps) const {
+  constexpr std::uint64_t few = 4;
+  const std::uint64_t left = steps.low.x >> above_coarse, right = steps.high.x >> above_coarse,
+                      low = steps.low.y >> above_coarse, high = steps.high.y >> above_coarse;
+  if (right - left > few || high - low > few) return true;
+  const std::uint64_t bits = (std::uint64_t{2} << (right - left)) - 1;
+  for (std::uint64_t row = low; row <= high; ++row) {
+    const std::uint64_t at = row << coarse_bits | left, word = at / word_bits, shift = at % word_bits;
+    std::uint64_t found = occupied_[word] >> shift;
+    if (right / word_bits != left / word_bits) found |= occupied_[word + 1] << (word_bits - shift);
+    if ((found & bits) != 0) return true;
+  }
+  return false;
 }
 
 /// `keys` are those in the square, ascending.
@@ -65,9 +96,8 @@ const PointCells::Stretch* PointCells::next(std::uint64_t key) const {
 
 bool PointCells::meet(const Box& box) const {
   const CurveGrid::Steps steps = grid_->steps_of(box);
+  if (!may_be_occupied(steps)) return false;
   const std::uint64_t low = CurveGrid::key_at(steps.low), high = CurveGrid::key_at(steps.high);
-  const bool in_one = low >> above_coarse == high >> above_coarse;
-  if (in_one && occupied_[low >> above_coarse] == 0) return false;
   const Stretch* stretch = next(low);
   if (stretch == nullptr || stretch->first > high) return false;
   if (low == high) return true;

@@ -29,10 +29,12 @@ class PointCells {
   bool descend(const CurveGrid::Steps& steps, const CurveGrid::Square& square) const;
 
   void mark_occupied();
+  bool may_be_occupied(const CurveGrid::Steps& steps) const;
 
   const CurveGrid* grid_;
   std::vector<Stretch> stretches_;  ///< one after another, without overlaps
-  std::vector<char> occupied_;      ///< of the coarse squares that most boxes lie in, along the curve
+  /// A bit for each of the coarse squares, of which most boxes meet few, row by row.
+  std::vector<std::uint64_t> occupied_;
 };
 
 }  // namespace quadloop

@@ -62,7 +62,8 @@ IdVector<NodeId, std::uint64_t> open_turns(const Communicator& comm, const Mesh&
 }  // namespace
 
 std::vector<std::int32_t> find_in_order(std::span<const Point> known, std::span<const Point> points) {
-  const std::vector<std::int32_t> landmark = find_equal_points(landmarks(known), points);
+  const std::vector<Point> marks = landmarks(known);
+  const PointTable landmark(marks);
   const auto count = static_cast<std::int32_t>(known.size());
   std::int32_t next = 0;  // up to here known points have been found
   const auto nearby = [&](Point p) {
@@ -76,12 +77,12 @@ std::vector<std::int32_t> find_in_order(std::span<const Point> known, std::span<
   };
   std::vector<std::int32_t> found;
   found.reserve(points.size());
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    std::int32_t at = nearby(points[k]);
+  for (const Point p : points) {
+    std::int32_t at = nearby(p);
     if (at >= 0) {
       next = std::max(next, at + 1);
-    } else if (landmark[k] >= 0) {
-      at = landmark[k] * step;
+    } else if (const std::int32_t mark = landmark.find(p); mark >= 0) {
+      at = mark * step;
       next = at + 1;
     }
     found.push_back(at);

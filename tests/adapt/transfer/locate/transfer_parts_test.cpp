@@ -150,7 +150,12 @@ TEST(PointCells, MeetEveryBoxThatHoldsAPoint) {
     }
   }
   EXPECT_GT(apart, 100);
-  for (const Point p : all) EXPECT_TRUE(cells.meet({p, p}));
+  for (const Point p : all) {  // boxes of one to a few coarse squares, with the point in a corner
+    for (const double side : {0.0, 2e-4, 1e-3, 3e-3}) {
+      EXPECT_TRUE(cells.meet({p, p + Point{side, side}}));
+      EXPECT_TRUE(cells.meet({p - Point{side, side}, p}));
+    }
+  }
 }
 
 TEST(PointCells, OfNoPointsMeetNothing) {

@@ -1,0 +1,24 @@
+#include "mesher/build/count_nodes.hpp"
+
+#include "mesher/build/islands.hpp"
+#include "mesher/build/mesh_estimate.hpp"
+#include "mesher/build/number_nodes.hpp"
+#include "mesher/build/sized_domain.hpp"
+#include "mesher/forest/refine_forest.hpp"
+
+namespace quadloop {
+
+std::int64_t count_nodes(const Communicator& comm, const Geometry& given, const MeshOptions& options,
+                         const DemandedSplits& demanded) {
+  MeshReport dropped;  // said when the mesh is made
+  const Geometry geometry = without_small_islands(given, options.size.min, dropped);
+  SizedDomain domain(geometry, options.size, demanded);
+  const MeshEstimate estimate = estimate_mesh(geometry, options.type, domain);
+  require_within(estimate, geometry, options, demanded);
+  const LeafGraph graph = refine_forest(comm, domain.sizes, estimate.leaves);
+  const CutForest cut =
+      cut_forest(comm, graph, domain.sizes, domain.outline, domain.inside, options.snap, options.mirror);
+  return comm.sum(NodeNumbering(comm, domain.lattice, graph, cut).owned());
+}
+
+}  // namespace quadloop
