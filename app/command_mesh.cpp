@@ -123,6 +123,18 @@ Warnings solver_warnings(const Settings& settings, const ShapeFigures& shape) {
                       : "mesh.quads = \"parallel\" divides them")};
 }
 
+/// Stretched cells hang on a solution, which this command does not take.
+Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& saved, const Prepared& prepared,
+                              const TreeAttributes& made) {
+  const bool same =
+      saved.nodes == made.nodes && saved.triangles == made.triangles && saved.quads == made.quads;
+  if (same || prepared.input.settings.mesh.type != MeshType::metric) return {};
+  return {fmt::format(
+      "{}: mesh.type = \"metric\": the mesh is that of the tree alone, {} nodes without stretched "
+      "cells where the saved one has {}; \"remesh\" makes such cells, from a solution",
+      tree, made.nodes, saved.nodes)};
+}
+
 /// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere),
 /// meshes, writes. Warnings come when all is done, so that a failure is one line.
 void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
@@ -148,6 +160,9 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   times.end();
   context.warn(prepared.input.warnings);
   context.warn(generated.result.report.warnings);
+  if (saved)
+    context.warn(
+        unstretched_warnings(arguments.tree, saved->attributes, prepared, generated.result.tree.attributes));
   for (const std::string& file : prepared.files) context.warn(renames_in(generated.result.mesh, file));
   MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
   if (parts) add_parts(summary, *parts, prepared.part_files);
