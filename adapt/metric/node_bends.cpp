@@ -17,7 +17,7 @@ namespace {
 constexpr double least_anywhere = 1e-14;
 /// Of cells: on longer ones flow solvers stall (past the wedge with some of 90 and more), and hardly a node
 /// is gained.
-constexpr double most_stretch = 40;
+constexpr double most_stretch = 15;
 
 /// *Collective.*
 double largest_anywhere(const Communicator& comm, const std::vector<Hessian>& hessians) {

@@ -12,7 +12,7 @@ namespace quadloop {
 
 /// The absolute hessians, 1 / length^2, of the variables at owned nodes and copies, each variable over its
 /// range, of several the intersection. Each has its own determinant, but the shape that those round the node
-/// have in the mean: along a front they are noise. No metric asks for cells longer than 40 times their width.
+/// have in the mean: along a front they are noise. No metric asks for cells longer than 15 times their width.
 /// Empty where all variables are linear. Throws InputError for a value that is not finite. *Collective.*
 std::vector<Symmetric> variable_bends(const Communicator& comm, const Mesh& mesh, const Field& field);
 

@@ -231,16 +231,17 @@ double median_stretch(const Mesh& whole) {
 }
 
 TEST(StretchMesh, KeepsCellsLongAtAFrontWhereTheyMayBeNoThinner) {
+  if (!world().is_root()) return;  // the same on any number of ranks
+  const Communicator self(MPI_COMM_SELF);
   const MeshInput input = holed_square(0.25);
-  Mesh solved = generate_mesh(world(), input).result.mesh;
+  Mesh solved = generate_mesh(self, input).result.mesh;
   for (int cycle = 0; cycle < 4; ++cycle) {
     const MeshChange change = [&](const MeshInput& outer, MeshResult& result) {
-      stretch_mesh(world(), outer, solved, front_on(solved), {{"q"}, {}, 100, 600, 0.02}, result);
+      stretch_mesh(self, outer, solved, front_on(solved), {{"q"}, {}, 100, 600, 0.02}, result);
     };
-    solved = generate_mesh(world(), input, {}, {}, change).result.mesh;
+    solved = generate_mesh(self, input, {}, {}, change).result.mesh;
   }
-  const Mesh whole = gather_whole(world(), solved);
-  if (!world().is_root()) return;
+  const Mesh whole = gather_whole(self, solved);
   EXPECT_GT(median_stretch(whole), 4);
 }
 
