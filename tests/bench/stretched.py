@@ -123,8 +123,8 @@ def adapted(program, folder, mesh, flow, wanted):
     low, high = 1e-5, 1.0
     for _ in range(25):
         error = (low * high) ** 0.5
-        run(program, "-b", "background.msh", "-thetamax", 30, "-Mbb", "flow.bb", "-o", "next.msh", "-err", error, "-hminaniso", LEAST, "-hmax", LARGEST,
-            "-ratio", RATIO, "-nbv", 100000, "-v", 0, where=folder)
+        run(program, "-b", "background.msh", "-thetamax", 30, "-Mbb", "flow.bb", "-o", "next.msh", "-err", error, "-hminaniso", LEAST,
+            "-hmax", LARGEST, "-ratio", RATIO, "-nbv", 100000, "-v", 0, where=folder)
         made = read_bamg(folder / "next.msh")
         if 0.95 * wanted <= len(made[0]) <= wanted:
             break
