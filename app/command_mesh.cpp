@@ -124,6 +124,20 @@ Warnings solver_warnings(const Settings& settings, const ShapeFigures& shape) {
                       : "mesh.quads = \"parallel\" divides them")};
 }
 
+/// Stretched cells hang on a solution, which this command does not take. Those of a metric are told of where
+/// the saved mesh had some; nodes that gathered at fronts left no trace in a tree.
+Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& saved, const MeshInput& input,
+                              const TreeAttributes& made) {
+  const char* setting = setting_that_follows(input);
+  const bool same =
+      saved.nodes == made.nodes && saved.triangles == made.triangles && saved.quads == made.quads;
+  if (!setting || (same && input.mesh.type == MeshType::metric)) return {};
+  return {
+      fmt::format("{}: {}: the mesh is that of the tree alone, {} nodes without stretched cells{}; \"remesh\" "
+                  "makes such cells, from a solution",
+                  tree, setting, made.nodes, same ? "" : fmt::format(" where the saved one has {}", saved.nodes))};
+}
+
 /// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere),
 /// meshes, writes. Warnings come when all is done, so that a failure is one line.
 void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
@@ -149,11 +163,9 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   times.end();
   context.warn(prepared.input.warnings);
   context.warn(generated.result.report.warnings);
-  if (const char* setting = saved ? setting_that_follows(input) : nullptr)
+  if (saved)
     context.warn(
-        {fmt::format("{}: a tree knows no solution: its mesh is made without stretched cells; adapt and "
-                     "remesh make them",
-                     setting)});
+        unstretched_warnings(arguments.tree, saved->attributes, input, generated.result.tree.attributes));
   for (const std::string& file : prepared.files) context.warn(renames_in(generated.result.mesh, file));
   MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
   if (parts) add_parts(summary, *parts, prepared.part_files);

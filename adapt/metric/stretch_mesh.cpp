@@ -7,6 +7,7 @@
 
 #include "adapt/metric/crossing_walls.hpp"
 #include "adapt/metric/leaf_shares.hpp"
+#include "adapt/metric/node_bends.hpp"
 #include "adapt/metric/unit_mesh.hpp"
 #include "adapt/metric/wanted_metric.hpp"
 #include "adapt/transfer/transfer.hpp"
@@ -84,6 +85,17 @@ std::int64_t nodes_in_layers(const Communicator& comm, const Mesh& solved) {
   return comm.sum(nodes);
 }
 
+/// *Collective.*
+std::vector<Symmetric> bends(const Communicator& comm, const Mesh& solved, const Field& solution,
+                             const MetricDemand& demand) {
+  const auto field = [&](std::span<const std::string> names) {
+    return selected(solution, names, "adapt.variable");
+  };
+  std::vector<Symmetric> of_variables = variable_bends(comm, solved, field(demand.variables));
+  if (demand.error.empty() || !comm.any(!of_variables.empty())) return of_variables;
+  return error_bends(comm, solved, field(std::vector{demand.error}), std::move(of_variables));
+}
+
 std::vector<std::string> names_of(const std::vector<BoundaryEdges>& boundaries) {
   std::vector<std::string> names;
   for (const BoundaryEdges& boundary : boundaries) names.push_back(boundary.name);
@@ -102,7 +114,7 @@ class Stretching {
         walls_{outline_, names_of(result.mesh.boundaries), input.smooth.front_heights},
         metric_{comm,
                 solved,
-                selected(solution, demand.variables, "adapt.variable"),
+                bends(comm, solved, solution, demand),
                 demand.norm,
                 {demand.min, largest_sizes(comm, result, solved), 0.5 * (input.mesh.size.gradation - 1)}},
         wanted_{demand.nodes - nodes_in_layers(comm, solved)} {}

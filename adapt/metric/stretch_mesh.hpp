@@ -13,10 +13,11 @@ namespace quadloop {
 /// What the metric of the next mesh is made from.
 struct MetricDemand {
   std::vector<std::string> variables;  ///< at the nodes of the mesh that was solved on
-  double norm = 2;                     ///< the p of the L^p norm of the interpolation error
-  std::int64_t nodes = 0;              ///< wanted, about
-  double min = 0;                      ///< no edge is wanted shorter, in the geometry's unit
-  std::int64_t tile_size = 8192;       ///< triangles, about, that are adapted at a time
+  std::string error;              ///< one there that sizes follow, `variables` then shapes alone; or none
+  double norm = 2;                ///< the p of the L^p norm of the interpolation error
+  std::int64_t nodes = 0;         ///< wanted, about
+  double min = 0;                 ///< no edge is wanted shorter, in the geometry's unit
+  std::int64_t tile_size = 8192;  ///< triangles, about, that are adapted at a time
 };
 
 /// How the adapted mesh keeps to the metric, and what its user is to be told.

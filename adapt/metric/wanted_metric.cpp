@@ -4,43 +4,12 @@
 #include <cmath>
 
 #include "adapt/metric/gradation.hpp"
-#include "adapt/sensor/recovery/hessians.hpp"
-#include "adapt/sensor/recovery/scaled_field.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 
 namespace quadloop {
 
 namespace {
-
-/// Of the largest eigenvalue anywhere: smaller ones are taken to be so large.
-constexpr double least_bend = 1e-8;
-
-/// The absolute hessians of the variables at owned nodes and copies, one within all; empty where all are
-/// linear.
-std::vector<Symmetric> joint_hessians(const Communicator& comm, const Mesh& mesh, const Field& field) {
-  const Field shared = with_copies(comm, mesh, field);
-  std::vector<Symmetric> joint;
-  for (std::size_t v = 0; v < shared.width(); ++v) {
-    const ScaledField scaled = scaled_by_range(comm, shared.column(v));
-    if (scaled.constant) continue;
-    const std::vector<Hessian> hessians = node_hessians(comm, mesh, scaled);
-    double largest = 0;
-    for (const Hessian& h : hessians) largest = std::max(largest, largest_eigenvalue(h));
-    largest = comm.maximum(largest);
-    if (!(largest > 0)) continue;
-    const bool first = joint.empty();
-    if (first) joint.resize(hessians.size());
-    for (std::size_t i = 0; i < hessians.size(); ++i) {
-      Eigen2 e = eigen_of({hessians[i].xx, hessians[i].xy, hessians[i].yy});
-      e.larger = std::max(e.larger, least_bend * largest);
-      e.smaller = std::max(e.smaller, least_bend * largest);
-      const Metric own{symmetric_of(e)};
-      joint[i] = first ? own : intersection(Metric{joint[i]}, own);
-    }
-  }
-  return joint;
-}
 
 std::vector<LogMetric> logs_of(const std::vector<Metric>& metrics) {
   std::vector<LogMetric> logs;
@@ -51,12 +20,11 @@ std::vector<LogMetric> logs_of(const std::vector<Metric>& metrics) {
 
 }  // namespace
 
-WantedMetric::WantedMetric(const Communicator& comm, const Mesh& mesh, const Field& field, double norm,
-                           SizeBounds bounds)
+WantedMetric::WantedMetric(const Communicator& comm, const Mesh& mesh, const std::vector<Symmetric>& bends,
+                           double norm, SizeBounds bounds)
     : comm_{comm}, mesh_{mesh}, bounds_{std::move(bounds)} {
-  check_field(comm, mesh, field, FieldSign::any);
   for (const CellShape& shape : cell_shapes(mesh)) areas_.push_back(shape.area);
-  for (const Symmetric& h : joint_hessians(comm, mesh, field)) {
+  for (const Symmetric& h : bends) {
     const double determinant = density_of(Metric{h}) * density_of(Metric{h});
     shapes_.emplace_back(std::pow(determinant, -1 / (2 * norm + 2)) * h);
   }
@@ -77,8 +45,8 @@ double WantedMetric::integral(const std::vector<Metric>& metrics) const {
 }
 
 Metric WantedMetric::within_bounds(const Metric& metric, double most) const {
-  Eigen2 e = eigen_of(intersection(metric, isotropic(most)));
-  const double ceiling = 1 / (bounds_.min * bounds_.min);
+  const double ceiling = 1 / (bounds_.min * bounds_.min), excess = eigen_of(metric).larger / ceiling;
+  Eigen2 e = eigen_of(intersection(excess > 1 ? Metric{1 / excess * metric} : metric, isotropic(most)));
   e.larger = std::min(e.larger, ceiling);
   e.smaller = std::min(std::max(e.smaller, 0x1p-46 * e.larger), ceiling);
   return Metric{symmetric_of(e)};

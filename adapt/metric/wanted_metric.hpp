@@ -5,30 +5,30 @@
 
 #include "adapt/metric/algebra/tensor.hpp"
 #include "mesher/base/parallel/communicator.hpp"
-#include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
 
 /// Within which sizes a metric stays.
 struct SizeBounds {
-  double min = 0;            ///< no edge is wanted shorter than this, in any direction
+  /// No edge is wanted shorter than this: a metric that asks for it becomes larger as a whole, so that cells
+  /// of a front that is thinner stay as long along it.
+  double min = 0;
   std::vector<double> most;  ///< at each owned node and copy: nor longer than this
   double slope = 0.25;       ///< by which sizes may grow for each unit of length: (gradation - 1) / 2
 };
 
 /// The metric that makes the L^p norm of the interpolation error least for its complexity, the integral of
-/// its density: det(H)^(-1 / (2 p + 2)) |H|, but for a factor, with the Hessian H of the variables over their
-/// ranges, of several the intersection (Loseille and Alauzet, SIAM J. Numer. Anal. 49, 2011). The same bits
-/// on any number of ranks.
+/// its density: det(H)^(-1 / (2 p + 2)) H, but for a factor, with the absolute hessians H (Loseille and
+/// Alauzet, SIAM J. Numer. Anal. 49, 2011). The same bits on any number of ranks.
 class WantedMetric {
  public:
-  /// From values at the nodes; `mesh` must outlive it. Throws InputError for one that is not finite.
-  /// *Collective.*
-  WantedMetric(const Communicator& comm, const Mesh& mesh, const Field& field, double norm,
+  /// From hessians at owned nodes and copies, positive definite (node_bends.hpp), or none; `mesh` must
+  /// outlive it. *Collective.*
+  WantedMetric(const Communicator& comm, const Mesh& mesh, const std::vector<Symmetric>& bends, double norm,
                SizeBounds bounds);
 
-  /// Whether all variables are linear: there is nothing to follow.
+  /// Whether there is nothing to follow.
   bool flat() const { return !(total_ > 0); }
 
   /// The metrics at owned nodes and copies whose complexity, within the bounds, is so much, to a fiftieth;

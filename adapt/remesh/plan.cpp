@@ -213,6 +213,16 @@ TargetDemand target_demand(const MeshInput& input, const AdaptOptions& options, 
   return demand;
 }
 
+/// Of an error that the solver wrote all other variables tell the shapes of cells.
+MetricDemand metric_demand(const AdaptOptions& options, const Field& solution) {
+  MetricDemand demand{options.variables, {}, *options.norm};
+  if (options.source != AdaptOptions::Source::error) return demand;
+  demand.error = options.variables.front();
+  demand.variables = solution.names;
+  std::erase(demand.variables, demand.error);
+  return demand;
+}
+
 /// The tree is that of the case alone: what adaptation asked of one before counts no more. *Collective.*
 void plan_by_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                     const SolvedMesh& solved, AdaptationPlan& plan) {
@@ -227,8 +237,9 @@ void plan_by_metric(const Communicator& comm, const MeshInput& input, const Adap
   }
   const std::int64_t nodes = bounded_nodes(options, solved), allowed = allowed_nodes(input.mesh.limit, nodes);
   if (allowed < nodes) plan.warnings.emplace_back(text_of_bound);
-  plan.metric =
-      MetricDemand{options.variables, *options.norm, allowed, options.min.value_or(input.mesh.size.min)};
+  plan.metric = metric_demand(options, solved.solution);
+  plan.metric->nodes = allowed;
+  plan.metric->min = options.min.value_or(input.mesh.size.min);
 }
 
 }  // namespace

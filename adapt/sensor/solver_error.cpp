@@ -35,6 +35,13 @@ std::vector<double> per_area(const Communicator& comm, const Mesh& mesh, const s
 
 }  // namespace
 
+std::vector<double> error_densities(const Communicator& comm, const Mesh& mesh, const Field& field) {
+  check_field(comm, mesh, field, FieldSign::not_negative);
+  std::vector<double> densities = per_area(comm, mesh, field.column(0));
+  densities.resize(mesh.points.size());  // the mesh's own copies come before the halo's
+  return densities;
+}
+
 InterpolationError solver_error(const Communicator& comm, const Mesh& mesh, const Field& field) {
   check_field(comm, mesh, field, FieldSign::not_negative);
   InterpolationError error;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "adapt/metric/node_bends.hpp"
 #include "adapt/metric/wanted_metric.hpp"
 #include "adapt/targets/cell_targets.hpp"
 #include "adapt/transfer/transfer.hpp"
@@ -28,8 +29,9 @@ Field wanted_metric(const Communicator& comm, const MeshInput& input, const Mesh
   const double extent = a.tree_edge * std::max(a.trees_x, a.trees_y);
   const SizeBounds bounds{demand.min / demand.stretch, std::vector<double>(solved.points.size(), extent),
                           0.5 * (input.mesh.size.gradation - 1)};
-  const WantedMetric wanted(comm, solved, selected(solution, demand.variables, "adapt.variable"), demand.norm,
-                            bounds);
+  const WantedMetric wanted(
+      comm, solved, variable_bends(comm, solved, selected(solution, demand.variables, "adapt.variable")),
+      demand.norm, bounds);
   Field field{{"xx", "xy", "yy"}, {}, {}};
   if (wanted.flat()) return field;
   const auto nodes = static_cast<double>(comm.sum(std::int64_t{result.mesh.owned_nodes}));

@@ -4,7 +4,8 @@
     run_metric.py --quadloop PROGRAM
 
 The number of nodes is met, edges are mostly units of the metric, meshes are valid and on the outline; the same files on 1 and on 3 ranks, after a
-cycle that is made again, and from `remesh` of the same solution; less error for fewer nodes than the first mesh; refusals.
+cycle that is made again, and from `remesh` of the same solution; less error for fewer nodes than the first mesh; sizes by a solver's error;
+what `mesh --tree` says of a metric mesh; refusals.
 """
 import argparse
 import json
@@ -73,6 +74,26 @@ def check_remesh(program, case, folder):
     require((folder / "next_1.mesh").read_bytes() == (folder / "next_2.mesh").read_bytes(), "remesh makes another mesh on 2 ranks")
 
 
+def check_error(program, case, folder):
+    """Sizes by an error that a solver wrote, be it any field: other meshes than by that field's hessian, the same on 2 ranks."""
+    last = folder / "one" / "cycle_01"
+    for ranks in (1, 2):
+        run([MPIRUN, "-n", str(ranks), program, "-q", "remesh", case, "--tree", last / "mesh.tree.h5", "--solution", last / "mesh.mesh",
+             "-o", folder / f"error_{ranks}", "--set", 'adapt.variable={ error = "density" }'])
+    meshes = [(folder / f"{name}.mesh").read_bytes() for name in ("error_1", "error_2", "next_1")]
+    require(meshes[0] == meshes[1], "sizes by an error differ on 2 ranks")
+    require(meshes[0] != meshes[2], "sizes by an error are those by a hessian")
+
+
+def check_tree_alone(program, case, folder):
+    for cycle, says in (("cycle_00", False), ("cycle_02", True)):
+        told = subprocess.run([program, "mesh", case, "--tree", folder / "one" / cycle / "mesh.tree.h5", "-o", folder / "alone"],
+                              capture_output=True, text=True, check=False)
+        require(told.returncode == 0, told.stderr)
+        require(("without stretched cells" in told.stderr) == says, f"mesh --tree of {cycle}: {told.stderr}")
+        require(told.stderr.count("warning") == int(says), f"mesh --tree of {cycle}: {told.stderr}")
+
+
 def check_refusals(program, case, folder):
     for assignment, words in (('mesh.mirror="x"', "half"), ("adapt.growth=0.5", "growth")):
         told = subprocess.run([program, "adapt", case, "-o", folder / "refused", "--set", assignment], capture_output=True, text=True, check=False)
@@ -93,6 +114,8 @@ def main():
         check_refusals(program, case, folder)
         check_ranks_and_resume(program, case, folder)
         check_remesh(program, case, folder)
+        check_error(program, case, folder)
+        check_tree_alone(program, case, folder)
 
 
 main()

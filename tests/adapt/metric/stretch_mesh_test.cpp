@@ -13,9 +13,12 @@
 #include "adapt/metric/leaf_shares.hpp"
 #include "adapt/metric/loose_triangles.hpp"
 #include "adapt/metric/metric_figures.hpp"
+#include "adapt/metric/node_bends.hpp"
 #include "adapt/metric/tiles.hpp"
 #include "adapt/metric/unit_mesh.hpp"
 #include "adapt/metric/wanted_metric.hpp"
+#include "adapt/sensor/solver_error.hpp"
+#include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"
@@ -55,7 +58,7 @@ Field front_on(const Mesh& mesh) {
 }
 
 MetricDemand demand(std::int64_t nodes) {
-  MetricDemand wanted{{"q"}, 2, nodes, 1e-3};
+  MetricDemand wanted{{"q"}, {}, 2, nodes, 1e-3};
   wanted.tile_size = 200;
   return wanted;
 }
@@ -193,7 +196,10 @@ TEST(LimitGrowth, KeepsSizesWithinReachOfTheSmallest) {
 TEST(WantedMetric, HasTheComplexityAskedFor) {
   const Mesh mesh = generate_mesh(world(), holed_square(0.0625)).result.mesh;
   const SizeBounds bounds{1e-3, std::vector<double>(mesh.points.size(), 0.5), 0.25};
-  const WantedMetric wanted(world(), mesh, front_on(mesh), 2, bounds);
+  const auto wanted_of = [&](const Field& field) {
+    return WantedMetric(world(), mesh, variable_bends(world(), mesh, field), 2, bounds);
+  };
+  const WantedMetric wanted = wanted_of(front_on(mesh));
   ASSERT_FALSE(wanted.flat());
   for (const double complexity : {200.0, 2000.0}) {
     const auto metrics = wanted.of_complexity(complexity);
@@ -202,7 +208,97 @@ TEST(WantedMetric, HasTheComplexityAskedFor) {
   }
   Field constant = front_on(mesh);
   std::ranges::fill(constant.values, 3.0);
-  EXPECT_TRUE(WantedMetric(world(), mesh, constant, 2, bounds).flat());
+  EXPECT_TRUE(wanted_of(constant).flat());
+}
+
+/// Of cells over which a front rises by more than a fifth of its height: by the moments of their edges.
+double median_stretch(const Mesh& whole) {
+  std::vector<double> stretches;
+  for (const auto& t : whole.triangles) {
+    const std::array<Point, 3> p{whole.point(t[0]), whole.point(t[1]), whole.point(t[2])};
+    const auto [low, high] = std::minmax({front(p[0]), front(p[1]), front(p[2])});
+    if (high - low < 0.4) continue;
+    Symmetric moments;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point e = p[(k + 1) % 3] - p[k];
+      moments = moments + Symmetric{e.x * e.x, e.x * e.y, e.y * e.y};
+    }
+    const Eigen2 axes = eigen_of(moments);
+    stretches.push_back(std::sqrt(axes.larger / axes.smaller));
+  }
+  std::ranges::sort(stretches);
+  return stretches[stretches.size() / 2];
+}
+
+TEST(StretchMesh, KeepsCellsLongAtAFrontWhereTheyMayBeNoThinner) {
+  if (!world().is_root()) return;  // the same on any number of ranks
+  const Communicator self(MPI_COMM_SELF);
+  const MeshInput input = holed_square(0.25);
+  Mesh solved = generate_mesh(self, input).result.mesh;
+  for (int cycle = 0; cycle < 4; ++cycle) {
+    const MeshChange change = [&](const MeshInput& outer, MeshResult& result) {
+      stretch_mesh(self, outer, solved, front_on(solved), {{"q"}, {}, 100, 600, 0.02}, result);
+    };
+    solved = generate_mesh(self, input, {}, {}, change).result.mesh;
+  }
+  const Mesh whole = gather_whole(self, solved);
+  EXPECT_GT(median_stretch(whole), 4);
+}
+
+TEST(WantedMetric, KeepsItsShapeWhereCellsMayNotBeThinner) {
+  const Mesh mesh = generate_mesh(world(), holed_square(0.25)).result.mesh;
+  const std::vector<Symmetric> bends(mesh.points.size(), Symmetric{100, 0, 1});
+  const SizeBounds bounds{0.01, std::vector<double>(mesh.points.size(), 1), 0.25};
+  const WantedMetric wanted(world(), mesh, bends, 2, bounds);
+  for (const LogMetric& m : wanted.of_complexity(1e9)) {
+    const Eigen2 axes = eigen_of(exp_of(m));
+    EXPECT_NEAR(axes.larger, 1e4, 1e-6 * 1e4);
+    EXPECT_NEAR(axes.smaller, 1e2, 1e-6 * 1e2);
+  }
+}
+
+/// A unit square whose columns become narrower towards x = 0 by equal factors.
+Mesh narrowing_mesh(double narrowest) {
+  constexpr int columns = 24;
+  Mesh whole = test::Grid{columns, {1, 1}, false}.mesh();
+  for (Point& p : whole.points) p.x = std::pow(narrowest, 1 - p.x);
+  return whole;
+}
+
+TEST(VariableBends, AreNoLargerFarAwayBecauseTheyAreLargeSomewhere) {
+  constexpr double narrowest = 1e-7;
+  const Mesh whole = narrowing_mesh(narrowest);
+  const Mesh mesh = scatter_mesh(world(), whole, test::shuffled_order(whole, 3));
+  Field field{{"q"}, {}, {}};
+  for (std::int32_t n = 0; n < mesh.owned_nodes; ++n)
+    field.values.push_back(std::log(mesh.point(NodeId{n}).x));
+  const std::vector<Symmetric> bends = variable_bends(world(), mesh, field);
+  const double range = -std::log(narrowest);
+  for (std::int32_t n = 0; n < mesh.owned_nodes; ++n) {
+    const double x = mesh.point(NodeId{n}).x, exact = 1 / (x * x * range);
+    EXPECT_GT(eigen_of(bends[n]).larger, exact / 20);
+    EXPECT_LT(eigen_of(bends[n]).larger, 20 * exact) << "at x = " << x;
+  }
+}
+
+TEST(ErrorBends, LoseAsMuchForEachAreaAsTheError) {
+  const Mesh whole = test::Grid{16, {1, 1}, false}.mesh();
+  const Mesh mesh = scatter_mesh(world(), whole, test::shuffled_order(whole, 5));
+  const std::vector<Symmetric> shapes(mesh.points.size(), Symmetric{9, 0, 1});
+  Field error{{"e"}, {}, {}};
+  for (std::int32_t n = 0; n < mesh.owned_nodes; ++n) error.values.push_back(2 * mesh.point(NodeId{n}).x);
+  const std::vector<Symmetric> bends = error_bends(world(), mesh, error, shapes);
+  const std::vector<double> densities = error_densities(world(), mesh, error);
+  constexpr double edge = 1.0 / 16, lost = (9 + 1 + 10) * edge * edge / 24;  // of halves of squares
+  for (std::size_t n = 0; n < bends.size(); ++n) {
+    if (mesh.points[n].x == 0) continue;  // no error
+    EXPECT_NEAR(bends[n].xx / 9 * lost, densities[n], 1e-9 * densities[n]);
+    EXPECT_NEAR(bends[n].yy, bends[n].xx / 9, 1e-9 * bends[n].yy);
+  }
+  error.values.assign(error.values.size(), -1);
+  EXPECT_THROW(error_bends(world(), mesh, error, shapes), InputError);
+  error.values.assign(error.values.size(), 0);
+  EXPECT_TRUE(error_bends(world(), mesh, error, shapes).empty());
 }
 
 TEST(MetricFigures, CountEveryEdgeOnce) {
