@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <algorithm>
-
 #include "mesher/base/progress.hpp"
 #include "mesher/build/number_nodes.hpp"
 #include "mesher/sizes/size_cursor.hpp"

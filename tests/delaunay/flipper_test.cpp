@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <random>
+#include <utility>
 
 #include "mesher/base/ids.hpp"
 #include "mesher/delaunay/delaunay_patch.hpp"
@@ -237,6 +240,35 @@ TEST(DelaunayPatch, DoubtsWhatAnOpenBorderMightUndo) {
       EXPECT_EQ(doubts[t] != 0, lowest == 0);
     }
   }
+}
+
+/// An edge that no other triangle has counts where both its ends may be meant.
+TEST(DelaunayPatch, KnowsEdgesOfOneTriangle) {
+  const Grid grid(5, 0.2);
+  const DelaunayPatch patch(grid.points, ranked(grid.ranks), grid.split(3), {});
+  const auto edge_of = [](const Triangle& t, std::size_t k) { return std::minmax({t[k], t[(k + 1) % 3]}); };
+  std::map<std::pair<std::int32_t, std::int32_t>, int> having;
+  for (const Triangle& t : patch.triangles()) {
+    for (std::size_t k = 0; k < 3; ++k) ++having[edge_of(t, k)];
+  }
+  const auto odd = [](std::int32_t node) { return node % 2 == 1; };
+  const auto any = [](std::int32_t) { return true; };
+  int single = 0, both_odd = 0;
+  for (std::size_t i = 0; i < patch.triangles().size(); ++i) {
+    bool has_single = false, has_odd = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = edge_of(patch.triangles()[i], k);
+      const bool alone = having[{low, high}] == 1;
+      has_single = has_single || alone;
+      has_odd = has_odd || (alone && odd(low) && odd(high));
+    }
+    EXPECT_EQ(patch.has_single_edge(i, any), has_single);
+    EXPECT_EQ(patch.has_single_edge(i, odd), has_odd);
+    single += has_single ? 1 : 0;
+    both_odd += has_odd ? 1 : 0;
+  }
+  EXPECT_GT(single, both_odd);
+  EXPECT_GT(both_odd, 0);
 }
 
 }  // namespace
