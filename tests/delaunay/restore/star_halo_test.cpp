@@ -17,9 +17,9 @@ namespace {
 using test::world;
 
 /// All triangles of a grid, on every rank, and where nodes and triangles are kept: nodes in stretches,
-/// triangles anywhere.
+/// triangles anywhere, or in stretches that lie with another rank than most of their nodes do.
 struct SpreadGrid {
-  SpreadGrid() {
+  explicit SpreadGrid(bool in_stretches = false) {
     first_node = mesh.first_node = whole.owned_nodes * world().rank() / world().size();
     mesh.owned_nodes =
         static_cast<std::int32_t>(whole.owned_nodes * (world().rank() + 1) / world().size() - first_node);
@@ -28,7 +28,7 @@ struct SpreadGrid {
     NodeTable table(mesh);
     for (int rank = 0; rank < world().size(); ++rank) {  // numbers follow the order of ranks
       for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
-        if (static_cast<int>(t * 7 % 11) % world().size() != rank) continue;
+        if (rank_of(t, in_stretches) != rank) continue;
         all.push_back(whole.triangles[t]);
         if (rank != world().rank()) continue;
         auto& own_triangle = mesh.triangles.emplace_back();
@@ -36,6 +36,11 @@ struct SpreadGrid {
           own_triangle[k] = table.local(whole.global(all.back()[k]), whole.point(all.back()[k]));
       }
     }
+  }
+  int rank_of(std::size_t t, bool in_stretches) const {
+    const auto ranks = static_cast<std::size_t>(world().size());
+    const std::size_t place = in_stretches ? t * ranks / whole.triangles.size() + 1 : t * 7 % 11;
+    return static_cast<int>(place % ranks);
   }
   NodeFlags flags(char value) const { return NodeFlags(mesh.points.size(), value); }
 
@@ -118,7 +123,7 @@ TEST(StarHalo, GrowsWhereItIsWantedAlone) {
 
 /// Only triangles around core nodes; what is known of nodes and triangles comes with them.
 TEST(StarHalo, FlagsAndBlocksTravel) {
-  const SpreadGrid grid;
+  const SpreadGrid grid(true);
   const NodeOwners owners(world(), grid.first_node);
   const auto is_core = [](GlobalNodeId n) { return n.value() % 9 < 3; };
   const auto has_moved = [](GlobalNodeId n) { return n.value() % 4 == 1; };
