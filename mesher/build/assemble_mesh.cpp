@@ -1,5 +1,7 @@
 #include "mesher/build/assemble_mesh.hpp"
 
+#include <algorithm>
+
 #include "mesher/base/progress.hpp"
 #include "mesher/build/number_nodes.hpp"
 #include "mesher/sizes/size_cursor.hpp"
@@ -84,8 +86,9 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, const Siz
                    const LeafGraph& graph, const CutForest& cut, MeshResult& result) {
   NodeNumbering numbers(comm, sizes.lattice(), graph, cut);
   Mesh& mesh = result.mesh;
-  mesh.quads.reserve(cut.states.size());
-  mesh.triangles.reserve(cut.states.size() / 2 + cut.triangles.size());
+  const auto inside = std::count(cut.states.begin(), cut.states.end(), CutForest::State::inside);
+  mesh.quads.reserve(inside + cut.quads.size());
+  mesh.triangles.reserve(inside / 2 + cut.triangles.size());
   Assembler assembler(geometry, graph, cut, numbers, result);
   DemandPath demands(sizes.demanded());
   SizeCursor cursor(sizes);

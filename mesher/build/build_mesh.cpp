@@ -88,11 +88,11 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   const LeafGraph graph = refine_forest(comm, sizes, result.report.estimate.leaves);
 
   times.begin("cutting");
-  const CutForest cut =
-      cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap, options.mirror);
+  CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap, options.mirror);
 
   times.begin("mesh");
   assemble_mesh(comm, geometry, sizes, graph, cut, result);
+  cut.drop_lists();
   report_losses(comm, geometry, result.mesh, options.may_vanish, result.report);
 
   const auto rank_of = [&](Point p) {

@@ -173,7 +173,7 @@ void NodeNumbering::number_slot(std::size_t slot, Point position) {
 }
 
 void NodeNumbering::number_owned() {
-  points_.reserve(cut_->states.size() + cut_->states.size() / 8 + cut_->nodes.size());
+  points_.reserve(std::count(slots_.begin(), slots_.end(), used) + cut_->nodes.size());
   std::size_t border = 0;
   for (const LeafId leaf : graph_->local()) {
     const Quadrant& q = graph_->leaf(leaf);

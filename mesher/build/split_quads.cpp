@@ -28,7 +28,7 @@ void split_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
                  const std::function<Diagonal(std::size_t, const std::array<NodeId, 4>&)>& choose) {
   std::vector<std::array<NodeId, 3>> triangles;
   std::vector<std::array<NodeId, 4>> quads;
-  triangles.reserve(mesh.triangles.size() + mesh.triangles.size() / 4);
+  triangles.reserve(mesh.triangles.size() + 2 * mesh.quads.size());
   auto triangle = mesh.triangles.cbegin();
   auto quad = mesh.quads.cbegin();
   for (std::size_t i = 0; i < leaves.size(); ++i) {

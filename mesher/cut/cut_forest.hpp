@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/cut/leaf_cells.hpp"
@@ -41,6 +42,14 @@ struct CutForest {
   template <class T>
   static std::span<const T> part(const std::vector<T>& all, std::int32_t begin, std::int32_t end) {
     return std::span(all).subspan(begin, end - begin);
+  }
+  /// Frees what is of no more use once the mesh is assembled: the lists of nodes, cells and edges.
+  void drop_lists() {
+    std::exchange(nodes, {});
+    std::exchange(triangles, {});
+    std::exchange(quads, {});
+    std::exchange(outline, {});
+    std::exchange(moved, {});
   }
 };
 

@@ -23,7 +23,9 @@ bool Triangulator::triangulate(std::span<const Point> points, std::span<const Ti
     triangles_.clear();
     triangulate_region(points, loops, triangles_);
   }
-  if (triangles_.size() > 1) flipper_.flip_to_delaunay(points, ranks, triangles_);
+  if (triangles_.size() > 1)
+    flipper_.flip_to_delaunay(
+        points, [ranks](std::int32_t node) { return ranks[node]; }, triangles_);
   for (LocalTriangle& t : triangles_) {
     if (!is_positive(at(t[0]), at(t[1]), at(t[2]))) return false;
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());

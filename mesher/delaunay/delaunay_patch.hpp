@@ -10,12 +10,13 @@ class DelaunayPatch {
   using Triangle = Flipper::Triangle;
 
   /// From any counter-clockwise triangles over the nodes, as Flipper makes it. Where `open` is set for a
-  /// triangle, the domain may go on across its edges that have no other triangle. `moved` as Flipper has it.
-  DelaunayPatch(std::vector<Point> points, const std::vector<TieRank>& ranks, std::vector<Triangle> triangles,
-                const std::vector<char>& open, const std::vector<std::int32_t>& blocks = {},
-                const std::vector<char>& moved = {})
-      : points_{std::move(points)}, triangles_{std::move(triangles)} {
-    flipper_.flip_to_delaunay(points_, ranks, triangles_, open, blocks, moved);
+  /// triangle, the domain may go on across its edges that have no other triangle. `rank_of` and `moved` as
+  /// Flipper has them; the points must outlive the patch.
+  DelaunayPatch(std::span<const Point> points, const Flipper::RankOf& rank_of,
+                std::vector<Triangle> triangles, const std::vector<char>& open,
+                const std::vector<std::int32_t>& blocks = {}, std::span<const char> moved = {})
+      : points_{points}, triangles_{std::move(triangles)} {
+    flipper_.flip_to_delaunay(points_, rank_of, triangles_, open, blocks, moved);
   }
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -25,10 +26,22 @@ class DelaunayPatch {
   /// such an edge, with all between them.
   std::vector<char> doubtful() const;
 
+  /// Whether an edge of the triangle has no other one of its block, and `may(node)` of both its ends.
+  template <class May>
+  bool has_single_edge(std::size_t triangle, const May& may) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& nodes = triangles_[triangle];
+      if (flipper_.across(static_cast<Flipper::Edge>(3 * triangle + k)) < 0 && may(nodes[(k + 1) % 3]) &&
+          may(nodes[(k + 2) % 3]))
+        return true;
+    }
+    return false;
+  }
+
  private:
   bool circle_reaches(std::size_t triangle, Point from, Point to) const;
 
-  std::vector<Point> points_;
+  std::span<const Point> points_;
   std::vector<Triangle> triangles_;
   Flipper flipper_;
 };

@@ -1,59 +1,58 @@
 #include "mesher/delaunay/flipper.hpp"
 
-#include <numeric>
+#include <utility>
 
 namespace quadloop {
 
-void Flipper::flip_to_delaunay(std::span<const Point> points, std::span<const TieRank> ranks,
+void Flipper::flip_to_delaunay(std::span<const Point> points, const RankOf& rank_of,
                                std::span<Triangle> triangles, std::span<const char> open,
                                std::span<const std::int32_t> blocks, std::span<const char> moved) {
   points_ = points;
-  ranks_ = ranks;
   triangles_ = triangles;
-  list_spokes();
-  std::size_t begin = 0;
-  for (const std::size_t end : spokes_end_) {
-    join(std::span(spokes_).subspan(begin, end - begin), open, blocks);
-    begin = end;
-  }
+  join(blocks);
+  close(open);
   list_firm(moved);
-  waiting_.clear();
   for (Edge e = 0; e < edges(); ++e) {
-    if (across(e) > e && !is_firm(e)) waiting_.push_back(e);
+    if (across(e) > e && !is_firm(e)) flip_from(e, rank_of);
   }
+}
+
+/// Flips an edge if it is wrong, and then what this makes wrong.
+void Flipper::flip_from(Edge first, const RankOf& rank_of) {
+  waiting_.assign(1, first);
   while (!waiting_.empty()) {
     const Edge e = waiting_.back();
     waiting_.pop_back();
-    if (across(e) < 0 || !is_wrong(e)) continue;
+    if (across(e) < 0 || !is_wrong(e, rank_of)) continue;
     const Edge s = e - e % 3, t = across(e) - across(e) % 3;
     flip(e);
     for (Edge k = 0; k < 3; ++k) waiting_.insert(waiting_.end(), {s + k, t + k});
   }
 }
 
-/// All edges, one node after the other.
-void Flipper::list_spokes() {
+/// Finds the triangles across the edges. Those whose other triangle has not come yet are chained, one lower
+/// node's after the other: meanwhile the next of the chain is what stands across.
+void Flipper::join(std::span<const std::int32_t> blocks) {
   across_.assign(3 * triangles_.size(), border);
-  spokes_.resize(across_.size());
-  spokes_end_.assign(points_.size(), 0);
-  const auto low = [&](Edge e) { return std::min(node(e, 1), node(e, 2)); };
-  for (Edge e = 0; e < edges(); ++e) ++spokes_end_[low(e)];
-  std::exclusive_scan(spokes_end_.begin(), spokes_end_.end(), spokes_end_.begin(), std::size_t{0});
-  for (Edge e = 0; e < edges(); ++e) spokes_[spokes_end_[low(e)]++] = {std::max(node(e, 1), node(e, 2)), e};
+  last_low_.assign(points_.size(), border);
+  for (Edge e = 0; e < edges(); ++e) {
+    Edge* link = &last_low_[low(e)];
+    while (*link >= 0 && high(*link) != high(e)) link = &across_[*link];
+    const Edge other = *link;
+    if (other < 0) {
+      across_[e] = std::exchange(last_low_[low(e)], e);
+    } else {
+      *link = std::exchange(across_[other], border);
+      if (blocks.empty() || blocks[triangle_of(e)] == blocks[triangle_of(other)]) set_across(e, other);
+    }
+  }
 }
 
-/// Finds the triangles across the edges of one node.
-void Flipper::join(std::span<Spoke> spokes, std::span<const char> open,
-                   std::span<const std::int32_t> blocks) {
-  std::sort(spokes.begin(), spokes.end());
-  for (std::size_t i = 0; i < spokes.size(); ++i) {
-    const Edge e = spokes[i].edge;
-    if (i + 1 < spokes.size() && spokes[i].high == spokes[i + 1].high) {
-      const Edge f = spokes[++i].edge;
-      if (blocks.empty() || blocks[triangle_of(e)] == blocks[triangle_of(f)]) set_across(e, f);
-    } else if (!open.empty() && open[triangle_of(e)] != 0) {
-      set_across(e, open_border);
-    }
+/// What is left in the chains has no triangle across it.
+void Flipper::close(std::span<const char> open) {
+  for (Edge e : last_low_) {
+    while (e >= 0)
+      e = std::exchange(across_[e], !open.empty() && open[triangle_of(e)] != 0 ? open_border : border);
   }
 }
 
@@ -73,11 +72,11 @@ std::array<std::size_t, 4> Flipper::nodes_of_both(Edge e) const {
           static_cast<std::size_t>(node(e, 0)), static_cast<std::size_t>(node(across(e), 0))};
 }
 
-bool Flipper::is_wrong(Edge e) const {
+bool Flipper::is_wrong(Edge e, const RankOf& rank_of) const {
   const auto n = nodes_of_both(e);
   if (is_firm(e) && in_circle(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]]) == 0) return false;
   return should_flip(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]],
-                     [&](std::size_t k) -> const TieRank& { return ranks_[n[k]]; });
+                     [&](std::size_t k) { return rank_of(static_cast<std::int32_t>(n[k])); });
 }
 
 void Flipper::set_across(Edge e, Edge other) {

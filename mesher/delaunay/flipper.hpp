@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -38,9 +39,12 @@ class Flipper {
   using Edge = std::int32_t;
   static constexpr Edge border = -1, open_border = -2;
 
+  /// The rank of a node for a choice between diagonals.
+  using RankOf = std::function<TieRank(std::int32_t)>;
+
   /// Flips edges of counter-clockwise `triangles` over the `points`, which the edges shared by two of them
   /// join. Edges with one triangle stay, and those between triangles of two `blocks` (one for each triangle,
-  /// or none where all are of one block). If the order of the `ranks` is strict, the result depends on
+  /// or none where all are of one block). If the order of ranks is strict, the result depends on
   /// points, ranks and such edges alone, not on the triangles at the beginning; triangles keep their blocks.
   /// Where `open` (a flag for each triangle, or none) is set, an edge with one triangle becomes an open
   /// border.
@@ -49,9 +53,9 @@ class Flipper {
   /// on one circle, whatever their ranks, and the result depends on such edges, too. It is still unique: an
   /// edge that flips though it is no tie is of no Delaunay triangulation, and between the edges that stay the
   /// ranks decide.
-  void flip_to_delaunay(std::span<const Point> points, std::span<const TieRank> ranks,
-                        std::span<Triangle> triangles, std::span<const char> open = {},
-                        std::span<const std::int32_t> blocks = {}, std::span<const char> moved = {});
+  void flip_to_delaunay(std::span<const Point> points, const RankOf& rank_of, std::span<Triangle> triangles,
+                        std::span<const char> open = {}, std::span<const std::int32_t> blocks = {},
+                        std::span<const char> moved = {});
 
   /// The same edge of the triangle beyond it, `border` or `open_border`, after the flips.
   Edge across(Edge e) const { return across_[e]; }
@@ -59,32 +63,26 @@ class Flipper {
   static std::size_t corner_of(Edge e, int step) { return (e % 3 + step) % 3; }
 
  private:
-  /// An edge of a triangle, listed with its lower node.
-  struct Spoke {
-    std::int32_t high;
-    Edge edge;
-    friend auto operator<=>(const Spoke&, const Spoke&) = default;
-  };
-
   Edge edges() const { return static_cast<Edge>(across_.size()); }
   std::int32_t node(Edge e, int step) const { return triangles_[triangle_of(e)][corner_of(e, step)]; }
-  void list_spokes();
-  void join(std::span<Spoke> spokes, std::span<const char> open, std::span<const std::int32_t> blocks);
+  std::int32_t low(Edge e) const { return std::min(node(e, 1), node(e, 2)); }
+  std::int32_t high(Edge e) const { return std::max(node(e, 1), node(e, 2)); }
+  void join(std::span<const std::int32_t> blocks);
+  void close(std::span<const char> open);
   void list_firm(std::span<const char> moved);
   bool is_firm(Edge e) const { return !firm_.empty() && firm_[e] != 0; }
   std::array<std::size_t, 4> nodes_of_both(Edge e) const;
-  bool is_wrong(Edge e) const;
+  bool is_wrong(Edge e, const RankOf& rank_of) const;
+  void flip_from(Edge e, const RankOf& rank_of);
   void flip(Edge e);
   void set_across(Edge e, Edge other);
   void keep_firm(Edge e, Edge f);
 
   std::span<const Point> points_;
-  std::span<const TieRank> ranks_;
   std::span<Triangle> triangles_;
   std::vector<Edge> across_;
-  std::vector<char> firm_;               ///< a flag for each edge that gives way to no tie; or none
-  std::vector<std::size_t> spokes_end_;  ///< of each node, in spokes_
-  std::vector<Spoke> spokes_;
+  std::vector<char> firm_;      ///< a flag for each edge that gives way to no tie; or none
+  std::vector<Edge> last_low_;  ///< of each node, the last edge with it as the lower end and one triangle
   std::vector<Edge> waiting_;
 };
 

@@ -9,12 +9,12 @@ B       the same airfoil, cells that grow by 0.3 of the distance from the wall: 
 gulf    the coast of cases/gulf_of_mexico: the others from the outline's vertices alone, quadloop with sizes as fine
 --cells    about how many triangles in A (within a factor of two) and B; the coast of the Gulf is the high one from 500 thousand on, the medium one from 100 thousand on
 --sized    Triangle built for B with the size function of airfoil_size.c, which stands in that file; without one it gets no sizes there
---timeout  seconds for one run of another program; one that takes longer is left out of that case
+--timeout  seconds for one run (60); a program that takes longer is left out of that case, and its row says so
 --update   puts the figures into the file, between this script's two markers
 
 Kernel is what each program says of itself, without reading and writing files (BAMG, which says nothing, has none): Triangle's and Gmsh's own clocks,
 quadloop's stages, smoothing among them. Process is the processor's time of all, files too; wall is the clock's. Ratios are times per triangle over
-those of quadloop's smoothed mesh. Quality is 4 sqrt(3) area over the sum of squared edges, over all triangles, by this script for all programs alike.
+those of quadloop's smoothed mesh; a program that takes twenty times as long as it in a case runs once there. Quality is 4 sqrt(3) area over the sum of squared edges, over all triangles, by this script for all programs alike.
 """
 import argparse
 import json
@@ -36,6 +36,7 @@ from figures import add_update, tell
 ROOT = Path(__file__).resolve().parents[2]
 AIRFOIL = ROOT / "cases" / "naca0012" / "case.toml"
 GULF = ROOT / "cases" / "gulf_of_mexico"
+TOO_SLOW = 20  # times quadloop's seconds: not repeated
 FAR = 10.0    # half width of the airfoil's far field
 SLOPE = 0.3   # of sizes in B
 
@@ -100,23 +101,37 @@ def task_named(name, cells):
     return Task(f"gulf {size}", case, [], read_geom(GULF / f"gulf_of_mexico_{size}.geom"), 0.0, cells)
 
 
+# A process counts what its parent held when it was started among its own memory at most; so a small one starts it, and tells in a file how it went.
+STARTER = """
+import os, sys, time
+begin = time.monotonic()
+_, status, usage = os.wait4(os.spawnvp(os.P_NOWAIT, sys.argv[2], sys.argv[2:]), 0)
+print(os.waitstatus_to_exitcode(status), usage.ru_utime + usage.ru_stime, time.monotonic() - begin, usage.ru_maxrss * 1024, file=open(sys.argv[1], "w"))
+"""
+
+
+class TooLong(Exception):
+    """A run that was broken off."""
+
+
 def timed(command, folder, timeout):
-    """Its output, processor and wall seconds, and bytes at most; none where it takes too long, or fails."""
-    begin = os.times().elapsed
+    """Its output, processor and wall seconds, and bytes at most; none where it fails."""
+    starter = [sys.executable, "-I", "-S", "-c", STARTER, folder / "took.txt", *command]
     with open(folder / "said.txt", "w+", encoding="utf-8", errors="replace") as said:
-        child = subprocess.Popen([str(word) for word in command], cwd=folder, stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT)
-        previous = signal.signal(signal.SIGALRM, lambda *_: child.kill())
-        signal.alarm(int(timeout))
-        _, status, usage = os.wait4(child.pid, 0)
-        signal.alarm(0)
-        signal.signal(signal.SIGALRM, previous)
-        child.returncode = os.waitstatus_to_exitcode(status)
+        child = subprocess.Popen([str(word) for word in starter], cwd=folder, stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT, start_new_session=True)
+        try:
+            child.wait(timeout)
+        except subprocess.TimeoutExpired:
+            os.killpg(child.pid, signal.SIGKILL)
+            child.wait()
+            raise TooLong from None
         said.seek(0)
         text = said.read()
-    if child.returncode != 0:
-        print(f"{Path(str(command[0])).name}: {'took too long' if child.returncode == -9 else ' '.join(re.findall('.*rror.*', text)[:3]) or text[-400:]}", file=sys.stderr)
+    status, process, wall, peak = (folder / "took.txt").read_text().split()
+    if int(status) != 0:
+        print(f"{Path(str(command[0])).name}: {' '.join(re.findall('.*rror.*', text)[:3]) or text[-400:]}", file=sys.stderr)
         return None
-    return text, usage.ru_utime + usage.ru_stime, os.times().elapsed - begin, usage.ru_maxrss * 1024
+    return text, float(process), float(wall), int(peak)
 
 
 def first_number(pattern, text):
@@ -368,21 +383,27 @@ def shape_of(run):
 
 
 def measure(task, found, args):
-    """{name: its runs}, in turns; a program that fails once is left out."""
-    runs = {name: [] for name in found}
+    """{name: its runs}, in turns, and the names of those that took too long; a program that fails once is left out."""
+    runs, too_long = {name: [] for name in found}, []
     with tempfile.TemporaryDirectory(prefix="quadloop_peers_") as folder:
-        for _ in range(args.repeats):
+        for repeat in range(args.repeats):
             for name in list(runs):
                 start, program, more = found[name]
-                run = start(program, task, Path(folder), args.timeout, more)
+                if repeat > 0 and runs[name][0].wall > TOO_SLOW * next(iter(runs.values()))[0].wall:
+                    continue
+                try:
+                    run = start(program, task, Path(folder), args.timeout, more)
+                except TooLong:
+                    run = None
+                    too_long.append(name)
                 if run is None:
                     del runs[name]
                 else:
                     runs[name].append(run)
-    return runs
+    return runs, too_long
 
 
-def rows_of(task, runs):
+def rows_of(task, runs, too_long, timeout):
     def per_triangle(some, field):
         return statistics.median(getattr(run, field) for run in some) / len(some[0].triangles)
     ours = next((some for name, some in runs.items() if name == "quadloop, smoothed"), None)
@@ -394,7 +415,7 @@ def rows_of(task, runs):
         texts = [f"{value:.{digits}f}" if value == value else ""
                  for value, digits in ((1e6 * kernel, 2), (ratios[0], 2), (1e6 * process, 2), (1e6 * wall, 2), (ratios[1], 2), (peak, 0), (angle, 1), (mean, 3), (worst, 3))]
         rows.append(f"| {task.name} | {name} | {len(some[0].triangles)} | {' | '.join(texts)} |")
-    return rows
+    return rows + [f"| {task.name} | {name} | more than {timeout:g} s |{' |' * 9}" for name in too_long]
 
 
 def main():
@@ -404,7 +425,7 @@ def main():
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--cases", nargs="+", choices=("A", "B", "gulf"), default=["A", "B", "gulf"])
     parser.add_argument("--sized", type=Path)
-    parser.add_argument("--timeout", type=float, default=600)
+    parser.add_argument("--timeout", type=float, default=60)
     add_update(parser)
     args = parser.parse_args()
     found = programs(args)
@@ -416,7 +437,7 @@ def main():
         if args.sized and task.wall > 0:
             os.environ["AIRFOIL_SIZE"] = repr(task.wall)
         of_case = {key: value for key, value in found.items() if key != "Triangle, sized" or task.wall > 0}
-        rows = rows_of(task, measure(task, of_case, args))
+        rows = rows_of(task, *measure(task, of_case, args), args.timeout)
         print("\n".join(rows), file=sys.stderr, flush=True)
         lines += rows
     tell("\n".join(lines), "peers.py", args.update)

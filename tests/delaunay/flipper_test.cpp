@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <random>
+#include <utility>
 
 #include "mesher/base/ids.hpp"
 #include "mesher/delaunay/delaunay_patch.hpp"
@@ -13,6 +16,11 @@ namespace quadloop {
 namespace {
 
 using Triangle = Flipper::Triangle;
+/// The list must outlive it.
+Flipper::RankOf ranked(const std::vector<TieRank>& ranks) {
+  return [&ranks](std::int32_t node) { return ranks[node]; };
+}
+
 using Triangles = std::vector<Triangle>;
 
 /// Nodes of a square grid, many on one circle, or moved a little.
@@ -81,7 +89,7 @@ TEST(Flipper, OneResultFromAnyDiagonals) {
     Triangles first;
     for (unsigned seed = 0; seed < 5; ++seed) {
       Triangles triangles = grid.split(seed);
-      flipper.flip_to_delaunay(grid.points, grid.ranks, triangles);
+      flipper.flip_to_delaunay(grid.points, ranked(grid.ranks), triangles);
       expect_delaunay(grid, triangles);
       if (seed == 0) first = sorted(triangles);
       EXPECT_EQ(sorted(triangles), first);
@@ -93,9 +101,9 @@ TEST(Flipper, RemembersNothingOfTheLastTriangulation) {
   const Grid large(9, 0.2), small(3, 0.2);
   Flipper used, fresh;
   Triangles triangles = large.split(1), again = small.split(1), expected = again;
-  used.flip_to_delaunay(large.points, large.ranks, triangles);
-  used.flip_to_delaunay(small.points, small.ranks, again);
-  fresh.flip_to_delaunay(small.points, small.ranks, expected);
+  used.flip_to_delaunay(large.points, ranked(large.ranks), triangles);
+  used.flip_to_delaunay(small.points, ranked(small.ranks), again);
+  fresh.flip_to_delaunay(small.points, ranked(small.ranks), expected);
   EXPECT_EQ(again, expected);
 }
 
@@ -108,9 +116,9 @@ TEST(Flipper, KeepsEdgesBetweenBlocks) {
   Triangles triangles = kite_triangles;
   const std::vector<std::int32_t> two{0, 1}, one{7, 7};
   Flipper flipper;
-  flipper.flip_to_delaunay(kite, kite_ranks, triangles, {}, two);
+  flipper.flip_to_delaunay(kite, ranked(kite_ranks), triangles, {}, two);
   EXPECT_EQ(triangles, kite_triangles);
-  flipper.flip_to_delaunay(kite, kite_ranks, triangles, {}, one);
+  flipper.flip_to_delaunay(kite, ranked(kite_ranks), triangles, {}, one);
   EXPECT_EQ(sorted(triangles), (Triangles{{0, 1, 3}, {1, 2, 3}}));
 }
 
@@ -125,10 +133,10 @@ TEST(Flipper, DiagonalsOfNodesThatHaveStayedGiveWayToNoTie) {
     moved[node] = 1;
     moved.resize(4);
     Triangles triangles = kite_triangles;
-    flipper.flip_to_delaunay(square, ranks, triangles, {}, {}, moved);
+    flipper.flip_to_delaunay(square, ranked(ranks), triangles, {}, {}, moved);
     EXPECT_EQ(triangles == kite_triangles, node == 4) << node;
     triangles = kite_triangles;
-    flipper.flip_to_delaunay(square, ranks, triangles);
+    flipper.flip_to_delaunay(square, ranked(ranks), triangles);
     EXPECT_NE(triangles, kite_triangles) << "nothing is remembered";
   }
 }
@@ -138,7 +146,7 @@ TEST(Flipper, FarFromMovedNodesNothingFlips) {
   Grid grid(12, 0);
   Triangles before = grid.split(1);
   Flipper flipper;
-  flipper.flip_to_delaunay(grid.points, grid.ranks, before);
+  flipper.flip_to_delaunay(grid.points, ranked(grid.ranks), before);
   std::vector<TieRank> other = grid.ranks;
   for (std::size_t node = 0; node < other.size(); ++node)
     other[node].coarser = static_cast<std::int8_t>(node % 2);
@@ -147,8 +155,8 @@ TEST(Flipper, FarFromMovedNodesNothingFlips) {
   std::vector<char> moved(grid.points.size(), 0);
   moved[middle] = 1;
   Triangles with_flags = before, without = before;
-  flipper.flip_to_delaunay(grid.points, other, with_flags, {}, {}, moved);
-  flipper.flip_to_delaunay(grid.points, other, without);
+  flipper.flip_to_delaunay(grid.points, ranked(other), with_flags, {}, {}, moved);
+  flipper.flip_to_delaunay(grid.points, ranked(other), without);
   const auto changed = [&](const Triangles& after) {
     int count = 0;
     const Triangles known = sorted(before);
@@ -173,7 +181,7 @@ TEST(Flipper, MakesNoTriangleThatIsNotPositive) {
   ASSERT_FALSE(is_positive(tiny[0], tiny[1], tiny[3]));
   Triangles triangles = kite_triangles;
   Flipper flipper;
-  flipper.flip_to_delaunay(tiny, kite_ranks, triangles);
+  flipper.flip_to_delaunay(tiny, ranked(kite_ranks), triangles);
   EXPECT_EQ(triangles, kite_triangles);
 }
 
@@ -184,7 +192,7 @@ TEST(Flipper, KnowsWhatIsAcross) {
   const std::vector<char> open(triangles.size(), 1);
   Flipper flipper;
   for (const bool is_open : {false, true}) {
-    flipper.flip_to_delaunay(grid.points, grid.ranks, triangles,
+    flipper.flip_to_delaunay(grid.points, ranked(grid.ranks), triangles,
                              is_open ? std::span<const char>(open) : std::span<const char>());
     int outer = 0;
     for (Flipper::Edge e = 0; e < static_cast<Flipper::Edge>(3 * triangles.size()); ++e) {
@@ -220,10 +228,10 @@ TEST(DelaunayPatch, DoubtsWhatAnOpenBorderMightUndo) {
   const Grid grid(10);
   const Triangles triangles = grid.split(4);
   std::vector<char> open(triangles.size(), 0);
-  EXPECT_EQ(DelaunayPatch(grid.points, grid.ranks, triangles, open).doubtful(), open);
+  EXPECT_EQ(DelaunayPatch(grid.points, ranked(grid.ranks), triangles, open).doubtful(), open);
   std::fill(open.begin(), open.begin() + 2 * grid.n,
             1);  // the lowest row of squares, and so three sides of it
-  const DelaunayPatch patch(grid.points, grid.ranks, triangles, open);
+  const DelaunayPatch patch(grid.points, ranked(grid.ranks), triangles, open);
   const std::vector<char> doubts = patch.doubtful();
   for (std::size_t t = 0; t < doubts.size(); ++t) {
     double lowest = grid.n;
@@ -232,6 +240,35 @@ TEST(DelaunayPatch, DoubtsWhatAnOpenBorderMightUndo) {
       EXPECT_EQ(doubts[t] != 0, lowest == 0);
     }
   }
+}
+
+/// An edge that no other triangle has counts where both its ends may be meant.
+TEST(DelaunayPatch, KnowsEdgesOfOneTriangle) {
+  const Grid grid(5, 0.2);
+  const DelaunayPatch patch(grid.points, ranked(grid.ranks), grid.split(3), {});
+  const auto edge_of = [](const Triangle& t, std::size_t k) { return std::minmax({t[k], t[(k + 1) % 3]}); };
+  std::map<std::pair<std::int32_t, std::int32_t>, int> having;
+  for (const Triangle& t : patch.triangles()) {
+    for (std::size_t k = 0; k < 3; ++k) ++having[edge_of(t, k)];
+  }
+  const auto odd = [](std::int32_t node) { return node % 2 == 1; };
+  const auto any = [](std::int32_t) { return true; };
+  int single = 0, both_odd = 0;
+  for (std::size_t i = 0; i < patch.triangles().size(); ++i) {
+    bool has_single = false, has_odd = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = edge_of(patch.triangles()[i], k);
+      const bool alone = having[{low, high}] == 1;
+      has_single = has_single || alone;
+      has_odd = has_odd || (alone && odd(low) && odd(high));
+    }
+    EXPECT_EQ(patch.has_single_edge(i, any), has_single);
+    EXPECT_EQ(patch.has_single_edge(i, odd), has_odd);
+    single += has_single ? 1 : 0;
+    both_odd += has_odd ? 1 : 0;
+  }
+  EXPECT_GT(single, both_odd);
+  EXPECT_GT(both_odd, 0);
 }
 
 }  // namespace

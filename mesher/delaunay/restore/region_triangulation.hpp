@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <functional>
+#include <utility>
 
 #include "mesher/delaunay/delaunay_patch.hpp"
 #include "mesher/delaunay/restore/star_halo.hpp"
@@ -41,32 +42,18 @@ class RegionTriangulation {
 
  private:
   using Triangle = DelaunayPatch::Triangle;
-  using Edge = std::array<std::int32_t, 2>;
   /// What triangles in some slots of the patch were, and what they are now; the smallest node first.
   struct Changes {
     std::vector<std::pair<Triangle, FreedTriangle>> before;
     std::vector<std::pair<Triangle, std::int32_t>> after;  ///< with their blocks
   };
 
-  void gather_nodes(const StarHalo& halo);
   Changes flip(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of);
-  DelaunayPatch make_patch(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) const;
-  Changes find_changes(const StarHalo& halo, const DelaunayPatch& patch) const;
+  static bool is_uncertain(const StarHalo& halo, const DelaunayPatch& patch);
+  Changes find_changes(const StarHalo& halo, const DelaunayPatch& patch);
   void compare(const StarHalo& halo, const Changes& changes);
-  Point centroid(const Triangle& nodes) const;
-  void find_outgrown();
-  std::vector<Edge> outer_edges() const;
 
-  GlobalNodeId number_of(std::int32_t node) const { return numbers_[node]; }
-  bool is_core(std::int32_t node) const { return core_[node] != 0; }
-
-  std::vector<GlobalNodeId> numbers_;  ///< of the nodes at hand, ascending
-  std::vector<Point> points_;          ///< of each
-  std::vector<char> core_, moved_;     ///< of each
-  std::vector<Triangle> triangles_;    ///< at hand, before any flip
-  std::vector<std::int32_t> blocks_;   ///< of each; flips do not change them
   bool uncertain_ = false;
-  std::vector<Triangle> new_triangles_;  ///< this rank's concern
   std::vector<MadeTriangle> made_;
   std::vector<FreedTriangle> freed_;
   std::vector<GlobalNodeId> outgrown_;

@@ -6,7 +6,6 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/delaunay/restore/region_triangulation.hpp"
-#include "mesher/delaunay/restore/wrong_edges.hpp"
 #include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
@@ -29,11 +28,7 @@ std::vector<GlobalNodeId> nodes_around(const Mesh& mesh, const NodeFlags& flags)
   return nodes;
 }
 
-/// What is known of a mesh's triangles and nodes, each for all of them or for none.
-struct Known {
-  const std::vector<std::int32_t>& triangle_to_block;
-  const NodeFlags& moved;  ///< since the mesh was Delaunay
-};
+using Known = StarHalo::Known;
 
 /// The triangles around core nodes: no edge from one of these is at the border of the region, but for edges
 /// of the mesh's boundaries.
@@ -45,7 +40,6 @@ class Region {
         known_{known},
         owners_(comm, mesh.first_node),
         exchange_(comm, owners_, mesh.owned_nodes, mesh.copies),
-        first_triangle_{comm.exclusive_sum(std::ssize(mesh.triangles))},
         core_(mesh.points.size(), 0) {}
 
   /// Makes nodes core; every rank may name any. *Collective.*
@@ -56,7 +50,7 @@ class Region {
 
   /// *Collective.*
   RegionTriangulation triangulate(const std::function<TieRank(Point)>& rank_of) const {
-    StarHalo halo(comm_, owners_, own_triangles());
+    StarHalo halo(comm_, owners_, mesh_, core_, known_);
     for (int ring = 0; ring < first_rings; ++ring) halo.grow(true);
     std::optional<RegionTriangulation> triangulation(std::in_place, halo, rank_of);
     while (comm_.any(triangulation->uncertain())) {
@@ -68,37 +62,11 @@ class Region {
   }
 
  private:
-  std::vector<NumberedTriangle> own_triangles() const {
-    const auto has_core = [&](const auto& nodes) {
-      return std::any_of(nodes.begin(), nodes.end(), [&](NodeId node) { return core_[node] != 0; });
-    };
-    std::vector<NumberedTriangle> triangles;
-    triangles.reserve(std::count_if(mesh_.triangles.begin(), mesh_.triangles.end(), has_core));
-    for (std::int64_t i = 0; i < std::ssize(mesh_.triangles); ++i) {
-      if (has_core(mesh_.triangles[i])) triangles.push_back(numbered(i));
-    }
-    return triangles;
-  }
-
-  NumberedTriangle numbered(std::int64_t i) const {
-    const auto& blocks = known_.triangle_to_block;
-    NumberedTriangle t{first_triangle_ + i, {}, {}, blocks.empty() ? 0 : blocks[i], {}, {}};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const NodeId node = mesh_.triangles[i][k];
-      t.nodes[k] = mesh_.global(node);
-      t.points[k] = mesh_.point(node);
-      t.core[k] = core_[node];
-      t.moved[k] = known_.moved.empty() ? 1 : known_.moved[node];
-    }
-    return t;
-  }
-
   const Communicator& comm_;
   const Mesh& mesh_;
   Known known_;
   NodeOwners owners_;
   NodeExchange exchange_;
-  std::int64_t first_triangle_;
   NodeFlags core_;
 };
 
@@ -187,7 +155,6 @@ std::optional<RegionTriangulation> changed_region(const Communicator& comm, cons
                    "a block for each triangle, or none");
   std::optional<RegionTriangulation> triangulation;
   if (!comm.any(!nodes.empty())) return triangulation;
-  nodes = nodes_of_wrong_edges(comm, mesh, nodes, known.moved, rank_of);
   Region region(comm, mesh, known);
   do {
     region.add(nodes);

@@ -6,64 +6,91 @@
 #include <unordered_set>
 #include <vector>
 
-#include "mesher/geometry/point.hpp"
+#include "mesher/delaunay/flipper.hpp"
+#include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/node_exchange.hpp"
+#include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
 
-/// A triangle by its number over all ranks, with its nodes by theirs.
-struct NumberedTriangle {
-  std::int64_t number = 0;
-  std::array<GlobalNodeId, 3> nodes;
-  std::array<Point, 3> points;
-  std::int32_t block = 0;
-  std::array<char, 3> core{};  ///< a flag for each node: no triangle around it is missing from the region
-  std::array<char, 3> moved{1, 1, 1};  ///< 0 for a node around which all were Delaunay, and which has stayed
-};
-
 /// The triangles of a region, which all ranks hold together, around the nodes that this rank owns; then those
 /// around their nodes, ring by ring. Owners of nodes know all triangles around them, wherever these are kept,
-/// so that it works on any distributed mesh.
+/// so that it works on any distributed mesh. Nodes go by the mesh's numbers on this rank, those that it lacks
+/// by further ones.
 class StarHalo {
  public:
-  /// `own` are the triangles of the region that this rank keeps; `owners` must outlive the halo.
-  /// *Collective.*
-  StarHalo(const Communicator& comm, const NodeOwners& owners, std::vector<NumberedTriangle> own);
+  using Triangle = Flipper::Triangle;
+
+  /// What is known of a mesh's triangles and nodes, each for all of them or for none.
+  struct Known {
+    const std::vector<std::int32_t>& triangle_to_block;
+    const NodeFlags& moved;  ///< since the mesh was Delaunay; owned nodes and copies
+  };
+  /// The region is the triangles around `core` nodes; owned nodes and copies are flagged. Mesh, owners and
+  /// what is known must outlive the halo. *Collective.*
+  StarHalo(const Communicator& comm, const NodeOwners& owners, const Mesh& mesh, const NodeFlags& core,
+           const Known& known);
+  StarHalo(const StarHalo&) = delete;
+  StarHalo& operator=(const StarHalo&) = delete;
 
   /// Fetches the triangles around all nodes of those at hand, on ranks that want it. *Collective.*
   void grow(bool wanted);
 
   /// Those around owned nodes first.
-  std::span<const NumberedTriangle> triangles() const { return triangles_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// Of a triangle over all ranks.
+  std::int64_t number(std::size_t triangle) const { return numbers_[triangle]; }
+  /// A block for each triangle, or none.
+  const std::vector<std::int32_t>& blocks() const { return blocks_; }
   /// Whether triangles of the region beyond one of its edges may not have been fetched.
-  bool at_rim(const NumberedTriangle& triangle) const;
+  bool at_rim(std::size_t triangle) const;
   /// Whether no triangle around any node at hand is missing.
   bool complete() const { return frontier_.empty(); }
 
-  /// Of an owned node.
-  NodeId local(GlobalNodeId node) const { return owners_.local(node); }
-  bool owns(GlobalNodeId node) const { return owners_.rank_of(node) == comm_.rank(); }
+  std::span<const Point> points() const { return points_; }
+  bool owns(std::int32_t node) const { return mesh_.owns(NodeId{node}); }
+  GlobalNodeId global(std::int32_t node) const {
+    return owns(node) ? mesh_.global(NodeId{node}) : copies_[node - mesh_.owned_nodes];
+  }
+  /// Whether no triangle around the node is missing from the region.
+  bool is_core(std::int32_t node) const { return core_[NodeId{node}] != 0; }
+  /// A flag for each node, or none where all may have moved.
+  std::span<const char> moved() const { return moved_; }
 
  private:
-  /// A triangle around an owned node.
-  struct Spoke {
-    GlobalNodeId node;
-    std::size_t triangle = 0;
-    friend auto operator<=>(const Spoke&, const Spoke&) = default;
+  /// A triangle on its way, with what is known of its nodes.
+  struct Travelling {
+    std::int64_t number = 0;
+    std::array<GlobalNodeId, 3> nodes;
+    std::array<Point, 3> points;
+    std::int32_t block = 0;
+    std::array<char, 3> core{}, moved{};
   };
-  bool known(GlobalNodeId node) const { return owns(node) || fetched_.contains(node); }
-  void gather_stars(std::span<const NumberedTriangle> own);
-  void list_spokes();
-  void add(const NumberedTriangle& triangle);
-  std::vector<NumberedTriangle> around(std::span<const GlobalNodeId> nodes) const;
+  enum class Star : char { unknown, missing, here };  ///< the triangles around a node of another rank
+
+  void gather_stars();
+  void share(const Triangle& nodes, std::int64_t number, std::int32_t block, Outbox<Travelling>& to_owners);
+  void add(const Triangle& nodes, std::int64_t number, std::int32_t block);
+  void add(const Travelling& triangle);
+  Travelling travelling(const Triangle& nodes, std::int64_t number, std::int32_t block) const;
+  void answer(int rank, std::span<const GlobalNodeId> nodes, Outbox<Travelling>& answers) const;
+  bool has_owned(const Triangle& t) const { return owns(t[0]) || owns(t[1]) || owns(t[2]); }
+  bool is_known(std::int32_t node) const { return owns(node) || stars_[NodeId{node}] == Star::here; }
 
   const Communicator& comm_;
   const NodeOwners& owners_;
-  std::vector<NumberedTriangle> triangles_;
-  std::vector<Spoke> spokes_;                  ///< sorted; none on a rank that is alone
-  std::unordered_set<std::int64_t> numbers_;   ///< of the triangles at hand
-  std::unordered_set<GlobalNodeId> fetched_;   ///< other ranks' nodes around which all triangles are at hand
-  std::unordered_set<GlobalNodeId> frontier_;  ///< other nodes of the triangles at hand
+  const Mesh& mesh_;
+  const Known known_;
+  std::vector<Point> points_;
+  std::vector<GlobalNodeId> copies_;  ///< the nodes that others own
+  NodeTable table_;
+  NodeFlags core_, moved_;
+  IdVector<NodeId, Star> stars_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::int64_t> numbers_;
+  std::vector<std::int32_t> blocks_;
+  std::vector<std::int32_t> frontier_;        ///< nodes of others whose triangles are not here
+  std::unordered_set<std::int64_t> fetched_;  ///< triangles without owned nodes, by their numbers
 };
 
 }  // namespace quadloop
