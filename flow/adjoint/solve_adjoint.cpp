@@ -1,6 +1,6 @@
 #include "flow/adjoint/solve_adjoint.hpp"
 
-#include "flow/adjoint/krylov.hpp"
+#include "flow/euler/implicit/krylov.hpp"
 #include "flow/euler/implicit/implicit_system.hpp"
 #include "flow/euler/scheme/dual_number.hpp"
 

@@ -7,7 +7,10 @@
 #include "flow/euler/flow_run.hpp"
 #include "flow/euler/implicit/implicit_system.hpp"
 #include "flow/euler/mirrored_states.hpp"
+#include "flow/euler/newton_pilot.hpp"
+#include "flow/euler/newton_step.hpp"
 #include "flow/euler/residual_watch.hpp"
+#include "flow/euler/state_update.hpp"
 #include "flow/euler/step_shares.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -19,31 +22,13 @@ namespace {
 
 /// Of a step's linear system: fewer leave waves in a far field of many cells long under way.
 constexpr int sweeps = 40;
-constexpr double largest_cfl = 1000;    ///< first-order matrices do not bear out more
-constexpr double growth = 0.75;         ///< the CFL number grows as the residual falls, to this power
-constexpr double largest_share = 0.25;  ///< of its density or pressure that a node may gain or lose in a step
-constexpr double blown_up = 1000;       ///< a relative residual that no sound start reaches
-constexpr double exploding = 20;        ///< one that hardly any sound start reaches
-constexpr int most_retries = 8;         ///< after a flow blew up
+constexpr double largest_cfl = 1000;  ///< first-order matrices do not bear out more
+constexpr double growth = 0.75;       ///< the CFL number grows as the residual falls, to this power
+constexpr double blown_up = 1000;     ///< a relative residual that no sound start reaches
+constexpr double exploding = 20;      ///< one that hardly any sound start reaches
+constexpr int most_retries = 8;       ///< after a flow blew up
 /// After the residual rose: a flow that has no steady state may swing as it likes then.
 constexpr int most_returns = 8;
-
-/// The change, made smaller where it would take too much of a node's density or pressure.
-State updated(const Gas& gas, const State& state, const Change& change) {
-  const auto& [rho, u, v, p] = state;
-  const std::array<double, 4> d{change[0], change[1], change[2], change[3]};
-  const double d_pressure = (gas.gamma - 1) * (0.5 * (u * u + v * v) * d[0] - u * d[1] - v * d[2] + d[3]);
-  const double relative = std::max(std::abs(d[0]) / rho, std::abs(d_pressure) / p);
-  double share = relative > largest_share ? largest_share / relative : 1;
-  const Conserved w = gas.conserved(state);
-  for (int attempt = 0; attempt < 10; ++attempt) {
-    const State next = gas.state({w.mass + share * d[0], w.x_momentum + share * d[1],
-                                  w.y_momentum + share * d[2], w.energy + share * d[3]});
-    if (next[0] > 0.5 * rho && next[3] > 0.5 * p) return next;
-    share *= 0.5;
-  }
-  return state;
-}
 
 class SteadyMarch {
  public:
@@ -75,7 +60,12 @@ class SteadyMarch {
           std::min(largest_cfl, run_.options.cfl * std::max(1.0, std::pow(result_.residual, -growth)));
       if (ends) return finish(cfl);
       report(run_, result_, cfl, false);
-      step(fluxes, cfl);
+      if (pilot_.tries(result_.residual)) {
+        newton_step(fluxes, cfl);
+      } else {
+        step(fluxes, cfl);
+      }
+      ++result_.iterations;
     }
   }
 
@@ -130,6 +120,8 @@ class SteadyMarch {
     if (stall_.stalls(result_.residual) && run_.residual.limiter_is_live()) {
       keep_limiter();
       tell("the limiter's factors are kept from here on");
+    } else if (stall_.rests()) {
+      pilot_.call();
     }
     return false;
   }
@@ -171,8 +163,15 @@ class SteadyMarch {
     shares_.follow(change_);
     const std::size_t owned = run_.mesh.owned_nodes();
     for (std::size_t node = 0; node < owned; ++node)
-      run_.states[node] = updated(run_.model.gas, run_.states[node], change_[node]);
-    ++result_.iterations;
+      run_.states[node] = updated(run_.model.gas, run_.states[node],
+                                  {change_[node][0], change_[node][1], change_[node][2], change_[node][3]});
+  }
+
+  void newton_step(const std::vector<Flux>& fluxes, double cfl) {
+    if (!newton_) newton_.emplace(run_, system_);
+    const NewtonStep::Taken taken = newton_->take(fluxes, pilot_.cfl(cfl), shares_.shares());
+    pilot_.learn(taken.share, taken.left_over);
+    tell(fmt::format("newton share {} left {} res {}", taken.share, taken.left_over, result_.residual));
   }
 
   FlowRun run_;
@@ -181,6 +180,8 @@ class SteadyMarch {
   StepShares shares_;
   FarField far_field_;
   EulerResult result_;
+  std::optional<NewtonStep> newton_;
+  NewtonPilot pilot_;
   StallWatch stall_;
   RiseWatch rise_;
   CflLimit limit_;

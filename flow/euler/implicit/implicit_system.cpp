@@ -63,7 +63,8 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
       inverses_(mesh.owned_nodes()),
       skewness_(mesh.edges().size(), 0.0),
       wave_sums_(mesh.nodes()),
-      line_sums_(mesh.nodes()) {
+      line_sums_(mesh.nodes()),
+      time_terms_(mesh.owned_nodes()) {
   held_ = no_slip_.held_rows(mesh.nodes());
   order_rows();
   place_edges(lay_out_rows());
@@ -205,6 +206,7 @@ void ImplicitSystem::add_time_terms(double cfl, const std::vector<double>& share
   for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
     double area_over_step = wave_sums_[node] / (cfl * shares[node]);
     if (line_sums_[node] > 0) area_over_step += line_sums_[node] / (along * shares[node]);
+    time_terms_[node] = area_over_step;
     for (std::size_t k = 0; k < 4; ++k) diagonal_[node][5 * k] += area_over_step;
   }
 }

@@ -31,6 +31,9 @@ class ImplicitSystem {
   /// the owned node's share.
   void assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares);
 
+  /// Of each owned node as assembled: area over time step.
+  const std::vector<double>& time_terms() const { return time_terms_; }
+
   /// That many sweeps, every second one through the colours backwards, from zero. `change` has an entry for
   /// each node. *Collective.*
   void relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change);
@@ -77,6 +80,7 @@ class ImplicitSystem {
   /// Of each node: half the sum of largest wave speed times size over its faces.
   std::vector<double> wave_sums_;
   std::vector<double> line_sums_;  ///< the same along lines
+  std::vector<double> time_terms_;
 };
 
 }  // namespace quadloop::euler

@@ -1,4 +1,4 @@
-#include "flow/adjoint/krylov.hpp"
+#include "flow/euler/implicit/krylov.hpp"
 
 #include <algorithm>
 #include <cmath>
