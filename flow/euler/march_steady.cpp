@@ -158,7 +158,7 @@ class SteadyMarch {
   }
 
   void step(const std::vector<Flux>& fluxes, double cfl) {
-    system_.assemble(run_.states, cfl, shares_.shares());
+    system_.assemble(run_.states, cfl, shares_.shares(), run_.residual.shocks());
     system_.relax(fluxes, sweeps, change_);
     shares_.follow(change_);
     const std::size_t owned = run_.mesh.owned_nodes();

@@ -32,7 +32,7 @@ NewtonStep::Taken NewtonStep::take(const std::vector<Flux>& fluxes, double cfl,
                                    const std::vector<double>& shares) {
   std::copy_n(fluxes.begin(), residual_.size(), residual_.begin());
   start_ = run_.states;
-  system_.assemble(start_, cfl, shares);
+  system_.assemble(start_, cfl, shares, run_.residual.shocks());
   const double size = norm(residual_), left_over = solve();
   double share = 1;
   for (int attempt = 0; attempt < most_halvings; ++attempt, share *= 0.5) {

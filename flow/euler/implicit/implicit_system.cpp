@@ -130,11 +130,11 @@ void ImplicitSystem::place_edges(std::vector<std::size_t> next) {
 }
 
 void ImplicitSystem::assemble(const std::vector<State>& states, double cfl,
-                              const std::vector<double>& shares) {
+                              const std::vector<double>& shares, const ShockSensor* shocks) {
   for (Matrix4& block : diagonal_) block = {};
   std::fill(wave_sums_.begin(), wave_sums_.end(), 0.0);
   std::fill(line_sums_.begin(), line_sums_.end(), 0.0);
-  add_edges(states);
+  add_edges(states, shocks);
   add_faces(states);
   add_time_terms(cfl, shares);
   invert_diagonal();
@@ -154,14 +154,15 @@ void ImplicitSystem::place(std::int32_t slot, std::int32_t node, std::int32_t ot
 
 /// The flux from low to high changes by (A_low + |A|) / 2 with the low state and by (A_high - |A|) / 2 with
 /// the high one.
-void ImplicitSystem::add_edges(const std::vector<State>& states) {
+void ImplicitSystem::add_edges(const std::vector<State>& states, const ShockSensor* shocks) {
   const auto edges = mesh_.edges();
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const DualEdge& edge = edges[e];
     const std::size_t low = edge.low, high = edge.high;
     Matrix4 upwind{};
-    const double half = 0.5 * edge.size, speed = add_upwind_matrix(model_.gas, states[low], states[high],
-                                                                   edge.normal, half, upwind, skewness_[e]);
+    const double half = 0.5 * edge.size;
+    const double speed = add_upwind_matrix(model_.gas, states[low], states[high], edge.normal, half, upwind,
+                                           skewness_[e], shocks ? shocks->share(edge.low, edge.high) : 0);
     Matrix4 by_low = upwind, by_high{};
     add(upwind, -1, by_high);
     add_flux_matrix(model_.gas, states[low], edge.normal, half, by_low);
