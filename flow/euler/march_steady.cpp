@@ -24,6 +24,7 @@ namespace {
 constexpr int sweeps = 40;
 constexpr double largest_cfl = 1000;  ///< first-order matrices do not bear out more
 constexpr double growth = 0.75;       ///< the CFL number grows as the residual falls, to this power
+constexpr double near_end = 5e-3;     ///< a residual at which Newton steps begin
 constexpr double blown_up = 1000;     ///< a relative residual that no sound start reaches
 constexpr double exploding = 20;      ///< one that hardly any sound start reaches
 constexpr int most_retries = 8;       ///< after a flow blew up
@@ -120,21 +121,28 @@ class SteadyMarch {
     if (stall_.stalls(result_.residual) && run_.residual.limiter_is_live()) {
       keep_limiter();
       tell("the limiter's factors are kept from here on");
-    } else if (stall_.rests()) {
-      pilot_.call();
     }
+    if (stall_.rests() || frozen || result_.residual < near_end) call_newton();
     return false;
   }
 
-  /// Factors of a flow that is not its own image would leave one that is not, however far the residual falls;
-  /// sweeps in an order that no mirror keeps make it so.
-  void keep_limiter() {
+  void call_newton() {
+    if (!pilot_.is_called()) mirror();
+    pilot_.call();
+  }
+
+  /// Sweeps go in an order that no mirror keeps: a flow that is to be its own image is made so.
+  void mirror() {
     if (run_.options.mirror && !mirrored_)
       mirrored_ = MirroredStates::find(run_.comm, run_.mesh, run_.model, *run_.options.mirror);
-    if (mirrored_) {
-      mirrored_->average(run_.states);
-      run_.residual.evaluate(run_.states);
-    }
+    if (!mirrored_) return;
+    mirrored_->average(run_.states);
+    run_.residual.evaluate(run_.states);
+  }
+
+  /// Factors of a flow that is not its own image would leave one that is not, however far the residual falls.
+  void keep_limiter() {
+    mirror();
     run_.residual.freeze_limiter();
     shares_.restart();
   }
@@ -171,7 +179,6 @@ class SteadyMarch {
     if (!newton_) newton_.emplace(run_, system_);
     const NewtonStep::Taken taken = newton_->take(fluxes, pilot_.cfl(cfl), shares_.shares());
     pilot_.learn(taken.share, taken.left_over);
-    tell(fmt::format("newton share {} left {} res {}", taken.share, taken.left_over, result_.residual));
   }
 
   FlowRun run_;

@@ -11,7 +11,7 @@ namespace quadloop::euler {
 namespace {
 
 constexpr int directions = 40;  ///< 64 bytes each for a node: 2.5 kB
-constexpr double linear_tolerance = 0.2;
+constexpr double linear_tolerance = 0.1;
 constexpr int sweeps = 30;      ///< of the preconditioner
 constexpr double nudge = 1e-6;  ///< the largest entry of the difference that a derivative is taken from
 constexpr int most_halvings = 5;

@@ -1,4 +1,4 @@
-// Newton steps near a steady flow, and what becomes of one that has none.
+// Newton steps near a steady flow, and when they are tried.
 #include "flow/euler/newton_step.hpp"
 
 #include <gtest/gtest.h>
@@ -84,6 +84,14 @@ TEST(StateUpdate, KeepsDensityAndPressureFromVanishing) {
   const State large = updated(gas, state, {-5, 0, 0, -5});
   EXPECT_GE(large[0], 0.75 - 1e-12);
   EXPECT_GT(large[3], 0.5 * state[3]);
+}
+
+TEST(StateUpdate, LetsANodeLeaveAVacuum) {
+  const Gas gas;
+  const State thin{1e-6, 0, 0, 1e-12};
+  const State filled = updated(gas, thin, {0.02, 0, 0, 0.01});
+  EXPECT_GT(filled[0], 0.01);
+  EXPECT_GT(filled[3], 1e-3);
 }
 
 }  // namespace
