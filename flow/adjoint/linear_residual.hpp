@@ -11,8 +11,8 @@
 namespace quadloop::euler {
 
 /// The derivative of the residual by the states (density, velocity, pressure) of a flow without viscosity: of
-/// the whole second-order scheme, its fluxes' by the same functions in dual numbers. The limiter and the shock
-/// sensor are differentiated too, or are constants where their factors are kept, as Residual has it.
+/// the whole second-order scheme, its fluxes' by the same functions in dual numbers. The limiter and the
+/// shock sensor are differentiated too, or are constants where their factors are kept, as Residual has it.
 class LinearResidual {
  public:
   /// At the run's states, where the residual is evaluated once more. What the run refers to must outlive it.

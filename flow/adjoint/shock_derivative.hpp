@@ -20,8 +20,8 @@ class ShockDerivative {
   /// The changes of shares, of all nodes; those of states must have copies. *Collective.*
   std::vector<double> apply(const std::vector<State>& change) const;
 
-  /// The transpose: adds what weights of the owned nodes' shares make of the states to the owned nodes' `sums`.
-  /// *Collective.*
+  /// The transpose: adds what weights of the owned nodes' shares make of the states to the owned nodes'
+  /// `sums`. *Collective.*
   void add_transposed(const std::vector<double>& weights, std::vector<State>& sums) const;
 
  private:

@@ -1,7 +1,7 @@
 #include "flow/adjoint/solve_adjoint.hpp"
 
-#include "flow/euler/implicit/krylov.hpp"
 #include "flow/euler/implicit/implicit_system.hpp"
+#include "flow/euler/implicit/krylov.hpp"
 #include "flow/euler/scheme/dual_number.hpp"
 
 namespace quadloop::euler {

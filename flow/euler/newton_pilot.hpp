@@ -7,8 +7,8 @@
 namespace quadloop::euler {
 
 /// When a steady run tries Newton steps, and with what CFL number: once they are called for, with one that
-/// grows threefold as long as whole steps lower the residual and their linear systems are solved. Where shocks
-/// still move they fail; then plain steps follow, more after each failure.
+/// grows threefold as long as whole steps lower the residual and their linear systems are solved. Where
+/// shocks still move they fail; then plain steps follow, more after each failure.
 class NewtonPilot {
  public:
   /// Whether the next step is to be one.

@@ -21,7 +21,8 @@ double relative_change(double change, double value, double least) {
 State updated(const Gas& gas, const State& state, const std::array<double, 4>& d) {
   const auto& [rho, u, v, p] = state;
   const double d_pressure = (gas.gamma - 1) * (0.5 * (u * u + v * v) * d[0] - u * d[1] - v * d[2] + d[3]);
-  const double relative = std::max(relative_change(d[0], rho, small), relative_change(d_pressure, p, small / gas.gamma));
+  const double relative =
+      std::max(relative_change(d[0], rho, small), relative_change(d_pressure, p, small / gas.gamma));
   double share = relative > largest_share ? largest_share / relative : 1;
   const Conserved w = gas.conserved(state);
   for (int attempt = 0; attempt < 10; ++attempt) {

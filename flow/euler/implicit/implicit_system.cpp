@@ -129,8 +129,8 @@ void ImplicitSystem::place_edges(std::vector<std::size_t> next) {
     slots_.push_back({take(edge.low, edge.high), take(edge.high, edge.low)});
 }
 
-void ImplicitSystem::assemble(const std::vector<State>& states, double cfl,
-                              const std::vector<double>& shares, const ShockSensor* shocks) {
+void ImplicitSystem::assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares,
+                              const ShockSensor* shocks) {
   for (Matrix4& block : diagonal_) block = {};
   std::fill(wave_sums_.begin(), wave_sums_.end(), 0.0);
   std::fill(line_sums_.begin(), line_sums_.end(), 0.0);

@@ -17,7 +17,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity(),
 class Gmres {
  public:
   Gmres(const Communicator& comm, const KrylovSystem& system, int steps)
-      : comm_{comm}, system_{system}, steps_{steps}, nodes_{comm.sum(static_cast<std::int64_t>(system.owned))} {}
+      : comm_{comm},
+        system_{system},
+        steps_{steps},
+        nodes_{comm.sum(static_cast<std::int64_t>(system.owned))} {}
 
   double dot(const NodeRows& a, const NodeRows& b) const {
     std::vector<double> terms(system_.owned);
@@ -64,18 +67,21 @@ class Gmres {
   Column products(const NodeRows& a) const {
     double largest = 0;
     for (std::size_t i = 0; i < system_.owned; ++i) {
-      for (const double value : a[i]) largest = std::isfinite(value) ? std::max(largest, std::abs(value)) : infinity;
+      for (const double value : a[i])
+        largest = std::isfinite(value) ? std::max(largest, std::abs(value)) : infinity;
       if (largest == infinity) break;
     }
     largest = comm_.maximum(largest);
-    if (largest == 0 || largest == infinity) return Column(basis_.size() + 1, largest == 0 ? 0 : not_a_number);
+    if (largest == 0 || largest == infinity)
+      return Column(basis_.size() + 1, largest == 0 ? 0 : not_a_number);
     const double size = std::ldexp(1, std::ilogb(largest)), down = 1 / size;  // entries over it are below 2
     ReproducibleSums sums(basis_.size() + 1, 16, nodes_);
     for (std::size_t j = 0; j <= basis_.size(); ++j) {
       const NodeRows& b = j < basis_.size() ? basis_[j] : a;
       const double scale = j < basis_.size() ? down : down * down;
       for (std::size_t i = 0; i < system_.owned; ++i)
-        sums.add(j, scale * (a[i][0] * b[i][0] + a[i][1] * b[i][1] + (a[i][2] * b[i][2] + a[i][3] * b[i][3])));
+        sums.add(j,
+                 scale * (a[i][0] * b[i][0] + a[i][1] * b[i][1] + (a[i][2] * b[i][2] + a[i][3] * b[i][3])));
     }
     Column found = sums.over(comm_);
     for (double& value : found) value *= size;

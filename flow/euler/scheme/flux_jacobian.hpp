@@ -58,8 +58,7 @@ inline WaveSpeeds steadying_speeds(double along, double sound) {
 /// wave, which answers for it where the flow crosses the edge slowly, is made larger by that much of the
 /// flow's speed. `shock_share` is the flux's.
 inline double add_upwind_matrix(const Gas& gas, const State& left, const State& right, Point normal,
-                                double factor, Matrix4& sum, double skewness = 0,
-                                double shock_share = 0) {
+                                double factor, Matrix4& sum, double skewness = 0, double shock_share = 0) {
   const RoeAverage mean = roe_average(gas, left, right);
   const double along = mean.x_velocity * normal.x + mean.y_velocity * normal.y, sound = mean.sound;
   WaveSpeeds waves = steadying_speeds(along, sound);

@@ -28,8 +28,8 @@ Real shock_share(const Real& jump) {
 /// Where strong shocks stand. Roe's flux lets a shock that lies along cells break up (the carbuncle, Quirk
 /// 1994): nothing damps what varies along it. At nodes with a strong pressure jump to a neighbour the middle
 /// wave of all their edges becomes as fast as sound, so that the flux turns into that of Harten, Lax and van
-/// Leer with Einfeldt's speeds (1988), which is free of this; most other edges know nothing of it. Shocks of a
-/// normal Mach number below some 1.3, which spread over two or three edges, do not count.
+/// Leer with Einfeldt's speeds (1988), which is free of this; most other edges know nothing of it. Shocks of
+/// a normal Mach number below some 1.3, which spread over two or three edges, do not count.
 class ShockSensor {
  public:
   /// The mesh must outlive the sensor. Jumps count relative to no less than that pressure.

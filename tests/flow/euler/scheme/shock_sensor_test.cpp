@@ -51,8 +51,9 @@ TEST(ShockSensor, FindsNodesBesideAJumpUntilItIsKept) {
   EXPECT_EQ(kept, 1);
 }
 
-/// Through a face along the flow, between states that differ in density and in the speed along the face alone,
-/// Roe's flux carries next to nothing; with the whole share what the flux of Harten, Lax and van Leer does.
+/// Through a face along the flow, between states that differ in density and in the speed along the face
+/// alone, Roe's flux carries next to nothing; with the whole share what the flux of Harten, Lax and van Leer
+/// does.
 TEST(RoeFlux, BesideAShockDampsWhatVariesAlongIt) {
   const Gas gas;
   const State left{1, 2, 0, 1 / 1.4}, right{1.2, 1.5, 0, 1 / 1.4};
