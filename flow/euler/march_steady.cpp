@@ -54,6 +54,7 @@ class SteadyMarch {
         give_up_or_retry(fluxes);
         continue;
       }
+      if (result_.converged && becomes_image()) continue;
       const bool ends = result_.converged || result_.iterations >= run_.options.iterations;
       if (!ends && watch()) continue;
       const double cfl =
@@ -67,6 +68,7 @@ class SteadyMarch {
         step(fluxes, cfl);
       }
       ++result_.iterations;
+      is_stepped_ = true;
     }
   }
 
@@ -124,6 +126,15 @@ class SteadyMarch {
     }
     if (stall_.rests() || frozen || result_.residual < near_end) call_newton();
     return false;
+  }
+
+  /// Steps leave a flow that is its own image but for what the tolerance bears. Tells whether that was mended,
+  /// once after each step.
+  bool becomes_image() {
+    if (!is_stepped_) return false;
+    is_stepped_ = false;
+    mirror();
+    return mirrored_.has_value();
   }
 
   void call_newton() {
@@ -197,6 +208,7 @@ class SteadyMarch {
   std::vector<State> best_states_;
   double reference_ = 0, zero_ = 0;  ///< mass residuals: that which the tolerance is relative to; rounding
   int retries_ = 0, returns_ = 0;
+  bool is_stepped_ = false;
 };
 
 }  // namespace
