@@ -128,8 +128,8 @@ class SteadyMarch {
     return false;
   }
 
-  /// Steps leave a flow that is its own image but for what the tolerance bears. Tells whether that was mended,
-  /// once after each step.
+  /// Steps leave a flow that is its own image but for what the tolerance bears. Tells whether that was
+  /// mended, once after each step.
   bool becomes_image() {
     if (!is_stepped_) return false;
     is_stepped_ = false;
