@@ -76,7 +76,8 @@ class CellParts {
     const std::vector<Gradient>& gradients = run_.residual.gradients();
     const DualEdge edge{a, b, normal, size, 0.5 * (to - from)};
     const EdgeStates ends = states_at_middle(edge, run_.states, gradients);
-    const Flux flux = roe_flux(run_.model.gas, ends.left, ends.right, normal);
+    const Flux flux =
+        roe_flux(run_.model.gas, ends.left, ends.right, normal, run_.residual.shock_share(a, b));
     if (!is_quad) return sum_of(size, flux, 0, flux);
     const Point along = to - from;
     const SkewEdge skew{0, 0.5 * across.x * turned(across) + along.x / 24 * turned(along),

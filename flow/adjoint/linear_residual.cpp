@@ -72,17 +72,28 @@ LinearResidual::LinearResidual(const FlowRun& run) : run_{run} {
     run.residual.least_squares().compute(run.states, gradients);
     limiter_.emplace(run.mesh, *limiter, run.states, std::move(gradients));
   }
+  if (const ShockSensor* const shocks = run.residual.shocks()) {
+    shocks_.emplace(run.comm, run.mesh, *shocks, run.states);
+    if (!shocks_->acts()) shocks_.reset();
+  }
   differentiate_edges();
   differentiate_skew();
   differentiate_faces();
 }
 
 void LinearResidual::differentiate_edges() {
-  using Dual = DualNumber<8>;
+  using Dual = DualNumber<9>;
+  const Residual& residual = run_.residual;
   for (const DualEdge& edge : run_.mesh.edges()) {
-    const auto [left, right, reconstructed] = states_at_middle(edge, run_.states, run_.residual.gradients());
-    const FluxOf<Dual> flux =
-        roe_flux(run_.model.gas, as_variables<Dual>(left, 0), as_variables<Dual>(right, 4), edge.normal);
+    const auto [left, right, reconstructed] = states_at_middle(edge, run_.states, residual.gradients());
+    const double share = residual.shock_share(edge.low, edge.high);
+    const FluxOf<Dual> flux = roe_flux(run_.model.gas, as_variables<Dual>(left, 0),
+                                       as_variables<Dual>(right, 4), edge.normal, Dual::variable(share, 8));
+    if (shocks_ && share > 0) {
+      ShockPart part{edges_.size(), residual.shocks()->decider(edge.low, edge.high), {}};
+      for (std::size_t k = 0; k < 4; ++k) part.by_share[k] = edge.size * flux[k].slopes[8];
+      shock_edges_.push_back(part);
+    }
     edges_.push_back({slopes(flux, 0, edge.size), slopes(flux, 4, edge.size), reconstructed});
   }
 }
@@ -122,6 +133,7 @@ void LinearResidual::apply(std::vector<State>& change, std::vector<Flux>& sums) 
   run_.mesh.exchange().update(gradients);
   sums.assign(run_.mesh.nodes(), {});
   apply_edges(change, gradients, sums);
+  if (shocks_) apply_shocks(change, sums);
   apply_faces(change, sums);
 }
 
@@ -153,6 +165,15 @@ void LinearResidual::apply_edges(const std::vector<State>& change, const std::ve
   }
 }
 
+void LinearResidual::apply_shocks(const std::vector<State>& change, std::vector<Flux>& sums) const {
+  const std::vector<double> shares = shocks_->apply(change);
+  for (const ShockPart& part : shock_edges_) {
+    const DualEdge& edge = run_.mesh.edges()[part.edge];
+    add(part.by_share, shares[part.node], sums[edge.low]);
+    add(part.by_share, -shares[part.node], sums[edge.high]);
+  }
+}
+
 void LinearResidual::apply_faces(const std::vector<State>& change, std::vector<Flux>& sums) const {
   const auto faces = run_.mesh.faces();
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -169,6 +190,7 @@ void LinearResidual::apply_transposed(std::vector<Flux>& weights, std::vector<St
   std::vector<Gradient> gradients(run_.mesh.nodes());
   transpose_edges(weights, sums, gradients);
   transpose_faces(weights, sums);
+  if (shocks_) transpose_shocks(weights, sums);
   if (limiter_) limiter_->apply_transposed(gradients, sums);
   run_.residual.least_squares().add_transposed(gradients, sums);
 }
@@ -210,6 +232,17 @@ void LinearResidual::transpose_edges(const std::vector<Flux>& weights, std::vect
       add(by_y, 0.5, gradients[node].y);
     }
   }
+}
+
+/// A share's weight is whole where its node is owned: all of its edges are here.
+void LinearResidual::transpose_shocks(const std::vector<Flux>& weights, std::vector<State>& sums) const {
+  std::vector<double> shares(run_.mesh.nodes());
+  for (const ShockPart& part : shock_edges_) {
+    const DualEdge& edge = run_.mesh.edges()[part.edge];
+    const Flux weight = difference(weights[edge.low], weights[edge.high]);
+    for (std::size_t k = 0; k < 4; ++k) shares[part.node] += part.by_share[k] * weight[k];
+  }
+  shocks_->add_transposed(shares, sums);
 }
 
 void LinearResidual::transpose_faces(const std::vector<Flux>& weights, std::vector<State>& sums) const {

@@ -126,7 +126,8 @@ void PlaceDerivative::add_upwind(const DualEdge& edge, FaceWeights& weights) {
   };
   const Dual size = length_of(face);
   const VectorOf<Dual> normal{face.x / size, face.y / size};
-  const FluxOf<Dual> flux = roe_flux(run_.model.gas, carried(edge.low, 1), carried(edge.high, -1), normal);
+  const FluxOf<Dual> flux = roe_flux(run_.model.gas, carried(edge.low, 1), carried(edge.high, -1), normal,
+                                     run_.residual.shock_share(edge.low, edge.high));
   const Dual term = size * product(fall(edge), flux);
   weights.normal = {term.slopes[0], term.slopes[1]};
   add_half(edge, {term.slopes[2], term.slopes[3]});

@@ -1,7 +1,7 @@
 #include "flow/adjoint/solve_adjoint.hpp"
 
-#include "flow/adjoint/krylov.hpp"
 #include "flow/euler/implicit/implicit_system.hpp"
+#include "flow/euler/implicit/krylov.hpp"
 #include "flow/euler/scheme/dual_number.hpp"
 
 namespace quadloop::euler {
@@ -48,7 +48,8 @@ Adjoint solve_adjoint(const LinearResidual& linear, const std::vector<State>& of
   const FlowRun& run = linear.run();
   const std::vector<Matrix4> matrices = states_by_conserved(run);
   ImplicitSystem first_order(run.comm, run.mesh, run.model, ImplicitSystem::Sense::transposed);
-  first_order.assemble(run.states, cfl, std::vector<double>(run.mesh.owned_nodes(), 1.0));
+  first_order.assemble(run.states, cfl, std::vector<double>(run.mesh.owned_nodes(), 1.0),
+                       run.residual.shocks());
   std::vector<Change> change(run.mesh.nodes());
   KrylovSystem system;
   system.owned = run.mesh.owned_nodes();

@@ -7,7 +7,10 @@
 #include "flow/euler/flow_run.hpp"
 #include "flow/euler/implicit/implicit_system.hpp"
 #include "flow/euler/mirrored_states.hpp"
+#include "flow/euler/newton_pilot.hpp"
+#include "flow/euler/newton_step.hpp"
 #include "flow/euler/residual_watch.hpp"
+#include "flow/euler/state_update.hpp"
 #include "flow/euler/step_shares.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -19,31 +22,14 @@ namespace {
 
 /// Of a step's linear system: fewer leave waves in a far field of many cells long under way.
 constexpr int sweeps = 40;
-constexpr double largest_cfl = 1000;    ///< first-order matrices do not bear out more
-constexpr double growth = 0.75;         ///< the CFL number grows as the residual falls, to this power
-constexpr double largest_share = 0.25;  ///< of its density or pressure that a node may gain or lose in a step
-constexpr double blown_up = 1000;       ///< a relative residual that no sound start reaches
-constexpr double exploding = 20;        ///< one that hardly any sound start reaches
-constexpr int most_retries = 8;         ///< after a flow blew up
+constexpr double largest_cfl = 1000;  ///< first-order matrices do not bear out more
+constexpr double growth = 0.75;       ///< the CFL number grows as the residual falls, to this power
+constexpr double near_end = 5e-3;     ///< a residual at which Newton steps begin
+constexpr double blown_up = 1000;     ///< a relative residual that no sound start reaches
+constexpr double exploding = 20;      ///< one that hardly any sound start reaches
+constexpr int most_retries = 8;       ///< after a flow blew up
 /// After the residual rose: a flow that has no steady state may swing as it likes then.
 constexpr int most_returns = 8;
-
-/// The change, made smaller where it would take too much of a node's density or pressure.
-State updated(const Gas& gas, const State& state, const Change& change) {
-  const auto& [rho, u, v, p] = state;
-  const std::array<double, 4> d{change[0], change[1], change[2], change[3]};
-  const double d_pressure = (gas.gamma - 1) * (0.5 * (u * u + v * v) * d[0] - u * d[1] - v * d[2] + d[3]);
-  const double relative = std::max(std::abs(d[0]) / rho, std::abs(d_pressure) / p);
-  double share = relative > largest_share ? largest_share / relative : 1;
-  const Conserved w = gas.conserved(state);
-  for (int attempt = 0; attempt < 10; ++attempt) {
-    const State next = gas.state({w.mass + share * d[0], w.x_momentum + share * d[1],
-                                  w.y_momentum + share * d[2], w.energy + share * d[3]});
-    if (next[0] > 0.5 * rho && next[3] > 0.5 * p) return next;
-    share *= 0.5;
-  }
-  return state;
-}
 
 class SteadyMarch {
  public:
@@ -68,6 +54,7 @@ class SteadyMarch {
         give_up_or_retry(fluxes);
         continue;
       }
+      if (result_.converged && becomes_image()) continue;
       const bool ends = result_.converged || result_.iterations >= run_.options.iterations;
       if (!ends && watch()) continue;
       const double cfl =
@@ -75,7 +62,13 @@ class SteadyMarch {
           std::min(largest_cfl, run_.options.cfl * std::max(1.0, std::pow(result_.residual, -growth)));
       if (ends) return finish(cfl);
       report(run_, result_, cfl, false);
-      step(fluxes, cfl);
+      if (pilot_.tries(result_.residual)) {
+        newton_step(fluxes, cfl);
+      } else {
+        step(fluxes, cfl);
+      }
+      ++result_.iterations;
+      is_stepped_ = true;
     }
   }
 
@@ -131,18 +124,36 @@ class SteadyMarch {
       keep_limiter();
       tell("the limiter's factors are kept from here on");
     }
+    if (stall_.rests() || frozen || result_.residual < near_end) call_newton();
     return false;
   }
 
-  /// Factors of a flow that is not its own image would leave one that is not, however far the residual falls;
-  /// sweeps in an order that no mirror keeps make it so.
-  void keep_limiter() {
+  /// Steps leave a flow that is its own image but for what the tolerance bears. Tells whether that was
+  /// mended, once after each step.
+  bool becomes_image() {
+    if (!is_stepped_) return false;
+    is_stepped_ = false;
+    mirror();
+    return mirrored_.has_value();
+  }
+
+  void call_newton() {
+    if (!pilot_.is_called()) mirror();
+    pilot_.call();
+  }
+
+  /// Sweeps go in an order that no mirror keeps: a flow that is to be its own image is made so.
+  void mirror() {
     if (run_.options.mirror && !mirrored_)
       mirrored_ = MirroredStates::find(run_.comm, run_.mesh, run_.model, *run_.options.mirror);
-    if (mirrored_) {
-      mirrored_->average(run_.states);
-      run_.residual.evaluate(run_.states);
-    }
+    if (!mirrored_) return;
+    mirrored_->average(run_.states);
+    run_.residual.evaluate(run_.states);
+  }
+
+  /// Factors of a flow that is not its own image would leave one that is not, however far the residual falls.
+  void keep_limiter() {
+    mirror();
     run_.residual.freeze_limiter();
     shares_.restart();
   }
@@ -166,13 +177,19 @@ class SteadyMarch {
   }
 
   void step(const std::vector<Flux>& fluxes, double cfl) {
-    system_.assemble(run_.states, cfl, shares_.shares());
+    system_.assemble(run_.states, cfl, shares_.shares(), run_.residual.shocks());
     system_.relax(fluxes, sweeps, change_);
     shares_.follow(change_);
     const std::size_t owned = run_.mesh.owned_nodes();
     for (std::size_t node = 0; node < owned; ++node)
-      run_.states[node] = updated(run_.model.gas, run_.states[node], change_[node]);
-    ++result_.iterations;
+      run_.states[node] = updated(run_.model.gas, run_.states[node],
+                                  {change_[node][0], change_[node][1], change_[node][2], change_[node][3]});
+  }
+
+  void newton_step(const std::vector<Flux>& fluxes, double cfl) {
+    if (!newton_) newton_.emplace(run_, system_);
+    const NewtonStep::Taken taken = newton_->take(fluxes, pilot_.cfl(cfl), shares_.shares());
+    pilot_.learn(taken.share, taken.left_over);
   }
 
   FlowRun run_;
@@ -181,6 +198,8 @@ class SteadyMarch {
   StepShares shares_;
   FarField far_field_;
   EulerResult result_;
+  std::optional<NewtonStep> newton_;
+  NewtonPilot pilot_;
   StallWatch stall_;
   RiseWatch rise_;
   CflLimit limit_;
@@ -189,6 +208,7 @@ class SteadyMarch {
   std::vector<State> best_states_;
   double reference_ = 0, zero_ = 0;  ///< mass residuals: that which the tolerance is relative to; rounding
   int retries_ = 0, returns_ = 0;
+  bool is_stepped_ = false;
 };
 
 }  // namespace

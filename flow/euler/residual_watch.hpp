@@ -18,6 +18,9 @@ class StallWatch {
     return (residual < developed && falls_less(30, 0.5)) || (residual < settled && falls_less(15, 0.3));
   }
 
+  /// The residual of a flow that has its shape did not halve in a hundred steps.
+  bool rests() const { return best_.back() < developed && falls_less(100, 0.5); }
+
   /// In the second half of all steps the residual did not halve: more of them are no cure.
   bool is_slow() const { return best_.size() > 60 && best_.back() > 0.5 * best_[best_.size() / 2]; }
 

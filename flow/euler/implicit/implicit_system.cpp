@@ -63,7 +63,8 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
       inverses_(mesh.owned_nodes()),
       skewness_(mesh.edges().size(), 0.0),
       wave_sums_(mesh.nodes()),
-      line_sums_(mesh.nodes()) {
+      line_sums_(mesh.nodes()),
+      time_terms_(mesh.owned_nodes()) {
   held_ = no_slip_.held_rows(mesh.nodes());
   order_rows();
   place_edges(lay_out_rows());
@@ -128,12 +129,12 @@ void ImplicitSystem::place_edges(std::vector<std::size_t> next) {
     slots_.push_back({take(edge.low, edge.high), take(edge.high, edge.low)});
 }
 
-void ImplicitSystem::assemble(const std::vector<State>& states, double cfl,
-                              const std::vector<double>& shares) {
+void ImplicitSystem::assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares,
+                              const ShockSensor* shocks) {
   for (Matrix4& block : diagonal_) block = {};
   std::fill(wave_sums_.begin(), wave_sums_.end(), 0.0);
   std::fill(line_sums_.begin(), line_sums_.end(), 0.0);
-  add_edges(states);
+  add_edges(states, shocks);
   add_faces(states);
   add_time_terms(cfl, shares);
   invert_diagonal();
@@ -153,14 +154,15 @@ void ImplicitSystem::place(std::int32_t slot, std::int32_t node, std::int32_t ot
 
 /// The flux from low to high changes by (A_low + |A|) / 2 with the low state and by (A_high - |A|) / 2 with
 /// the high one.
-void ImplicitSystem::add_edges(const std::vector<State>& states) {
+void ImplicitSystem::add_edges(const std::vector<State>& states, const ShockSensor* shocks) {
   const auto edges = mesh_.edges();
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const DualEdge& edge = edges[e];
     const std::size_t low = edge.low, high = edge.high;
     Matrix4 upwind{};
-    const double half = 0.5 * edge.size, speed = add_upwind_matrix(model_.gas, states[low], states[high],
-                                                                   edge.normal, half, upwind, skewness_[e]);
+    const double half = 0.5 * edge.size;
+    const double speed = add_upwind_matrix(model_.gas, states[low], states[high], edge.normal, half, upwind,
+                                           skewness_[e], shocks ? shocks->share(edge.low, edge.high) : 0);
     Matrix4 by_low = upwind, by_high{};
     add(upwind, -1, by_high);
     add_flux_matrix(model_.gas, states[low], edge.normal, half, by_low);
@@ -205,6 +207,7 @@ void ImplicitSystem::add_time_terms(double cfl, const std::vector<double>& share
   for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
     double area_over_step = wave_sums_[node] / (cfl * shares[node]);
     if (line_sums_[node] > 0) area_over_step += line_sums_[node] / (along * shares[node]);
+    time_terms_[node] = area_over_step;
     for (std::size_t k = 0; k < 4; ++k) diagonal_[node][5 * k] += area_over_step;
   }
 }

@@ -8,6 +8,7 @@
 #include "flow/euler/scheme/flow_model.hpp"
 #include "flow/euler/scheme/flux_jacobian.hpp"
 #include "flow/euler/scheme/no_slip.hpp"
+#include "flow/euler/scheme/shock_sensor.hpp"
 
 namespace quadloop::euler {
 
@@ -28,8 +29,12 @@ class ImplicitSystem {
                  Sense sense = Sense::forward);
 
   /// At these states, whose copies are up to date, with each node's own time step: of this CFL number times
-  /// the owned node's share.
-  void assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares);
+  /// the owned node's share. Beside shocks the fluxes are those that the sensor asks for, if there is one.
+  void assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares,
+                const ShockSensor* shocks = nullptr);
+
+  /// Of each owned node as assembled: area over time step.
+  const std::vector<double>& time_terms() const { return time_terms_; }
 
   /// That many sweeps, every second one through the colours backwards, from zero. `change` has an entry for
   /// each node. *Collective.*
@@ -49,7 +54,7 @@ class ImplicitSystem {
   void order_rows();
   std::vector<std::size_t> lay_out_rows();
   void place_edges(std::vector<std::size_t> next);
-  void add_edges(const std::vector<State>& states);
+  void add_edges(const std::vector<State>& states, const ShockSensor* shocks);
   void add_faces(const std::vector<State>& states);
   void add_time_terms(double cfl, const std::vector<double>& shares);
   void invert_diagonal();
@@ -77,6 +82,7 @@ class ImplicitSystem {
   /// Of each node: half the sum of largest wave speed times size over its faces.
   std::vector<double> wave_sums_;
   std::vector<double> line_sums_;  ///< the same along lines
+  std::vector<double> time_terms_;
 };
 
 }  // namespace quadloop::euler

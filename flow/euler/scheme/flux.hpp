@@ -40,10 +40,12 @@ using WaveSpeeds = WaveSpeedsOf<double>;
 /// An entropy fix after Harten (1983): a speed below delta becomes (speed^2 + delta^2) / (2 delta). For the
 /// sound waves delta is a fifth of |q| + c, so that no expansion shock stands at a sonic line. For the middle
 /// wave, which carries entropy and shear, it is a fiftieth: enough to damp the odd-even decay of grid-aligned
-/// shocks, and little dissipation of the slow flow near a stagnation point.
+/// shocks, and little dissipation of the slow flow near a stagnation point. Beside a strong shock it is that
+/// share of the speed of sound at least (ShockSensor).
 template <class Real = double>
 WaveSpeedsOf<Real> wave_speeds(const std::type_identity_t<Real>& along,
-                               const std::type_identity_t<Real>& sound) {
+                               const std::type_identity_t<Real>& sound,
+                               const std::type_identity_t<Real>& shock_share = 0) {
   using std::abs;
   const Real largest = abs(along) + sound;
   const auto kept = [](const Real& signed_speed, const Real& delta) {
@@ -51,7 +53,7 @@ WaveSpeedsOf<Real> wave_speeds(const std::type_identity_t<Real>& along,
     return speed < delta ? (speed * speed + delta * delta) / (2 * delta) : speed;
   };
   return {kept(along + sound, 0.2 * largest), kept(along - sound, 0.2 * largest),
-          kept(along, 0.02 * largest)};
+          std::max<Real>(kept(along, 0.02 * largest), shock_share * sound)};
 }
 
 /// The state between two states that linearises the jump from one to the other (Roe 1981).
@@ -92,14 +94,14 @@ UpwindPartOf<Real> upwind_part(const WaveSpeedsOf<Real>& waves, const std::type_
 }
 
 /// What crosses a face of length 1 with this unit normal, which points from `left` to `right` (Roe 1981). The
-/// flux of two equal states is the physical one but for rounding.
+/// flux of two equal states is the physical one but for rounding. `shock_share` is the edge's by ShockSensor.
 template <class Real = double, class Vector = Point>
 FluxOf<Real> roe_flux(const Gas& gas, const StateOf<Real>& left, const StateOf<Real>& right,
-                      const Vector& normal) {
+                      const Vector& normal, const std::type_identity_t<Real>& shock_share = 0) {
   const FluxOf<Real> of_left = physical_flux(gas, left, normal), of_right = physical_flux(gas, right, normal);
   const RoeAverageOf<Real> mean = roe_average(gas, left, right);
   const Real along = mean.x_velocity * normal.x + mean.y_velocity * normal.y;
-  const WaveSpeedsOf<Real> waves = wave_speeds<Real>(along, mean.sound);
+  const WaveSpeedsOf<Real> waves = wave_speeds<Real>(along, mean.sound, shock_share);
   const Real d_pressure = right[3] - left[3];
   const Real d_along = (right[1] - left[1]) * normal.x + (right[2] - left[2]) * normal.y;
   const UpwindPartOf<Real> part = upwind_part(waves, mean.sound, d_pressure, mean.density * d_along);

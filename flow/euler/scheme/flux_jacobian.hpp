@@ -56,12 +56,13 @@ inline WaveSpeeds steadying_speeds(double along, double sound) {
 /// The same with its eigenvalues replaced by their sizes, at the mean of two states. Returns the largest of
 /// them. `skewness` is what SkewEdge adds to an edge's flux in units of the flux along the edge; the middle
 /// wave, which answers for it where the flow crosses the edge slowly, is made larger by that much of the
-/// flow's speed.
+/// flow's speed. `shock_share` is the flux's.
 inline double add_upwind_matrix(const Gas& gas, const State& left, const State& right, Point normal,
-                                double factor, Matrix4& sum, double skewness = 0) {
+                                double factor, Matrix4& sum, double skewness = 0, double shock_share = 0) {
   const RoeAverage mean = roe_average(gas, left, right);
   const double along = mean.x_velocity * normal.x + mean.y_velocity * normal.y, sound = mean.sound;
   WaveSpeeds waves = steadying_speeds(along, sound);
+  waves.middle = std::max(waves.middle, shock_share * sound);
   waves.middle += skewness * std::sqrt(mean.x_velocity * mean.x_velocity + mean.y_velocity * mean.y_velocity);
   const UpwindPart by_pressure = upwind_part(waves, sound, 1, 0),
                    by_momentum = upwind_part(waves, sound, 0, 1);

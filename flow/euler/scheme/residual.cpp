@@ -32,16 +32,20 @@ Residual::Residual(const DualMesh& mesh, const FlowModel& model, const EulerOpti
     viscous_gradients_.resize(mesh.nodes());
     friction_.resize(mesh.nodes());
   }
-  if (options.limiter == EulerOptions::Limiter::venkatakrishnan)
+  if (options.limiter == EulerOptions::Limiter::venkatakrishnan) {
     limiter_.emplace(mesh, options.reference_length);
+    shocks_.emplace(mesh, model.free_stream[3]);
+  }
 }
 
 void Residual::freeze_limiter() {
   if (limiter_) limiter_->freeze();
+  if (shocks_) shocks_->freeze();
 }
 
 void Residual::release_limiter() {
   if (limiter_) limiter_->release();
+  if (shocks_) shocks_->release();
 }
 
 const std::vector<Flux>& Residual::evaluate(std::vector<State>& states) {
@@ -50,6 +54,7 @@ const std::vector<Flux>& Residual::evaluate(std::vector<State>& states) {
   if (model_.is_viscous()) find_viscous_gradients(states);
   if (limiter_) limiter_->apply(states, gradients_);
   mesh_.exchange().update(gradients_);
+  if (shocks_) shocks_->find(states);
   for (Flux& sum : sums_) sum = {};
   add_edges(states);
   add_skew(states);
@@ -110,7 +115,7 @@ void Residual::add_edges(const std::vector<State>& states) {
   for (const DualEdge& edge : mesh_.edges()) {
     const std::size_t low = edge.low, high = edge.high;
     const auto [left, right, reconstructed] = states_at_middle(edge, states, gradients_);
-    const Flux flux = roe_flux(model_.gas, left, right, edge.normal);
+    const Flux flux = roe_flux(model_.gas, left, right, edge.normal, shock_share(edge.low, edge.high));
     for (std::size_t k = 0; k < 4; ++k) {
       const double through = edge.size * flux[k];
       sums_[low][k] += through;

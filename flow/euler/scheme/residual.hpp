@@ -9,6 +9,7 @@
 #include "flow/euler/scheme/flux.hpp"
 #include "flow/euler/scheme/no_slip.hpp"
 #include "flow/euler/scheme/reconstruction.hpp"
+#include "flow/euler/scheme/shock_sensor.hpp"
 #include "flow/euler/scheme/viscous.hpp"
 
 namespace quadloop::euler {
@@ -32,7 +33,7 @@ class Residual {
   /// What lies beyond far fields from now on: the free stream, until it is given a vortex.
   void surround(const FarField& far_field) { far_field_ = far_field; }
 
-  /// From now on the limiter's factors stay as they are.
+  /// From now on the limiter's factors stay as they are, and so do the shock sensor's shares.
   void freeze_limiter();
   void release_limiter();
   bool limiter_is_live() const { return limiter_ && !limiter_->frozen(); }
@@ -42,6 +43,9 @@ class Residual {
   const std::vector<Gradient>& gradients() const { return gradients_; }
   const LeastSquares& least_squares() const { return least_squares_; }
   const Limiter* limiter() const { return limiter_ ? &*limiter_ : nullptr; }
+  /// There is one where there is a limiter.
+  const ShockSensor* shocks() const { return shocks_ ? &*shocks_ : nullptr; }
+  double shock_share(std::int32_t a, std::int32_t b) const { return shocks_ ? shocks_->share(a, b) : 0; }
 
  private:
   void add_edges(const std::vector<State>& states);
@@ -56,6 +60,7 @@ class Residual {
   const FlowModel& model_;
   LeastSquares least_squares_;
   std::optional<Limiter> limiter_;
+  std::optional<ShockSensor> shocks_;
   std::vector<Gradient> gradients_;
   std::vector<Flux> sums_;
   NoSlipNodes no_slip_;

@@ -12,7 +12,7 @@ namespace quadloop::test {
 
 /// States that nothing has solved for, on a mesh over all ranks, and what a residual needs.
 struct AdjointRun {
-  AdjointRun(const Communicator& comm, const Mesh& whole, EulerOptions with)
+  AdjointRun(const Communicator& comm, const Mesh& whole, EulerOptions with, double strength = 0.2)
       : mesh{scatter_mesh(comm, whole, space_filling_order(whole))},
         dual{comm, mesh},
         options{std::move(with)},
@@ -23,7 +23,7 @@ struct AdjointRun {
     for (const BoundaryEdges& boundary : mesh.boundaries) names.push_back(boundary.name);
     for (std::size_t node = 0; node < dual.nodes(); ++node) {
       const std::int64_t number = dual.global(static_cast<std::int32_t>(node)).value();
-      for (int k = 0; k < 4; ++k) states[node][k] *= 1 + 0.2 * scattered(7, number, k);
+      for (int k = 0; k < 4; ++k) states[node][k] *= 1 + strength * scattered(7, number, k);
     }
   }
 

@@ -79,6 +79,20 @@ TEST(LinearResidual, IsTheDerivativeWithTheLimiter) {
   }
 }
 
+/// Pressures of neighbours that differ up to threefold.
+TEST(LinearResidual, IsTheDerivativeBesideStrongShocks) {
+  AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options_at(2.0), 0.5);
+  const std::vector<State> direction = made.made_up(3);
+  EXPECT_LT(worst_difference(made, direction, 1e-7), 1e-6);
+  bool live = false;
+  for (std::int32_t node = 0; node < made.dual.owned_nodes(); ++node) {
+    const double share = shock_share(made.residual.shocks()->jump(node));
+    live = live || (share > 0.1 && share < 0.9);
+  }
+  EXPECT_TRUE(made.run.comm.any(live));
+  expect_transposed(made);
+}
+
 TEST(LinearResidual, IsTheDerivativeWhereFactorsAreKept) {
   AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options_at(0.8));
   made.residual.evaluate(made.states);

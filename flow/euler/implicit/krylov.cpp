@@ -1,7 +1,8 @@
-#include "flow/adjoint/krylov.hpp"
+#include "flow/euler/implicit/krylov.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
@@ -9,11 +10,17 @@ namespace quadloop::euler {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity(),
+                 not_a_number = std::numeric_limits<double>::quiet_NaN();
+
 /// One cycle between restarts.
 class Gmres {
  public:
   Gmres(const Communicator& comm, const KrylovSystem& system, int steps)
-      : comm_{comm}, system_{system}, steps_{steps} {}
+      : comm_{comm},
+        system_{system},
+        steps_{steps},
+        nodes_{comm.sum(static_cast<std::int64_t>(system.owned))} {}
 
   double dot(const NodeRows& a, const NodeRows& b) const {
     std::vector<double> terms(system_.owned);
@@ -55,17 +62,59 @@ class Gmres {
     }
   }
 
-  /// One more vector (modified Gram-Schmidt), and the rotation that keeps the columns triangular.
+  /// Products of `a` with the basis, the last with itself: in one sum over ranks. Not numbers where it is not
+  /// finite.
+  Column products(const NodeRows& a) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < system_.owned; ++i) {
+      for (const double value : a[i])
+        largest = std::isfinite(value) ? std::max(largest, std::abs(value)) : infinity;
+      if (largest == infinity) break;
+    }
+    largest = comm_.maximum(largest);
+    if (largest == 0 || largest == infinity)
+      return Column(basis_.size() + 1, largest == 0 ? 0 : not_a_number);
+    const double size = std::ldexp(1, std::ilogb(largest)), down = 1 / size;  // entries over it are below 2
+    ReproducibleSums sums(basis_.size() + 1, 16, nodes_);
+    for (std::size_t j = 0; j <= basis_.size(); ++j) {
+      const NodeRows& b = j < basis_.size() ? basis_[j] : a;
+      const double scale = j < basis_.size() ? down : down * down;
+      for (std::size_t i = 0; i < system_.owned; ++i)
+        sums.add(j,
+                 scale * (a[i][0] * b[i][0] + a[i][1] * b[i][1] + (a[i][2] * b[i][2] + a[i][3] * b[i][3])));
+    }
+    Column found = sums.over(comm_);
+    for (double& value : found) value *= size;
+    found.back() *= size;
+    return found;
+  }
+
+  /// Takes the basis out of `a`, twice, as once leaves rounding (Giraud and others 2005). Returns what was
+  /// taken and the size of what is left.
+  Column orthogonalise(NodeRows& a) const {
+    Column taken(basis_.size() + 1, 0.0);
+    double square = 0;
+    for (int pass = 0; pass < 2; ++pass) {
+      const Column found = products(a);
+      square = found.back();
+      for (std::size_t j = 0; j < basis_.size(); ++j) {
+        taken[j] += found[j];
+        square -= found[j] * found[j];
+        add(-found[j], basis_[j], a);
+      }
+    }
+    taken.back() = square > 0 ? std::sqrt(square) : square * 0;
+    return taken;
+  }
+
+  /// One more vector, and the rotation that keeps the columns triangular.
   void extend() {
     NodeRows step(basis_.back().size()), product;
     system_.precondition(basis_.back(), step);
     system_.multiply(step, product);
-    Column column;
-    for (const NodeRows& earlier : basis_) {
-      column.push_back(dot(product, earlier));
-      add(-column.back(), earlier, product);
-    }
-    const double size = norm(product);
+    Column column = orthogonalise(product);
+    const double size = column.back();
+    column.pop_back();
     for (std::size_t i = 0; i < rotations_.size(); ++i) {
       const auto [c, s] = rotations_[i];
       const double upper = column[i], lower = column[i + 1];
@@ -98,6 +147,7 @@ class Gmres {
   const Communicator& comm_;
   const KrylovSystem& system_;
   int steps_;
+  std::int64_t nodes_;  ///< over all ranks
   std::vector<NodeRows> basis_, steps_taken_;
   std::vector<Column> columns_;                   ///< of the upper triangle
   std::vector<std::array<double, 2>> rotations_;  ///< cosines and sines

@@ -1,8 +1,9 @@
-#include "flow/adjoint/krylov.hpp"
+#include "flow/euler/implicit/krylov.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/support/world.hpp"
 
@@ -48,6 +49,31 @@ TEST(Krylov, SolvesASystemThatIsNotSymmetric) {
       for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(product[i][k], right[i][k], 1e-11);
     }
   }
+}
+
+/// Of sizes that differ by a factor of 1e7: what is left over of the basis does not spoil the end.
+TEST(Krylov, SolvesABadlyScaledSystemInOneGo) {
+  KrylovSystem system = system_of_rows();
+  const auto factor = [](std::size_t i) { return std::pow(10.0, static_cast<double>(i)); };
+  system.multiply = [&](NodeRows& x, NodeRows& product) {
+    multiply(x, product);
+    for (std::size_t i = 0; i < rows; ++i) {
+      for (double& value : product[i]) value *= factor(i);
+    }
+  };
+  NodeRows x;
+  const KrylovEnd end = solve_by_gmres(test::world(), system, right_side(), x, 1e-9, 28, 28);
+  EXPECT_LE(end.residual, 1e-9);
+}
+
+TEST(Krylov, StopsAtWhatIsNoNumber) {
+  KrylovSystem system = system_of_rows();
+  system.multiply = [&](NodeRows& x, NodeRows& product) {
+    multiply(x, product);
+    if (test::world().is_root()) product[3][1] = std::numeric_limits<double>::quiet_NaN();
+  };
+  NodeRows x;
+  EXPECT_LE(solve_by_gmres(test::world(), system, right_side(), x, 1e-9, 28, 28).iterations, 1);
 }
 
 TEST(Krylov, EndsWhereItMay) {

@@ -1,0 +1,65 @@
+#include "flow/adjoint/shock_derivative.hpp"
+
+#include <utility>
+
+#include "flow/euler/scheme/dual_number.hpp"
+
+namespace quadloop::euler {
+
+ShockDerivative::ShockDerivative(const Communicator& comm, const DualMesh& mesh, const ShockSensor& sensor,
+                                 const std::vector<State>& states)
+    : mesh_{mesh}, parts_(mesh.owned_nodes()) {
+  using Dual = DualNumber<2>;
+  bool acts = false;
+  for (const DualEdge& edge : mesh.edges()) {
+    for (const auto& [node, other] : {std::pair{edge.low, edge.high}, {edge.high, edge.low}}) {
+      if (sensor.frozen() || !mesh.is_owned(node) || parts_[node].neighbour >= 0) continue;
+      const Dual jump = pressure_jump(Dual::variable(states[node][3], 0), Dual::variable(states[other][3], 1),
+                                      sensor.least_pressure());
+      if (jump.value != sensor.jump(node)) continue;
+      const Dual share = shock_share(jump);
+      parts_[node] = {share.slopes[0], share.slopes[1], other};
+      acts = acts || share.slopes[0] != 0;
+    }
+  }
+  acts_ = comm.any(acts);
+}
+
+std::vector<double> ShockDerivative::apply(const std::vector<State>& change) const {
+  std::vector<double> shares(mesh_.nodes());
+  for (std::size_t node = 0; node < parts_.size(); ++node) {
+    const Part& part = parts_[node];
+    if (part.neighbour >= 0)
+      shares[node] = part.by_own * change[node][3] + part.by_neighbour * change[part.neighbour][3];
+  }
+  mesh_.exchange().update(shares);
+  return shares;
+}
+
+namespace {
+
+/// What a node's share hands to the neighbour whose pressure decides.
+struct Handed {
+  GlobalNodeId to;
+  double weight = 0;
+};
+
+}  // namespace
+
+void ShockDerivative::add_transposed(const std::vector<double>& weights, std::vector<State>& sums) const {
+  std::vector<Handed> handed(mesh_.nodes());
+  for (std::size_t node = 0; node < parts_.size(); ++node) {
+    const Part& part = parts_[node];
+    if (part.neighbour < 0) continue;
+    sums[node][3] += part.by_own * weights[node];
+    handed[node] = {mesh_.global(part.neighbour), part.by_neighbour * weights[node]};
+  }
+  mesh_.exchange().update(handed);
+  for (const DualEdge& edge : mesh_.edges()) {
+    for (const auto& [from, to] : {std::pair{edge.low, edge.high}, {edge.high, edge.low}}) {
+      if (mesh_.is_owned(to) && handed[from].to == mesh_.global(to)) sums[to][3] += handed[from].weight;
+    }
+  }
+}
+
+}  // namespace quadloop::euler

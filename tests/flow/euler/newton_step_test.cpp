@@ -1,0 +1,98 @@
+// Newton steps near a steady flow, and when they are tried.
+#include "flow/euler/newton_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "flow/euler/newton_pilot.hpp"
+#include "flow/euler/state_update.hpp"
+#include "tests/flow/euler/flow_meshes.hpp"
+#include "tests/support/world.hpp"
+
+namespace quadloop::euler {
+namespace {
+
+using test::world;
+
+Mesh ring() {
+  const Mesh whole = test::ring_mesh(32, 12, 0.3, 10);
+  return scatter_mesh(world(), whole, space_filling_order(whole));
+}
+
+TEST(NewtonStep, FallsFasterTheNearerTheEnd) {
+  const Mesh mesh = ring();
+  EulerOptions options;
+  options.mach = 0.3;
+  options.limiter = EulerOptions::Limiter::none;
+  options.tolerance = 1e-3;
+  const EulerResult near = solve_euler(world(), mesh, options);
+  const DualMesh dual(world(), mesh);
+  const FlowModel model = flow_model(world(), mesh, options);
+  std::vector<State> states(dual.nodes(), model.free_stream);
+  for (std::size_t node = 0; node < dual.areas().size(); ++node)
+    std::copy_n(near.flow.values.begin() + static_cast<std::ptrdiff_t>(4 * node), 4, states[node].begin());
+  Residual residual(dual, model, options);
+  const FlowRun run{world(), options, dual, model, residual, states};
+  ImplicitSystem system(world(), dual, model);
+  NewtonStep newton(run, system);
+  const std::vector<double> shares(dual.owned_nodes(), 1.0);
+  double before = mass_residual(run, residual.evaluate(states));
+  for (int step = 0; step < 4; ++step) {
+    const NewtonStep::Taken taken = newton.take(residual.evaluate(states), 1e6, shares);
+    EXPECT_EQ(taken.share, 1);
+    EXPECT_LT(taken.left_over, 0.11);
+    const double now = mass_residual(run, residual.evaluate(states));
+    EXPECT_LT(now, 0.2 * before) << step;
+    before = now;
+  }
+}
+
+TEST(NewtonPilot, RestsLongerAfterEachFailure) {
+  NewtonPilot pilot;
+  EXPECT_FALSE(pilot.tries(0.01));  // plain steps still do
+  pilot.call();
+  EXPECT_FALSE(pilot.tries(0.1));  // shocks still move
+  std::vector<int> rests;
+  for (int failure = 0; failure < 4; ++failure) {
+    int rest = 0;
+    while (!pilot.tries(0.01)) ++rest;
+    rests.push_back(rest);
+    pilot.learn(0.25, 0.1);
+  }
+  EXPECT_EQ(rests, (std::vector<int>{0, 5, 10, 20}));
+}
+
+TEST(NewtonPilot, GoesFasterWhereStepsAreWholeAndSystemsSolved) {
+  NewtonPilot pilot;
+  EXPECT_EQ(pilot.cfl(100), 100);
+  pilot.learn(1, 0.1);
+  EXPECT_EQ(pilot.cfl(100), 300);
+  pilot.learn(0.5, 0.1);
+  EXPECT_EQ(pilot.cfl(100), 300);
+  pilot.learn(1, 0.6);
+  EXPECT_EQ(pilot.cfl(100), 150);
+  for (int step = 0; step < 9; ++step) pilot.learn(0, 0.1);
+  EXPECT_EQ(pilot.cfl(100), 10);
+}
+
+TEST(StateUpdate, KeepsDensityAndPressureFromVanishing) {
+  const Gas gas;
+  const State state{1, 0.5, 0, 1 / 1.4};
+  const State small = updated(gas, state, {0.1, 0.05, 0, 0.1});
+  EXPECT_NEAR(small[0], 1.1, 1e-15);
+  const State large = updated(gas, state, {-5, 0, 0, -5});
+  EXPECT_GE(large[0], 0.75 - 1e-12);
+  EXPECT_GT(large[3], 0.5 * state[3]);
+}
+
+TEST(StateUpdate, LetsANodeLeaveAVacuum) {
+  const Gas gas;
+  const State thin{1e-6, 0, 0, 1e-12};
+  const State filled = updated(gas, thin, {0.02, 0, 0, 0.01});
+  EXPECT_GT(filled[0], 0.01);
+  EXPECT_GT(filled[3], 1e-3);
+}
+
+}  // namespace
+}  // namespace quadloop::euler
