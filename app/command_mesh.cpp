@@ -132,10 +132,10 @@ Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& sav
   const bool same =
       saved.nodes == made.nodes && saved.triangles == made.triangles && saved.quads == made.quads;
   if (!setting || (same && input.mesh.type == MeshType::metric)) return {};
-  return {
-      fmt::format("{}: {}: the mesh is that of the tree alone, {} nodes without stretched cells{}; \"remesh\" "
-                  "makes such cells, from a solution",
-                  tree, setting, made.nodes, same ? "" : fmt::format(" where the saved one has {}", saved.nodes))};
+  return {fmt::format(
+      "{}: {}: the mesh is that of the tree alone, {} nodes without stretched cells{}; \"remesh\" "
+      "makes such cells, from a solution",
+      tree, setting, made.nodes, same ? "" : fmt::format(" where the saved one has {}", saved.nodes))};
 }
 
 /// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere),

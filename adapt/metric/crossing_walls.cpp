@@ -10,7 +10,7 @@ namespace quadloop {
 
 namespace {
 
-bool cross(const WallEdge& s, const WallEdge& t) {
+bool cross(const WallSpan& s, const WallSpan& t) {
   const bool at_from = s.from() == t.from() || s.from() == t.to();
   const bool at_to = s.to() == t.from() || s.to() == t.to();
   if (!at_from && !at_to) return segments_meet(s.from(), s.to(), t.from(), t.to());
@@ -22,8 +22,8 @@ bool cross(const WallEdge& s, const WallEdge& t) {
 
 }  // namespace
 
-std::vector<WallEdge> wall_edges(const Communicator& comm, const Mesh& mesh) {
-  std::vector<WallEdge> own;
+std::vector<WallSpan> wall_edges(const Communicator& comm, const Mesh& mesh) {
+  std::vector<WallSpan> own;
   std::int32_t boundary = 0;
   for (const BoundaryEdges& edges : mesh.boundaries) {
     for (const auto& [a, b] : edges.edges) {
@@ -32,17 +32,17 @@ std::vector<WallEdge> wall_edges(const Communicator& comm, const Mesh& mesh) {
     }
     ++boundary;
   }
-  std::vector<WallEdge> all = comm.all_gather_values(std::span<const WallEdge>(own));
-  std::ranges::sort(all, [](const WallEdge& a, const WallEdge& b) { return a < b; });
+  std::vector<WallSpan> all = comm.all_gather_values(std::span<const WallSpan>(own));
+  std::ranges::sort(all, [](const WallSpan& a, const WallSpan& b) { return a < b; });
   return all;
 }
 
-std::optional<CrossingWalls> crossing_walls(const std::vector<WallEdge>& edges,
-                                            const std::vector<WallEdge>& known) {
+std::optional<CrossingWalls> crossing_walls(const std::vector<WallSpan>& edges,
+                                            const std::vector<WallSpan>& known) {
   std::vector<Box> boxes;
   std::vector<char> is_known;
-  const auto before = [](const WallEdge& a, const WallEdge& b) { return a < b; };
-  for (const WallEdge& edge : edges) {
+  const auto before = [](const WallSpan& a, const WallSpan& b) { return a < b; };
+  for (const WallSpan& edge : edges) {
     boxes.push_back(box_of(edge.from(), edge.to()));
     is_known.push_back(std::ranges::binary_search(known, edge, before) ? 1 : 0);
   }

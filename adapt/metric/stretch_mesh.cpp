@@ -123,7 +123,7 @@ class Stretching {
 
   /// None of its walls cross. *Collective.*
   Mesh sound(const Mesh& start) {
-    const std::vector<WallEdge> known = wall_edges(comm_, start);
+    const std::vector<WallSpan> known = wall_edges(comm_, start);
     Mesh mesh = stretched(start);
     const auto met = crossing_walls(wall_edges(comm_, mesh), known);
     if (!met) return mesh;

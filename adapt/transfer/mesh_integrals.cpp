@@ -22,7 +22,7 @@ std::vector<double> integrals(const Communicator& comm, const Mesh& mesh, Point 
                               std::span<const Column> columns) {
   std::vector<std::vector<double>> terms(columns.size());
   for (std::vector<double>& of_column : terms) of_column.reserve(mesh.triangles.size() + mesh.quads.size());
-  const auto add = [&](const CellParts& parts) {
+  const auto add = [&](const TrianglesOfCell& parts) {
     std::array<double, 2> thirds{};
     for (std::size_t part = 0; part < parts.count; ++part) {
       const auto& [a, b, c] = parts.nodes[part];

@@ -72,7 +72,7 @@ Split split_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad
   return {first, false};
 }
 
-void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int8_t half, CellParts& parts) {
+void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int8_t half, TrianglesOfCell& parts) {
   const int turn = turn_of(mesh, nodes);
   if (turn == 0) return;
   if (turn < 0) std::swap(nodes[1], nodes[2]);
@@ -86,7 +86,7 @@ void append(const Mesh& mesh, Point centre, const Cells& cells, std::int64_t num
             std::vector<CellTriangle>& triangles) {
   for (const auto& nodes : cells) {
     if (wanted(nodes)) {
-      const CellParts parts = parts_of(mesh, centre, nodes);
+      const TrianglesOfCell parts = parts_of(mesh, centre, nodes);
       for (std::size_t k = 0; k < parts.count; ++k)
         triangles.push_back({parts.nodes[k], 2 * number + parts.half[k]});
     }
@@ -116,16 +116,16 @@ std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
   return split_of(mesh, centre, quad).halves;
 }
 
-CellParts parts_of(const Mesh& mesh, Point, const std::array<NodeId, 3>& triangle) {
-  CellParts parts;
+TrianglesOfCell parts_of(const Mesh& mesh, Point, const std::array<NodeId, 3>& triangle) {
+  TrianglesOfCell parts;
   append(mesh, triangle, 0, parts);
   return parts;
 }
 
-CellParts parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
+TrianglesOfCell parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
   const auto [halves, are_counter_clockwise] = split_of(mesh, centre, quad);
   if (are_counter_clockwise) return {halves, {0, 1}, 2};
-  CellParts parts;
+  TrianglesOfCell parts;
   append(mesh, halves[0], 0, parts);
   append(mesh, halves[1], 1, parts);
   return parts;

@@ -28,13 +28,13 @@ std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
 
 /// A cell's triangles, one or the two of split_quad(). One without area is left out, one that runs clockwise
 /// turned.
-struct CellParts {
+struct TrianglesOfCell {
   std::array<std::array<NodeId, 3>, 2> nodes;
   std::array<std::int8_t, 2> half{};  ///< of each, whether it is the first or the second
   std::size_t count = 0;
 };
-CellParts parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 3>& triangle);
-CellParts parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad);
+TrianglesOfCell parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 3>& triangle);
+TrianglesOfCell parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad);
 
 /// All of this rank's cells as triangles, or those with a box that is wanted. *Collective.*
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre);

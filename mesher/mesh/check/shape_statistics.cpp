@@ -134,7 +134,8 @@ void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, con
     const std::size_t width = nodes.size();
     for (std::size_t k = 0; k < width; ++k) {
       const Point p = mesh.point(nodes[k]);
-      const CellCorner corner(mesh.point(nodes[(k + width - 1) % width]), p, mesh.point(nodes[(k + 1) % width]));
+      const CellCorner corner(mesh.point(nodes[(k + width - 1) % width]), p,
+                              mesh.point(nodes[(k + 1) % width]));
       ++shape.corners;
       if (is_ordinary(corner)) {
         range.include(corner);

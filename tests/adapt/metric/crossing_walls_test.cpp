@@ -8,8 +8,8 @@
 namespace quadloop {
 namespace {
 
-std::vector<WallEdge> loop(const std::vector<Point>& points) {
-  std::vector<WallEdge> edges;
+std::vector<WallSpan> loop(const std::vector<Point>& points) {
+  std::vector<WallSpan> edges;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point a = points[i], b = points[(i + 1) % points.size()];
     edges.push_back({a.x, a.y, b.x, b.y, 0});
