@@ -11,12 +11,6 @@ constexpr std::int32_t leaf_items = 8;
 
 }  // namespace
 
-BoxTree::BoxTree(std::span<const Box> boxes) {
-  items_.reserve(boxes.size());
-  for (const Box& box : boxes) items_.push_back({box, size32(items_)});
-  if (!items_.empty()) build(0, size32(items_));
-}
-
 /// Halves the items along the longer side of their box until few are left.
 void BoxTree::build(std::int32_t begin, std::int32_t end) {
   Box box;
@@ -64,11 +58,8 @@ std::int32_t BoxTree::nearest_box(Point p) const {
 }
 
 BoxTree segment_tree(const Geometry& geometry) {
-  std::vector<Box> boxes;
-  boxes.reserve(geometry.points().size());
-  for (std::int32_t s = 0; s < geometry.size(); ++s)
-    boxes.push_back(box_of(geometry.point(s), geometry.point(geometry.next(s))));
-  return BoxTree(boxes);
+  return {geometry.size(),
+          [&](std::int32_t s) { return box_of(geometry.point(s), geometry.point(geometry.next(s))); }};
 }
 
 }  // namespace quadloop

@@ -21,7 +21,15 @@ class BoxTree {
 
   BoxTree() = default;
   /// Boxes have the numbers 0, 1, ... O(n log n).
-  explicit BoxTree(std::span<const Box> boxes);
+  explicit BoxTree(std::span<const Box> boxes)
+      : BoxTree(size32(boxes), [&](std::int32_t number) { return boxes[number]; }) {}
+  /// `box_of(number)` is asked once for each.
+  template <class BoxOf>
+  BoxTree(std::int32_t count, const BoxOf& box_of) {
+    items_.reserve(count);
+    for (std::int32_t number = 0; number < count; ++number) items_.push_back({box_of(number), number});
+    if (count > 0) build(0, count);
+  }
 
   bool empty() const { return items_.empty(); }
 

@@ -77,7 +77,7 @@ class Progress(ProgramTest):
         self.assertTrue(before == "" or before.endswith((ERASE, "\n")), repr(before))
 
     def test_a_solver_shows_steps_residual_and_cycle(self):
-        self.write("flow.toml", '[geometry]\nfile = "box.geom"\n[spacing]\nmin = 0.005\nmax = 0.01\n[boundary.box]\nspacing = 0.01\nbc = "farfield"\n'
+        self.write("flow.toml", '[geometry]\nfile = "box.geom"\n[spacing]\nmin = 0.0025\nmax = 0.005\n[boundary.box]\nspacing = 0.005\nbc = "farfield"\n'
                    '[solver]\nmach = 0.5\ninitial = "vortex"\niterations = 150\ntolerance = 1e-14\n[adapt]\nvariable = "density"\ncycles = 0\n')
         status, text = self.on_terminal("adapt", "flow.toml", "-o", "run")
         self.assertEqual(status, 0, text)
