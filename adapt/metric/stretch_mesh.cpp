@@ -201,9 +201,11 @@ class Stretching {
                         demand_.nodes));
       return;
     }
-    report.warnings.push_back(
-        fmt::format("the mesh has {} nodes where adapt.max_nodes allows {}: {}", all, demand_.nodes,
-                    is_floor(last, now) ? "the case's own sizes ask for them" : "it came no nearer"));
+    report.warnings.push_back(fmt::format(
+        "the mesh has {} nodes where adapt.max_nodes allows {}: {}", all, demand_.nodes,
+        is_floor(last, now) ? "the case's own sizes ask for them, and leave none to stretch cells with; make "
+                              "spacing.max and the boundaries' spacings larger, or adapt.max_nodes"
+                            : "it came no nearer"));
   }
 
   const Communicator& comm_;

@@ -75,9 +75,11 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
     return fmt::format("{} is constant",
                        options.variables.size() == 1 ? options.variables.front() : "each of adapt.variable");
   if (all.refined + all.coarsened > 0)
-    return fmt::format("{} leaves no room", options.max_nodes
-                                                ? fmt::format("adapt.max_nodes = {}", *options.max_nodes)
-                                                : "--max-cells or free memory");
+    return fmt::format(
+        "{} leaves no room{}",
+        options.max_nodes ? fmt::format("adapt.max_nodes = {}", *options.max_nodes)
+                          : "--max-cells or free memory",
+        options.max_nodes ? "; raise it, or set adapt.norm, which moves nodes to where they are wanted" : "");
   const std::vector<Mark> marks = family.marks(1);
   const std::int64_t wanted = count_of(comm, marks, Mark::refine);
   if (wanted == 0 && options.source == AdaptOptions::Source::size)

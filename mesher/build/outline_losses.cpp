@@ -106,6 +106,46 @@ std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
   return shares;
 }
 
+/// Of each boundary, whether it has whole loops alone, so that it encloses an area of its own.
+std::vector<char> encloses_area(const Geometry& geometry) {
+  std::vector<char> whole(geometry.boundaries().size(), 1);
+  for (std::int32_t s = 0; s < geometry.size(); ++s) {
+    const BoundaryId here = geometry.boundary_of(s), next = geometry.boundary_of(geometry.next(s));
+    if (here != next) whole[here.value()] = whole[next.value()] = 0;
+  }
+  return whole;
+}
+
+/// The domain's area can hide a body's: in a wide far field that of an airfoil is nothing.
+void warn_of_lost_shapes(const Communicator& comm, const Geometry& geometry, const Mesh& mesh,
+                         MeshReport& report) {
+  const Point centre = geometry.box().centre();
+  const std::vector<double> wanted = outline_shares(geometry, centre);
+  const std::vector<char> whole = encloses_area(geometry);
+  const std::vector<std::vector<double>> shares = shares_of_area(mesh, centre);
+  QUADLOOP_REQUIRE(shares.size() == wanted.size(), "a mesh has its outline's boundaries");
+  std::int64_t edges = 0;
+  for (const std::vector<double>& list : shares) edges += std::ssize(list);
+  const double farthest = geometry.box().width() + geometry.box().height();
+  ReproducibleSums sums(shares.size(), farthest * farthest, comm.sum(edges));
+  for (std::size_t b = 0; b < shares.size(); ++b) {
+    for (const double share : shares[b]) sums.add(b, share);
+  }
+  const std::vector<double> meshed = sums.over(comm);
+  for (std::size_t b = 0; b < shares.size(); ++b) {
+    const double error = meshed[b] / wanted[b] - 1;
+    if (whole[b] == 0 || wanted[b] == 0 || std::abs(error) <= largest_area_error || meshed[b] == 0) continue;
+    const std::string& name = geometry.boundaries()[b].name;
+    report.warnings.push_back(
+        fmt::format("boundary '{0}' near {1}: the mesh's edges enclose {2:.0f} percent {3} than the outline "
+                    "does: its leaves "
+                    "are too coarse to show the shape; give [boundary.{0}] a smaller spacing, or make "
+                    "spacing.min smaller",
+                    name, text(box_of_boundary(geometry, name).centre()), 100 * std::abs(error),
+                    error < 0 ? "less" : "more"));
+  }
+}
+
 [[noreturn]] void refuse_area(const Communicator& comm, const Geometry& geometry, const Mesh& mesh,
                               double error, bool smoothed) {
   const Point centre = geometry.box().centre();
@@ -159,6 +199,7 @@ void report_losses(const Communicator& comm, const Geometry& geometry, const Mes
     refuse_vanished(geometry, vanished, "lies within leaves that cannot show it");
   report.boundaries_vanished = std::move(vanished);
   warn_of_lost_corners(comm, geometry, mesh, report);
+  warn_of_lost_shapes(comm, geometry, mesh, report);
 }
 
 double area_of_loop(const Geometry& geometry, std::int32_t loop) {

@@ -91,7 +91,7 @@ TEST(Islands, WhereNoLoopRemainsThereIsNoDomain) {
 }
 
 TEST(OutlineLosses, BoundariesWithoutEdgesVanish) {
-  Mesh mesh = square_mesh();
+  Mesh mesh = square_in_one_boundary();
   const Geometry geometry = loops({box({0, 0}, 1, 1), reversed(box({0.5, 0.5}, 0.001, 0.002))});
   mesh.boundaries.front().name = "b0";
   mesh.boundaries.push_back({"b1", "none", {}});
@@ -106,16 +106,31 @@ TEST(OutlineLosses, BoundariesWithoutEdgesVanish) {
 
 TEST(OutlineLosses, KeptCornersThatAreNoNodesAreCounted) {
   MeshReport none, report;
-  report_losses(world(), loops({box({0, 0}, 1, 1)}), square_mesh(), false, none);
+  report_losses(world(), loops({box({0, 0}, 1, 1)}), square_in_one_boundary(), false, none);
   EXPECT_EQ(none.corners_lost, 0);
   EXPECT_TRUE(none.warnings.empty());
   report.warnings = {"of an island"};
-  report_losses(world(), loops({{{0, 0}, {1, 0}, {1.01, 0.4}, {1.0, 1.02}, {0, 1}}}), square_mesh(), false,
-                report);
+  report_losses(world(), loops({{{0, 0}, {1, 0}, {1.01, 0.4}, {1.0, 1.02}, {0, 1}}}),
+                square_in_one_boundary(), false, report);
   EXPECT_EQ(report.corners_lost, 1) << "(1.01, 0.4) is no corner of 30 degrees";
   ASSERT_EQ(report.warnings.size(), 2U);
   EXPECT_NE(report.warnings[0].find("1 of 4 kept corners of the outline is no node"), std::string::npos)
       << report.warnings[0];
+}
+
+TEST(OutlineLosses, AShapeThatEdgesHardlyShowIsTold) {
+  MeshReport near, far;
+  report_losses(world(), loops({box({0, 0}, 1, 1.04)}), square_in_one_boundary(), false, near);
+  report_losses(world(), loops({box({0, 0}, 1, 1.2)}), square_in_one_boundary(), false, far);
+  const auto told = [](const MeshReport& report) {
+    return std::ranges::count_if(report.warnings, [](const std::string& warning) {
+      return warning.starts_with("boundary 'b0' near (0.5, 0.6): the mesh's edges enclose 17 percent less");
+    });
+  };
+  EXPECT_EQ(told(far), 1);
+  EXPECT_EQ(
+      std::ranges::count_if(near.warnings, [](const std::string& w) { return w.find("enclose") != w.npos; }),
+      0);
 }
 
 TEST(RequireArea, TheMeshMayMissAFewHundredths) {
