@@ -111,11 +111,13 @@ class SteadyMarch {
     limit_.recover();
     const bool frozen = run_.residual.limiter_is_frozen();
     if (best_.improves(result_.iterations, result_.residual, frozen)) best_states_ = run_.states;
-    const bool explodes = result_.residual > exploding;
+    const bool stands = standstill_.stands(result_.residual),
+               explodes = stands || result_.residual > exploding;
     if ((explodes || rise_.rises(result_.residual, best_.residual)) && ++returns_ <= most_returns) {
       tell(fmt::format(
-          "the residual rose from {:.2e} at step {} to {:.2e}: back to that flow, with a smaller cfl",
-          best_.residual, best_.iteration, result_.residual));
+          "the residual {} from {:.2e} at step {} {} {:.2e}: back to that flow, with a smaller cfl",
+          stands ? "went" : "rose", best_.residual, best_.iteration, stands ? "to a standstill at" : "to",
+          result_.residual));
       limit_.lower(explodes ? 0.3 : 0.5);
       go_back();
       return true;
@@ -202,6 +204,7 @@ class SteadyMarch {
   NewtonPilot pilot_;
   StallWatch stall_;
   RiseWatch rise_;
+  StandstillWatch standstill_;
   CflLimit limit_;
   BestFlow best_;
   std::optional<MirroredStates> mirrored_;

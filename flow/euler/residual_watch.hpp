@@ -53,6 +53,24 @@ class RiseWatch {
   int steps_ = 0;
 };
 
+/// Tells when the residual has the same bits step after step: changes are not finite, or so large that no
+/// node can bear any of them.
+class StandstillWatch {
+ public:
+  bool stands(double residual) {
+    steps_ = residual == last_ ? steps_ + 1 : 0;
+    last_ = residual;
+    if (steps_ < patience) return false;
+    steps_ = 0;
+    return true;
+  }
+
+ private:
+  static constexpr int patience = 3;
+  int steps_ = 0;
+  double last_ = -1;
+};
+
 /// The share of the CFL number that a flow has borne out so far: small after it went wrong, then growing to a
 /// limit that is lower than before.
 class CflLimit {

@@ -94,5 +94,13 @@ TEST(Shortfall, SaysWhatHelps) {
   EXPECT_FALSE(says("raise solver.iterations"));
 }
 
+TEST(StandstillWatch, TellsOfFourEqualResidualsInARow) {
+  StandstillWatch watch;
+  for (const double residual : {0.5, 0.25, 0.25, 0.25, 0.125, 0.25, 0.25, 0.25})
+    EXPECT_FALSE(watch.stands(residual));
+  EXPECT_TRUE(watch.stands(0.25));
+  EXPECT_FALSE(watch.stands(0.25)) << "told once, then counted anew";
+}
+
 }  // namespace
 }  // namespace quadloop::euler
