@@ -27,7 +27,7 @@ from figures import add_update, tell
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "cases"))
-from wedge_error import read_native  # noqa: E402
+from front_error import read_native  # noqa: E402
 
 CASE = ROOT / "cases" / "naca0012_m08" / "metric.toml"
 VARIABLES, LEAST, RATIO, LARGEST, FAR = ("density", "y_velocity"), 0.002, 1.6, 20.0, 50.0

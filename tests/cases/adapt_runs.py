@@ -45,7 +45,7 @@ def records(folder):
     return [json.loads((cycle / "record.json").read_text()) for cycle in sorted(folder.glob("cycle_*"))]
 
 
-def adapt_three_ways(program, case, folder, options):
+def adapt_three_ways(program, case, folder, options=()):
     """Two cycles on one rank, on three, and with the second one made again by --resume: meshes, trees and estimates are the same. {way: its records}."""
     words = ["--cycles", "2", *options]
     run([program, "-q", "adapt", case, "-o", folder / "one", *words])
@@ -62,6 +62,17 @@ def adapt_three_ways(program, case, folder, options):
     return {way: records(folder / way) for way in ("one", "three", "again")}
 
 
+def remesh_as_the_loop(program, case, folder):
+    """`remesh` from the first cycle of adapt_three_ways(), on one rank and on two: next_1 and next_2 have the tree of the second cycle, and one mesh."""
+    last = folder / "one" / "cycle_01"
+    for ranks in (1, 2):
+        run(command_of(program, ranks, "remesh", case, "-q", "--tree", last / "mesh.tree.h5", "--solution", last / "mesh.mesh", "-o", folder / f"next_{ranks}"))
+    tree = (folder / "one" / "cycle_02" / "mesh.tree.h5").read_bytes()
+    require((folder / "next_1.tree.h5").read_bytes() == tree, "remesh makes another tree than the loop")
+    require((folder / "next_2.tree.h5").read_bytes() == tree, "remesh makes another tree on 2 ranks")
+    require((folder / "next_1.mesh").read_bytes() == (folder / "next_2.mesh").read_bytes(), "remesh makes another mesh on 2 ranks")
+
+
 def tiny_case(folder, solver=None, text=TINY):
     """The case file of a tiny ring in `folder`; `solver` is the text of another solver.py."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -73,7 +84,7 @@ def tiny_case(folder, solver=None, text=TINY):
 
 
 def command_of(program, ranks, *words):
-    launcher = [MPIRUN, "-n", ranks] if ranks > 1 else []
+    launcher = [MPIRUN, "-n", str(ranks)] if ranks > 1 else []
     return [str(word) for word in (*launcher, program, *words)]
 
 

@@ -84,7 +84,8 @@ def shock_angle(points, triangles, density, middle):
 
 
 def check_wedge(program, figures):
-    from wedge_error import DENSITY_BEHIND, PRESSURE_RATIO, SHOCK_DEGREES, read_native
+    from front_error import read_native
+    from wedge_error import DENSITY_BEHIND, PRESSURE_RATIO, SHOCK_DEGREES
     points, triangles, flow = read_native(program.adapt(WEDGE, "--cycles", "3")[-1] / "mesh.mesh")
     middle, heights = (1 + DENSITY_BEHIND) / 2, points[:, 1] / points[:, 0].clip(min=0.3)
     figures.add("wedge: shock angle, degrees", shock_angle(points, triangles, flow["density"], middle), SHOCK_DEGREES - 0.5, SHOCK_DEGREES + 0.5)

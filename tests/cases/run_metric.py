@@ -8,19 +8,15 @@ cycle that is made again, and from `remesh` of the same solution; less error for
 what `mesh --tree` says of a metric mesh; refusals.
 """
 import argparse
-import json
 import shutil
 import subprocess
 import tempfile
 from pathlib import Path
 
-from quadloop_runs import MPIRUN, ROOT, fail, run
+from adapt_runs import adapt_three_ways, remesh_as_the_loop, require
+from quadloop_runs import MPIRUN, ROOT, run
 
 CASE = ROOT / "cases" / "wedge" / "case.toml"
-
-def require(holds, message):
-    if not holds:
-        fail(message)
 
 
 def metric_case(folder):
@@ -36,8 +32,8 @@ def metric_case(folder):
     return case
 
 
-def check_cycles(folder):
-    records = [json.loads((cycle / "record.json").read_text()) for cycle in sorted(folder.glob("cycle_*"))]
+def check_cycles(program, case, folder):
+    records = adapt_three_ways(program, case, folder)["one"]
     require(len(records) == 3 and "metric" not in records[0], f"{len(records)} cycles")
     for record in records[1:]:
         require(0.95 * 600 <= record["nodes"] <= 600, f"{record['nodes']} nodes")
@@ -46,32 +42,8 @@ def check_cycles(folder):
         require(record["metric"]["complexity"] > 300, f"{record['metric']}")
         require(record["quads"] == 0, "triangles alone")
     require(records[2]["estimate"] < 0.5 * records[0]["estimate"], f"the error: {[r['estimate'] for r in records]}")
-
-
-def check_ranks_and_resume(program, case, folder):
-    run([program, "-q", "adapt", case, "-o", folder / "one"])
-    check_cycles(folder / "one")
-    run([MPIRUN, "-n", "3", program, "-q", "adapt", case, "-o", folder / "three"])
-    shutil.copytree(folder / "one", folder / "again")
-    shutil.rmtree(folder / "again" / "cycle_02")
-    run([program, "-q", "adapt", case, "-o", folder / "again", "--resume"])
     for cycle in ("cycle_01", "cycle_02"):
-        for name in ("mesh.mesh", "mesh.tree.h5"):
-            bytes_of = [(folder / one / cycle / name).read_bytes() for one in ("one", "three", "again")]
-            require(bytes_of[0] == bytes_of[1], f"{cycle}/{name} differs on 3 ranks")
-            require(bytes_of[0] == bytes_of[2], f"{cycle}/{name} differs after --resume")
         run([program, "-q", "check", folder / "one" / cycle / "mesh.mesh", "--geometry", case.parent / "wedge.geom"])
-
-
-def check_remesh(program, case, folder):
-    last = folder / "one" / "cycle_01"
-    for ranks in (1, 2):
-        run([MPIRUN, "-n", str(ranks), program, "-q", "remesh", case, "--tree", last / "mesh.tree.h5", "--solution", last / "mesh.mesh",
-             "-o", folder / f"next_{ranks}"])
-    tree = (folder / "one" / "cycle_02" / "mesh.tree.h5").read_bytes()
-    require((folder / "next_1.tree.h5").read_bytes() == tree, "remesh makes another tree than the loop")
-    require((folder / "next_2.tree.h5").read_bytes() == tree, "remesh makes another tree on 2 ranks")
-    require((folder / "next_1.mesh").read_bytes() == (folder / "next_2.mesh").read_bytes(), "remesh makes another mesh on 2 ranks")
 
 
 def check_error(program, case, folder):
@@ -112,8 +84,8 @@ def main():
         folder = Path(name)
         case = metric_case(folder / "case")
         check_refusals(program, case, folder)
-        check_ranks_and_resume(program, case, folder)
-        check_remesh(program, case, folder)
+        check_cycles(program, case, folder)
+        remesh_as_the_loop(program, case, folder)
         check_error(program, case, folder)
         check_tree_alone(program, case, folder)
 

@@ -17,11 +17,11 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from adapt_runs import adapt_three_ways, records, require, sets
+from finest_forces import first_within
 from quadloop_runs import ROOT, run
 
 CASES = ROOT / "cases" / "naca0012_m08"
 GOALS = CASES / "goals.toml"
-FINEST = {"cl": 0.3478, "cd": 0.02244}
 MARKS = {"nodes": 15729, "cycle": 3}  # docs/adaptation.md; run_wanted_sizes.py --full finds them anew
 FEW = ["solver.iterations=60", "adapt.max_nodes=5000", "adapt.min=0.003"]
 
@@ -74,16 +74,6 @@ def check_fields(program, folder):
     refused = subprocess.run([program, "adapt", CASES / "case.toml", "-o", folder / "no", "--set", 'adapt.variable={error="error"}'],
                              capture_output=True, text=True)
     require(refused.returncode == 1 and "set solver.goal" in refused.stderr, f"an error of nothing: {refused.stderr}")
-
-
-def errors(record):
-    return {key: record[key] / FINEST[key] - 1 for key in FINEST}
-
-
-def first_within(cycles):
-    """The first cycle from which on lift and drag stay within 0.5 %."""
-    holds = [max(map(abs, errors(cycle).values())) <= 0.005 for cycle in cycles]
-    return next((k for k in range(len(cycles)) if all(holds[k:])), None)
 
 
 def check_forces(program, folder):

@@ -14,10 +14,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from adapt_runs import adapt_three_ways, records, require, sets
+from finest_forces import errors, first_within
 from quadloop_runs import ROOT, run
 
 CASES = ROOT / "cases" / "naca0012_m08"
-FINEST = {"cl": 0.3478, "cd": 0.02244}
 FEW = ["solver.iterations=40", "adapt.max_nodes=5000", "adapt.norm=2", "adapt.min=0.003", "adapt.variable=density"]
 
 
@@ -35,16 +35,6 @@ def check_ranks_and_resume(program, folder):
     require(all(4500 <= cycle["nodes"] <= 5000 for cycle in cycles[1:]), f"nodes {[cycle['nodes'] for cycle in cycles]}")
     ended = run([program, "adapt", case, "-o", folder / "one", "--cycles", "4", "--resume", *sets([*FEW, "adapt.until={cl=1}"])])
     require("has settled by adapt.until" in ended, f"an earlier run that has settled goes on: {ended}")
-
-
-def errors(record):
-    return {key: record[key] / FINEST[key] - 1 for key in FINEST}
-
-
-def first_within(cycles):
-    """The first cycle from which on lift and drag stay within 0.5 %."""
-    holds = [max(map(abs, errors(cycle).values())) <= 0.005 for cycle in cycles]
-    return next((k for k in range(len(cycles)) if all(holds[k:])), None)
 
 
 def check_forces(program, folder):
