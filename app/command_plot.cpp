@@ -12,7 +12,7 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/plot_tables.hpp"
-#include "flow/euler/scheme/euler_options.hpp"
+#include "flow/euler/model/euler_options.hpp"
 #include "flow/quantities/flow_quantities.hpp"
 #include "flow/quantities/history.hpp"
 #include "flow/quantities/wall_table.hpp"

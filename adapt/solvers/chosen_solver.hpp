@@ -5,7 +5,7 @@
 #include "adapt/solvers/command_solver.hpp"
 #include "adapt/solvers/openfoam_solver.hpp"
 #include "adapt/solvers/su2_solver.hpp"
-#include "flow/euler/scheme/euler_options.hpp"
+#include "flow/euler/model/euler_options.hpp"
 
 namespace quadloop {
 

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "flow/euler/scheme/flux.hpp"
+#include "flow/euler/model/flux.hpp"
 #include "flow/euler/scheme/residual.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "flow/euler/scheme/dual_number.hpp"
+#include "flow/euler/model/dual_number.hpp"
 #include "flow/euler/scheme/residual.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"

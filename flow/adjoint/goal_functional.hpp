@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "flow/euler/flow_run.hpp"
-#include "flow/euler/scheme/goal.hpp"
+#include "flow/euler/model/goal.hpp"
 
 namespace quadloop::euler {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "flow/euler/scheme/dual_number.hpp"
+#include "flow/euler/model/dual_number.hpp"
 
 namespace quadloop::euler {
 

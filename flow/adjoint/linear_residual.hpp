@@ -6,7 +6,7 @@
 #include "flow/adjoint/limiter_derivative.hpp"
 #include "flow/adjoint/shock_derivative.hpp"
 #include "flow/euler/flow_run.hpp"
-#include "flow/euler/scheme/flux_jacobian.hpp"
+#include "flow/euler/model/flux_jacobian.hpp"
 
 namespace quadloop::euler {
 

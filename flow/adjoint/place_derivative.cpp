@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
-#include "flow/euler/scheme/dual_number.hpp"
-#include "flow/euler/scheme/flux.hpp"
+#include "flow/euler/model/dual_number.hpp"
+#include "flow/euler/model/flux.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 
 namespace quadloop::euler {

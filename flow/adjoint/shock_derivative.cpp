@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "flow/euler/scheme/dual_number.hpp"
+#include "flow/euler/model/dual_number.hpp"
 
 namespace quadloop::euler {
 

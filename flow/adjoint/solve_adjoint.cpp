@@ -2,7 +2,7 @@
 
 #include "flow/euler/implicit/implicit_system.hpp"
 #include "flow/euler/implicit/krylov.hpp"
-#include "flow/euler/scheme/dual_number.hpp"
+#include "flow/euler/model/dual_number.hpp"
 
 namespace quadloop::euler {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "flow/euler/model/flow_model.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
-#include "flow/euler/scheme/flow_model.hpp"
 #include "flow/quantities/boundary_forces.hpp"
 
 namespace quadloop::euler {

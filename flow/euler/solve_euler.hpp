@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "flow/euler/scheme/euler_options.hpp"
+#include "flow/euler/model/euler_options.hpp"
 #include "flow/quantities/boundary_forces.hpp"
 #include "flow/quantities/goal_value.hpp"
 #include "flow/quantities/history.hpp"

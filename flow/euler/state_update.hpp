@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "flow/euler/scheme/gas.hpp"
+#include "flow/euler/model/gas.hpp"
 
 namespace quadloop::euler {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flow/euler/scheme/gas.hpp"
+#include "flow/euler/model/gas.hpp"
 
 namespace quadloop::euler {
 

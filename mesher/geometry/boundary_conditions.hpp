@@ -14,7 +14,7 @@ struct BoundaryCondition {
 };
 
 /// All of them, in the order in which messages list them. What a solver can use of them is its own matter
-/// (`flow/euler/scheme/flow_model`).
+/// (`flow/euler/model/flow_model`).
 inline constexpr std::array<BoundaryCondition, 9> boundary_conditions{{
     {"wall", "BCWall"},
     {"viscous_wall", "BCWallViscous"},  // these two: a wall of which more is said

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flow/euler/scheme/euler_options.hpp"
+#include "flow/euler/model/euler_options.hpp"
 #include "io/input/case_file.hpp"
 
 namespace quadloop {

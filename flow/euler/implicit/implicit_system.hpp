@@ -4,9 +4,9 @@
 
 #include "flow/euler/implicit/colouring.hpp"
 #include "flow/euler/implicit/line_system.hpp"
+#include "flow/euler/model/flow_model.hpp"
+#include "flow/euler/model/flux_jacobian.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
-#include "flow/euler/scheme/flow_model.hpp"
-#include "flow/euler/scheme/flux_jacobian.hpp"
 #include "flow/euler/scheme/no_slip.hpp"
 #include "flow/euler/scheme/shock_sensor.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "flow/euler/implicit/line_finder.hpp"
-#include "flow/euler/scheme/flux_jacobian.hpp"
+#include "flow/euler/model/flux_jacobian.hpp"
 
 namespace quadloop::euler {
 

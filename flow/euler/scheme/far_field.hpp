@@ -1,7 +1,7 @@
 #pragma once
 
+#include "flow/euler/model/flow_model.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
-#include "flow/euler/scheme/flow_model.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 
 namespace quadloop::euler {

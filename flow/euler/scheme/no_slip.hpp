@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "flow/euler/model/flow_model.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
-#include "flow/euler/scheme/flow_model.hpp"
 
 namespace quadloop::euler {
 

@@ -4,8 +4,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "flow/euler/model/gas.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
-#include "flow/euler/scheme/gas.hpp"
 
 namespace quadloop::euler {
 

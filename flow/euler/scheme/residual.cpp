@@ -1,6 +1,6 @@
 #include "flow/euler/scheme/residual.hpp"
 
-#include "flow/euler/scheme/flux.hpp"
+#include "flow/euler/model/flux.hpp"
 
 namespace quadloop::euler {
 

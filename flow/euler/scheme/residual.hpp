@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
+#include "flow/euler/model/flow_model.hpp"
+#include "flow/euler/model/flux.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
 #include "flow/euler/scheme/far_field.hpp"
-#include "flow/euler/scheme/flow_model.hpp"
-#include "flow/euler/scheme/flux.hpp"
 #include "flow/euler/scheme/no_slip.hpp"
 #include "flow/euler/scheme/reconstruction.hpp"
 #include "flow/euler/scheme/shock_sensor.hpp"

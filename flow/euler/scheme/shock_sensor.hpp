@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "flow/euler/model/gas.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
-#include "flow/euler/scheme/gas.hpp"
 
 namespace quadloop::euler {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flow/euler/scheme/flow_model.hpp"
+#include "flow/euler/model/flow_model.hpp"
 #include "flow/euler/scheme/reconstruction.hpp"
 
 namespace quadloop::euler {

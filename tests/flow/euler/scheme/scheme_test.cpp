@@ -1,38 +1,24 @@
-// The parts of the scheme: the dual mesh closes, gradients are exact, fluxes are consistent and conserve,
-// matrices are their derivatives.
+// The parts of the scheme: the dual mesh closes, gradients are exact, residuals conserve.
 #include <gtest/gtest.h>
 
-#include <map>
-#include <set>
-
+#include "flow/euler/model/euler_options.hpp"
+#include "flow/euler/model/flow_model.hpp"
+#include "flow/euler/model/gas.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
-#include "flow/euler/scheme/euler_options.hpp"
-#include "flow/euler/scheme/flow_model.hpp"
-#include "flow/euler/scheme/flux.hpp"
-#include "flow/euler/scheme/flux_jacobian.hpp"
-#include "flow/euler/scheme/gas.hpp"
 #include "flow/euler/scheme/reconstruction.hpp"
 #include "flow/euler/scheme/residual.hpp"
 #include "flow/euler/vortex.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/geometry/boundary_conditions.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
+#include "tests/flow/euler/made_up_states.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop::euler {
 namespace {
 
+using test::made_up_state;
 using test::world;
-
-State made_up_state(int number) {
-  const auto part = [&](int which) { return test::scattered(3, number, which); };
-  return {1 + 0.6 * part(0), 1.5 * part(1), 1.5 * part(2), 0.7 + 0.5 * part(3)};
-}
-Point made_up_normal(int number) {
-  const double angle = 4 * test::scattered(4, number, 0);
-  return {std::cos(angle), std::sin(angle)};
-}
 
 TEST(DualMesh, FillsTheMeshAndClosesRoundEachNode) {
   const Mesh mesh = test::irregular_grid(12, {3, 2}, 0.2);
@@ -101,76 +87,6 @@ TEST(Limiter, FlattensAPeakAndLeavesAConstantAlone) {
   EXPECT_LT(std::abs(gradients[middle].x[0]), 1e-6);  // kept from before
 }
 
-TEST(RoeFlux, OfEqualStatesIsThePhysicalOne) {
-  const Gas gas;
-  for (int i = 0; i < 200; ++i) {
-    const State state = made_up_state(i);
-    const Point normal = made_up_normal(i);
-    const Flux roe = roe_flux(gas, state, state, normal), physical = physical_flux(gas, state, normal);
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(roe[k], physical[k], 1e-14);
-  }
-}
-
-TEST(RoeFlux, IsTheSameFromTheOtherSide) {
-  const Gas gas;
-  for (int i = 0; i < 200; ++i) {
-    const State left = made_up_state(2 * i), right = made_up_state(2 * i + 1);
-    const Point normal = made_up_normal(i);
-    const Flux forth = roe_flux(gas, left, right, normal),
-               back = roe_flux(gas, right, left, {-normal.x, -normal.y});
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(forth[k], -back[k], 1e-13);
-  }
-}
-
-TEST(RoeFlux, TakesAllFromUpwindFasterThanSound) {
-  const Gas gas;
-  const State left{1, 2.5, 0.3, 0.7}, right{1.3, 2.7, -0.2, 0.9};
-  const Flux flux = roe_flux(gas, left, right, {1, 0}), upwind = physical_flux(gas, left, {1, 0});
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(flux[k], upwind[k], 1e-13);
-}
-
-TEST(FluxChange, IsTheDerivativeOfTheFlux) {
-  const Gas gas;
-  for (int i = 0; i < 20; ++i) {
-    const State state = made_up_state(2 * i), direction = made_up_state(2 * i + 1);
-    const Point normal = 3.0 * made_up_normal(i);
-    const double step = 1e-6;
-    State up = state, down = state;
-    for (std::size_t k = 0; k < 4; ++k) {
-      up[k] += step * direction[k];
-      down[k] -= step * direction[k];
-    }
-    const Flux more = physical_flux(gas, up, normal), less = physical_flux(gas, down, normal),
-               change = flux_change(gas, state, direction, normal);
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(change[k], (more[k] - less[k]) / (2 * step), 1e-7);
-  }
-}
-
-TEST(FluxMatrix, IsTheDerivativeOfTheFlux) {
-  const Gas gas;
-  for (int i = 0; i < 20; ++i) {
-    const State state = made_up_state(i);
-    const Point normal = made_up_normal(i);
-    Matrix4 matrix{};
-    add_flux_matrix(gas, state, normal, 1, matrix);
-    const Conserved w = gas.conserved(state);
-    for (std::size_t column = 0; column < 4; ++column) {
-      const double step = 1e-6;
-      const auto moved = [&](double by) {
-        return physical_flux(gas,
-                             gas.state({w.mass + (column == 0) * by, w.x_momentum + (column == 1) * by,
-                                        w.y_momentum + (column == 2) * by, w.energy + (column == 3) * by}),
-                             normal);
-      };
-      const Flux up = moved(step), down = moved(-step);
-      for (std::size_t row = 0; row < 4; ++row)
-        EXPECT_NEAR(matrix[4 * row + column], (up[row] - down[row]) / (2 * step), 1e-7);
-    }
-  }
-}
-
-/// The pressure alone varies, linearly, in a gas at rest: each node's dual cell must feel exactly gradient
-/// times area, on any mesh and at its boundary.
 TEST(Residual, OfALinearPressureIsExact) {
   for (const bool quads : {true, false}) {
     Mesh mesh = test::irregular_grid(10, {1, 2}, 0.24, quads);
@@ -208,87 +124,6 @@ TEST(Residual, ConservesWhateverTheFlowIs) {
   EXPECT_GT(largest, 1e-3);
   EXPECT_NEAR(mass, 0, 1e-14);  // nothing goes through walls
   EXPECT_NEAR(energy, 0, 1e-14);
-}
-
-TEST(FlowModel, RefusesAConditionThatItCannotUse) {
-  Mesh mesh = test::irregular_grid(4, {1, 1}, 0);
-  EulerOptions options;
-  mesh.boundaries[1].condition = "interface";
-  try {
-    flow_model(world(), mesh, options);
-    FAIL() << "taken";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("[boundary.far] bc"), std::string::npos) << error.what();
-  }
-  options.boundaries = {{"far", "outflow", 0.5}};
-  const FlowModel model = flow_model(world(), mesh, options);
-  EXPECT_EQ(model.boundaries[1].condition, Condition::outflow);
-  EXPECT_DOUBLE_EQ(*model.boundaries[1].pressure, 0.5 / 1.4);
-  mesh.boundaries.push_back({"nothing", "none", {}});  // without edges it does no harm
-  EXPECT_EQ(flow_model(world(), mesh, options).boundaries[2].condition, Condition::none);
-}
-
-/// The conditions of all words that a case may say, but those that the solver refuses.
-std::map<std::string, Condition> usable_conditions() {
-  Mesh mesh = test::irregular_grid(2, {1, 1}, 0);
-  std::map<std::string, Condition> usable;
-  for (const std::string& word : condition_words()) {
-    for (BoundaryEdges& boundary : mesh.boundaries) boundary.condition = word;
-    try {
-      usable[word] = flow_model(world(), mesh, {}).boundaries[0].condition;
-    } catch (const InputError&) {
-      EXPECT_TRUE(word == "interface" || word == "none") << word;
-    }
-  }
-  return usable;
-}
-
-TEST(FlowModel, HasAConditionForEachUsableWord) {
-  const auto usable = usable_conditions();
-  std::set<Condition> distinct;
-  for (const auto& [word, condition] : usable) {
-    distinct.insert(condition);
-    EXPECT_EQ(feels_force(condition), word == "wall") << word;
-  }
-  EXPECT_EQ(distinct.size(), usable.size());
-  EXPECT_EQ(usable.size(), 5U);
-}
-
-TEST(FlowModel, NothingFlowsThroughWallsAndPlanesOfSymmetry) {
-  FlowModel model;
-  model.free_stream = model.gas.free_stream(0.5, 0);
-  for (const Condition condition : {Condition::wall, Condition::symmetry}) {
-    const State state = made_up_state(1);
-    const Flux flux = boundary_flux(model, {condition, {}}, state, {0.6, 0.8});
-    EXPECT_EQ(flux, (Flux{0, 0.6 * state[3], 0.8 * state[3], 0}));
-    Matrix4 matrix{};
-    add_boundary_matrix(model, {condition, {}}, state, {0.6, 0.8}, 2, matrix);
-    EXPECT_DOUBLE_EQ(matrix[7], 2 * 0.6 * (model.gas.gamma - 1));  // x momentum by energy
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(std::pair(matrix[k], matrix[12 + k]), std::pair(0.0, 0.0));
-  }
-}
-
-TEST(FlowModel, RefusesAFaceOfABoundaryWithoutEdges) {
-  const FlowModel model;
-  Matrix4 matrix{};
-  EXPECT_THROW(boundary_flux(model, {}, made_up_state(1), {1, 0}), Fault);
-  EXPECT_THROW(add_boundary_matrix(model, {}, made_up_state(1), {1, 0}, 1, matrix), Fault);
-  EXPECT_THROW(feels_force(Condition::none), Fault);
-}
-
-TEST(BoundaryFlux, OfTheFreeStreamIsPhysical) {
-  FlowModel model;
-  for (const double mach : {0.0, 0.5, 2.0}) {
-    model.free_stream = model.gas.free_stream(mach, 30);
-    for (const Condition condition : {Condition::farfield, Condition::inflow, Condition::outflow}) {
-      for (int i = 0; i < 20; ++i) {
-        const Point normal = made_up_normal(i);
-        const Flux flux = boundary_flux(model, {condition, 1 / model.gas.gamma}, model.free_stream, normal);
-        const Flux physical = physical_flux(model.gas, model.free_stream, normal);
-        for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(flux[k], physical[k], 1e-14);
-      }
-    }
-  }
 }
 
 TEST(Vortex, BalancesItsPressureAndIsIsentropic) {

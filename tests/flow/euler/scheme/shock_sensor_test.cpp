@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "flow/euler/scheme/flux.hpp"
+#include "flow/euler/model/flux.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"

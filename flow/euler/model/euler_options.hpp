@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "flow/euler/scheme/goal.hpp"
+#include "flow/euler/model/goal.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/geometry/point.hpp"
 

@@ -1,4 +1,4 @@
-#include "flow/euler/scheme/dual_number.hpp"
+#include "flow/euler/model/dual_number.hpp"
 
 #include <gtest/gtest.h>
 

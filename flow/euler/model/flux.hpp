@@ -4,7 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "flow/euler/scheme/gas.hpp"
+#include "flow/euler/model/gas.hpp"
 
 namespace quadloop::euler {
 

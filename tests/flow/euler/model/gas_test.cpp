@@ -1,11 +1,11 @@
 // The gas by hand: states and what is conserved, the free stream, wave speeds near zero.
-#include "flow/euler/scheme/gas.hpp"
+#include "flow/euler/model/gas.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "flow/euler/scheme/flux.hpp"
+#include "flow/euler/model/flux.hpp"
 
 namespace quadloop::euler {
 namespace {

@@ -1,4 +1,4 @@
-#include "flow/euler/scheme/euler_options.hpp"
+#include "flow/euler/model/euler_options.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "flow/euler/scheme/gas.hpp"
+#include "flow/euler/model/gas.hpp"
 
 #include <numbers>
 

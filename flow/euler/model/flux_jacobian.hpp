@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flow/euler/scheme/flux.hpp"
+#include "flow/euler/model/flux.hpp"
 
 namespace quadloop::euler {
 

@@ -1,4 +1,4 @@
-#include "flow/euler/scheme/flow_model.hpp"
+#include "flow/euler/model/flow_model.hpp"
 
 #include <fmt/ranges.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include "flow/euler/scheme/flux.hpp"
+#include "flow/euler/model/flux.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 

@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "flow/euler/scheme/dual_number.hpp"
-#include "flow/euler/scheme/euler_options.hpp"
-#include "flow/euler/scheme/flux_jacobian.hpp"
-#include "flow/euler/scheme/gas.hpp"
+#include "flow/euler/model/dual_number.hpp"
+#include "flow/euler/model/euler_options.hpp"
+#include "flow/euler/model/flux_jacobian.hpp"
+#include "flow/euler/model/gas.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
