@@ -70,7 +70,8 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   MeshResult result;
   StageTimes& times = result.report.times;
   times.begin("geometry");
-  const Geometry geometry = without_small_islands(given, options.size.min, result.report);
+  const std::optional<Geometry> fewer = small_islands_dropped(given, options.size.min, result.report);
+  const Geometry& geometry = fewer ? *fewer : given;
   if (!options.may_vanish && !result.report.boundaries_vanished.empty()) {
     refuse_vanished(given, result.report.boundaries_vanished,
                     fmt::format("is smaller than spacing.min = {}", options.size.min));

@@ -11,7 +11,8 @@ namespace quadloop {
 std::int64_t count_nodes(const Communicator& comm, const Geometry& given, const MeshOptions& options,
                          const DemandedSplits& demanded) {
   MeshReport dropped;  // said when the mesh is made
-  const Geometry geometry = without_small_islands(given, options.size.min, dropped);
+  const std::optional<Geometry> fewer = small_islands_dropped(given, options.size.min, dropped);
+  const Geometry& geometry = fewer ? *fewer : given;
   SizedDomain domain(geometry, options.size, demanded);
   const MeshEstimate estimate = estimate_mesh(geometry, options.type, domain);
   require_within(estimate, geometry, options, demanded);

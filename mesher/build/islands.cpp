@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
@@ -49,6 +50,11 @@ std::vector<std::string> names_without_segments(const Geometry& g) {
 }  // namespace
 
 Geometry without_small_islands(const Geometry& g, double min, MeshReport& report) {
+  std::optional<Geometry> kept = small_islands_dropped(g, min, report);
+  return kept ? std::move(*kept) : g;
+}
+
+std::optional<Geometry> small_islands_dropped(const Geometry& g, double min, MeshReport& report) {
   std::vector<char> keep(g.loop_count(), 1);
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     const Box box = box_of_loop(g, loop);
@@ -63,7 +69,7 @@ Geometry without_small_islands(const Geometry& g, double min, MeshReport& report
          << " both ways and was dropped";
     report.warnings.push_back(line.str());
   }
-  if (report.islands_dropped == 0) return g;
+  if (report.islands_dropped == 0) return {};
   if (std::find(keep.begin(), keep.end(), 1) == keep.end()) {
     const Box box = box_of_loop(g, 0);
     std::ostringstream message;

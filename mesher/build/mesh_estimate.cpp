@@ -19,7 +19,7 @@ constexpr double hybrid_cells_of_leaf = 1.12, triangles_of_leaf = 2.05;
 // Peak memory of meshing, smoothing and writing, in bytes; a cut leaf's is of those that the estimate counts.
 constexpr double of_leaf = 90, of_cut_leaf = 1400, of_hybrid_cell = 80, of_delaunay_triangle = 90;
 // On every rank, the program itself too.
-constexpr double of_segment = 210, of_program = 28 * 0x1p20;
+constexpr double of_segment = 110, of_program = 28 * 0x1p20;
 constexpr double of_station = 300;  // a segment of a front, beside that
 
 /// Points that the mesh must keep: each beyond the first of a leaf makes a triangle more.
@@ -73,7 +73,8 @@ MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain&
 MeshEstimate estimate_mesh(const Geometry& given, const MeshOptions& options,
                            const DemandedSplits& demanded) {
   MeshReport dropped;
-  const Geometry geometry = without_small_islands(given, options.size.min, dropped);
+  const std::optional<Geometry> fewer = small_islands_dropped(given, options.size.min, dropped);
+  const Geometry& geometry = fewer ? *fewer : given;
   SizedDomain domain(geometry, options.size, demanded);
   return estimate_mesh(geometry, options.type, domain);
 }

@@ -1,7 +1,6 @@
 #include "mesher/geometry/box_tree.hpp"
 
 #include "mesher/base/ids.hpp"
-#include "mesher/geometry/geometry.hpp"
 
 namespace quadloop {
 
@@ -55,11 +54,6 @@ std::int32_t BoxTree::nearest_box(Point p) const {
     search(
         0, p, [&](const Item& item) { return squared_distance_to(item.box, p); }, best);
   return best.number;
-}
-
-BoxTree segment_tree(const Geometry& geometry) {
-  return {geometry.size(),
-          [&](std::int32_t s) { return box_of(geometry.point(s), geometry.point(geometry.next(s))); }};
 }
 
 }  // namespace quadloop

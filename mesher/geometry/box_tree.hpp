@@ -12,7 +12,7 @@
 
 namespace quadloop {
 
-/// Numbered boxes (those of segments, or of cells) that tell which of them meet a box, and which of what they
+/// Numbered boxes (those of edges, or of cells) that tell which of them meet a box, and which of what they
 /// hold is nearest to a point. Every answer, and the order in which they come, depends on the boxes alone.
 /// O(log n + k) for k boxes found. Coordinates are finite.
 class BoxTree {
@@ -139,9 +139,5 @@ std::int32_t BoxTree::nearest(Point p, const SquaredDistance& squared_distance) 
         0, p, [&](const Item& item) { return squared_distance(item.number); }, best);
   return best.number;
 }
-
-class Geometry;
-/// The boxes of its segments, by the segments' numbers.
-BoxTree segment_tree(const Geometry& geometry);
 
 }  // namespace quadloop

@@ -109,11 +109,9 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
       loop_starts_{std::move(loop_starts)},
       segment_boundary_{std::move(segment_boundary)} {
   QUADLOOP_REQUIRE(segment_boundary_.size() == points_.size(), "a geometry has one segment for each vertex");
-  loop_of_.resize(points_.size());
   flags_.resize(points_.size());
   for (std::int32_t loop = 0; loop < loop_count(); ++loop) {
     const std::int32_t begin = loop_start(loop), end = loop_start(loop + 1);
-    std::fill(loop_of_.begin() + begin, loop_of_.begin() + end, loop);
     flags_[begin] |= is_first;
     flags_[end - 1] |= is_last;
   }

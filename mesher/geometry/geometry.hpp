@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -54,14 +55,17 @@ class Geometry {
   std::int32_t size() const { return size32(points_); }  ///< number of vertices, and of segments
   std::int32_t loop_count() const { return size32(loop_starts_) - 1; }
   std::int32_t loop_start(std::int32_t loop) const { return loop_starts_[loop]; }
-  std::int32_t loop_of(std::int32_t v) const { return loop_of_[v]; }
+  /// O(log l) for l loops.
+  std::int32_t loop_of(std::int32_t v) const {
+    return static_cast<std::int32_t>(std::ranges::upper_bound(loop_starts_, v) - loop_starts_.begin()) - 1;
+  }
 
   Point point(std::int32_t v) const { return points_[v]; }
   std::int32_t next(std::int32_t v) const {
-    return (flags_[v] & is_last) == 0 ? v + 1 : loop_starts_[loop_of_[v]];
+    return (flags_[v] & is_last) == 0 ? v + 1 : loop_starts_[loop_of(v)];
   }
   std::int32_t previous(std::int32_t v) const {
-    return (flags_[v] & is_first) == 0 ? v - 1 : loop_starts_[loop_of_[v] + 1] - 1;
+    return (flags_[v] & is_first) == 0 ? v - 1 : loop_starts_[loop_of(v) + 1] - 1;
   }
   BoundaryId boundary_of(std::int32_t segment) const { return segment_boundary_[segment]; }
 
@@ -98,7 +102,7 @@ class Geometry {
  private:
   std::vector<Boundary> boundaries_;
   std::vector<Point> points_;
-  std::vector<std::int32_t> loop_starts_, loop_of_;
+  std::vector<std::int32_t> loop_starts_;
   std::vector<BoundaryId> segment_boundary_;
   std::vector<double> spacing_, bend_;  ///< of each segment, where LocalDemands say so
   std::vector<char> kept_;

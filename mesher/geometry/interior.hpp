@@ -1,6 +1,8 @@
 #pragma once
 
-#include "mesher/geometry/box_tree.hpp"
+#include <optional>
+
+#include "mesher/geometry/segment_tree.hpp"
 #include "mesher/geometry/shifted_outline.hpp"
 
 namespace quadloop {
@@ -16,7 +18,7 @@ class Interior {
 
  private:
   const ShiftedOutline* outline_;
-  mutable BoxTree segments_;
+  mutable std::optional<SegmentTree> segments_;
 };
 
 }  // namespace quadloop

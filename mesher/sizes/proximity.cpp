@@ -31,7 +31,7 @@ std::pair<Point, Point> clip(Point a, Point b, const Box& box) {
 
 }  // namespace
 
-Proximity::Proximity(const Geometry& g) : geometry_{&g}, segments_{segment_tree(g)} {
+Proximity::Proximity(const Geometry& g) : geometry_{&g}, segments_{g} {
   double arc = 0, turning = 0;
   std::int32_t kept = 0;
   for (std::int32_t v = 0; v < g.size(); ++v) {

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/segment_tree.hpp"
 
 namespace quadloop {
 
@@ -26,7 +26,7 @@ class Proximity {
   bool is_one_bend_onwards(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const;
 
   const Geometry* geometry_;
-  BoxTree segments_;
+  SegmentTree segments_;
   std::vector<double> arc_;         ///< length of its loop up to each vertex
   std::vector<double> turning_;     ///< degrees turned up to and with each vertex at points that are not kept
   std::vector<std::int32_t> kept_;  ///< kept points up to and with each vertex

@@ -32,11 +32,13 @@ SizeRules::SizeRules(const ShiftedOutline& outline, const Lattice& lattice, cons
   domain_ = {lattice.column_at(g.box().low.x), line_after(right, lattice.x(right), g.box().high.x),
              lattice.row_at(g.box().low.y), line_after(top, lattice.y(top), g.box().high.y)};
   if (options.gap) proximity_.emplace(g);
-  spacing_.reserve(g.size());
+  level_of_segment_.reserve(g.size());
   const bool any_corner =
       std::ranges::any_of(g.boundaries(), [](const Boundary& b) { return b.corner_spacing > 0; });
+  int level = coarsest_;  // that of the segment before, near which this one's mostly is
   for (std::int32_t s = 0; s < g.size(); ++s) {
-    spacing_.push_back(g.spacing_of(s));
+    level = level_within(g.spacing_of(s), level);
+    level_of_segment_.push_back(static_cast<std::int8_t>(level));
     if (any_corner) corner_spacing_.push_back(g.corner_spacing_of(s));
     if (options.curvature) turning_.push_back(std::llround(g.bend_degrees(s) / turning_unit));
   }
@@ -81,18 +83,25 @@ int SizeRules::level_for(double spacing) const {
   return level;
 }
 
+int SizeRules::level_within(double spacing, int from) const {
+  int level = from;
+  while (level > 0 && lattice_->edge(level - 1) <= spacing) --level;
+  while (level < finest_of_case_ && lattice_->edge(level) > spacing) ++level;
+  return level;
+}
+
 int SizeRules::level_of_outline(const Quadrant& q, std::span<const std::int32_t> segments) const {
-  double spacing = lattice_->tree_edge();
+  int level = coarsest_;
   std::int64_t turning = 0;
   for (const std::int32_t s : segments) {
-    spacing = std::min(spacing, spacing_[s]);
+    level = std::max<int>(level, level_of_segment_[s]);
     if (options_.curvature) turning += turning_[s];
   }
   if (options_.curvature && turning > 0) {
     const double turns = static_cast<double>(turning) * turning_unit / *options_.curvature;
-    spacing = std::min(spacing, lattice_->edge(q.level) / turns);
+    level = std::max(level, level_for(lattice_->edge(q.level) / turns));
   }
-  return level_for(spacing);
+  return level;
 }
 
 bool SizeRules::wants_split(const SizedQuadrant& sized) const {
@@ -110,7 +119,7 @@ bool SizeRules::wants_split(const SizedQuadrant& sized) const {
   const std::span<const std::int32_t> inside = sized.segments;
   if (inside.empty()) return false;
   for (const std::int32_t s : inside) {
-    if (size > spacing_[s]) return true;
+    if (q.level < level_of_segment_[s]) return true;
   }
   if (options_.curvature && turns_too_far(inside, box)) return true;
   if (proximity_ && proximity_->narrower(inside, box, *options_.gap * size)) return true;

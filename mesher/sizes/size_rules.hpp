@@ -72,6 +72,8 @@ class SizeRules {
   std::int64_t gap_to_domain(const Quadrant& q) const;
 
  private:
+  /// The coarsest level of leaves no larger than this, as the case has them, looked for from another one.
+  int level_within(double spacing, int from) const;
   bool turns_too_far(std::span<const std::int32_t> segments, const Box& box) const;
 
   const ShiftedOutline* outline_;
@@ -80,7 +82,8 @@ class SizeRules {
   const DemandedSplits* demanded_;
   Unresolved unresolved_;
   std::optional<Proximity> proximity_;
-  std::vector<double> spacing_;         ///< of each segment
+  std::vector<std::int8_t>
+      level_of_segment_;  ///< the coarsest at which leaves are as small as it asks, or the finest
   std::vector<double> corner_spacing_;  ///< of each vertex, or 0; empty where no boundary asks
   /// Of each vertex, in turning_unit, 0 where it is kept as a corner; none without options_.curvature.
   std::vector<std::int64_t> turning_;

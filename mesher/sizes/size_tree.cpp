@@ -1,6 +1,5 @@
 #include "mesher/sizes/size_tree.hpp"
 
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -11,10 +10,8 @@ namespace quadloop {
 SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
                    SizeRules::Unresolved unresolved, const DemandedSplits& demanded)
     : rules_{outline, lattice, options, std::move(unresolved), demanded}, corners_{rules_.sized_corners()} {
-  segments_.resize(outline.geometry().size());
-  std::iota(segments_.begin(), segments_.end(), 0);
   Node whole;
-  whole.segments_end = size32(segments_);
+  whole.segments_end = outline.geometry().size();
   whole.corners_end = size32(corners_);
   for (int ty = 0; ty < lattice.trees_y(); ++ty) {
     for (int tx = 0; tx < lattice.trees_x(); ++tx) {
@@ -56,25 +53,26 @@ void SizeTree::grow(std::int32_t n) const {
     nodes_[above].deepest_split = parent.quadrant.level;
 }
 
-/// Takes over what the node holds of its parent's segments and corners. A corner on a lattice line touches
-/// the leaves on both its sides, so that mirror images agree.
+/// Takes over what the node holds of its parent's segments and corners; a root, of all segments, whose
+/// numbers stand in no list. A corner on a lattice line touches the leaves on both its sides, so that mirror
+/// images agree.
 void SizeTree::add(Node child, const Node& parent) const {
   const Box box = lattice().box_of(child.quadrant);
   const ShiftedOutline& outline = rules_.outline();
-  const auto take = [](std::vector<std::int32_t>& all, std::int32_t begin, std::int32_t end,
+  const auto take = [](std::vector<std::int32_t>& all, std::int32_t begin, std::int32_t end, bool listed,
                        const auto& holds) {
     const auto first = size32(all);
     for (std::int32_t i = begin; i < end; ++i) {
-      const std::int32_t number = all[i];
+      const std::int32_t number = listed ? all[i] : i;
       if (holds(number)) all.push_back(number);
     }
     return std::pair(first, size32(all));
   };
   std::tie(child.segments_begin, child.segments_end) =
-      take(segments_, parent.segments_begin, parent.segments_end,
+      take(segments_, parent.segments_begin, parent.segments_end, child.parent >= 0,
            [&](std::int32_t s) { return outline.meets(s, box); });
   std::tie(child.corners_begin, child.corners_end) =
-      take(corners_, parent.corners_begin, parent.corners_end,
+      take(corners_, parent.corners_begin, parent.corners_end, true,
            [&](std::int32_t v) { return box.contains(outline.geometry().point(v)); });
   const SizeRules::Judgement said = rules_.judge(sized(child));
   child.plain = said.plain;

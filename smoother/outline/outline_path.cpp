@@ -20,7 +20,7 @@ OutlinePath::OutlinePath(const Geometry& geometry)
     : geometry_{geometry},
       arc_(geometry.size()),
       tolerance_{on_outline * std::max(geometry.box().width(), geometry.box().height())},
-      segments_{segment_tree(geometry)} {
+      segments_{geometry} {
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
     double arc = 0;
     for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/segment_tree.hpp"
 
 namespace quadloop {
 
@@ -92,7 +92,7 @@ class OutlinePath {
   std::vector<double> arc_;     ///< of each vertex, from its loop's first
   std::vector<double> length_;  ///< of each loop
   double tolerance_ = 0;
-  BoxTree segments_;
+  SegmentTree segments_;
 };
 
 }  // namespace quadloop
