@@ -222,8 +222,8 @@ void require_layers_that_doubles_hold(const Geometry& geometry) {
     throw InputError(
         fmt::format("boundary {}: a first layer of {} is too thin for coordinates as large as {}: "
                     "numbers do not hold it; move the geometry nearer to the origin, or make it "
-                    "thicker than {:.1g}",
-                    boundary.name, boundary.layers->first, largest[b], steps * largest[b]));
+                    "thicker than {:.2g}",
+                    boundary.name, boundary.layers->first, largest[b], 1.05 * steps * largest[b]));
   }
 }
 
