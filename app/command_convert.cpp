@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -170,14 +171,14 @@ void run_convert(const CommandContext& context, const ConvertArguments& argument
   context.warn(warnings);
   if (!comm.is_root()) return;
   Figures figures = input.solid ? figures_of(*input.solid) : figures_of(input.whole);
-  context.record.files = {arguments.output};
-  std::string wrote = "  wrote " + arguments.output + "\n";
+  std::vector<std::string>& files = context.record.files;
+  files = with_files_beside({arguments.output}, arguments.format);
+  std::string wrote = fmt::format("  wrote {}\n", fmt::join(files, ", "));
   if (parts) {
     add_parts(figures, *parts);
-    for (std::string& file : part_file_names(request.prefix, request.parts, request.formats))
-      context.record.files.push_back(std::move(file));
-    wrote += fmt::format("  wrote {} and {} files of parts\n", context.record.files[1],
-                         context.record.files.size() - 2);
+    const std::vector<std::string> of_parts = part_file_names(request.prefix, request.parts, request.formats);
+    files.insert(files.end(), of_parts.begin(), of_parts.end());
+    wrote += fmt::format("  wrote {} and {} files of parts\n", of_parts.front(), of_parts.size() - 1);
   }
   context.record.figures = figures.record();
   if (context.shows_table()) std::cout << figures.table() << wrote;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -157,8 +158,9 @@ void run_extrude(const CommandContext& context, const ExtrudeArguments& argument
   if (!comm.is_root()) return;
   const Figures figures = figures_of(counts, mesh, area);
   context.record.figures = figures.record();
-  context.record.files = {arguments.output};
-  if (context.shows_table()) std::cout << figures.table() << "  wrote " << arguments.output << "\n";
+  context.record.files = with_files_beside({arguments.output});
+  if (context.shows_table())
+    std::cout << figures.table() << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
 }
 
 void add_options(CLI::App& command, ExtrudeArguments& arguments) {

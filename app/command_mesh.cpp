@@ -66,6 +66,7 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   });
   for (const std::string& format : settings.formats)
     prepared.files.push_back(settings.output_prefix + "." + format);
+  prepared.files = with_files_beside(prepared.files);
   if (!arguments.geometry_out.empty()) prepared.files.push_back(arguments.geometry_out);
   prepared.files.push_back(settings.output_prefix + tree_suffix);
   if (settings.partitions > 0)

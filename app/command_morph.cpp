@@ -239,9 +239,8 @@ void run_morph(const CommandContext& context, const MorphArguments& arguments) {
   if (!arguments.output.empty()) write_mesh_of_root(comm, input.whole, arguments.output);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
-  for (const std::string& file : {arguments.output, arguments.outline_gradient}) {
-    if (!file.empty()) context.record.files.push_back(file);
-  }
+  if (!arguments.output.empty()) context.record.files = with_files_beside({arguments.output});
+  if (!arguments.outline_gradient.empty()) context.record.files.push_back(arguments.outline_gradient);
   if (!comm.is_root()) return;
   const Figures figures = figures_of(report);
   context.record.figures = figures.record();

@@ -161,9 +161,8 @@ Problem load(const Communicator& comm, const RemeshArguments& arguments) {
       problem.parts = {prefix, settings.partitions, part_formats(settings.formats)};
       problem.part_files = part_file_names(prefix, settings.partitions, problem.parts.formats);
     }
-    for (const auto* files : {&problem.files, &problem.part_files}) {
-      for (const std::string& file : *files) require_possible_output(file);
-    }
+    for (const std::string& file : with_files_beside(problem.files)) require_possible_output(file);
+    for (const std::string& file : problem.part_files) require_possible_output(file);
     if (comm.is_root()) problem.whole = solved_mesh(arguments, tree);
   });
   return problem;
@@ -182,7 +181,8 @@ SolvedMesh compare(const Communicator& comm, const RemeshArguments& arguments, P
 void report(const CommandContext& context, const CarriedMesh& carried, const StageTimes& times,
             const Problem& problem, const std::optional<PartFigures>& parts) {
   for (const std::string& file : problem.files) context.warn(renames_in(carried.generated.result.mesh, file));
-  MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), problem.files);
+  const std::vector<std::string> files = with_files_beside(problem.files);
+  MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), files);
   if (parts) add_parts(summary, *parts, problem.part_files);
   Figures of_transfer = transfer_figures(carried);
   if (carried.estimate) of_transfer.add("interpolation error", *carried.estimate, "{:.3e}");
@@ -194,7 +194,7 @@ void report(const CommandContext& context, const CarriedMesh& carried, const Sta
     of_transfer.add_raw("morphed", carried.morphed ? "yes" : "no", carried.morphed ? "true" : "false");
   context.record.figures = record_of(summary);
   context.record.figures.append(of_transfer.record());
-  context.record.files = problem.files;
+  context.record.files = files;
   context.record.files.insert(context.record.files.end(), problem.part_files.begin(),
                               problem.part_files.end());
   if (context.shows_table()) std::cout << table_of(summary) << of_transfer.table(27, 10);

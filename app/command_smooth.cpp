@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
@@ -203,8 +204,9 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
   } else {
     text = smooth_and_write(context, arguments, loaded, times);
   }
-  context.record.files = {arguments.output};
-  if (context.shows_table()) std::cout << text << "  wrote " << arguments.output << "\n";
+  context.record.files = with_files_beside({arguments.output});
+  if (context.shows_table())
+    std::cout << text << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
 }
 
 }  // namespace

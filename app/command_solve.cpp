@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
@@ -200,10 +201,10 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   context.record.figures.add("converged", result.converged);
   context.record.figures.add("seconds", record_of(stages));
   const TableFiles tables = tables_beside(arguments.output);
-  context.record.files = {arguments.output, tables.walls, tables.history};
+  context.record.files = with_files_beside({arguments.output, tables.walls, tables.history});
   if (context.shows_table())
-    std::cout << figures.table() << stage_table(stages) << "  wrote " << arguments.output << ", "
-              << tables.walls << ", " << tables.history << "\n";
+    std::cout << figures.table() << stage_table(stages)
+              << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
 }
 
 }  // namespace

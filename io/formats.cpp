@@ -26,6 +26,7 @@
 #include "io/ugrid/ugrid_plane_file.hpp"
 #include "io/vtu/pvtu_file.hpp"
 #include "io/vtu/pvtu_solid_file.hpp"
+#include "io/vtu/pvtu_text.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
 #include "mesher/mesh/variable_names.hpp"
@@ -83,16 +84,16 @@ FileFormat ugrid_row(const std::string& name) {
   return {.name = name,
           .program = "AFLR3",
           .places = {Content::solid},
+          .file_beside = mapbc_path,
           .write_solid = write_ugrid<order>,
           .read_solid = read_ugrid<order>,
           .patch_names = mapbc_names,
           .conditions_in_solid = true};
 }
 
-/// The program's own, and those that have a place for a mesh with its solution.
-std::vector<FileFormat> rows_with_solutions() {
+/// The program's own: as text, and binary.
+std::vector<FileFormat> native_rows() {
   using enum Content;
-  const char* const save = "let the solver save values at points (in ParaView: Cell Data to Point Data)";
   return {{.name = "mesh",
            .places = {mesh, solution, constants, blocks, layers},
            .by_default = true,
@@ -103,22 +104,31 @@ std::vector<FileFormat> rows_with_solutions() {
            .places = {mesh, solution, constants, blocks, conditions, layers},
            .read_mesh = read_binary,
            .write_mesh = write_binary,
-           .write_blocks = write_binary},
-          {.name = "cgns",
-           .places = {mesh, solution, conditions, layers, solid},
-           .by_default = true,
-           .read_mesh = read_cgns,
-           .write_mesh = write_cgns,
-           .boundary_names = cgns_boundary_names,
-           .variable_names = cgns_variable_renames,
-           .write_solid = write_cgns_solid,
-           .read_solid = read_cgns_solid,
-           .patch_names = cgns_boundary_names,
-           .solution_in_solid = true,
-           .conditions_in_solid = true},
-          {.name = "vtu",
+           .write_blocks = write_binary}};
+}
+
+FileFormat cgns_row() {
+  using enum Content;
+  return {.name = "cgns",
+          .places = {mesh, solution, conditions, layers, solid},
+          .by_default = true,
+          .read_mesh = read_cgns,
+          .write_mesh = write_cgns,
+          .boundary_names = cgns_boundary_names,
+          .variable_names = cgns_variable_renames,
+          .write_solid = write_cgns_solid,
+          .read_solid = read_cgns_solid,
+          .patch_names = cgns_boundary_names,
+          .solution_in_solid = true,
+          .conditions_in_solid = true};
+}
+
+/// One file, and the list of pieces.
+std::vector<FileFormat> vtk_rows() {
+  using enum Content;
+  return {{.name = "vtu",
            .places = {mesh, solution, blocks, layers, solid},
-           .without_values = save,
+           .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read_mesh = read_vtu,
            .write_mesh = write_vtu,
            .write_blocks = write_vtu,
@@ -129,65 +139,72 @@ std::vector<FileFormat> rows_with_solutions() {
           {.name = "pvtu",
            .program = "VTK",
            .places = {mesh, solution, blocks, layers, solid},
-           .without_values = save,
+           .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read_mesh = read_pvtu,
            .write_mesh = write_pvtu,
            .write_blocks = write_pvtu,
+           .file_beside = pvtu_piece_path,
            .write_solid = write_pvtu_solid,
            .read_solid = read_pvtu_solid,
            .solution_in_solid = true,
            .blocks_in_solid = true}};
 }
 
-/// Those that other programs read their meshes from.
-std::vector<FileFormat> rows_of_programs() {
+FileFormat su2_row() {
+  return {.name = "su2",
+          .places = {Content::mesh, Content::solid},
+          .read_mesh = read_su2,
+          .write_mesh = write_mesh_alone<write_su2>,
+          .boundary_names = su2_marker_names,
+          .write_solid = write_su2_solid,
+          .read_solid = read_su2_solid,
+          .patch_names = su2_marker_names};
+}
+
+FileFormat fluent_row() {
   using enum Content;
-  return {{.name = "su2",
-           .places = {mesh, solid},
-           .read_mesh = read_su2,
-           .write_mesh = write_mesh_alone<write_su2>,
-           .boundary_names = su2_marker_names,
-           .write_solid = write_su2_solid,
-           .read_solid = read_su2_solid,
-           .patch_names = su2_marker_names},
-          {.name = "fluent.msh",
-           .program = "Fluent",
-           .places = {mesh, blocks, conditions, solid},
-           .read_mesh = read_fluent,
-           .write_mesh = write_mesh_alone<write_fluent>,
-           .write_blocks = write_fluent,
-           .boundary_names = fluent_zone_names,
-           .unknown_boundary = "a wall",
-           .write_solid = write_fluent_solid,
-           .read_solid = read_fluent_solid,
-           .patch_names = fluent_zone_names,
-           .conditions_in_solid = true,
-           .blocks_in_solid = true},
-          msh_row<MshVersion::msh_2_2>("msh"),
-          msh_row<MshVersion::msh_4_1>("msh41"),
-          ugrid_row<std::endian::big>("b8.ugrid"),
-          ugrid_row<std::endian::little>("lb8.ugrid"),
-          {.name = "ugrid",
-           .program = "AFLR2",
-           .places = {mesh, conditions},
-           .read_mesh = read_ugrid_plane,
-           .write_mesh = write_mesh_alone<write_ugrid_plane>,
-           .boundary_names = mapbc_names,
-           .unknown_boundary = "of type 0 in the .mapbc"},
-          {.name = "polyMesh",
-           .program = "OpenFOAM",
-           .places = {mesh, blocks, conditions, solid},
-           .read_mesh = read_foam_plane,
-           .write_mesh = write_mesh_alone<write_foam_plane>,
-           .write_blocks = write_foam_plane,
-           .boundary_names = foam_patch_names,
-           .unknown_boundary = "a plain patch, no wall",
-           .write_solid = write_foam,
-           .read_solid = read_foam,
-           .patch_names = foam_patch_names,
-           .conditions_in_solid = true,
-           .blocks_in_solid = true,
-           .is_folder = true}};
+  return {.name = "fluent.msh",
+          .program = "Fluent",
+          .places = {mesh, blocks, conditions, solid},
+          .read_mesh = read_fluent,
+          .write_mesh = write_mesh_alone<write_fluent>,
+          .write_blocks = write_fluent,
+          .boundary_names = fluent_zone_names,
+          .unknown_boundary = "a wall",
+          .write_solid = write_fluent_solid,
+          .read_solid = read_fluent_solid,
+          .patch_names = fluent_zone_names,
+          .conditions_in_solid = true,
+          .blocks_in_solid = true};
+}
+
+FileFormat plane_ugrid_row() {
+  return {.name = "ugrid",
+          .program = "AFLR2",
+          .places = {Content::mesh, Content::conditions},
+          .read_mesh = read_ugrid_plane,
+          .write_mesh = write_mesh_alone<write_ugrid_plane>,
+          .boundary_names = mapbc_names,
+          .unknown_boundary = "of type 0 in the .mapbc",
+          .file_beside = mapbc_path};
+}
+
+FileFormat foam_row() {
+  using enum Content;
+  return {.name = "polyMesh",
+          .program = "OpenFOAM",
+          .places = {mesh, blocks, conditions, solid},
+          .read_mesh = read_foam_plane,
+          .write_mesh = write_mesh_alone<write_foam_plane>,
+          .write_blocks = write_foam_plane,
+          .boundary_names = foam_patch_names,
+          .unknown_boundary = "a plain patch, no wall",
+          .write_solid = write_foam,
+          .read_solid = read_foam,
+          .patch_names = foam_patch_names,
+          .conditions_in_solid = true,
+          .blocks_in_solid = true,
+          .is_folder = true};
 }
 
 /// Solutions alone.
@@ -209,8 +226,14 @@ std::vector<FileFormat> rows_of_solutions() {
 
 const std::vector<FileFormat>& file_formats() {
   static const std::vector<FileFormat> formats = [] {
-    std::vector<FileFormat> all = rows_with_solutions();
-    std::ranges::move(rows_of_programs(), std::back_inserter(all));
+    std::vector<FileFormat> all = native_rows();
+    all.push_back(cgns_row());
+    std::ranges::move(vtk_rows(), std::back_inserter(all));
+    for (const FileFormat& row :
+         {su2_row(), fluent_row(), msh_row<MshVersion::msh_2_2>("msh"), msh_row<MshVersion::msh_4_1>("msh41"),
+          ugrid_row<std::endian::big>("b8.ugrid"), ugrid_row<std::endian::little>("lb8.ugrid"),
+          plane_ugrid_row(), foam_row()})
+      all.push_back(row);
     std::ranges::move(rows_of_solutions(), std::back_inserter(all));
     return all;
   }();
@@ -254,6 +277,16 @@ const FileFormat* format_of(const std::string& path) {
     return is_suffix || (format.is_folder && name == format.name);
   });
   return found == file_formats().end() ? nullptr : &*found;
+}
+
+std::vector<std::string> with_files_beside(const std::vector<std::string>& files, const std::string& format) {
+  std::vector<std::string> all;
+  for (const std::string& file : files) {
+    const FileFormat* row = format.empty() ? format_of(file) : format_named(format);
+    all.push_back(file);
+    if (row != nullptr && row->file_beside != nullptr) all.push_back(row->file_beside(file));
+  }
+  return all;
 }
 
 const FileFormat& native_format() { return file_formats().front(); }

@@ -52,6 +52,8 @@ struct FileFormat {
   /// What a boundary becomes that nothing is known of, where other programs take that for a statement; null:
   /// nothing.
   const char* unknown_boundary = nullptr;
+  /// The second file that is written with one of this name; null: there is none.
+  std::string (*file_beside)(const std::string& path) = nullptr;
 
   /// A solution alone, as above; `gamma` is the ratio of specific heats of its gas.
   LoadedSolution (*read_solution)(const std::string& path) = nullptr;
@@ -86,6 +88,11 @@ void require_distinct_variables(const Field& solution, const std::string& path);
 /// The format of this name, or the one that the path's suffix tells; null where it is none.
 const FileFormat* format_named(const std::string& name);
 const FileFormat* format_of(const std::string& path);
+
+/// Each file, and after it the one that is written beside it in its format: the named one, else that of its
+/// suffix.
+std::vector<std::string> with_files_beside(const std::vector<std::string>& files,
+                                           const std::string& format = {});
 
 /// The first row: the program's own, which keeps mesh and solution to the bit.
 const FileFormat& native_format();

@@ -55,4 +55,20 @@ class CgnsFile {
   mutable bool open_ = false;
 };
 
+/// The first base of a file, of which alone meshes are read.
+struct CgnsBase {
+  int cell_dimension = 0, zones = 0;
+};
+
+inline CgnsBase first_base(const CgnsFile<InputError>& file) {
+  CgnsBase base;
+  int bases = 0, physical_dimension = 0;
+  char name[33] = {};
+  file.check(cg_nbases(file.id(), &bases));
+  if (bases == 0) throw InputError(file.shown() + ": holds no CGNS base");
+  file.check(cg_base_read(file.id(), 1, name, &base.cell_dimension, &physical_dimension));
+  file.check(cg_nzones(file.id(), 1, &base.zones));
+  return base;
+}
+
 }  // namespace quadloop

@@ -295,14 +295,9 @@ void require_whole_solution(const LoadedMesh& loaded, const std::string& path) {
 
 LoadedMesh read_here(const std::string& path) {
   const File file(path, path, CG_MODE_READ);
-  int bases = 0, zones = 0, cell_dimension = 0, physical_dimension = 0;
-  Name name{};
-  file.check(cg_nbases(file.id(), &bases));
-  if (bases == 0) throw InputError(path + ": holds no CGNS base");
-  file.check(cg_base_read(file.id(), 1, name.data(), &cell_dimension, &physical_dimension));
+  const auto [cell_dimension, zones] = first_base(file);
   if (cell_dimension != 2)
     throw InputError(path + ": its cells are " + std::to_string(cell_dimension) + "D, not 2D");
-  file.check(cg_nzones(file.id(), 1, &zones));
   LoadedMesh loaded;
   CgnsBoundaries boundaries;
   loaded.blocks = 0;

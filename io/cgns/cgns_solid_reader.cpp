@@ -246,13 +246,8 @@ class CgnsSolidReader {
 
 std::optional<SolidMesh> read_here(const std::string& path) {
   const File file(path, path, CG_MODE_READ);
-  int bases = 0, zones = 0, cell_dimension = 0, physical_dimension = 0;
-  Name name{};
-  file.check(cg_nbases(file.id(), &bases));
-  if (bases == 0) throw InputError(path + ": holds no CGNS base");
-  file.check(cg_base_read(file.id(), 1, name.data(), &cell_dimension, &physical_dimension));
+  const auto [cell_dimension, zones] = first_base(file);
   if (cell_dimension != 3) return std::nullopt;
-  file.check(cg_nzones(file.id(), 1, &zones));
   if (zones != 1)
     throw InputError(path + ": holds " + std::to_string(zones) +
                      " zones; of three dimensions one can be read");

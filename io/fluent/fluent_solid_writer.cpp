@@ -1,5 +1,4 @@
 #include <array>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -10,7 +9,6 @@
 #include "io/solid/held_faces.hpp"
 #include "io/solid/solid_blocks.hpp"
 #include "io/text/text_output.hpp"
-#include "mesher/base/error.hpp"
 #include "mesher/solid/cell_faces.hpp"
 
 namespace quadloop {
@@ -29,10 +27,7 @@ class FluentSolidWriter {
  public:
   FluentSolidWriter(OutputSet& outputs, const SolidStream& stream, const std::string& path)
       : stream_{stream}, blocks_{stream}, file_{outputs, path} {
-    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    if (stream.counts().nodes >= most || stream.counts().cells() >= most)
-      throw OutputError(path +
-                        ": the mesh has more nodes or cells than this format can count (32-bit numbers)");
+    require_countable_in_fluent(path, stream.counts().nodes, stream.counts().cells());
     if (stream.held() != nullptr) {
       held_.emplace(*stream.held(), path);
       number_held();
@@ -221,13 +216,11 @@ class FluentSolidWriter {
     std::string text;
     const std::vector<std::string> blocks = fluent_zone_names(blocks_.names());
     for (std::int32_t block = 0; block < blocks_.count(); ++block)
-      text += "(45 (" + std::to_string(2 + block) + " fluid " + blocks[block] + ")())\n";
-    if (has_inner_)
-      text += "(45 (" + std::to_string(inner_zone()) + " interior " + fluent_inner_zone + ")())\n";
+      text += fluent_zone_name(2 + block, "fluid", blocks[block]);
+    if (has_inner_) text += fluent_zone_name(inner_zone(), "interior", fluent_inner_zone);
     const std::vector<std::string> names = fluent_zone_names(stream_.patch_names());
     for (std::size_t n = 0; n < names.size(); ++n)
-      text += "(45 (" + std::to_string(zone_of_patch(n)) + " " +
-              fluent_word(condition(stream_.patches()[n])) + " " + names[n] + ")())\n";
+      text += fluent_zone_name(zone_of_patch(n), fluent_word(condition(stream_.patches()[n])), names[n]);
     file_.write(text);
   }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -10,7 +9,6 @@
 #include "io/solid/require_conforming.hpp"
 #include "io/text/plain_names.hpp"
 #include "io/text/text_output.hpp"
-#include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
 #include "mesher/mesh/topology.hpp"
 
@@ -32,10 +30,7 @@ class FluentWriter {
         cells_{edge_cells(comm_, mesh)},
         triangles_{comm_.sum(std::ssize(mesh.triangles))},
         quads_{comm_.sum(std::ssize(mesh.quads))} {
-    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    if (comm_.sum(mesh_.owned_nodes) >= most || triangles_ + quads_ >= most)
-      throw OutputError(path +
-                        ": the mesh has more nodes or cells than this format can count (32-bit numbers)");
+    require_countable_in_fluent(path, comm_.sum(mesh_.owned_nodes), triangles_ + quads_);
     if (whole_ != nullptr) number_by_block();
     require_conforming(comm_, mesh, cells_, std::ssize(between_), path);
   }
@@ -229,14 +224,13 @@ class FluentWriter {
     names = fluent_zone_names(names);
     std::string text;
     for (std::int32_t block = 0; block < blocks(); ++block)
-      text += "(45 (" + std::to_string(2 + block) + " fluid " + block_name(block) + ")())\n";
-    if (has_inner_)
-      text += "(45 (" + std::to_string(inner_zone()) + " interior " + fluent_inner_zone + ")())\n";
+      text += fluent_zone_name(2 + block, "fluid", block_name(block));
+    if (has_inner_) text += fluent_zone_name(inner_zone(), "interior", fluent_inner_zone);
     for (std::size_t n = 0; n < names.size(); ++n) {
       const BoundaryEdges& boundary = *boundaries_.present()[n];
-      text += "(45 (" + std::to_string(inner_zone() + 1 + static_cast<std::int64_t>(n)) + " " +
-              fluent_word(is_interface(boundary) ? "interface" : outer_condition(boundary)) + " " + names[n] +
-              ")())\n";
+      text += fluent_zone_name(inner_zone() + 1 + static_cast<std::int64_t>(n),
+                               fluent_word(is_interface(boundary) ? "interface" : outer_condition(boundary)),
+                               names[n]);
     }
     file_.write(text);
   }

@@ -2,6 +2,9 @@
 
 #include <array>
 #include <charconv>
+#include <limits>
+
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -46,6 +49,17 @@ std::string condition_of_fluent(std::int64_t number) {
     if (number == zone.number) return zone.condition;
   }
   return "none";
+}
+
+std::string fluent_zone_name(std::int64_t zone, const std::string& word, const std::string& name) {
+  return "(45 (" + std::to_string(zone) + " " + word + " " + name + ")())\n";
+}
+
+void require_countable_in_fluent(const std::string& path, std::int64_t nodes, std::int64_t cells) {
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  if (nodes >= most || cells >= most)
+    throw OutputError(path +
+                      ": the mesh has more nodes or cells than this format can count (32-bit numbers)");
 }
 
 std::string fluent_hexadecimal(std::int64_t number) {

@@ -18,6 +18,12 @@ std::string fluent_word(const std::string& condition);
 /// The way back; "none" for a number that has no word of ours.
 std::string condition_of_fluent(std::int64_t number);
 
+/// A section that names a zone: "(45 (2 fluid domain)())".
+std::string fluent_zone_name(std::int64_t zone, const std::string& word, const std::string& name);
+
+/// Throws OutputError where the format, with its numbers of 32 bits, cannot count so many.
+void require_countable_in_fluent(const std::string& path, std::int64_t nodes, std::int64_t cells);
+
 /// A number as Fluent's sections have it.
 std::string fluent_hexadecimal(std::int64_t number);
 

@@ -52,11 +52,17 @@ void describe_tree(const Communicator& comm, const Geometry& geometry, const Lat
   a.quads = comm.sum(std::ssize(result.mesh.quads));
 }
 
-/// Of a large mesh that is the first of its run it is worth a line.
-void tell(const MeshEstimate& estimate, int ranks, bool first) {
-  constexpr double large = 1e6;
-  const std::string text = "about " + text_of_cells(estimate.cells) + " cells, " +
-                           text_of_bytes(total_bytes(estimate, ranks)) + " of memory";
+/// Of a large mesh that is the first of its run it is worth a line; of a very large one with its cause, which
+/// may be a slip.
+void tell(const MeshEstimate& estimate, const Geometry& geometry, const MeshOptions& options, int ranks,
+          bool first) {
+  constexpr double large = 1e6, very_large = 1e7;
+  std::string text = "about " + text_of_cells(estimate.cells) + " cells, " +
+                     text_of_bytes(total_bytes(estimate, ranks)) + " of memory";
+  if (first && estimate.cells >= very_large) {
+    if (const std::string cause = cause_of_cells(estimate, geometry, options); !cause.empty())
+      text += "; " + cause;
+  }
   if (first && estimate.cells >= large)
     log::information(text);
   else
@@ -83,7 +89,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   times.begin("estimate");
   result.report.estimate = estimate_mesh(geometry, options.type, domain);
   require_within(result.report.estimate, geometry, options, demanded);
-  tell(result.report.estimate, comm.size(), demanded.empty());
+  tell(result.report.estimate, geometry, options, comm.size(), demanded.empty());
 
   times.begin("refinement");
   const LeafGraph graph = refine_forest(comm, sizes, result.report.estimate.leaves);

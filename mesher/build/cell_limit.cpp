@@ -30,12 +30,22 @@ class Relaxation {
     settings_.boundaries = {geometry.boundaries().begin(), geometry.boundaries().end()};
   }
 
+  /// "spacing.max = 1e-06 asks for most of them", if without it less than half of what is allowed would be
+  /// taken; else nothing.
+  std::string cause() const {
+    std::vector<CellDemand> demands = cell_demands(settings_, geometry_);
+    const auto first = cause_among(demands);
+    SizeSettings without = settings_;
+    first->lift(without);
+    return share_with(without) < 0.5 ? text_of(*first) : "";
+  }
+
   /// "spacing.max = 1e-06 asks for most of them: 0.01 fits".
   std::string cure() {
     std::vector<CellDemand> demands = cell_demands(settings_, geometry_);
     std::string with;
     const auto first = cause_among(demands);
-    const std::string cause = fmt::format("{} = {:g} asks for most of them", first->key, first->value);
+    const std::string cause = text_of(*first);
     const double value = loosen(demands, first);
     for (std::size_t named = 1; !fits(settings_); ++named) {
       if (named == most_named || demands.empty()) return cause + ", and others for too many";
@@ -76,6 +86,10 @@ class Relaxation {
       cause = demand;
     }
     return cause;
+  }
+
+  static std::string text_of(const CellDemand& demand) {
+    return fmt::format("{} = {:g} asks for most of them", demand.key, demand.value);
   }
 
   static double loosened_by(const CellDemand& demand, int halvings) {
@@ -129,6 +143,14 @@ std::string cure_for(const MeshEstimate& estimate, const Geometry& geometry, con
 }
 
 }  // namespace
+
+std::string cause_of_cells(const MeshEstimate& estimate, const Geometry& geometry,
+                           const MeshOptions& options) {
+  if (2 * estimate.layer_cells > estimate.cells) return "most of them in layers";
+  MeshLimit all;
+  all.cells = estimate.cells;
+  return Relaxation(all, geometry, options, DemandedSplits{}).cause();
+}
 
 void require_within(const MeshEstimate& estimate, const Geometry& geometry, const MeshOptions& options,
                     const DemandedSplits& demanded) {

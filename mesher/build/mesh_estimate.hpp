@@ -29,6 +29,11 @@ std::string text_of_bytes(double bytes);
 /// As in "12340" or "1.2e+06".
 std::string text_of_cells(double cells);
 
+/// The setting that asks for more than half of the cells, as in "spacing.max = 1e-06 asks for most of them";
+/// empty where none does. Takes an estimate for each setting.
+std::string cause_of_cells(const MeshEstimate& estimate, const Geometry& geometry,
+                           const MeshOptions& options);
+
 /// Throws TooManyCells where the estimate passes options.limit: how many cells, which settings ask for most
 /// of them, and what would fit.
 void require_within(const MeshEstimate& estimate, const Geometry& geometry, const MeshOptions& options,

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <ranges>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -190,9 +192,13 @@ LayerReport report_layers(const Communicator& comm, const LayerFront& front, con
 
 std::vector<std::string> warnings_of(const LayerReport& report) {
   constexpr double few = 0.5;
+  constexpr std::size_t most_named = 5;
+  LayerReport thin;
+  std::ranges::copy_if(report, std::back_inserter(thin),
+                       [](const BoundaryLayerReport& row) { return row.share_least < few; });
+  std::ranges::stable_sort(thin, {}, &BoundaryLayerReport::share_least);
   std::vector<std::string> warnings;
-  for (const BoundaryLayerReport& row : report) {
-    if (row.share_least >= few) continue;
+  for (const BoundaryLayerReport& row : thin | std::views::take(most_named)) {
     warnings.push_back(
         fmt::format("boundary '{}': near ({:.6g}, {:.6g}) its {} layers reach {:.0f} % of the thickness "
                     "asked for, {:.3g}, "
@@ -202,6 +208,11 @@ std::vector<std::string> warnings_of(const LayerReport& report) {
                     row.boundary, row.least.x, row.least.y, row.reached, 100 * row.share_least,
                     row.thickness_asked, row.growth_least, row.growth_asked, 100 * row.share_full));
   }
+  if (thin.size() > most_named)
+    warnings.push_back(
+        fmt::format("{} more boundaries have layers that are somewhere less than half as thick as asked; the "
+                    "table at the end has them all",
+                    thin.size() - most_named));
   return warnings;
 }
 

@@ -37,7 +37,8 @@ LayerReport report_layers(const Communicator& comm, const LayerFront& front, con
 /// Of one strip alone, as it is given.
 BoundaryLayerReport report_strip(const LayerStrip& strip);
 
-/// A line for each boundary whose layers are somewhere less than half as thick as was asked, with the place.
+/// A line for each boundary whose layers are somewhere less than half as thick as was asked, with the place:
+/// the thinnest first, five at most, and one that counts the others.
 std::vector<std::string> warnings_of(const LayerReport& report);
 
 }  // namespace quadloop

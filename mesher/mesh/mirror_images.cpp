@@ -25,8 +25,8 @@ void refuse_lacking(const Communicator& comm, MirrorAxis axis, const char* what,
   for (const Point p : comm.all_gather(lacking)) first = std::min(first, p);
   if (first.x == nowhere) return;
   throw InputError(
-      fmt::format("mesh.mirror: the {0} at ({1}, {2}) has no mirror image in the {3}-axis: a [[source]], "
-                  "a line with layers or mesh.root is not symmetric, or the outline passes a corner of the "
+      fmt::format("mesh.mirror: the {0} at ({1}, {2}) has no mirror image in the {3}-axis: a [[source]] "
+                  "or mesh.root is not symmetric, or the outline passes a corner of the "
                   "lattice at two equal distances; make them so, change mesh.snap a little, or take the key "
                   "out",
                   what, first.x, first.y, name_of(axis)));

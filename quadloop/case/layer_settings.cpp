@@ -87,6 +87,17 @@ LayerLine read_wake(const CaseTable& table) {
   return wake;
 }
 
+std::vector<Point> image_of(MirrorAxis axis, std::vector<Point> path) {
+  for (Point& p : path) p = image_of(axis, p);
+  return path;
+}
+
+std::string text_of(const std::vector<Point>& path) {
+  std::string text;
+  for (const Point p : path) text += fmt::format("{}[{}, {}]", text.empty() ? "" : ", ", p.x, p.y);
+  return "[" + text + "]";
+}
+
 }  // namespace
 
 void LayerSettings::read_first_height(const CaseTable& layers, LayerSpec& spec) {
@@ -172,6 +183,31 @@ Warnings LayerSettings::unused(const SolverSettings& solver) const {
   return {flow_->where + ": [flow] does nothing, as no boundary's layers have a first = \"yplus:1\""};
 }
 
+void require_mirrored_lines(const std::vector<LayerLine>& lines, MirrorAxis axis) {
+  for (const LayerLine& line : lines) {
+    const std::vector<Point> image = image_of(axis, line.path);
+    const auto is_image = [&](const LayerLine& other) {
+      return other.path == image && other.spacing == line.spacing && other.layers == line.layers;
+    };
+    if (std::ranges::any_of(lines, is_image)) continue;
+    const char* const what = line.from.empty() ? "layer_line" : "wake";
+    const auto [lowest, highest] =
+        std::ranges::minmax(line.path, {}, [axis](Point p) { return side_of(axis, p); });
+    if (side_of(axis, lowest) != side_of(axis, highest))
+      throw InputError(
+          fmt::format("{}: this [[{}]] comes from one side of the {}-axis to the other or to the axis "
+                      "itself, where mesh.mirror wants mirror "
+                      "images; let it lie on the axis, or end on its side before it, and beyond it the same "
+                      "[[{}]] mirrored",
+                      line.where, what, name_of(axis), what));
+    throw InputError(
+        fmt::format("{}: this [[{}]] has no mirror image in the {}-axis, as mesh.mirror wants; add one that "
+                    "is alike but for its "
+                    "path = {}, the points in this order",
+                    line.where, what, name_of(axis), text_of(image)));
+  }
+}
+
 void require_layers_that_doubles_hold(const Geometry& geometry) {
   constexpr double steps = 0x1p-42;  // a thousand steps between doubles, as columns want some for their tilt
   IdVector<BoundaryId, double> largest(geometry.boundaries().size(), 0);
@@ -186,8 +222,8 @@ void require_layers_that_doubles_hold(const Geometry& geometry) {
     throw InputError(
         fmt::format("boundary {}: a first layer of {} is too thin for coordinates as large as {}: "
                     "numbers do not hold it; move the geometry nearer to the origin, or make it "
-                    "thicker than {:.1g}",
-                    boundary.name, boundary.layers->first, largest[b], steps * largest[b]));
+                    "thicker than {:.2g}",
+                    boundary.name, boundary.layers->first, largest[b], 1.05 * steps * largest[b]));
   }
 }
 

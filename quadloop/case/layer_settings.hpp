@@ -10,6 +10,7 @@
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/layer_spec.hpp"
+#include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/layers/front/layer_lines.hpp"
 #include "quadloop/case/first_height.hpp"
 #include "quadloop/case/flow_settings.hpp"
@@ -46,6 +47,11 @@ class LayerSettings {
   std::optional<FlowSettings> flow_;
   bool used_ = false;
 };
+
+/// Throws InputError, naming the line and what it lacks, unless the mirror image of each line's path is that
+/// of a line which is asked for alike, point by point: columns are made from its first point on. A path on
+/// the axis is its own image.
+void require_mirrored_lines(const std::vector<LayerLine>& lines, MirrorAxis axis);
 
 /// Throws InputError, naming the boundary, where its first layer is so thin beside the coordinates that
 /// doubles do not tell its nodes apart.

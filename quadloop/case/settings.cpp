@@ -196,6 +196,19 @@ void read_mesh_table(const CaseTable& root, Settings& settings) {
   table->finish();
 }
 
+/// A list of words, each once; one that is not among the known is refused: "but there are: ...".
+std::vector<std::string> read_words(const CaseTable& table, const std::string& key,
+                                    const std::vector<std::string>& known, const char* of_known) {
+  std::vector<std::string> words;
+  for (const std::string& word : table.texts(key)) {
+    if (std::ranges::count(known, word) == 0)
+      table.refuse(key, fmt::format("holds '{}', but {}: {}{}", word, of_known, fmt::join(known, ", "),
+                                    guess_for(word, known)));
+    if (std::ranges::count(words, word) == 0) words.push_back(word);
+  }
+  return words;
+}
+
 void read_output_table(const CaseTable& root, const std::string& case_path, Settings& settings) {
   settings.output_prefix = std::filesystem::path(case_path).stem().string();
   settings.formats = default_formats();
@@ -208,28 +221,9 @@ void read_output_table(const CaseTable& root, const std::string& case_path, Sett
     table->refuse("prefix",
                   fmt::format("is '{}'; give it without {}, which is added", settings.output_prefix, suffix));
   }
-  if (table->has("formats")) {
-    settings.formats.clear();
-    for (const std::string& format : table->texts("formats")) {
-      const std::vector<std::string> known = written_formats();
-      if (std::ranges::count(known, format) == 0) {
-        table->refuse("formats", fmt::format("holds '{}', but this version writes: {}{}", format,
-                                             fmt::join(known, ", "), guess_for(format, known)));
-      }
-      if (std::find(settings.formats.begin(), settings.formats.end(), format) == settings.formats.end())
-        settings.formats.push_back(format);
-    }
-  }
-  if (table->has("fields")) {
-    for (const std::string& field : table->texts("fields")) {
-      if (std::ranges::find(quantity_names(), field) == quantity_names().end())
-        table->refuse("fields",
-                      fmt::format("holds '{}', but there are: {}{}", field, fmt::join(quantity_names(), ", "),
-                                  guess_for(field, quantity_names())));
-      if (std::ranges::find(settings.fields, field) == settings.fields.end())
-        settings.fields.push_back(field);
-    }
-  }
+  if (table->has("formats"))
+    settings.formats = read_words(*table, "formats", written_formats(), "this version writes");
+  if (table->has("fields")) settings.fields = read_words(*table, "fields", quantity_names(), "there are");
   if (const auto parts = table->number("partitions", {0, 100000})) {
     if (*parts != std::floor(*parts))
       table->refuse("partitions", "must be a whole number, 0 or more; 0 writes no parts");
@@ -275,6 +269,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
     settings.mesh.size.sources.push_back(read_source(source));
   settings.lines = layer_settings.read_lines(root);
   read_mesh_table(root, settings);
+  if (settings.mesh.mirror) require_mirrored_lines(settings.lines, *settings.mesh.mirror);
   read_smooth_table(root, settings);
   settings.adapt = read_adapt_table(root);
   require_norm_of_metric(root, settings);

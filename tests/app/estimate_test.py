@@ -107,6 +107,14 @@ class Estimate(ProgramTest):
         self.refused(1, ["e+12 cells", "are free", "spacing.max = 2e-06", "--max-cells"], "mesh", case, "-o", "out")
         self.assertFalse((self.folder / "out.mesh").exists())
 
+    def test_the_cause_of_very_many_cells_is_told_before_the_work(self):
+        """A slip that memory has room for, told at once, so that it can be stopped."""
+        case = self.case(geom(("box", square(10)), ("wall", CIRCLE)), 'min = 1e-7\nmax = 1.0\n[boundary.box]\nspacing = 1\n[boundary.wall]\nspacing = 4e-6')
+        with subprocess.Popen([QUADLOOP, "mesh", case, "-o", "out"], cwd=self.folder, stderr=subprocess.PIPE, text=True) as run:
+            line = run.stderr.readline()
+            run.terminate()
+        self.assertRegex(line, r"^quadloop: info: about \d\.?\d*e\+07 cells, \S+ GiB of memory; boundary.wall.spacing = 4e-06 asks for most of them$")
+
     def test_adaptation_keeps_within_the_limit(self):
         cells = []
         for allowed in ("2400", "100000"):

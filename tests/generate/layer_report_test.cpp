@@ -54,6 +54,19 @@ TEST(LayerReport, TellsOfEachBoundaryWhatWasAskedAndReached) {
   EXPECT_EQ(made.layers[0].columns, made.layers[1].columns) << "mirror images";
 }
 
+TEST(LayerReport, WarnsOfTheThinnestFirstAndCountsTheRest) {
+  LayerReport report(8);
+  for (int i = 0; i < 8; ++i) {
+    report[i].boundary = "islet_" + std::to_string(i);
+    report[i].share_least = i == 7 ? 0.9 : 0.4 - 0.05 * i;
+  }
+  const std::vector<std::string> warnings = warnings_of(report);
+  ASSERT_EQ(warnings.size(), 6U);
+  EXPECT_TRUE(warnings[0].starts_with("boundary 'islet_6'")) << warnings[0];
+  EXPECT_TRUE(warnings[4].starts_with("boundary 'islet_2'")) << warnings[4];
+  EXPECT_TRUE(warnings[5].starts_with("2 more boundaries")) << warnings[5];
+}
+
 TEST(LayerReport, HasARowForEachStrip) {
   MeshInput input = channel(2, false);
   input.lines = {{{}, {{1, 1}, {3, 1}}, 0, 0.05, four}};

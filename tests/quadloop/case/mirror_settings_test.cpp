@@ -45,6 +45,25 @@ TEST_F(MirrorTest, AMirrorIsTheMeshsAndTheSolvers) {
   EXPECT_NE(case_digest(settings.mesh), case_digest(without));
 }
 
+TEST_F(MirrorTest, WantsLinesMirroredWhereTheMeshIs) {
+  const auto line = [](const std::string& path, const std::string& spacing = "0.1") {
+    return "[[layer_line]]\npath = " + path + "\nspacing = " + spacing + "\nfirst = 1e-3\ncount = 5\n";
+  };
+  const std::string mirror = "[mesh]\nmirror = \"x\"\n", above = line("[[1, 0.5], [2, 1]]");
+  EXPECT_EQ(read(mirror + line("[[2, 0], [3, 0]]")).lines.size(), 1U);
+  EXPECT_EQ(read(mirror + above + line("[[1, -0.5], [2, -1]]")).lines.size(), 2U);
+  EXPECT_EQ(read(mirror + "[[wake]]\nfrom = \"box\"\nlength = 3\nspacing = 0.1\n").lines.size(), 1U);
+  EXPECT_EQ(read(above + "[mesh]\nmirror = \"x\"\nhalf = \"axis\"\n").lines.size(), 1U);
+  const std::string lacks = "case.toml:5: this [[layer_line]] has no mirror image in the x-axis";
+  EXPECT_NE(refused(mirror + above).find("path = [[1, -0.5], [2, -1]]"), std::string::npos);
+  for (const std::string& other : {line("[[2, -1], [1, -0.5]]"), line("[[1, -0.5], [2, -1]]", "0.2")})
+    EXPECT_TRUE(refused(mirror + above + other).starts_with(lacks)) << other;
+  for (const char* across : {"[[1, -0.5], [1, 0.5]]", "[[1, 0], [2, 1]]"})
+    EXPECT_NE(refused(mirror + line(across)).find("case.toml:5: this [[layer_line]] comes from one side"),
+              std::string::npos)
+        << across;
+}
+
 TEST_F(MirrorTest, OfAHalfNoMirrorIsLeft) {
   const Settings settings = read("[mesh]\nmirror = \"x\"\nhalf = \"middle\"\n");
   EXPECT_FALSE(settings.mesh.mirror);
