@@ -42,7 +42,7 @@ class Loop {
     StageTimes times;
     observer_.begin(cycle);
     progress::set_prefix(fmt::format("cycle {} of {}", cycle, adapt_.cycles));
-    times.begin("mesh");
+    times.begin(before == nullptr && adapt_.passes > 0 ? "passes" : "mesh");
     CarriedMesh carried = next_mesh(before);
     MeshResult& result = carried.generated.result;
     times.begin("write");
@@ -103,7 +103,8 @@ class Loop {
     record.refined = end.plan.refined;
     record.coarsened = end.plan.coarsened;
     record.estimate = end.plan.estimate;
-    if (cycle == 0 && start_) record.morphed = carried.morphed;
+    if (cycle == 0 && start_ && adapt_.passes == 0) record.morphed = carried.morphed;
+    record.passes = carried.passes;
     record.outside = carried.report.outside;
     record.drift = carried.drifts();
     record.cl = flow.cl;
