@@ -73,7 +73,9 @@ class Loop {
   CarriedMesh next_mesh(const CycleEnd* before) const {
     if (before != nullptr) return carry_over(comm_, mesh_, before->plan, before->solved);
     if (start_) return start_();
-    return {generate_mesh(comm_, mesh_), {}, {}, {}};
+    CarriedMesh first{generate_mesh(comm_, mesh_), {}, {}, {}};
+    require_room_for_metric(comm_, mesh_, adapt_, first.generated.result);
+    return first;
   }
 
   /// Against the cycle before.

@@ -21,6 +21,7 @@ CarriedMesh mesh_after_passes(const Communicator& comm, const MeshInput& mesh, c
   std::vector<PassRecord> passes;
   std::vector<std::string> warnings;
   CarriedMesh carried{generate_mesh(comm, mesh), {}, {}, {}};
+  require_room_for_metric(comm, mesh, adapt, carried.generated.result);
   for (int pass = 0; pass < adapt.passes; ++pass) {
     progress::set_prefix(fmt::format("pass {} of {}", pass + 1, adapt.passes));
     MeshResult& result = carried.generated.result;

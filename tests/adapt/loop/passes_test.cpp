@@ -79,7 +79,8 @@ TEST(Passes, EndWhereAFlowAsksForNoOtherMesh) {
 
 TEST(Passes, StandInTheRecordOfTheFirstCycle) {
   struct Notes final : CycleObserver {
-    void finished(CycleRecord record, const std::vector<std::string>&, const std::vector<std::string>&) override {
+    void finished(CycleRecord record, const std::vector<std::string>&,
+                  const std::vector<std::string>&) override {
       records.push_back(std::move(record));
     }
     std::vector<CycleRecord> records;
