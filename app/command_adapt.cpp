@@ -102,6 +102,7 @@ std::string line_of(const CycleRecord& record) {
   if (record.residual) line += fmt::format("  residual {:.1e}", *record.residual);
   if (record.estimate) line += fmt::format("  error {:.3e}", *record.estimate);
   if (record.order) line += fmt::format("  order {:.2f}", *record.order);
+  if (!record.passes.empty()) line += fmt::format("  after {} passes", record.passes.size());
   double seconds = 0;
   for (const auto& stage : record.seconds) seconds += stage.second;
   line += fmt::format("  {:.1f} s", seconds);

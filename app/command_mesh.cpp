@@ -139,6 +139,16 @@ Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& sav
       tree, setting, made.nodes, same ? "" : fmt::format(" where the saved one has {}", saved.nodes))};
 }
 
+/// The first mesh of a case whose cells follow a solution is what this command makes without a tree.
+Warnings first_mesh_warnings(const MeshInput& input) {
+  const char* setting = setting_that_follows(input);
+  if (!setting) return {};
+  return {
+      fmt::format("{}: there is no solution to follow yet: this is the first mesh of \"adapt\", as the tree "
+                  "makes it",
+                  setting)};
+}
+
 /// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere),
 /// meshes, writes. Warnings come when all is done, so that a failure is one line.
 void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
@@ -164,9 +174,9 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   times.end();
   context.warn(prepared.input.warnings);
   context.warn(generated.result.report.warnings);
-  if (saved)
-    context.warn(
-        unstretched_warnings(arguments.tree, saved->attributes, input, generated.result.tree.attributes));
+  context.warn(
+      saved ? unstretched_warnings(arguments.tree, saved->attributes, input, generated.result.tree.attributes)
+            : first_mesh_warnings(input));
   for (const std::string& file : prepared.files) context.warn(renames_in(generated.result.mesh, file));
   MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
   if (parts) add_parts(summary, *parts, prepared.part_files);

@@ -42,7 +42,7 @@ class Loop {
     StageTimes times;
     observer_.begin(cycle);
     progress::set_prefix(fmt::format("cycle {} of {}", cycle, adapt_.cycles));
-    times.begin("mesh");
+    times.begin(before == nullptr && adapt_.passes > 0 ? "passes" : "mesh");
     CarriedMesh carried = next_mesh(before);
     MeshResult& result = carried.generated.result;
     times.begin("write");
@@ -73,7 +73,9 @@ class Loop {
   CarriedMesh next_mesh(const CycleEnd* before) const {
     if (before != nullptr) return carry_over(comm_, mesh_, before->plan, before->solved);
     if (start_) return start_();
-    return {generate_mesh(comm_, mesh_), {}, {}, {}};
+    CarriedMesh first{generate_mesh(comm_, mesh_), {}, {}, {}};
+    require_room_for_metric(comm_, mesh_, adapt_, first.generated.result);
+    return first;
   }
 
   /// Against the cycle before.
@@ -103,7 +105,8 @@ class Loop {
     record.refined = end.plan.refined;
     record.coarsened = end.plan.coarsened;
     record.estimate = end.plan.estimate;
-    if (cycle == 0 && start_) record.morphed = carried.morphed;
+    if (cycle == 0 && start_ && adapt_.passes == 0) record.morphed = carried.morphed;
+    record.passes = carried.passes;
     record.outside = carried.report.outside;
     record.drift = carried.drifts();
     record.cl = flow.cl;

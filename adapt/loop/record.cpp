@@ -19,6 +19,15 @@ JsonObject object(const std::vector<std::pair<std::string, double>>& members) {
   return json;
 }
 
+JsonObject record_of(const PassRecord& pass) {
+  JsonObject json;
+  json.add("nodes", pass.nodes);
+  for (const auto& [name, value] : {std::pair{"cl", pass.cl}, {"cd", pass.cd}, {"residual", pass.residual}}) {
+    if (value) json.add(name, *value);
+  }
+  return json;
+}
+
 std::optional<std::uint64_t> digest_in(const std::string& json, const std::string& name) {
   const std::string begin = "\n  \"" + name + "\": \"";
   const std::size_t at = json.find(begin);
@@ -74,6 +83,9 @@ JsonObject figures_of(const CycleRecord& record) {
   json.add("refined", record.refined);
   json.add("coarsened", record.coarsened);
   if (record.morphed) json.add("morphed", *record.morphed);
+  std::vector<JsonObject> passes;
+  for (const PassRecord& pass : record.passes) passes.push_back(record_of(pass));
+  if (!passes.empty()) json.add("passes", passes);
   json.add("outside", record.outside);
   json.add("drift", object(record.drift));
   for (const auto& [name, value] : {std::pair{"cl", record.cl},

@@ -8,6 +8,7 @@
 
 #include "adapt/loop/case_settings.hpp"
 #include "adapt/metric/metric_figures.hpp"
+#include "adapt/remesh/remesh.hpp"
 #include "flow/quantities/boundary_forces.hpp"
 #include "flow/quantities/goal_value.hpp"
 #include "mesher/base/json.hpp"
@@ -35,6 +36,7 @@ struct CycleRecord {
   std::optional<double> order;     ///< at which it fell from the cycle before
   std::optional<bool> settled;     ///< whether forces and estimate have, where that ends the run
   std::optional<bool> morphed;     ///< of a run's first mesh that another run left: whether its cells stay
+  std::vector<PassRecord> passes;  ///< before a run's first cycle
   std::int64_t outside = 0;        ///< nodes that the transfer found outside the old mesh
   /// How far each variable's integral drifted in the transfer into this cycle.
   std::vector<std::pair<std::string, double>> drift;

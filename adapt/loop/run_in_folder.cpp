@@ -7,12 +7,14 @@
 
 #include "adapt/loop/cycle_files.hpp"
 #include "adapt/loop/cycle_folders.hpp"
+#include "adapt/loop/passes.hpp"
 #include "adapt/loop/resume.hpp"
 #include "adapt/loop/template_files.hpp"
 #include "adapt/solvers/wall_quantities.hpp"
 #include "flow/adjoint/estimate_goals.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "io/formats.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -70,6 +72,18 @@ FlowSolver solver_in(const CycleFolders& folders, const AdaptiveCase& adaptive) 
   return adaptive.stream ? with_wall_quantities(std::move(solver), *adaptive.stream) : solver;
 }
 
+/// Of the built-in solver: far from its end shocks and edges are where they will be. What the flow is solved
+/// for is estimated only where meshes follow it.
+FlowSolver rough_solver(const AdaptiveCase& adaptive) {
+  constexpr double enough = 1e-2;
+  const auto* options = std::get_if<EulerOptions>(&adaptive.solver);
+  QUADLOOP_REQUIRE(options != nullptr, "passes are for the built-in solver");
+  EulerOptions rough = *options;
+  rough.tolerance = std::max(rough.tolerance, enough);
+  if (adaptive.adapt.source != AdaptOptions::Source::error) rough.goals.clear();
+  return euler_solver(rough, estimate_goals(rough));
+}
+
 /// What an earlier run's last whole cycle came to, by its files. A finished run is looked at too: whoever
 /// resumes it is told of damage. *Collective.*
 CycleEnd left_by_earlier_run(const Communicator& comm, const AdaptiveCase& adaptive,
@@ -106,13 +120,18 @@ LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, co
   std::optional<CycleEnd> before;
   if (first > 0) before = left_by_earlier_run(comm, adaptive, folders, first - 1, report);
   CycleFiles files(comm, folders, file_options(adaptive), report.cycle);
+  AdaptOptions adapt = adaptive.adapt;
   FirstMesh first_mesh;
-  if (start)
+  if (start) {
+    adapt.passes = 0;  // the mesh is adapted already
     first_mesh = [&] {
-      return continued_mesh(comm, adaptive.mesh, start->solved, start->wish, adaptive.adapt.transfer);
+      return continued_mesh(comm, adaptive.mesh, start->solved, start->wish, adapt.transfer);
     };
-  return run_loop(comm, adaptive.mesh, adaptive.adapt, solver_in(folders, adaptive), files, first,
-                  std::move(before), first_mesh);
+  } else if (adapt.passes > 0) {
+    first_mesh = [&] { return mesh_after_passes(comm, adaptive.mesh, adapt, rough_solver(adaptive)); };
+  }
+  return run_loop(comm, adaptive.mesh, adapt, solver_in(folders, adaptive), files, first, std::move(before),
+                  first_mesh);
 }
 
 }  // namespace quadloop

@@ -121,6 +121,14 @@ class Stretching {
 
   StretchReport report;
 
+  /// Those of a mesh of the largest sizes allowed. *Collective.*
+  std::int64_t least_nodes(Mesh mesh) {
+    constexpr double next_to_nothing = 1e-3;
+    int round = 0;
+    const double nodes = adapt(mesh, next_to_nothing, 12, round);
+    return static_cast<std::int64_t>(nodes);
+  }
+
   /// None of its walls cross. *Collective.*
   Mesh sound(const Mesh& start) {
     const std::vector<WallSpan> known = wall_edges(comm_, start);
@@ -218,6 +226,21 @@ class Stretching {
 };
 
 }  // namespace
+
+std::int64_t least_nodes_of_metric(const Communicator& comm, const MeshInput& input, double min,
+                                   const MeshResult& result) {
+  Field even{{"q"}, {}, {}};  // a function that bends alike everywhere
+  for (std::int32_t n = 0; n < result.mesh.owned_nodes; ++n) {
+    const Point p = result.mesh.point(NodeId{n});
+    even.values.push_back(dot(p, p));
+  }
+  MetricDemand demand{even.names, {}, 2};
+  demand.min = min;
+  constexpr double rounds_differ = 1.02;
+  const std::int64_t nodes =
+      Stretching(comm, input, result.mesh, even, demand, result).least_nodes(result.mesh);
+  return std::llround(rounds_differ * static_cast<double>(nodes));
+}
 
 StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, const Mesh& solved,
                            const Field& solution, const MetricDemand& demand, MeshResult& result) {

@@ -36,4 +36,10 @@ struct StretchReport {
 StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, const Mesh& solved,
                            const Field& solution, const MetricDemand& demand, MeshResult& result);
 
+/// How many nodes meshes that follow a metric have at least: the case's own sizes ask for them. `result` is
+/// the mesh of the case's tree, without layers, `min` the smallest size allowed. Costs as much as adapting
+/// this mesh. *Collective.*
+std::int64_t least_nodes_of_metric(const Communicator& comm, const MeshInput& input, double min,
+                                   const MeshResult& result);
+
 }  // namespace quadloop

@@ -13,6 +13,7 @@
 #include "adapt/remesh/demands/wanted_levels.hpp"
 #include "adapt/remesh/followed_walls.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop {
 
@@ -264,6 +265,19 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   if (!plan.changes_mesh())
     plan.warnings.push_back("no leaf is marked, the mesh stays: " + plan.reason_for_standing);
   return plan;
+}
+
+void require_room_for_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
+                             const MeshResult& first) {
+  if (input.mesh.type != MeshType::metric || !options.max_nodes) return;
+  if (*options.max_nodes >= first.tree.attributes.nodes || has_layers(first.mesh)) return;
+  const std::int64_t least =
+      least_nodes_of_metric(comm, input, options.min.value_or(input.mesh.size.min), first);
+  if (*options.max_nodes >= least) return;
+  throw InputError(fmt::format(
+      "adapt.max_nodes = {} leaves no cells to stretch: the case's own sizes take {} nodes; give at least "
+      "{}, better twice as many, or make spacing.max and the boundaries' spacings larger",
+      *options.max_nodes, least, least));
 }
 
 }  // namespace quadloop

@@ -48,4 +48,10 @@ struct AdaptationPlan {
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved);
 
+/// Refuses a number of nodes in which a mesh that follows a metric finds no place for the case's own sizes,
+/// by the mesh of the case's tree: every cycle would come to more; of meshes without layers. Throws
+/// InputError with the least that would do. *Collective.*
+void require_room_for_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
+                             const MeshResult& first);
+
 }  // namespace quadloop

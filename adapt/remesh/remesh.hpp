@@ -16,6 +16,12 @@ struct LoadedMesh;
 /// ranks. *Collective.*
 SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, TreeRecord tree);
 
+/// What a mesh on the way to a run's first one came to, solved roughly.
+struct PassRecord {
+  std::int64_t nodes = 0;
+  std::optional<double> cl, cd, residual;  ///< where the solver knows them
+};
+
 /// A new mesh and the old one's solution on it.
 struct CarriedMesh {
   GeneratedMesh generated;
@@ -25,6 +31,7 @@ struct CarriedMesh {
   bool morphed = false;                 ///< the cells are the old ones
   std::optional<double> estimate = {};  ///< of the old mesh's interpolation error, where the plan has one
   std::optional<MetricFigures> stretched = {};  ///< where it follows a metric
+  std::vector<PassRecord> passes = {};          ///< that led to a run's first mesh
 
   /// The drift of each variable's integral, by its name.
   std::vector<std::pair<std::string, double>> drifts() const;

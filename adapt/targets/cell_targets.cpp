@@ -21,18 +21,40 @@ ShapesOfTree::ShapesOfTree(const Mesh& mesh) {
   }
 }
 
+namespace {
+
+/// What the nodes of a cell ask for in the mean of logarithms.
+template <class Nodes>
+Eigen2 asked_in(const Nodes& nodes, const std::vector<LogMetric>& metrics) {
+  Symmetric sum;
+  for (const NodeId node : nodes) sum = sum + metrics[node.value()];
+  return eigen_of((1.0 / static_cast<double>(nodes.size())) * sum);
+}
+
+}  // namespace
+
+std::vector<double> ShapesOfTree::thinning(const Mesh& now, const std::vector<LogMetric>& metrics) const {
+  std::vector<double> thinning;
+  thinning.reserve(shapes_.size());
+  const auto add = [&](const auto& nodes) {
+    const double size = shapes_[thinning.size()].size;
+    thinning.push_back(size * std::exp(0.5 * asked_in(nodes, metrics).larger));
+  };
+  std::ranges::for_each(now.triangles, add);
+  std::ranges::for_each(now.quads, add);
+  return thinning;
+}
+
 std::vector<CellTarget> ShapesOfTree::targets(const Mesh& now, const std::vector<LogMetric>& metrics,
                                               double stretch) const {
   std::vector<CellTarget> targets;
   targets.reserve(shapes_.size());
   const auto add = [&](const auto& nodes) {
     const Shape& shape = shapes_[targets.size()];
-    Symmetric sum;
-    for (const NodeId node : nodes) sum = sum + metrics[node.value()];
     const auto kept = [&](double logarithm) {  // of the cell's extent along an axis
       return 1 / std::clamp(shape.size * std::exp(0.5 * logarithm), 1.0, stretch);
     };
-    const Eigen2 mean = eigen_of((1.0 / static_cast<double>(nodes.size())) * sum);
+    const Eigen2 mean = asked_in(nodes, metrics);
     const Symmetric shorter = symmetric_of({kept(mean.larger), kept(mean.smaller), mean.axis});
     const auto mapped = [&](Point p) {
       return Point{shorter.xx * p.x + shorter.xy * p.y, shorter.xy * p.x + shorter.yy * p.y};

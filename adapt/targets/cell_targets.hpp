@@ -22,6 +22,10 @@ class ShapesOfTree {
   std::vector<CellTarget> targets(const Mesh& now, const std::vector<LogMetric>& metrics,
                                   double stretch) const;
 
+  /// How many times larger than asked for each of this rank's cells is, along the axis along which the metric
+  /// asks for the smallest sizes. Not collective.
+  std::vector<double> thinning(const Mesh& now, const std::vector<LogMetric>& metrics) const;
+
  private:
   struct Shape {
     Point w1, w2;     ///< edges at the first node; of a quad those of the parallelogram nearest to it

@@ -6,11 +6,12 @@
 
 #include "adapt/metric/node_bends.hpp"
 #include "adapt/metric/wanted_metric.hpp"
+#include "adapt/targets/carried_norm.hpp"
 #include "adapt/targets/cell_targets.hpp"
-#include "adapt/transfer/transfer.hpp"
 #include "mesher/base/log.hpp"
 #include "smoother/outline/boundary_slide.hpp"
 #include "smoother/smooth_mesh.hpp"
+#include "smoother/sweeps/rings.hpp"
 
 namespace quadloop {
 
@@ -20,35 +21,30 @@ namespace {
 constexpr int rounds = 4;
 /// Cells that cost less (Eq. 3.2) are left as they are: a stretch of 1.15 is not worth a move.
 constexpr double least_cost = 1e-4;
+/// So many cells round a front move with it: else each pulls the next, up to the frame.
+constexpr int reach = 4;
 
-/// The logarithm of the metric at the owned nodes of the solved mesh; no rows where all variables are linear.
+/// What the solution asks for, at the owned nodes of the mesh that was solved on; no rows where all variables
+/// are linear.
+struct Asked {
+  Field metric;  ///< its logarithm
+  Field bends;   ///< absolute second derivatives
+};
+
 /// The tree bounds sizes from above, so the metric need not. *Collective.*
-Field wanted_metric(const Communicator& comm, const MeshInput& input, const Mesh& solved,
-                    const Field& solution, const TargetDemand& demand, const MeshResult& result) {
+Asked asked_of(const Communicator& comm, const MeshInput& input, const Mesh& solved, const Field& solution,
+               const TargetDemand& demand, const MeshResult& result) {
   const TreeAttributes& a = result.tree.attributes;
   const double extent = a.tree_edge * std::max(a.trees_x, a.trees_y);
   const SizeBounds bounds{demand.min / demand.stretch, std::vector<double>(solved.points.size(), extent),
                           0.5 * (input.mesh.size.gradation - 1)};
-  const WantedMetric wanted(
-      comm, solved, variable_bends(comm, solved, selected(solution, demand.variables, "adapt.variable")),
-      demand.norm, bounds);
-  Field field{{"xx", "xy", "yy"}, {}, {}};
-  if (wanted.flat()) return field;
+  const std::vector<Symmetric> bends =
+      variable_bends(comm, solved, selected(solution, demand.variables, "adapt.variable"));
+  const WantedMetric wanted(comm, solved, bends, demand.norm, bounds);
+  if (wanted.flat()) return {};
   const auto nodes = static_cast<double>(comm.sum(std::int64_t{result.mesh.owned_nodes}));
   const std::vector<LogMetric> metrics = wanted.before_bounds(nodes);
-  for (std::int32_t n = 0; n < solved.owned_nodes; ++n)
-    field.values.insert(field.values.end(), {metrics[n].xx, metrics[n].xy, metrics[n].yy});
-  return field;
-}
-
-/// At the owned nodes and copies of another mesh. *Collective.*
-std::vector<LogMetric> carried(const Communicator& comm, const Mesh& solved, const Field& metric,
-                               const Mesh& mesh) {
-  const Field there = with_copies(comm, mesh, transfer(comm, solved, metric, mesh).field);
-  std::vector<LogMetric> metrics;
-  for (std::size_t i = 0; i < there.values.size(); i += 3)
-    metrics.emplace_back(Symmetric{there.values[i], there.values[i + 1], there.values[i + 2]});
-  return metrics;
+  return {rows_of({metrics.begin(), metrics.end()}, solved.owned_nodes), rows_of(bends, solved.owned_nodes)};
 }
 
 /// Flags the owned nodes on which layers are to stand. *Collective.*
@@ -69,6 +65,25 @@ NodeFlags nodes_of_front(const Communicator& comm, const MeshInput& input, const
   return flags;
 }
 
+/// Flags the owned nodes that are to stay: those farther than `reach` cells from each cell that is to become
+/// half as thin, and others that are flagged already. *Collective.*
+void pin_far_from_fronts(const Communicator& comm, const Mesh& mesh, const std::vector<double>& thinning,
+                         NodeFlags& pinned) {
+  constexpr double half_as_thin = 2;
+  const HaloMesh halo(comm, mesh);
+  const std::vector<double> of_cells = halo.spread(comm, thinning);
+  NodeFlags near(halo.points().size(), 0);
+  std::size_t cell = 0;
+  halo.for_each_cell([&](const auto& nodes) {
+    if (of_cells[cell++] >= half_as_thin) flag_all(nodes, near);
+  });
+  grow(halo, near, reach);
+  pinned.resize(mesh.owned_nodes, 0);
+  for (const NodeId node : pinned.ids()) {
+    if (near[node] == 0) pinned[node] = 1;
+  }
+}
+
 /// Cells keep their places in the tree, so that edges are not flipped.
 SmoothOptions options_for(const Communicator& comm, const MeshInput& input, const MeshResult& result) {
   SmoothOptions options = smooth_options_for(input, result.report.finest_allowed);
@@ -83,21 +98,34 @@ SmoothOptions options_for(const Communicator& comm, const MeshInput& input, cons
 
 void gather_at_fronts(const Communicator& comm, const MeshInput& input, const Mesh& solved,
                       const Field& solution, const TargetDemand& demand, MeshResult& result) {
-  const Field metric = wanted_metric(comm, input, solved, solution, demand, result);
-  if (!comm.any(!metric.values.empty())) {
+  const Asked asked = asked_of(comm, input, solved, solution, demand, result);
+  if (!comm.any(!asked.metric.values.empty())) {
     result.report.warnings.emplace_back(
         "smooth.targets = \"solution\": no variable has a second derivative, no node is moved");
     return;
   }
   SmoothOptions options = options_for(comm, input, result);
   const ShapesOfTree shapes(result.mesh);
+  BestPlaces best(comm, solved, asked.bends, demand.norm, result.mesh);
   for (int round = 0; round < rounds; ++round) {
-    options.targets = shapes.targets(result.mesh, carried(comm, solved, metric, result.mesh), demand.stretch);
+    const auto metrics = carried<LogMetric>(comm, solved, asked.metric, result.mesh);
+    if (round == 0)
+      pin_far_from_fronts(comm, result.mesh, shapes.thinning(result.mesh, metrics), options.pinned);
+    options.targets = shapes.targets(result.mesh, metrics, demand.stretch);
     const SmoothReport report = smooth_mesh(comm, result.mesh, options);
+    best.look_at(result.mesh);
     log::detail(fmt::format("targets: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}",
                             report.moves, report.free_nodes, report.sweeps, report.worst_cost_after,
                             report.worst_cost_before));
   }
+  log::detail(
+      fmt::format("targets: norm of the carried error {:.4g}, before {:.4g}", best.least(), best.first()));
+  if (!(best.least() < best.first()))
+    result.report.warnings.push_back(
+        fmt::format("smooth.targets = \"solution\": no node is moved, as that would not lower the error's "
+                    "norm {:.4g} of p = {}",
+                    best.first(), demand.norm));
+  result.mesh.points = best.places();
 }
 
 }  // namespace quadloop

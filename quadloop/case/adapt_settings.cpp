@@ -88,6 +88,11 @@ std::optional<AdaptOptions> read_adapt_table(const CaseTable& root) {
       table->refuse("cycles", "must be a whole number: how many times the mesh is adapted");
     options.cycles = static_cast<int>(*cycles);
   }
+  if (const auto passes = table->number("passes", {0, 100})) {
+    if (*passes != std::floor(*passes))
+      table->refuse("passes", "must be a whole number: how many meshes are solved roughly before cycle 0");
+    options.passes = static_cast<int>(*passes);
+  }
   read_variable(*table, options);
   if (const auto word = table->choice("indicator", words_of(indicator_words)))
     options.indicator = *value_of(indicator_words, *word);

@@ -254,6 +254,16 @@ void require_norm_of_metric(const CaseTable& root, const Settings& settings) {
                               "error least for max_nodes nodes; give norm = 2 and max_nodes");
 }
 
+/// Other solvers, and flows in time, are not ended early.
+void require_solver_of_passes(const CaseTable& root, const Settings& settings) {
+  if (!settings.adapt || settings.adapt->passes == 0) return;
+  if (settings.solver.kind != SolverSettings::Kind::euler)
+    root.table("adapt")->refuse("passes",
+                                "needs the built-in solver, which can end flows early; leave it out");
+  if (settings.solver.euler.time == EulerOptions::Time::accurate)
+    root.table("adapt")->refuse("passes", "needs a steady flow, which can be ended early; leave it out");
+}
+
 }  // namespace
 
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments) {
@@ -276,6 +286,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   require_variables_of_targets(root, settings);
   read_design_table(root, settings);
   read_solver_table(root, settings.solver);
+  require_solver_of_passes(root, settings);
   settings.solver.euler.mirror = settings.mesh.mirror;
   settings.warnings = layer_settings.unused(settings.solver);
   if (flow && settings.solver.kind != SolverSettings::Kind::euler) settings.stream = flow->stream();

@@ -29,6 +29,7 @@ struct AdaptOptions {
       {{"deviation", Threshold::deviation}, {"fraction", Threshold::fraction}, {"nodes", Threshold::nodes}}};
 
   int cycles = 5;  ///< adaptations; there is one more solve
+  int passes = 0;  ///< adaptations by flows that are solved roughly, before cycle 0
   Source source = Source::variables;
   std::vector<std::string> variables{"density"};  ///< or the one size or error field
   Indicator indicator = Indicator::difference;

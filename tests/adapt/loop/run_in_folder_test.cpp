@@ -121,6 +121,30 @@ TEST(RunInFolder, WithWantedSizesIsGoneOnWithToTheSameFilesAndEndsWhereItHasSett
   world().barrier();
 }
 
+TEST(RunInFolder, WithPassesBeginsWithAnAdaptedMeshAndIsGoneOnWithToTheSameFiles) {
+  const auto passing = [](int cycles) {
+    AdaptiveCase adaptive = vortex_case(cycles);
+    adaptive.adapt.passes = 1;
+    return adaptive;
+  };
+  const TemporaryFolder folder;
+  Heard whole, begun, resumed;
+  whole.run(passing(1), folder.file("whole"), false);
+  begun.run(passing(0), folder.file("parts"), false);
+  resumed.run(passing(1), folder.file("parts"), true);
+  EXPECT_EQ(resumed.cycles, (std::vector<int>{1}));
+  world().barrier();
+  for (const char* name : {"mesh.mesh", "mesh.tree.h5", "mesh.walls.csv"})
+    EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_01/") + name) ==
+                test::bytes_of(folder.file("parts/cycle_01/") + name))
+        << name;
+  const std::string record = test::bytes_of(folder.file("whole/cycle_00/record.json"));
+  EXPECT_NE(record.find("\"passes\": [{\"nodes\": 81, "), std::string::npos) << record;
+  EXPECT_EQ(record.find("\n  \"nodes\": 81,"), std::string::npos)
+      << "the first cycle's mesh is the case's: " << record;
+  world().barrier();
+}
+
 /// Laminar flow along the floor of a channel, a few steps of it: too few to be right, enough to have
 /// friction.
 AdaptiveCase floor_case(int cycles) {

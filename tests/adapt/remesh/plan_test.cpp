@@ -214,5 +214,39 @@ TEST(Plan, TargetsMoveNodesWhereNoLeafIsMarked) {
   EXPECT_FALSE(plan_adaptation(world(), input, options, solved_front(world(), input)).targets);
 }
 
+TEST(Plan, RefusesToFollowAMetricInFewerNodesThanTheCaseTakes) {
+  MeshInput input = square_input();
+  input.mesh.type = MeshType::metric;
+  AdaptOptions options = adapt_options();
+  options.norm = 2;
+  const MeshResult first = generate_mesh(world(), input).result;
+  ASSERT_EQ(first.tree.attributes.nodes, 289);
+  const auto refusal = [&](std::int64_t nodes) -> std::string {
+    options.max_nodes = nodes;
+    try {
+      require_room_for_metric(world(), input, options, first);
+    } catch (const InputError& fault) {
+      return fault.what();
+    }
+    return {};
+  };
+  const std::string refused = refusal(100), words = "give at least ";
+  ASSERT_NE(refused.find(words), std::string::npos) << refused;
+  const std::int64_t least = std::stoll(refused.substr(refused.find(words) + words.size()));
+  EXPECT_GT(least, 200);
+  EXPECT_LT(least, 320);
+  EXPECT_EQ(refusal(least), "");
+  EXPECT_EQ(refusal(400), "");
+  input.mesh.type = MeshType::delaunay;
+  EXPECT_EQ(refusal(100), "");
+  // What is said to do does.
+  input.mesh.type = MeshType::metric;
+  options.max_nodes = least;
+  const SolvedMesh solved = solved_front(world(), input);
+  const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
+  const CarriedMesh next = carry_over(world(), input, plan, solved);
+  EXPECT_LE(next.generated.result.tree.attributes.nodes, least);
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "adapt/metric/node_bends.hpp"
+#include "adapt/targets/carried_norm.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -57,7 +59,7 @@ double error_of(const Mesh& whole) {
   return sum;
 }
 
-TargetDemand demand() { return {{"q"}, 2, 1.0 / 64, 8}; }
+TargetDemand demand(double norm) { return {{"q"}, norm, 1.0 / 64, 8}; }
 
 struct Gathered {
   Mesh before;  ///< the same cells
@@ -66,12 +68,13 @@ struct Gathered {
 
 /// The solution is known on the mesh as the tree makes it.
 template <class Function>
-Gathered gathered(const Communicator& comm, const MeshInput& input, const Function& solution) {
+Gathered gathered(const Communicator& comm, const MeshInput& input, const Function& solution,
+                  double norm = 2) {
   const Mesh solved = generate_mesh(comm, input).result.mesh;
   Gathered made;
   const MeshChange change = [&](const MeshInput& outer, MeshResult& result) {
     made.before = result.mesh;
-    gather_at_fronts(comm, outer, solved, field_on(solved, solution), demand(), result);
+    gather_at_fronts(comm, outer, solved, field_on(solved, solution), demand(norm), result);
   };
   made.result = generate_mesh(comm, input, {}, {}, change).result;
   return made;
@@ -97,11 +100,35 @@ TEST(GatherAtFronts, LeavesCellsFarFromTheFront) {
   for (std::size_t n = 0; n < made.before.points.size(); ++n) {
     const Point p = made.before.points[n];
     moved += made.result.mesh.points[n] != p ? 1 : 0;
-    if (p.x + 0.3 * p.y + 0.7 > 1.6) {
+    if (p.x + 0.3 * p.y + 0.7 > 0.9) {
       EXPECT_EQ(made.result.mesh.points[n], p);
     }
   }
   EXPECT_GT(world().sum(moved), 100);
+}
+
+/// Bends everywhere, in all directions.
+double ragged(Point p) { return std::sin(1e4 * p.x + 3e3 * p.y * p.y) + std::cos(7e3 * p.x * p.y); }
+
+/// By what the solved mesh, of the same input, knows of second derivatives.
+double norm_of(const Mesh& mesh, const MeshInput& input, double (*solution)(Point), double p) {
+  const Mesh solved = generate_mesh(world(), input).result.mesh;
+  const Field rows = rows_of(variable_bends(world(), solved, field_on(solved, solution)), solved.owned_nodes);
+  return norm_by_bends(world(), mesh, carried<Symmetric>(world(), solved, rows, mesh), p);
+}
+
+TEST(GatherAtFronts, NeverRaisesTheNorm) {
+  for (const auto solution : {front, ragged}) {
+    for (const double p : {1.0, 3.0, 100.0}) {
+      const MeshInput input = square(MeshType::hybrid, 0.125);
+      const Gathered made = gathered(world(), input, solution, p);
+      const double before = norm_of(made.before, input, solution, p),
+                   after = norm_of(made.result.mesh, input, solution, p);
+      EXPECT_LE(after, before) << "p = " << p;
+      const bool stays = made.result.mesh.points == made.before.points;
+      EXPECT_EQ(world().any(!stays), made.result.report.warnings.empty());
+    }
+  }
 }
 
 TEST(GatherAtFronts, IsTheSameOnAnyNumberOfRanks) {
@@ -120,7 +147,7 @@ std::int64_t moved_on_floor(const MeshInput& input) {
   std::int64_t moved = 0;
   const MeshChange change = [&](const MeshInput& outer, MeshResult& result) {
     const std::vector<Point> before = result.mesh.points;
-    gather_at_fronts(world(), outer, solved, field_on(solved, front), demand(), result);
+    gather_at_fronts(world(), outer, solved, field_on(solved, front), demand(2), result);
     for (const auto& edge : result.mesh.boundaries[0].edges)
       moved += result.mesh.point(edge[0]) != before[edge[0].value()] ? 1 : 0;
   };

@@ -6,7 +6,7 @@
 Without --full, on few nodes: the same files on 1 and on 3 ranks and after a cycle that is made again, records of goals, the fields that `solve` writes,
 refusals; at Mach 0.5 derivatives by angle of attack and Mach number against differences of flows solved anew on the same mesh. With --full:
 lift and drag at Mach 0.8 and 1.25 degrees within 0.5 % of those of the finest meshes (docs/adaptation.md) with at most half the nodes that marks need, in
-fewer cycles.
+two cycles fewer.
 """
 import argparse
 import json
@@ -23,7 +23,7 @@ from quadloop_runs import ROOT, run
 CASES = ROOT / "cases" / "naca0012_m08"
 GOALS = CASES / "goals.toml"
 MARKS = {"nodes": 15729, "cycle": 3}  # docs/adaptation.md; run_wanted_sizes.py --full finds them anew
-FEW = ["solver.iterations=60", "adapt.max_nodes=5000", "adapt.min=0.003"]
+FEW = ["adapt.passes=0", "solver.iterations=60", "adapt.max_nodes=5000", "adapt.min=0.003"]
 
 
 def check_ranks_and_resume(program, folder):
@@ -84,7 +84,7 @@ def check_forces(program, folder):
         lift, drag = cycle["goals"]["lift"], cycle["goals"]["drag"]
         print(f"| {cycle['cycle']} | {cycle['nodes']} | {cycle['cl']:.5f} | {lift['corrected']:.5f} | {cycle['cd']:.5f} | {drag['corrected']:.5f} |")
     first = first_within(cycles)
-    require(first is not None and first < MARKS["cycle"], f"within 0.5 % from cycle {first} on")
+    require(first is not None and first <= MARKS["cycle"] - 2, f"within 0.5 % from cycle {first} on")
     most = max(cycle["nodes"] for cycle in cycles)
     require(most <= MARKS["nodes"] / 2, f"{most} nodes, marks need {MARKS['nodes']}")
 

@@ -4,10 +4,11 @@
     run_wanted_sizes.py --quadloop PROGRAM [--full]
 
 Without --full, on few nodes: the number of nodes is met, the same files on 1 and on 3 ranks and after a cycle that is made again, estimates and their
-order in the records. With --full: lift and drag within 0.5 % of those of the finest meshes (docs/adaptation.md) with at most half the nodes that marks
-need, in fewer cycles; a table of what is met and missed.
+order in the records; the same with passes before the first cycle. With --full: lift and drag within 0.5 % of those of the finest meshes
+(docs/adaptation.md) with at most half the nodes that marks need, in fewer cycles, with passes in two fewer, and in half the processor time; a table.
 """
 import argparse
+import resource
 import sys
 import tempfile
 from pathlib import Path
@@ -19,10 +20,11 @@ from quadloop_runs import ROOT, run
 
 CASES = ROOT / "cases" / "naca0012_m08"
 FEW = ["solver.iterations=40", "adapt.max_nodes=5000", "adapt.norm=2", "adapt.min=0.003", "adapt.variable=density"]
+NO_PASSES = ["adapt.passes=0"]
 
 
 def check_ranks_and_resume(program, folder):
-    options = sets([*FEW, "adapt.until={estimate=1e-9}"])
+    options = sets([*FEW, *NO_PASSES, "adapt.until={estimate=1e-9}"])
     case = CASES / "sizes.toml"
     ways = adapt_three_ways(program, case, folder, options)
     cycles = ways["one"]
@@ -33,29 +35,58 @@ def check_ranks_and_resume(program, folder):
     require(all(cycle["estimate"] > 0 and cycle["settled"] is False for cycle in cycles), f"{cycles}")
     require(cycles[1]["order"] > 0 and cycles[1]["estimate"] < cycles[0]["estimate"], f"the error grows: {cycles}")
     require(all(4500 <= cycle["nodes"] <= 5000 for cycle in cycles[1:]), f"nodes {[cycle['nodes'] for cycle in cycles]}")
-    ended = run([program, "adapt", case, "-o", folder / "one", "--cycles", "4", "--resume", *sets([*FEW, "adapt.until={cl=1}"])])
+    ended = run([program, "adapt", case, "-o", folder / "one", "--cycles", "4", "--resume", *sets([*FEW, *NO_PASSES, "adapt.until={cl=1}"])])
     require("has settled by adapt.until" in ended, f"an earlier run that has settled goes on: {ended}")
 
 
+def check_passes(program, folder):
+    """The first cycle has the mesh that a rough flow on the case's own asks for."""
+    case = CASES / "sizes.toml"
+    ways = adapt_three_ways(program, case, folder, sets([*FEW, "adapt.passes=1", "adapt.until={estimate=1e-9}"]))
+    first = ways["one"][0]
+    for way, cycles in ways.items():
+        require(cycles[0]["passes"] == first["passes"], f"other passes: {way} {cycles[0]['passes']}, {first['passes']}")
+        require("passes" not in cycles[1], "passes before a later cycle")
+    require(len(first["passes"]) == 1 and first["passes"][0]["nodes"] < 4000, f"{first['passes']}")
+    require(4500 <= first["nodes"] <= 5000, f"{first['nodes']} nodes after a pass")
+    require(0.004 < first["passes"][0]["residual"] <= 0.01, f"not a rough flow: {first['passes']}")
+
+
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def seconds_of(cycles):
+    return sum(sum(cycle["seconds"].values()) for cycle in cycles)
+
+
+MARKS = sets(["adapt.min=0.0007", "adapt.max_nodes=60000", "solver.tolerance=1e-6"])
+RUNS = {"marks": ("case.toml", ["--cycles", "4", *MARKS]), "sizes": ("sizes.toml", sets(NO_PASSES)), "passes, sizes": ("sizes.toml", []),
+        "passes, marks": ("case.toml", ["--cycles", "1", *MARKS, *sets(["adapt.passes=3"])])}
+
+
 def check_forces(program, folder):
-    marks, sizes = folder / "marks", folder / "sizes"
-    run([program, "-q", "adapt", CASES / "case.toml", "-o", marks, "--cycles", "4",
-         *sets(["adapt.min=0.0007", "adapt.max_nodes=60000", "solver.tolerance=1e-6"])])
-    run([program, "-q", "adapt", CASES / "sizes.toml", "-o", sizes])
     found = {}
-    for name, run_folder in (("marks", marks), ("sizes", sizes)):
-        cycles = records(run_folder)
+    for name, (case, options) in RUNS.items():
+        before = processor_seconds()
+        run([program, "-q", "adapt", CASES / case, "-o", folder / name, *options])
+        used = processor_seconds() - before
+        cycles = records(folder / name)
         for cycle in cycles:
             off = ", ".join(f"{key} {cycle[key]:.5f} ({100 * error:+.2f} %)" for key, error in errors(cycle).items())
             print(f"| {name} | {cycle['cycle']} | {cycle['nodes']} | {off} | {cycle.get('estimate', '')} |")
         k = first_within(cycles)
         require(k is not None, f"{name}: lift and drag do not come within 0.5 %")
-        found[name] = k, cycles[k]["nodes"]
-    (cycles_of_marks, nodes_of_marks), (cycles_of_sizes, nodes_of_sizes) = found["marks"], found["sizes"]
-    print(f"nodes: {nodes_of_sizes} of {nodes_of_marks}; cycles: {cycles_of_sizes} of {cycles_of_marks} "
-          f"(two fewer: {'met' if cycles_of_sizes <= cycles_of_marks - 2 else 'MISSED'})")
-    require(nodes_of_sizes <= 0.5 * nodes_of_marks, "more than half the nodes")
-    require(cycles_of_sizes < cycles_of_marks, "as many cycles")
+        share = seconds_of(cycles[:k + 1]) / seconds_of(cycles)
+        found[name] = k, cycles[k]["nodes"], used * share
+        print(f"{name}: within 0.5 % from cycle {k} on, {cycles[k]['nodes']} nodes, {used * share:.1f} processor seconds up to its end", flush=True)
+    cycles_of_marks, nodes_of_marks, seconds_of_marks = found["marks"]
+    for name, fewer in (("sizes", 1), ("passes, sizes", 2)):
+        cycles, nodes, seconds = found[name]
+        require(nodes <= 0.5 * nodes_of_marks, f"{name}: more than half the nodes")
+        require(cycles <= cycles_of_marks - fewer, f"{name}: not {fewer} cycles fewer")
+        require(seconds <= 0.5 * seconds_of_marks, f"{name}: more than half the processor seconds")
 
 
 def main():
@@ -67,7 +98,8 @@ def main():
         if arguments.full:
             check_forces(arguments.quadloop, Path(folder))
         else:
-            check_ranks_and_resume(arguments.quadloop, Path(folder))
+            check_ranks_and_resume(arguments.quadloop, Path(folder) / "cycles")
+            check_passes(arguments.quadloop, Path(folder) / "passes")
 
 
 main()
