@@ -122,6 +122,10 @@ class SteadyMarch {
       go_back();
       return true;
     }
+    if (swing_.swings(result_.residual)) {
+      limit_.lower(0.5);
+      tell("the residual goes to and fro: a smaller cfl");
+    }
     if (stall_.stalls(result_.residual) && run_.residual.limiter_is_live()) {
       keep_limiter();
       tell("the limiter's factors are kept from here on");
@@ -205,6 +209,7 @@ class SteadyMarch {
   StallWatch stall_;
   RiseWatch rise_;
   StandstillWatch standstill_;
+  SwingWatch swing_;
   CflLimit limit_;
   BestFlow best_;
   std::optional<MirroredStates> mirrored_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -51,6 +52,38 @@ class RiseWatch {
   static constexpr double factor = 10;
   static constexpr int patience = 20;
   int steps_ = 0;
+};
+
+/// Tells when the residual goes to and fro and does not fall: steps are too large for the flow to settle.
+/// A transient's residual does not fall for long either, but changes little from step to step.
+class SwingWatch {
+ public:
+  bool swings(double residual) {
+    const double now = std::log(std::max(residual, least));
+    if (steps_ > 0) {
+      way_ += std::abs(now - last_);
+    } else {
+      first_ = now;
+    }
+    last_ = now;
+    lowest_ = std::min(lowest_, now);
+    if (++steps_ <= window) return false;
+    const bool swung = way_ - std::max(0.0, first_ - now) > to_and_fro && lowest_ > lowest_before_ - fall;
+    lowest_before_ = std::min(lowest_before_, lowest_);
+    steps_ = 0;
+    way_ = 0;
+    lowest_ = std::numeric_limits<double>::infinity();
+    return swung;
+  }
+
+ private:
+  static constexpr int window = 40;
+  static constexpr double to_and_fro = 3;  ///< of the logarithm, over the window
+  static constexpr double fall = 0.5;      ///< of it, that is progress all the same
+  static constexpr double least = 1e-30;
+  int steps_ = 0;
+  double first_ = 0, last_ = 0, way_ = 0, lowest_ = std::numeric_limits<double>::infinity(),
+         lowest_before_ = std::numeric_limits<double>::infinity();
 };
 
 /// Tells when the residual has the same bits step after step: changes are not finite, or so large that no
