@@ -53,7 +53,7 @@ Real limiting_factor(const Real& allowed, const Real& change,
 template <class Real = double>
 Real keeping_factor(const Real& value, const Real& change) {
   constexpr double largest_loss = 0.8;
-  const Real room = largest_loss * value;
+  const Real room = largest_loss * std::max<Real>(value, 0);
   return -change > room ? -room / change : Real(1);
 }
 
