@@ -16,7 +16,8 @@ class StallWatch {
  public:
   bool stalls(double residual) {
     best_.push_back(best_.empty() ? residual : std::min(best_.back(), residual));
-    return (residual < developed && falls_less(30, 0.5)) || (residual < settled && falls_less(15, 0.3));
+    return (residual < developed && falls_less(30, 0.5)) || (residual < near && falls_less(10, 0.7)) ||
+           (residual < settled && falls_less(10, 0.4));
   }
 
   /// The residual of a flow that has its shape did not halve in a hundred steps.
@@ -26,13 +27,12 @@ class StallWatch {
   bool is_slow() const { return best_.size() > 60 && best_.back() > 0.5 * best_[best_.size() / 2]; }
 
  private:
-  /// Below it the flow is near the end, so that factors that are kept are nearly those of the end.
-  static constexpr double settled = 3e-3;
+  /// Below these the flow is near the end, so that factors that are kept are nearly those of the end.
+  static constexpr double near = 0.02, settled = 3e-3;
 
-  /// Looked at once in so many steps: the best did not fall to that share of what it was.
+  /// The best is not down to that share of what it was so many steps ago.
   bool falls_less(std::size_t window, double share) const {
-    if (best_.size() % window != 0 || best_.size() <= window) return false;
-    return best_.back() > share * best_[best_.size() - 1 - window];
+    return best_.size() > window && best_.back() > share * best_[best_.size() - 1 - window];
   }
 
   std::vector<double> best_;  ///< up to each step
