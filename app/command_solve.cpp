@@ -92,7 +92,7 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
     require_possible_output(arguments.output);
     problem.whole = read_mesh(arguments.input);
     problem.warnings = problem.whole.warnings;
-    problem.order = space_filling_order(problem.whole.mesh);
+    problem.order = order_for_parts(problem.whole.mesh);
     problem.start = start_of(problem.whole, arguments.input, problem.warnings);
   });
   return problem;

@@ -49,33 +49,56 @@ void LimiterDerivative::find_edges(const Limiter& limiter, const std::vector<Sta
 }
 
 void LimiterDerivative::find(const Limiter& limiter, const std::vector<State>& states) {
-  using Dual = DualNumber<3>;
   std::vector<Side> sides(2 * parts_.size());
   find_edges(limiter, states, sides);
   for (std::size_t node = 0; node < parts_.size(); ++node) {
-    const Limiter::Bounds &values = limiter.values(node), &changes = limiter.changes(node);
     for (std::size_t k = 0; k < 4; ++k) {
-      const double value = states[node][k];
-      const Dual small = Dual::variable(small_squared_[node], 2);
-      const Dual up = limiting_factor(Dual::variable(values.high[k] - value, 0),
-                                      Dual::variable(changes.high[k], 1), small),
-                 down = limiting_factor(Dual::variable(value - values.low[k], 0),
-                                        Dual::variable(-changes.low[k], 1), small);
-      const bool is_up = !(down < up);
-      const Side& side = sides[2 * node + (is_up ? 0 : 1)];
-      const Dual& decides = is_up ? up : down;
-      const double sign = is_up ? 1 : -1;
-      Part& part = parts_[node][k];
-      part.by_allowed = sign * decides.slopes[0];
-      part.by_change = sign * decides.slopes[1];
-      part.by_small = decides.slopes[2];
-      part.along = side.along[k];
-      part.way = side.way[k];
-      // a node that has the largest value itself allows nothing, whatever the states do
-      part.neighbour = states[node][k] == (is_up ? values.high[k] : values.low[k]) ? -1 : side.neighbour[k];
-      if (part.neighbour < 0) part.by_allowed = 0;
+      const Side &up = sides[2 * node], &down = sides[2 * node + 1];
+      follow_bounds(limiter, node, k, states[node][k], up, down);
+      if (is_positive(k)) follow_keeping(limiter, node, k, states[node][k], down);
     }
   }
+}
+
+/// Where the bounds of the neighbours' values decide.
+void LimiterDerivative::follow_bounds(const Limiter& limiter, std::size_t node, std::size_t k, double value,
+                                      const Side& up_side, const Side& down_side) {
+  using Dual = DualNumber<3>;
+  const Limiter::Bounds &values = limiter.values(node), &changes = limiter.changes(node);
+  const Dual small = Dual::variable(small_squared_[node], 2);
+  const Dual up = limiting_factor(Dual::variable(values.high[k] - value, 0),
+                                  Dual::variable(changes.high[k], 1), small),
+             down = limiting_factor(Dual::variable(value - values.low[k], 0),
+                                    Dual::variable(-changes.low[k], 1), small);
+  const bool is_up = !(down < up);
+  const Side& side = is_up ? up_side : down_side;
+  const Dual& decides = is_up ? up : down;
+  const double sign = is_up ? 1 : -1;
+  Part& part = parts_[node][k];
+  part.by_allowed = sign * decides.slopes[0];
+  part.by_change = sign * decides.slopes[1];
+  part.by_small = decides.slopes[2];
+  part.along = side.along[k];
+  part.way = side.way[k];
+  // a node that has the largest value itself allows nothing, whatever the states do
+  part.neighbour = value == (is_up ? values.high[k] : values.low[k]) ? -1 : side.neighbour[k];
+  if (part.neighbour < 0) part.by_allowed = 0;
+}
+
+/// Where what a density or pressure must keep decides.
+void LimiterDerivative::follow_keeping(const Limiter& limiter, std::size_t node, std::size_t k, double value,
+                                       const Side& down) {
+  using Dual = DualNumber<2>;
+  const Dual keeping =
+      keeping_factor(Dual::variable(value, 0), Dual::variable(limiter.changes(node).low[k], 1));
+  Part& part = parts_[node][k];
+  if (keeping.value >= 1 || keeping.value != part.factor) return;
+  part.by_allowed = part.by_small = 0;
+  part.neighbour = -1;
+  part.by_own = keeping.slopes[0];
+  part.by_change = keeping.slopes[1];
+  part.along = down.along[k];
+  part.way = down.way[k];
 }
 
 void LimiterDerivative::apply(const std::vector<State>& change, std::vector<Gradient>& gradients) const {
@@ -85,6 +108,7 @@ void LimiterDerivative::apply(const std::vector<State>& change, std::vector<Grad
     for (std::size_t k = 0; k < 4; ++k) {
       const Part& part = parts_[node][k];
       double factor = part.by_change * (gradient.x[k] * part.way.x + gradient.y[k] * part.way.y);
+      factor += part.by_own * change[node][k];
       if (part.by_allowed != 0) factor += part.by_allowed * (change[part.neighbour][k] - change[node][k]);
       gradient.x[k] = part.factor * gradient.x[k] + factor * held.x[k];
       gradient.y[k] = part.factor * gradient.y[k] + factor * held.y[k];
@@ -112,6 +136,7 @@ void LimiterDerivative::apply_transposed(std::vector<Gradient>& weights, std::ve
       const double factor = held.x[k] * weight.x[k] + held.y[k] * weight.y[k];
       weight.x[k] = part.factor * weight.x[k] + part.by_change * factor * part.way.x;
       weight.y[k] = part.factor * weight.y[k] + part.by_change * factor * part.way.y;
+      sums[node][k] += part.by_own * factor;
       if (part.by_allowed == 0) continue;
       sums[node][k] -= part.by_allowed * factor;
       handed[node].to[k] = mesh_.global(part.neighbour);

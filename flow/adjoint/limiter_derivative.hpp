@@ -36,12 +36,17 @@ class LimiterDerivative {
     double factor = 1;
     double by_allowed = 0, by_change = 0;  ///< derivatives, with the sign of the side that decides
     double by_small = 0;                   ///< by the square of what is small
+    double by_own = 0;                     ///< by the node's own value, of which it must keep some
     std::int32_t neighbour = -1;           ///< that has the value that decides
     std::int32_t along = -1;               ///< the neighbour along the edge whose change decides
     Point way;                             ///< to that edge's middle
   };
   struct Side;
   void find(const Limiter& limiter, const std::vector<State>& states);
+  void follow_bounds(const Limiter& limiter, std::size_t node, std::size_t k, double value, const Side& up,
+                     const Side& down);
+  void follow_keeping(const Limiter& limiter, std::size_t node, std::size_t k, double value,
+                      const Side& down);
   void find_edges(const Limiter& limiter, const std::vector<State>& states, std::vector<Side>& sides) const;
 
   const DualMesh& mesh_;

@@ -17,6 +17,7 @@ struct FlowRun {
   const FlowModel& model;
   Residual& residual;
   std::vector<State>& states;  ///< of each node
+  bool is_carried = false;     ///< the states are those of a flow that was given
 };
 
 /// Root mean square of the owned nodes' net mass fluxes; not a number where any is not finite. *Collective.*

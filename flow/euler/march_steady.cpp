@@ -27,7 +27,8 @@ constexpr double growth = 0.75;       ///< the CFL number grows as the residual 
 constexpr double near_end = 5e-3;     ///< a residual at which Newton steps begin
 constexpr double blown_up = 1000;     ///< a relative residual that no sound start reaches
 constexpr double exploding = 20;      ///< one that hardly any sound start reaches
-constexpr int most_retries = 8;       ///< after a flow blew up
+constexpr int start_patience = 100, start_retries = 2;  ///< before a flow that was given is left
+constexpr int most_retries = 8;                         ///< after a flow blew up
 /// After the residual rose: a flow that has no steady state may swing as it likes then.
 constexpr int most_returns = 8;
 
@@ -40,8 +41,8 @@ class SteadyMarch {
         shares_(run.mesh.owned_nodes()),
         far_field_(run.comm, run.mesh, run.model),
         best_states_{run.states} {
-    std::vector<State> uniform(run.mesh.nodes(), run.model.free_stream);
-    reference_ = mass_residual(run, run.residual.evaluate(uniform));
+    std::vector<State> uniform = undisturbed();
+    reference_ = of_free_stream_ = mass_residual(run, run.residual.evaluate(uniform));
     zero_ = rounding(run);
   }
 
@@ -88,7 +89,44 @@ class SteadyMarch {
     result_.converged = is_zero || result_.residual <= run_.options.tolerance;
   }
 
+  std::vector<State> undisturbed() const {
+    std::vector<State> uniform(run_.mesh.nodes(), run_.model.free_stream);
+    run_.residual.no_slip().hold(uniform);
+    return uniform;
+  }
+
+  /// Whether a flow that was given leads nowhere: it has hardly become better for long, or went wrong again
+  /// and again.
+  bool start_is_useless() const {
+    return run_.is_carried && result_.left_start == 0 &&
+           best_.residual > std::max(developed, 0.5 * start_residual_) &&
+           (result_.iterations >= start_patience || returns_ + retries_ > start_retries);
+  }
+
+  /// From the free stream, as without a start.
+  void leave_start() {
+    result_.left_start = std::max(1, result_.iterations);
+    if (run_.comm.is_root())
+      log::information(
+          fmt::format("step {}: the flow that was given leads nowhere (residual {:.2e} at step {}): on from "
+                      "the free stream",
+                      result_.iterations, best_.residual, best_.iteration));
+    run_.states = best_states_ = undisturbed();
+    run_.residual.release_limiter();
+    shares_.restart();
+    stall_ = {};
+    rise_ = {};
+    standstill_ = {};
+    swing_ = {};
+    limit_ = {};
+    best_ = {};
+    pilot_ = {};
+    retries_ = returns_ = 0;
+    reference_ = of_free_stream_;
+  }
+
   void give_up_or_retry(const std::vector<Flux>& fluxes) {
+    if (start_is_useless()) return leave_start();
     if (++retries_ > most_retries || result_.iterations == 0) {
       throw SolverError(
           fmt::format("the flow solver failed after {} steps {}; look at the boundary conditions and the "
@@ -108,6 +146,11 @@ class SteadyMarch {
 
   /// Keeps the best flow. Tells whether the flow was set back to it, as it is on the way to a worse one.
   bool watch() {
+    if (result_.iterations == 0) start_residual_ = result_.residual;
+    if (start_is_useless()) {
+      leave_start();
+      return true;
+    }
     limit_.recover();
     const bool frozen = run_.residual.limiter_is_frozen();
     if (best_.improves(result_.iterations, result_.residual, frozen)) best_states_ = run_.states;
@@ -121,6 +164,10 @@ class SteadyMarch {
       limit_.lower(explodes ? 0.3 : 0.5);
       go_back();
       return true;
+    }
+    if (swing_.swings(result_.residual)) {
+      limit_.lower(0.5);
+      tell("the residual goes to and fro: a smaller cfl");
     }
     if (stall_.stalls(result_.residual) && run_.residual.limiter_is_live()) {
       keep_limiter();
@@ -205,11 +252,13 @@ class SteadyMarch {
   StallWatch stall_;
   RiseWatch rise_;
   StandstillWatch standstill_;
+  SwingWatch swing_;
   CflLimit limit_;
   BestFlow best_;
   std::optional<MirroredStates> mirrored_;
   std::vector<State> best_states_;
   double reference_ = 0, zero_ = 0;  ///< mass residuals: that which the tolerance is relative to; rounding
+  double of_free_stream_ = 0, start_residual_ = 0;
   int retries_ = 0, returns_ = 0;
   bool is_stepped_ = false;
 };

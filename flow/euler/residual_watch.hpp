@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -15,7 +16,8 @@ class StallWatch {
  public:
   bool stalls(double residual) {
     best_.push_back(best_.empty() ? residual : std::min(best_.back(), residual));
-    return (residual < developed && falls_less(30, 0.5)) || (residual < settled && falls_less(15, 0.3));
+    return (residual < developed && falls_less(30, 0.5)) || (residual < near && falls_less(10, 0.7)) ||
+           (residual < settled && falls_less(10, 0.4));
   }
 
   /// The residual of a flow that has its shape did not halve in a hundred steps.
@@ -25,13 +27,12 @@ class StallWatch {
   bool is_slow() const { return best_.size() > 60 && best_.back() > 0.5 * best_[best_.size() / 2]; }
 
  private:
-  /// Below it the flow is near the end, so that factors that are kept are nearly those of the end.
-  static constexpr double settled = 3e-3;
+  /// Below these the flow is near the end, so that factors that are kept are nearly those of the end.
+  static constexpr double near = 0.02, settled = 3e-3;
 
-  /// Looked at once in so many steps: the best did not fall to that share of what it was.
+  /// The best is not down to that share of what it was so many steps ago.
   bool falls_less(std::size_t window, double share) const {
-    if (best_.size() % window != 0 || best_.size() <= window) return false;
-    return best_.back() > share * best_[best_.size() - 1 - window];
+    return best_.size() > window && best_.back() > share * best_[best_.size() - 1 - window];
   }
 
   std::vector<double> best_;  ///< up to each step
@@ -51,6 +52,38 @@ class RiseWatch {
   static constexpr double factor = 10;
   static constexpr int patience = 20;
   int steps_ = 0;
+};
+
+/// Tells when the residual goes to and fro and does not fall: steps are too large for the flow to settle.
+/// A transient's residual does not fall for long either, but changes little from step to step.
+class SwingWatch {
+ public:
+  bool swings(double residual) {
+    const double now = std::log(std::max(residual, least));
+    if (steps_ > 0) {
+      way_ += std::abs(now - last_);
+    } else {
+      first_ = now;
+    }
+    last_ = now;
+    lowest_ = std::min(lowest_, now);
+    if (++steps_ <= window) return false;
+    const bool swung = way_ - std::max(0.0, first_ - now) > to_and_fro && lowest_ > lowest_before_ - fall;
+    lowest_before_ = std::min(lowest_before_, lowest_);
+    steps_ = 0;
+    way_ = 0;
+    lowest_ = std::numeric_limits<double>::infinity();
+    return swung;
+  }
+
+ private:
+  static constexpr int window = 40;
+  static constexpr double to_and_fro = 3;  ///< of the logarithm, over the window
+  static constexpr double fall = 0.5;      ///< of it, that is progress all the same
+  static constexpr double least = 1e-30;
+  int steps_ = 0;
+  double first_ = 0, last_ = 0, way_ = 0, lowest_ = std::numeric_limits<double>::infinity(),
+         lowest_before_ = std::numeric_limits<double>::infinity();
 };
 
 /// Tells when the residual has the same bits step after step: changes are not finite, or so large that no

@@ -73,7 +73,7 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
   std::vector<State> states = start_states(comm, mesh, dual, model, options, start);
   Residual residual(dual, model, options);
   residual.no_slip().hold(states);
-  const FlowRun run{comm, options, dual, model, residual, states};
+  const FlowRun run{comm, options, dual, model, residual, states, start.width() > 0};
   const bool steady = options.time == EulerOptions::Time::steady;
   const progress::Stage stage("solving", steady ? options.iterations : options.end_time,
                               steady ? "steps" : "units of time");

@@ -26,6 +26,8 @@ struct EulerResult {
   std::vector<HistoryRow> history;          ///< of every step and the end; accurate: of every tenth step
   /// The step whose flow this is: the last, or that of the best residual where it rose again.
   int kept_iteration = 0;
+  /// The step at which the flow that was given was left for the free stream, since it led nowhere; 0: not.
+  int left_start = 0;
   double last_residual = 0;      ///< after the last step
   bool stalled = false;          ///< the residual did not halve in the second half of the steps
   bool converged = false;        ///< steady: the tolerance is met; accurate: the end time is reached

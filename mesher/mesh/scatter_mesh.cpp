@@ -1,6 +1,7 @@
 #include "mesher/mesh/scatter_mesh.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -70,6 +71,26 @@ std::vector<std::int32_t> ordered_cells(const Cells<width>& cells, const NodeNum
     first.push_back(least);
   }
   return ordered_by(first);
+}
+
+/// How far apart the nodes of cells stand, in powers of two: few cells join nodes far apart where neighbours
+/// stand near each other.
+template <std::size_t width>
+std::int64_t spread(const Cells<width>& cells, const NodeNumbers& numbers) {
+  std::int64_t sum = 0;
+  for (const auto& nodes : cells) {
+    GlobalNodeId least = numbers[nodes[0]], largest = least;
+    for (const NodeId node : nodes) {
+      least = std::min(least, numbers[node]);
+      largest = std::max(largest, numbers[node]);
+    }
+    sum += std::bit_width(static_cast<std::uint64_t>(largest.value() - least.value()));
+  }
+  return sum;
+}
+
+std::int64_t spread(const Mesh& mesh, const NodeNumbers& numbers) {
+  return spread(mesh.triangles, numbers) + spread(mesh.quads, numbers);
 }
 
 /// Shares as those of scatter_evenly() of `count` rows, which the root makes, `make(i)` row i: few at a time,
@@ -286,6 +307,13 @@ MeshOrder space_filling_order(const Mesh& whole) {
   order.triangles = ordered_cells(whole.triangles, numbers);
   order.quads = ordered_cells(whole.quads, numbers);
   return order;
+}
+
+MeshOrder order_for_parts(const Mesh& whole) {
+  MeshOrder curve = space_filling_order(whole);
+  const std::int64_t of_curve = spread(whole, inverse_of(curve.nodes)),
+                     own = spread(whole, inverse_of(numbers_to(whole.points.size())));
+  return 4 * own <= 5 * of_curve ? own_order(whole) : curve;
 }
 
 MeshOrder own_order(const Mesh& whole) {

@@ -23,6 +23,10 @@ MeshOrder space_filling_order(const Mesh& whole);
 /// Nodes and cells as the mesh numbers them.
 MeshOrder own_order(const Mesh& whole);
 
+/// The mesh's own order where neighbours stand near each other in it, as in meshes that were made along a
+/// curve, else space_filling_order(): what is computed on such a mesh again goes the same way, bit for bit.
+MeshOrder order_for_parts(const Mesh& whole);
+
 /// Spreads a mesh that the root rank holds whole over all ranks, in the order given: an even share of nodes,
 /// triangles, quads and boundary edges for each. `whole` and `order` count on the root alone. *Collective.*
 Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& order);

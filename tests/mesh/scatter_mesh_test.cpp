@@ -57,6 +57,16 @@ TEST(SpaceFillingOrder, KeepsNeighboursTogether) {
   }
 }
 
+TEST(OrderForParts, IsTheMeshsOwnWhereNeighboursStandTogether) {
+  const Mesh rows = jittered(15);
+  const Communicator self(MPI_COMM_SELF);
+  const Mesh along = scatter_mesh(self, rows, space_filling_order(rows)),
+             mixed = scatter_mesh(self, rows, test::shuffled_order(rows, 5));
+  EXPECT_EQ(order_for_parts(along).nodes, own_order(along).nodes);
+  EXPECT_EQ(order_for_parts(along).triangles, own_order(along).triangles);
+  EXPECT_EQ(order_for_parts(mixed).nodes, space_filling_order(mixed).nodes);
+}
+
 TEST(SpaceFillingOrder, IsThatOfTheMeshAlone) {
   Mesh flat = jittered(3);
   for (Point& p : flat.points) p = {5, 5};  // a box without extent

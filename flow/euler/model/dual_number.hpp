@@ -46,6 +46,10 @@ struct DualNumber {
     const double root = std::sqrt(a.value);
     return combined(root, 0.5 / root, a, 0, a);
   }
+  friend DualNumber pow(const DualNumber& a, double power) {
+    const double value = std::pow(a.value, power);
+    return combined(value, power * value / a.value, a, 0, a);
+  }
   friend DualNumber abs(const DualNumber& a) { return a.value < 0 ? -a : a; }
 
  private:

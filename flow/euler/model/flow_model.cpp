@@ -70,13 +70,29 @@ FluxOf<Real> inflow_flux(const FlowModel& model, const StateOf<Real>& state, con
                      : farfield_flux(model, state, normal);
 }
 
+/// Of the speed of sound: what is left where gas comes back so fast that hardly any leaves.
+constexpr double slowest_choked = 0.1;
+
+/// What a gas that meets a vacuum has where its fan stands still: it leaves with the speed of sound. The wave
+/// that runs into the gas keeps entropy and speed + 2 sound / (gamma - 1).
+template <class Real, class Vector>
+StateOf<Real> choked(const Gas& gas, const StateOf<Real>& state, const Vector& normal) {
+  using std::pow;
+  const auto& [rho, u, v, p] = state;
+  const double g = gas.gamma - 1;
+  const Real along = u * normal.x + v * normal.y, sound = gas.sound_speed(state);
+  const Real left = std::max<Real>((g * along / sound + 2) / (gas.gamma + 1), slowest_choked);
+  const Real faster = left * sound - along, thinner = pow(left, 2 / g);
+  return {rho * thinner, u + faster * normal.x, v + faster * normal.y, p * thinner * (left * left)};
+}
+
 template <class Real, class Vector>
 FluxOf<Real> outflow_flux(const FlowModel& model, const BoundaryModel& boundary, const StateOf<Real>& state,
                           const Vector& normal) {
   const auto& [rho, u, v, p] = state;
   const Real sound = model.gas.sound_speed(state);
-  if (!boundary.pressure || u * normal.x + v * normal.y >= sound)
-    return physical_flux(model.gas, state, normal);
+  if (u * normal.x + v * normal.y >= sound) return physical_flux(model.gas, state, normal);
+  if (!boundary.pressure) return physical_flux(model.gas, choked(model.gas, state, normal), normal);
   const Real lost = p - *boundary.pressure, faster = lost / (rho * sound);
   const Real density = std::max<Real>(rho - lost / (sound * sound), 0.1 * rho);
   return physical_flux<Real>(

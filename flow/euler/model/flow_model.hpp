@@ -21,7 +21,7 @@ bool feels_force(Condition condition);
 
 struct BoundaryModel {
   Condition condition = Condition::none;
-  std::optional<double> pressure = {};     ///< behind an outflow; else it is supersonic
+  std::optional<double> pressure = {};     ///< behind an outflow; none: a vacuum
   std::optional<double> temperature = {};  ///< of a wall, else adiabatic
 };
 
@@ -45,9 +45,9 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
 ///   farfield  the upwind flux against the free stream, which lets waves out: lift errs by the order of
 ///             chord over far-field distance (Residual::surround for one with the lift's vortex)
 ///   inflow    the free stream where it comes in faster than sound, else as farfield
-///   outflow   the flow itself where it is faster than sound or no pressure is given, else with the given
-///   pressure and the density and speed that
-///             the outgoing waves then carry
+///   outflow   the flow itself where it is faster than sound, else with the given pressure and the density
+///             and speed that the outgoing waves then carry; where none is given as into a vacuum, with the
+///             speed of sound (Toro 2009, 4.6): what is carried out slower would leave the flow undecided
 ///
 /// For doubles, and for numbers with derivatives by the state or the normal.
 template <class Real = double, class Vector = Point>

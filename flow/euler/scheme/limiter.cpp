@@ -64,7 +64,7 @@ void Limiter::find_changes(const std::vector<Gradient>& gradients) {
   }
 }
 
-/// The factor falls as the change grows, so that the largest change of a node, up or down, decides.
+/// The factors fall as the change grows, so that the largest change of a node, up or down, decides.
 void Limiter::find_factors(const std::vector<State>& states) {
   for (std::size_t node = 0; node < factors_.size(); ++node) {
     for (std::size_t k = 0; k < 4; ++k) {
@@ -72,6 +72,8 @@ void Limiter::find_factors(const std::vector<State>& states) {
       factors_[node][k] =
           std::min(limiting_factor(values_[node].high[k] - value, changes_[node].high[k], small_squared),
                    limiting_factor(value - values_[node].low[k], -changes_[node].low[k], small_squared));
+      if (is_positive(k))
+        factors_[node][k] = std::min(factors_[node][k], keeping_factor(value, changes_[node].low[k]));
     }
   }
 }

@@ -48,10 +48,24 @@ Real limiting_factor(const Real& allowed, const Real& change,
                         (square + 2 * change * allowed) / (square + 2 * change * change + allowed * change));
 }
 
+/// The factor by which a change must be made smaller so that a density or pressure that falls by it keeps a
+/// fifth; `change` is below zero where it falls.
+template <class Real = double>
+Real keeping_factor(const Real& value, const Real& change) {
+  constexpr double largest_loss = 0.8;
+  const Real room = largest_loss * std::max<Real>(value, 0);
+  return -change > room ? -room / change : Real(1);
+}
+
+/// Whether that variable of a state must stay above zero.
+constexpr bool is_positive(std::size_t variable) { return variable == 0 || variable == 3; }
+
 /// Venkatakrishnan's limiter (1995): each variable's gradient at a node is scaled so that the values at the
 /// middles of its edges stay within those of the node and its neighbours, smoothly, and not at all where the
 /// flow varies by less than (K h)^1.5. There h is the side of the square of the dual cell's area in units of
-/// the reference length, and K = 5. So smooth flow is not limited once the mesh resolves it.
+/// the reference length, and K = 5. So smooth flow is not limited once the mesh resolves it. Density and
+/// pressure keep a fifth of the node's own besides: edges that switched to first order where little is left,
+/// as behind a bluff body, would go to and fro for good.
 class Limiter {
  public:
   Limiter(const DualMesh& mesh, double reference_length);

@@ -49,6 +49,22 @@ TEST(StallWatch, TellsASlowFallFromAFastOne) {
   EXPECT_TRUE(early.is_slow());
 }
 
+TEST(SwingWatch, TellsASwingFromATransient) {
+  SwingWatch swing, transient, falling, still;
+  bool swings = false, transient_swings = false, falling_swings = false, still_swings = false;
+  for (int step = 0; step < 200; ++step) {
+    const double to_and_fro = step % 3 == 0 ? 0.14 : 0.22;
+    swings |= swing.swings(to_and_fro);
+    transient_swings |= transient.swings(0.7 + 0.02 * (step % 2));  // shocks on their way
+    falling_swings |= falling.swings(to_and_fro * std::exp(-0.02 * step));
+    still_swings |= still.swings(0);
+  }
+  EXPECT_TRUE(swings);
+  EXPECT_FALSE(transient_swings);
+  EXPECT_FALSE(falling_swings);
+  EXPECT_FALSE(still_swings);
+}
+
 TEST(RiseWatch, WaitsForARiseThatLasts) {
   RiseWatch watch;
   for (int step = 0; step < 100; ++step) EXPECT_FALSE(watch.rises(step % 10 == 0 ? 1e-6 : 1e-4, 1e-6));

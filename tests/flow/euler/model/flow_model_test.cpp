@@ -161,6 +161,23 @@ TEST(FlowModel, RefusesAFaceOfABoundaryWithoutEdges) {
   EXPECT_THROW(feels_force(Condition::none), Fault);
 }
 
+/// Gas at rest that meets a vacuum leaves with the speed of sound that its fan has there.
+TEST(BoundaryFlux, ThroughAnOutflowWithoutPressureIsNeverSlowerThanSound) {
+  const FlowModel model;
+  const BoundaryModel open{Condition::outflow};
+  const State rest{1, 0, 0, 1 / 1.4};
+  const double sound = 2 / 2.4;
+  const Flux flux = boundary_flux(model, open, rest, Point{1, 0});
+  EXPECT_NEAR(flux[0], std::pow(sound, 6), 1e-14);
+  EXPECT_NEAR(flux[1], std::pow(sound, 7) * (1 + 1 / 1.4), 1e-14);
+  const auto mass = [&](double speed) {
+    return boundary_flux(model, open, State{1, 0.6 * speed, 0.8 * speed, 1 / 1.4}, Point{0.6, 0.8})[0];
+  };
+  EXPECT_NEAR(mass(1 - 1e-9), mass(1 + 1e-9), 1e-8);
+  EXPECT_EQ(mass(1.5), 1.5);
+  for (double speed = -20; speed < 1; speed += 0.25) EXPECT_GT(mass(speed), 0) << speed;
+}
+
 TEST(BoundaryFlux, OfTheFreeStreamIsPhysical) {
   FlowModel model;
   for (const double mach : {0.0, 0.5, 2.0}) {

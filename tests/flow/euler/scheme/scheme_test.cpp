@@ -87,6 +87,27 @@ TEST(Limiter, FlattensAPeakAndLeavesAConstantAlone) {
   EXPECT_LT(std::abs(gradients[middle].x[0]), 1e-6);  // kept from before
 }
 
+/// However little counts as small, since the mesh is coarse.
+TEST(Limiter, LeavesDensityAndPressureAFifth) {
+  const Mesh mesh = test::irregular_grid(8, {1, 1}, 0);
+  const DualMesh dual(world(), mesh);
+  const std::vector<State> states(dual.nodes(), State{0.1, 1, 0, 0.01});
+  std::vector<Gradient> gradients(dual.nodes(), Gradient{{4, 4, 0, 4}, {0, 0, 0, 0}});
+  Limiter(dual, 1e-3).apply(states, gradients);
+  bool falls = false;
+  for (const DualEdge& edge : dual.edges()) {
+    for (const auto& [node, way] : {std::pair{edge.low, edge.half}, {edge.high, -1.0 * edge.half}}) {
+      const double density = states[node][0] + gradients[node].x[0] * way.x,
+                   pressure = states[node][3] + gradients[node].x[3] * way.x;
+      EXPECT_GT(density, 0.0199);
+      EXPECT_GT(pressure, 0.00199);
+      falls = falls || pressure < 0.00201;
+    }
+    EXPECT_EQ(gradients[edge.low].x[1], 4);
+  }
+  EXPECT_TRUE(falls);
+}
+
 TEST(Residual, OfALinearPressureIsExact) {
   for (const bool quads : {true, false}) {
     Mesh mesh = test::irregular_grid(10, {1, 2}, 0.24, quads);
