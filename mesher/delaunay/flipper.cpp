@@ -26,7 +26,7 @@ void Flipper::flip_from(Edge first, const RankOf& rank_of) {
     if (across(e) < 0 || !is_wrong(e, rank_of)) continue;
     const Edge s = e - e % 3, t = across(e) - across(e) % 3;
     flip(e);
-    for (Edge k = 0; k < 3; ++k) waiting_.insert(waiting_.end(), {s + k, t + k});
+    waiting_.insert(waiting_.end(), {s, t, s + 2, t + 2});  // not what they share: it is right now
   }
 }
 
