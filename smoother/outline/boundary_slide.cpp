@@ -58,9 +58,14 @@ std::optional<OutlinePath::Chord> BoundarySlide::chord_of(const HaloEdge& edge) 
 void BoundarySlide::find_tight_segments(const Communicator& comm) {
   std::vector<std::int32_t> own;
   for (const HaloEdge& edge : mesh_.boundary_edges()) {
+    if (!is_outlined(edge.boundary)) continue;
+    const auto near = outline_->segments_near(box_of(point(edge.from), point(edge.to)));
+    for (const NodeId node : {edge.from, edge.to}) {
+      if (located_[slot_[node]].boundary < 0) remember(node, point(node), edge.boundary, near);
+    }
     const auto chord = chord_of(edge);
     if (!chord) continue;
-    const auto met = outline_->met_elsewhere(*chord);
+    const auto met = outline_->met_elsewhere(*chord, near);
     if (met.empty()) continue;
     const auto stands_for = outline_->segments_between(chord->from, chord->to);
     own.insert(own.end(), met.begin(), met.end());
@@ -146,10 +151,17 @@ BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
 }
 
 OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary) const {
-  Located& last = located_[slot_[node]];
-  if (last.boundary != boundary || last.point != point(node))
-    last = {point(node), outline_->locate(point(node), boundaries_[boundary].name), boundary};
+  const Point p = point(node);
+  const Located& last = located_[slot_[node]];
+  if (last.boundary != boundary || last.point != p)
+    remember(node, p, boundary, outline_->segments_near({p, p}));
   return last.place;
+}
+
+/// The place of a point where the node is, or is to be; `near`: the segments near it.
+void BoundarySlide::remember(NodeId node, Point p, std::int32_t boundary,
+                             const OutlinePath::Segments& near) const {
+  located_[slot_[node]] = {p, outline_->locate(p, boundaries_[boundary].name, near), boundary};
 }
 
 bool BoundarySlide::may_slide(const Rail& rail) const {
@@ -170,18 +182,18 @@ bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, Outlin
     return std::max(outline_->deviation(places.before, a, at, middle),
                     outline_->deviation(at, middle, places.after, b));
   };
-  const double allowed =
-      std::max(deviation(places.at, now), stray_share * std::min(length(p - a), length(b - p)));
+  const double strays = deviation(moved, p);
+  if (strays > stray_share * std::min(length(p - a), length(b - p)) && strays > deviation(places.at, now))
+    return false;
   const OutlinePath::Chord before{places.before, moved, a, p}, after{moved, places.after, p, b},
       both{places.before, places.after, a, b};
-  if (deviation(moved, p) > allowed) return false;
   Box around = OutlinePath::box_round(both, now);
   around.include(p);
   const OutlinePath::Segments near = outline_->segments_near(around);
   if (!outline_->met_elsewhere(before, near).empty() || !outline_->met_elsewhere(after, near).empty() ||
       outline_->sweeps_over(both, now, near) || outline_->sweeps_over(both, p, near))
     return false;
-  located_[slot_[rail.node]] = {p, outline_->locate(p, boundaries_[rail.boundary].name, near), rail.boundary};
+  remember(rail.node, p, rail.boundary, near);
   return true;
 }
 

@@ -72,6 +72,7 @@ class BoundarySlide {
   bool is_outlined(std::int32_t boundary) const { return outlined_[boundary] != 0; }
   Places locate(const Rail& rail) const;
   OutlinePlace place_of(NodeId node, std::int32_t boundary) const;
+  void remember(NodeId node, Point p, std::int32_t boundary, const OutlinePath::Segments& near) const;
   const Point& point(NodeId node) const { return mesh_.point(node); }
   const Rail& rail_of(NodeId node) const { return rails_[slot_[node]]; }
   bool keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const;
