@@ -7,8 +7,8 @@ namespace quadloop {
 
 namespace {
 
-/// Whether the angle at p between the ways to a and b is under a right one, whatever rounding did to it; may be
-/// false of one that is a little less.
+/// Whether the angle at p between the ways to a and b is under a right one, whatever rounding did to it; may
+/// be false of one that is a little less.
 bool surely_acute(Point a, Point p, Point b) {
   constexpr double rounding = 1e-15, underflow = 1e-290;
   const double along_x = (a.x - p.x) * (b.x - p.x), along_y = (a.y - p.y) * (b.y - p.y);
@@ -90,8 +90,7 @@ bool Flipper::is_wrong(Edge e, const RankOf& rank_of) const {
   const Point &a = points_[n[0]], &b = points_[n[1]], &c = points_[n[2]], &d = points_[n[3]];
   if (surely_acute(a, c, b) && surely_acute(a, d, b)) return false;  // so that d lies outside the circle
   if (is_firm(e) && in_circle(a, b, c, d) == 0) return false;
-  return should_flip(a, b, c, d,
-                     [&](std::size_t k) { return rank_of(static_cast<std::int32_t>(n[k])); });
+  return should_flip(a, b, c, d, [&](std::size_t k) { return rank_of(static_cast<std::int32_t>(n[k])); });
 }
 
 void Flipper::set_across(Edge e, Edge other) {

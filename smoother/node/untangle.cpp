@@ -5,8 +5,8 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
-#include <utility>
 #include <numbers>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"

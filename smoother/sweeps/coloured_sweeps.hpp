@@ -14,7 +14,8 @@ namespace quadloop {
 class ColouredSweeps {
  public:
   /// `stale` has a flag for each node, of those that this rank owns for what is to be visited though nothing
-  /// near it moves, and is kept true for what may come after. Mesh, stars and flags must outlive it. *Collective.*
+  /// near it moves, and is kept true for what may come after. Mesh, stars and flags must outlive it.
+  /// *Collective.*
   ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, NodeFlags& stale);
 
   /// Whether the i-th node or one that it shares a cell with has moved since it was last visited.

@@ -36,8 +36,7 @@ std::vector<NodeStars::SeenTarget> NodeStars::seen_targets(
 
 NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
                      const std::vector<CellTarget>& targets)
-    : mesh_{mesh},
-      nodes_{std::move(free_nodes)} {
+    : mesh_{mesh}, nodes_{std::move(free_nodes)} {
   for (const auto& seen : {seen_targets<3>(ideal_targets<3>()), seen_targets<4>(ideal_targets<4>())}) {
     seen_.insert(seen_.end(), seen.begin(), seen.end());
   }
@@ -95,8 +94,7 @@ std::int32_t NodeStars::first_seen(const CellTarget& target) {
 }
 
 template <std::size_t width>
-void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
-                         Ends& ends) {
+void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target, Ends& ends) {
   constexpr std::int32_t nodes{width}, per_node{corners_of_cell<width>};
   std::int32_t seen = -1;
   for (std::int32_t k = 0; k < nodes; ++k) {

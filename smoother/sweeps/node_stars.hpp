@@ -57,8 +57,7 @@ class NodeStars {
   static constexpr auto no_star = std::numeric_limits<std::size_t>::max();
   Ends find_starts();
   template <std::size_t width>
-  void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
-                Ends& ends);
+  void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target, Ends& ends);
   template <std::size_t width>
   std::int32_t first_seen(const CellTarget& target);
   template <std::size_t width>

@@ -119,8 +119,7 @@ TEST_F(OnABoxWithAHole, WalksWithTheDomainToTheLeft) {
   EXPECT_NEAR(path.way(box({4, 1}), box({3, 3})), 3, rounding);
   EXPECT_EQ(path.way(box(after), box(after)), 0);
   // The domain lies to the left of the hole too, which is walked clockwise.
-  EXPECT_NEAR(path.way(path.locate({1, 1.5}, "hole"), path.locate({1.5, 2}, "hole")), 1,
-              rounding);
+  EXPECT_NEAR(path.way(path.locate({1, 1.5}, "hole"), path.locate({1.5, 2}, "hole")), 1, rounding);
 }
 
 TEST_F(OnABoxWithAHole, StraysFromChordsByItsVertices) {
