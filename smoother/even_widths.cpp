@@ -13,7 +13,7 @@ bool even_widths(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& 
     if (slide.freedom(node) == NodeFreedom::sliding && slide.lies_on(node, heights)) nodes.push_back(node);
   }
   const NodeStars stars(mesh, std::move(nodes), {});
-  NodeFlags stale(mesh.owned_nodes(), 1);
+  NodeFlags stale(mesh.points().size(), 1);
   ColouredSweeps coloured(comm, mesh, stars, stale);
   std::int64_t moves = 0;
   Star star;

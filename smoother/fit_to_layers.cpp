@@ -82,7 +82,7 @@ class LayerFit {
     if (!comm_.any(!nodes_.empty())) return false;
     list_cells();
     const NodeStars stars(mesh_, nodes_, {});
-    NodeFlags stale(mesh_.owned_nodes(), 1);
+    NodeFlags stale(mesh_.points().size(), 1);
     ColouredSweeps coloured(comm_, mesh_, stars, stale);
     bool moved = true, moved_ever = false;
     for (int sweep = 0; sweep < most_sweeps && moved; ++sweep) {

@@ -199,7 +199,7 @@ void sweep_until_settled(Sweeper& sweeper, int sweeps, SmoothReport& report) {
 void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
                      const std::vector<CellTarget>& targets, const Survey& surveyed,
                      const SmoothOptions& options, SmoothReport& report) {
-  NodeFlags yielding(halo.points().size(), 0), stale(halo.owned_nodes(), 1), bad = surveyed.bad;
+  NodeFlags yielding(halo.points().size(), 0), stale(halo.points().size(), 1), bad = surveyed.bad;
   const bool some_may_yield = comm.any(std::ranges::any_of(surveyed.near.ids(), [&](NodeId node) {
     return surveyed.near[node] != 0 && surveyed.parallel[node] != 0;
   }));

@@ -38,7 +38,7 @@ class PlacesOnOutline {
     const Point p = outline_.point(v);
     const std::string& name = outline_.boundary(outline_.boundary_of(v)).name;
     if (!path_.has(name)) return {};
-    const OutlinePlace place = path_.locate(p, name, true);
+    const OutlinePlace place = path_.locate(p, name);
     if (place.valid()) return place;
     throw InputError(
         fmt::format("{}: the mesh's node ({:.12g}, {:.12g}) is not on boundary '{}' of this "

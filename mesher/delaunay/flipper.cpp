@@ -1,8 +1,21 @@
 #include "mesher/delaunay/flipper.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace quadloop {
+
+namespace {
+
+/// Whether the angle at p between the ways to a and b is under a right one, whatever rounding did to it; may
+/// be false of one that is a little less.
+bool surely_acute(Point a, Point p, Point b) {
+  constexpr double rounding = 1e-15, underflow = 1e-290;
+  const double along_x = (a.x - p.x) * (b.x - p.x), along_y = (a.y - p.y) * (b.y - p.y);
+  return along_x + along_y > rounding * (std::abs(along_x) + std::abs(along_y)) + underflow;
+}
+
+}  // namespace
 
 void Flipper::flip_to_delaunay(std::span<const Point> points, const RankOf& rank_of,
                                std::span<Triangle> triangles, std::span<const char> open,
@@ -26,7 +39,7 @@ void Flipper::flip_from(Edge first, const RankOf& rank_of) {
     if (across(e) < 0 || !is_wrong(e, rank_of)) continue;
     const Edge s = e - e % 3, t = across(e) - across(e) % 3;
     flip(e);
-    for (Edge k = 0; k < 3; ++k) waiting_.insert(waiting_.end(), {s + k, t + k});
+    waiting_.insert(waiting_.end(), {s, t, s + 2, t + 2});  // not what they share: it is right now
   }
 }
 
@@ -74,9 +87,10 @@ std::array<std::size_t, 4> Flipper::nodes_of_both(Edge e) const {
 
 bool Flipper::is_wrong(Edge e, const RankOf& rank_of) const {
   const auto n = nodes_of_both(e);
-  if (is_firm(e) && in_circle(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]]) == 0) return false;
-  return should_flip(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]],
-                     [&](std::size_t k) { return rank_of(static_cast<std::int32_t>(n[k])); });
+  const Point &a = points_[n[0]], &b = points_[n[1]], &c = points_[n[2]], &d = points_[n[3]];
+  if (surely_acute(a, c, b) && surely_acute(a, d, b)) return false;  // so that d lies outside the circle
+  if (is_firm(e) && in_circle(a, b, c, d) == 0) return false;
+  return should_flip(a, b, c, d, [&](std::size_t k) { return rank_of(static_cast<std::int32_t>(n[k])); });
 }
 
 void Flipper::set_across(Edge e, Edge other) {

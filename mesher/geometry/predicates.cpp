@@ -106,7 +106,6 @@ bool is_rectangle(Point a, Point b, Point c, Point d) {
 }
 
 int exact_in_circle(Point a, Point b, Point c, Point d) {
-  if (is_rectangle(a, b, c, d)) return 0;
   const IntegerPoints points({a, b, c, d});  // with n bits the determinant takes 4 (n + 1) + 4
   if (points.bits() <= 29) return in_circle_in<Fixed<127>>(points);
   if (points.bits() <= 126) return in_circle_in<Fixed<512>>(points);
@@ -146,6 +145,7 @@ int exact_orientation(Point a, Point b, Point c) {
 
 int in_circle(Point a, Point b, Point c, Point d) {
   if (const int side = rounded_in_circle<double>(a, b, c, d); side != 0) return side;
+  if (is_rectangle(a, b, c, d)) return 0;
   if (const int side = rounded_in_circle<long double>(a, b, c, d); side != 0) return side;
   return exact_in_circle(a, b, c, d);
 }

@@ -66,7 +66,7 @@ inline std::vector<std::size_t> order_of_choice(const HaloMesh& mesh, std::span<
 template <class ForEachNeighbour>
 Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span<const NodeId> nodes,
                        const ForEachNeighbour& for_each_neighbour, int block_bits = 0) {
-  constexpr std::int8_t waiting = -2;
+  constexpr std::int8_t waiting = -2, passed_over = -3;
   Colouring colouring;
   auto& colours = colouring.colour_of;
   colours.resize(mesh.points().size(), Colouring::none);
@@ -81,9 +81,13 @@ Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span
     for_each_neighbour(i, [&](NodeId other) {
       const std::int8_t colour = colours[other];
       if (colour >= 0) taken |= std::uint64_t{1} << colour;  // so it went before: it has not waited
-      if (colour == waiting && !must_wait) must_wait = other != nodes[i] && priority(other) > own;
+      if (colour == passed_over || (colour == waiting && !mesh.owns(other)))
+        must_wait = must_wait || priority(other) > own;  // this rank's others come later
     });
-    if (must_wait) return false;
+    if (must_wait) {
+      colours[nodes[i]] = passed_over;
+      return false;
+    }
     QUADLOOP_REQUIRE(~taken != 0, "a node has fewer than 64 neighbours of different colours");
     colours[nodes[i]] = static_cast<std::int8_t>(std::countr_one(taken));
     return true;

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
@@ -191,6 +192,7 @@ std::optional<Point> untangle(const Star& star, Point p, Objective objective) {
 std::vector<int> ranked_places(const Star& star, Point p, Objective objective, const Star::Batch& x,
                                const Star::Batch& y) {
   std::vector<int> order;
+  order.reserve(Star::batch);
   const StarCost<1> now = star.cost(p, objective);
   if (now.valid[0]) {
     const Acceptance acceptance(now);
@@ -198,8 +200,7 @@ std::vector<int> ranked_places(const Star& star, Point p, Objective objective, c
     for (int k = 0; k < Star::batch; ++k) {
       if (acceptance.accepts(cost, k)) order.push_back(k);
     }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return cost.objective[a] < cost.objective[b]; });
+    std::ranges::sort(order, {}, [&](int k) { return std::pair(cost.objective[k], k); });
     return order;
   }
   const UntanglingRule rule(star, p, objective);

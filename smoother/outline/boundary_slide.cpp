@@ -33,6 +33,14 @@ BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
       outline_{outline},
       freedom_(mesh.owned_nodes(), NodeFreedom::interior),
       slot_(mesh.points().size(), -1) {
+  for (const HaloEdge& edge : mesh.boundary_edges()) {
+    for (const NodeId node : {edge.from, edge.to}) {
+      if (slot_[node] >= 0) continue;
+      slot_[node] = size32(located_);
+      located_.emplace_back();
+    }
+  }
+  rails_.resize(located_.size());
   for (const BoundaryEdges& boundary : boundaries)
     outlined_.push_back(outline != nullptr && outline->has(boundary.name) ? 1 : 0);
   if (outline != nullptr) find_tight_segments(comm);
@@ -41,8 +49,8 @@ BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
 
 std::optional<OutlinePath::Chord> BoundarySlide::chord_of(const HaloEdge& edge) const {
   if (!is_outlined(edge.boundary)) return std::nullopt;
-  const OutlinePath::Chord chord{place_of(edge.from, edge.boundary, true),
-                                 place_of(edge.to, edge.boundary, true), point(edge.from), point(edge.to)};
+  const OutlinePath::Chord chord{place_of(edge.from, edge.boundary), place_of(edge.to, edge.boundary),
+                                 point(edge.from), point(edge.to)};
   if (!chord.from.valid() || chord.from.loop != chord.to.loop) return std::nullopt;
   return chord;
 }
@@ -50,9 +58,14 @@ std::optional<OutlinePath::Chord> BoundarySlide::chord_of(const HaloEdge& edge) 
 void BoundarySlide::find_tight_segments(const Communicator& comm) {
   std::vector<std::int32_t> own;
   for (const HaloEdge& edge : mesh_.boundary_edges()) {
+    if (!is_outlined(edge.boundary)) continue;
+    const auto near = outline_->segments_near(box_of(point(edge.from), point(edge.to)));
+    for (const NodeId node : {edge.from, edge.to}) {
+      if (located_[slot_[node]].boundary < 0) remember(node, point(node), edge.boundary, near);
+    }
     const auto chord = chord_of(edge);
     if (!chord) continue;
-    const auto met = outline_->met_elsewhere(*chord);
+    const auto met = outline_->met_elsewhere(*chord, near);
     if (met.empty()) continue;
     const auto stands_for = outline_->segments_between(chord->from, chord->to);
     own.insert(own.end(), met.begin(), met.end());
@@ -120,7 +133,7 @@ void BoundarySlide::find_rails(const NodeFlags& pinned) {
     const Rail rail{in.node, in.other, out.other, in.boundary};
     const bool slides = freedom == NodeFreedom::interior && through && may_slide(rail);
     freedom = slides ? NodeFreedom::sliding : NodeFreedom::fixed;
-    if (slides) rails_.push_back(rail);
+    if (slides) rails_[slot_[in.node]] = rail;
   });
 }
 
@@ -131,22 +144,24 @@ bool BoundarySlide::is_straight(const Rail& rail) const {
 
 /// The chords' ends may be kept vertices, whose places are those of any other point.
 BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
-  return {place_of(rail.before, rail.boundary, true), place_of(rail.node, rail.boundary, false),
-          place_of(rail.after, rail.boundary, true)};
+  Places places{place_of(rail.before, rail.boundary), place_of(rail.node, rail.boundary),
+                place_of(rail.after, rail.boundary)};
+  if (places.at.kept) places.at = {};
+  return places;
 }
 
-OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary, bool also_kept) const {
-  if (slot_[node] < 0) {
-    slot_[node] = size32(located_);
-    located_.emplace_back();
-  }
-  Located& last = located_[slot_[node]];
-  const bool valid_for_both = last.place.valid() && !last.also_kept;
-  if (last.boundary != boundary || last.point != point(node) ||
-      (last.also_kept != also_kept && !valid_for_both))
-    last = {point(node), outline_->locate(point(node), boundaries_[boundary].name, also_kept), boundary,
-            also_kept};
+OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary) const {
+  const Point p = point(node);
+  const Located& last = located_[slot_[node]];
+  if (last.boundary != boundary || last.point != p)
+    remember(node, p, boundary, outline_->segments_near({p, p}));
   return last.place;
+}
+
+/// The place of a point where the node is, or is to be; `near`: the segments near it.
+void BoundarySlide::remember(NodeId node, Point p, std::int32_t boundary,
+                             const OutlinePath::Segments& near) const {
+  located_[slot_[node]] = {p, outline_->locate(p, boundaries_[boundary].name, near), boundary};
 }
 
 bool BoundarySlide::may_slide(const Rail& rail) const {
@@ -161,24 +176,25 @@ bool BoundarySlide::may_slide(const Rail& rail) const {
          !is_tight(places);
 }
 
-const BoundarySlide::Rail& BoundarySlide::rail_of(NodeId node) const {
-  return *std::lower_bound(rails_.begin(), rails_.end(), node,
-                           [](const Rail& rail, NodeId n) { return rail.node < n; });
-}
-
 bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const {
   const Point a = point(rail.before), b = point(rail.after), now = point(rail.node);
   const auto deviation = [&](OutlinePlace at, Point middle) {
     return std::max(outline_->deviation(places.before, a, at, middle),
                     outline_->deviation(at, middle, places.after, b));
   };
-  const double allowed =
-      std::max(deviation(places.at, now), stray_share * std::min(length(p - a), length(b - p)));
+  const double strays = deviation(moved, p);
+  if (strays > stray_share * std::min(length(p - a), length(b - p)) && strays > deviation(places.at, now))
+    return false;
   const OutlinePath::Chord before{places.before, moved, a, p}, after{moved, places.after, p, b},
       both{places.before, places.after, a, b};
-  return deviation(moved, p) <= allowed && outline_->met_elsewhere(before).empty() &&
-         outline_->met_elsewhere(after).empty() && !outline_->sweeps_over(both, now) &&
-         !outline_->sweeps_over(both, p);
+  Box around = OutlinePath::box_round(both, now);
+  around.include(p);
+  const OutlinePath::Segments near = outline_->segments_near(around);
+  if (!outline_->met_elsewhere(before, near).empty() || !outline_->met_elsewhere(after, near).empty() ||
+      outline_->sweeps_over(both, now, near) || outline_->sweeps_over(both, p, near))
+    return false;
+  remember(rail.node, p, rail.boundary, near);
+  return true;
 }
 
 std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objective objective) const {

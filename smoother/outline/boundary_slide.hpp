@@ -71,9 +71,10 @@ class BoundarySlide {
   bool is_straight(const Rail& rail) const;
   bool is_outlined(std::int32_t boundary) const { return outlined_[boundary] != 0; }
   Places locate(const Rail& rail) const;
-  OutlinePlace place_of(NodeId node, std::int32_t boundary, bool also_kept) const;
+  OutlinePlace place_of(NodeId node, std::int32_t boundary) const;
+  void remember(NodeId node, Point p, std::int32_t boundary, const OutlinePath::Segments& near) const;
   const Point& point(NodeId node) const { return mesh_.point(node); }
-  const Rail& rail_of(NodeId node) const;
+  const Rail& rail_of(NodeId node) const { return rails_[slot_[node]]; }
   bool keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const;
 
   const HaloMesh& mesh_;
@@ -81,16 +82,15 @@ class BoundarySlide {
   const OutlinePath* outline_;
   std::vector<char> outlined_;  ///< a flag for each boundary: the outline has it
   IdVector<NodeId, NodeFreedom> freedom_;
-  std::vector<Rail> rails_;  ///< by node
   /// Where a node was on the outline when it was asked for last: the place is a function of the point.
   struct Located {
     Point point;
     OutlinePlace place;
     std::int32_t boundary = -1;
-    bool also_kept = false;
   };
+  IdVector<NodeId, std::int32_t> slot_;  ///< of each node at a boundary edge, in the following two; else -1
+  std::vector<Rail> rails_;              ///< those of sliding nodes are set
   mutable std::vector<Located> located_;
-  mutable IdVector<NodeId, std::int32_t> slot_;  ///< of each node, in located_; -1 for those not asked for
   /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for:
   /// nodes there stay, as chords that keep clear of the other parts of the outline could still meet one
   /// another. Ascending.

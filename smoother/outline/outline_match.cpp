@@ -106,8 +106,8 @@ std::vector<char> loops_against(const Geometry& outline, const Mesh& whole) {
   std::vector<std::int64_t> votes(outline.loop_count(), 0);
   for (const BoundaryEdges& boundary : whole.boundaries) {
     for (const auto& [from, to] : boundary.edges) {
-      const OutlinePlace a = curves.locate(whole.point(from), boundary.name, true),
-                         b = curves.locate(whole.point(to), boundary.name, true);
+      const OutlinePlace a = curves.locate(whole.point(from), boundary.name),
+                         b = curves.locate(whole.point(to), boundary.name);
       if (!a.valid() || a.loop != b.loop) continue;
       votes[a.loop] += curves.way(b, a) < curves.way(a, b) ? 1 : -1;
     }

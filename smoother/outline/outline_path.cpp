@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t most_vertices = 1000;  ///< that one chord may stand for
 constexpr int short_walk = 8;                ///< in segments: what lies farther off is searched
 
+Box widened(const Box& box, double by) { return {box.low - Point{by, by}, box.high + Point{by, by}}; }
+
 }  // namespace
 
 OutlinePath::OutlinePath(const Geometry& geometry)
@@ -44,7 +46,7 @@ std::int32_t OutlinePath::segment_at(std::int32_t loop, double arc) const {
 }
 
 bool OutlinePath::holds(std::int32_t segment, double arc) const {
-  const bool ends_loop = segment + 1 == geometry_.loop_start(geometry_.loop_of(segment) + 1);
+  const bool ends_loop = geometry_.next(segment) <= segment;
   return arc_[segment] <= arc && (ends_loop || arc < arc_[segment + 1]);
 }
 
@@ -63,17 +65,24 @@ OutlinePlace OutlinePath::moved(OutlinePlace from, double step) const {
   return place_at(from.loop, arc);
 }
 
+OutlinePath::Segments OutlinePath::segments_near(Box box) const {
+  Segments segments;
+  segments_.for_each_meeting(widened(box, tolerance_), [&](std::int32_t s) { segments.push_back(s); });
+  return segments;
+}
+
 /// The nearest segment of that boundary, the lowest of several; none where it is farther than `within`.
-OutlinePath::Nearest OutlinePath::nearest(Point p, const std::string& boundary, double within) const {
+OutlinePath::Nearest OutlinePath::nearest(Point p, const std::string& boundary, double within,
+                                          std::span<const std::int32_t> near) const {
   Nearest found{-1, within};
-  const Point reach{within, within};
-  segments_.for_each_meeting({p - reach, p + reach}, [&](std::int32_t s) {
-    if (!is_of(s, boundary)) return;
+  const Box reach = widened({p, p}, within);
+  for (const std::int32_t s : near) {
+    if (!box_of_segment(s).meets(reach) || !is_of(s, boundary)) continue;
     const double distance = distance_to_segment(p, geometry_.point(s), geometry_.point(geometry_.next(s)));
     if (distance > found.distance || (distance == found.distance && found.segment >= 0 && s > found.segment))
-      return;
+      continue;
     found = {s, distance};
-  });
+  }
   return found;
 }
 
@@ -84,20 +93,21 @@ bool OutlinePath::has(const std::string& boundary) const {
 }
 
 double OutlinePath::distance(Point p, const std::string& boundary, double within) const {
-  const Nearest found = nearest(p, boundary, within);
+  const Nearest found = nearest(p, boundary, within, segments_near(widened({p, p}, within)));
   return found.segment < 0 ? std::numeric_limits<double>::infinity() : found.distance;
 }
 
-OutlinePlace OutlinePath::locate(Point p, const std::string& boundary, bool also_kept) const {
-  const std::int32_t segment = nearest(p, boundary, tolerance_).segment;
+OutlinePlace OutlinePath::locate(Point p, const std::string& boundary,
+                                 std::span<const std::int32_t> near) const {
+  const std::int32_t segment = nearest(p, boundary, tolerance_, near).segment;
   if (segment < 0) return {};
-  for (const std::int32_t v : {segment, geometry_.next(segment)}) {
-    if (!also_kept && geometry_.kept(v) && length(p - geometry_.point(v)) <= tolerance_) return {};
-  }
   const Point a = geometry_.point(segment), b = geometry_.point(geometry_.next(segment));
   const std::int32_t loop = geometry_.loop_of(segment);
   const OutlinePlace start{loop, arc_[segment], segment};
-  return moved(start, place_on_segment(p, a, b).parameter * length(b - a));
+  OutlinePlace place = moved(start, place_on_segment(p, a, b).parameter * length(b - a));
+  for (const std::int32_t v : {segment, geometry_.next(segment)})
+    place.kept = place.kept || (geometry_.kept(v) && length(p - geometry_.point(v)) <= tolerance_);
+  return place;
 }
 
 Point OutlinePath::point_at(OutlinePlace place) const {
@@ -139,23 +149,24 @@ bool OutlinePath::belongs(std::int32_t segment, const Chord& chord, const Part& 
   return geometry_.loop_of(segment) == loop && within(loop, arc_[segment] - chord.from.arc) <= part.way;
 }
 
-std::vector<std::int32_t> OutlinePath::met_elsewhere(const Chord& chord) const {
-  std::vector<std::int32_t> met;
+OutlinePath::Segments OutlinePath::met_elsewhere(const Chord& chord,
+                                                 std::span<const std::int32_t> near) const {
+  Segments met;
   const Part part = part_of(chord);
-  segments_.for_each_meeting(box_of(chord.a, chord.b), [&](std::int32_t s) {
-    if (belongs(s, chord, part)) return;
-    if (segments_meet(chord.a, chord.b, geometry_.point(s), geometry_.point(geometry_.next(s))))
+  const Box around = box_of(chord.a, chord.b);
+  for (const std::int32_t s : near) {
+    if (box_of_segment(s).meets(around) && !belongs(s, chord, part) &&
+        segments_meet(chord.a, chord.b, geometry_.point(s), geometry_.point(geometry_.next(s))))
       met.push_back(s);
-  });
+  }
   return met;
 }
 
-bool OutlinePath::sweeps_over(const Chord& chord, Point apex) const {
+bool OutlinePath::sweeps_over(const Chord& chord, Point apex, std::span<const std::int32_t> near) const {
   const Point a = chord.a, b = chord.b, c = apex;
-  Box around = box_of(a, b);
-  around.include(c);
+  const Box around = box_round(chord, apex);
   const Part part = part_of(chord);
-  return segments_.any_meeting(around, [&](std::int32_t s) {
+  return std::ranges::any_of(near, [&](std::int32_t s) {
     const Point v = geometry_.point(s);
     if (!around.contains(v) || belongs(s, chord, part)) return false;
     const std::array<int, 3> turns{orientation(a, b, v), orientation(b, c, v), orientation(c, a, v)};
@@ -164,8 +175,8 @@ bool OutlinePath::sweeps_over(const Chord& chord, Point apex) const {
   });
 }
 
-std::vector<std::int32_t> OutlinePath::segments_between(OutlinePlace from, OutlinePlace to) const {
-  std::vector<std::int32_t> segments;
+OutlinePath::Segments OutlinePath::segments_between(OutlinePlace from, OutlinePlace to) const {
+  Segments segments;
   // On the way over the loop's first vertex, perhaps back to the segment where it begins.
   const bool goes_round = to.arc < from.arc;
   for (std::int32_t s = from.segment; segments.size() < most_vertices; s = geometry_.next(s)) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct OutlinePlace {
   std::int32_t loop = -1;
   double arc = 0;
   std::int32_t segment = -1;
+  bool kept = false;  ///< it was found at a vertex that a mesh must keep
   bool valid() const { return loop >= 0; }
 };
 
@@ -25,9 +27,17 @@ class OutlinePath {
   /// `geometry` must outlive it.
   explicit OutlinePath(const Geometry& geometry);
 
+  using Segments = std::vector<std::int32_t>;
+  /// The segments that may lie as near to a box as `on_outline` of the outline's extent: all that questions
+  /// within it have to look at.
+  Segments segments_near(Box box) const;
+
   /// The place of a point that lies on the boundary of this name, to `on_outline` of the outline's extent; an
-  /// invalid one where it does not, or, unless `also_kept`, where it is a vertex that a mesh must keep.
-  OutlinePlace locate(Point p, const std::string& boundary, bool also_kept) const;
+  /// invalid one where it does not. `near`: the segments near a box that holds the point.
+  OutlinePlace locate(Point p, const std::string& boundary, std::span<const std::int32_t> near) const;
+  OutlinePlace locate(Point p, const std::string& boundary) const {
+    return locate(p, boundary, segments_near({p, p}));
+  }
   static constexpr double on_outline = 1e-9;
 
   /// Whether the outline has a boundary of this name.
@@ -59,21 +69,37 @@ class OutlinePath {
     OutlinePlace from, to;
     Point a, b;
   };
-  /// The segments outside the chord's own part of the outline that it has a point in common with.
-  std::vector<std::int32_t> met_elsewhere(const Chord& chord) const;
+  static Box box_round(const Chord& chord, Point apex) {
+    Box box = box_of(chord.a, chord.b);
+    box.include(apex);
+    return box;
+  }
+  /// The segments outside the chord's own part of the outline that it has a point in common with; `near`: the
+  /// segments near a box that holds the chord.
+  Segments met_elsewhere(const Chord& chord, std::span<const std::int32_t> near) const;
+  Segments met_elsewhere(const Chord& chord) const {
+    return met_elsewhere(chord, segments_near(box_of(chord.a, chord.b)));
+  }
   /// Whether a vertex outside that part lies in the triangle that the chord makes with a point, or on its
-  /// edges.
-  bool sweeps_over(const Chord& chord, Point apex) const;
+  /// edges; `near`: the segments near a box that holds the triangle.
+  bool sweeps_over(const Chord& chord, Point apex, std::span<const std::int32_t> near) const;
+  bool sweeps_over(const Chord& chord, Point apex) const {
+    return sweeps_over(chord, apex, segments_near(box_round(chord, apex)));
+  }
 
   /// The segments from one place to another of the same loop, in order; none where there are more than a few.
-  std::vector<std::int32_t> segments_between(OutlinePlace from, OutlinePlace to) const;
+  Segments segments_between(OutlinePlace from, OutlinePlace to) const;
 
  private:
   struct Nearest {
     std::int32_t segment = -1;
     double distance = 0;
   };
-  Nearest nearest(Point p, const std::string& boundary, double within) const;
+  Nearest nearest(Point p, const std::string& boundary, double within,
+                  std::span<const std::int32_t> near) const;
+  Box box_of_segment(std::int32_t s) const {
+    return box_of(geometry_.point(s), geometry_.point(geometry_.next(s)));
+  }
   std::int32_t segment_at(std::int32_t loop, double arc) const;
   bool holds(std::int32_t segment, double arc) const;
   double within(std::int32_t loop, double arc) const;

@@ -1,7 +1,5 @@
 #include "smoother/sweeps/coloured_sweeps.hpp"
 
-#include <utility>
-
 #include "smoother/sweeps/colouring.hpp"
 
 namespace quadloop {
@@ -11,38 +9,22 @@ ColouredSweeps::ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const N
     : mesh_{mesh},
       stars_{stars},
       stale_{stale},
-      is_changed_(stars.size(), 0),
+      changed_(mesh.points().size(), 0),
       moved_(mesh.points().size(), 0) {
   const Colouring colouring = colour_stars(comm, mesh, stars);
   by_colour_.resize(colouring.count);
-  for (std::int32_t i = 0; i < std::ssize(stars); ++i)
-    by_colour_[colouring.colour_of[stars.nodes()[i]]].push_back(i);
+  colours_.reserve(stars.size());
+  for (const NodeId node : stars.nodes()) colours_.push_back(colouring.colour_of[node]);
 }
 
-std::vector<std::int32_t> ColouredSweeps::take_changed() {
-  std::vector<std::int32_t> changed;
-  for (std::int32_t i = 0; i < std::ssize(is_changed_); ++i) {
-    if (std::exchange(is_changed_[i], 0) != 0) changed.push_back(i);
-  }
-  return changed;
-}
-
+/// Who sees the node is to be visited again, itself among them.
 void ColouredSweeps::move(std::size_t i, Point to) {
   const NodeId node = stars_.nodes()[i];
   mesh_.points()[node.value()] = to;
   moved_[node] = 1;
   own_moves_.push_back(node);
-  say_moved(node);
-}
-
-/// Who sees the node is to be visited again, itself among them.
-void ColouredSweeps::say_moved(NodeId node) {
-  const auto look_again = [&](std::int32_t star) {
-    stale_[stars_.nodes()[star]] = 1;
-    is_changed_[star] = 1;
-  };
-  if (const std::int32_t own = stars_.star_of(node); own >= 0) look_again(own);
-  stars_.for_each_star_round(node, look_again);
+  look_again(node);
+  stars_.for_each_neighbour(i, [&](NodeId other) { look_again(other); });
 }
 
 void ColouredSweeps::share_moves() {
@@ -52,7 +34,8 @@ void ColouredSweeps::share_moves() {
   for (const NodeId node : own_moves_) moved_[node] = 0;
   own_moves_.clear();
   for (const NodeId copy : ids_between(NodeId{mesh_.owned_nodes()}, NodeId{size32(moved_)})) {
-    if (moved_[copy] != 0) say_moved(copy);
+    if (moved_[copy] != 0)
+      stars_.for_each_star_round(copy, [&](std::int32_t star) { look_again(stars_.nodes()[star]); });
     moved_[copy] = 0;
   }
 }

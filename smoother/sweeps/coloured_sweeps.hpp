@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "smoother/sweeps/node_stars.hpp"
@@ -12,28 +13,30 @@ namespace quadloop {
 /// moved since it was visited last.
 class ColouredSweeps {
  public:
-  /// `stale` has a flag for each owned node that is to be visited though nothing near it moves, and is kept
-  /// true for what may come after. Mesh, stars and flags must outlive it. *Collective.*
+  /// `stale` has a flag for each node, of those that this rank owns for what is to be visited though nothing
+  /// near it moves, and is kept true for what may come after. Mesh, stars and flags must outlive it.
+  /// *Collective.*
   ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, NodeFlags& stale);
 
   /// Whether the i-th node or one that it shares a cell with has moved since it was last visited.
   bool is_stale(std::size_t i) const { return stale_[stars_.nodes()[i]] != 0; }
-  /// Those round which something has moved, other ranks' nodes too, since this was asked last; ascending.
-  std::vector<std::int32_t> take_changed();
+  /// Whether one of these, other ranks' nodes too, has moved since this was asked last.
+  bool take_changed(std::size_t i) { return std::exchange(changed_[stars_.nodes()[i]], 0) != 0; }
 
   /// Asks `place(i)` for a new place, or none, of each stale node for which `is_active(i)`. Returns the
   /// number of nodes moved on this rank. *Collective.*
   template <class IsActive, class Place>
   std::int64_t sweep(const IsActive& is_active, const Place& place) {
     std::int64_t moves = 0;
-    for (const auto& nodes : by_colour_) {
-      visits_.clear();  // known beforehand: nodes of one colour do not see each other
-      for (const std::int32_t i : nodes) {
-        if (is_stale(i) && is_active(i)) visits_.push_back(i);
-      }
-      for (std::size_t k = 0; k < visits_.size(); ++k) {
-        stars_.fetch_ahead(visits_, k);
-        const std::int32_t i = visits_[k];
+    for (auto& visits : by_colour_) visits.clear();
+    for (std::int32_t i = 0; i < std::ssize(stars_); ++i) {
+      if (is_active(i)) by_colour_[colours_[i]].push_back(i);
+    }
+    for (auto& visits : by_colour_) {  // known beforehand: nodes of one colour do not see each other
+      std::erase_if(visits, [&](std::int32_t i) { return !is_stale(i); });
+      for (std::size_t k = 0; k < visits.size(); ++k) {
+        stars_.fetch_ahead(visits, k);
+        const std::int32_t i = visits[k];
         stale_[stars_.nodes()[i]] = 0;
         const std::optional<Point> to = place(i);
         if (!to) continue;
@@ -48,14 +51,14 @@ class ColouredSweeps {
  private:
   void move(std::size_t i, Point to);
   void share_moves();
-  void say_moved(NodeId node);
+  void look_again(NodeId node) { stale_[node] = changed_[node] = 1; }
 
   HaloMesh& mesh_;
   const NodeStars& stars_;
-  std::vector<std::vector<std::int32_t>> by_colour_;
-  std::vector<std::int32_t> visits_;  ///< of one colour
+  std::vector<std::int8_t> colours_;                  ///< of each star
+  std::vector<std::vector<std::int32_t>> by_colour_;  ///< those to be visited
   NodeFlags& stale_;
-  std::vector<char> is_changed_;   ///< a flag for each star: what take_changed() will give
+  NodeFlags changed_;              ///< what take_changed() will give
   NodeFlags moved_;                ///< nodes that have moved in this colour
   std::vector<NodeId> own_moves_;  ///< the same, this rank's
 };

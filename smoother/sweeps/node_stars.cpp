@@ -36,29 +36,35 @@ std::vector<NodeStars::SeenTarget> NodeStars::seen_targets(
 
 NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
                      const std::vector<CellTarget>& targets)
-    : mesh_{mesh},
-      nodes_{std::move(free_nodes)},
-      star_of_(mesh.points().size(), -1),
-      starts_(nodes_.size() + 1, 0) {
+    : mesh_{mesh}, nodes_{std::move(free_nodes)} {
   for (const auto& seen : {seen_targets<3>(ideal_targets<3>()), seen_targets<4>(ideal_targets<4>())}) {
     seen_.insert(seen_.end(), seen.begin(), seen.end());
   }
-  for (std::int32_t i = 0; const NodeId node : nodes_) star_of_[node] = i++;
-  mesh.for_each_cell([&](const auto& cell) {
-    for (const NodeId node : cell) {
-      const std::size_t i = star_of_[node] + 1;
-      if (i > 0) starts_[i] += corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
-    }
-  });
-  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  Ends ends = find_starts();
   corners_.resize(starts_.back());
-  std::vector<std::size_t> ends(starts_.begin(), starts_.end() - 1);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& cell) {
     add_cell(cell, targets.empty() ? CellTarget{} : targets[number], ends);
     ++number;
   });
   list_stars_round_copies();
+}
+
+/// Returns where each free node's first corner goes.
+NodeStars::Ends NodeStars::find_starts() {
+  Ends corners(mesh_.points().size(), 0);
+  mesh_.for_each_cell([&](const auto& cell) {
+    for (const NodeId node : cell)
+      corners[node] += corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
+  });
+  Ends ends(corners.size(), no_star);
+  starts_.reserve(nodes_.size() + 1);
+  starts_.push_back(0);
+  for (const NodeId node : nodes_) {
+    ends[node] = starts_.back();
+    starts_.push_back(starts_.back() + corners[node]);
+  }
+  return ends;
 }
 
 /// Copies are few and lie at the borders of ranks.
@@ -88,17 +94,15 @@ std::int32_t NodeStars::first_seen(const CellTarget& target) {
 }
 
 template <std::size_t width>
-void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
-                         std::vector<std::size_t>& ends) {
+void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target, Ends& ends) {
   constexpr std::int32_t nodes{width}, per_node{corners_of_cell<width>};
   std::int32_t seen = -1;
   for (std::int32_t k = 0; k < nodes; ++k) {
-    const std::int32_t i = star_of_[cell[k]];
-    if (i < 0) continue;
+    std::size_t& end = ends[cell[k]];
+    if (end == no_star) continue;
     if (seen < 0) seen = first_seen<width>(target);
     const NodeId next = cell[(k + 1) % width], previous = cell[(k + width - 1) % width];
     const std::int32_t own = seen + per_node * k;
-    std::size_t& end = ends[i];
     corners_[end++] = {next, previous, own};
     if constexpr (width == 4) {
       const NodeId opposite = cell[(k + 2) % width];

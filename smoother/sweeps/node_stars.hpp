@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -17,8 +18,6 @@ class NodeStars {
 
   const std::vector<NodeId>& nodes() const { return nodes_; }
   std::size_t size() const { return nodes_.size(); }
-  /// Which of the free nodes a node is; -1 for others.
-  std::int32_t star_of(NodeId node) const { return star_of_[node]; }
 
   /// The star of the i-th free node, with the nodes where they are now.
   void gather(std::size_t i, Star& star) const;
@@ -35,10 +34,10 @@ class NodeStars {
       visit(c.r);
     }
   }
-  /// Calls `visit(j)` for the free nodes that share a cell with a node, which is free, here or on the rank
-  /// that owns it; for each as often as for_each_neighbour(j) comes to the node.
+  /// Calls `visit(i)` for the free nodes that share a cell with another rank's node; for each as often as
+  /// for_each_neighbour(i) comes to the node.
   template <class Visit>
-  void for_each_star_round(NodeId node, const Visit& visit) const;
+  void for_each_star_round(NodeId copy, const Visit& visit) const;
 
  private:
   struct Corner {
@@ -53,9 +52,12 @@ class NodeStars {
   std::span<const Corner> corners_of(std::size_t i) const {
     return std::span(corners_).subspan(starts_[i], starts_[i + 1] - starts_[i]);
   }
+  /// Of each node, where its next corner goes.
+  using Ends = IdVector<NodeId, std::size_t>;
+  static constexpr auto no_star = std::numeric_limits<std::size_t>::max();
+  Ends find_starts();
   template <std::size_t width>
-  void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target,
-                std::vector<std::size_t>& ends);
+  void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target, Ends& ends);
   template <std::size_t width>
   std::int32_t first_seen(const CellTarget& target);
   template <std::size_t width>
@@ -64,7 +66,6 @@ class NodeStars {
 
   const HaloMesh& mesh_;
   std::vector<NodeId> nodes_;
-  IdVector<NodeId, std::int32_t> star_of_;  ///< the index of each free node; -1 for others
   std::vector<std::size_t> starts_;
   std::vector<Corner> corners_;
   std::vector<SeenTarget> seen_;
@@ -73,15 +74,9 @@ class NodeStars {
 };
 
 template <class Visit>
-void NodeStars::for_each_star_round(NodeId node, const Visit& visit) const {
-  if (const std::int32_t star = star_of_[node]; star >= 0) {
-    for_each_neighbour(star, [&](NodeId other) {
-      if (star_of_[other] >= 0) visit(star_of_[other]);
-    });
-  } else if (!mesh_.owns(node)) {
-    const std::size_t copy = node.value() - mesh_.owned_nodes();
-    for (std::size_t k = copy_starts_[copy]; k < copy_starts_[copy + 1]; ++k) visit(copy_stars_[k]);
-  }
+void NodeStars::for_each_star_round(NodeId copy, const Visit& visit) const {
+  const std::size_t slot = copy.value() - mesh_.owned_nodes();
+  for (std::size_t k = copy_starts_[slot]; k < copy_starts_[slot + 1]; ++k) visit(copy_stars_[k]);
 }
 
 }  // namespace quadloop

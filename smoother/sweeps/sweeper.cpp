@@ -14,19 +14,17 @@ Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& star
       solver_{make_node_solver(rule.method)},
       sweeps_(comm, mesh, stars, stale),
       bad_(mesh.points().size(), 0),
-      bad_near_(stars.size(), 0) {
+      bad_near_(mesh.points().size(), 0) {
   if (!rule.angles) star_.leave_out_angles();
   for (const NodeId free : stars.nodes()) bad_[free] = bad[free];
   mesh.exchange().update(bad_);
-  for (const NodeId node : bad_.ids()) {
-    if (bad_[node] != 0) count_bad_near(node);
-  }
+  count_bad_near(NodeFlags(bad_.size(), 0));
 }
 
 std::int64_t Sweeper::sweep() {
   update_bad();
   ++done_;
-  return comm_.sum(sweeps_.sweep([&](std::size_t i) { return bad_near_[i] > 0; },
+  return comm_.sum(sweeps_.sweep([&](std::size_t i) { return bad_near_[node(i)] > 0; },
                                  [&](std::size_t i) { return better_place(i); }));
 }
 
@@ -35,26 +33,27 @@ std::int64_t Sweeper::sweep() {
 /// open sweeps it loses that.
 void Sweeper::update_bad() {
   const NodeFlags before = bad_;
-  const auto look_at = [&](std::int32_t i) { bad_[node(i)] = stars_.costs_more(i, rule_.threshold) ? 1 : 0; };
-  const std::vector<std::int32_t> changed = sweeps_.take_changed();
-  if (done_ == open_sweeps) {
-    for (std::int32_t i = 0; i < std::ssize(stars_); ++i) look_at(i);
-  } else {
-    for (const std::int32_t i : changed) {
-      if (sweeps_.is_stale(i)) look_at(i);
-    }
+  for (std::size_t i = 0; i < stars_.size(); ++i) {
+    const bool changed = sweeps_.take_changed(i);
+    if (done_ == open_sweeps || (changed && sweeps_.is_stale(i)))
+      bad_[node(i)] = stars_.costs_more(i, rule_.threshold) ? 1 : 0;
   }
   mesh_.exchange().update(bad_);
-  for (const NodeId node : bad_.ids()) {
-    if (bad_[node] != before[node]) count_bad_near(node);
-  }
+  count_bad_near(before);
 }
 
-/// A node has become bad, or good.
-void Sweeper::count_bad_near(NodeId node) {
-  const std::int32_t more = bad_[node] != 0 ? 1 : -1;
-  if (const std::int32_t own = stars_.star_of(node); own >= 0) bad_near_[own] += more;
-  stars_.for_each_star_round(node, [&](std::int32_t star) { bad_near_[star] += more; });
+/// Nodes have become bad, or good.
+void Sweeper::count_bad_near(const NodeFlags& before) {
+  for (std::size_t i = 0; i < stars_.size(); ++i) {
+    const std::int32_t more = bad_[node(i)] - before[node(i)];
+    if (more == 0) continue;
+    bad_near_[node(i)] += more;
+    stars_.for_each_neighbour(i, [&](NodeId other) { bad_near_[other] += more; });
+  }
+  for (const NodeId copy : ids_between(NodeId{mesh_.owned_nodes()}, NodeId{size32(bad_)})) {
+    const std::int32_t more = bad_[copy] - before[copy];
+    if (more != 0) stars_.for_each_star_round(copy, [&](std::size_t i) { bad_near_[node(i)] += more; });
+  }
 }
 
 std::optional<Point> Sweeper::better_place(std::size_t i) {

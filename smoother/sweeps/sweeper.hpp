@@ -36,7 +36,7 @@ class Sweeper {
  private:
   NodeId node(std::size_t i) const { return stars_.nodes()[i]; }
   void update_bad();
-  void count_bad_near(NodeId node);
+  void count_bad_near(const NodeFlags& before);
   std::optional<Point> better_place(std::size_t i);
 
   const Communicator& comm_;
@@ -46,8 +46,9 @@ class Sweeper {
   Rule rule_;
   std::unique_ptr<NodeSolver> solver_;
   ColouredSweeps sweeps_;
-  NodeFlags bad_;                       ///< free nodes of cells above the threshold, other ranks' too
-  std::vector<std::int32_t> bad_near_;  ///< of each free node: bad ones, itself too, as often as they are met
+  NodeFlags bad_;  ///< free nodes of cells above the threshold, other ranks' too
+  /// Of each node: bad ones, itself too, as often as they are met; right for free nodes.
+  IdVector<NodeId, std::int32_t> bad_near_;
   Star star_;
   int done_ = 0;  ///< sweeps
 };

@@ -22,11 +22,12 @@ class Walls {
   void keep_nodes() { keeps_nodes_ = true; }
 
   OutlinePlace place_of(Point p, std::int32_t boundary) const {
-    return outline_.locate(p, boundaries_[boundary], true);
+    return outline_.locate(p, boundaries_[boundary]);
   }
   /// Whether a mesh must keep a node there.
   bool is_kept(Point p, std::int32_t boundary) const {
-    return !outline_.locate(p, boundaries_[boundary], false).valid();
+    const OutlinePlace place = place_of(p, boundary);
+    return !place.valid() || place.kept;
   }
 
   using Chord = OutlinePath::Chord;

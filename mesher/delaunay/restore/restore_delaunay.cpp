@@ -145,14 +145,18 @@ std::int32_t number_of_blocks(const Communicator& comm, const std::vector<std::i
          1;
 }
 
+void require_restorable(const Mesh& mesh, const std::vector<std::int32_t>& triangle_to_block) {
+  QUADLOOP_REQUIRE(mesh.quads.empty(), "triangles alone");
+  QUADLOOP_REQUIRE(triangle_to_block.empty() || triangle_to_block.size() == mesh.triangles.size(),
+                   "a block for each triangle, or none");
+}
+
 /// What changes; nothing where no node is named. *Collective.*
 std::optional<RegionTriangulation> changed_region(const Communicator& comm, const Mesh& mesh,
                                                   std::vector<GlobalNodeId> nodes,
                                                   const std::function<TieRank(Point)>& rank_of,
                                                   const Known& known) {
-  QUADLOOP_REQUIRE(mesh.quads.empty(), "triangles alone");
-  QUADLOOP_REQUIRE(known.triangle_to_block.empty() || known.triangle_to_block.size() == mesh.triangles.size(),
-                   "a block for each triangle, or none");
+  require_restorable(mesh, known.triangle_to_block);
   std::optional<RegionTriangulation> triangulation;
   if (!comm.any(!nodes.empty())) return triangulation;
   Region region(comm, mesh, known);
@@ -165,13 +169,11 @@ std::optional<RegionTriangulation> changed_region(const Communicator& comm, cons
 }
 
 /// New triangles take the slots that become free, block by block. *Collective.*
-void restore_in_slots(const Communicator& comm, Mesh& mesh, std::vector<GlobalNodeId> nodes,
-                      const std::function<TieRank(Point)>& rank_of, const Known& known) {
-  const std::optional<RegionTriangulation> changed =
-      changed_region(comm, mesh, std::move(nodes), rank_of, known);
-  const std::int32_t blocks = changed ? number_of_blocks(comm, known.triangle_to_block) : 0;
+void put_in_slots(const Communicator& comm, const RegionTriangulation& changed,
+                  const std::vector<std::int32_t>& triangle_to_block, Mesh& mesh) {
+  const std::int32_t blocks = number_of_blocks(comm, triangle_to_block);
   for (std::int32_t block = 0; block < blocks; ++block) {
-    replace_triangles(comm, of_block(changed->freed(), block), of_block(changed->made(), block), mesh);
+    replace_triangles(comm, of_block(changed.freed(), block), of_block(changed.made(), block), mesh);
   }
 }
 
@@ -180,13 +182,23 @@ void restore_in_slots(const Communicator& comm, Mesh& mesh, std::vector<GlobalNo
 void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<GlobalNodeId> nodes,
                          const std::function<TieRank(Point)>& rank_of,
                          const std::vector<std::int32_t>& triangle_to_block) {
-  restore_in_slots(comm, mesh, std::move(nodes), rank_of, {triangle_to_block, {}});
+  require_restorable(mesh, triangle_to_block);
+  const NodeFlags not_said;
+  while (comm.any(!nodes.empty())) {  // few go on beyond the first region
+    Region region(comm, mesh, {triangle_to_block, not_said});
+    region.add(nodes);
+    const RegionTriangulation changed = region.triangulate(rank_of);
+    put_in_slots(comm, changed, triangle_to_block, mesh);
+    nodes = changed.outgrown();
+  }
 }
 
 void restore_delaunay(const Communicator& comm, Mesh& mesh, const NodeFlags& moved,
                       const std::function<TieRank(Point)>& rank_of,
                       const std::vector<std::int32_t>& triangle_to_block) {
-  restore_in_slots(comm, mesh, nodes_around(mesh, moved), rank_of, {triangle_to_block, moved});
+  const std::optional<RegionTriangulation> changed =
+      changed_region(comm, mesh, nodes_around(mesh, moved), rank_of, {triangle_to_block, moved});
+  if (changed) put_in_slots(comm, *changed, triangle_to_block, mesh);
 }
 
 std::vector<std::int32_t> restore_delaunay_nearby(const Communicator& comm, Mesh& mesh,

@@ -102,12 +102,14 @@ double largest_ratio(const HaloMesh& mesh, const IdVector<NodeId, AreaRange>& ra
     NodeId node, other;
     double area;
   };
+  NodeFlags is_wanted(ranges.size(), 0);
+  for (const NodeId node : ranges.ids()) is_wanted[node] = ranges[node].ratio() < least ? 0 : 1;
   std::vector<Side> sides;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t n = nodes.size();
     for (std::size_t k = 0; k < n; ++k) {
       const NodeId node = nodes[k];
-      if (!mesh.owns(node) || ranges[node].ratio() < least) continue;
+      if (!mesh.owns(node) || is_wanted[node] == 0) continue;
       const double area = area_of(mesh, nodes);
       sides.push_back({node, nodes[(k + 1) % n], area});
       sides.push_back({node, nodes[(k + n - 1) % n], area});

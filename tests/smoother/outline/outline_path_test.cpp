@@ -32,7 +32,7 @@ Geometry box_with_hole() {
 
 class OnABoxWithAHole : public testing::Test {
  protected:
-  OutlinePlace box(Point p) const { return path.locate(p, "box", true); }
+  OutlinePlace box(Point p) const { return path.locate(p, "box"); }
   OutlinePath::Chord chord(Point a, Point b) const { return {box(a), box(b), a, b}; }
   double deviation(Point a, Point b) const { return path.deviation(box(a), a, box(b), b); }
   using Segments = std::vector<std::int32_t>;
@@ -53,15 +53,15 @@ TEST_F(OnABoxWithAHole, LocatesPointsOfABoundary) {
   expect_place(box(after), 0, slope_length / 2);
   expect_place(box(before), 0, box_length - slope_length / 2);
   expect_place(box({4, 1}), 0, slope_length + 1);
-  expect_place(path.locate({1, 1.25}, "hole", false), 1, 0.25);
-  expect_place(path.locate({1.5, 1}, "hole", false), 1, 3.5);
+  expect_place(path.locate({1, 1.25}, "hole"), 1, 0.25);
+  expect_place(path.locate({1.5, 1}, "hole"), 1, 3.5);
 }
 
 TEST_F(OnABoxWithAHole, LocatesNothingElsewhere) {
-  EXPECT_FALSE(path.locate({4, 1}, "hole", true).valid());
-  EXPECT_FALSE(path.locate({1, 1.25}, "box", true).valid());
-  EXPECT_FALSE(path.locate({4, 1}, "shore", true).valid());
-  EXPECT_FALSE(path.locate({3, 1.5}, "box", true).valid());
+  EXPECT_FALSE(path.locate({4, 1}, "hole").valid());
+  EXPECT_FALSE(path.locate({1, 1.25}, "box").valid());
+  EXPECT_FALSE(path.locate({4, 1}, "shore").valid());
+  EXPECT_FALSE(path.locate({3, 1.5}, "box").valid());
 }
 
 TEST_F(OnABoxWithAHole, LocatesToItsTolerance) {
@@ -70,12 +70,14 @@ TEST_F(OnABoxWithAHole, LocatesToItsTolerance) {
   EXPECT_FALSE(box({4 + 1.1 * tolerance, 1}).valid());
 }
 
-TEST_F(OnABoxWithAHole, LocatesKeptVerticesOnlyWhenAsked) {
-  EXPECT_FALSE(path.locate({4, 0}, "box", false).valid());
-  EXPECT_FALSE(path.locate({4, 1e-10}, "box", false).valid());
-  EXPECT_TRUE(path.locate({4, 1e-6}, "box", false).valid());
-  expect_place(path.locate({4, 0}, "box", true), 0, slope_length);
-  expect_place(path.locate({2, -0.2}, "box", false), 0, 0);  // no corner
+TEST_F(OnABoxWithAHole, TellsKeptVertices) {
+  EXPECT_TRUE(box({4, 0}).kept);
+  EXPECT_TRUE(box({4, 1e-10}).kept);
+  EXPECT_TRUE(box({4, 1e-6}).valid());
+  EXPECT_FALSE(box({4, 1e-6}).kept);
+  EXPECT_FALSE(box({2, -0.2}).kept);  // no corner
+  expect_place(path.locate({4, 0}, "box"), 0, slope_length);
+  expect_place(path.locate({2, -0.2}, "box"), 0, 0);  // no corner
 }
 
 TEST_F(OnABoxWithAHole, FindsThePointAtAnArc) {
@@ -117,8 +119,7 @@ TEST_F(OnABoxWithAHole, WalksWithTheDomainToTheLeft) {
   EXPECT_NEAR(path.way(box({4, 1}), box({3, 3})), 3, rounding);
   EXPECT_EQ(path.way(box(after), box(after)), 0);
   // The domain lies to the left of the hole too, which is walked clockwise.
-  EXPECT_NEAR(path.way(path.locate({1, 1.5}, "hole", true), path.locate({1.5, 2}, "hole", true)), 1,
-              rounding);
+  EXPECT_NEAR(path.way(path.locate({1, 1.5}, "hole"), path.locate({1.5, 2}, "hole")), 1, rounding);
 }
 
 TEST_F(OnABoxWithAHole, StraysFromChordsByItsVertices) {
@@ -136,9 +137,9 @@ TEST_F(OnABoxWithAHole, DoesNotStrayWithinASegmentNorFromAVertex) {
 }
 
 TEST_F(OnABoxWithAHole, FindsWhatAChordMeetsElsewhere) {
-  const auto sorted = [](Segments met) {
-    std::sort(met.begin(), met.end());
-    return met;
+  const auto sorted = [](Segments all) {
+    std::sort(all.begin(), all.end());
+    return all;
   };
   EXPECT_EQ(path.met_elsewhere(chord(before, after)), Segments{});
   EXPECT_EQ(path.met_elsewhere(chord({4, 0.5}, {4, 2})), Segments{});
@@ -150,12 +151,35 @@ TEST_F(OnABoxWithAHole, FindsWhatAChordMeetsElsewhere) {
             (Segments{5, 6, 7, 8}));  // through two of its corners
 }
 
+TEST_F(OnABoxWithAHole, AnswersAlikeFromMoreSegmentsThanItNeeds) {
+  const Segments all{0, 1, 2, 3, 4, 5, 6, 7, 8};
+  for (const Point end : {Point{4, 1.5}, Point{4, 2}, Point{3, 3}, after}) {
+    const OutlinePath::Chord across = chord(end, {0, 1.5});
+    EXPECT_EQ(path.met_elsewhere(across).size(), path.met_elsewhere(across, all).size());
+    EXPECT_EQ(path.sweeps_over(across, {2, 3}), path.sweeps_over(across, {2, 3}, all));
+    EXPECT_EQ(box(end).segment, path.locate(end, "box", all).segment);
+    EXPECT_EQ(box(end).arc, path.locate(end, "box", all).arc);
+  }
+}
+
+TEST_F(OnABoxWithAHole, FindsTheSegmentsNearABox) {
+  const auto near = [&](Box box) {
+    Segments all = path.segments_near(box);
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  constexpr double tolerance = 4 * OutlinePath::on_outline;
+  EXPECT_EQ(near({{0.5, 1.2}, {1, 1.8}}), (Segments{5}));
+  EXPECT_EQ(near({{0.5, 1.2}, {1 - 0.9 * tolerance, 1.8}}), (Segments{5}));
+  EXPECT_EQ(near({{0.5, 1.2}, {1 - 1.1 * tolerance, 1.8}}), Segments{});
+}
+
 TEST_F(OnABoxWithAHole, FindsPartsOfTheSameLoopThatAChordMeets) {
   // A chord off the outline: it stands for the way over vertex 0, and reaches beyond the upper side.
   const OutlinePath::Chord astray{box(before), box(after), {1, -0.1}, {3, 3.5}};
-  const auto met = path.met_elsewhere(astray);
-  EXPECT_NE(std::find(met.begin(), met.end(), 2), met.end());
-  EXPECT_EQ(std::find(met.begin(), met.end(), 4), met.end());
+  const auto found = path.met_elsewhere(astray);
+  EXPECT_NE(std::find(found.begin(), found.end(), 2), found.end());
+  EXPECT_EQ(std::find(found.begin(), found.end(), 4), found.end());
 }
 
 TEST_F(OnABoxWithAHole, SweepsOverVerticesOfOtherParts) {
@@ -188,7 +212,7 @@ TEST(OutlinePath, GivesUpOnWaysOfTooManyVertices) {
   boundaries[0].name = "circle";
   const Geometry circle(boundaries, points, {0, 4000}, std::vector<BoundaryId>(4000, BoundaryId{0}));
   const OutlinePath path(circle);
-  const auto place = [&](int k) { return path.locate(points[k], "circle", false); };
+  const auto place = [&](int k) { return path.locate(points[k], "circle"); };
   EXPECT_EQ(path.deviation(place(0), points[0], place(2000), points[2000]),
             std::numeric_limits<double>::infinity());
   EXPECT_TRUE(path.segments_between(place(0), place(2000)).empty());

@@ -19,7 +19,7 @@ struct Sweeps {
         part{scatter_mesh(world(), whole, space_filling_order(whole))},
         halo(world(), part),
         stars(halo, owned(), {}),
-        stale(part.owned_nodes, 1),
+        stale(halo.points().size(), 1),
         coloured(world(), halo, stars, stale) {}
 
   std::vector<NodeId> owned() const {

@@ -20,7 +20,7 @@ struct Jittered {
         slide(world(), halo, part.boundaries, nullptr, pinned),
         stars(halo, inner(), {}),
         bad(halo.points().size(), 1),
-        stale(part.owned_nodes, 1),
+        stale(halo.points().size(), 1),
         rule{Method::perturb, Objective::power, threshold, false} {}
 
   static Mesh jittered() {
