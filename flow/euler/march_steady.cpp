@@ -6,11 +6,11 @@
 
 #include "flow/euler/flow_run.hpp"
 #include "flow/euler/implicit/implicit_system.hpp"
+#include "flow/euler/implicit/state_update.hpp"
 #include "flow/euler/mirrored_states.hpp"
 #include "flow/euler/newton_pilot.hpp"
 #include "flow/euler/newton_step.hpp"
 #include "flow/euler/residual_watch.hpp"
-#include "flow/euler/state_update.hpp"
 #include "flow/euler/step_shares.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -40,8 +40,7 @@ class SteadyMarch {
         shares_(run.mesh.owned_nodes()),
         far_field_(run.comm, run.mesh, run.model),
         best_states_{run.states} {
-    std::vector<State> uniform(run.mesh.nodes(), run.model.free_stream);
-    reference_ = mass_residual(run, run.residual.evaluate(uniform));
+    reference_ = free_stream_residual(run);
     zero_ = rounding(run);
   }
 
@@ -55,7 +54,8 @@ class SteadyMarch {
         continue;
       }
       if (result_.converged && becomes_image()) continue;
-      const bool ends = result_.converged || result_.iterations >= run_.options.iterations;
+      const bool ends =
+          result_.converged || result_.iterations >= run_.options.iterations || is_left_to_time();
       if (!ends && watch()) continue;
       const double cfl =
           limit_.share() *
@@ -104,6 +104,11 @@ class SteadyMarch {
     run_.states = best_states_;
     if (!best_.limiter_frozen) run_.residual.release_limiter();
     shares_.forget();
+  }
+
+  /// The flow has had its chance, and is to be carried on in time.
+  bool is_left_to_time() const {
+    return run_.options.unsteady == EulerOptions::Unsteady::carry_on && stall_.is_over();
   }
 
   /// Keeps the best flow. Tells whether the flow was set back to it, as it is on the way to a worse one.

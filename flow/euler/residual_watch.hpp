@@ -21,12 +21,18 @@ class StallWatch {
   /// The residual of a flow that has its shape did not halve in a hundred steps.
   bool rests() const { return best_.back() < developed && falls_less(100, 0.5); }
 
+  /// The residual did not halve in five hundred steps.
+  bool is_over() const {
+    return best_.size() > long_ && best_.back() > 0.5 * best_[best_.size() - 1 - long_];
+  }
+
   /// In the second half of all steps the residual did not halve: more of them are no cure.
   bool is_slow() const { return best_.size() > 60 && best_.back() > 0.5 * best_[best_.size() / 2]; }
 
  private:
   /// Below it the flow is near the end, so that factors that are kept are nearly those of the end.
   static constexpr double settled = 3e-3;
+  static constexpr std::size_t long_ = 500;
 
   /// Looked at once in so many steps: the best did not fall to that share of what it was.
   bool falls_less(std::size_t window, double share) const {
