@@ -57,12 +57,15 @@ void require_outputs(const std::string& output) {
 Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warnings) {
   if (!whole.solution || whole.solution->names.empty()) return {};
   const std::vector<std::string>& names = whole.solution->names;
-  const std::vector<std::string> wanted(euler_names.begin(), euler_names.end());
+  std::vector<std::string> wanted(euler_names.begin(), euler_names.end());
   for (const std::string& name : wanted) {
     if (variables_like(names, name).size() == 1) continue;
     warnings.push_back(fmt::format(
         "{}: its solution has no {}, so the flow starts afresh and its solution is replaced", path, name));
     return {};
+  }
+  for (const char* const name : at_end_names) {
+    if (std::ranges::find(names, name) != names.end()) wanted.emplace_back(name);
   }
   Field start = selected(*whole.solution, wanted, path);
   for (std::int32_t node = 0; node < whole.mesh.owned_nodes; ++node) {
@@ -155,7 +158,8 @@ Figures result_figures(std::int64_t nodes, const EulerResult& result, const Eule
   Figures figures;
   figures.add("nodes", nodes);
   figures.add("steps", result.iterations);
-  if (options.time == EulerOptions::Time::accurate) figures.add("time", result.time, "{:.6g}");
+  if (options.time == EulerOptions::Time::accurate || result.unsteady)
+    figures.add("time", result.time, "{:.6g}");
   figures.add("residual", result.residual, "{:.3e}");
   figures.add("cl", result.cl, "{:.6f}");
   figures.add("cd", result.cd, "{:.6f}");
@@ -170,6 +174,10 @@ Figures result_figures(std::int64_t nodes, const EulerResult& result, const Eule
     const auto& [name, cl, cd, cl_friction, cd_friction] = force;
     lines += fmt::format("  forces on {}: cl {:.6f}, cd {:.6f}", name, cl, cd);
     lines += options.viscosity > 0 ? fmt::format(", cd friction {:.6f}\n", cd_friction) : "\n";
+  }
+  if (result.unsteady) {
+    lines += "  " + line_of(*result.unsteady) + "\n";
+    figures.add_member("unsteady", record_of(*result.unsteady).text());
   }
   if (!result.goals.empty()) figures.add_member("goals", record_of(result.goals).text());
   figures.add_member("forces", record_of(result.forces).text());

@@ -9,6 +9,7 @@
 #include "flow/quantities/free_stream.hpp"
 #include "flow/quantities/goal_value.hpp"
 #include "flow/quantities/history.hpp"
+#include "flow/quantities/unsteady_flow.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -24,7 +25,8 @@ struct SolvedFlow {
   std::vector<BoundaryForce> forces;         ///< of each boundary that feels a force
   Field at_walls = {};                       ///< rows of nodes, as wall_flow(); empty: those of the solution
   std::vector<HistoryRow> history;
-  std::vector<GoalValue> goals = {};  ///< what it was solved for, with an estimate of the error
+  std::optional<UnsteadyFlow> unsteady = {};  ///< where flow and forces are means over time
+  std::vector<GoalValue> goals = {};          ///< what it was solved for, with an estimate of the error
 };
 
 /// Any flow solver: `start` is the state to begin with, a row for each of the mesh's owned nodes, or cells,

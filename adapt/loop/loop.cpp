@@ -112,6 +112,7 @@ class Loop {
     record.cl = flow.cl;
     record.cd = flow.cd;
     record.residual = flow.residual;
+    record.unsteady = flow.unsteady;
     record.goals = flow.goals;
     record.forces = flow.forces;
     for (const BoundaryLayerReport& row : carried.generated.layers) {

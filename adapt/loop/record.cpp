@@ -95,6 +95,7 @@ JsonObject figures_of(const CycleRecord& record) {
                                     {"order", record.order}}) {
     if (value) json.add(name, *value);
   }
+  if (record.unsteady) json.add("unsteady", record_of(*record.unsteady));
   if (record.settled) json.add("settled", *record.settled);
   if (!record.goals.empty()) json.add("goals", record_of(record.goals));
   if (!record.forces.empty()) json.add("forces", record_of(record.forces));
@@ -116,6 +117,23 @@ JsonObject record_of(const std::vector<GoalValue>& goals) {
                                 {"by_mach", goal.by_mach},
                                 {"adjoint_residual", goal.residual}}));
   }
+  return json;
+}
+
+JsonObject record_of(const UnsteadyFlow& flow) {
+  JsonObject json;
+  json.add("from", flow.from);
+  json.add("to", flow.to);
+  json.add("steps", flow.steps);
+  json.add("implicit", flow.implicit);
+  json.add("unsolved", flow.unsolved);
+  for (const auto& [name, swing] : {std::pair{"cl", flow.cl}, {"cd", flow.cd}}) {
+    json.add(name, object({{"mean", swing.mean}, {"smallest", swing.smallest}, {"largest", swing.largest}}));
+  }
+  json.add("period", flow.period);
+  json.add("strouhal", flow.strouhal);
+  json.add("steady_steps", flow.steady_steps);
+  json.add("steady_residual", flow.steady_residual);
   return json;
 }
 

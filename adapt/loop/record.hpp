@@ -11,6 +11,7 @@
 #include "adapt/remesh/remesh.hpp"
 #include "flow/quantities/boundary_forces.hpp"
 #include "flow/quantities/goal_value.hpp"
+#include "flow/quantities/unsteady_flow.hpp"
 #include "mesher/base/json.hpp"
 
 namespace quadloop {
@@ -41,8 +42,9 @@ struct CycleRecord {
   /// How far each variable's integral drifted in the transfer into this cycle.
   std::vector<std::pair<std::string, double>> drift;
   std::optional<double> cl, cd, residual;
-  std::vector<GoalValue> goals;       ///< with an estimate of their errors
-  std::vector<BoundaryForce> forces;  ///< of each boundary that feels a force
+  std::optional<UnsteadyFlow> unsteady;  ///< where flow and forces are means over time
+  std::vector<GoalValue> goals;          ///< with an estimate of their errors
+  std::vector<BoundaryForce> forces;     ///< of each boundary that feels a force
   /// Of boundaries that want a y+: the least and the largest first height that their layers were asked for.
   std::vector<FirstHeights> first_heights;
   std::optional<MetricFigures> metric;  ///< that the mesh follows
@@ -58,6 +60,10 @@ JsonObject seconds_of(const CycleRecord& record);
 JsonObject record_of(const std::vector<GoalValue>& goals);
 /// For people.
 std::string line_of(const GoalValue& goal);
+
+/// {"from": ..., "to": ..., "steps": ..., "implicit": ..., "cl": {"mean": ..., "smallest": ..., "largest":
+/// ...}, "cd": the same, "period": ..., "strouhal": ..., "steady_steps": ..., "steady_residual": ...}
+JsonObject record_of(const UnsteadyFlow& flow);
 
 /// {boundary: {"cl": ..., "cd": ..., "cl_friction": ..., "cd_friction": ...}}
 JsonObject record_of(const std::vector<BoundaryForce>& forces);

@@ -42,6 +42,9 @@ FlowSolver euler_solver(EulerOptions options, AtEnd at_end) {
     const EulerResult result = solve_euler(comm, mesh, told, start, at_end);
     if (!result.converged)
       flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, shortfall(result, options)));
+    flow.unsteady = result.unsteady;
+    if (result.unsteady)
+      flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, line_of(*result.unsteady)));
     flow.solution = flow_with_constants(result, options);
     flow.cl = result.cl;
     flow.cd = result.cd;

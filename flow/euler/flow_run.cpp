@@ -22,17 +22,26 @@ double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes) {
 
 namespace {
 
-constexpr int unsteady_history = 10;  ///< steps in time are many and small: every tenth is kept
-
 /// The caller's stage counts steps, or time where that is what ends the run.
-void tell_progress(const FlowRun& run, const EulerResult& result) {
+void tell_progress(const EulerResult& result, bool in_time) {
   progress::Stage* const stage = progress::current();
   if (stage == nullptr) return;
   stage->say(fmt::format("step {}  residual {:.1e}", result.iterations, result.residual));
-  stage->advance(run.options.time == EulerOptions::Time::steady ? result.iterations : result.time);
+  stage->advance(in_time ? result.time : result.iterations);
 }
 
 }  // namespace
+
+std::vector<State> undisturbed(const FlowRun& run) {
+  std::vector<State> uniform(run.mesh.nodes(), run.model.free_stream);
+  run.residual.no_slip().hold(uniform);
+  return uniform;
+}
+
+double free_stream_residual(const FlowRun& run) {
+  std::vector<State> uniform = undisturbed(run);
+  return mass_residual(run, run.residual.evaluate(uniform));
+}
 
 void surround(const FlowRun& run, FarField& far_field) {
   if (run.options.far_field != EulerOptions::FarField::vortex) return;
@@ -44,12 +53,11 @@ void surround(const FlowRun& run, FarField& far_field) {
   run.residual.surround(far_field);
 }
 
-void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end) {
-  tell_progress(run, result);
+void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end, const Telling& telling) {
+  tell_progress(result, telling.in_time);
   const bool is_told =
       run.options.progress && (at_end || result.iterations % run.options.progress_every == 0);
-  const bool is_steady = run.options.time == EulerOptions::Time::steady;
-  const bool is_kept = is_steady || at_end || result.iterations % unsteady_history == 0;
+  const bool is_kept = at_end || result.iterations % telling.every == 0;
   if (!is_told && !is_kept) return;
   const ForceCoefficients forces = wall_forces(run.comm, run.mesh, run.model, run.states,
                                                run.residual.friction(), run.options.reference_length);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "flow/euler/in_time/time_average.hpp"
 #include "flow/euler/model/flow_model.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
 #include "flow/euler/scheme/residual.hpp"
@@ -27,8 +29,14 @@ double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes);
 /// *Collective.*
 void surround(const FlowRun& run, FarField& far_field);
 
+/// How steps are counted and kept in the history.
+struct Telling {
+  bool in_time = false;  ///< progress is that of the time
+  int every = 1;         ///< of so many steps one is kept
+};
+
 /// Keeps the history, and hands the options' callback what it is due. *Collective.*
-void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end);
+void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end, const Telling& telling = {});
 
 /// "density ... at (x, y)" of the node, over all ranks, where the flow is least physical: the first that is
 /// not, else that of the largest flux. *Collective.*
@@ -38,7 +46,27 @@ std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes);
 /// *Collective.*
 EulerResult march_to_steady(const FlowRun& run);
 
-/// Explicit steps of one size to the end time. *Collective.*
-EulerResult march_in_time(const FlowRun& run);
+/// How far a flow is to go in time.
+struct TimePlan {
+  double end = 0;
+  std::optional<double> average_from, step;  ///< none: no means; explicit steps
+  int most_steps = 0;
+  double reference = 0;  ///< mass residual that others are relative to; 0: the first
+  double tolerance = 0;  ///< a relative residual at which the flow is steady after all
+};
+
+/// Steps of one size to the end time. Continues `result`, whose time is that of the states; the flow between
+/// `plan.average_from` and the end joins `average`. *Collective.*
+void march_in_time(const FlowRun& run, const TimePlan& plan, EulerResult& result, TimeAverage& average);
+
+/// A flow that has no steady state, or a start that was carried on before, goes on in time as the options
+/// ask, unless it becomes steady. *Collective.*
+void carry_on(const FlowRun& run, EulerResult& result, TimeAverage& average);
+
+/// The free stream in every node, at rest where it sticks to walls.
+std::vector<State> undisturbed(const FlowRun& run);
+
+/// The mass residual of the undisturbed free stream. *Collective.*
+double free_stream_residual(const FlowRun& run);
 
 }  // namespace quadloop::euler

@@ -4,102 +4,104 @@
 #include <cmath>
 
 #include "flow/euler/flow_run.hpp"
-#include "flow/euler/scheme/viscous.hpp"
+#include "flow/euler/in_time/time_scheme.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::euler {
 
 namespace {
 
-constexpr double largest_cfl = 0.8;  ///< of the explicit steps
+constexpr int explicit_history = 10;  ///< such steps are many and small
 
-/// The largest time step of CFL number 1 over all nodes of all ranks: area over half the sum of wave speed
-/// times face size. *Collective.*
-double unit_time_step(const FlowRun& run, std::vector<double>& wave_sums) {
-  const auto speed = [&](std::int32_t node, Point normal) {
-    const State& state = run.states[node];
-    return std::abs(state[1] * normal.x + state[2] * normal.y) + run.model.gas.sound_speed(state);
-  };
-  std::fill(wave_sums.begin(), wave_sums.end(), 0.0);
-  for (const DualEdge& edge : run.mesh.edges()) {
-    const double sum =
-        0.5 * edge.size * std::max(speed(edge.low, edge.normal), speed(edge.high, edge.normal)) +
-        edge.size / (2 * length(edge.half)) *
-            std::max(diffusivity(run.model, run.states[edge.low]),
-                     diffusivity(run.model, run.states[edge.high]));
-    wave_sums[edge.low] += sum;
-    wave_sums[edge.high] += sum;
+class TimeMarch {
+ public:
+  TimeMarch(const FlowRun& run, const TimePlan& plan, EulerResult& result, TimeAverage& average)
+      : run_{run},
+        plan_{plan},
+        result_{result},
+        average_{average},
+        first_step_{result.iterations},
+        reference_{plan.reference},
+        far_field_(run.comm, run.mesh, run.model),
+        scheme_{time_scheme({run.comm, run.mesh, run.model, run.residual, run.states}, plan.step,
+                            run.options.cfl)} {}
+
+  void march() {
+    double before = 0;  // how long the step to this flow took, as far as it counts for the means
+    while (true) {
+      surround(run_, far_field_);
+      const std::vector<Flux>& fluxes = run_.residual.evaluate(run_.states);
+      measure(fluxes);
+      const bool ends = result_.converged || steps() >= plan_.most_steps;
+      report(run_, result_, run_.options.cfl, ends, {true, scheme_->is_implicit() ? 1 : explicit_history});
+      if (ends) return finish(before);
+      const double left = plan_.end - result_.time, full = scheme_->longest_step();
+      const bool last = full >= left * (1 - 1e-9);
+      const double step = last ? left : full;
+      before = count(before, step);
+      scheme_->advance(step, fluxes);
+      longest_ = std::max(longest_, step);
+      result_.time = last ? plan_.end : result_.time + step;
+      ++result_.iterations;
+    }
   }
-  for (const BoundaryFace& face : run.mesh.faces()) {
-    for (const std::int32_t node : {face.from, face.to})
-      wave_sums[node] += 0.5 * face.half_size * speed(node, face.normal);
-  }
-  double step = std::numeric_limits<double>::infinity();
-  const auto areas = run.mesh.areas();
-  for (std::size_t node = 0; node < areas.size(); ++node)
-    step = std::min(step, areas[node] / wave_sums[node]);
-  return run.comm.minimum(step);
-}
 
-/// One stage of a strong-stability-preserving Runge-Kutta step (Shu and Osher 1988): the step's start and the
-/// stage before it advanced by an Euler step, mixed.
-struct Stage {
-  double start, advanced;
-};
-constexpr std::array<Stage, 3> stages{{{0, 1}, {0.75, 0.25}, {1.0 / 3, 2.0 / 3}}};
+ private:
+  int steps() const { return result_.iterations - first_step_; }
 
-void advance(const FlowRun& run, const Stage& stage, double step, const std::vector<Conserved>& start,
-             const std::vector<Flux>& fluxes) {
-  const auto areas = run.mesh.areas();
-  const Gas& gas = run.model.gas;
-  for (std::size_t node = 0; node < areas.size(); ++node) {
-    const Conserved &w0 = start[node], w = gas.conserved(run.states[node]);
-    const Flux& flux = fluxes[node];
-    const auto mixed = [&](double before, double now, double out) {
-      return stage.start * before + stage.advanced * (now - step / areas[node] * out);
-    };
-    run.states[node] =
-        gas.state({mixed(w0.mass, w.mass, flux[0]), mixed(w0.x_momentum, w.x_momentum, flux[1]),
-                   mixed(w0.y_momentum, w.y_momentum, flux[2]), mixed(w0.energy, w.energy, flux[3])});
-  }
-}
-
-}  // namespace
-
-EulerResult march_in_time(const FlowRun& run) {
-  std::vector<double> wave_sums(run.mesh.nodes());
-  std::vector<Conserved> start(run.mesh.owned_nodes());
-  const double cfl = std::min(run.options.cfl, largest_cfl);
-  EulerResult result;
-  double reference = 0;
-  FarField far_field(run.comm, run.mesh, run.model);
-  while (true) {
-    surround(run, far_field);
-    const std::vector<Flux>& fluxes = run.residual.evaluate(run.states);
-    const double norm = mass_residual(run, fluxes);
+  void measure(const std::vector<Flux>& fluxes) {
+    const double norm = mass_residual(run_, fluxes);
     if (!std::isfinite(norm)) {
       throw SolverError(
           fmt::format("the flow solver failed at time {:.6g} {}; look at the boundary conditions and the "
-                      "cells there, or try a smaller cfl",
-                      result.time, worst_place(run, fluxes)));
+                      "cells there, or try a smaller {}",
+                      result_.time, worst_place(run_, fluxes), scheme_->is_implicit() ? "time_step" : "cfl"));
     }
-    reference = std::max(reference, result.iterations == 0 ? norm : 0);
-    result.residual = reference > 0 ? norm / reference : 0;
-    result.converged = result.time >= run.options.end_time;
-    const bool ends = result.converged || result.iterations >= run.options.iterations;
-    report(run, result, cfl, ends);
-    if (ends) return result;
-    const double left = run.options.end_time - result.time, full = cfl * unit_time_step(run, wave_sums);
-    const bool last = full >= left;
-    const double step = last ? left : full;
-    for (std::size_t node = 0; node < start.size(); ++node)
-      start[node] = run.model.gas.conserved(run.states[node]);
-    for (std::size_t k = 0; k < stages.size(); ++k) {
-      advance(run, stages[k], step, start, k == 0 ? fluxes : run.residual.evaluate(run.states));
-    }
-    result.time = last ? run.options.end_time : result.time + step;
-    ++result.iterations;
+    if (reference_ == 0) reference_ = norm;
+    result_.residual = reference_ > 0 ? norm / reference_ : 0;
+    is_steady_ = plan_.tolerance > 0 && result_.residual <= plan_.tolerance;
+    result_.converged = result_.time >= plan_.end || is_steady_;
   }
+
+  /// The flow counts for half the step to it and half the one from it, by trapezia. Returns the latter.
+  double count(double before, double step) {
+    if (!plan_.average_from || result_.time < *plan_.average_from) return 0;
+    average_.add(run_.states, run_.residual.friction(), run_.mesh.owned_nodes(), 0.5 * (before + step));
+    return step;
+  }
+
+  void finish(double before) {
+    result_.kept_iteration = result_.iterations;
+    result_.last_residual = result_.residual;
+    if (is_steady_) average_ = {};
+    if (is_steady_ || !plan_.average_from) return;
+    if (before > 0)
+      average_.add(run_.states, run_.residual.friction(), run_.mesh.owned_nodes(), 0.5 * before);
+    UnsteadyFlow flow = unsteady_flow(result_.history, *plan_.average_from);
+    flow.steps = steps();
+    flow.longest_step = longest_;
+    flow.implicit = scheme_->is_implicit();
+    flow.unsolved = scheme_->unsolved();
+    const double speed = std::hypot(run_.model.free_stream[1], run_.model.free_stream[2]);
+    if (flow.period && speed > 0) flow.strouhal = run_.options.reference_length / (*flow.period * speed);
+    result_.unsteady = flow;
+  }
+
+  FlowRun run_;
+  TimePlan plan_;
+  EulerResult& result_;
+  TimeAverage& average_;
+  int first_step_;
+  double reference_, longest_ = 0;
+  FarField far_field_;
+  std::unique_ptr<TimeScheme> scheme_;
+  bool is_steady_ = false;
+};
+
+}  // namespace
+
+void march_in_time(const FlowRun& run, const TimePlan& plan, EulerResult& result, TimeAverage& average) {
+  TimeMarch(run, plan, result, average).march();
 }
 
 }  // namespace quadloop::euler

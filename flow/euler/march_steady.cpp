@@ -6,11 +6,11 @@
 
 #include "flow/euler/flow_run.hpp"
 #include "flow/euler/implicit/implicit_system.hpp"
+#include "flow/euler/implicit/state_update.hpp"
 #include "flow/euler/mirrored_states.hpp"
 #include "flow/euler/newton_pilot.hpp"
 #include "flow/euler/newton_step.hpp"
 #include "flow/euler/residual_watch.hpp"
-#include "flow/euler/state_update.hpp"
 #include "flow/euler/step_shares.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -41,8 +41,7 @@ class SteadyMarch {
         shares_(run.mesh.owned_nodes()),
         far_field_(run.comm, run.mesh, run.model),
         best_states_{run.states} {
-    std::vector<State> uniform = undisturbed();
-    reference_ = of_free_stream_ = mass_residual(run, run.residual.evaluate(uniform));
+    reference_ = of_free_stream_ = free_stream_residual(run);
     zero_ = rounding(run);
   }
 
@@ -56,7 +55,8 @@ class SteadyMarch {
         continue;
       }
       if (result_.converged && becomes_image()) continue;
-      const bool ends = result_.converged || result_.iterations >= run_.options.iterations;
+      const bool ends =
+          result_.converged || result_.iterations >= run_.options.iterations || is_left_to_time();
       if (!ends && watch()) continue;
       const double cfl =
           limit_.share() *
@@ -89,12 +89,6 @@ class SteadyMarch {
     result_.converged = is_zero || result_.residual <= run_.options.tolerance;
   }
 
-  std::vector<State> undisturbed() const {
-    std::vector<State> uniform(run_.mesh.nodes(), run_.model.free_stream);
-    run_.residual.no_slip().hold(uniform);
-    return uniform;
-  }
-
   /// Whether a flow that was given leads nowhere: it has hardly become better for long, or went wrong again
   /// and again.
   bool start_is_useless() const {
@@ -111,7 +105,7 @@ class SteadyMarch {
           fmt::format("step {}: the flow that was given leads nowhere (residual {:.2e} at step {}): on from "
                       "the free stream",
                       result_.iterations, best_.residual, best_.iteration));
-    run_.states = best_states_ = undisturbed();
+    run_.states = best_states_ = undisturbed(run_);
     run_.residual.release_limiter();
     shares_.restart();
     stall_ = {};
@@ -142,6 +136,11 @@ class SteadyMarch {
     run_.states = best_states_;
     if (!best_.limiter_frozen) run_.residual.release_limiter();
     shares_.forget();
+  }
+
+  /// The flow has had its chance, and is to be carried on in time.
+  bool is_left_to_time() const {
+    return run_.options.unsteady == EulerOptions::Unsteady::carry_on && stall_.is_over();
   }
 
   /// Keeps the best flow. Tells whether the flow was set back to it, as it is on the way to a worse one.

@@ -3,15 +3,12 @@
 #include <vector>
 
 #include "flow/euler/flow_run.hpp"
-#include "flow/euler/implicit/implicit_system.hpp"
-#include "flow/euler/implicit/krylov.hpp"
+#include "flow/euler/implicit/newton_system.hpp"
 
 namespace quadloop::euler {
 
-/// A step of an inexact Newton method (Knoll and Keyes 2004): (area / time step + derivative of the
-/// second-order residual) change = -residual by GMRES, which needs no such matrix, as the derivative along a
-/// change is a difference of two residuals; the system of first-order fluxes is its preconditioner. The
-/// change is halved until the residual falls.
+/// A step of an inexact Newton method (Knoll and Keyes 2004): a NewtonSystem with -residual as its right
+/// side. The change is halved until the residual falls.
 class NewtonStep {
  public:
   /// Both must outlive it. *Collective.*
@@ -27,16 +24,13 @@ class NewtonStep {
 
  private:
   double solve();
-  double norm(const std::vector<Flux>& fluxes) const;
-  void differentiate(const NodeRows& change, NodeRows& result);
   double advance(double share);
 
   FlowRun run_;
   ImplicitSystem& system_;
+  NewtonSystem newton_;
   NodeRows residual_, change_;
-  std::vector<Flux> right_;             ///< of the preconditioner, for each node
-  std::vector<Change> preconditioned_;  ///< for each node
-  std::vector<State> start_, moved_;
+  std::vector<State> start_;
 };
 
 }  // namespace quadloop::euler

@@ -23,6 +23,9 @@ class StallWatch {
   /// The residual of a flow that has its shape did not halve in a hundred steps.
   bool rests() const { return best_.back() < developed && falls_less(100, 0.5); }
 
+  /// The residual did not halve in five hundred steps.
+  bool is_over() const { return falls_less(500, 0.5); }
+
   /// In the second half of all steps the residual did not halve: more of them are no cure.
   bool is_slow() const { return best_.size() > 60 && best_.back() > 0.5 * best_[best_.size() / 2]; }
 

@@ -17,13 +17,24 @@ using namespace euler;
 
 std::vector<std::string> flow_names() { return {euler_names.begin(), euler_names.end()}; }
 
+/// Whether the start was left by a flow that was a mean over time, and this one is to go on from its end.
+bool goes_on_in_time(const EulerOptions& options, const Field& start) {
+  if (options.time == EulerOptions::Time::steady && options.unsteady == EulerOptions::Unsteady::stop)
+    return false;
+  return std::ranges::all_of(at_end_names, [&](const char* name) {
+    return std::ranges::find(start.names, name) != start.names.end();
+  });
+}
+
 /// A state for each node; those of copies come later.
 std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, const DualMesh& dual,
                                 const FlowModel& model, const EulerOptions& options, const Field& start) {
   std::vector<State> states(dual.nodes(), model.free_stream);
   const std::size_t owned = dual.owned_nodes();
   if (start.width() > 0) {
-    const Field given = selected(start, flow_names(), "the starting state");
+    const std::vector<std::string> at_end(at_end_names.begin(), at_end_names.end());
+    const Field given =
+        selected(start, goes_on_in_time(options, start) ? at_end : flow_names(), "the starting state");
     QUADLOOP_REQUIRE(given.values.size() == 4 * owned, "a row for each owned node");
     for (std::size_t node = 0; node < owned; ++node)
       std::copy_n(given.values.begin() + 4 * node, 4, states[node].begin());
@@ -37,11 +48,22 @@ std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, cons
   return states;
 }
 
-/// Flow and forces as they are at the end. *Collective.*
-void take_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries, EulerResult& result) {
+/// Appends columns of the owned nodes to the rows of a flow.
+void append_states(const std::vector<State>& states, Field& flow) {
+  const std::size_t width = flow.width(), rows = width > 0 ? flow.values.size() / width : 0;
+  std::vector<double> values;
+  for (std::size_t node = 0; node < rows; ++node) {
+    values.insert(values.end(), flow.values.begin() + node * width, flow.values.begin() + (node + 1) * width);
+    values.insert(values.end(), states[node].begin(), states[node].end());
+  }
+  flow.names.insert(flow.names.end(), at_end_names.begin(), at_end_names.end());
+  flow.values = std::move(values);
+}
+
+/// Flow and forces of the run's states, with this friction on walls. *Collective.*
+void take_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries,
+               const std::vector<Point>& friction, EulerResult& result) {
   const bool viscous = run.model.is_viscous();
-  if (viscous) run.residual.evaluate(run.states);  // the flow that is kept may not be the last one
-  const std::vector<Point>& friction = run.residual.friction();
   const ForceCoefficients forces =
       wall_forces(run.comm, run.mesh, run.model, run.states, friction, run.options.reference_length);
   result.cl = forces.cl;
@@ -63,6 +85,42 @@ void take_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries,
   }
 }
 
+/// The flow that a run is to leave: its states, or what it came to over time. *Collective.*
+void keep_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries, const TimeAverage& average,
+               EulerResult& result) {
+  if (average.empty()) {
+    if (run.model.is_viscous()) run.residual.evaluate(run.states);  // the flow kept may not be the last one
+    return take_flow(run, boundaries, run.residual.friction(), result);
+  }
+  const std::vector<State> at_end = run.states;
+  average.take(run.states);
+  run.residual.evaluate(run.states);
+  take_flow(run, boundaries, average.friction(), result);
+  append_states(at_end, result.flow);
+  result.unsteady->cl.mean = result.cl;
+  result.unsteady->cd.mean = result.cd;
+}
+
+/// From the run's states to the end of what the options ask. *Collective.*
+EulerResult march(const FlowRun& run, const Field& start, TimeAverage& average) {
+  const EulerOptions& options = run.options;
+  if (options.time == EulerOptions::Time::accurate) {
+    const progress::Stage stage("solving", options.end_time, "units of time");
+    EulerResult result;
+    march_in_time(run, {options.end_time, options.average_from, options.time_step, options.iterations},
+                  result, average);
+    return result;
+  }
+  EulerResult result;
+  const bool carries_on = options.unsteady == EulerOptions::Unsteady::carry_on;
+  if (!goes_on_in_time(options, start)) {
+    const progress::Stage stage("solving", options.iterations, "steps");
+    result = march_to_steady(run);
+  }
+  if (carries_on && !result.converged) carry_on(run, result, average);
+  return result;
+}
+
 }  // namespace
 
 EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
@@ -74,11 +132,9 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
   Residual residual(dual, model, options);
   residual.no_slip().hold(states);
   const FlowRun run{comm, options, dual, model, residual, states, start.width() > 0};
-  const bool steady = options.time == EulerOptions::Time::steady;
-  const progress::Stage stage("solving", steady ? options.iterations : options.end_time,
-                              steady ? "steps" : "units of time");
-  EulerResult result = steady ? march_to_steady(run) : march_in_time(run);
-  take_flow(run, mesh.boundaries, result);
+  TimeAverage average;
+  EulerResult result = march(run, start, average);
+  keep_flow(run, mesh.boundaries, average, result);
   if (at_end) at_end(mesh, run, result);
   return result;
 }

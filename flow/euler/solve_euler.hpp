@@ -1,12 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "flow/euler/model/euler_options.hpp"
 #include "flow/quantities/boundary_forces.hpp"
 #include "flow/quantities/goal_value.hpp"
 #include "flow/quantities/history.hpp"
+#include "flow/quantities/unsteady_flow.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -16,23 +18,25 @@ namespace quadloop {
 /// What solve_euler found.
 struct EulerResult {
   Field flow;           ///< euler_names at each owned node, without constants; a viscous one's
-                        ///< wall_shear_name too
+                        ///< wall_shear_name too. Means over time where `unsteady` says so; then the
+                        ///< flow at the end comes last, as at_end_names
   int iterations = 0;   ///< steps done
   double residual = 0;  ///< root mean square of the nodes' net mass fluxes, relative to the larger of the
                         ///< start's and the uniform free stream's
   double cl_friction = 0, cd_friction = 0;  ///< the part of friction in what follows
   double cl = 0, cd = 0;                    ///< over all boundaries that feels_force() counts, in wind axes
   std::vector<BoundaryForce> forces;        ///< of each of these boundaries that has edges
-  std::vector<HistoryRow> history;          ///< of every step and the end; accurate: of every tenth step
+  std::vector<HistoryRow> history;          ///< of every step and the end; of explicit ones every tenth
   /// The step whose flow this is: the last, or that of the best residual where it rose again.
   int kept_iteration = 0;
   /// The step at which the flow that was given was left for the free stream, since it led nowhere; 0: not.
   int left_start = 0;
-  double last_residual = 0;      ///< after the last step
-  bool stalled = false;          ///< the residual did not halve in the second half of the steps
-  bool converged = false;        ///< steady: the tolerance is met; accurate: the end time is reached
-  double time = 0;               ///< of an accurate run
-  std::vector<GoalValue> goals;  ///< of the options' goals, where something at the end finds them
+  double last_residual = 0;              ///< after the last step
+  bool stalled = false;                  ///< the residual did not halve in the second half of the steps
+  bool converged = false;                ///< steady: the tolerance is met; in time: the end is reached
+  double time = 0;                       ///< of an accurate run, or of the part that was carried on
+  std::optional<UnsteadyFlow> unsteady;  ///< where flow and forces are means over time
+  std::vector<GoalValue> goals;          ///< of the options' goals, where something at the end finds them
 };
 
 namespace euler {

@@ -37,16 +37,41 @@ void read_viscosity(const CaseTable& table, EulerOptions& options) {
   options.prandtl = table.number("prandtl", Range::positive()).value_or(options.prandtl);
 }
 
+/// Of runs in time, and of steady ones that go on in time.
+void read_time(const CaseTable& table, EulerOptions& options) {
+  const bool accurate = table.choice("time", {"steady", "accurate"}) == "accurate";
+  if (accurate) options.time = EulerOptions::Time::accurate;
+  options.end_time = table.number("end_time", {0}).value_or(options.end_time);
+  if (accurate && !table.has("end_time"))
+    table.refuse("end_time", "is missing; time = \"accurate\" needs the time at which it ends");
+  const bool carries_on = table.choice("unsteady", {"stop", "carry_on"}) == "carry_on";
+  if (carries_on) options.unsteady = EulerOptions::Unsteady::carry_on;
+  if (carries_on && accurate)
+    table.refuse("unsteady",
+                 "does nothing with time = \"accurate\", which goes on in time anyway; leave it out");
+  if (carries_on && options.mach == 0)
+    table.refuse("unsteady", "needs a mach above 0, as its length is counted in flow-through times");
+  options.flow_throughs = table.number("flow_throughs", Range::positive()).value_or(options.flow_throughs);
+  if (table.has("flow_throughs") && !carries_on)
+    table.refuse("flow_throughs", "does nothing without unsteady = \"carry_on\"");
+  options.time_step = table.number("time_step", Range::positive());
+  if (options.time_step && !accurate && !carries_on)
+    table.refuse("time_step",
+                 "does nothing in a steady flow; set time = \"accurate\" or unsteady = \"carry_on\"");
+  options.average_from = table.number("average_from", {0});
+  if (options.average_from && !accurate)
+    table.refuse("average_from",
+                 "belongs to time = \"accurate\"; a flow that is carried on has means over its second half");
+  if (options.average_from && *options.average_from >= options.end_time)
+    table.refuse("average_from", "must be below end_time, so that there is something to take means over");
+}
+
 void read_euler_keys(const CaseTable& table, EulerOptions& options) {
   options.mach = table.number("mach", {0, 100}).value_or(options.mach);
   options.alpha = table.number("alpha", {-360, 360}).value_or(options.alpha);
   options.gamma = table.number("gamma", {1, 10, true, false}).value_or(options.gamma);
   read_viscosity(table, options);
-  if (table.choice("time", {"steady", "accurate"}) == "accurate") options.time = EulerOptions::Time::accurate;
-  options.end_time = table.number("end_time", {0}).value_or(options.end_time);
-  if (options.time == EulerOptions::Time::accurate && !table.has("end_time")) {
-    table.refuse("end_time", "is missing; time = \"accurate\" needs the time at which it ends");
-  }
+  read_time(table, options);
   options.cfl = table.number("cfl", Range::positive()).value_or(options.cfl);
   options.iterations = whole_number(table, "iterations", options.iterations);
   options.tolerance = table.number("tolerance", {0, 1}).value_or(options.tolerance);

@@ -131,13 +131,27 @@ void ImplicitSystem::place_edges(std::vector<std::size_t> next) {
 
 void ImplicitSystem::assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares,
                               const ShockSensor* shocks) {
+  add_fluxes(states, shocks);
+  find_time_terms(cfl, shares);
+  add_time_terms();
+  invert_diagonal();
+}
+
+void ImplicitSystem::assemble_with_rate(const std::vector<State>& states, double rate,
+                                        const ShockSensor* shocks) {
+  add_fluxes(states, shocks);
+  for (std::size_t node = 0; node < mesh_.areas().size(); ++node)
+    time_terms_[node] = rate * mesh_.areas()[node];
+  add_time_terms();
+  invert_diagonal();
+}
+
+void ImplicitSystem::add_fluxes(const std::vector<State>& states, const ShockSensor* shocks) {
   for (Matrix4& block : diagonal_) block = {};
   std::fill(wave_sums_.begin(), wave_sums_.end(), 0.0);
   std::fill(line_sums_.begin(), line_sums_.end(), 0.0);
   add_edges(states, shocks);
   add_faces(states);
-  add_time_terms(cfl, shares);
-  invert_diagonal();
 }
 
 /// How the node's row answers to the other node.
@@ -202,13 +216,18 @@ void ImplicitSystem::add_faces(const std::vector<State>& states) {
 
 /// Waves along lines, which are solved exactly, may go farther in a step: the flow's first steps are not
 /// sound with more than the number below, later there is no such limit.
-void ImplicitSystem::add_time_terms(double cfl, const std::vector<double>& shares) {
+void ImplicitSystem::find_time_terms(double cfl, const std::vector<double>& shares) {
   const double along = cfl * std::max(1.0, cfl / soft_start);
   for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
     double area_over_step = wave_sums_[node] / (cfl * shares[node]);
     if (line_sums_[node] > 0) area_over_step += line_sums_[node] / (along * shares[node]);
     time_terms_[node] = area_over_step;
-    for (std::size_t k = 0; k < 4; ++k) diagonal_[node][5 * k] += area_over_step;
+  }
+}
+
+void ImplicitSystem::add_time_terms() {
+  for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
+    for (std::size_t k = 0; k < 4; ++k) diagonal_[node][5 * k] += time_terms_[node];
   }
 }
 

@@ -33,6 +33,9 @@ class ImplicitSystem {
   void assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares,
                 const ShockSensor* shocks = nullptr);
 
+  /// The same with `rate` in the place of one over the time step, at all nodes.
+  void assemble_with_rate(const std::vector<State>& states, double rate, const ShockSensor* shocks = nullptr);
+
   /// Of each owned node as assembled: area over time step.
   const std::vector<double>& time_terms() const { return time_terms_; }
 
@@ -54,9 +57,11 @@ class ImplicitSystem {
   void order_rows();
   std::vector<std::size_t> lay_out_rows();
   void place_edges(std::vector<std::size_t> next);
+  void add_fluxes(const std::vector<State>& states, const ShockSensor* shocks);
   void add_edges(const std::vector<State>& states, const ShockSensor* shocks);
   void add_faces(const std::vector<State>& states);
-  void add_time_terms(double cfl, const std::vector<double>& shares);
+  void find_time_terms(double cfl, const std::vector<double>& shares);
+  void add_time_terms();
   void invert_diagonal();
   void relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual,
                   std::vector<Change>& change);

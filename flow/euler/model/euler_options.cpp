@@ -24,6 +24,14 @@ void validate(const EulerOptions& options) {
   require_option(options.viscosity >= 0, "viscosity", options.viscosity, "0 or more");
   require_option(options.prandtl > 0, "prandtl", options.prandtl, "above 0");
   require_option(options.end_time >= 0, "end_time", options.end_time, "0 or more");
+  if (options.time_step) require_option(*options.time_step > 0, "time_step", *options.time_step, "above 0");
+  if (options.average_from) {
+    require_option(*options.average_from >= 0 && *options.average_from < options.end_time, "average_from",
+                   *options.average_from, "0 or more and below end_time");
+  }
+  require_option(options.flow_throughs > 0, "flow_throughs", options.flow_throughs, "above 0");
+  if (options.unsteady == EulerOptions::Unsteady::carry_on)
+    require_option(options.mach > 0, "mach", options.mach, "above 0 for a flow that is carried on in time");
   require_option(options.cfl > 0, "cfl", options.cfl, "above 0");
   require_option(options.iterations >= 0, "iterations", options.iterations, "0 or more");
   require_option(options.tolerance >= 0, "tolerance", options.tolerance, "0 or more");

@@ -38,6 +38,7 @@ struct EulerOptions {
   enum class Limiter { venkatakrishnan, none };
   enum class Initial { freestream, vortex };
   enum class FarField { uniform, vortex };
+  enum class Unsteady { stop, carry_on };
 
   double mach = 0.8;
   double alpha = 0;  ///< degrees
@@ -49,6 +50,15 @@ struct EulerOptions {
   double prandtl = 0.72;
   Time time = Time::steady;
   double end_time = 1;  ///< of an accurate run
+  /// In time: steps are implicit and of this size. None: explicit steps, or what carrying on takes.
+  std::optional<double> time_step;
+  /// Of an accurate run: flow and forces are means from this time to the end.
+  std::optional<double> average_from;
+  /// What becomes of a steady flow that does not converge: its best state is kept, or it goes on in time for
+  /// so many flow-through times (length of the walls' box over the free stream's speed); flow and forces are
+  /// then means over the second half.
+  Unsteady unsteady = Unsteady::stop;
+  double flow_throughs = 40;
   /// Steady: of the first steps, it grows as the residual falls; accurate: no more than 0.8 is used.
   double cfl = 20;
   int iterations = 2000;    ///< at most; an accurate run that needs more ends early
@@ -77,6 +87,10 @@ struct EulerOptions {
 
 /// The variables of a state, as files name them.
 inline constexpr std::array<const char*, 4> euler_names{"density", "x_velocity", "y_velocity", "pressure"};
+
+/// Beside a mean over time: the same variables at its end, from which a flow goes on in time.
+inline constexpr std::array<const char*, 4> at_end_names{"density_at_end", "x_velocity_at_end",
+                                                         "y_velocity_at_end", "pressure_at_end"};
 
 /// What a viscous flow has beside them: the stress along the wall at its nodes, positive where it pulls the
 /// wall the way of the free stream, in units of the free stream's density and speed of sound; 0 elsewhere.

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "flow/euler/implicit/state_update.hpp"
 #include "flow/euler/newton_pilot.hpp"
-#include "flow/euler/state_update.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/support/world.hpp"
 

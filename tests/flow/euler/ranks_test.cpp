@@ -28,6 +28,10 @@ void expect_same_on_all_ranks(const Mesh& whole, const MeshOrder& order, const E
   EXPECT_EQ(together.cl, alone.cl);
   EXPECT_EQ(together.cd, alone.cd);
   EXPECT_EQ(together.time, alone.time);
+  ASSERT_EQ(together.unsteady.has_value(), alone.unsteady.has_value());
+  if (alone.unsteady) {
+    EXPECT_EQ(line_of(*together.unsteady), line_of(*alone.unsteady));
+  }
 }
 
 TEST(Ranks, GiveTheSameBits) {
@@ -75,6 +79,31 @@ TEST(Ranks, GiveTheSameBitsInThinLayers) {
     options.viscosity = viscosity;
     for (const Mesh* mesh : std::array<const Mesh*, 3>{&grid, &ring, &graded}) {
       expect_same_on_all_ranks(*mesh, space_filling_order(*mesh), options);
+      expect_same_on_all_ranks(*mesh, test::shuffled_order(*mesh, 5), options);
+    }
+  }
+}
+
+TEST(Ranks, GiveTheSameBitsInTime) {
+  EulerOptions options;
+  options.mach = 0.5;
+  options.alpha = 5;
+  options.time_step = 0.1;
+  options.boundaries = {{"wall", "wall", {}, 0.9}, {"far", "farfield", {}}};
+  const Mesh ring = test::ring_mesh(24, 8, 0.3, 5);
+  const Mesh tiny = test::irregular_grid(2, {1, 1}, 0.2);  // ranks without nodes
+  for (const double viscosity : {0.0, 1e-2}) {
+    options.viscosity = viscosity;
+    for (const Mesh* mesh : {&ring, &tiny}) {
+      options.time = EulerOptions::Time::accurate;
+      options.average_from = 0.5;
+      options.unsteady = EulerOptions::Unsteady::stop;
+      options.iterations = 100;
+      expect_same_on_all_ranks(*mesh, test::shuffled_order(*mesh, 5), options);
+      options.time = EulerOptions::Time::steady;
+      options.unsteady = EulerOptions::Unsteady::carry_on;
+      options.flow_throughs = 1;
+      options.iterations = 3;
       expect_same_on_all_ranks(*mesh, test::shuffled_order(*mesh, 5), options);
     }
   }

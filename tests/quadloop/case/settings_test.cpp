@@ -201,6 +201,21 @@ TEST_F(SettingsTest, RefusesBadWakesAndFreeLines) {
   has(line("path = [[1, 1], [2, 2]]\nspacing = 1\ncount = 1"), "first' is missing");
 }
 
+TEST_F(SettingsTest, ReadsWhatFlowsInTimeAreToDo) {
+  const EulerOptions usual = read("[solver]\nmach = 1\n").solver.euler;
+  EXPECT_EQ(usual.unsteady, EulerOptions::Unsteady::stop);
+  EXPECT_FALSE(usual.time_step || usual.average_from);
+  const EulerOptions carried =
+      read("[solver]\nunsteady = \"carry_on\"\nflow_throughs = 7\ntime_step = 0.5\n").solver.euler;
+  EXPECT_EQ(carried.unsteady, EulerOptions::Unsteady::carry_on);
+  EXPECT_EQ(carried.flow_throughs, 7);
+  EXPECT_EQ(carried.time_step, 0.5);
+  const EulerOptions timed =
+      read("[solver]\ntime = \"accurate\"\nend_time = 9\naverage_from = 4\n").solver.euler;
+  EXPECT_EQ(timed.average_from, 4);
+  EXPECT_FALSE(timed.time_step);
+}
+
 TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(refused("[spacing]\nfoo = 1\n").find("case.toml:4: unknown key 'spacing.foo'"), 0u);
   EXPECT_EQ(refused("[spacings]\n").find("case.toml:3: unknown key 'spacings'"), 0u);

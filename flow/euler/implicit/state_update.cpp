@@ -1,4 +1,4 @@
-#include "flow/euler/state_update.hpp"
+#include "flow/euler/implicit/state_update.hpp"
 
 #include <algorithm>
 #include <cmath>

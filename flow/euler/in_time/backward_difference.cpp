@@ -1,0 +1,155 @@
+#include "flow/euler/in_time/backward_difference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/euler/implicit/state_update.hpp"
+
+namespace quadloop::euler {
+
+namespace {
+
+constexpr NewtonSystem::Effort effort{.tolerance = 0.1, .directions = 20, .sweeps = 10};
+constexpr double tolerance = 1e-3;  ///< of what would be left if nothing moved
+constexpr double rounding = 1e-13;  ///< of what is conserved, as a share
+constexpr int most_iterations = 10, most_halvings = 3;
+constexpr double least_gain = 0.9;  ///< of an iteration; one that gains less leads nowhere
+constexpr int most_step_halvings = 4;
+constexpr double longest_growth = 2.1;  ///< of a step over the one before; order 1 where it is more
+
+std::array<double, 4> row_of(const Conserved& w) { return {w.mass, w.x_momentum, w.y_momentum, w.energy}; }
+
+}  // namespace
+
+BackwardDifference::BackwardDifference(const TimeRun& run, double step)
+    : run_{run},
+      step_{step},
+      system_(run.comm, run.mesh, run.model),
+      newton_(run.comm, run.mesh, run.model, run.residual, system_),
+      held_(run.residual.no_slip().held_rows(run.mesh.owned_nodes())),
+      last_(run.mesh.owned_nodes()),
+      before_(run.mesh.owned_nodes()),
+      known_(run.mesh.owned_nodes()),
+      fluxes_(run.mesh.owned_nodes()),
+      balance_(run.mesh.owned_nodes()),
+      change_(run.mesh.owned_nodes()) {}
+
+/// Of this step and one before that was `ratio` times shorter; 0 where there was none.
+BackwardDifference::Weights BackwardDifference::weights(double ratio) {
+  return {(1 + 2 * ratio) / (1 + ratio), -(1 + ratio), ratio * ratio / (1 + ratio)};
+}
+
+void BackwardDifference::find_known(const Weights& weights, double step) {
+  for (std::size_t node = 0; node < known_.size(); ++node) {
+    const double over_step = run_.mesh.areas()[node] / step;
+    for (std::size_t k = 0; k < 4; ++k)
+      known_[node][k] = over_step * (weights.last * last_[node][k] + weights.before * before_[node][k]);
+  }
+}
+
+/// What is out of balance at the states, with these fluxes, and its norm.
+double BackwardDifference::measure(const std::vector<Flux>& fluxes, double rate) {
+  for (std::size_t node = 0; node < balance_.size(); ++node) {
+    const Row w = row_of(run_.model.gas.conserved(run_.states[node]));
+    fluxes_[node] = fluxes[node];
+    for (std::size_t k = 0; k < 4; ++k)
+      balance_[node][k] = rate * run_.mesh.areas()[node] * w[k] + known_[node][k] + fluxes[node][k];
+    for (int k = 1; k <= held_[node]; ++k) balance_[node][k] = 0;
+  }
+  return newton_.norm(balance_);
+}
+
+/// The states as they would be if they went on as in the step before, where that is nearer to the solution.
+/// Returns what is then out of balance; `size` is what is now.
+double BackwardDifference::go_on(double ratio, double rate, double size) {
+  start_ = run_.states;
+  for (std::size_t node = 0; node < change_.size(); ++node) {
+    for (std::size_t k = 0; k < 4; ++k) change_[node][k] = ratio * (last_[node][k] - before_[node][k]);
+    run_.states[node] = updated(run_.model.gas, start_[node], change_[node]);
+  }
+  run_.residual.no_slip().hold(run_.states);
+  const double gone_on = measure(run_.residual.evaluate(run_.states), rate);
+  if (gone_on < size) return gone_on;
+  run_.states = start_;
+  return measure(run_.residual.evaluate(run_.states), rate);
+}
+
+/// One iteration. Returns what is then out of balance; the states stay where no share of the change lowers
+/// it.
+double BackwardDifference::newton(double rate, double size, double enough) {
+  start_ = run_.states;
+  NodeRows right = balance_;
+  for (Row& row : right) {
+    for (double& value : row) value = -value;
+  }
+  const NodeRows fluxes = fluxes_;
+  NewtonSystem::Effort asked = effort;
+  asked.tolerance = std::clamp(0.5 * enough / size, 0.01, effort.tolerance);
+  newton_.solve(start_, fluxes, right, asked, change_);
+  double share = 1;
+  for (int attempt = 0; attempt < most_halvings; ++attempt, share *= 0.5) {
+    for (std::size_t node = 0; node < change_.size(); ++node) {
+      Row change = change_[node];
+      for (double& value : change) value *= share;
+      run_.states[node] = updated(run_.model.gas, start_[node], change);
+    }
+    run_.residual.no_slip().hold(run_.states);
+    const double now = measure(run_.residual.evaluate(run_.states), rate);
+    if (now < size) return now;
+  }
+  run_.states = start_;
+  return size;
+}
+
+/// Tells whether the equations of the step were solved to the tolerance.
+bool BackwardDifference::solve(double step, const NodeRows& fluxes) {
+  const double ratio = last_step_ > 0 && step <= longest_growth * last_step_ ? step / last_step_ : 0;
+  const Weights weight = weights(ratio);
+  const double rate = weight.next / step;
+  NodeRows whole = last_;
+  for (std::size_t node = 0; node < whole.size(); ++node) {
+    for (double& value : whole[node]) value *= rate * run_.mesh.areas()[node];
+  }
+  find_known(weight, step);
+  double size = measure(fluxes, rate);
+  const double enough = std::max(tolerance * size, rounding * newton_.norm(whole));
+  if (ratio > 0) size = go_on(ratio, rate, size);
+  system_.assemble_with_rate(run_.states, rate, run_.residual.shocks());
+  for (int iteration = 0; iteration < most_iterations && size > enough; ++iteration) {
+    const double now = newton(rate, size, enough);
+    if (!(now < least_gain * size)) break;
+    size = now;
+  }
+  return size <= enough;
+}
+
+/// The states start a step.
+void BackwardDifference::remember() {
+  for (std::size_t node = 0; node < last_.size(); ++node)
+    last_[node] = row_of(run_.model.gas.conserved(run_.states[node]));
+}
+
+void BackwardDifference::take(double step, const NodeRows& fluxes, int halvings) {
+  const std::vector<State> start = run_.states;
+  const NodeRows earlier = before_;
+  std::swap(before_, last_);
+  remember();
+  const bool is_solved = solve(step, fluxes);
+  if (is_solved || halvings == 0) {
+    if (!is_solved) ++unsolved_;
+    last_step_ = step;
+    return;
+  }
+  last_ = before_;
+  before_ = earlier;
+  run_.states = start;
+  take(0.5 * step, fluxes, halvings - 1);
+  const std::vector<Flux>& evaluated = run_.residual.evaluate(run_.states);
+  take(0.5 * step, {evaluated.begin(), evaluated.begin() + run_.mesh.owned_nodes()}, halvings - 1);
+}
+
+void BackwardDifference::advance(double step, const std::vector<Flux>& fluxes) {
+  take(step, {fluxes.begin(), fluxes.begin() + run_.mesh.owned_nodes()}, most_step_halvings);
+}
+
+}  // namespace quadloop::euler

@@ -1,0 +1,82 @@
+#include "flow/euler/in_time/runge_kutta.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "flow/euler/scheme/viscous.hpp"
+
+namespace quadloop::euler {
+
+namespace {
+
+constexpr double largest_cfl = 0.8;
+
+/// One stage of a step: the step's start and the stage before it advanced by an Euler step, mixed.
+struct Stage {
+  double start, advanced;
+};
+constexpr std::array<Stage, 3> stages{{{0, 1}, {0.75, 0.25}, {1.0 / 3, 2.0 / 3}}};
+
+void advance_stage(const TimeRun& run, const Stage& stage, double step, const std::vector<Conserved>& start,
+                   const std::vector<Flux>& fluxes) {
+  const auto areas = run.mesh.areas();
+  const Gas& gas = run.model.gas;
+  for (std::size_t node = 0; node < areas.size(); ++node) {
+    const Conserved &w0 = start[node], w = gas.conserved(run.states[node]);
+    const Flux& flux = fluxes[node];
+    const auto mixed = [&](double before, double now, double out) {
+      return stage.start * before + stage.advanced * (now - step / areas[node] * out);
+    };
+    run.states[node] =
+        gas.state({mixed(w0.mass, w.mass, flux[0]), mixed(w0.x_momentum, w.x_momentum, flux[1]),
+                   mixed(w0.y_momentum, w.y_momentum, flux[2]), mixed(w0.energy, w.energy, flux[3])});
+  }
+  run.residual.no_slip().hold(run.states);
+}
+
+}  // namespace
+
+RungeKutta::RungeKutta(const TimeRun& run, double cfl)
+    : run_{run},
+      cfl_{std::min(cfl, largest_cfl)},
+      wave_sums_(run.mesh.nodes()),
+      start_(run.mesh.owned_nodes()) {}
+
+/// CFL number times the least over all nodes of all ranks: area over half the sum of wave speed times face
+/// size.
+double RungeKutta::longest_step() {
+  const auto speed = [&](std::int32_t node, Point normal) {
+    const State& state = run_.states[node];
+    return std::abs(state[1] * normal.x + state[2] * normal.y) + run_.model.gas.sound_speed(state);
+  };
+  std::fill(wave_sums_.begin(), wave_sums_.end(), 0.0);
+  for (const DualEdge& edge : run_.mesh.edges()) {
+    const double sum =
+        0.5 * edge.size * std::max(speed(edge.low, edge.normal), speed(edge.high, edge.normal)) +
+        edge.size / (2 * length(edge.half)) *
+            std::max(diffusivity(run_.model, run_.states[edge.low]),
+                     diffusivity(run_.model, run_.states[edge.high]));
+    wave_sums_[edge.low] += sum;
+    wave_sums_[edge.high] += sum;
+  }
+  for (const BoundaryFace& face : run_.mesh.faces()) {
+    for (const std::int32_t node : {face.from, face.to})
+      wave_sums_[node] += 0.5 * face.half_size * speed(node, face.normal);
+  }
+  double step = std::numeric_limits<double>::infinity();
+  const auto areas = run_.mesh.areas();
+  for (std::size_t node = 0; node < areas.size(); ++node)
+    step = std::min(step, areas[node] / wave_sums_[node]);
+  return cfl_ * run_.comm.minimum(step);
+}
+
+void RungeKutta::advance(double step, const std::vector<Flux>& fluxes) {
+  for (std::size_t node = 0; node < start_.size(); ++node)
+    start_[node] = run_.model.gas.conserved(run_.states[node]);
+  for (std::size_t k = 0; k < stages.size(); ++k)
+    advance_stage(run_, stages[k], step, start_, k == 0 ? fluxes : run_.residual.evaluate(run_.states));
+}
+
+}  // namespace quadloop::euler

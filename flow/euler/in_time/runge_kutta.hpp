@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "flow/euler/in_time/time_scheme.hpp"
+
+namespace quadloop::euler {
+
+/// Explicit steps of order 3, strong stability preserving (Shu and Osher 1988).
+class RungeKutta : public TimeScheme {
+ public:
+  /// Of a larger `cfl` 0.8 is used.
+  RungeKutta(const TimeRun& run, double cfl);
+
+  double longest_step() override;
+  void advance(double step, const std::vector<Flux>& fluxes) override;
+  bool is_implicit() const override { return false; }
+
+ private:
+  TimeRun run_;
+  double cfl_;
+  std::vector<double> wave_sums_;
+  std::vector<Conserved> start_;
+};
+
+}  // namespace quadloop::euler

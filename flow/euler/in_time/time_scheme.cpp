@@ -1,0 +1,13 @@
+#include "flow/euler/in_time/time_scheme.hpp"
+
+#include "flow/euler/in_time/backward_difference.hpp"
+#include "flow/euler/in_time/runge_kutta.hpp"
+
+namespace quadloop::euler {
+
+std::unique_ptr<TimeScheme> time_scheme(const TimeRun& run, std::optional<double> step, double cfl) {
+  if (step) return std::make_unique<BackwardDifference>(run, *step);
+  return std::make_unique<RungeKutta>(run, cfl);
+}
+
+}  // namespace quadloop::euler

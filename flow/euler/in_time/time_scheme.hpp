@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "flow/euler/scheme/residual.hpp"
+#include "mesher/base/parallel/communicator.hpp"
+
+namespace quadloop::euler {
+
+/// A flow that moves on in time: what all schemes work on.
+struct TimeRun {
+  const Communicator& comm;
+  const DualMesh& mesh;
+  const FlowModel& model;
+  Residual& residual;
+  std::vector<State>& states;  ///< of each node; schemes change the owned ones
+};
+
+/// A way of taking steps that are the same size at all nodes.
+class TimeScheme {
+ public:
+  virtual ~TimeScheme() = default;
+
+  /// How long the next step may be. *Collective.*
+  virtual double longest_step() = 0;
+
+  /// `fluxes` are those of the states; the residual is evaluated at others. *Collective.*
+  virtual void advance(double step, const std::vector<Flux>& fluxes) = 0;
+
+  virtual bool is_implicit() const = 0;
+  /// Of an implicit scheme: steps whose equations were not solved to its tolerance.
+  virtual int unsolved() const { return 0; }
+};
+
+/// Implicit steps of this size, or explicit ones of this CFL number. *Collective.*
+std::unique_ptr<TimeScheme> time_scheme(const TimeRun& run, std::optional<double> step, double cfl);
+
+}  // namespace quadloop::euler
