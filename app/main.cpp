@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
@@ -6,13 +7,13 @@
 #include <array>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <new>
 #include <string_view>
 
 #include "app/closing.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/heap.hpp"
 #include "app/lone_process.hpp"
 #include "io/files/interruption.hpp"
 #include "io/files/reading/input_file.hpp"
@@ -128,12 +129,22 @@ Outcome recorded_run(int argc, char** argv, const Communicator& comm) {
   return outcome;
 }
 
+/// Arrays of many megabytes come and go between the stages: kept, their pages need not be asked for and
+/// cleared again each time (a seventh of the run for a million cells).
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_TOP_PAD, 1 << 26);
+#endif
+}
+
 }  // namespace
 
 }  // namespace quadloop
 
 int main(int argc, char** argv) {
-  quadloop::set_up_heap();
+  quadloop::keep_freed_memory();
   const quadloop::MpiGuard mpi(argc, argv);
   quadloop::remove_temporaries_when_killed();
   quadloop::add_gis_formats();

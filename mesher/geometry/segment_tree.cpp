@@ -4,7 +4,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::int32_t longest_run = 8;
+constexpr std::int32_t longest_run = 16;
 
 }  // namespace
 

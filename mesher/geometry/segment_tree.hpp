@@ -10,7 +10,7 @@
 namespace quadloop {
 
 /// The segments of an outline whose boxes meet a box. As an outline's neighbours lie beside each other
-/// anyway, runs of them are indexed, not each (as in an arc tree, Günther 1988): 8 bytes a segment. O(log n +
+/// anyway, runs of them are indexed, not each (as in an arc tree, Günther 1988): 4 bytes a segment. O(log n +
 /// k) for k segments in the runs found. The geometry must outlive it.
 class SegmentTree {
  public:

@@ -12,6 +12,8 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
     : rules_{outline, lattice, options, std::move(unresolved), demanded}, corners_{rules_.sized_corners()} {
   Node whole;
   whole.segments_end = outline.geometry().size();
+  constexpr std::size_t levels = 6;  // with all segments on each; room that is not filled takes no memory
+  segments_.reserve(levels * outline.geometry().size());
   whole.corners_end = size32(corners_);
   for (int ty = 0; ty < lattice.trees_y(); ++ty) {
     for (int tx = 0; tx < lattice.trees_x(); ++tx) {

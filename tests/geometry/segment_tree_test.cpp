@@ -27,7 +27,7 @@ Geometry stars(const std::vector<std::int32_t>& sizes) {
 }
 
 TEST(SegmentTree, FindsWhatMeetsABoxAndNothingElse) {
-  const Geometry g = stars({3, 8, 9, 16, 100, 5});
+  const Geometry g = stars({3, 8, 16, 17, 100, 5});
   const SegmentTree tree(g);
   for (double x = 0; x < 22; x += 0.13) {
     for (const double width : {0.0, 0.05, 1.0, 9.0}) {
