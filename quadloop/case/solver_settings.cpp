@@ -150,6 +150,22 @@ std::vector<std::string> idle_wall_temperatures(const SolverSettings& settings) 
   return warnings;
 }
 
+std::vector<std::string> exits_into_vacuum(const SolverSettings& settings,
+                                           const std::vector<BoundaryRule>& rules) {
+  if (!settings.given || settings.kind != SolverSettings::Kind::euler || settings.euler.mach >= 1) return {};
+  std::vector<std::string> warnings;
+  for (const BoundaryRule& rule : rules) {
+    const bool has_pressure = std::ranges::any_of(settings.pressures, [&](const OutflowPressure& outflow) {
+      return matches(outflow.pattern, rule.pattern);
+    });
+    if (rule.condition == "outflow" && !has_pressure)
+      warnings.push_back(rule.where +
+                         " is an outflow without a pressure: gas slower than sound leaves there as into a "
+                         "vacuum; set pressure = 1 for that of the free stream");
+  }
+  return warnings;
+}
+
 EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
                            const Mesh& mesh) {
   std::vector<std::string> names;

@@ -46,6 +46,11 @@ void read_solver_table(const CaseTable& root, SolverSettings& settings);
 /// A warning for each wall temperature that the built-in solver's flow does not feel, as it has no viscosity.
 std::vector<std::string> idle_wall_temperatures(const SolverSettings& settings);
 
+/// A warning for each rule by which the built-in solver's gas leaves without a pressure, where the free
+/// stream is slower than sound.
+std::vector<std::string> exits_into_vacuum(const SolverSettings& settings,
+                                           const std::vector<BoundaryRule>& rules);
+
 /// The options with what the case's rules say of the mesh's boundaries; where they are silent the mesh's own
 /// conditions stand.
 EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,

@@ -373,22 +373,6 @@ TEST_F(SettingsTest, AReynoldsNumberSetsTheViscosity) {
   EXPECT_EQ(read("").solver.euler.viscosity, 0);
 }
 
-TEST_F(SettingsTest, WallsMayHaveATemperature) {
-  const Settings s = read(
-      "[boundary.\"b*\"]\nbc = \"wall\"\nwall_temperature = 2\n[boundary.box]\nbc = \"wall\"\n"
-      "wall_temperature = 0.5\n");
-  Mesh mesh;
-  mesh.boundaries = {{"box", "none", {}}, {"bottom", "none", {}}, {"other", "wall", {}}};
-  const std::vector<BoundaryChoice> choices = euler_options(s.solver, s.outline.rules, mesh).boundaries;
-  EXPECT_EQ(choices[0].temperature, 0.5);
-  EXPECT_EQ(choices[1].temperature, 2);
-  EXPECT_FALSE(choices[2].temperature);
-  ASSERT_EQ(s.warnings.size(), 2U) << "of one each";
-  EXPECT_NE(s.warnings[0].find("'boundary.b*.wall_temperature' does nothing"), std::string::npos);
-  EXPECT_TRUE(
-      read("[boundary.box]\nbc = \"wall\"\nwall_temperature = 2\n[solver]\nreynolds = 9\n").warnings.empty());
-}
-
 TEST_F(SettingsTest, NeedsAGeometry) {
   const std::string path = folder_.write("none.toml", "title = \"x\"\n");
   EXPECT_EQ(test::refusal(folder_, [&] { read_settings(path, {}); }).find("none.toml"), 0u);
