@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "flow/euler/scheme/viscous.hpp"
 
@@ -12,6 +13,7 @@ namespace quadloop::euler {
 namespace {
 
 constexpr double largest_cfl = 0.8;
+constexpr int most_halvings = 8;
 
 /// One stage of a step: the step's start and the stage before it advanced by an Euler step, mixed.
 struct Stage {
@@ -72,11 +74,23 @@ double RungeKutta::longest_step() {
   return cfl_ * run_.comm.minimum(step);
 }
 
-void RungeKutta::advance(double step, const std::vector<Flux>& fluxes) {
+void RungeKutta::advance(double step, const std::vector<Flux>& fluxes) { take(step, fluxes, most_halvings); }
+
+void RungeKutta::take(double step, const std::vector<Flux>& fluxes, int halvings) {
+  const std::vector<State> before = run_.states;
   for (std::size_t node = 0; node < start_.size(); ++node)
-    start_[node] = run_.model.gas.conserved(run_.states[node]);
+    start_[node] = run_.model.gas.conserved(before[node]);
   for (std::size_t k = 0; k < stages.size(); ++k)
     advance_stage(run_, stages[k], step, start_, k == 0 ? fluxes : run_.residual.evaluate(run_.states));
+  if (halvings == 0 || is_gas_everywhere()) return;
+  run_.states = before;
+  for (int half = 0; half < 2; ++half) take(0.5 * step, run_.residual.evaluate(run_.states), halvings - 1);
+}
+
+bool RungeKutta::is_gas_everywhere() const {
+  const std::span<const State> own = std::span(run_.states).first(start_.size());
+  return !run_.comm.any(
+      std::ranges::any_of(own, [](const State& state) { return !(state[0] > 0) || !(state[3] > 0); }));
 }
 
 }  // namespace quadloop::euler

@@ -6,7 +6,8 @@
 
 namespace quadloop::euler {
 
-/// Explicit steps of order 3, strong stability preserving (Shu and Osher 1988).
+/// Explicit steps of order 3, strong stability preserving (Shu and Osher 1988). One that leaves a node
+/// without density or pressure, as an expansion round a corner may when it begins, is taken in halves.
 class RungeKutta : public TimeScheme {
  public:
   /// Of a larger `cfl` 0.8 is used.
@@ -17,6 +18,10 @@ class RungeKutta : public TimeScheme {
   bool is_implicit() const override { return false; }
 
  private:
+  void take(double step, const std::vector<Flux>& fluxes, int halvings);
+  /// Density and pressure are above 0 in every node. *Collective.*
+  bool is_gas_everywhere() const;
+
   TimeRun run_;
   double cfl_;
   std::vector<double> wave_sums_;

@@ -117,6 +117,21 @@ TEST(RungeKutta, IsOfOrderThree) {
   EXPECT_GT(coarse / fine, 6.5);
 }
 
+/// Gas beside all but a vacuum, in a step eight times as long as is stable: in halves it is not.
+TEST(RungeKutta, TakesAStepInHalvesRatherThanLeaveNoGas) {
+  VortexRun run;
+  for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
+    if (run.dual.point(node).x > 5) run.states[node] = {0.05, 0, 0, 0.02};
+  }
+  RungeKutta scheme(run.in_time(), 0.8);
+  const double step = 8 * scheme.longest_step();
+  scheme.advance(step, run.residual.evaluate(run.states));
+  for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
+    EXPECT_GT(run.states[node][0], 0) << node;
+    EXPECT_GT(run.states[node][3], 0) << node;
+  }
+}
+
 TEST(TimeScheme, IsImplicitWhereAStepIsGiven) {
   VortexRun run;
   EXPECT_TRUE(time_scheme(run.in_time(), 0.5, 20)->is_implicit());
