@@ -80,6 +80,7 @@ FlowSolver rough_solver(const AdaptiveCase& adaptive) {
   QUADLOOP_REQUIRE(options != nullptr, "passes are for the built-in solver");
   EulerOptions rough = *options;
   rough.tolerance = std::max(rough.tolerance, enough);
+  rough.unsteady = EulerOptions::Unsteady::stop;
   if (adaptive.adapt.source != AdaptOptions::Source::error) rough.goals.clear();
   return euler_solver(rough, estimate_goals(rough));
 }

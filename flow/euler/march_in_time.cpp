@@ -38,6 +38,7 @@ class TimeMarch {
       const double left = plan_.end - result_.time, full = scheme_->longest_step();
       const bool last = full >= left * (1 - 1e-9);
       const double step = last ? left : full;
+      require_progress(step);
       before = count(before, step);
       scheme_->advance(step, fluxes);
       longest_ = std::max(longest_, step);
@@ -55,12 +56,19 @@ class TimeMarch {
       throw SolverError(
           fmt::format("the flow solver failed at time {:.6g} {}; look at the boundary conditions and the "
                       "cells there, or try a smaller {}",
-                      result_.time, worst_place(run_, fluxes), scheme_->is_implicit() ? "time_step" : "cfl"));
+                      result_.time, worst_place(run_, fluxes),
+                      scheme_->is_implicit() ? "time_step" : "cfl, or implicit steps by a time_step"));
     }
     if (reference_ == 0) reference_ = norm;
     result_.residual = reference_ > 0 ? norm / reference_ : 0;
     is_steady_ = plan_.tolerance > 0 && result_.residual <= plan_.tolerance;
     result_.converged = result_.time >= plan_.end || is_steady_;
+  }
+
+  void require_progress(double step) const {
+    if (result_.time + step > result_.time) return;
+    throw SolverError(fmt::format("steps of {:.3g} do not move the time {:.6g} on; try a larger {}", step,
+                                  result_.time, scheme_->is_implicit() ? "time_step" : "cfl"));
   }
 
   /// The flow counts for half the step to it and half the one from it, by trapezia. Returns the latter.
@@ -77,6 +85,8 @@ class TimeMarch {
     if (is_steady_ || !plan_.average_from) return;
     if (before > 0)
       average_.add(run_.states, run_.residual.friction(), run_.mesh.owned_nodes(), 0.5 * before);
+    else if (average_.empty())  // the last step was longer than all the time of the means
+      average_.add(run_.states, run_.residual.friction(), run_.mesh.owned_nodes(), 1);
     UnsteadyFlow flow = unsteady_flow(result_.history, *plan_.average_from);
     flow.steps = steps();
     flow.longest_step = longest_;

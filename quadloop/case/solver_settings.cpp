@@ -51,7 +51,8 @@ void read_time(const CaseTable& table, EulerOptions& options) {
                  "does nothing with time = \"accurate\", which goes on in time anyway; leave it out");
   if (carries_on && options.mach == 0)
     table.refuse("unsteady", "needs a mach above 0, as its length is counted in flow-through times");
-  options.flow_throughs = table.number("flow_throughs", Range::positive()).value_or(options.flow_throughs);
+  options.flow_throughs =
+      table.number("flow_throughs", {0, 1e6, true, false}).value_or(options.flow_throughs);
   if (table.has("flow_throughs") && !carries_on)
     table.refuse("flow_throughs", "does nothing without unsteady = \"carry_on\"");
   options.time_step = table.number("time_step", Range::positive());

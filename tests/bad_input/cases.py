@@ -72,6 +72,7 @@ CASES = [
     case_file("unknown way with unsteady flows", CASE + "[solver]\nunsteady = \"go_on\"\n", "case.toml:7:", "unsteady", "stop, carry_on"),
     case_file("carried on twice", CASE + "[solver]\ntime = \"accurate\"\nend_time = 1\nunsteady = \"carry_on\"\n", "case.toml:9:", "unsteady"),
     case_file("carried on at rest", CASE + "[solver]\nmach = 0\nunsteady = \"carry_on\"\n", "case.toml:8:", "unsteady", "mach"),
+    case_file("endless flow-throughs", CASE + "[solver]\nunsteady = \"carry_on\"\nflow_throughs = 1e300\n", "case.toml:8:", "flow_throughs"),
     case_file("flow-throughs of a steady flow", CASE + "[solver]\nflow_throughs = 9\n", "case.toml:7:", "flow_throughs", "carry_on"),
     case_file("time step of a steady flow", CASE + "[solver]\ntime_step = 0.1\n", "case.toml:7:", "time_step"),
     case_file("means over no time", CASE + "[solver]\ntime = \"accurate\"\nend_time = 2\naverage_from = 2\n", "case.toml:9:", "average_from", "end_time"),

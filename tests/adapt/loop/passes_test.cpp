@@ -72,6 +72,8 @@ TEST(Passes, EndWhereAFlowAsksForNoOtherMesh) {
   const Mesh& mesh = first.generated.result.mesh;
   EXPECT_EQ(world().sum(std::int64_t{mesh.owned_nodes}), first.passes.at(0).nodes);
   EXPECT_EQ(first.start.values, std::vector<double>(mesh.owned_nodes, 3.0));
+  const std::vector<std::pair<std::string, double>> none{{"q", 0.0}};
+  EXPECT_EQ(first.drifts(), none);
   const std::vector<std::string>& warnings = first.generated.result.report.warnings;
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_TRUE(warnings[0].starts_with("pass 1: no leaf is marked")) << warnings[0];
