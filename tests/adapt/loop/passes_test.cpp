@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -13,13 +14,7 @@ namespace {
 
 using test::world;
 
-const MeshInput square_input = [] {
-  const std::vector<Point> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  MeshInput input{
-      {{{"side", 0, 30, "wall"}}, corners, {0, 4}, std::vector<BoundaryId>(4, BoundaryId{0})}, {}, {}, 0};
-  input.mesh.size.min = input.mesh.size.max = 0.125;
-  return input;
-}();
+const MeshInput square_input = test::square_input(0.125);
 
 AdaptOptions options_of(int passes) {
   AdaptOptions options;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mesher/generate/generate.hpp"
+#include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -14,15 +15,7 @@ namespace {
 using test::world;
 
 Mesh squares(double size) {
-  MeshInput input{{{{"side", 0, 30, "wall"}},
-                   {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
-                   {0, 4},
-                   std::vector<BoundaryId>(4, BoundaryId{0})},
-                  {},
-                  {},
-                  0};
-  input.mesh.size.min = input.mesh.size.max = size;
-  return generate_mesh(world(), input).result.mesh;
+  return generate_mesh(world(), test::square_input(size)).result.mesh;
 }
 
 /// Second derivatives along x that grow towards x = 0.
