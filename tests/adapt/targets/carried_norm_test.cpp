@@ -14,9 +14,7 @@ namespace {
 
 using test::world;
 
-Mesh squares(double size) {
-  return generate_mesh(world(), test::square_input(size)).result.mesh;
-}
+Mesh squares(double size) { return generate_mesh(world(), test::square_input(size)).result.mesh; }
 
 /// Second derivatives along x that grow towards x = 0.
 std::vector<Symmetric> bends_on(const Mesh& mesh) {
