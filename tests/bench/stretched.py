@@ -16,13 +16,14 @@ of the root of the ratio of the moments of their edges.
 import argparse
 import json
 import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
 
+import bamg
+from bamg import run
 from figures import add_update, tell
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -30,8 +31,8 @@ sys.path.insert(0, str(ROOT / "tests" / "cases"))
 from front_error import read_native  # noqa: E402
 
 CASE = ROOT / "cases" / "naca0012_m08" / "metric.toml"
-VARIABLES, LEAST, RATIO, LARGEST, FAR = ("density", "y_velocity"), 0.002, 1.6, 20.0, 50.0
-NAMES = ("airfoil", "farfield")
+VARIABLES, FAR, NAMES = ("density", "y_velocity"), 50.0, ("airfoil", "farfield")
+BOUNDS = bamg.Bounds(least=0.002, largest=20.0, ratio=1.6)
 
 
 def stretch_at_shock(path):
@@ -47,10 +48,6 @@ def stretch_at_shock(path):
 
 def row(name, cycle, nodes, record, path):
     return f"| {name} | {cycle} | {nodes} | {record['cl']:.4f} | {record['cd']:.5f} | {record['residual']:.0e} | {stretch_at_shock(path):.1f} |"
-
-
-def run(*command, where):
-    return subprocess.run([str(word) for word in command], cwd=where, capture_output=True, text=True, check=False)
 
 
 # --- quadloop
@@ -69,81 +66,30 @@ def own_loop(program, name, settings, nodes, cycles, folder):
 
 # --- BAMG
 
-def write_outline(path):
+def outline_of_case():
     """The airfoil of the case, clockwise from its trailing edge, and the far field, with sizes for a first mesh."""
     x = 0.5 * (1 - np.cos(np.pi * np.arange(401) / 400))
     y = 0.6 * (0.2969 * np.sqrt(x) - 0.1260 * x - 0.3516 * x**2 + 0.2843 * x**3 - 0.1036 * x**4)
     y[-1] = 0
     airfoil = np.vstack([np.c_[x, -y][::-1][:-1], np.c_[x, y][:-1]])
-    points = np.vstack([airfoil, [[-FAR, -FAR], [FAR, -FAR], [FAR, FAR], [-FAR, FAR]]])
     count = len(airfoil)
     from_ends = np.minimum(np.hypot(*airfoil.T), np.hypot(airfoil[:, 0] - 1, airfoil[:, 1]))
-    sizes = [*np.minimum(0.05, 0.008 + 0.1 * from_ends), *[LARGEST] * 4]
     edges = [(i, (i + 1) % count, 1) for i in range(count)] + [(count + i, count + (i + 1) % 4, 2) for i in range(4)]
-    with open(path, "w", encoding="ascii") as file:
-        file.write("MeshVersionFormatted 0\nDimension 2\nAngleOfCornerBound 30\n")
-        file.write(f"Vertices {len(points)}\n" + "".join(f"{p[0]!r} {p[1]!r} 0\n" for p in points.tolist()))
-        file.write(f"Edges {len(edges)}\n" + "".join(f"{a + 1} {b + 1} {mark}\n" for a, b, mark in edges))
-        file.write("hVertices\n" + "".join(f"{size:.8g}\n" for size in sizes))
-        file.write(f"Corners 5\n1\n{count + 1}\n{count + 2}\n{count + 3}\n{count + 4}\nSubDomain 1\n2 1 1 0\nEnd\n")
+    return bamg.Outline(np.vstack([airfoil, [[-FAR, -FAR], [FAR, -FAR], [FAR, FAR], [-FAR, FAR]]]), edges, NAMES,
+                        [*np.minimum(0.05, 0.008 + 0.1 * from_ends), *[BOUNDS.largest] * 4], [0, *range(count, count + 4)])
 
 
-def read_bamg(path):
-    words = path.read_text().split()
-
-    def table(title, width, kind):
-        at = words.index(title) + 1
-        return np.array(words[at + 1:at + 1 + int(words[at]) * width], dtype=kind).reshape(-1, width)
-    return table("Vertices", 3, float)[:, :2], table("Triangles", 4, int)[:, :3], table("Edges", 3, int)
-
-
-def write_native(mesh, path):
-    points, triangles, edges = mesh
-    directed = {pair for t in triangles.tolist() for pair in zip(t, t[1:] + t[:1])}
-    with open(path, "w", encoding="ascii") as file:
-        file.write(f"{len(points)}\n" + "".join(f"{x!r} {y!r}\n" for x, y in points.tolist()))
-        file.write(f"1\n{len(triangles)}\n" + "".join("{} {} {}\n".format(*t) for t in triangles.tolist()) + f"0\n{len(NAMES)}\n")
-        for mark, name in enumerate(NAMES, 1):
-            own = [(a, b) if (a, b) in directed else (b, a) for a, b, m in edges.tolist() if m == mark]
-            file.write(f"#Number of edges for boundary {mark} ({name})\n{len(own)}\n" + "".join(f"{a} {b}\n" for a, b in own))
-
-
-def write_background(mesh, path):
-    """Without the outline: with it BAMG 1.02 ends in a fault of memory. It takes walls to be smooth through the mesh's own nodes."""
-    points, triangles, edges = mesh
-    with open(path, "w", encoding="ascii") as file:
-        file.write(f"{len(points)} {len(triangles)} {len(edges)}\n" + "".join(f"{x!r} {y!r} 0\n" for x, y in points.tolist()))
-        file.write("".join("{} {} {} 0\n".format(*t) for t in triangles.tolist()) + "".join("{} {} {}\n".format(*e) for e in edges.tolist()))
-
-
-def adapted(program, folder, mesh, flow, wanted):
-    write_background(mesh, folder / "background.msh")
-    values = np.stack([flow[name] for name in VARIABLES], axis=1)
-    (folder / "flow.bb").write_text(f"2 {len(VARIABLES)} {len(values)} 2\n" + "".join(" ".join(map(repr, v)) + "\n" for v in values.tolist()))
-    low, high = 1e-5, 1.0
-    for _ in range(25):
-        error = (low * high) ** 0.5
-        run(program, "-b", "background.msh", "-thetamax", 30, "-Mbb", "flow.bb", "-o", "next.msh", "-err", error, "-hminaniso", LEAST,
-            "-hmax", LARGEST, "-ratio", RATIO, "-nbv", 100000, "-v", 0, where=folder)
-        made = read_bamg(folder / "next.msh")
-        if 0.95 * wanted <= len(made[0]) <= wanted:
-            break
-        low, high = (error, high) if len(made[0]) > wanted else (low, error)
-    return made
-
-
-def bamg_loop(program, bamg, nodes, cycles, folder):
-    write_outline(folder / "outline.msh")
-    run(bamg, "-g", "outline.msh", "-o", "next.msh", "-hmax", LARGEST, "-ratio", RATIO, "-v", 0, where=folder)
-    mesh = read_bamg(folder / "next.msh")
+def bamg_loop(program, nodes, cycles, folder):
+    mesh = bamg.first_mesh(outline_of_case(), BOUNDS, folder)
     for cycle in range(cycles + 1):
-        write_native(mesh, folder / "mesh.mesh")
+        bamg.write_native(mesh, NAMES, folder / "mesh.mesh")
         done = run(program, "--json", "solve", CASE, "mesh.mesh", "-o", "flow.mesh", where=folder)
         if done.returncode != 0:
             sys.exit(done.stderr)
         yield row("BAMG", cycle, len(mesh[0]), json.loads(done.stdout), folder / "flow.mesh")
         if cycle < cycles:
-            mesh = adapted(bamg, folder, mesh, read_native(folder / "flow.mesh")[2], nodes)
+            flow = read_native(folder / "flow.mesh")[2]
+            mesh = bamg.adapted(mesh, [flow[name] for name in VARIABLES], nodes, BOUNDS, folder)
 
 
 def main():
@@ -154,11 +100,11 @@ def main():
     parser.add_argument("--only", default="")
     add_update(parser)
     args = parser.parse_args()
-    program, bamg = args.quadloop.resolve(), shutil.which("ffbamg") or shutil.which("bamg")
+    program = args.quadloop.resolve()
     loops = {"metric": lambda nodes, folder: own_loop(program, "metric", [], nodes, args.cycles, folder),
              "equal sides": lambda nodes, folder: own_loop(program, "equal sides", ['mesh.type="delaunay"'], nodes, args.cycles, folder)}
-    if bamg:
-        loops["BAMG"] = lambda nodes, folder: bamg_loop(program, bamg, nodes, args.cycles, folder)
+    if bamg.PROGRAM:
+        loops["BAMG"] = lambda nodes, folder: bamg_loop(program, nodes, args.cycles, folder)
     rows = ["flows to a residual of 1e-8", "",
             "| mesh | cycle | nodes | CL | CD | residual | stretch at the shock |", "| --- " * 7 + "|"]
     for nodes in args.nodes:
