@@ -47,9 +47,10 @@ std::vector<char> irregular_leaves(const Communicator& comm, const LeafGraph& gr
   }
   GhostExchange(comm, graph).update(is_cut);
   std::vector<char> irregular = is_cut;
+  LeafFinder finder(graph);
   for (const LeafId leaf : graph.all()) {
     if (is_cut[leaf.value()] == 0) continue;
-    for_touching_leaves(graph, leaf, [&](LeafId other) { irregular[other.value()] = 1; });
+    for_touching_leaves(finder, leaf, [&](LeafId other) { irregular[other.value()] = 1; });
   }
   const auto first = irregular.begin() + graph.local_begin();
   return {first, first + graph.local_size()};
@@ -75,7 +76,7 @@ struct PlacedTriangle {
 class LeafTriangles {
  public:
   LeafTriangles(const Lattice& lattice, const LeafGraph& graph, Mesh& mesh)
-      : lattice_{lattice}, graph_{graph}, mesh_{mesh} {}
+      : lattice_{lattice}, graph_{graph}, finder_{graph}, mesh_{mesh} {}
 
   /// *Collective.*
   void share_out(const Communicator& comm, const std::vector<char>& irregular,
@@ -90,7 +91,7 @@ class LeafTriangles {
     NodeTable table(mesh_);
     for (const FreeTriangle& t : on_their_way_.deliver(comm)) {
       const auto [column, row] = square_of(t.points);
-      PlacedTriangle placed{graph_.local_index(graph_.leaf_at(column, row)), t.nodes, {}};
+      PlacedTriangle placed{graph_.local_index(finder_.leaf_at(column, row)), t.nodes, {}};
       for (std::size_t k = 0; k < 3; ++k) placed.nodes[k] = table.local(t.nodes[k], t.points[k]);
       placed_.push_back(placed);
     }
@@ -126,7 +127,7 @@ class LeafTriangles {
       t.points[k] = mesh_.point(nodes[k]);
     }
     const auto [column, row] = square_of(t.points);
-    const LeafId leaf = holds(graph_.leaf(slot), column, row) ? slot : graph_.leaf_at(column, row);
+    const LeafId leaf = holds(graph_.leaf(slot), column, row) ? slot : finder_.leaf_at(column, row);
     if (graph_.is_local(leaf)) {
       placed_.push_back({graph_.local_index(leaf), t.nodes, nodes});
     } else {
@@ -148,6 +149,7 @@ class LeafTriangles {
 
   const Lattice& lattice_;
   const LeafGraph& graph_;
+  LeafFinder finder_;
   Mesh& mesh_;
   std::vector<PlacedTriangle> placed_;
   Outbox<FreeTriangle> on_their_way_;

@@ -47,6 +47,7 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
   Captures captures = capture_points(graph, lattice, geometry, traced, share);
   drop_taken(captures.edges, sights);
   std::vector<Snap> snaps = std::move(captures.edges);
+  LeafFinder finder(graph);
   auto captured = captures.corners.begin();
   for (std::size_t begin = 0, end = 0; begin < sights.size() || captured != captures.corners.end();
        begin = end) {
@@ -56,7 +57,7 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
     while (end < sights.size() && sights[end].corner == corner) ++end;
     const auto seen = std::span<const Sight>(sights).subspan(begin, end - begin);
     if (!is_captured && !may_claim(seen, share)) continue;
-    const SightedCorner sighted{corner, lattice.corner(corner), shortest_edge_at(graph, lattice, corner),
+    const SightedCorner sighted{corner, lattice.corner(corner), shortest_edge_at(finder, lattice, corner),
                                 seen, mirror};
     auto snap = is_captured ? snap_captured(geometry, traced.traces, sighted, share, *captured++)
                             : snap_corner(geometry, traced.traces, sighted, share);

@@ -85,8 +85,9 @@ TEST(LeafEdge, ASideWithAHangingNodeIsTwoEdges) {
 
 TEST(LeafEdge, TheSmallestLeafAtACornerCounts) {
   const TracedLeaves leaves(above(), {{0, 0}, {2, 4}});
+  LeafFinder finder(leaves.graph);
   const auto shortest = [&](std::int64_t x, std::int64_t y) {
-    return shortest_edge_at(leaves.graph, leaves.lattice, at(x, y));
+    return shortest_edge_at(finder, leaves.lattice, at(x, y));
   };
   if (leaves.at_local_leaf(at(2, 2))) {
     EXPECT_EQ(shortest(2, 2), 1);
