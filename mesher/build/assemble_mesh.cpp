@@ -37,8 +37,8 @@ class Assembler {
     const SideSet hanging = graph_.around(leaf).finer;
     const auto node = [&](Site site) { return numbers_.of_leaf(leaf, site); };
     if (hanging.empty()) {
-      add_quad(leaf,
-               {node(Site::south_west), node(Site::south_east), node(Site::north_east), node(Site::north_west)});
+      add_quad(leaf, {node(Site::south_west), node(Site::south_east), node(Site::north_east),
+                      node(Site::north_west)});
       return;
     }
     for (const SiteTriangle& t : hanging_template(hanging))

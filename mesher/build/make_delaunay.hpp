@@ -14,9 +14,9 @@ namespace quadloop {
 /// order of cells does not depend on the number of ranks. *Collective.*
 ///
 /// In a leaf that is not cut, nor any around it, the triangles are constrained Delaunay already, with the
-/// diagonals that assemble_mesh gives squares: no circumcircle reaches beyond the leaves that touch. Of the others' triangles,
-/// edges that are not Delaunay are flipped wherever that leads; the result being unique, no rank needs to
-/// know where others began.
+/// diagonals that assemble_mesh gives squares: no circumcircle reaches beyond the leaves that touch. Of the
+/// others' triangles, edges that are not Delaunay are flipped wherever that leads; the result being unique,
+/// no rank needs to know where others began.
 void make_delaunay(const Communicator& comm, const Lattice& lattice,
                    const std::function<TieRank(Point)>& rank_of, const LeafGraph& graph, const CutForest& cut,
                    Mesh& mesh, std::vector<LeafRecord>& leaves);

@@ -7,8 +7,8 @@
 
 namespace quadloop {
 
-/// Looks leaves up by a place in them, one after another; few steps each where they lie near each other, as it
-/// remembers the way down to the last one.
+/// Looks leaves up by a place in them, one after another; few steps each where they lie near each other, as
+/// it remembers the way down to the last one.
 class LeafFinder {
  public:
   /// `graph` must outlive it.

@@ -53,8 +53,7 @@ class PointCapture {
   }
 
   /// The edge of the leaf that is near enough, with the crossings that it loses to the point.
-  std::optional<Snap> edge_near(LeafId leaf, std::int32_t vertex, const LeafTrace& view,
-                                const Piece& piece) {
+  std::optional<Snap> edge_near(LeafId leaf, std::int32_t vertex, const LeafTrace& view, const Piece& piece) {
     const Point p = geometry_.point(vertex);
     LeafEdge nearest;
     bool contested = false;
@@ -147,7 +146,7 @@ class PointCapture {
 /// Of those that claim one corner the nearest has it; none where two are equally near.
 std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
   std::sort(claims.begin(), claims.end(), [](const CornerCapture& a, const CornerCapture& b) {
-    return a.corner != b.corner ? a.corner < b.corner : a.distance < b.distance;
+    return a.corner != b.corner ? comes_earlier(a.corner, b.corner) : a.distance < b.distance;
   });
   std::vector<CornerCapture> settled;
   for (std::size_t begin = 0, end = 0; begin < claims.size(); begin = end) {
