@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/forest/leaf_finder.hpp"
 #include "mesher/snap/snap_corners.hpp"
 #include "tests/support/world.hpp"
 
