@@ -14,11 +14,12 @@ namespace {
 class Assembler {
  public:
   Assembler(const Geometry& geometry, const LeafGraph& graph, const CutForest& cut,
-            const NodeNumbering& numbers, MeshResult& result)
+            const NodeNumbering& numbers, bool triangles_alone, MeshResult& result)
       : geometry_{geometry},
         graph_{graph},
         cut_{cut},
         numbers_{numbers},
+        triangles_alone_{triangles_alone},
         mesh_{result.mesh},
         edge_leaves_{result.edge_leaves} {
     edge_leaves_.resize(geometry.boundaries().size());
@@ -36,8 +37,8 @@ class Assembler {
     const SideSet hanging = graph_.around(leaf).finer;
     const auto node = [&](Site site) { return numbers_.of_leaf(leaf, site); };
     if (hanging.empty()) {
-      mesh_.quads.push_back(
-          {node(Site::south_west), node(Site::south_east), node(Site::north_east), node(Site::north_west)});
+      add_quad(leaf, {node(Site::south_west), node(Site::south_east), node(Site::north_east),
+                      node(Site::north_west)});
       return;
     }
     for (const SiteTriangle& t : hanging_template(hanging))
@@ -51,7 +52,7 @@ class Assembler {
       mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
     }
     for (const auto& q : CutForest::part(cut_.quads, begin.quads, end.quads)) {
-      mesh_.quads.push_back({node(q[0]), node(q[1]), node(q[2]), node(q[3])});
+      add_quad(leaf, {node(q[0]), node(q[1]), node(q[2]), node(q[3])});
     }
     for (const auto& e : CutForest::part(cut_.outline, begin.outline, end.outline)) {
       const BoundaryId boundary = geometry_.boundary_of(e.segment);
@@ -60,10 +61,25 @@ class Assembler {
     }
   }
 
+  /// A square's corner with the most trailing zeros in its coordinates is the one shared with the parent.
+  void add_quad(LeafId leaf, const std::array<NodeId, 4>& nodes) {
+    const auto& [a, b, c, d] = nodes;
+    const Quadrant& q = graph_.leaf(leaf);
+    const bool rising = ((q.x & q.size()) != 0) == ((q.y & q.size()) != 0);
+    if (!triangles_alone_) {
+      mesh_.quads.push_back(nodes);
+    } else if (rising) {
+      mesh_.triangles.insert(mesh_.triangles.end(), {{a, b, c}, {a, c, d}});
+    } else {
+      mesh_.triangles.insert(mesh_.triangles.end(), {{a, b, d}, {b, c, d}});
+    }
+  }
+
   const Geometry& geometry_;
   const LeafGraph& graph_;
   const CutForest& cut_;
   const NodeNumbering& numbers_;
+  bool triangles_alone_;
   Mesh& mesh_;
   std::vector<std::vector<std::int32_t>>& edge_leaves_;
 };
@@ -83,13 +99,14 @@ LeafRecord record_of(const Quadrant& q, int wanted) {
 }  // namespace
 
 void assemble_mesh(const Communicator& comm, const Geometry& geometry, const SizeTree& sizes,
-                   const LeafGraph& graph, const CutForest& cut, MeshResult& result) {
+                   const LeafGraph& graph, const CutForest& cut, bool triangles_alone, MeshResult& result) {
   NodeNumbering numbers(comm, sizes.lattice(), graph, cut);
   Mesh& mesh = result.mesh;
   const auto inside = std::count(cut.states.begin(), cut.states.end(), CutForest::State::inside);
-  mesh.quads.reserve(inside + cut.quads.size());
-  mesh.triangles.reserve(inside / 2 + cut.triangles.size());
-  Assembler assembler(geometry, graph, cut, numbers, result);
+  if (!triangles_alone) mesh.quads.reserve(inside + cut.quads.size());
+  mesh.triangles.reserve((triangles_alone ? 3 * inside + 2 * size32(cut.quads) : inside / 2) +
+                         cut.triangles.size());  // room that is not filled takes no memory
+  Assembler assembler(geometry, graph, cut, numbers, triangles_alone, result);
   DemandPath demands(sizes.demanded());
   SizeCursor cursor(sizes);
   auto& leaves = result.tree.leaves;

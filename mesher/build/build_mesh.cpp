@@ -98,7 +98,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap, options.mirror);
 
   times.begin("mesh");
-  assemble_mesh(comm, geometry, sizes, graph, cut, result);
+  assemble_mesh(comm, geometry, sizes, graph, cut, has_triangles_alone(options.type), result);
   cut.drop_lists();
   report_losses(comm, geometry, result.mesh, options.may_vanish, result.report);
 

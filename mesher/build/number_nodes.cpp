@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/error.hpp"
+#include "mesher/forest/leaf_finder.hpp"
 
 namespace quadloop {
 
@@ -195,8 +196,9 @@ void NodeNumbering::number_owned() {
 
 /// Snapped corners are not where the lattice has them.
 void NodeNumbering::place_moved() {
+  LeafFinder finder(*graph_);
   for (const CutForest::Moved& m : cut_->moved) {
-    const auto [before, below, after, left] = graph_->leaves_round(m.corner);
+    const auto [before, below, after, left] = finder.leaves_round(m.corner);
     Home home{after, Site::south_west, {}};
     if (m.corner.x > 0 && m.corner.y > 0) {
       if (before == LeafGraph::none) continue;

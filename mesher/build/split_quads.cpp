@@ -24,24 +24,26 @@ bool takes_first_diagonal(const Corners& p, const std::function<TieRank(Point)>&
 
 }  // namespace
 
-void split_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
-                 const std::function<Diagonal(std::size_t, const std::array<NodeId, 4>&)>& choose) {
+void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
+                      const std::function<TieRank(Point)>& rank) {
   std::vector<std::array<NodeId, 3>> triangles;
   std::vector<std::array<NodeId, 4>> quads;
   triangles.reserve(mesh.triangles.size() + 2 * mesh.quads.size());
   auto triangle = mesh.triangles.cbegin();
   auto quad = mesh.quads.cbegin();
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    LeafRecord& leaf = leaves[i];
+  for (LeafRecord& leaf : leaves) {
     const std::int32_t triangles_before = size32(triangles), quads_before = size32(quads);
     triangles.insert(triangles.end(), triangle, triangle + leaf.triangles);
     triangle += leaf.triangles;
     for (const auto end = quad + leaf.quads; quad != end; ++quad) {
       const auto& [a, b, c, d] = *quad;
-      switch (choose(i, *quad)) {
-        case Diagonal::none: quads.push_back(*quad); break;
-        case Diagonal::first: triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}}); break;
-        case Diagonal::second: triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}}); break;
+      const Corners corners{mesh.point(a), mesh.point(b), mesh.point(c), mesh.point(d)};
+      if (is_parallelogram(corners)) {
+        quads.push_back(*quad);
+      } else if (takes_first_diagonal(corners, rank)) {
+        triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+      } else {
+        triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}});
       }
     }
     leaf.triangles = size32(triangles) - triangles_before;
@@ -49,15 +51,6 @@ void split_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
   }
   mesh.triangles = std::move(triangles);
   mesh.quads = std::move(quads);
-}
-
-void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
-                      const std::function<TieRank(Point)>& rank) {
-  split_quads(mesh, leaves, [&](std::size_t, const std::array<NodeId, 4>& quad) {
-    const Corners corners{mesh.point(quad[0]), mesh.point(quad[1]), mesh.point(quad[2]), mesh.point(quad[3])};
-    if (is_parallelogram(corners)) return Diagonal::none;
-    return takes_first_diagonal(corners, rank) ? Diagonal::first : Diagonal::second;
-  });
 }
 
 }  // namespace quadloop

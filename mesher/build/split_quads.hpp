@@ -11,19 +11,10 @@
 
 namespace quadloop {
 
-/// Of a quadrilateral: none, the first corner to the third, or the second to the fourth.
-enum class Diagonal : char { none, first, second };
-
-/// Divides the quadrilaterals by the diagonals that `choose` says, which is asked with the index of a leaf in
-/// `leaves` and the corners. The triangles stand behind those of their leaf, whose counts in `leaves` follow.
-/// Not collective.
-void split_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
-                 const std::function<Diagonal(std::size_t, const std::array<NodeId, 4>&)>& choose);
-
 /// Divides each quadrilateral that is no parallelogram (skew_of beyond parallel_skew) into two triangles, by
 /// the diagonal that is Delaunay; of four nodes on one circle by the one through the node of the highest
-/// rank. What schemes on median-dual cells make of a linear field is then exact at every inner node. Not
-/// collective.
+/// rank. What schemes on median-dual cells make of a linear field is then exact at every inner node. The
+/// triangles stand behind those of their leaf, whose counts in `leaves` follow. Not collective.
 void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves, const std::function<TieRank(Point)>& rank);
 
 }  // namespace quadloop

@@ -7,6 +7,7 @@
 #include "mesher/base/ids.hpp"
 #include "mesher/base/progress.hpp"
 #include "mesher/cut/opposed_chords.hpp"
+#include "mesher/forest/leaf_finder.hpp"
 #include "mesher/sizes/size_cursor.hpp"
 #include "mesher/snap/snap_corners.hpp"
 
@@ -68,8 +69,9 @@ class ForestCutter {
   /// Cuts again the leaves around the corners whose snaps were taken back.
   void cut_again(const std::vector<LeafSnap>& snaps, const std::vector<LatticePoint>& vetoes) {
     std::vector<LeafId> leaves;
+    LeafFinder finder(graph_);
     for (const LatticePoint corner : vetoes) {
-      const auto round = graph_.leaves_round(corner);
+      const auto round = finder.leaves_round(corner);
       leaves.insert(leaves.end(), round.begin(), round.end());
     }
     std::sort(leaves.begin(), leaves.end());
@@ -90,12 +92,12 @@ class ForestCutter {
 
   /// A chord along a side that meets one against it in the leaf across the side would swallow what lies
   /// between: the snaps at its ends are to be taken back. *Collective.*
-  void veto_opposed_chords(const Communicator& comm, const std::vector<Snap>& snaps) {
+  void veto_opposed_chords(const Communicator& comm, const std::vector<const Snap*>& snaps) {
     const OpposedChords opposed(comm, graph_, result_);
-    for (const Point p : opposed.ends()) {
-      for (const Snap& s : snaps) {
-        if (s.position == p) vetoes_.push_back(s.corner);
-      }
+    const std::vector<Point>& ends = opposed.ends();
+    if (ends.empty()) return;
+    for (const Snap* s : snaps) {
+      if (std::binary_search(ends.begin(), ends.end(), s->position)) vetoes_.push_back(s->corner);
     }
   }
 
@@ -207,25 +209,30 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const Siz
                      const ShiftedOutline& outline, const Interior& inside, double snap,
                      std::optional<MirrorAxis> mirror) {
   const TracedForest traced = trace_forest(graph, sizes, outline);
-  std::vector<Snap> snaps = choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap, mirror);
+  const std::vector<Snap> snaps =
+      choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap, mirror);
+  std::vector<const Snap*> standing;  // that no veto has taken back
+  for (const Snap& s : snaps) standing.push_back(&s);
   std::vector<LeafSnap> leaf_snaps = snaps_of_leaves(graph, snaps);
   ForestCutter cutter(graph, sizes.lattice(), outline, inside, traced);
   comm.together([&] { cutter.cut_all(leaf_snaps); });
   while (true) {
-    cutter.veto_opposed_chords(comm, snaps);
+    cutter.veto_opposed_chords(comm, standing);
     const std::vector<LatticePoint> own = cutter.take_vetoes();
     std::vector<LatticePoint> vetoes = comm.all_gather_values(std::span<const LatticePoint>(own));
     if (vetoes.empty()) break;
     std::sort(vetoes.begin(), vetoes.end());
     vetoes.erase(std::unique(vetoes.begin(), vetoes.end()), vetoes.end());
-    std::erase_if(snaps,
-                  [&](const Snap& s) { return std::binary_search(vetoes.begin(), vetoes.end(), s.corner); });
-    leaf_snaps = snaps_of_leaves(graph, snaps);
+    const auto vetoed = [&](const Snap* s) {
+      return std::binary_search(vetoes.begin(), vetoes.end(), s->corner);
+    };
+    std::erase_if(standing, vetoed);
+    std::erase_if(leaf_snaps, [&](const LeafSnap& s) { return vetoed(s.snap); });
     comm.together([&] { cutter.cut_again(leaf_snaps, vetoes); });
   }
   CutForest result = cutter.take_result();
-  for (const Snap& s : snaps) {
-    if (!s.on_edge) result.moved.push_back({s.corner, s.position});
+  for (const Snap* s : standing) {
+    if (!s->on_edge) result.moved.push_back({s->corner, s->position});
   }
   return result;
 }

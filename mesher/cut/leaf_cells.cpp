@@ -58,14 +58,20 @@ constexpr std::array<Template, 4> two_hanging =
 
 }  // namespace
 
-void LeafCellMaker::set_ranks(const Quadrant& q, const Box& box, const CutLeaf& leaf) {
+const TieRank& LeafCellMaker::rank_of(std::int32_t node) {
+  if (ranks_.empty()) set_ranks();
+  return ranks_[node];
+}
+
+void LeafCellMaker::set_ranks() {
+  const Quadrant& q = *leaf_.quadrant;
+  const Box& box = *leaf_.box;
   const std::array<Point, 4> corner{box.low, Point{box.high.x, box.low.y}, box.high,
                                     Point{box.low.x, box.high.y}};
   std::array<TieRank, 8> lattice;
   for (const Site site : lattice_sites) lattice[index_of(site)] = line_rank(q.at(site).x, q.at(site).y);
   const auto origin = corner[std::max_element(lattice.begin(), lattice.begin() + 4) - lattice.begin()];
-  ranks_.clear();
-  for (const CutLeaf::Node& node : leaf.nodes) {
+  for (const CutLeaf::Node& node : leaf_.cut->nodes) {
     TieRank rank = is_on_lattice(node.site) ? lattice[index_of(node.site)] : TieRank{};
     const auto [near, far] = std::minmax(
         {std::abs(node.position.x - origin.x), std::abs(node.position.y - origin.y)});  // a list: values
@@ -81,7 +87,8 @@ bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf,
   smallest_sine_ = 1;
   points_.clear();
   for (const CutLeaf::Node& node : leaf.nodes) points_.push_back(node.position);
-  set_ranks(q, box, leaf);
+  ranks_.clear();
+  leaf_ = {&q, &box, &leaf};
   std::vector<std::span<const std::int32_t>> loops;
   bool holes = false;
   for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
@@ -100,7 +107,9 @@ bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf,
 }
 
 bool LeafCellMaker::triangulate(std::span<const std::span<const std::int32_t>> loops, LeafCells& cells) {
-  if (!triangulator_.triangulate(points_, ranks_, loops, cells.triangles)) return false;
+  if (!triangulator_.triangulate(
+          points_, [this](std::int32_t node) { return rank_of(node); }, loops, cells.triangles))
+    return false;
   smallest_sine_ = std::min(smallest_sine_, triangulator_.smallest_sine());
   return true;
 }

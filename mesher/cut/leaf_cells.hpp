@@ -24,14 +24,22 @@ class LeafCellMaker {
   double smallest_sine() const { return smallest_sine_; }
 
  private:
-  void set_ranks(const Quadrant& q, const Box& box, const CutLeaf& leaf);
+  /// The leaf that cells are being made for.
+  struct Leaf {
+    const Quadrant* quadrant = nullptr;
+    const Box* box = nullptr;
+    const CutLeaf* cut = nullptr;
+  };
+  const TieRank& rank_of(std::int32_t node);
+  void set_ranks();
 
   bool triangulate(std::span<const std::span<const std::int32_t>> loops, LeafCells& cells);
 
   Triangulator triangulator_;
+  Leaf leaf_;
   double smallest_sine_ = 1;
   std::vector<Point> points_;
-  std::vector<TieRank> ranks_;
+  std::vector<TieRank> ranks_;  ///< of the leaf's nodes; none before they are asked for
 };
 
 /// A triangle of a template: its nodes by where they sit.

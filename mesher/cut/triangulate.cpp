@@ -13,7 +13,7 @@ constexpr std::size_t most_ears = 24;
 
 }  // namespace
 
-bool Triangulator::triangulate(std::span<const Point> points, std::span<const TieRank> ranks,
+bool Triangulator::triangulate(std::span<const Point> points, const Flipper::RankOf& rank_of,
                                std::span<const std::span<const std::int32_t>> loops,
                                std::vector<LocalTriangle>& triangles) {
   points_ = points;
@@ -23,9 +23,7 @@ bool Triangulator::triangulate(std::span<const Point> points, std::span<const Ti
     triangles_.clear();
     triangulate_region(points, loops, triangles_);
   }
-  if (triangles_.size() > 1)
-    flipper_.flip_to_delaunay(
-        points, [ranks](std::int32_t node) { return ranks[node]; }, triangles_);
+  if (triangles_.size() > 1) flipper_.flip_to_delaunay(points, rank_of, triangles_);
   for (LocalTriangle& t : triangles_) {
     if (!is_positive(at(t[0]), at(t[1]), at(t[2]))) return false;
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());

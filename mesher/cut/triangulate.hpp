@@ -12,11 +12,11 @@ using LocalTriangle = Flipper::Triangle;
 
 /// The constrained Delaunay triangulation of the region between loops: outlines counter-clockwise, holes
 /// clockwise, which do not meet but at nodes. `loops` name nodes of `points`; no node is added. Ties are
-/// broken by `ranks`. Appends counter-clockwise triangles to `triangles`. Returns false where rounding would
-/// leave a triangle without positive area in double precision.
+/// broken by `rank_of`. Appends counter-clockwise triangles to `triangles`. Returns false where rounding
+/// would leave a triangle without positive area in double precision.
 class Triangulator {
  public:
-  bool triangulate(std::span<const Point> points, std::span<const TieRank> ranks,
+  bool triangulate(std::span<const Point> points, const Flipper::RankOf& rank_of,
                    std::span<const std::span<const std::int32_t>> loops,
                    std::vector<LocalTriangle>& triangles);
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "mesher/base/parallel/exchange.hpp"
-#include "mesher/forest/leaf_graph.hpp"
+#include "mesher/forest/leaf_finder.hpp"
 
 namespace quadloop {
 
@@ -19,8 +19,8 @@ class GhostExchange : public CopyExchange {
 /// Calls `visit` for the leaves of the graph that touch a leaf, by an edge or a corner; for some of them more
 /// than once. Touching leaves must differ by one level at most.
 template <class Visit>
-void for_touching_leaves(const LeafGraph& graph, LeafId leaf, const Visit& visit) {
-  const Quadrant& q = graph.leaf(leaf);
+void for_touching_leaves(LeafFinder& finder, LeafId leaf, const Visit& visit) {
+  const Quadrant& q = finder.graph().leaf(leaf);
   const std::int64_t last = q.size() - 1, x = q.x, y = q.y;
   const std::array<std::array<std::int64_t, 2>, 12> squares{{{x - 1, y - 1},
                                                              {x, y - 1},
@@ -35,7 +35,7 @@ void for_touching_leaves(const LeafGraph& graph, LeafId leaf, const Visit& visit
                                                              {x - 1, y + last},
                                                              {x - 1, y}}};
   for (const auto& [px, py] : squares) {
-    const LeafId other = graph.leaf_at(px, py);
+    const LeafId other = finder.leaf_at(px, py);
     if (other != LeafGraph::none) visit(other);
   }
 }

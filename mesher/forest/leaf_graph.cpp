@@ -41,9 +41,8 @@ LeafGraph::Owner LeafGraph::owner_of(LeafId leaf) const {
 }
 
 LeafId LeafGraph::leaf_at(std::int64_t x, std::int64_t y) const {
-  const std::int64_t tx = x >> Quadrant::unit_level, ty = y >> Quadrant::unit_level;
-  if (x < 0 || y < 0 || tx >= trees_x_ || ty >= trees_y_) return none;
-  Ref ref = roots_[ty * trees_x_ + tx];
+  if (!in_root(x, y)) return none;
+  Ref ref = root_at(x, y);
   for (int level = 0; is_inner(ref); ++level) ref = down(ref, quarter_at(x, y, level));
   return LeafId{ref};
 }

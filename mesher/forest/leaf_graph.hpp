@@ -41,15 +41,10 @@ class LeafGraph {
   Owner owner_of(LeafId leaf) const;
 
   /// The leaf that holds the unit square right above the lattice corner (x, y); none where there is none in
-  /// sight.
+  /// sight. Many are looked up by a LeafFinder.
   LeafId leaf_at(std::int64_t x, std::int64_t y) const;
   /// The rank with the leaf that holds it, in sight or not; it must lie in the root.
   int rank_at(std::int64_t x, std::int64_t y) const { return owners_.rank_of(owners_.key_at(x, y)); }
-  /// The leaves round a lattice point, as Corner counts from it; a leaf that it lies on a side of is there
-  /// twice.
-  std::array<LeafId, 4> leaves_round(LatticePoint p) const {
-    return {leaf_at(p.x - 1, p.y - 1), leaf_at(p.x, p.y - 1), leaf_at(p.x, p.y), leaf_at(p.x - 1, p.y)};
-  }
 
   /// The leaves around the lower left part of a leaf, each named by the point of it that they touch; such a
   /// leaf is the first along the curve of all that touch the point.
@@ -65,6 +60,7 @@ class LeafGraph {
   bool has_hanging(LeafId leaf, Side side) const { return around(leaf).finer.contains(side); }
 
  private:
+  friend class LeafFinder;
   using Ref = std::int32_t;  ///< a leaf's id (>= 0), no_ref, or an inner node of the tree (-2 and below)
   static constexpr Ref no_ref = none.value();
   struct Neighbours {
@@ -74,6 +70,12 @@ class LeafGraph {
   Ref& child(Ref inner, Corner quarter) { return inner_[-2 - inner][index_of(quarter)]; }
   Ref down(Ref ref, Corner quarter) const {
     return is_inner(ref) ? inner_[-2 - ref][index_of(quarter)] : ref;
+  }
+  bool in_root(std::int64_t x, std::int64_t y) const {
+    return x >= 0 && y >= 0 && x >> Quadrant::unit_level < trees_x_ && y >> Quadrant::unit_level < trees_y_;
+  }
+  Ref root_at(std::int64_t x, std::int64_t y) const {
+    return roots_[(y >> Quadrant::unit_level) * trees_x_ + (x >> Quadrant::unit_level)];
   }
   Ref new_inner();
   void build_trees(const Lattice& lattice);

@@ -16,6 +16,14 @@ struct LatticePoint {
   friend constexpr auto operator<=>(const LatticePoint&, const LatticePoint&) = default;
 };
 
+/// The order of lattice points along the curve, by which those near each other follow each other: that of
+/// their coordinates counts whose highest differing bit is the higher (Chan 2002).
+constexpr bool comes_earlier(LatticePoint a, LatticePoint b) {
+  const std::int64_t in_x = a.x ^ b.x, in_y = a.y ^ b.y;
+  const bool by_x = in_y < in_x && in_y < (in_x ^ in_y);
+  return by_x ? a.x < b.x : a.y < b.y;
+}
+
 /// A square of the forest by its place alone. x and y count lattice units from the root's lower left corner;
 /// a tree's edge is 2^30 units.
 struct Quadrant {

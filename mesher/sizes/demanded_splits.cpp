@@ -168,6 +168,7 @@ void DemandPath::keep_above(const Quadrant& leaf) {
 }
 
 std::uint32_t DemandPath::levels_above(const Quadrant& leaf) {
+  if (demanded_->empty()) return 0;
   keep_above(leaf);
   if (steps_.empty())
     steps_.push_back({demanded_->root(leaf.x >> Quadrant::unit_level, leaf.y >> Quadrant::unit_level), 0});

@@ -23,7 +23,11 @@ constexpr double crossing_reach = 0.4;  ///< a crossing nearer to the point than
 class PointCapture {
  public:
   PointCapture(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, double snap)
-      : graph_{graph}, lattice_{lattice}, geometry_{geometry}, share_{std::min(1.0, snap / usual_snap)} {}
+      : graph_{graph},
+        finder_{graph},
+        lattice_{lattice},
+        geometry_{geometry},
+        share_{std::min(1.0, snap / usual_snap)} {}
 
   /// Whether a point lies on a side of the leaf: the crossings there have its position already.
   bool on_lattice(LeafId leaf, Point p) const {
@@ -32,14 +36,14 @@ class PointCapture {
   }
 
   /// The corner of the leaf, or hanging node on its sides, that is near enough.
-  std::optional<CornerCapture> corner_near(LeafId leaf, Point p) const {
+  std::optional<CornerCapture> corner_near(LeafId leaf, Point p) {
     std::optional<CornerCapture> nearest;
     bool contested = false;
     for (const Site site : lattice_sites) {
       if (is_middle(site) && !graph_.has_hanging(leaf, side_of(site))) continue;
       const LatticePoint corner = graph_.leaf(leaf).at(site);
       const double distance = length(lattice_.corner(corner) - p);
-      if (distance >= share_ * corner_reach * shortest_edge_at(graph_, lattice_, corner) ||
+      if (distance >= share_ * corner_reach * shortest_edge_at(finder_, lattice_, corner) ||
           (nearest && distance > nearest->distance))
         continue;
       contested = nearest && distance == nearest->distance;
@@ -49,8 +53,7 @@ class PointCapture {
   }
 
   /// The edge of the leaf that is near enough, with the crossings that it loses to the point.
-  std::optional<Snap> edge_near(LeafId leaf, std::int32_t vertex, const LeafTrace& view,
-                                const Piece& piece) const {
+  std::optional<Snap> edge_near(LeafId leaf, std::int32_t vertex, const LeafTrace& view, const Piece& piece) {
     const Point p = geometry_.point(vertex);
     LeafEdge nearest;
     bool contested = false;
@@ -79,10 +82,10 @@ class PointCapture {
     return edge.vertical() ? lattice_.x(edge.line) : lattice_.y(edge.line);
   }
 
-  LeafId across(const LeafEdge& edge) const {
+  LeafId across(const LeafEdge& edge) {
     const bool ahead = edge.side == Side::right || edge.side == Side::top;
     const std::int64_t beyond = ahead ? edge.line : edge.line - 1;
-    return edge.vertical() ? graph_.leaf_at(beyond, edge.from) : graph_.leaf_at(edge.from, beyond);
+    return edge.vertical() ? finder_.leaf_at(beyond, edge.from) : finder_.leaf_at(edge.from, beyond);
   }
 
   bool on_edge(const LeafEdge& edge, const Crossing& c) const {
@@ -134,6 +137,7 @@ class PointCapture {
   }
 
   const LeafGraph& graph_;
+  LeafFinder finder_;
   const Lattice& lattice_;
   const Geometry& geometry_;
   double share_;
@@ -142,7 +146,7 @@ class PointCapture {
 /// Of those that claim one corner the nearest has it; none where two are equally near.
 std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
   std::sort(claims.begin(), claims.end(), [](const CornerCapture& a, const CornerCapture& b) {
-    return a.corner != b.corner ? a.corner < b.corner : a.distance < b.distance;
+    return a.corner != b.corner ? comes_earlier(a.corner, b.corner) : a.distance < b.distance;
   });
   std::vector<CornerCapture> settled;
   for (std::size_t begin = 0, end = 0; begin < claims.size(); begin = end) {
@@ -197,7 +201,7 @@ std::vector<Snap> settle_edges(std::vector<Snap> claims) {
 
 Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
                         const TracedForest& traced, double snap) {
-  const PointCapture capture(graph, lattice, geometry, snap);
+  PointCapture capture(graph, lattice, geometry, snap);
   std::vector<CornerCapture> corners;
   std::vector<Snap> edges;
   for (const LeafId leaf : graph.all()) {

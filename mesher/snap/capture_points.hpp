@@ -24,7 +24,7 @@ struct CornerCapture {
 /// to it, or else the lattice edge next to it, which then bends through it. So no sliver is left between a
 /// point and a corner or an edge.
 struct Captures {
-  std::vector<CornerCapture> corners;  ///< by corner; one each
+  std::vector<CornerCapture> corners;  ///< in the order of comes_earlier; one each
   std::vector<Snap> edges;             ///< on_edge is set
 };
 

@@ -14,12 +14,13 @@ std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
   struct Key {
     LatticePoint corner;
     std::uint32_t index;
-    auto operator<=>(const Key&) const = default;
   };
   std::vector<Key> keys;
   keys.reserve(sights.size());
   for (const Sight& s : sights) keys.push_back({s.corner, static_cast<std::uint32_t>(keys.size())});
-  std::sort(keys.begin(), keys.end());
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    return a.corner == b.corner ? a.index < b.index : comes_earlier(a.corner, b.corner);
+  });
   std::vector<Sight> sorted;
   sorted.reserve(sights.size());
   for (const Key& key : keys) sorted.push_back(sights[key.index]);
@@ -31,6 +32,7 @@ std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
 std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& lattice,
                                     const TracedForest& traced) {
   std::vector<Sight> sights;
+  sights.reserve(2 * traced.traces.crossings());
   for (const LeafId leaf : graph.all()) {
     const std::int32_t trace = traced.trace_of[leaf.value()];
     if (trace < 0) continue;
@@ -43,8 +45,8 @@ std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& latti
         const LeafEdge edge = leaf_edge_near(graph, lattice, leaf, crossing.side, crossing.position);
         const auto see = [&](std::int64_t end, Direction direction) {
           const double distance = std::abs(edge.along(crossing.position) - edge.at(lattice, end));
-          sights.push_back({edge.point(end), direction, distance, edge.length(lattice), crossing.segment,
-                            trace, p, c == piece.entry});
+          sights.push_back({edge.point(end), distance, edge.length(lattice), crossing.segment, trace, p,
+                            direction, c == piece.entry});
         };
         see(edge.from, edge.vertical() ? Direction::north : Direction::east);
         see(edge.to, edge.vertical() ? Direction::south : Direction::west);

@@ -12,16 +12,16 @@ namespace quadloop {
 /// that edge.
 struct Sight {
   LatticePoint corner;
-  Direction direction = Direction::east;  ///< of the edge from the corner
-  double distance = 0;                    ///< along the edge
-  double edge = 0;                        ///< its length
+  double distance = 0;  ///< along the edge
+  double edge = 0;      ///< its length
   std::int32_t segment = -1;
   std::int32_t trace = -1, piece = -1;
-  bool at_entry = false;  ///< of the piece
+  Direction direction = Direction::east;  ///< of the edge from the corner
+  bool at_entry = false;                  ///< of the piece
 };
 
-/// What all corners of the local and the ghost leaves see, sorted by corner. Of one corner: in the order of
-/// leaves and their pieces, along the curve.
+/// What all corners of the local and the ghost leaves see, the corners in the order of comes_earlier. Of one
+/// corner: in the order of leaves and their pieces, along the curve.
 std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& lattice,
                                     const TracedForest& traced);
 

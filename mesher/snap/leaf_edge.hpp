@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesher/forest/leaf_graph.hpp"
+#include "mesher/forest/leaf_finder.hpp"
 
 namespace quadloop {
 
@@ -29,6 +29,6 @@ struct LeafEdge {
 LeafEdge leaf_edge_near(const LeafGraph& graph, const Lattice& lattice, LeafId leaf, Side side, Point p);
 
 /// The edge of the smallest leaf at a lattice corner.
-double shortest_edge_at(const LeafGraph& graph, const Lattice& lattice, LatticePoint corner);
+double shortest_edge_at(LeafFinder& finder, const Lattice& lattice, LatticePoint corner);
 
 }  // namespace quadloop

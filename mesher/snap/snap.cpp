@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesher/forest/leaf_finder.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -18,8 +20,9 @@ Site site_in(const Quadrant& leaf, Corner direction, const Snap& snap) {
 
 std::vector<LeafSnap> snaps_of_leaves(const LeafGraph& graph, const std::vector<Snap>& snaps) {
   std::vector<LeafSnap> result;
+  LeafFinder finder(graph);
   for (const Snap& snap : snaps) {
-    const std::array<LeafId, 4> round = graph.leaves_round(snap.corner);
+    const std::array<LeafId, 4> round = finder.leaves_round(snap.corner);
     const std::size_t first = result.size();
     for (const Corner direction : corners_along_curve) {
       const LeafId leaf = round[index_of(direction)];

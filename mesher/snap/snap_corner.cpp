@@ -15,18 +15,37 @@ constexpr double swallow_share = 0.15;  ///< of the local edge: no vertex vanish
                                         ///< from the outline as it goes on from the corner
 
 /// Sights of crossings that the outline passes one after another near the corner: the same crossing, and the
-/// two ends of one piece, belong to one run. Numbers of the corner's sights, ascending.
-using Run = std::vector<std::size_t>;
+/// two ends of one piece, belong to one run. Of each sight the number of its run, or `none`.
+using Runs = std::vector<std::int32_t>;
+constexpr std::int32_t none = -1;
 
-bool contains(const Run& run, std::size_t sight) { return std::binary_search(run.begin(), run.end(), sight); }
+/// One of them.
+struct Run {
+  const Runs* runs;
+  std::int32_t number;
+
+  bool contains(std::size_t sight) const { return (*runs)[sight] == number; }
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t i = 0; i < runs->size(); ++i) {
+      if (contains(i)) visit(i);
+    }
+  }
+  template <class Holds>
+  bool any_of(const Holds& holds) const {
+    for (std::size_t i = 0; i < runs->size(); ++i) {
+      if (contains(i) && holds(i)) return true;
+    }
+    return false;
+  }
+};
 
 bool on_one_piece(const Sight& a, const Sight& b) { return a.trace == b.trace && a.piece == b.piece; }
 
-/// A sight's piece from its crossing on, as long as it turns near the corner only.
-struct Stretch {
-  std::vector<std::int32_t> turns;     ///< vertices
-  std::vector<std::int32_t> segments;  ///< up to the first turn that is not near
-  Point goes_on;                       ///< that turn, or the piece's other end
+/// A run that claims the corner, and its nearest point.
+struct Claim {
+  Run run;
+  Point nearest;
 };
 
 /// What vanishes in a corner that takes a run.
@@ -46,10 +65,10 @@ class CornerDecision {
   std::optional<Snap> decide() const {
     if (std::none_of(sights_.begin(), sights_.end(), [&](const Sight& s) { return claims(s); })) return {};
     for (const bool whole_run : {true, false}) {
-      const std::vector<Run> runs = runs_among(whole_run);
-      const Run* run = nearest_claimant(runs);
-      if (run == nullptr || passes_over(*run)) continue;
-      if (const auto target = target_of(*run)) return snap_to(*target, *run);
+      const Runs runs = runs_among(whole_run);
+      const std::optional<Claim> claim = nearest_claim(runs);
+      if (!claim || passes_over(claim->run)) continue;
+      if (const auto target = target_of(*claim)) return snap_to(*target, claim->run);
     }
     return std::nullopt;
   }
@@ -57,14 +76,14 @@ class CornerDecision {
   std::optional<Snap> decide(const CornerCapture& capture) const {
     const Point target = geometry_.point(capture.vertex);
     for (const bool whole_run : {true, false}) {
-      const std::vector<Run> runs = runs_among(whole_run);
-      const Run* run = run_of(capture, runs);
-      if (run != nullptr && !passes_over(*run) && follows(swallowed_by(*run), target))
-        return snap_to(target, *run);
+      const Runs runs = runs_among(whole_run);
+      const Run run = run_of(capture, runs);
+      if (run.number != none && !passes_over(run) && follows(swallowed_by(run), target))
+        return snap_to(target, run);
     }
     const bool claimed =
         std::any_of(sights_.begin(), sights_.end(), [&](const Sight& s) { return claims(s); });
-    return claimed ? decide() : snap_to(target, {});
+    return claimed ? decide() : snap_to(target, std::nullopt);
   }
 
  private:
@@ -90,75 +109,76 @@ class CornerDecision {
 
   /// The runs among the crossings that claim the corner and, if asked, those that are at least nearer to it
   /// than to the far end of their edge: the corner there is farther, and never takes them.
-  std::vector<Run> runs_among(bool whole_run) const {
-    std::vector<Run> runs;
+  Runs runs_among(bool whole_run) const {
+    Runs runs(sights_.size(), none);
     for (std::size_t i = 0; i < sights_.size(); ++i) {
       const bool nearer = 2 * sights_[i].distance < sights_[i].edge;
       if (!claims(sights_[i]) && !(whole_run && nearer)) continue;
-      const auto joined = std::stable_partition(runs.begin(), runs.end(), [&](const Run& run) {
-        return std::none_of(run.begin(), run.end(),
-                            [&](std::size_t j) { return in_one_run(sights_[i], sights_[j]); });
-      });
-      Run run{i};
-      for (auto part = joined; part != runs.end(); ++part) run.insert(run.end(), part->begin(), part->end());
-      std::sort(run.begin(), run.end());
-      runs.erase(joined, runs.end());
-      runs.push_back(std::move(run));
+      runs[i] = static_cast<std::int32_t>(i);
+      for (std::size_t j = 0; j < i; ++j) {
+        if (runs[j] == none || runs[j] == runs[i] || !in_one_run(sights_[i], sights_[j])) continue;
+        const std::int32_t own = runs[i], joined = runs[j];
+        std::replace(runs.begin(), runs.end(), own, joined);
+      }
     }
     return runs;
   }
 
   /// The run that claims the corner and comes nearest; none where two come equally near.
-  const Run* nearest_claimant(const std::vector<Run>& runs) const {
+  std::optional<Claim> nearest_claim(const Runs& runs) const {
     double best = corner_.edge;
-    const Run* nearest = nullptr;
-    for (const Run& run : runs) {
-      if (std::none_of(run.begin(), run.end(), [&](std::size_t i) { return claims(sights_[i]); })) continue;
-      const double run_distance = distance(nearest_point(run));
-      if (run_distance == best) nearest = nullptr;
-      if (run_distance < best) nearest = &run;
+    std::optional<Claim> nearest;
+    for (std::int32_t number = 0; number < size32(runs); ++number) {
+      const Run run{&runs, number};
+      if (!run.any_of([&](std::size_t i) { return claims(sights_[i]); })) continue;
+      const Point point = nearest_point(run);
+      const double run_distance = distance(point);
+      if (run_distance == best) nearest.reset();
+      if (run_distance < best) nearest = {run, point};
       best = std::min(best, run_distance);
     }
     return nearest;
   }
 
-  /// The run of the point that captures the corner: of the first sight of its piece.
-  const Run* run_of(const CornerCapture& capture, const std::vector<Run>& runs) const {
+  /// The run of the point that captures the corner: of the first sight of its piece that has one.
+  Run run_of(const CornerCapture& capture, const Runs& runs) const {
     for (std::size_t i = 0; i < sights_.size(); ++i) {
-      if (sights_[i].trace != capture.trace || sights_[i].piece != capture.piece) continue;
-      const auto run = std::find_if(runs.begin(), runs.end(), [&](const Run& r) { return contains(r, i); });
-      if (run != runs.end()) return &*run;
+      if (sights_[i].trace == capture.trace && sights_[i].piece == capture.piece && runs[i] != none)
+        return {&runs, runs[i]};
     }
-    return nullptr;
+    return {&runs, none};
   }
 
   /// Whether a crossing that is not taken lies between the corner and one that is: no contraction.
   bool passes_over(const Run& run) const {
-    for (const std::size_t i : run) {
+    return run.any_of([&](std::size_t i) {
       for (std::size_t j = 0; j < sights_.size(); ++j) {
         if (sights_[j].direction == sights_[i].direction && sights_[j].distance <= sights_[i].distance &&
-            !contains(run, j))
+            !run.contains(j))
           return true;
       }
-    }
-    return false;
+      return false;
+    });
   }
 
-  Stretch stretch_from(const Sight& s) const {
+  /// Follows a sight's piece from its crossing on, as long as it turns near the corner only: calls `segment`
+  /// up to the first turn that is not near, `turn` for the vertices before. Returns that turn, or the piece's
+  /// other end.
+  template <class Turn, class Segment>
+  Point follow(const Sight& s, const Turn& turn, const Segment& segment) const {
     const LeafTrace view = traces_[s.trace];
     const Piece& piece = view.pieces[s.piece];
     const auto vertices = view.vertices_of(piece);
-    Stretch stretch{{}, {s.segment}, view.crossing(s.at_entry ? piece.exit : piece.entry).position};
+    segment(s.segment);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const std::int32_t v = s.at_entry ? vertices[i] : vertices[vertices.size() - 1 - i];
-      if (!geometry_.straight(v) && !is_near(geometry_.point(v))) {
-        stretch.goes_on = geometry_.point(v);
-        break;
+      if (!geometry_.straight(v)) {
+        if (!is_near(geometry_.point(v))) return geometry_.point(v);
+        turn(v);
       }
-      if (!geometry_.straight(v)) stretch.turns.push_back(v);
-      stretch.segments.push_back(s.at_entry ? v : geometry_.previous(v));
+      segment(s.at_entry ? v : geometry_.previous(v));
     }
-    return stretch;
+    return view.crossing(s.at_entry ? piece.exit : piece.entry).position;
   }
 
   /// Of a corner that moves along an axis the run's crossing there. Off the axis the outline may come as near
@@ -166,14 +186,13 @@ class CornerDecision {
   std::optional<Point> crossing_on_axis(const Run& run) const {
     std::optional<Point> nearest;
     if (!corner_.mirror || side_of(*corner_.mirror, corner_.position) != 0) return nearest;
-    for (const std::size_t i : run) {
+    run.for_each([&](std::size_t i) {
       const Sight& s = sights_[i];
       const LeafTrace view = traces_[s.trace];
       const Piece& piece = view.pieces[s.piece];
       const Point p = view.crossing(s.at_entry ? piece.entry : piece.exit).position;
-      if (side_of(*corner_.mirror, p) != 0) continue;
-      if (!nearest || distance(p) < distance(*nearest)) nearest = p;
-    }
+      if (side_of(*corner_.mirror, p) == 0 && (!nearest || distance(p) < distance(*nearest))) nearest = p;
+    });
     return nearest;
   }
 
@@ -193,46 +212,47 @@ class CornerDecision {
     if (const auto on_axis = crossing_on_axis(run)) return *on_axis;
     Point nearest;
     double least = std::numeric_limits<double>::infinity();
-    for (const std::size_t i : run) {
-      for (const std::int32_t s : stretch_from(sights_[i]).segments) {
-        const Point p =
-            nearest_on_segment(corner_.position, geometry_.point(s), geometry_.point(geometry_.next(s)));
-        if (distance(p) > least || (distance(p) == least && !goes_before(p, nearest))) continue;
-        least = distance(p);
-        nearest = p;
-      }
-    }
+    const auto see = [&](std::int32_t s) {
+      const Point p =
+          nearest_on_segment(corner_.position, geometry_.point(s), geometry_.point(geometry_.next(s)));
+      const double to_p = distance(p);
+      if (to_p > least || (to_p == least && !goes_before(p, nearest))) return;
+      least = to_p;
+      nearest = p;
+    };
+    run.for_each([&](std::size_t i) {
+      follow(
+          sights_[i], [](std::int32_t) {}, see);
+    });
     return nearest;
   }
 
   /// A piece with both ends in the run vanishes whole.
   Swallowed swallowed_by(const Run& run) const {
     Swallowed swallowed;
-    for (const std::size_t i : run) {
+    const auto swallow = [&](std::int32_t v) { swallowed.vertices.push_back(v); };
+    run.for_each([&](std::size_t i) {
       const Sight& s = sights_[i];
-      const bool vanishes = std::any_of(run.begin(), run.end(), [&](std::size_t j) {
-        return on_one_piece(sights_[j], s) && sights_[j].at_entry != s.at_entry;
-      });
-      if (vanishes) {
-        const auto vertices = vertices_of(s);
-        std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(swallowed.vertices),
-                     [&](std::int32_t v) { return !geometry_.straight(v); });
-      } else {
-        const Stretch stretch = stretch_from(s);
-        swallowed.goes_on.push_back(stretch.goes_on);
-        swallowed.vertices.insert(swallowed.vertices.end(), stretch.turns.begin(), stretch.turns.end());
+      const bool vanishes = run.any_of(
+          [&](std::size_t j) { return on_one_piece(sights_[j], s) && sights_[j].at_entry != s.at_entry; });
+      if (!vanishes) {
+        swallowed.goes_on.push_back(follow(s, swallow, [](std::int32_t) {}));
+        return;
       }
-    }
+      for (const std::int32_t v : vertices_of(s)) {
+        if (!geometry_.straight(v)) swallow(v);
+      }
+    });
     return swallowed;
   }
 
   /// Where a corner that takes the run goes: to a kept point that vanishes in it, else to the nearest point
   /// of the outline, or to a vertex that strays from the outline beside it: the nearest that does. None where
   /// two kept points would vanish, or what lies too far off, or a whole loop.
-  std::optional<Point> target_of(const Run& run) const {
-    Swallowed swallowed = swallowed_by(run);
+  std::optional<Point> target_of(const Claim& claim) const {
+    Swallowed swallowed = swallowed_by(claim.run);
     std::vector<std::int32_t>& vertices = swallowed.vertices;
-    Point target = nearest_point(run);
+    Point target = claim.nearest;
     for (const std::int32_t v : vertices) {
       if (geometry_.kept(v)) target = geometry_.point(v);
     }
@@ -262,13 +282,15 @@ class CornerDecision {
            });
   }
 
-  Snap snap_to(Point target, const Run& run) const {
+  /// `run`: none for a corner that takes no crossing.
+  Snap snap_to(Point target, const std::optional<Run>& run) const {
     Snap snap{corner_.corner, target, corner_.position, corner_reach * corner_.edge, {}};
-    for (const std::size_t i : run) {
+    const auto absorb = [&](std::size_t i) {
       const Snap::Absorbed crossing{sights_[i].segment, is_vertical(sights_[i].direction)};
       if (std::find(snap.absorbed.begin(), snap.absorbed.end(), crossing) == snap.absorbed.end())
         snap.absorbed.push_back(crossing);
-    }
+    };
+    if (run) run->for_each(absorb);
     return snap;
   }
 

@@ -32,10 +32,13 @@ bool may_claim(std::span<const Sight> sights, double share) {
 
 /// Adds those whose place is not taken.
 void add_hanging(std::vector<Snap> hanging, std::vector<Snap>& snaps) {
-  std::set<LatticePoint> taken;
-  for (const Snap& s : snaps) taken.insert(s.corner);
+  std::vector<LatticePoint> taken;
+  for (const Snap& s : snaps) taken.push_back(s.corner);
+  std::sort(taken.begin(), taken.end(), comes_earlier);
+  std::set<LatticePoint> added;
   for (Snap& s : hanging) {
-    if (taken.insert(s.corner).second) snaps.push_back(std::move(s));
+    const bool free = !std::binary_search(taken.begin(), taken.end(), s.corner, comes_earlier);
+    if (free && added.insert(s.corner).second) snaps.push_back(std::move(s));
   }
 }
 
@@ -47,16 +50,18 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
   Captures captures = capture_points(graph, lattice, geometry, traced, share);
   drop_taken(captures.edges, sights);
   std::vector<Snap> snaps = std::move(captures.edges);
+  LeafFinder finder(graph);
   auto captured = captures.corners.begin();
   for (std::size_t begin = 0, end = 0; begin < sights.size() || captured != captures.corners.end();
        begin = end) {
-    const bool is_captured = captured != captures.corners.end() &&
-                             (begin == sights.size() || captured->corner <= sights[begin].corner);
+    const bool is_captured =
+        captured != captures.corners.end() &&
+        (begin == sights.size() || !comes_earlier(sights[begin].corner, captured->corner));
     const LatticePoint corner = is_captured ? captured->corner : sights[begin].corner;
     while (end < sights.size() && sights[end].corner == corner) ++end;
     const auto seen = std::span<const Sight>(sights).subspan(begin, end - begin);
     if (!is_captured && !may_claim(seen, share)) continue;
-    const SightedCorner sighted{corner, lattice.corner(corner), shortest_edge_at(graph, lattice, corner),
+    const SightedCorner sighted{corner, lattice.corner(corner), shortest_edge_at(finder, lattice, corner),
                                 seen, mirror};
     auto snap = is_captured ? snap_captured(geometry, traced.traces, sighted, share, *captured++)
                             : snap_corner(geometry, traced.traces, sighted, share);

@@ -76,7 +76,8 @@ TEST(ClipEars, EverySmallPolygonIsTiledWhereverItsRingBegins) {
     for (std::size_t turn = 0; turn < ring.size(); ++turn) {
       const std::span<const std::int32_t> loop(ring);
       std::vector<LocalTriangle> triangles;
-      ASSERT_TRUE(Triangulator{}.triangulate(points, ranks, std::span(&loop, 1), triangles));
+      ASSERT_TRUE(Triangulator{}.triangulate(
+          points, [&](std::int32_t node) { return ranks[node]; }, std::span(&loop, 1), triangles));
       EXPECT_EQ(triangles.size(), points.size() - 2);
       if (turn == 0) {
         first = triangles;
@@ -93,8 +94,8 @@ TEST(ClipEars, TheSmallestSineIsThatOfTheSmallestAngle) {
     const std::span<const std::int32_t> loop(ring);
     Triangulator triangulator;
     std::vector<LocalTriangle> triangles;
-    EXPECT_TRUE(triangulator.triangulate(points, std::vector<TieRank>(points.size()), std::span(&loop, 1),
-                                         triangles));
+    EXPECT_TRUE(triangulator.triangulate(
+        points, [](std::int32_t) { return TieRank{}; }, std::span(&loop, 1), triangles));
     return triangulator.smallest_sine();
   };
   const std::vector<Point> points{{10, 20}, {14, 20}, {10, 23}, {10, 20.0001}};  // 3, 4, 5

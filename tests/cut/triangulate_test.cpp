@@ -17,7 +17,8 @@ std::vector<LocalTriangle> triangulated(const std::vector<Point>& points, const 
   const std::span<const std::int32_t> whole(loop);
   Triangulator triangulator;
   std::vector<LocalTriangle> triangles;
-  EXPECT_TRUE(triangulator.triangulate(points, ranks, std::span(&whole, 1), triangles));
+  EXPECT_TRUE(triangulator.triangulate(
+      points, [&](std::int32_t node) { return ranks[node]; }, std::span(&whole, 1), triangles));
   return triangles;
 }
 

@@ -142,9 +142,10 @@ TEST(GhostExchange, BringsWhatTheOwnersKnow) {
 TEST(TouchingLeaves, AreAllThatTouchByAnEdgeOrACorner) {
   const Forest forest = graded_brick();
   const LeafGraph graph(test::world(), brick, forest);
+  LeafFinder finder(graph);
   for (const LeafId leaf : graph.local()) {
     std::vector<LeafId> found, expected;
-    for_touching_leaves(graph, leaf, [&](LeafId other) { found.push_back(other); });
+    for_touching_leaves(finder, leaf, [&](LeafId other) { found.push_back(other); });
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     for (const LeafId other : graph.all()) {

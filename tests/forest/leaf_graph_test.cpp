@@ -1,9 +1,9 @@
-#include "mesher/forest/leaf_graph.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
+#include "mesher/forest/leaf_finder.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -36,6 +36,33 @@ TEST(LeafGraph, PointsFindTheirLeaves) {
   }
   EXPECT_EQ(graph.leaf_at(-1, 0), LeafGraph::none);
   EXPECT_EQ(graph.leaf_at(0, std::int64_t{2} << 30), LeafGraph::none);
+}
+
+TEST(LeafFinder, WhereItLookedBeforeMakesNoDifference) {
+  const Forest forest = refined_brick(brick_lattice);
+  const LeafGraph graph(test::world(), brick_lattice, forest);
+  LeafFinder finder(graph);
+  std::mt19937_64 random(7);
+  std::uniform_int_distribution<std::int64_t> column(-2, (std::int64_t{3} << 30) + 1),
+      step(-40000000, 40000000);
+  for (int i = 0; i < 20000; ++i) {
+    const std::int64_t x = column(random), y = column(random);
+    EXPECT_EQ(finder.leaf_at(x, y), graph.leaf_at(x, y));
+    const std::int64_t near_x = x + step(random), near_y = y + step(random);
+    EXPECT_EQ(finder.leaf_at(near_x, near_y), graph.leaf_at(near_x, near_y));
+  }
+}
+
+TEST(LeafFinder, ACornersLeavesAreTheFourSquaresRoundIt) {
+  const Forest forest = refined_brick(brick_lattice);
+  const LeafGraph graph(test::world(), brick_lattice, forest);
+  LeafFinder finder(graph);
+  for (const LeafId leaf : graph.all()) {
+    const Quadrant& q = graph.leaf(leaf);
+    const std::array<LeafId, 4> expected{graph.leaf_at(q.x - 1, q.y - 1), graph.leaf_at(q.x, q.y - 1), leaf,
+                                         graph.leaf_at(q.x - 1, q.y)};
+    EXPECT_EQ(finder.leaves_round({q.x, q.y}), expected);
+  }
 }
 
 TEST(LeafGraph, NeighboursAreTheLeavesThatTouch) {

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
+#include "mesher/base/morton.hpp"
 
 namespace quadloop {
 namespace {
@@ -45,6 +48,20 @@ TEST(Lattice, CoordinatesOfAMirroredRootAreMirrored) {
     EXPECT_LT(root.x(i), root.x(i + 1024));
   }
   EXPECT_EQ(root.x(last), box.high.x);
+}
+
+TEST(LatticePoint, TheCurvePassesAllOfAQuadrantBeforeTheNext) {
+  std::vector<LatticePoint> points;
+  for (std::int64_t x = 0; x < 16; ++x) {
+    for (std::int64_t y = 0; y < 16; ++y) points.push_back({x << 29, y << 29});
+  }
+  std::sort(points.begin(), points.end(), comes_earlier);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto column = static_cast<std::uint32_t>(points[i].x >> 29),
+               row = static_cast<std::uint32_t>(points[i].y >> 29);
+    EXPECT_EQ(morton_key(column, row), i);
+    EXPECT_FALSE(comes_earlier(points[i], points[i]));
+  }
 }
 
 TEST(Lattice, TooFineASpacingIsRefused) {

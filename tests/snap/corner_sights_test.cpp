@@ -29,8 +29,9 @@ std::vector<Sight> seen_from(const std::vector<Sight>& sights, LatticePoint corn
 TEST(CornerSights, BothEndsOfAnEdgeSeeItsCrossingThroughBothLeaves) {
   const TracedLeaves leaves(above());
   const auto sights = sights_by_corner(leaves.graph, leaves.lattice, leaves.traced);
-  EXPECT_TRUE(std::is_sorted(sights.begin(), sights.end(),
-                             [](const Sight& a, const Sight& b) { return a.corner < b.corner; }));
+  EXPECT_TRUE(std::is_sorted(sights.begin(), sights.end(), [](const Sight& a, const Sight& b) {
+    return comes_earlier(a.corner, b.corner);
+  }));
   for (std::int64_t x = 0; x <= 4; ++x) {
     if (!leaves.at_local_leaf(at(x, 1))) continue;
     const auto below = seen_from(sights, at(x, 1));
@@ -85,8 +86,9 @@ TEST(LeafEdge, ASideWithAHangingNodeIsTwoEdges) {
 
 TEST(LeafEdge, TheSmallestLeafAtACornerCounts) {
   const TracedLeaves leaves(above(), {{0, 0}, {2, 4}});
+  LeafFinder finder(leaves.graph);
   const auto shortest = [&](std::int64_t x, std::int64_t y) {
-    return shortest_edge_at(leaves.graph, leaves.lattice, at(x, y));
+    return shortest_edge_at(finder, leaves.lattice, at(x, y));
   };
   if (leaves.at_local_leaf(at(2, 2))) {
     EXPECT_EQ(shortest(2, 2), 1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/forest/leaf_finder.hpp"
 #include "mesher/snap/snap_corners.hpp"
 #include "tests/support/world.hpp"
 
@@ -42,7 +43,7 @@ class TracedLeaves {
 
   /// Whether a leaf of this rank touches the lattice corner, or holds it on a side.
   bool at_local_leaf(LatticePoint corner) const {
-    const auto round = graph.leaves_round(corner);
+    const auto round = LeafFinder(graph).leaves_round(corner);
     return std::any_of(round.begin(), round.end(), [&](LeafId leaf) { return graph.is_local(leaf); });
   }
 

@@ -54,7 +54,7 @@ class GoneTriangles {
   /// lowest.
   std::int64_t nearest(std::size_t node, Point p, std::int32_t block) const {
     std::pair best{std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max()};
-    for (std::size_t at = starts_[node]; at < starts_[node + 1]; ++at) {
+    for (std::int32_t at = starts_[node]; at < starts_[node + 1]; ++at) {
       const auto& [nodes, triangle, centroid] = gone_[around_[at]];
       const Point off = centroid - p;
       if (triangle.block == block) best = std::min(best, {dot(off, off), triangle.number});
@@ -64,7 +64,7 @@ class GoneTriangles {
 
  private:
   std::span<const Gone> gone_;
-  std::vector<std::size_t> starts_;   ///< of each node, in around_
+  std::vector<std::int32_t> starts_;  ///< of each node, in around_
   std::vector<std::int32_t> around_;  ///< indices of those that are gone
 };
 
