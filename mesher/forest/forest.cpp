@@ -1,10 +1,8 @@
 #include "mesher/forest/forest.hpp"
 
 #include <p4est_bits.h>
-#include <p4est_communication.h>
 #include <p4est_extended.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <new>
@@ -52,10 +50,13 @@ void set_up_p4est() {
   p4est_init(keep_words, SC_LP_ERROR);
 }
 
-/// What p4est's callback reaches through its user pointer.
-struct Callback {
+/// What p4est's callbacks reach through its user pointer.
+struct Callbacks {
   const std::vector<Quadrant>* tree_corners = nullptr;
+  const std::function<bool(const Quadrant&)>* split = nullptr;
+  const std::vector<char>* marked = nullptr;
   const std::function<int(const Quadrant&)>* weight = nullptr;
+  std::size_t next = 0;  ///< leaf that the callback is asked about
 };
 
 Quadrant quadrant_of(const std::vector<Quadrant>& tree_corners, p4est_topidx_t tree,
@@ -64,44 +65,22 @@ Quadrant quadrant_of(const std::vector<Quadrant>& tree_corners, p4est_topidx_t t
   return {corner.x + q.x, corner.y + q.y, q.level};
 }
 
+Callbacks& callbacks_of(p4est_t* forest) { return *static_cast<Callbacks*>(forest->user_pointer); }
+
+int split_by_function(p4est_t* forest, p4est_topidx_t tree, p4est_quadrant_t* q) {
+  Callbacks& callbacks = callbacks_of(forest);
+  return (*callbacks.split)(quadrant_of(*callbacks.tree_corners, tree, *q)) ? 1 : 0;
+}
+
+int split_by_mark(p4est_t* forest, p4est_topidx_t, p4est_quadrant_t*) {
+  Callbacks& callbacks = callbacks_of(forest);
+  return (*callbacks.marked)[callbacks.next++];
+}
+
 int weight_by_function(p4est_t* forest, p4est_topidx_t tree, p4est_quadrant_t* q) {
-  const auto& callback = *static_cast<const Callback*>(forest->user_pointer);
-  return (*callback.weight)(quadrant_of(*callback.tree_corners, tree, *q));
+  const Callbacks& callbacks = callbacks_of(forest);
+  return (*callbacks.weight)(quadrant_of(*callbacks.tree_corners, tree, *q));
 }
-
-using Leaves = std::unique_ptr<sc_array_t, Releaser<sc_array_destroy>>;
-
-/// Puts other leaves in the place of those that a rank has of a tree, over the same part of the curve.
-void replace_leaves(p4est_tree_t& tree, Leaves leaves) {
-  std::fill_n(tree.quadrants_per_level, P4EST_QMAXLEVEL + 1, 0);
-  for (std::size_t i = 0; i < leaves->elem_count; ++i)
-    ++tree.quadrants_per_level[p4est_quadrant_array_index(leaves.get(), i)->level];
-  tree.maxlevel = P4EST_QMAXLEVEL;
-  while (tree.maxlevel > 0 && tree.quadrants_per_level[tree.maxlevel] == 0) --tree.maxlevel;
-  std::swap(tree.quadrants, *leaves);
-}
-
-/// Leaves of one tree that are being made from those before.
-struct Refined {
-  const Quadrant& tree_corner;
-  const std::function<bool(const Quadrant&)>& split;
-  int deepest_level;
-  sc_array_t* leaves;
-
-  /// A quadrant, or what it is split into, in the order of the curve.
-  void append(const p4est_quadrant_t& q) {
-    const Quadrant here{tree_corner.x + q.x, tree_corner.y + q.y, q.level};
-    if (q.level >= deepest_level || !split(here)) {
-      *static_cast<p4est_quadrant_t*>(sc_array_push(leaves)) = q;
-      return;
-    }
-    for (int child = 0; child < P4EST_CHILDREN; ++child) {
-      p4est_quadrant_t quarter = q;
-      p4est_quadrant_child(&q, &quarter, child);
-      append(quarter);
-    }
-  }
-};
 
 }  // namespace
 
@@ -133,45 +112,23 @@ Forest::~Forest() = default;
 Forest::Forest(Forest&&) noexcept = default;
 
 void Forest::refine(const std::function<bool(const Quadrant&)>& split, int deepest_level) {
-  p4est_t& forest = *impl_->forest;
-  forest.local_num_quadrants = 0;
-  for (p4est_topidx_t t = forest.first_local_tree; t <= forest.last_local_tree; ++t) {
-    p4est_tree_t& tree = *p4est_tree_array_index(forest.trees, t);
-    Leaves leaves(sc_array_new(sizeof(p4est_quadrant_t)));
-    Refined refined{impl_->tree_corners[t], split, deepest_level, leaves.get()};
-    for (std::size_t i = 0; i < tree.quadrants.elem_count; ++i)
-      refined.append(*p4est_quadrant_array_index(&tree.quadrants, i));
-    replace_leaves(tree, std::move(leaves));
-    tree.quadrants_offset = forest.local_num_quadrants;
-    forest.local_num_quadrants += static_cast<p4est_locidx_t>(tree.quadrants.elem_count);
-  }
-  const bool any = forest.last_local_tree >= 0;
-  for (p4est_topidx_t t = forest.last_local_tree + 1; any && t < forest.connectivity->num_trees; ++t)
-    p4est_tree_array_index(forest.trees, t)->quadrants_offset = forest.local_num_quadrants;
-  p4est_comm_count_quadrants(&forest);
+  Callbacks callbacks{.tree_corners = &impl_->tree_corners, .split = &split};
+  impl_->forest->user_pointer = &callbacks;
+  p4est_refine_ext(impl_->forest.get(), 1, deepest_level, split_by_function, nullptr, nullptr);
 }
 
 void Forest::split_marked(const std::vector<char>& marked) {
   QUADLOOP_REQUIRE(std::ssize(marked) == local_leaves(), "one mark for each local leaf");
-  std::size_t next = 0;
-  int new_ones = 0;  // that are asked for next: they stay
-  const auto is_marked = [&](const Quadrant&) {
-    if (new_ones > 0) {
-      --new_ones;
-      return false;
-    }
-    const bool splits = marked[next++] != 0;
-    new_ones = splits ? P4EST_CHILDREN : 0;
-    return splits;
-  };
-  refine(is_marked, P4EST_MAXLEVEL);
+  Callbacks callbacks{.marked = &marked};
+  impl_->forest->user_pointer = &callbacks;
+  p4est_refine_ext(impl_->forest.get(), 0, P4EST_QMAXLEVEL, split_by_mark, nullptr, nullptr);
 }
 
 void Forest::partition() { p4est_partition_ext(impl_->forest.get(), 0, nullptr); }
 
 void Forest::partition(const std::function<int(const Quadrant&)>& weight) {
-  Callback callback{.tree_corners = &impl_->tree_corners, .weight = &weight};
-  impl_->forest->user_pointer = &callback;
+  Callbacks callbacks{.tree_corners = &impl_->tree_corners, .weight = &weight};
+  impl_->forest->user_pointer = &callbacks;
   p4est_partition_ext(impl_->forest.get(), 0,
                       weight_by_function);  // on every rank, also on one without leaves
 }
