@@ -136,7 +136,6 @@ class SteadyMarch {
     if (best_.residual > developed) throw SolverError(failure);
     result_.failed_as_steady = failure;
     result_.residual = std::numeric_limits<double>::infinity();
-    go_back();
     return finish(0);
   }
 
@@ -213,6 +212,7 @@ class SteadyMarch {
     mirror();
     run_.residual.freeze_limiter();
     shares_.restart();
+    pilot_.restart();
   }
 
   void tell(const std::string& what) const {
@@ -246,7 +246,11 @@ class SteadyMarch {
   void newton_step(const std::vector<Flux>& fluxes, double cfl) {
     if (!newton_) newton_.emplace(run_, system_);
     const NewtonStep::Taken taken = newton_->take(fluxes, pilot_.cfl(cfl), shares_.shares());
-    pilot_.learn(taken.share, taken.left_over);
+    const bool failed = pilot_.learn(taken.share, taken.left_over);
+    if (!failed || !StallWatch::is_settled(result_.residual) || !run_.residual.limiter_is_live()) return;
+    run_.residual.evaluate(run_.states);
+    keep_limiter();  // live factors are what such steps fail at
+    tell("a Newton step failed: the limiter's factors are kept from here on");
   }
 
   FlowRun run_;
