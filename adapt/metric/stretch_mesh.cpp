@@ -21,7 +21,7 @@ namespace quadloop {
 namespace {
 
 /// What a mesh of so many nodes is to be allowed: rounds do not all come to the same.
-std::int64_t with_room(std::int64_t nodes) { return std::llround(1.02 * static_cast<double>(nodes)); }
+std::int64_t with_room(std::int64_t nodes) { return std::llround(1.05 * static_cast<double>(nodes)); }
 
 /// Of equilateral triangles as dense as the halves of a square of edge 1.
 constexpr double size_for_leaf = 1.0745699318235418;
