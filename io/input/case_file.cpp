@@ -75,7 +75,7 @@ std::string Range::text() const {
   if (std::isfinite(low)) text = fmt::format("{} {}", low_open ? "above" : "at least", low);
   if (std::isfinite(high))
     text += fmt::format("{}{} {}", text.empty() ? "" : " and ", high_open ? "below" : "at most", high);
-  return text;
+  return text.empty() ? "finite" : text;
 }
 
 /// Lookups of one table with the refusals that they share.
@@ -87,9 +87,11 @@ class Lookup {
   double number(const toml::node& node) const {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value) refuse("a number", node);
-    if (!range_.contains(*value))
-      table_.refuse(key_, fmt::format("is {}, but must be {}{}", *value,
-                                      std::isfinite(*value) ? "" : "a finite number, ", range_.text()));
+    if (!range_.contains(*value)) {
+      const bool is_endless = std::isinf(*value) && std::isfinite(range_.low);
+      table_.refuse(key_, fmt::format("is {}, but must be {}{}", *value, range_.text(),
+                                      is_endless ? " and finite" : ""));
+    }
     return *value;
   }
   std::string text(const toml::node& node) const {

@@ -86,18 +86,22 @@ bool RungeKutta::take(double step, const std::vector<Flux>& fluxes, int halvings
   std::vector<State> failed;
   for (std::size_t k = 0; k < stages.size(); ++k) {
     advance_stage(run_, stages[k], step, start_, k == 0 ? fluxes : run_.residual.evaluate(run_.states));
-    if (halvings == 0 && failed.empty() && !is_gas_everywhere()) failed = run_.states;
+    if (halvings == 0 && failed.empty() && !is_everywhere(is_gas)) failed = run_.states;
   }
-  if (is_gas_everywhere()) return true;
-  run_.states = halvings > 0 ? before : failed;
-  if (halvings == 0) return false;
+  if (is_everywhere(is_gas)) return true;
+  if (halvings == 0) {
+    if (is_everywhere(is_finite)) return true;  // what little is missing may come back
+    run_.states = failed;
+    return false;
+  }
+  run_.states = before;
   const auto take_half = [&] { return take(0.5 * step, run_.residual.evaluate(run_.states), halvings - 1); };
   return take_half() && take_half();
 }
 
-bool RungeKutta::is_gas_everywhere() const {
+bool RungeKutta::is_everywhere(bool (*holds)(const State&)) const {
   const std::span<const State> own = std::span(run_.states).first(start_.size());
-  return !run_.comm.any(!std::ranges::all_of(own, is_gas));
+  return !run_.comm.any(!std::ranges::all_of(own, holds));
 }
 
 }  // namespace quadloop::euler

@@ -21,7 +21,7 @@ class RungeKutta : public TimeScheme {
  private:
   bool take(double step, const std::vector<Flux>& fluxes, int halvings);
   /// *Collective.*
-  bool is_gas_everywhere() const;
+  bool is_everywhere(bool (*holds)(const State&)) const;
 
   TimeRun run_;
   double cfl_;

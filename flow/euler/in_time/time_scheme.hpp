@@ -20,11 +20,12 @@ struct TimeRun {
   std::vector<State>& states;  ///< of each node; schemes change the owned ones
 };
 
-/// Whether it is a state of a gas: all is finite, density and pressure are above 0.
-inline bool is_gas(const State& state) {
-  return std::ranges::all_of(state, [](double value) { return std::isfinite(value); }) && state[0] > 0 &&
-         state[3] > 0;
+inline bool is_finite(const State& state) {
+  return std::ranges::all_of(state, [](double value) { return std::isfinite(value); });
 }
+
+/// Whether it is a state of a gas: all is finite, density and pressure are above 0.
+inline bool is_gas(const State& state) { return is_finite(state) && state[0] > 0 && state[3] > 0; }
 
 /// A way of taking steps that are the same size at all nodes.
 class TimeScheme {
@@ -34,8 +35,8 @@ class TimeScheme {
   /// How long the next step may be. *Collective.*
   virtual double longest_step() = 0;
 
-  /// `fluxes` are those of the states; the residual is evaluated at others. Tells whether there is gas in
-  /// every node then; else the states are those in which it first failed. *Collective.*
+  /// `fluxes` are those of the states; the residual is evaluated at others. Tells whether the flow
+  /// can go on from there; else the states are those in which it first failed. *Collective.*
   virtual bool advance(double step, const std::vector<Flux>& fluxes) = 0;
 
   virtual bool is_implicit() const = 0;

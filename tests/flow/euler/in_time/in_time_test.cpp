@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "flow/euler/flow_run.hpp"
@@ -256,15 +257,26 @@ TEST(CarryOn, EndsWhereTheFlowIsSteadyAfterAll) {
   EXPECT_EQ(result.flow.names.size(), 4U);
 }
 
-/// A start that goes on in time from next to a vacuum that gas runs away from: no time step bears it.
-Field hopeless_at_end(const Mesh& mesh) {
-  Field start;
-  start.names = {euler_names.begin(), euler_names.end()};
-  start.names.insert(start.names.end(), at_end_names.begin(), at_end_names.end());
+/// A field with these variables: next to a vacuum that gas runs away from. No step in time bears it.
+Field hopeless(const Mesh& mesh, const std::array<const char*, 4>& names) {
+  Field field;
+  field.names = {names.begin(), names.end()};
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
     const double speed = mesh.point(NodeId{node}).x > 0.2 ? 40 : -40;
-    for (const double value : {1.0, 0.4, 0.02, 1 / 1.4, 0.05, speed, 0.0, 1e-5})
-      start.values.push_back(value);
+    for (const double value : {0.05, speed, 0.0, 1e-5}) field.values.push_back(value);
+  }
+  return field;
+}
+
+/// A mean that is sound, and such a flow at its end.
+Field hopeless_at_end(const Mesh& mesh) {
+  const Field last = hopeless(mesh, at_end_names);
+  Field start;
+  start.names = {euler_names.begin(), euler_names.end()};
+  start.names.insert(start.names.end(), last.names.begin(), last.names.end());
+  for (std::size_t row = 0; row < last.values.size(); row += 4) {
+    for (const double value : {1.0, 0.4, 0.02, 1 / 1.4}) start.values.push_back(value);
+    start.values.insert(start.values.end(), last.values.begin() + row, last.values.begin() + row + 4);
   }
   return start;
 }
@@ -272,9 +284,10 @@ Field hopeless_at_end(const Mesh& mesh) {
 TEST(CarryOn, FallsBackToTheSteadyFlow) {
   const Mesh mesh = ring();
   EulerOptions options = carried(), steady = options;
-  options.mach = steady.mach = 6;
   steady.unsteady = EulerOptions::Unsteady::stop;
-  const EulerResult fallen = solve_euler(world(), mesh, options), kept = solve_euler(world(), mesh, steady);
+  const Field start = hopeless(mesh, euler_names);
+  const EulerResult fallen = solve_euler(world(), mesh, options, start),
+                    kept = solve_euler(world(), mesh, steady, start);
   EXPECT_FALSE(fallen.failed_in_time.empty());
   EXPECT_FALSE(fallen.unsteady);
   EXPECT_FALSE(fallen.converged);
@@ -287,7 +300,7 @@ TEST(CarryOn, FallsBackToTheSteadyFlow) {
   EXPECT_EQ(fallen.history.size(), kept.history.size());
   const std::string said = shortfall(fallen, options);
   for (const char* const words :
-       {"could not be carried on in time", "at (", "try a smaller cfl", "flow of step 4"})
+       {"could not be carried on in time", "at (", "try a smaller cfl", "flow of step "})
     EXPECT_NE(said.find(words), std::string::npos) << said;
 }
 
