@@ -20,6 +20,9 @@ namespace quadloop {
 
 namespace {
 
+/// What a mesh of so many nodes is to be allowed: rounds do not all come to the same.
+std::int64_t with_room(std::int64_t nodes) { return std::llround(1.05 * static_cast<double>(nodes)); }
+
 /// Of equilateral triangles as dense as the halves of a square of edge 1.
 constexpr double size_for_leaf = 1.0745699318235418;
 
@@ -211,9 +214,12 @@ class Stretching {
     }
     report.warnings.push_back(fmt::format(
         "the mesh has {} nodes where adapt.max_nodes allows {}: {}", all, demand_.nodes,
-        is_floor(last, now) ? "the case's own sizes ask for them, and leave none to stretch cells with; make "
-                              "spacing.max and the boundaries' spacings larger, or adapt.max_nodes"
-                            : "it came no nearer"));
+        is_floor(last, now)
+            ? fmt::format("the case's own sizes ask for them, and leave none to stretch cells with; give at "
+                          "least {}, "
+                          "better twice as many, or make spacing.max and the boundaries' spacings larger",
+                          with_room(all))
+            : "it came no nearer"));
   }
 
   const Communicator& comm_;
@@ -236,10 +242,7 @@ std::int64_t least_nodes_of_metric(const Communicator& comm, const MeshInput& in
   }
   MetricDemand demand{even.names, {}, 2};
   demand.min = min;
-  constexpr double rounds_differ = 1.02;
-  const std::int64_t nodes =
-      Stretching(comm, input, result.mesh, even, demand, result).least_nodes(result.mesh);
-  return std::llround(rounds_differ * static_cast<double>(nodes));
+  return with_room(Stretching(comm, input, result.mesh, even, demand, result).least_nodes(result.mesh));
 }
 
 StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, const Mesh& solved,

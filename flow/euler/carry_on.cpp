@@ -1,7 +1,11 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "flow/euler/flow_run.hpp"
 #include "flow/euler/in_time/runge_kutta.hpp"
+#include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 
@@ -28,37 +32,89 @@ double flow_through_time(const FlowRun& run) {
   return length / std::hypot(run.model.free_stream[1], run.model.free_stream[2]);
 }
 
-/// Explicit steps where they are not too many for each flow-through time; else implicit ones.
-TimePlan plan_of(const FlowRun& run) {
-  const double flow_through = flow_through_time(run);
+/// For how long, in what steps: explicit ones where they are not too many for each flow-through time, else
+/// implicit ones.
+struct Course {
+  double flow_through, explicit_step;
+  std::optional<double> step;
+
+  double end(const EulerOptions& options) const { return options.flow_throughs * flow_through; }
+  double steps(const EulerOptions& options) const { return end(options) / step.value_or(explicit_step); }
+};
+
+Course course_of(const FlowRun& run) {
+  run.mesh.exchange().update(run.states);
   const TimeRun in_time{run.comm, run.mesh, run.model, run.residual, run.states};
-  const double explicit_step = RungeKutta(in_time, run.options.cfl).longest_step();
+  Course course{flow_through_time(run), RungeKutta(in_time, run.options.cfl).longest_step(),
+                run.options.time_step};
+  if (!course.step && course.explicit_step * most_explicit_steps < course.flow_through)
+    course.step = course.flow_through / implicit_steps;
+  return course;
+}
+
+TimePlan plan_of(const FlowRun& run) {
+  const Course course = course_of(run);
   TimePlan plan;
-  plan.end = run.options.flow_throughs * flow_through;
+  plan.end = course.end(run.options);
   plan.average_from = 0.5 * plan.end;
-  plan.step = run.options.time_step;
-  if (!plan.step && explicit_step * most_explicit_steps < flow_through)
-    plan.step = flow_through / implicit_steps;
-  const double steps = plan.end / plan.step.value_or(explicit_step);
-  plan.most_steps = static_cast<int>(std::min(1e9, 10 * steps + 100));  // faster flow takes shorter steps
+  plan.step = course.step;
+  plan.most_steps = static_cast<int>(
+      std::min(1e9, 10 * course.steps(run.options) + 100));  // faster flow takes shorter steps
   plan.reference = free_stream_residual(run);
   plan.tolerance = run.options.tolerance;
   return plan;
 }
 
+/// Its steps may have become ever shorter.
+std::string early_end(const EulerResult& result, const TimePlan& plan) {
+  return fmt::format("{} steps in time came to time {:.6g} of {:.6g} alone; give a time_step",
+                     result.iterations, result.time, plan.end);
+}
+
 }  // namespace
 
+void require_few_steps(const FlowRun& run) {
+  const EulerOptions& options = run.options;
+  const Course course = course_of(run);
+  const double steps = course.steps(options);
+  if (steps <= most_steps_in_time) return;
+  const std::string number = fmt::format(
+      "a flow that is carried on for {:.6g} flow-through times of {:.6g} each would take {:.2g} steps of "
+      "{:.2g}, of which there may be {:.0f}",
+      options.flow_throughs, course.flow_through, steps, course.step.value_or(course.explicit_step),
+      most_steps_in_time);
+  if (!options.time_step || course.flow_through / implicit_steps <= *options.time_step)
+    throw InputError(number + "; lower solver.flow_throughs");
+  throw InputError(fmt::format("{}; a solver.time_step of {:.2g} would be a fortieth of such a time", number,
+                               course.flow_through / implicit_steps));
+}
+
 void carry_on(const FlowRun& run, EulerResult& result, TimeAverage& average) {
+  const EulerResult steady = result;
+  const std::vector<State> steady_states = run.states;
+  std::string failure;
   run.residual.release_limiter();
-  run.mesh.exchange().update(run.states);
-  const TimePlan plan = plan_of(run);
-  const progress::Stage stage("carrying on in time", plan.end, "units of time");
-  const int steady_steps = result.iterations;
-  const double steady_residual = result.residual;
-  march_in_time(run, plan, result, average);
-  if (!result.unsteady) return;
-  result.unsteady->steady_steps = steady_steps;
-  result.unsteady->steady_residual = steady_residual;
+  try {
+    const TimePlan plan = plan_of(run);
+    const progress::Stage stage("carrying on in time", plan.end, "units of time");
+    march_in_time(run, plan, result, average);
+    if (!result.converged) failure = early_end(result, plan);
+  } catch (const SolverError& error) {  // the same on all ranks
+    failure = error.what();
+  }
+  if (failure.empty()) {
+    if (!result.unsteady) return;
+    result.unsteady->carried_on = true;
+    result.unsteady->steady_steps = steady.iterations;
+    result.unsteady->steady_residual = steady.residual;
+    return;
+  }
+  result = steady;
+  result.failed_in_time = failure;
+  average = {};
+  run.states = steady_states;
+  FarField far_field(run.comm, run.mesh, run.model);
+  surround(run, far_field);
 }
 
 }  // namespace quadloop::euler

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "flow/euler/forces.hpp"
+#include "flow/euler/in_time/time_scheme.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/base/progress.hpp"
 
@@ -69,9 +71,21 @@ void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end, co
   run.options.progress({result.iterations, result.residual, forces.cl, forces.cd, result.time, cfl});
 }
 
-std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes) {
+namespace {
+
+constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+
+/// The first owned node whose state is no gas's.
+std::int64_t first_without_gas(const FlowRun& run) {
+  for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
+    if (!is_gas(run.states[node])) return run.mesh.global(node).value();
+  }
+  return none;
+}
+
+/// Over all ranks the first of those with the largest flux. *Collective.*
+std::int64_t first_of_largest_flux(const FlowRun& run, const std::vector<Flux>& fluxes) {
   double worst = -1;
-  constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
   std::int64_t at = none;
   for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
     double size = std::abs(fluxes[node][0]);
@@ -80,15 +94,21 @@ std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes) {
     worst = size;
     at = run.mesh.global(node).value();
   }
-  at = run.comm.minimum(worst < run.comm.maximum(worst) ? none : at);
-  constexpr double nowhere = -std::numeric_limits<double>::infinity();
-  std::array<double, 6> told{nowhere, nowhere, nowhere, nowhere, nowhere, nowhere};
+  return run.comm.minimum(worst < run.comm.maximum(worst) ? none : at);
+}
+
+}  // namespace
+
+std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes) {
+  std::int64_t at = run.comm.minimum(first_without_gas(run));
+  if (at == none) at = first_of_largest_flux(run, fluxes);
+  std::vector<double> told;
   for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
     if (run.mesh.global(node) != GlobalNodeId{at}) continue;
     const State& state = run.states[node];
     told = {run.mesh.point(node).x, run.mesh.point(node).y, state[0], state[1], state[2], state[3]};
   }
-  for (double& value : told) value = run.comm.maximum(value);
+  told = run.comm.all_gather_values(std::span<const double>(told));
   return fmt::format(
       "at ({:.6g}, {:.6g}), where density is {:.4g}, velocity ({:.4g}, {:.4g}) and pressure {:.4g}", told[0],
       told[1], told[2], told[3], told[4], told[5]);

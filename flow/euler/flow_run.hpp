@@ -38,8 +38,8 @@ struct Telling {
 /// Keeps the history, and hands the options' callback what it is due. *Collective.*
 void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end, const Telling& telling = {});
 
-/// "density ... at (x, y)" of the node, over all ranks, where the flow is least physical: the first that is
-/// not, else that of the largest flux. *Collective.*
+/// "at (x, y), where density is ..." of the node, over all ranks, where the flow is least physical: the first
+/// that has no gas (is_gas), else the first of the largest flux. *Collective.*
 std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes);
 
 /// Implicit steps with local time steps until the tolerance is met or the iterations are used up.
@@ -59,8 +59,13 @@ struct TimePlan {
 /// `plan.average_from` and the end joins `average`. *Collective.*
 void march_in_time(const FlowRun& run, const TimePlan& plan, EulerResult& result, TimeAverage& average);
 
+/// Refuses what would take more steps in time than anybody waits for: throws InputError with their number and
+/// a step that will do. *Collective.*
+void require_few_steps(const FlowRun& run);
+
 /// A flow that has no steady state, or a start that was carried on before, goes on in time as the options
-/// ask, unless it becomes steady. *Collective.*
+/// ask, unless it becomes steady. Where it fails in time, states and result stay as they are, but for
+/// EulerResult::failed_in_time. *Collective.*
 void carry_on(const FlowRun& run, EulerResult& result, TimeAverage& average);
 
 /// The free stream in every node, at rest where it sticks to walls.

@@ -40,7 +40,7 @@ class TimeMarch {
       const double step = last ? left : full;
       require_progress(step);
       before = count(before, step);
-      scheme_->advance(step, fluxes);
+      if (!scheme_->advance(step, fluxes)) fail(run_.residual.evaluate(run_.states));
       longest_ = std::max(longest_, step);
       result_.time = last ? plan_.end : result_.time + step;
       ++result_.iterations;
@@ -52,17 +52,20 @@ class TimeMarch {
 
   void measure(const std::vector<Flux>& fluxes) {
     const double norm = mass_residual(run_, fluxes);
-    if (!std::isfinite(norm)) {
-      throw SolverError(
-          fmt::format("the flow solver failed at time {:.6g} {}; look at the boundary conditions and the "
-                      "cells there, or try a smaller {}",
-                      result_.time, worst_place(run_, fluxes),
-                      scheme_->is_implicit() ? "time_step" : "cfl, or implicit steps by a time_step"));
-    }
+    if (!std::isfinite(norm)) fail(fluxes);
     if (reference_ == 0) reference_ = norm;
     result_.residual = reference_ > 0 ? norm / reference_ : 0;
     is_steady_ = plan_.tolerance > 0 && result_.residual <= plan_.tolerance;
     result_.converged = result_.time >= plan_.end || is_steady_;
+  }
+
+  /// At the states, of the step under way.
+  [[noreturn]] void fail(const std::vector<Flux>& fluxes) const {
+    throw SolverError(
+        fmt::format("the flow solver failed at time {:.6g} {}; look at the boundary conditions and the "
+                    "cells there, or try a smaller {}",
+                    result_.time, worst_place(run_, fluxes),
+                    scheme_->is_implicit() ? "time_step" : "cfl, or implicit steps by a time_step"));
   }
 
   void require_progress(double step) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "flow/euler/flow_run.hpp"
@@ -51,7 +52,14 @@ class SteadyMarch {
       const std::vector<Flux>& fluxes = run_.residual.evaluate(run_.states);
       measure(fluxes);
       if (!std::isfinite(result_.residual) || result_.residual > blown_up) {
-        give_up_or_retry(fluxes);
+        if (start_is_useless()) {
+          leave_start();
+        } else if (++retries_ > most_retries || result_.iterations == 0) {
+          return end_at_best(fluxes);
+        } else {
+          limit_.lower(0.3);
+          go_back();
+        }
         continue;
       }
       if (result_.converged && becomes_image()) continue;
@@ -119,16 +127,16 @@ class SteadyMarch {
     reference_ = of_free_stream_;
   }
 
-  void give_up_or_retry(const std::vector<Flux>& fluxes) {
-    if (start_is_useless()) return leave_start();
-    if (++retries_ > most_retries || result_.iterations == 0) {
-      throw SolverError(
-          fmt::format("the flow solver failed after {} steps {}; look at the boundary conditions and the "
-                      "cells there, or try a smaller cfl",
-                      result_.iterations, worst_place(run_, fluxes)));
-    }
-    limit_.lower(0.3);
-    go_back();
+  /// The flow blew up once more than is borne. One that has its shape is worth keeping.
+  EulerResult end_at_best(const std::vector<Flux>& fluxes) {
+    const std::string failure = fmt::format(
+        "the flow solver failed after {} steps {}; look at the boundary conditions and the "
+        "cells there, or try a smaller cfl",
+        result_.iterations, worst_place(run_, fluxes));
+    if (best_.residual > developed) throw SolverError(failure);
+    result_.failed_as_steady = failure;
+    result_.residual = std::numeric_limits<double>::infinity();
+    return finish(0);
   }
 
   /// To the best flow so far, to leave it in smaller steps.
@@ -204,6 +212,7 @@ class SteadyMarch {
     mirror();
     run_.residual.freeze_limiter();
     shares_.restart();
+    pilot_.restart();
   }
 
   void tell(const std::string& what) const {
@@ -237,7 +246,11 @@ class SteadyMarch {
   void newton_step(const std::vector<Flux>& fluxes, double cfl) {
     if (!newton_) newton_.emplace(run_, system_);
     const NewtonStep::Taken taken = newton_->take(fluxes, pilot_.cfl(cfl), shares_.shares());
-    pilot_.learn(taken.share, taken.left_over);
+    const bool failed = pilot_.learn(taken.share, taken.left_over);
+    if (!failed || !StallWatch::is_settled(result_.residual) || !run_.residual.limiter_is_live()) return;
+    run_.residual.evaluate(run_.states);
+    keep_limiter();  // live factors are what such steps fail at
+    tell("a Newton step failed: the limiter's factors are kept from here on");
   }
 
   FlowRun run_;

@@ -23,6 +23,13 @@ class NewtonPilot {
   void call() { called_ = true; }
   bool is_called() const { return called_; }
 
+  /// The residual is another one, which Newton steps may be good for at once.
+  void restart() {
+    cfl_ = 0;
+    rest_ = 0;
+    pause_ = first_pause;
+  }
+
   /// Of that step; `plain` is that of a plain one.
   double cfl(double plain) {
     cfl_ = cfl_ > 0 ? cfl_ : plain;
@@ -30,7 +37,8 @@ class NewtonPilot {
   }
 
   /// Of the step: which share of the change lowered the residual, and what was left of the linear system's.
-  void learn(double share, double left_over) {
+  /// Tells whether the step failed.
+  bool learn(double share, double left_over) {
     if (share < least_share) {
       cfl_ = std::max(least_cfl, 0.3 * cfl_);
       rest_ = pause_;
@@ -40,6 +48,7 @@ class NewtonPilot {
     } else if (share == 1 && left_over < 0.15) {
       cfl_ = std::min(largest_cfl, 3 * cfl_);
     }
+    return share < least_share;
   }
 
  private:

@@ -26,6 +26,9 @@ class StallWatch {
   /// The residual did not halve in five hundred steps.
   bool is_over() const { return falls_less(500, 0.5); }
 
+  /// So near the end that the limiter's factors are all but those of the end.
+  static bool is_settled(double residual) { return residual < settled; }
+
   /// In the second half of all steps the residual did not halve: more of them are no cure.
   bool is_slow() const { return best_.size() > 60 && best_.back() > 0.5 * best_[best_.size() / 2]; }
 

@@ -9,6 +9,16 @@ std::string shortfall(const EulerResult& result, const EulerOptions& options) {
     return fmt::format("time {:.6g} of {:.6g} was reached in {} steps; raise solver.iterations", result.time,
                        options.end_time, result.iterations);
   }
+  if (!result.failed_in_time.empty()) {
+    return fmt::format(
+        "the flow could not be carried on in time ({}); the steady flow of step {} is kept, with a residual "
+        "of {:.2e}, not the tolerance {:.2e}",
+        result.failed_in_time, result.kept_iteration, result.residual, options.tolerance);
+  }
+  if (!result.failed_as_steady.empty()) {
+    return fmt::format("{}; the flow of step {} is kept, with a residual of {:.2e}, not the tolerance {:.2e}",
+                       result.failed_as_steady, result.kept_iteration, result.residual, options.tolerance);
+  }
   if (result.kept_iteration < result.iterations) {
     return fmt::format(
         "the residual fell to {:.2e} at step {} and then rose to {:.2e}; the flow at step {} is kept. It may "

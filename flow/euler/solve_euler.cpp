@@ -1,5 +1,7 @@
 #include "flow/euler/solve_euler.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "flow/euler/flow_run.hpp"
@@ -26,18 +28,23 @@ bool goes_on_in_time(const EulerOptions& options, const Field& start) {
   });
 }
 
+/// The owned nodes' states become those that the start has by these names.
+void take_start(const DualMesh& dual, const Field& start, const std::vector<std::string>& names,
+                std::vector<State>& states) {
+  const Field given = selected(start, names, "the starting state");
+  const std::size_t owned = dual.owned_nodes();
+  QUADLOOP_REQUIRE(given.values.size() == 4 * owned, "a row for each owned node");
+  for (std::size_t node = 0; node < owned; ++node)
+    std::copy_n(given.values.begin() + 4 * node, 4, states[node].begin());
+}
+
 /// A state for each node; those of copies come later.
 std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, const DualMesh& dual,
                                 const FlowModel& model, const EulerOptions& options, const Field& start) {
   std::vector<State> states(dual.nodes(), model.free_stream);
-  const std::size_t owned = dual.owned_nodes();
   if (start.width() > 0) {
     const std::vector<std::string> at_end(at_end_names.begin(), at_end_names.end());
-    const Field given =
-        selected(start, goes_on_in_time(options, start) ? at_end : flow_names(), "the starting state");
-    QUADLOOP_REQUIRE(given.values.size() == 4 * owned, "a row for each owned node");
-    for (std::size_t node = 0; node < owned; ++node)
-      std::copy_n(given.values.begin() + 4 * node, 4, states[node].begin());
+    take_start(dual, start, goes_on_in_time(options, start) ? at_end : flow_names(), states);
   } else if (options.initial == EulerOptions::Initial::vortex) {
     const Point centre =
         options.vortex_centre ? *options.vortex_centre : box_over_ranks(comm, mesh.points).centre();
@@ -101,24 +108,40 @@ void keep_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries,
   result.unsteady->cd.mean = result.cd;
 }
 
+EulerResult march_to_end_time(const FlowRun& run, TimeAverage& average) {
+  const EulerOptions& options = run.options;
+  if (options.time_step && options.end_time / *options.time_step > most_steps_in_time)
+    throw InputError(fmt::format(
+        "the time {:.6g} in steps of {:.3g} takes more than {:.0f} of them; give a "
+        "time_step of {:.3g} or more",
+        options.end_time, *options.time_step, most_steps_in_time, options.end_time / most_steps_in_time));
+  const progress::Stage stage("solving", options.end_time, "units of time");
+  EulerResult result;
+  march_in_time(run, {options.end_time, options.average_from, options.time_step, options.iterations}, result,
+                average);
+  return result;
+}
+
+EulerResult march_as_steady(const FlowRun& run) {
+  const progress::Stage stage("solving", run.options.iterations, "steps");
+  return march_to_steady(run);
+}
+
 /// From the run's states to the end of what the options ask. *Collective.*
 EulerResult march(const FlowRun& run, const Field& start, TimeAverage& average) {
   const EulerOptions& options = run.options;
-  if (options.time == EulerOptions::Time::accurate) {
-    const progress::Stage stage("solving", options.end_time, "units of time");
-    EulerResult result;
-    march_in_time(run, {options.end_time, options.average_from, options.time_step, options.iterations},
-                  result, average);
-    return result;
-  }
+  if (options.time == EulerOptions::Time::accurate) return march_to_end_time(run, average);
+  if (options.unsteady == EulerOptions::Unsteady::stop) return march_as_steady(run);
+  require_few_steps(run);
+  const bool goes_on = goes_on_in_time(options, start);
   EulerResult result;
-  const bool carries_on = options.unsteady == EulerOptions::Unsteady::carry_on;
-  if (!goes_on_in_time(options, start)) {
-    const progress::Stage stage("solving", options.iterations, "steps");
-    result = march_to_steady(run);
-  }
-  if (carries_on && !result.converged) carry_on(run, result, average);
-  return result;
+  if (!goes_on) result = march_as_steady(run);
+  if (!result.converged) carry_on(run, result, average);
+  if (!goes_on || result.failed_in_time.empty()) return result;
+  take_start(run.mesh, start, flow_names(), run.states);  // there is no steady flow yet
+  EulerResult steady = march_as_steady(run);
+  if (!steady.converged) steady.failed_in_time = result.failed_in_time;
+  return steady;
 }
 
 }  // namespace

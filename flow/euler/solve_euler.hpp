@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "flow/euler/model/euler_options.hpp"
@@ -31,13 +32,21 @@ struct EulerResult {
   int kept_iteration = 0;
   /// The step at which the flow that was given was left for the free stream, since it led nowhere; 0: not.
   int left_start = 0;
-  double last_residual = 0;              ///< after the last step
-  bool stalled = false;                  ///< the residual did not halve in the second half of the steps
-  bool converged = false;                ///< steady: the tolerance is met; in time: the end is reached
-  double time = 0;                       ///< of an accurate run, or of the part that was carried on
+  double last_residual = 0;  ///< after the last step
+  bool stalled = false;      ///< the residual did not halve in the second half of the steps
+  bool converged = false;    ///< steady: the tolerance is met; in time: the end is reached
+  double time = 0;           ///< of an accurate run, or of the part that was carried on
+  /// What ended a steady run whose best flow is kept, for people. Empty: it did not fail.
+  std::string failed_as_steady;
   std::optional<UnsteadyFlow> unsteady;  ///< where flow and forces are means over time
-  std::vector<GoalValue> goals;          ///< of the options' goals, where something at the end finds them
+  /// Why the flow could not be carried on in time, for people: the steady flow is kept. Empty: it was not
+  /// asked, or could.
+  std::string failed_in_time;
+  std::vector<GoalValue> goals;  ///< of the options' goals, where something at the end finds them
 };
+
+/// In time: what would take more is taken for a mistake.
+inline constexpr double most_steps_in_time = 1e7;
 
 namespace euler {
 struct FlowRun;
@@ -50,8 +59,9 @@ using AtEnd = std::function<void(const Mesh& mesh, const euler::FlowRun& run, Eu
 /// Solves the two-dimensional Euler equations, or with a viscosity those of laminar flow, on a mesh of
 /// triangles and quadrilaterals. The flow starts from `start`, which has a row for each owned node; without
 /// variables, as the options say. The result has the same bits on any number of ranks. Throws InputError for
-/// a mesh or options that it cannot use, or a start in which variable() does not find euler_names,
-/// SolverError, with the place, where the flow cannot be kept physical. *Collective.*
+/// a mesh or options that it cannot use, more than most_steps_in_time of a given size, or a start in which
+/// variable() does not find euler_names, SolverError, with the place, where the flow cannot be kept physical.
+/// *Collective.*
 EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
                         const Field& start = {}, const AtEnd& at_end = {});
 

@@ -62,6 +62,16 @@ std::optional<double> period_of(const std::vector<HistoryRow>& rows, Coefficient
   return mean;
 }
 
+std::string counted(int number, const char* of) {
+  return fmt::format("{} {}{}", number, of, number == 1 ? "" : "s");
+}
+
+std::string fall_of(double residual) {
+  const double orders = -std::log10(residual);
+  if (std::abs(orders) < 0.05) return "the residual did not fall";
+  return fmt::format("the residual {} by {:.1f} orders", orders > 0 ? "fell" : "rose", std::abs(orders));
+}
+
 std::string line_of(const char* name, const Swing& swing) {
   return fmt::format("{} {:.6f} ({:.6f} to {:.6f})", name, swing.mean, swing.smallest, swing.largest);
 }
@@ -89,15 +99,16 @@ UnsteadyFlow unsteady_flow(const std::vector<HistoryRow>& history, double from) 
 std::string line_of(const UnsteadyFlow& flow) {
   std::string line;
   if (flow.steady_steps > 0)
-    line = fmt::format("the residual fell by {:.1f} orders in {} steps: the flow is taken as unsteady; ",
-                       -std::log10(flow.steady_residual), flow.steady_steps);
-  line += fmt::format("carried on in {} {} steps to time {:.6g}; means from time {:.6g} on: {}, {}",
-                      flow.steps, flow.implicit ? "implicit" : "explicit", flow.to, flow.from,
-                      line_of("cl", flow.cl), line_of("cd", flow.cd));
+    line = fmt::format("{} in {}: the flow is taken as unsteady; ", fall_of(flow.steady_residual),
+                       counted(flow.steady_steps, "step"));
+  line += fmt::format("{} {} to time {:.6g}; means from time {:.6g} on: {}, {}",
+                      flow.carried_on ? "carried on in" : "solved in",
+                      counted(flow.steps, flow.implicit ? "implicit step" : "explicit step"), flow.to,
+                      flow.from, line_of("cl", flow.cl), line_of("cd", flow.cd));
   line += flow.period ? fmt::format(", period {:.6g}", *flow.period) : ", no period seen";
   if (flow.strouhal) line += fmt::format(", Strouhal number {:.4f}", *flow.strouhal);
   if (flow.unsolved > 0)
-    line += fmt::format("; {} steps were not solved to their tolerance: try a smaller solver.time_step",
+    line += fmt::format("; {} of them not solved to the tolerance: try a smaller solver.time_step",
                         flow.unsolved);
   return line;
 }

@@ -22,7 +22,8 @@ struct UnsteadyFlow {
   int steps = 0;                           ///< in time, from its start
   double longest_step = 0;
   bool implicit = false;
-  int unsolved = 0;  ///< implicit steps that did not meet their tolerance
+  int unsolved = 0;         ///< implicit steps that did not meet their tolerance
+  bool carried_on = false;  ///< after steady steps, or after a flow that was itself carried on
   /// Before, as a steady flow: steps, and to what the residual fell.
   int steady_steps = 0;
   double steady_residual = 0;

@@ -87,8 +87,11 @@ class Lookup {
   double number(const toml::node& node) const {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value) refuse("a number", node);
-    if (!range_.contains(*value))
-      table_.refuse(key_, fmt::format("is {}, but must be {}", *value, range_.text()));
+    if (!range_.contains(*value)) {
+      const bool is_endless = std::isinf(*value) && std::isfinite(range_.low);
+      table_.refuse(key_, fmt::format("is {}, but must be {}{}", *value, range_.text(),
+                                      is_endless ? " and finite" : ""));
+    }
     return *value;
   }
   std::string text(const toml::node& node) const {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "flow/euler/solve_euler.hpp"
 #include "flow/quantities/goal_value.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
@@ -59,6 +60,13 @@ void read_time(const CaseTable& table, EulerOptions& options) {
   if (options.time_step && !accurate && !carries_on)
     table.refuse("time_step",
                  "does nothing in a steady flow; set time = \"accurate\" or unsteady = \"carry_on\"");
+  if (accurate && options.time_step && options.end_time / *options.time_step > most_steps_in_time)
+    table.refuse(
+        "time_step",
+        fmt::format(
+            "would take {:.2g} steps to the end_time {}, of which there may be {:.0f}; give {:.2g} or more",
+            options.end_time / *options.time_step, options.end_time, most_steps_in_time,
+            options.end_time / most_steps_in_time));
   options.average_from = table.number("average_from", {0});
   if (options.average_from && !accurate)
     table.refuse("average_from",

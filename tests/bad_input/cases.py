@@ -75,6 +75,8 @@ CASES = [
     case_file("endless flow-throughs", CASE + "[solver]\nunsteady = \"carry_on\"\nflow_throughs = 1e300\n", "case.toml:8:", "flow_throughs"),
     case_file("flow-throughs of a steady flow", CASE + "[solver]\nflow_throughs = 9\n", "case.toml:7:", "flow_throughs", "carry_on"),
     case_file("time step of a steady flow", CASE + "[solver]\ntime_step = 0.1\n", "case.toml:7:", "time_step"),
+    case_file("steps without end", CASE + "[solver]\ntime = \"accurate\"\nend_time = 2\ntime_step = 1e-300\n", "case.toml:9:", "time_step", "2e+300 steps", "2e-07 or more"),
+    case_file("time without end", CASE + "[solver]\ntime = \"accurate\"\nend_time = inf\n", "case.toml:8:", "end_time", "finite"),
     case_file("means over no time", CASE + "[solver]\ntime = \"accurate\"\nend_time = 2\naverage_from = 2\n", "case.toml:9:", "average_from", "end_time"),
     case_file("means of a flow carried on", CASE + "[solver]\nunsteady = \"carry_on\"\naverage_from = 1\n", "case.toml:8:", "average_from", "second half"),
     case_file("unknown goal", CASE + "[solver]\ngoal = \"range\"\n", "case.toml:7:", "goal"),

@@ -129,27 +129,31 @@ void BackwardDifference::remember() {
     last_[node] = row_of(run_.model.gas.conserved(run_.states[node]));
 }
 
-void BackwardDifference::take(double step, const NodeRows& fluxes, int halvings) {
+/// Tells whether the step was solved, or all of its parts.
+bool BackwardDifference::take(double step, const NodeRows& fluxes, int halvings) {
   const std::vector<State> start = run_.states;
   const NodeRows earlier = before_;
   std::swap(before_, last_);
   remember();
   const bool is_solved = solve(step, fluxes);
   if (is_solved || halvings == 0) {
-    if (!is_solved) ++unsolved_;
     last_step_ = step;
-    return;
+    return is_solved;
   }
   last_ = before_;
   before_ = earlier;
   run_.states = start;
-  take(0.5 * step, fluxes, halvings - 1);
+  const bool first_is_solved = take(0.5 * step, fluxes, halvings - 1);
   const std::vector<Flux>& evaluated = run_.residual.evaluate(run_.states);
-  take(0.5 * step, {evaluated.begin(), evaluated.begin() + run_.mesh.owned_nodes()}, halvings - 1);
+  return take(0.5 * step, {evaluated.begin(), evaluated.begin() + run_.mesh.owned_nodes()}, halvings - 1) &&
+         first_is_solved;
 }
 
-void BackwardDifference::advance(double step, const std::vector<Flux>& fluxes) {
-  take(step, {fluxes.begin(), fluxes.begin() + run_.mesh.owned_nodes()}, most_step_halvings);
+/// Updates leave gas in every node.
+bool BackwardDifference::advance(double step, const std::vector<Flux>& fluxes) {
+  if (!take(step, {fluxes.begin(), fluxes.begin() + run_.mesh.owned_nodes()}, most_step_halvings))
+    ++unsolved_;
+  return true;
 }
 
 }  // namespace quadloop::euler

@@ -17,7 +17,7 @@ class BackwardDifference : public TimeScheme {
   BackwardDifference(const TimeRun& run, double step);
 
   double longest_step() override { return step_; }
-  void advance(double step, const std::vector<Flux>& fluxes) override;
+  bool advance(double step, const std::vector<Flux>& fluxes) override;
   bool is_implicit() const override { return true; }
   int unsolved() const override { return unsolved_; }
 
@@ -29,7 +29,7 @@ class BackwardDifference : public TimeScheme {
   using Row = std::array<double, 4>;
 
   static Weights weights(double ratio);
-  void take(double step, const NodeRows& fluxes, int halvings);
+  bool take(double step, const NodeRows& fluxes, int halvings);
   bool solve(double step, const NodeRows& fluxes);
   void remember();
   void find_known(const Weights& weights, double step);

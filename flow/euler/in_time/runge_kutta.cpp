@@ -74,23 +74,34 @@ double RungeKutta::longest_step() {
   return cfl_ * run_.comm.minimum(step);
 }
 
-void RungeKutta::advance(double step, const std::vector<Flux>& fluxes) { take(step, fluxes, most_halvings); }
+bool RungeKutta::advance(double step, const std::vector<Flux>& fluxes) {
+  return take(step, fluxes, most_halvings);
+}
 
-void RungeKutta::take(double step, const std::vector<Flux>& fluxes, int halvings) {
+/// The shortest steps keep the states of the first stage that failed: later ones spread the failure.
+bool RungeKutta::take(double step, const std::vector<Flux>& fluxes, int halvings) {
   const std::vector<State> before = run_.states;
   for (std::size_t node = 0; node < start_.size(); ++node)
     start_[node] = run_.model.gas.conserved(before[node]);
-  for (std::size_t k = 0; k < stages.size(); ++k)
+  std::vector<State> failed;
+  for (std::size_t k = 0; k < stages.size(); ++k) {
     advance_stage(run_, stages[k], step, start_, k == 0 ? fluxes : run_.residual.evaluate(run_.states));
-  if (halvings == 0 || is_gas_everywhere()) return;
+    if (halvings == 0 && failed.empty() && !is_everywhere(is_gas)) failed = run_.states;
+  }
+  if (is_everywhere(is_gas)) return true;
+  if (halvings == 0) {
+    if (is_everywhere(is_finite)) return true;  // what little is missing may come back
+    run_.states = failed;
+    return false;
+  }
   run_.states = before;
-  for (int half = 0; half < 2; ++half) take(0.5 * step, run_.residual.evaluate(run_.states), halvings - 1);
+  const auto take_half = [&] { return take(0.5 * step, run_.residual.evaluate(run_.states), halvings - 1); };
+  return take_half() && take_half();
 }
 
-bool RungeKutta::is_gas_everywhere() const {
+bool RungeKutta::is_everywhere(bool (*holds)(const State&)) const {
   const std::span<const State> own = std::span(run_.states).first(start_.size());
-  return !run_.comm.any(
-      std::ranges::any_of(own, [](const State& state) { return !(state[0] > 0) || !(state[3] > 0); }));
+  return !run_.comm.any(!std::ranges::all_of(own, holds));
 }
 
 }  // namespace quadloop::euler

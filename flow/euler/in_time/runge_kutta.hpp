@@ -7,20 +7,21 @@
 namespace quadloop::euler {
 
 /// Explicit steps of order 3, strong stability preserving (Shu and Osher 1988). One that leaves a node
-/// without density or pressure, as an expansion round a corner may when it begins, is taken in halves.
+/// without density or pressure, as an expansion round a corner may when it begins, is taken in halves, and
+/// these again.
 class RungeKutta : public TimeScheme {
  public:
   /// Of a larger `cfl` 0.8 is used.
   RungeKutta(const TimeRun& run, double cfl);
 
   double longest_step() override;
-  void advance(double step, const std::vector<Flux>& fluxes) override;
+  bool advance(double step, const std::vector<Flux>& fluxes) override;
   bool is_implicit() const override { return false; }
 
  private:
-  void take(double step, const std::vector<Flux>& fluxes, int halvings);
-  /// Density and pressure are above 0 in every node. *Collective.*
-  bool is_gas_everywhere() const;
+  bool take(double step, const std::vector<Flux>& fluxes, int halvings);
+  /// *Collective.*
+  bool is_everywhere(bool (*holds)(const State&)) const;
 
   TimeRun run_;
   double cfl_;

@@ -105,6 +105,20 @@ void expect_counted_by_leaves(const MeshResult& result) {
   }
 }
 
+TEST(StretchMesh, TellsHowManyNodesTheCaseTakesAtLeast) {
+  const Stretched made = stretched(world(), holed_square(0.25), 1, 60);
+  const std::int64_t nodes = world().sum(std::int64_t{made.result.mesh.owned_nodes});
+  ASSERT_GT(nodes, 60);
+  ASSERT_EQ(made.report.warnings.size(), 1U);
+  const std::string &told = made.report.warnings[0], words = "give at least ";
+  ASSERT_NE(told.find(words), std::string::npos) << told;
+  const std::int64_t least = std::stoll(told.substr(told.find(words) + words.size()));
+  EXPECT_GT(least, nodes);
+  EXPECT_LT(10 * least, 11 * nodes);
+  const StretchReport again = stretched(world(), holed_square(0.25), 1, least).report;
+  EXPECT_TRUE(again.warnings.empty()) << told << "; then " << again.warnings[0];
+}
+
 TEST(StretchMesh, FollowsTheMetricWithTheNodesWanted) {
   const Stretched made = stretched(world(), holed_square(0.25), 2, 600);
   const std::int64_t nodes = world().sum(std::int64_t{made.result.mesh.owned_nodes});

@@ -5,8 +5,12 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <tuple>
 
 #include "flow/euler/forces.hpp"
+#include "flow/euler/shortfall.hpp"
+#include "mesher/base/error.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -129,6 +133,54 @@ TEST(WorstPlace, IsThatOfTheLargestFluxOrTheFirstThatIsNone) {
   set(40, std::numeric_limits<double>::quiet_NaN(), 0.25);
   set(30, std::numeric_limits<double>::infinity(), 0.5);
   EXPECT_NE(worst_place(ring.run, fluxes).find("density is 0.5,"), std::string::npos) << "the lower number";
+}
+
+TEST(WorstPlace, IsTheFirstWithoutGasRatherThanANeighbourThatItSpoils) {
+  RingRun ring;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Flux> fluxes(ring.dual.nodes(), Flux{1, 0, 0, 0});
+  const auto at = [&ring](std::int64_t number) -> std::int32_t {
+    for (std::int32_t node = 0; node < ring.dual.owned_nodes(); ++node) {
+      if (ring.dual.global(node).value() == number) return node;
+    }
+    return -1;
+  };
+  if (at(20) >= 0) fluxes[at(20)][0] = none;
+  for (const auto& [number, entry, value] : {std::tuple{70, 0, -0.25}, {40, 3, 0.0}, {30, 2, none}}) {
+    if (at(number) >= 0) ring.states[at(number)][entry] = value;
+    const std::string said = worst_place(ring.run, fluxes);
+    const std::string words = entry == 0   ? "where density is -0.25,"
+                              : entry == 3 ? "and pressure 0"
+                                           : "velocity (0.5, nan)";
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  }
+}
+
+/// A run whose flow is spoilt as soon as its residual is below this, again and again.
+std::optional<EulerResult> spoilt_below(double residual) {
+  RingRun ring;
+  ring.options.progress_every = 1;
+  ring.options.iterations = 300;
+  ring.options.progress = [&](const EulerProgress& now) {
+    if (now.residual < residual && now.cfl > 0) ring.states[0][3] = std::numeric_limits<double>::quiet_NaN();
+  };
+  try {
+    return march_to_steady(ring.run);
+  } catch (const SolverError&) {
+    return {};
+  }
+}
+
+TEST(MarchToSteady, KeepsTheBestOfAFlowThatFailsNearItsEnd) {
+  const std::optional<EulerResult> kept = spoilt_below(1e-3);
+  ASSERT_TRUE(kept);
+  EXPECT_FALSE(kept->converged);
+  EXPECT_LT(kept->residual, 1e-3);
+  EXPECT_LE(kept->kept_iteration, kept->iterations);
+  const std::string said = shortfall(*kept, EulerOptions{});
+  EXPECT_NE(said.find("the flow solver failed after"), std::string::npos) << said;
+  EXPECT_NE(said.find("is kept, with a residual of"), std::string::npos) << said;
+  EXPECT_FALSE(spoilt_below(0.5)) << "a flow that has no shape yet";
 }
 
 }  // namespace

@@ -58,12 +58,24 @@ TEST(UnsteadyFlow, RipplesAreNoPeriod) {
 
 TEST(UnsteadyFlow, IsOneLine) {
   UnsteadyFlow flow = unsteady_flow(history(sine, 8.5, 0.01), 1.7);
+  const auto begins = [&flow](const char* words) {
+    EXPECT_TRUE(line_of(flow).starts_with(words)) << line_of(flow);
+  };
   flow.steps = 850;
-  EXPECT_EQ(line_of(flow).rfind("carried on in 850 explicit steps to time 8.5; means from time 1.7 on", 0),
-            0U);
+  begins("solved in 850 explicit steps to time 8.5; means from time 1.7 on");
+  flow.carried_on = true;
+  flow.steps = flow.unsolved = 1;
+  flow.implicit = true;
+  begins("carried on in 1 implicit step to time 8.5; means from time 1.7 on");
+  EXPECT_NE(line_of(flow).find("; 1 of them not solved to the tolerance"), std::string::npos);
   flow.steady_steps = 100;
   flow.steady_residual = 1e-3;
-  EXPECT_EQ(line_of(flow).rfind("the residual fell by 3.0 orders in 100 steps: the flow is taken as", 0), 0U);
+  begins("the residual fell by 3.0 orders in 100 steps: the flow is taken as unsteady; carried on in 1");
+  flow.steady_residual = 2;
+  begins("the residual rose by 0.3 orders in 100 steps: ");
+  flow.steady_residual = 1.01;
+  flow.steady_steps = 1;
+  begins("the residual did not fall in 1 step: ");
 }
 
 }  // namespace

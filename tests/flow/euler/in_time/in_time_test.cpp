@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "flow/euler/flow_run.hpp"
@@ -10,7 +11,9 @@
 #include "flow/euler/in_time/runge_kutta.hpp"
 #include "flow/euler/in_time/time_average.hpp"
 #include "flow/euler/in_time/time_scheme.hpp"
+#include "flow/euler/shortfall.hpp"
 #include "flow/euler/vortex.hpp"
+#include "mesher/base/error.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/support/world.hpp"
@@ -132,6 +135,35 @@ TEST(RungeKutta, TakesAStepInHalvesRatherThanLeaveNoGas) {
   }
 }
 
+/// A step that no halves make bearable ends with the flow in which it first failed.
+TEST(RungeKutta, LeavesTheStatesInWhichItFirstFailed) {
+  VortexRun run;
+  for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
+    if (run.dual.point(node).x > 5) run.states[node] = {0.05, 40, 0, 1e-5};
+  }
+  const std::vector<State> start = run.states;
+  RungeKutta scheme(run.in_time(), 0.8);
+  EXPECT_FALSE(scheme.advance(1e5 * scheme.longest_step(), run.residual.evaluate(run.states)));
+  std::int64_t without_gas = 0, not_finite = 0;
+  for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
+    without_gas += is_gas(run.states[node]) ? 0 : 1;
+    not_finite += std::isnan(run.states[node][3]) ? 1 : 0;
+  }
+  EXPECT_GT(world().sum(without_gas), 0);
+  EXPECT_EQ(world().sum(not_finite), 0) << "neighbours are not spoilt yet";
+}
+
+TEST(BackwardDifference, CountsAStepOnceHoweverManyOfItsPartsWereNotSolved) {
+  VortexRun run;
+  for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
+    if (run.dual.point(node).x > 5) run.states[node] = {1, 8, 0, 0.01};
+    if (run.dual.point(node).x < 3) run.states[node] = {0.01, -8, 0, 0.001};
+  }
+  BackwardDifference scheme(run.in_time(), 1e3);
+  scheme.advance(1e3, run.residual.evaluate(run.states));
+  EXPECT_EQ(scheme.unsolved(), 1);
+}
+
 TEST(TimeScheme, IsImplicitWhereAStepIsGiven) {
   VortexRun run;
   EXPECT_TRUE(time_scheme(run.in_time(), 0.5, 20)->is_implicit());
@@ -223,6 +255,93 @@ TEST(CarryOn, EndsWhereTheFlowIsSteadyAfterAll) {
   EXPECT_LE(result.residual, 0.02);
   EXPECT_GT(result.iterations, 4);
   EXPECT_EQ(result.flow.names.size(), 4U);
+}
+
+/// A field with these variables: next to a vacuum that gas runs away from. No step in time bears it.
+Field hopeless(const Mesh& mesh, const std::array<const char*, 4>& names) {
+  Field field;
+  field.names = {names.begin(), names.end()};
+  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
+    const double speed = mesh.point(NodeId{node}).x > 0.2 ? 40 : -40;
+    for (const double value : {0.05, speed, 0.0, 1e-5}) field.values.push_back(value);
+  }
+  return field;
+}
+
+/// A mean that is sound, and such a flow at its end.
+Field hopeless_at_end(const Mesh& mesh) {
+  const Field last = hopeless(mesh, at_end_names);
+  Field start;
+  start.names = {euler_names.begin(), euler_names.end()};
+  start.names.insert(start.names.end(), last.names.begin(), last.names.end());
+  for (std::size_t row = 0; row < last.values.size(); row += 4) {
+    for (const double value : {1.0, 0.4, 0.02, 1 / 1.4}) start.values.push_back(value);
+    start.values.insert(start.values.end(), last.values.begin() + row, last.values.begin() + row + 4);
+  }
+  return start;
+}
+
+TEST(CarryOn, FallsBackToTheSteadyFlow) {
+  const Mesh mesh = ring();
+  EulerOptions options = carried(), steady = options;
+  steady.unsteady = EulerOptions::Unsteady::stop;
+  const Field start = hopeless(mesh, euler_names);
+  const EulerResult fallen = solve_euler(world(), mesh, options, start),
+                    kept = solve_euler(world(), mesh, steady, start);
+  EXPECT_FALSE(fallen.failed_in_time.empty());
+  EXPECT_FALSE(fallen.unsteady);
+  EXPECT_FALSE(fallen.converged);
+  EXPECT_EQ(fallen.flow.names, kept.flow.names);
+  EXPECT_EQ(fallen.flow.values, kept.flow.values);
+  EXPECT_EQ(fallen.iterations, 4);
+  EXPECT_EQ(fallen.time, 0);
+  EXPECT_EQ(fallen.cd, kept.cd);
+  EXPECT_EQ(fallen.residual, kept.residual);
+  EXPECT_EQ(fallen.history.size(), kept.history.size());
+  const std::string said = shortfall(fallen, options);
+  for (const char* const words :
+       {"could not be carried on in time", "at (", "try a smaller cfl", "flow of step "})
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+}
+
+TEST(CarryOn, FallsBackToASteadyFlowFromAStartThatCannotGoOn) {
+  const Mesh mesh = ring();
+  const Field start = hopeless_at_end(mesh);
+  Field means = start;
+  const EulerOptions options = carried();
+  EulerOptions steady = options;
+  steady.unsteady = EulerOptions::Unsteady::stop;
+  const EulerResult fallen = solve_euler(world(), mesh, options, start),
+                    kept = solve_euler(world(), mesh, steady, means);
+  EXPECT_FALSE(fallen.failed_in_time.empty());
+  EXPECT_FALSE(fallen.unsteady);
+  EXPECT_EQ(fallen.iterations, 4);
+  EXPECT_EQ(fallen.flow.names.size(), 4U);
+  EXPECT_EQ(fallen.flow.values, kept.flow.values);
+}
+
+TEST(CarryOn, RefusesStepsWithoutEnd) {
+  const Mesh mesh = ring();
+  const auto refusal = [&mesh](const EulerOptions& options) -> std::string {
+    try {
+      solve_euler(world(), mesh, options);
+    } catch (const InputError& fault) {
+      return fault.what();
+    }
+    return {};
+  };
+  EulerOptions options = carried();
+  options.time_step = 1e-300;
+  EXPECT_NE(refusal(options).find("5e+300 steps of 1e-300"), std::string::npos) << refusal(options);
+  EXPECT_NE(refusal(options).find("time_step of 0.062"), std::string::npos) << refusal(options);
+  options.time_step = {};
+  options.flow_throughs = 1e6;
+  EXPECT_NE(refusal(options).find("lower solver.flow_throughs"), std::string::npos) << refusal(options);
+  options = carried();
+  options.unsteady = EulerOptions::Unsteady::stop;
+  options.time = EulerOptions::Time::accurate;
+  options.time_step = 1e-8;
+  EXPECT_NE(refusal(options).find("time_step of 1e-07 or more"), std::string::npos) << refusal(options);
 }
 
 }  // namespace
