@@ -144,8 +144,10 @@ double largest_ratio(const HaloMesh& mesh, const IdVector<NodeId, AreaRange>& ra
       const NodeId node = nodes[k];
       if (!mesh.owns(node) || is_wanted[node] == 0) continue;
       const double area = area_of(mesh, nodes);
-      sides.push_back({node, nodes[(k + 1) % n], area});
-      sides.push_back({node, nodes[(k + n - 1) % n], area});
+      for (const NodeId other : {nodes[(k + 1) % n], nodes[(k + n - 1) % n]}) {
+        const bool listed_there = mesh.owns(other) && other < node && is_wanted[other] != 0;
+        if (!listed_there) sides.push_back({node, other, area});
+      }
     }
   });
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
