@@ -31,6 +31,7 @@ from pathlib import Path
 
 import numpy as np
 
+from bench import wall_options
 from figures import add_update, tell
 from peer_files import FAR, SLOPE, Task, read_medit, read_msh, read_qmesh, read_triangle, split_loops, write_geo, write_medit, write_poly
 
@@ -80,9 +81,7 @@ def task_named(name, cells):
         return Task(name, AIRFOIL, [f"{key}={value / finer!r}" for key, value in values.items()], airfoil_loops(), 0.08 / finer * 1.2, cells)
     if name == "B":
         wall = 16.0 / cells
-        leaf = 2 * wall  # that leaves stay below, by up to half, where the others' edges go beyond
-        settings = [f"spacing.min={leaf / 2!r}", "spacing.max=2.0", f"spacing.gradation={1 + 2 * SLOPE!r}", f"boundary.airfoil.spacing={leaf!r}"]
-        return Task(name, AIRFOIL, settings, airfoil_loops(), 0.0, cells, wall)
+        return Task(name, AIRFOIL, wall_options(cells, SLOPE), airfoil_loops(), 0.0, cells, wall)
     size = "high" if cells >= 500000 else "medium" if cells >= 100000 else "coarse"
     case = GULF / ("case.toml" if size == "coarse" else f"{size}.toml")
     return Task(f"gulf {size}", case, [], read_geom(GULF / f"gulf_of_mexico_{size}.geom"), 0.0, cells)

@@ -131,6 +131,10 @@ class CopyExchange {
   /// The same for the owned entries for which `changed` holds, alone. *Collective.*
   template <std::ranges::contiguous_range Values, class Changed>
   void update(Values& values, const Changed& changed) const;
+  /// The same where few entries have a value: `take(entry, value)` is called for each copy with what
+  /// `value_of(entry)` is on its owner. *Collective.*
+  template <class ValueOf, class Take>
+  void update_some(const ValueOf& value_of, const Take& take) const;
 
  private:
   static std::vector<int> owners_of(std::vector<Copy>& copies);  ///< of copies that it sorts by them
@@ -186,6 +190,15 @@ void CopyExchange::update(Values& values, const Changed& changed) const {
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (items[i].is_new) at[copies_[i]] = items[i].value;
   }
+}
+
+template <class ValueOf, class Take>
+void CopyExchange::update_some(const ValueOf& value_of, const Take& take) const {
+  std::vector<std::decay_t<std::invoke_result_t<ValueOf, std::int32_t>>> values;
+  values.reserve(owned_.size());
+  for (const std::int32_t entry : owned_) values.push_back(value_of(entry));
+  values = exchange_.answer(values);
+  for (std::size_t i = 0; i < values.size(); ++i) take(copies_[i], values[i]);
 }
 
 }  // namespace quadloop

@@ -67,18 +67,51 @@ NodeFlags boundary_nodes(const HaloMesh& mesh) {
   return flags;
 }
 
-void count_inexact_nodes(const HaloMesh& mesh, const NodeFlags& on_boundary, ShapeFigures& figures) {
-  IdVector<NodeId, DualSum> sums(mesh.owned_nodes());
+enum Ring : std::int32_t { triangles = 1, parallelograms = 2, others = 4 };
+
+/// What a cell brings to the rings of its nodes. Corners of parallelograms are exact each, those of triangles
+/// together. The skew that is let pass is far below what makes a node inexact, also where a cell is very
+/// long; cells without area are looked at with the others.
+template <class Nodes>
+std::int32_t kind_of(const HaloMesh& mesh, const Nodes& nodes) {
+  constexpr double least_skew = 1e-7;
+  const double area = area_of(mesh, nodes);
+  if (!(area > 0)) return Ring::others;
+  if constexpr (std::tuple_size_v<Nodes> == 3) return Ring::triangles;
+  const Point gap =
+      mesh.point(nodes[0]) - mesh.point(nodes[1]) + mesh.point(nodes[2]) - mesh.point(nodes.back());
+  return dot(gap, gap) <= least_skew * least_skew * area ? Ring::parallelograms : Ring::others;
+}
+
+/// Of the inner nodes whose ring is neither of triangles nor of parallelograms alone, which are few: for each
+/// its place among them, -1 for all other nodes.
+IdVector<NodeId, std::int32_t> places_of_doubtful_nodes(const HaloMesh& mesh, const NodeFlags& on_boundary) {
+  IdVector<NodeId, std::int32_t> places(mesh.owned_nodes(), 0);
   mesh.for_each_cell([&](const auto& nodes) {
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (mesh.owns(nodes[k])) add_corner(mesh, nodes, k, sums[nodes[k]]);
+    const std::int32_t kind = kind_of(mesh, nodes);
+    for (const NodeId node : nodes) {
+      if (mesh.owns(node)) places[node] |= kind;
     }
   });
-  for (const NodeId node : sums.ids()) {
-    if (on_boundary[node] != 0) continue;
-    ++figures.inner_nodes;
-    figures.inexact_nodes += sums[node].is_exact() ? 0 : 1;
+  std::int32_t count = 0;
+  for (const NodeId node : places.ids()) {
+    const bool doubtful = places[node] > Ring::parallelograms && on_boundary[node] == 0;
+    places[node] = doubtful ? count++ : -1;
   }
+  return places;
+}
+
+void count_inexact_nodes(const HaloMesh& mesh, const NodeFlags& on_boundary, ShapeFigures& figures) {
+  const IdVector<NodeId, std::int32_t> places = places_of_doubtful_nodes(mesh, on_boundary);
+  std::vector<DualSum> sums(std::ranges::count_if(places, [](std::int32_t place) { return place >= 0; }));
+  mesh.for_each_cell([&](const auto& nodes) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (mesh.owns(nodes[k]) && places[nodes[k]] >= 0) add_corner(mesh, nodes, k, sums[places[nodes[k]]]);
+    }
+  });
+  const auto owned = on_boundary.begin() + mesh.owned_nodes();
+  figures.inner_nodes = std::count(on_boundary.begin(), owned, 0);
+  figures.inexact_nodes = std::ranges::count_if(sums, [](const DualSum& sum) { return !sum.is_exact(); });
 }
 
 void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
@@ -111,8 +144,10 @@ double largest_ratio(const HaloMesh& mesh, const IdVector<NodeId, AreaRange>& ra
       const NodeId node = nodes[k];
       if (!mesh.owns(node) || is_wanted[node] == 0) continue;
       const double area = area_of(mesh, nodes);
-      sides.push_back({node, nodes[(k + 1) % n], area});
-      sides.push_back({node, nodes[(k + n - 1) % n], area});
+      for (const NodeId other : {nodes[(k + 1) % n], nodes[(k + n - 1) % n]}) {
+        const bool listed_there = mesh.owns(other) && other < node && is_wanted[other] != 0;
+        if (!listed_there) sides.push_back({node, other, area});
+      }
     }
   });
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
@@ -160,21 +195,41 @@ struct BoundaryNeighbours {
   bool holds(GlobalNodeId node) const { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); }
 };
 
-/// *Collective.*
-IdVector<NodeId, BoundaryNeighbours> boundary_neighbours(const HaloMesh& mesh) {
-  IdVector<NodeId, BoundaryNeighbours> neighbours(mesh.points().size());
-  for (const auto& [from, to, boundary] : mesh.boundary_edges()) {
-    if (mesh.owns(from)) neighbours[from].add(mesh.global(to));
-    if (mesh.owns(to)) neighbours[to].add(mesh.global(from));
+/// Those of the nodes on the boundary, which are few.
+class BoundaryRing {
+ public:
+  /// *Collective.*
+  BoundaryRing(const HaloMesh& mesh, const NodeFlags& on_boundary) {
+    for (const NodeId node : on_boundary.ids()) {
+      if (on_boundary[node] != 0) nodes_.push_back(node);
+    }
+    neighbours_.resize(nodes_.size());
+    for (const auto& [from, to, boundary] : mesh.boundary_edges()) {
+      if (mesh.owns(from)) of(from).add(mesh.global(to));
+      if (mesh.owns(to)) of(to).add(mesh.global(from));
+    }
+    mesh.exchange().update_some(
+        [&](std::int32_t node) {
+          return on_boundary[NodeId{node}] != 0 ? of(NodeId{node}) : BoundaryNeighbours{};
+        },
+        [&](std::int32_t node, const BoundaryNeighbours& known) {
+          if (on_boundary[NodeId{node}] != 0) of(NodeId{node}) = known;
+        });
   }
-  mesh.exchange().update(neighbours);
-  return neighbours;
-}
+
+  BoundaryNeighbours& of(NodeId node) {
+    return neighbours_[std::ranges::lower_bound(nodes_, node) - nodes_.begin()];
+  }
+
+ private:
+  std::vector<NodeId> nodes_;  ///< sorted
+  std::vector<BoundaryNeighbours> neighbours_;
+};
 
 /// Each cell counts where its first node is owned. *Collective.*
 std::int64_t count_passage_cells(const HaloMesh& mesh, const NodeFlags& on_boundary) {
-  const auto neighbours = boundary_neighbours(mesh);
-  const auto is_boundary = [&](NodeId a, NodeId b) { return neighbours[a].holds(mesh.global(b)); };
+  BoundaryRing ring(mesh, on_boundary);
+  const auto is_boundary = [&](NodeId a, NodeId b) { return ring.of(a).holds(mesh.global(b)); };
   std::int64_t count = 0;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t n = nodes.size();
