@@ -19,8 +19,6 @@ constexpr double straight_sine = 1e-10;
 constexpr double stray_share = 0.15;
 /// Neighbouring edges that differ more show in the flow: a node-centred solver's pressure has kinks there.
 constexpr double most_uneven = 1.5;
-/// The largest corner cost of a star (that of a triangle of some 15 degrees) above which its cells count more.
-constexpr double needs_room = 0.3;
 /// Of the difference of both ways, a visit; and of their sum, what is no more worth a step.
 constexpr double step_to_middle = 0.125, even_enough = 1e-3;
 constexpr double cotangent_of_28 = 1.8807264653463318;
@@ -224,14 +222,12 @@ double BoundarySlide::unevenness(const Rail& rail, Point p) const {
   return std::max(back, ahead) / std::min(back, ahead);
 }
 
-bool BoundarySlide::keeps_even(const Rail& rail, Point to, const Star& star) const {
-  const double ratio = unevenness(rail, to);
-  return ratio <= most_uneven || ratio <= unevenness(rail.node) ||
-         star.worst_cost(point(rail.node)) > needs_room;
+bool BoundarySlide::keeps_even(const Rail& rail, Point to) const {
+  return unevenness(rail, to) <= std::max(most_uneven, unevenness(rail.node));
 }
 
 std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objective objective,
-                                            BoundaryEdgeLengths lengths) const {
+                                            double even_up_to) const {
   const Rail& rail = rail_of(node);
   const bool outlined = is_outlined(rail.boundary);
   const Places places = outlined ? locate(rail) : Places{};
@@ -239,7 +235,7 @@ std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objec
   const Steps steps = steps_along(rail, places);
   for (const int k : ranked_places(star, point(node), objective, steps.x, steps.y)) {
     const Point to = steps.point(k);
-    if (lengths == BoundaryEdgeLengths::even && !keeps_even(rail, to, star)) continue;
+    if (!keeps_even(rail, to) && star.worst_cost(point(node)) <= even_up_to) continue;
     if (!outlined || keeps_outline(rail, places, steps.at[k], to)) return to;
   }
   return std::nullopt;

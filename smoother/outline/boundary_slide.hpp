@@ -15,10 +15,6 @@ namespace quadloop {
 /// Whether a node may move, and how.
 enum class NodeFreedom : std::uint8_t { interior, sliding, fixed };
 
-/// What slides do to the edges along a boundary: keep neighbours nearly as long as each other, or grade them
-/// as the targets of cells have it.
-enum class BoundaryEdgeLengths : std::uint8_t { even, graded };
-
 /// Moves boundary nodes along the true outline, or, where that has no boundary of the name, along a straight
 /// boundary of the mesh. A node never passes its neighbours, never makes the outline stray farther from the
 /// chords at it (unless by less than cutting allows itself too), and never brings a chord across another part
@@ -34,10 +30,9 @@ class BoundarySlide {
   NodeFreedom freedom(NodeId node) const { return freedom_[node]; }
 
   /// A better place for a sliding node, or none: by Acceptance where the star is valid, else one that
-  /// untangles. Where lengths are to be even, the longer edge there is at most 1.5 times the shorter one, or
-  /// no more times than it was; but not at cells that need the room.
-  std::optional<Point> improve(NodeId node, const Star& star, Objective objective,
-                               BoundaryEdgeLengths lengths) const;
+  /// untangles. Where no corner of the star costs more than `even_up_to`, the longer edge along the boundary
+  /// becomes at most 1.5 times as long as the shorter one, or no more times than it was.
+  std::optional<Point> improve(NodeId node, const Star& star, Objective objective, double even_up_to) const;
 
   /// Whether a sliding node and the ways to both its neighbours lie on segments of the outline that have a
   /// height.
@@ -91,7 +86,7 @@ class BoundarySlide {
   const Rail& rail_of(NodeId node) const { return rails_[slot_[node]]; }
   Steps steps_along(const Rail& rail, const Places& places) const;
   double unevenness(const Rail& rail, Point p) const;
-  bool keeps_even(const Rail& rail, Point to, const Star& star) const;
+  bool keeps_even(const Rail& rail, Point to) const;
   bool keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const;
 
   const HaloMesh& mesh_;

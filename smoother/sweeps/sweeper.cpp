@@ -15,7 +15,7 @@ Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& star
       sweeps_(comm, mesh, stars, stale),
       bad_(mesh.points().size(), 0),
       bad_near_(mesh.points().size(), 0) {
-  if (!rule.ideal) star_.leave_out_angles();
+  if (!rule.angles) star_.leave_out_angles();
   for (const NodeId free : stars.nodes()) bad_[free] = bad[free];
   mesh.exchange().update(bad_);
   count_bad_near(NodeFlags(bad_.size(), 0));
@@ -59,10 +59,8 @@ void Sweeper::count_bad_near(const NodeFlags& before) {
 std::optional<Point> Sweeper::better_place(std::size_t i) {
   stars_.gather(i, star_);
   const Point p = mesh_.point(node(i));
-  if (slide_.freedom(node(i)) == NodeFreedom::sliding) {
-    const auto lengths = rule_.ideal ? BoundaryEdgeLengths::even : BoundaryEdgeLengths::graded;
-    return slide_.improve(node(i), star_, rule_.objective, lengths);
-  }
+  if (slide_.freedom(node(i)) == NodeFreedom::sliding)
+    return slide_.improve(node(i), star_, rule_.objective, rule_.even_up_to);
   if (!rule_.tangled || star_.cost(p, rule_.objective).valid[0])
     return solver_->improve(star_, p, rule_.objective);
   return untangle(star_, p, rule_.objective);

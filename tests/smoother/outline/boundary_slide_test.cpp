@@ -24,10 +24,10 @@ struct Sliding {
     const auto owned = ids_below(NodeId{mesh.owned_nodes});
     stars.emplace(halo, std::vector<NodeId>(owned.begin(), owned.end()), std::vector<CellTarget>{});
   }
-  std::optional<Point> improved(NodeId node) const {
+  std::optional<Point> improved(NodeId node, double even_up_to = 0) const {
     Star star;
     stars->gather(node.value(), star);
-    return slide->improve(node, star, Objective::power);
+    return slide->improve(node, star, Objective::power, even_up_to);
   }
   Mesh mesh;
   HaloMesh halo;
