@@ -27,8 +27,8 @@ constexpr double cost_rounding = 1e-12;  ///< relative: by so much a cost seen f
 constexpr int pinned_rings = 2;  ///< round triangles that flips have made too bad; so many more each time
 constexpr int most_attempts = 5;
 constexpr int most_even_sweeps = 40;
-/// Cells that cost more count for more than even edges along boundaries: those of some 15 degrees in the first
-/// round, in the next ones those that are a little worse than `SmoothOptions::bad`.
+/// Cells that cost more count for more than even edges along boundaries: those of some 15 degrees in the
+/// first round, in the next ones those that are a little worse than `SmoothOptions::bad`.
 constexpr double even_at_first = 0.3, even_later = 1.1;
 constexpr std::int64_t few = 100;  ///< so many times fewer moves than in the busiest sweep end a round
 
@@ -197,7 +197,8 @@ void sweep_until_settled(Sweeper& sweeper, int sweeps, SmoothReport& report) {
   }
 }
 
-/// Up to which cost of their stars slides keep edges along boundaries even. Targets have lengths of their own.
+/// Up to which cost of their stars slides keep edges along boundaries even. Targets have lengths of their
+/// own.
 double even_up_to(int round, const SmoothOptions& options, bool any_targets) {
   if (any_targets) return 0;
   return round == 0 ? even_at_first : even_later * options.bad;
