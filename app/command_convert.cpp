@@ -141,6 +141,51 @@ Figures figures_of(const LoadedMesh& whole) {
 
 /// The root rank alone holds the mesh, as the file gives it: nothing is turned, moved or left out but for
 /// want of a place. *Collective.*
+/// The parts that have been written, and what was asked for.
+struct WrittenParts {
+  PartRequest request;
+  PartFigures figures;
+};
+
+/// *Collective.*
+std::optional<WrittenParts> write_parts(const Communicator& comm, const ConvertInput& input,
+                                        const ConvertArguments& arguments, PartFiles& files) {
+  if (arguments.parts == 0) return std::nullopt;
+  if (comm.any(input.solid.has_value()))
+    throw InputError(arguments.input + ": holds a 3D mesh; parts are made of plane ones");
+  const auto blocks = static_cast<std::int32_t>(comm.maximum(std::int64_t{input.whole.blocks}));
+  const PartRequest request = part_request(arguments, blocks);
+  return WrittenParts{request, write_parts_of_root(files, comm, input.whole, request)};
+}
+
+/// *Collective.*
+void write_output(const Communicator& comm, const ConvertInput& input, const ConvertArguments& arguments) {
+  if (!comm.any(input.solid.has_value())) {
+    write_mesh_of_root(comm, input.whole, arguments.output, arguments.format);
+    return;
+  }
+  const SolidMesh none;
+  write_solid_of_root(comm, input.solid ? *input.solid : none, arguments.output, arguments.format);
+}
+
+/// On the root rank.
+void report(const CommandContext& context, const ConvertInput& input, const ConvertArguments& arguments,
+            const std::optional<WrittenParts>& parts) {
+  Figures figures = input.solid ? figures_of(*input.solid) : figures_of(input.whole);
+  std::vector<std::string>& files = context.record.files;
+  files = with_files_beside({arguments.output}, arguments.format);
+  std::string wrote = fmt::format("  wrote {}\n", fmt::join(files, ", "));
+  if (parts) {
+    const PartRequest& request = parts->request;
+    add_parts(figures, parts->figures);
+    const std::vector<std::string> of_parts = part_file_names(request.prefix, request.parts, request.formats);
+    files.insert(files.end(), of_parts.begin(), of_parts.end());
+    wrote += fmt::format("  wrote {} and {} files of parts\n", of_parts.front(), of_parts.size() - 1);
+  }
+  context.record.figures = figures.record();
+  if (context.shows_table()) std::cout << figures.table() << wrote;
+}
+
 void run_convert(const CommandContext& context, const ConvertArguments& arguments) {
   const Communicator& comm = context.comm;
   ConvertInput input;
@@ -152,36 +197,11 @@ void run_convert(const CommandContext& context, const ConvertArguments& argument
     warnings = warnings_of(input, arguments);
   });
   PartFiles part_files(comm);
-  std::optional<PartFigures> parts;
-  PartRequest request;
-  const bool is_solid = comm.any(input.solid.has_value());
-  if (arguments.parts > 0) {
-    if (is_solid) throw InputError(arguments.input + ": holds a 3D mesh; parts are made of plane ones");
-    const auto blocks = static_cast<std::int32_t>(comm.maximum(std::int64_t{input.whole.blocks}));
-    request = part_request(arguments, blocks);
-    parts = write_parts_of_root(part_files, comm, input.whole, request);
-  }
-  if (is_solid) {
-    const SolidMesh none;
-    write_solid_of_root(comm, input.solid ? *input.solid : none, arguments.output, arguments.format);
-  } else {
-    write_mesh_of_root(comm, input.whole, arguments.output, arguments.format);
-  }
+  const std::optional<WrittenParts> parts = write_parts(comm, input, arguments, part_files);
+  write_output(comm, input, arguments);
   part_files.commit();
   context.warn(warnings);
-  if (!comm.is_root()) return;
-  Figures figures = input.solid ? figures_of(*input.solid) : figures_of(input.whole);
-  std::vector<std::string>& files = context.record.files;
-  files = with_files_beside({arguments.output}, arguments.format);
-  std::string wrote = fmt::format("  wrote {}\n", fmt::join(files, ", "));
-  if (parts) {
-    add_parts(figures, *parts);
-    const std::vector<std::string> of_parts = part_file_names(request.prefix, request.parts, request.formats);
-    files.insert(files.end(), of_parts.begin(), of_parts.end());
-    wrote += fmt::format("  wrote {} and {} files of parts\n", of_parts.front(), of_parts.size() - 1);
-  }
-  context.record.figures = figures.record();
-  if (context.shows_table()) std::cout << figures.table() << wrote;
+  if (comm.is_root()) report(context, input, arguments, parts);
 }
 
 }  // namespace

@@ -27,6 +27,9 @@ constexpr double cost_rounding = 1e-12;  ///< relative: by so much a cost seen f
 constexpr int pinned_rings = 2;  ///< round triangles that flips have made too bad; so many more each time
 constexpr int most_attempts = 5;
 constexpr int most_even_sweeps = 40;
+/// Cells that cost more count for more than even edges along boundaries: those of some 15 degrees in the
+/// first round, in the next ones those that are a little worse than `SmoothOptions::bad`.
+constexpr double even_at_first = 0.3, even_later = 1.1;
 constexpr std::int64_t few = 100;  ///< so many times fewer moves than in the busiest sweep end a round
 
 template <class AnyMesh, std::size_t width>
@@ -194,6 +197,21 @@ void sweep_until_settled(Sweeper& sweeper, int sweeps, SmoothReport& report) {
   }
 }
 
+/// Up to which cost of their stars slides keep edges along boundaries even. Targets have lengths of their
+/// own.
+double even_up_to(int round, const SmoothOptions& options, bool any_targets) {
+  if (any_targets) return 0;
+  return round == 0 ? even_at_first : even_later * options.bad;
+}
+
+/// Has the nodes that slide visited again among the bad ones: they may have been held back.
+void look_again_at_slides(const HaloMesh& mesh, const BoundarySlide& slide, const NodeFlags& bad,
+                          NodeFlags& stale) {
+  for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
+    if (bad[node] != 0 && slide.freedom(node) == NodeFreedom::sliding) stale[node] = 1;
+  }
+}
+
 /// Rounds of sweeps: parallelograms stay in the first; in the next ones those yield that a bad cell touches,
 /// then those in rings round it, until no cell is bad or no more nodes yield. *Collective.*
 void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
@@ -208,14 +226,16 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
   for (int round = 0; round <= last_round; ++round) {
     const double threshold = round == 0 ? options.threshold : options.bad;
     if (round > 0) bad = nodes_of_bad_cells(halo, targets, surveyed, threshold);
+    if (round > 0) look_again_at_slides(halo, slide, bad, stale);
     if (round > 0) yield(halo, bad, round - 1, yielding);
     std::vector<NodeId> free = free_nodes(surveyed, halo, slide, yielding);
     if (!comm.any(free.size() > settled)) return;
     settled = free.size();
     const NodeStars stars(halo, std::move(free), targets);
     const bool tangled = surveyed.worst.inverted > 0;
-    Sweeper sweeper(comm, halo, stars, slide,
-                    {options.method, options.objective, threshold, tangled, targets.empty()}, bad, stale);
+    const Sweeper::Rule rule{options.method, options.objective, threshold,
+                             tangled,        targets.empty(),   even_up_to(round, options, !targets.empty())};
+    Sweeper sweeper(comm, halo, stars, slide, rule, bad, stale);
     sweep_until_settled(sweeper, options.sweeps, report);
     report.free_nodes = comm.sum(std::ssize(stars));
   }

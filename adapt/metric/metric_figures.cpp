@@ -18,11 +18,6 @@ void count(const Limits& limits, double value, Bins& bins) {
 
 }  // namespace
 
-double MetricFigures::unit_share() const {
-  const auto all = std::accumulate(edges.begin(), edges.end(), std::int64_t{0});
-  return all > 0 ? static_cast<double>(edges[2] + edges[3]) / static_cast<double>(all) : 1;
-}
-
 MetricFigures metric_figures(const Communicator& comm, const Mesh& mesh,
                              const std::vector<LogMetric>& metrics) {
   MetricFigures figures;

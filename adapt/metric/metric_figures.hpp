@@ -22,9 +22,6 @@ struct MetricFigures {
   std::array<std::int64_t, length_limits.size() + 1> edges{};
   std::array<std::int64_t, quality_limits.size() + 1> triangles{};  ///< by quality_in() the metric
   double worst_quality = 1;
-
-  /// The share of the edges from 1 / sqrt(2) to sqrt(2).
-  double unit_share() const;
 };
 
 /// {"complexity": ..., "edges": {"limits": [...], "counts": [...]}, "quality": {..., "worst": ...}}

@@ -172,14 +172,13 @@ Geometry walked_as(const Geometry& like, const Geometry& outline) {
 }
 
 OutlineMap::OutlineMap(const Geometry& from, const Geometry& to, bool by_points, const Names& names)
-    : from_{from}, to_{to}, old_path_{from}, new_path_{to}, by_points_{by_points}, loops_(from.loop_count()) {
+    : from_{from}, to_{to}, old_path_{from}, new_path_{to}, loops_(from.loop_count()) {
   match_loops(names);
   for (std::int32_t loop = 0; loop < from.loop_count(); ++loop) {
     if (!maps(loop)) continue;
     const std::int32_t image = loops_[loop].image;
     std::optional<LoopMap> map;
     if (by_points) map = point_by_point(loop, image);
-    by_points_ = by_points_ && map;
     loops_[loop] = map ? *map : by_corners(loop, image, names);
   }
 }

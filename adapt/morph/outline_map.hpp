@@ -44,8 +44,6 @@ class OutlineMap {
   /// The same place as a mean of new points; none where the loop's points do not stand for each other, as the
   /// way to it is then a function of all of them.
   std::optional<PointShares> shares(std::int32_t loop, double arc) const;
-  /// Whether all vertices stand for each other.
-  bool is_by_points() const { return by_points_; }
 
  private:
   /// Places that stand for each other, ascending along the old loop from its first one on.
@@ -70,7 +68,6 @@ class OutlineMap {
 
   const Geometry &from_, &to_;
   OutlinePath old_path_, new_path_;
-  bool by_points_;
   std::vector<LoopMap> loops_;
 };
 

@@ -71,6 +71,42 @@ std::string stage_table(const std::vector<StageRow>& stages) {
   return text;
 }
 
+namespace {
+
+void add_sizes(Figures& figures, const MeshResult& result) {
+  const TreeAttributes& counts = result.tree.attributes;
+  const MeshReport& report = result.report;
+  figures.add("nodes", counts.nodes);
+  figures.add("triangles", counts.triangles);
+  figures.add("quads", counts.quads);
+  figures.add_raw("cells, estimated", text_of_cells(report.estimate.cells),
+                  json_of(std::round(report.estimate.cells)), "cells_estimated");
+  figures.add("leaves", report.leaves);
+  figures.add("cut leaves", report.cut_leaves);
+  figures.add_raw("levels", fmt::format("{} to {}", report.coarsest_level, report.finest_level),
+                  json_list({json_of(report.coarsest_level), json_of(report.finest_level)}));
+}
+
+void add_shapes(Figures& figures, const QualitySummary& quality, const ShapeFigures& shape) {
+  figures.add("worst quality", quality.worst, "{:.3f}");
+  figures.add("mean quality", quality.mean, "{:.3f}");
+  figures.add("smallest angle", quality.smallest_degrees, "{:.2f} degrees", "min_angle");
+  figures.add("parallelograms", shape.parallelogram_share(), "{:.4f}", "parallelogram_share");
+  figures.add("inexact nodes", shape.inexact_share(), "{:.4f}", "inexact_node_share");
+  figures.add("area ratio", shape.area_ratio_max, "{:.3g}", "area_ratio_max");
+  figures.add("passage cells", shape.passage_cells);
+}
+
+/// `peak` in MiB; the estimate, in bytes, of one of so many ranks.
+void add_memory(Figures& figures, double peak, const MeshEstimate& estimate, int ranks) {
+  figures.add("peak memory", peak, "{:.0f} MiB", "peak_memory_mib");
+  const double estimated = estimate.bytes / ranks + estimate.bytes_of_rank;
+  figures.add_raw("estimated", text_of_bytes(estimated), json_of(std::round(estimated / (1 << 20))),
+                  "estimated_memory_mib");
+}
+
+}  // namespace
+
 MeshSummary summarise(const Communicator& comm, const GeneratedMesh& generated, const StageSeconds& seconds,
                       const std::vector<std::string>& files) {
   const MeshResult& result = generated.result;
@@ -83,32 +119,11 @@ MeshSummary summarise(const Communicator& comm, const GeneratedMesh& generated, 
   const QualityByLayers by_layers = quality_of_layers(comm, result.mesh);
   const double memory = comm.maximum(peak_memory_mib());
   if (!comm.is_root()) return summary;
-
-  const TreeAttributes& counts = result.tree.attributes;
-  const MeshReport& report = result.report;
-  const ShapeFigures& shape = summary.shape;
   Figures& figures = summary.figures;
-  figures.add("nodes", counts.nodes);
-  figures.add("triangles", counts.triangles);
-  figures.add("quads", counts.quads);
-  figures.add_raw("cells, estimated", text_of_cells(report.estimate.cells),
-                  json_of(std::round(report.estimate.cells)), "cells_estimated");
-  figures.add("leaves", report.leaves);
-  figures.add("cut leaves", report.cut_leaves);
-  figures.add_raw("levels", fmt::format("{} to {}", report.coarsest_level, report.finest_level),
-                  json_list({json_of(report.coarsest_level), json_of(report.finest_level)}));
-  figures.add("worst quality", quality.worst, "{:.3f}");
-  figures.add("mean quality", quality.mean, "{:.3f}");
-  figures.add("smallest angle", quality.smallest_degrees, "{:.2f} degrees", "min_angle");
-  figures.add("parallelograms", shape.parallelogram_share(), "{:.4f}", "parallelogram_share");
-  figures.add("inexact nodes", shape.inexact_share(), "{:.4f}", "inexact_node_share");
-  figures.add("area ratio", shape.area_ratio_max, "{:.3g}", "area_ratio_max");
-  figures.add("passage cells", shape.passage_cells);
-  figures.add("peak memory", memory, "{:.0f} MiB", "peak_memory_mib");
-  const double estimated = report.estimate.bytes / comm.size() + report.estimate.bytes_of_rank;
-  figures.add_raw("estimated", text_of_bytes(estimated), json_of(std::round(estimated / (1 << 20))),
-                  "estimated_memory_mib");
-  figures.add("imbalance", report.imbalance, "{:.3f}");
+  add_sizes(figures, result);
+  add_shapes(figures, quality, summary.shape);
+  add_memory(figures, memory, result.report.estimate, comm.size());
+  figures.add("imbalance", result.report.imbalance, "{:.3f}");
   add_quality(figures, by_layers);
   add_layers(figures, generated.layers);
   return summary;

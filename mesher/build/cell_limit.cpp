@@ -135,7 +135,12 @@ std::string cure_for(const MeshEstimate& estimate, const Geometry& geometry, con
         text_of_cells(estimate.layer_cells));
   if (!demanded.empty()) {
     SizedDomain domain(geometry, options.size, none);
-    if (share_of(limit, estimate_mesh(geometry, options.type, domain)) <= margin)
+    const bool fits = share_of(limit, estimate_mesh(geometry, options.type, domain)) <= margin;
+    if (fits && demanded.for_layers())
+      return "the leaves that the case asks for are too large for its layers to stand on, and smaller ones "
+             "there "
+             "are too many: ask for fewer layers, or thinner ones";
+    if (fits)
       return "what adaptation has asked of the tree is the cause: lower adapt.max_nodes, or raise adapt.min "
              "or adapt.refine";
   }

@@ -37,8 +37,6 @@ class GrownMesh {
 
   /// A node that there was, by its number on this rank before.
   GrownNode node(NodeId before) const { return {after_[before], mesh_.point(before)}; }
-  /// The first of the nodes behind it; the others follow.
-  GlobalNodeId first_behind(NodeId before) const { return GlobalNodeId{after_[before].value() + 1}; }
 
   /// What the refusal of a bad cell begins with, and what it advises, of those added from now on.
   void begin_cells_of(const std::string& whose, const std::string& cure) { whose_ = whose, cure_ = cure; }

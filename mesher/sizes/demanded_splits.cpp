@@ -70,7 +70,8 @@ DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDe
 }
 
 DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands,
-                               const DemandedSplits& before) {
+                               const DemandedSplits& before)
+    : for_layers_{true} {
   KeysOfLevels asked = gather_asked(comm, demands);
   before.append_asked(asked);
   for (auto& keys : asked) make_unique(keys);

@@ -28,11 +28,13 @@ class DemandedSplits {
   DemandedSplits() = default;
   /// Of all ranks' demands; the order does not matter. *Collective.*
   DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands);
-  /// These beside those of `before`. *Collective.*
+  /// These, for layers that cannot stand on larger leaves, beside those of `before`. *Collective.*
   DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands,
                  const DemandedSplits& before);
 
   bool empty() const { return masks_.empty(); }
+  /// Whether layers have asked for some of them.
+  bool for_layers() const { return for_layers_; }
   /// The level of the finest leaves that they ask for; 0 for none.
   int finest_level() const { return finest_; }
 
@@ -65,6 +67,7 @@ class DemandedSplits {
                                                ///< that come before the block's children
   std::vector<Key> roots_;
   int finest_ = 0;
+  bool for_layers_ = false;
 };
 
 /// The way down to one leaf after another: few steps for each where they come in the order of the curve.

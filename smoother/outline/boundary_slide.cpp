@@ -17,6 +17,8 @@ constexpr std::array<double, 4> shares{0.3, 0.12, 0.04, 0.01};
 constexpr double straight_sine = 1e-10;
 /// Of the shorter chord: so far the outline may stray from the chords, as it may in cutting.
 constexpr double stray_share = 0.15;
+/// Neighbouring edges that differ more show in the flow: a node-centred solver's pressure has kinks there.
+constexpr double most_uneven = 1.5;
 /// Of the difference of both ways, a visit; and of their sum, what is no more worth a step.
 constexpr double step_to_middle = 0.125, even_enough = 1e-3;
 constexpr double cotangent_of_28 = 1.8807264653463318;
@@ -197,33 +199,44 @@ bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, Outlin
   return true;
 }
 
-std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objective objective) const {
-  const Rail& rail = rail_of(node);
-  const Point p = point(node);
-  Places places;
-  double back = length(p - point(rail.before)), ahead = length(point(rail.after) - p);
-  const Point direction =
-      (1 / length(point(rail.after) - point(rail.before))) * (point(rail.after) - point(rail.before));
+/// `places` are used where the rail is on the outline.
+BoundarySlide::Steps BoundarySlide::steps_along(const Rail& rail, const Places& places) const {
   const bool outlined = is_outlined(rail.boundary);
-  if (outlined) {
-    places = locate(rail);
-    if (!places.before.valid() || !places.at.valid() || !places.after.valid()) return std::nullopt;
-    back = outline_->way(places.before, places.at);
-    ahead = outline_->way(places.at, places.after);
-  }
-  std::array<OutlinePlace, Star::batch> moved;
-  Star::Batch x, y;
-  for (std::size_t k = 0; k < moved.size(); ++k) {
+  const Point before = point(rail.before), p = point(rail.node), after = point(rail.after);
+  const double back = outlined ? outline_->way(places.before, places.at) : length(p - before);
+  const double ahead = outlined ? outline_->way(places.at, places.after) : length(after - p);
+  const Point direction = (1 / length(after - before)) * (after - before);
+  Steps steps;
+  for (std::size_t k = 0; k < steps.at.size(); ++k) {
     const double step = k < shares.size() ? shares[k] * ahead : -shares[k - shares.size()] * back;
-    if (outlined) moved[k] = outline_->moved(places.at, step);
-    const Point to = outlined ? outline_->point_at(moved[k]) : point(rail.before) + (back + step) * direction;
-    x[k] = to.x;
-    y[k] = to.y;
+    if (outlined) steps.at[k] = outline_->moved(places.at, step);
+    const Point to = outlined ? outline_->point_at(steps.at[k]) : before + (back + step) * direction;
+    steps.x[k] = to.x;
+    steps.y[k] = to.y;
   }
-  std::vector<int> order = ranked_places(star, p, objective, x, y);
-  for (const int k : order) {
-    const Point to{x[k], y[k]};
-    if (!outlined || keeps_outline(rail, places, moved[k], to)) return to;
+  return steps;
+}
+
+double BoundarySlide::unevenness(const Rail& rail, Point p) const {
+  const double back = length(p - point(rail.before)), ahead = length(point(rail.after) - p);
+  return std::max(back, ahead) / std::min(back, ahead);
+}
+
+bool BoundarySlide::keeps_even(const Rail& rail, Point to) const {
+  return unevenness(rail, to) <= std::max(most_uneven, unevenness(rail.node));
+}
+
+std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objective objective,
+                                            double even_up_to) const {
+  const Rail& rail = rail_of(node);
+  const bool outlined = is_outlined(rail.boundary);
+  const Places places = outlined ? locate(rail) : Places{};
+  if (outlined && !places.valid()) return std::nullopt;
+  const Steps steps = steps_along(rail, places);
+  for (const int k : ranked_places(star, point(node), objective, steps.x, steps.y)) {
+    const Point to = steps.point(k);
+    if (!keeps_even(rail, to) && star.worst_cost(point(node)) <= even_up_to) continue;
+    if (!outlined || keeps_outline(rail, places, steps.at[k], to)) return to;
   }
   return std::nullopt;
 }
@@ -232,7 +245,7 @@ bool BoundarySlide::lies_on(NodeId node, std::span<const double> heights) const 
   const Rail& rail = rail_of(node);
   if (!is_outlined(rail.boundary)) return false;
   const Places places = locate(rail);
-  if (!places.before.valid() || !places.at.valid() || !places.after.valid()) return false;
+  if (!places.valid()) return false;
   // From the middle of one edge to that of the other: a neighbour at an end of the flagged segments lies on
   // one that is not.
   const double back = outline_->way(places.before, places.at), ahead = outline_->way(places.at, places.after);
@@ -246,13 +259,6 @@ double BoundarySlide::height_at(const HaloEdge& edge, std::span<const double> he
   if (!chord) return 0;
   const double half_way = outline_->way(chord->from, chord->to) / 2;
   return heights[outline_->moved(chord->from, half_way).segment];
-}
-
-double BoundarySlide::unevenness(NodeId node) const {
-  const Rail& rail = rail_of(node);
-  const double back = length(point(node) - point(rail.before)),
-               ahead = length(point(rail.after) - point(node));
-  return std::max(back, ahead) / std::min(back, ahead);
 }
 
 std::vector<Point> BoundarySlide::widths_at_fixed(std::span<const double> heights) const {
@@ -272,7 +278,7 @@ std::optional<Point> BoundarySlide::towards_middle(NodeId node, const Star& star
                                                    std::span<const Point> fixed) const {
   const Rail& rail = rail_of(node);
   const Places places = locate(rail);
-  if (!places.before.valid() || !places.at.valid() || !places.after.valid()) return std::nullopt;
+  if (!places.valid()) return std::nullopt;
   const double back = outline_->way(places.before, places.at), ahead = outline_->way(places.at, places.after);
   const double beyond_back = fixed[rail.before.value()].x, beyond_ahead = fixed[rail.after.value()].y;
   double middle = (back + ahead) / 2;

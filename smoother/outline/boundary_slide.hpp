@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -29,8 +30,9 @@ class BoundarySlide {
   NodeFreedom freedom(NodeId node) const { return freedom_[node]; }
 
   /// A better place for a sliding node, or none: by Acceptance where the star is valid, else one that
-  /// untangles.
-  std::optional<Point> improve(NodeId node, const Star& star, Objective objective) const;
+  /// untangles. Where no corner of the star costs more than `even_up_to`, the longer edge along the boundary
+  /// becomes at most 1.5 times as long as the shorter one, or no more times than it was.
+  std::optional<Point> improve(NodeId node, const Star& star, Objective objective, double even_up_to) const;
 
   /// Whether a sliding node and the ways to both its neighbours lie on segments of the outline that have a
   /// height.
@@ -40,7 +42,7 @@ class BoundarySlide {
   double height_at(const HaloEdge& edge, std::span<const double> heights) const;
 
   /// The longer one of the edges at a sliding node over the shorter one.
-  double unevenness(NodeId node) const;
+  double unevenness(NodeId node) const { return unevenness(rail_of(node), point(node)); }
 
   /// Of each node that stays where it is the lengths of the edges with a height there, that which leads to it
   /// and that which leaves it; 0 where there is none, and for nodes that slide. *Collective.*
@@ -61,6 +63,13 @@ class BoundarySlide {
   /// The places of a rail's nodes on the outline, now.
   struct Places {
     OutlinePlace before, at, after;
+    bool valid() const { return before.valid() && at.valid() && after.valid(); }
+  };
+  /// Where a node may slide to; `at` where its boundary is the outline's.
+  struct Steps {
+    std::array<OutlinePlace, Star::batch> at;
+    Star::Batch x, y;
+    Point point(int k) const { return {x[k], y[k]}; }
   };
 
   void find_rails(const NodeFlags& pinned);
@@ -75,6 +84,9 @@ class BoundarySlide {
   void remember(NodeId node, Point p, std::int32_t boundary, const OutlinePath::Segments& near) const;
   const Point& point(NodeId node) const { return mesh_.point(node); }
   const Rail& rail_of(NodeId node) const { return rails_[slot_[node]]; }
+  Steps steps_along(const Rail& rail, const Places& places) const;
+  double unevenness(const Rail& rail, Point p) const;
+  bool keeps_even(const Rail& rail, Point to) const;
   bool keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const;
 
   const HaloMesh& mesh_;

@@ -59,7 +59,8 @@ void Sweeper::count_bad_near(const NodeFlags& before) {
 std::optional<Point> Sweeper::better_place(std::size_t i) {
   stars_.gather(i, star_);
   const Point p = mesh_.point(node(i));
-  if (slide_.freedom(node(i)) == NodeFreedom::sliding) return slide_.improve(node(i), star_, rule_.objective);
+  if (slide_.freedom(node(i)) == NodeFreedom::sliding)
+    return slide_.improve(node(i), star_, rule_.objective, rule_.even_up_to);
   if (!rule_.tangled || star_.cost(p, rule_.objective).valid[0])
     return solver_->improve(star_, p, rule_.objective);
   return untangle(star_, p, rule_.objective);

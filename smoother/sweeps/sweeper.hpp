@@ -22,8 +22,9 @@ class Sweeper {
     Method method;
     Objective objective;
     double threshold;
-    bool tangled;        ///< whether there may be stars with inverted corners; visits make no new ones
-    bool angles = true;  ///< whether a move may not make the smallest angle smaller
+    bool tangled;           ///< whether there may be stars with inverted corners; visits make no new ones
+    bool angles = true;     ///< whether a move may not make the smallest angle smaller
+    double even_up_to = 0;  ///< the largest corner cost of a star in which edges along boundaries stay even
   };
   /// `stars` are those of the nodes that may move, `bad` flags the nodes of cells above the threshold;
   /// `stale` as in ColouredSweeps. Mesh, stars, slide and `stale` must outlive it. *Collective.*

@@ -155,18 +155,34 @@ TEST(BuildMesh, RefusesMoreCellsThanAreAllowed) {
   EXPECT_THROW(build_mesh(world(), pentagon(), options), TooManyCells);
 }
 
-TEST(BuildMesh, BlamesAdaptationWhereTheCaseAloneWouldFit) {
-  std::vector<SplitDemand> demands;
-  if (world().is_root()) demands.push_back({{0, 0, 9}, (1U << 9) - 1});
-  const DemandedSplits demanded(world(), demands);
+/// One leaf of the finest level in a corner, as adaptation or layers ask for.
+std::vector<SplitDemand> deep_split() {
+  if (!world().is_root()) return {};
+  return {{{0, 0, 9}, (1U << 9) - 1}};
+}
+
+/// What is said of a mesh that these splits make too large.
+std::string refusal_of(const DemandedSplits& demanded) {
   MeshOptions options = sized(0.25, 0.25);
   options.limit.cells = 60;
   try {
     build_mesh(world(), unit_square(), options, demanded);
-    FAIL();
   } catch (const TooManyCells& refusal) {
-    EXPECT_NE(std::string(refusal.what()).find("lower adapt.max_nodes"), std::string::npos) << refusal.what();
+    return refusal.what();
   }
+  ADD_FAILURE() << "it was meshed";
+  return {};
+}
+
+TEST(BuildMesh, BlamesAdaptationWhereTheCaseAloneWouldFit) {
+  const std::string text = refusal_of(DemandedSplits(world(), deep_split()));
+  EXPECT_NE(text.find("lower adapt.max_nodes"), std::string::npos) << text;
+}
+
+TEST(BuildMesh, BlamesLayersWhereTheyHaveAskedForSmallerLeaves) {
+  const std::string text = refusal_of(DemandedSplits(world(), deep_split(), DemandedSplits{}));
+  EXPECT_NE(text.find("ask for fewer layers, or thinner ones"), std::string::npos) << text;
+  EXPECT_EQ(text.find("adapt"), std::string::npos) << text;
 }
 
 TEST(MeshEstimate, IsNearTheMesh) {

@@ -20,6 +20,26 @@ struct Sums {
 
 Point mean_place(const Sums& sums) { return (1 / sums.cells) * sums.place; }
 
+/// `from_node`: the way to the cell's centroid.
+void add_cell(double value, Point from_node, Sums& sum, AroundNode& node) {
+  node.smallest = std::min(node.smallest, value);
+  node.largest = std::max(node.largest, value);
+  if (sum.cells == 0) sum.first = value;
+  sum.cells += 1;
+  sum.value += value - sum.first;
+  sum.place = sum.place + from_node;
+}
+
+/// Once all cells have been added.
+void add_slope(double value, Point from_node, Sums& sum) {
+  const Point d = from_node - mean_place(sum);
+  const double difference = value - sum.first - sum.value / sum.cells;
+  sum.xx += d.x * d.x;
+  sum.xy += d.x * d.y;
+  sum.yy += d.y * d.y;
+  sum.slope = sum.slope + difference * d;
+}
+
 /// Centroids that are this much nearer to a line than they are long along it tell no slope across it.
 constexpr double flat = 1e-12;
 
@@ -80,29 +100,18 @@ std::vector<AroundNode> CellsRoundNodes::of(const std::vector<double>& of_cells)
   const auto visit_all = [&](const auto& visit) {  // in global order, so that ranks add up alike
     std::size_t cell = 0;
     halo_.for_each_cell([&](const auto& nodes) {
+      const Point centroid = halo_shapes_[cell].centroid;
       for (const NodeId node : nodes) {
-        if (mesh_.owns(node)) visit(node, sums[node.value()], values[cell], halo_shapes_[cell].centroid);
+        if (mesh_.owns(node)) visit(node.value(), values[cell], centroid - mesh_.point(node));
       }
       ++cell;
     });
   };
-  visit_all([&](NodeId node, Sums& sum, double value, Point centroid) {
-    AroundNode& here = around[node.value()];
-    here.smallest = std::min(here.smallest, value);
-    here.largest = std::max(here.largest, value);
-    if (sum.cells == 0) sum.first = value;
-    sum.cells += 1;
-    sum.value += value - sum.first;
-    sum.place = sum.place + (centroid - mesh_.point(node));
+  visit_all([&](std::int32_t node, double value, Point from_node) {
+    add_cell(value, from_node, sums[node], around[node]);
   });
-  visit_all([&](NodeId node, Sums& sum, double value, Point centroid) {
-    const Point d = centroid - mesh_.point(node) - mean_place(sum);
-    const double difference = value - sum.first - sum.value / sum.cells;
-    sum.xx += d.x * d.x;
-    sum.xy += d.x * d.y;
-    sum.yy += d.y * d.y;
-    sum.slope = sum.slope + difference * d;
-  });
+  visit_all(
+      [&](std::int32_t node, double value, Point from_node) { add_slope(value, from_node, sums[node]); });
   for (std::int32_t node = 0; node < mesh_.owned_nodes; ++node) {
     if (sums[node].cells > 0) solve(sums[node], around[node]);
   }

@@ -42,11 +42,13 @@ TEST(OutlineMap, ByPointsWhereThereAreAsMany) {
   const Geometry from = outline({loop("body", house)}), to = outline({loop("body", moved)});
   const OutlineMap by_points(from, to, true, {"to.geom", "the mesh"}),
       by_shares(from, to, false, {"to.geom", "the mesh"});
-  EXPECT_TRUE(by_points.is_by_points());
+  EXPECT_TRUE(by_points.shares(0, 0).has_value());
   const double bend = length(house[1] - house[0]);
   EXPECT_EQ(by_points.image(0, bend), moved[1]);
   EXPECT_NE(by_shares.image(0, bend), moved[1]);
-  EXPECT_FALSE(OutlineMap(outline({loop("body", square)}), to, true, {"to.geom", "the mesh"}).is_by_points());
+  EXPECT_FALSE(OutlineMap(outline({loop("body", square)}), to, true, {"to.geom", "the mesh"})
+                   .shares(0, 0)
+                   .has_value());
 }
 
 TEST(OutlineMap, ByPointsWhereverTheLoopsBegin) {
@@ -54,7 +56,7 @@ TEST(OutlineMap, ByPointsWhereverTheLoopsBegin) {
   std::ranges::rotate(later, later.begin() + 2);
   const Geometry from = outline({loop("body", house)}), to = outline({loop("body", later)});
   const OutlineMap map(from, to, true, {"to.geom", "the mesh"});
-  EXPECT_TRUE(map.is_by_points());
+  EXPECT_TRUE(map.shares(0, 0).has_value());
   const double bend = length(house[1] - house[0]);
   EXPECT_EQ(map.image(0, 0), house[0]);
   EXPECT_EQ(map.image(0, bend), house[1]);

@@ -15,12 +15,8 @@ namespace quadloop {
 namespace {
 
 using test::field_of;
+using test::part_of;
 using test::world;
-
-Mesh part_of(const test::Grid& grid) {
-  const Mesh whole = grid.mesh();
-  return test::Pieces(whole, own_order(whole)).part;
-}
 
 /// Mean of |q - its interpolant| over a triangle, for a quadratic x^2 + 3 y^2, by many points.
 double mean_error(Point a, Point b, Point c) {

@@ -5,7 +5,6 @@
 #include <random>
 
 #include "mesher/base/ids.hpp"
-#include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop::test {
@@ -50,6 +49,11 @@ Piece piece_of(std::size_t count, Sharing sharing) {
 Pieces::Pieces(const Mesh& mesh, const MeshOrder& order)
     : whole{scatter_mesh(Communicator(MPI_COMM_SELF), mesh, order)},
       part{scatter_mesh(world(), mesh, order)} {}
+
+Mesh part_of(const Grid& grid) {
+  const Mesh whole = grid.mesh();
+  return Pieces(whole, own_order(whole)).part;
+}
 
 void for_each_distribution(const std::function<void(const Pieces&)>& check) {
   for (const std::int32_t n : {1, 2, 9}) {

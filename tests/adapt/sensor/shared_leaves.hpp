@@ -12,6 +12,7 @@
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
+#include "tests/mesh/grid_mesh.hpp"
 
 namespace quadloop::test {
 
@@ -49,6 +50,9 @@ struct Pieces {
   Pieces(const Mesh& mesh, const MeshOrder& order);
   Mesh whole, part;
 };
+
+/// This rank's part of a grid in its own order.
+Mesh part_of(const Grid& grid);
 
 /// Calls `check(pieces)` for several meshes and orders.
 void for_each_distribution(const std::function<void(const Pieces&)>& check);

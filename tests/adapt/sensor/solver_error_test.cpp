@@ -13,12 +13,8 @@ namespace quadloop {
 namespace {
 
 using test::field_of;
+using test::part_of;
 using test::world;
-
-Mesh part_of(const test::Grid& grid) {
-  const Mesh whole = grid.mesh();
-  return test::Pieces(whole, own_order(whole)).part;
-}
 
 TEST(SolverErrors, AtNodesAreSharedOutAndNothingIsLost) {
   const Mesh mesh = part_of({6, {1, 2}, true});

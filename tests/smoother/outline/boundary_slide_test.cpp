@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -24,10 +25,10 @@ struct Sliding {
     const auto owned = ids_below(NodeId{mesh.owned_nodes});
     stars.emplace(halo, std::vector<NodeId>(owned.begin(), owned.end()), std::vector<CellTarget>{});
   }
-  std::optional<Point> improved(NodeId node) const {
+  std::optional<Point> improved(NodeId node, double even_up_to = 0) const {
     Star star;
     stars->gather(node.value(), star);
-    return slide->improve(node, star, Objective::power);
+    return slide->improve(node, star, Objective::power, even_up_to);
   }
   Mesh mesh;
   HaloMesh halo;
@@ -94,6 +95,28 @@ TEST(BoundarySlide, ANodeNearANeighbourMovesAwayAlongTheSide) {
   EXPECT_EQ(better->y, 0);
   EXPECT_GT(better->x, 0.36);
   EXPECT_LT(better->x, 2.0 / 3) << "it never passes a neighbour";
+}
+
+double longer_by_shorter(double back, double ahead) { return std::max(back, ahead) / std::min(back, ahead); }
+
+TEST(BoundarySlide, EdgesStayEvenUnlessCellsNeedTheRoom) {
+  constexpr double costly = 0.3, third = 1.0 / 3;
+  Mesh mesh = grid.mesh();
+  mesh.points.begin()[10].x = 0.6;  // above node 3, from 0.5: cells are best with the node under it
+  const Sliding even(mesh);
+  const auto held = even.improved(NodeId{3}, costly), freed = even.improved(NodeId{3}, 0);
+  ASSERT_TRUE(held.has_value() && freed.has_value());
+  EXPECT_GT(held->x, 0.5);
+  EXPECT_LE(longer_by_shorter(held->x - third, 2 * third - held->x), 1.5);
+  EXPECT_GT(longer_by_shorter(freed->x - third, 2 * third - freed->x), 1.5);
+
+  mesh.points.begin()[3].x = 0.55;
+  const double before = longer_by_shorter(0.55 - third, 2 * third - 0.55);
+  const Sliding uneven(std::move(mesh));
+  const auto further = uneven.improved(NodeId{3}, 0);
+  ASSERT_TRUE(further.has_value());
+  EXPECT_GT(longer_by_shorter(further->x - third, 2 * third - further->x), before);
+  EXPECT_FALSE(uneven.improved(NodeId{3}, costly).has_value()) << "it would be more uneven than it was";
 }
 
 /// A grid bent to a disc of 64 sides.
@@ -201,6 +224,27 @@ TEST(BoundarySlide, HeightsAreThoseOfTheSegmentInTheMiddleOfAnEdge) {
   EXPECT_EQ(s.slide->height_at({NodeId{5}, NodeId{6}, 0}, heights), 3);
   EXPECT_EQ(s.slide->height_at({NodeId{6}, NodeId{13}, 0}, heights), 4);
   EXPECT_NEAR(s.slide->unevenness(NodeId{3}), (2.0 / 3 - 0.4) / (0.4 - 1.0 / 3), 1e-12);
+}
+
+/// Nodes where one edge of the boundary is more than 1.5 times as long as the next.
+int uneven_nodes(const Mesh& mesh) {
+  std::vector<double> back(mesh.points.size()), ahead(mesh.points.size());
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    for (const auto& [from, to] : boundary.edges)
+      ahead[from.value()] = back[to.value()] = length(mesh.point(to) - mesh.point(from));
+  }
+  int uneven = 0;
+  for (std::size_t node = 0; node < back.size(); ++node)
+    uneven += back[node] > 0 && longer_by_shorter(back[node], ahead[node]) > 1.5 ? 1 : 0;
+  return uneven;
+}
+
+TEST(BoundarySlide, SmoothingMakesNoMoreEdgesUneven) {
+  const Geometry polygon = test::circle(240);
+  SmoothOptions options;
+  options.geometry = &polygon;
+  const Mesh before = test::disc(test::Grid{16, {1, 1}, false}, polygon);
+  EXPECT_LE(uneven_nodes(test::smoothed_alone(before, options)), uneven_nodes(before));
 }
 
 TEST(BoundarySlide, AnOutlineOfOtherNamesIsNone) {
