@@ -1,21 +1,8 @@
 #include "mesher/delaunay/flipper.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace quadloop {
-
-namespace {
-
-/// Whether the angle at p between the ways to a and b is under a right one, whatever rounding did to it; may
-/// be false of one that is a little less.
-bool surely_acute(Point a, Point p, Point b) {
-  constexpr double rounding = 1e-15, underflow = 1e-290;
-  const double along_x = (a.x - p.x) * (b.x - p.x), along_y = (a.y - p.y) * (b.y - p.y);
-  return along_x + along_y > rounding * (std::abs(along_x) + std::abs(along_y)) + underflow;
-}
-
-}  // namespace
 
 void Flipper::flip_to_delaunay(std::span<const Point> points, const RankOf& rank_of,
                                std::span<Triangle> triangles, std::span<const char> open,
@@ -25,8 +12,9 @@ void Flipper::flip_to_delaunay(std::span<const Point> points, const RankOf& rank
   join(blocks);
   close(open);
   list_firm(moved);
-  for (Edge e = 0; e < edges(); ++e) {
-    if (across(e) > e && !is_firm(e)) flip_from(e, rank_of);
+  list_blunt();
+  for (Edge e = 0; e < edges(); ++e) {  // what flips make wrong is looked at by flip_from()
+    if (across(e) > e && (blunt_[e] != 0 || blunt_[across(e)] != 0) && !is_firm(e)) flip_from(e, rank_of);
   }
 }
 
@@ -71,11 +59,20 @@ void Flipper::close(std::span<const char> open) {
 
 void Flipper::list_firm(std::span<const char> moved) {
   firm_.assign(moved.empty() ? 0 : across_.size(), 0);
-  for (Edge e = 0; e < edges() && !firm_.empty(); ++e) {
-    if (across(e) <= e) continue;
-    const auto n = nodes_of_both(e);
-    const bool any_moved = std::any_of(n.begin(), n.end(), [&](std::size_t k) { return moved[k] != 0; });
-    firm_[e] = firm_[across(e)] = any_moved ? 0 : 1;
+  if (moved.empty()) return;
+  moved_.clear();
+  for (const auto& [i, j, k] : triangles_) moved_.push_back(moved[i] != 0 || moved[j] != 0 || moved[k] != 0);
+  for (Edge e = 0; e < edges(); ++e) {
+    if (across(e) > e && moved_[triangle_of(e)] == 0 && moved_[triangle_of(across(e))] == 0)
+      firm_[e] = firm_[across(e)] = 1;
+  }
+}
+
+void Flipper::list_blunt() {
+  blunt_.clear();
+  for (const auto& [i, j, k] : triangles_) {
+    const Point &a = points_[i], &b = points_[j], &c = points_[k];
+    blunt_.insert(blunt_.end(), {!surely_acute(b, a, c), !surely_acute(c, b, a), !surely_acute(a, c, b)});
   }
 }
 

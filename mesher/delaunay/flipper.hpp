@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -18,6 +19,14 @@ namespace quadloop {
 inline bool is_positive(Point a, Point b, Point c) {
   return cross(b - a, c - a) > 0 && cross(c - b, a - b) > 0 && cross(a - c, b - c) > 0 &&
          orientation(a, b, c) > 0;
+}
+
+/// Whether the angle at p between the ways to a and b is under a right one, whatever rounding did to it; may
+/// be false of one that is a little less. An edge opposite two such angles is right as it is.
+inline bool surely_acute(Point a, Point p, Point b) {
+  constexpr double rounding = 1e-15, underflow = 1e-290;
+  const double along_x = (a.x - p.x) * (b.x - p.x), along_y = (a.y - p.y) * (b.y - p.y);
+  return along_x + along_y > rounding * (std::abs(along_x) + std::abs(along_y)) + underflow;
 }
 
 /// Whether the edge a-b between the triangles a b c and b a d should give way to c-d. Of four points on one
@@ -70,6 +79,7 @@ class Flipper {
   void join(std::span<const std::int32_t> blocks);
   void close(std::span<const char> open);
   void list_firm(std::span<const char> moved);
+  void list_blunt();
   bool is_firm(Edge e) const { return !firm_.empty() && firm_[e] != 0; }
   std::array<std::size_t, 4> nodes_of_both(Edge e) const;
   bool is_wrong(Edge e, const RankOf& rank_of) const;
@@ -82,6 +92,8 @@ class Flipper {
   std::span<Triangle> triangles_;
   std::vector<Edge> across_;
   std::vector<char> firm_;      ///< a flag for each edge that gives way to no tie; or none
+  std::vector<char> moved_;     ///< a flag for each triangle with a moved node
+  std::vector<char> blunt_;     ///< a flag for each edge whose opposite angle was not acute before the flips
   std::vector<Edge> last_low_;  ///< of each node, the last edge with it as the lower end and one triangle
   std::vector<Edge> waiting_;
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "mesher/base/error.hpp"
 
@@ -20,54 +19,27 @@ namespace {
 constexpr const char* no_cost = "an objective without a cost";
 constexpr double no_cotangent = -std::numeric_limits<double>::infinity();
 
-/// The largest cotangent of a triangle's angles that count, times J.
-template <class Values>
-Values counted_dot(CellAngle angle, const Values& uu, const Values& uv, const Values& vv) {
-  switch (angle) {
-    case CellAngle::at_p: return uv;
-    case CellAngle::at_q: return uu - uv;
-    case CellAngle::at_r: return vv - uv;
-    case CellAngle::all: break;
-  }
-  if constexpr (std::is_same_v<Values, double>) {
-    return std::max({uv, uu - uv, vv - uv});
-  } else {
-    return uv.max(uu - uv).max(vv - uv);
-  }
+const StarKernels& widest() {
+  static const StarKernels kernels = star_kernels().back();
+  return kernels;
 }
 
 }  // namespace
 
 template <int places>
-StarCost<places> Star::evaluate(const Eigen::Array<double, places, 1>& x,
-                                const Eigen::Array<double, places, 1>& y, Objective objective) const {
-  using Values = Eigen::Array<double, places, 1>;
-  constexpr double flattest_squared = flattest_sine * flattest_sine;
+StarCost<places> Star::cost_of(const StarSums<places>& sums, Objective objective) const {
+  using Values = Eigen::Map<const Eigen::Array<double, places, 1>>;
   StarCost<places> cost;
-  Values costs = Values::Zero(), squares = Values::Zero(), defects = Values::Zero();
-  Values cotangents = Values::Constant(-std::numeric_limits<double>::infinity()),
-         soundness = Values::Constant(1);
-  for (const StarCorner& c : corners_) {
-    const Values ux = c.q.x - x, uy = c.q.y - y, vx = c.r.x - x, vy = c.r.y - y;
-    const Values uu = ux * ux + uy * uy, uv = ux * vx + uy * vy, vv = vx * vx + vy * vy,
-                 jacobian = ux * vy - uy * vx;
-    soundness = soundness.min(jacobian).min(jacobian * jacobian - flattest_squared * uu * vv);
-    const Values defect = 1 - jacobian / (c.target.g11 * uu + 2 * c.target.g12 * uv + c.target.g22 * vv);
-    const Values corner = defect * defect;
-    costs += corner;
-    squares += corner * corner;
-    defects = defects.max(defect);
-    cotangents = cotangents.max(counted_dot(c.angle, uu, uv, vv) / jacobian);
-  }
-  cost.valid = soundness > 0;
-  cost.largest_defect = defects;
-  cost.largest_cotangent = angles_count_ ? cotangents : Values::Constant(no_cotangent);
+  cost.valid = Values(sums.soundness.data()) > 0;
+  cost.largest_defect = Values(sums.defects.data());
+  cost.largest_cotangent = Values(sums.cotangents.data());
+  if (!angles_count_) cost.largest_cotangent = no_cotangent;
   switch (objective) {
-    case Objective::power: cost.objective = squares; return cost;
+    case Objective::power: cost.objective = Values(sums.squares.data()); return cost;
     case Objective::thesis:
-      for (int k = 0; k < places; ++k)
-        cost.objective[k] =
-            quadloop::nodal_cost(defects[k] * defects[k], costs[k] / static_cast<double>(corners_.size()));
+      for (std::size_t k = 0; k < places; ++k)
+        cost.objective[k] = quadloop::nodal_cost(sums.defects[k] * sums.defects[k],
+                                                 sums.costs[k] / static_cast<double>(corners_.size()));
       return cost;
   }
   QUADLOOP_REQUIRE(false, no_cost);
@@ -75,12 +47,11 @@ StarCost<places> Star::evaluate(const Eigen::Array<double, places, 1>& x,
 }
 
 StarCost<Star::batch> Star::cost(const Batch& x, const Batch& y, Objective objective) const {
-  return evaluate<batch>(x, y, objective);
+  return cost_of(widest().sums(corners_, x.data(), y.data()), objective);
 }
 
 StarCost<1> Star::cost(Point p, Objective objective) const {
-  using One = Eigen::Array<double, 1, 1>;
-  return evaluate<1>(One(p.x), One(p.y), objective);
+  return cost_of(star_sums(corners_, p), objective);
 }
 
 namespace {
@@ -114,38 +85,19 @@ double Star::power_and_gradient(Point p, Point& gradient) const {
   return value;
 }
 
-/// A corner's inverse condition number is r = J / F, J linear in p and F quadratic, with the same curvature
-/// 2 s every way; so F grad grad r = -(grad r grad F + grad F grad r) - 2 s r. It adds (1 - r)^3.
 StarModel Star::model(Point p) const {
+  const StarDerivatives sums = widest().derivatives(corners_, p);
   StarModel model;
-  double squares = 0, defects = 0, cotangents = -std::numeric_limits<double>::infinity(), soundness = 1;
-  for (const StarCorner& c : corners_) {
-    const Point u = c.q - p, v = c.r - p;
-    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), jacobian = cross(u, v);
-    const double form = c.target.g11 * uu + 2 * c.target.g12 * uv + c.target.g22 * vv;
-    soundness =
-        std::min({soundness, jacobian, jacobian * jacobian - flattest_sine * flattest_sine * uu * vv});
-    const double at_u = c.target.g11 + c.target.g12, at_v = c.target.g12 + c.target.g22;
-    const double inverse = 1 / form, ratio = jacobian / form, defect = 1 - ratio, cost = defect * defect;
-    const Point f = -2.0 * (at_u * u + at_v * v);
-    const Point r = inverse * (Point{c.q.y - c.r.y, c.r.x - c.q.x} - ratio * f);
-    const double slope = -3 * cost, bend = 6 * defect, curvature = slope * inverse,
-                 same = 2 * (at_u + at_v) * ratio;
-    squares += cost * cost;
-    model.cubes += cost * defect;
-    defects = std::max(defects, defect);
-    cotangents = std::max(cotangents, counted_dot(c.angle, uu, uv, vv) / jacobian);
-    model.gradient = model.gradient + slope * r;
-    model.xx += bend * r.x * r.x - curvature * (2 * r.x * f.x + same);
-    model.xy += bend * r.x * r.y - curvature * (r.x * f.y + r.y * f.x);
-    model.yy += bend * r.y * r.y - curvature * (2 * r.y * f.y + same);
-    model.reference += uu;
-  }
-  model.reference /= static_cast<double>(corners_.size());
-  model.cost.objective[0] = squares;
-  model.cost.largest_defect[0] = defects;
-  model.cost.largest_cotangent[0] = angles_count_ ? cotangents : no_cotangent;
-  model.cost.valid[0] = soundness > 0;
+  model.cost.objective[0] = sums.squares;
+  model.cost.largest_defect[0] = sums.defects;
+  model.cost.largest_cotangent[0] = angles_count_ ? sums.cotangents : no_cotangent;
+  model.cost.valid[0] = sums.soundness > 0;
+  model.cubes = sums.cubes;
+  model.gradient = sums.gradient;
+  model.xx = sums.xx;
+  model.xy = sums.xy;
+  model.yy = sums.yy;
+  model.reference = sums.edges / static_cast<double>(corners_.size());
   return model;
 }
 

@@ -1,27 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include "mesher/geometry/point.hpp"
-#include "smoother/objective/condition_number.hpp"
 #include "smoother/objective/objective.hpp"
+#include "smoother/objective/star_kernels.hpp"
 
 namespace quadloop {
-
-/// Which angles of a triangle p, q, r are angles of the cell: all of a triangle's, one for each corner of a
-/// quad.
-enum class CellAngle : std::uint8_t { all, at_p, at_q, at_r };
-
-/// A corner of a cell whose shape hangs on node p: the triangle p, q, r, counter-clockwise, with the target
-/// seen from p.
-struct StarCorner {
-  Point q, r;
-  CornerTarget target;
-  CellAngle angle = CellAngle::all;
-};
 
 /// What a node's star would be worth with the node at each of several places, evaluated together.
 template <int places>
@@ -46,7 +32,7 @@ struct StarModel {
 /// All corners that hang on one node.
 class Star {
  public:
-  static constexpr int batch = 8;
+  static constexpr int batch = StarKernels::batch;
   using Batch = Eigen::Array<double, batch, 1>;
 
   void clear() { corners_.clear(); }
@@ -81,8 +67,7 @@ class Star {
 
  private:
   template <int places>
-  StarCost<places> evaluate(const Eigen::Array<double, places, 1>& x,
-                            const Eigen::Array<double, places, 1>& y, Objective objective) const;
+  StarCost<places> cost_of(const StarSums<places>& sums, Objective objective) const;
   double power_and_gradient(Point p, Point& gradient) const;
   double thesis_and_gradient(Point p, Point& gradient) const;
 

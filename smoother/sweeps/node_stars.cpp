@@ -42,6 +42,7 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
   }
   Ends ends = find_starts();
   corners_.resize(starts_.back());
+  if (!targets.empty() || has_quads()) seen_of_.resize(corners_.size());
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& cell) {
     add_cell(cell, targets.empty() ? CellTarget{} : targets[number], ends);
@@ -67,8 +68,17 @@ NodeStars::Ends NodeStars::find_starts() {
   return ends;
 }
 
+bool NodeStars::has_quads() const {
+  bool found = false;
+  mesh_.for_each_cell([&](const auto& cell) {
+    found = found || std::tuple_size_v<std::remove_cvref_t<decltype(cell)>> == 4;
+  });
+  return found;
+}
+
 /// Copies are few and lie at the borders of ranks.
 void NodeStars::list_stars_round_copies() {
+  if (mesh_.points().size() == static_cast<std::size_t>(mesh_.owned_nodes())) return;
   copy_starts_.assign(mesh_.points().size() - mesh_.owned_nodes() + 1, 0);
   const auto for_each_pair = [&](const auto& visit) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -103,11 +113,12 @@ void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget
     if (seen < 0) seen = first_seen<width>(target);
     const NodeId next = cell[(k + 1) % width], previous = cell[(k + width - 1) % width];
     const std::int32_t own = seen + per_node * k;
-    corners_[end++] = {next, previous, own};
+    for (std::int32_t c = 0; c < per_node && !seen_of_.empty(); ++c) seen_of_[end + c] = own + c;
+    corners_[end++] = {next, previous};
     if constexpr (width == 4) {
       const NodeId opposite = cell[(k + 2) % width];
-      corners_[end++] = {next, opposite, own + 1};
-      corners_[end++] = {opposite, previous, own + 2};
+      corners_[end++] = {next, opposite};
+      corners_[end++] = {opposite, previous};
     }
   }
 }
@@ -115,11 +126,11 @@ void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget
 bool NodeStars::costs_more(std::size_t i, double limit) const {
   const Point p = mesh_.point(nodes_[i]);
   const double least = 1 - std::sqrt(limit);  // of 1 / condition number; above 0, so J must be, too
-  const auto corners = corners_of(i);
-  return std::any_of(corners.begin(), corners.end(), [&](const Corner& c) {
-    const CornerForm form = corner_form(p, mesh_.point(c.q), mesh_.point(c.r));
-    return !(form.jacobian > least * weighted_edges(form, seen_[c.seen].target));
-  });
+  for (std::size_t k = starts_[i]; k < starts_[i + 1]; ++k) {
+    const CornerForm form = corner_form(p, mesh_.point(corners_[k].q), mesh_.point(corners_[k].r));
+    if (!(form.jacobian > least * weighted_edges(form, seen(k).target))) return true;
+  }
+  return false;
 }
 
 void NodeStars::fetch_ahead(std::span<const std::int32_t> order, std::size_t k) const {
@@ -136,9 +147,9 @@ void NodeStars::fetch_ahead(std::span<const std::int32_t> order, std::size_t k) 
 
 void NodeStars::gather(std::size_t i, Star& star) const {
   star.clear();
-  for (const Corner& c : corners_of(i)) {
-    const SeenTarget& seen = seen_[c.seen];
-    star.add({mesh_.point(c.q), mesh_.point(c.r), seen.target, seen.angle});
+  for (std::size_t k = starts_[i]; k < starts_[i + 1]; ++k) {
+    const SeenTarget& should = seen(k);
+    star.add({mesh_.point(corners_[k].q), mesh_.point(corners_[k].r), should.target, should.angle});
   }
 }
 

@@ -30,8 +30,7 @@ class NodeStars {
   template <class Visit>
   void for_each_neighbour(std::size_t i, const Visit& visit) const {
     for (const Corner& c : corners_of(i)) {
-      visit(c.q);
-      visit(c.r);
+      for (const NodeId other : {c.q, c.r}) visit(other);  // one call, which is then inlined
     }
   }
   /// Calls `visit(i)` for the free nodes that share a cell with another rank's node; for each as often as
@@ -42,7 +41,6 @@ class NodeStars {
  private:
   struct Corner {
     NodeId q, r;
-    std::int32_t seen = 0;  ///< what it should be, in seen_
   };
   /// What a corner should be, as a node of its cell sees it.
   struct SeenTarget {
@@ -52,10 +50,13 @@ class NodeStars {
   std::span<const Corner> corners_of(std::size_t i) const {
     return std::span(corners_).subspan(starts_[i], starts_[i + 1] - starts_[i]);
   }
+  /// What the k-th of all corners should be.
+  const SeenTarget& seen(std::size_t k) const { return seen_[seen_of_.empty() ? 0 : seen_of_[k]]; }
   /// Of each node, where its next corner goes.
   using Ends = IdVector<NodeId, std::size_t>;
   static constexpr auto no_star = std::numeric_limits<std::size_t>::max();
   Ends find_starts();
+  bool has_quads() const;
   template <std::size_t width>
   void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target, Ends& ends);
   template <std::size_t width>
@@ -69,6 +70,7 @@ class NodeStars {
   std::vector<std::size_t> starts_;
   std::vector<Corner> corners_;
   std::vector<SeenTarget> seen_;
+  std::vector<std::int32_t> seen_of_;     ///< of each corner in seen_; none where all are the first
   std::vector<std::size_t> copy_starts_;  ///< of each copy in copy_stars_
   std::vector<std::int32_t> copy_stars_;  ///< those that have the copy among their neighbours
 };

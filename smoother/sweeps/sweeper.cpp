@@ -33,10 +33,15 @@ std::int64_t Sweeper::sweep() {
 /// open sweeps it loses that.
 void Sweeper::update_bad() {
   const NodeFlags before = bad_;
-  for (std::size_t i = 0; i < stars_.size(); ++i) {
+  doubtful_.clear();
+  for (std::int32_t i = 0; i < std::ssize(stars_); ++i) {
     const bool changed = sweeps_.take_changed(i);
-    if (done_ == open_sweeps || (changed && sweeps_.is_stale(i)))
-      bad_[node(i)] = stars_.costs_more(i, rule_.threshold) ? 1 : 0;
+    if (done_ == open_sweeps || (changed && sweeps_.is_stale(i))) doubtful_.push_back(i);
+  }
+  for (std::size_t k = 0; k < doubtful_.size(); ++k) {
+    stars_.fetch_ahead(doubtful_, k);
+    const std::int32_t i = doubtful_[k];
+    bad_[node(i)] = stars_.costs_more(i, rule_.threshold) ? 1 : 0;
   }
   mesh_.exchange().update(bad_);
   count_bad_near(before);

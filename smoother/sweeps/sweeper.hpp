@@ -50,6 +50,7 @@ class Sweeper {
   NodeFlags bad_;  ///< free nodes of cells above the threshold, other ranks' too
   /// Of each node: bad ones, itself too, as often as they are met; right for free nodes.
   IdVector<NodeId, std::int32_t> bad_near_;
+  std::vector<std::int32_t> doubtful_;  ///< stars that may have become bad, or good
   Star star_;
   int done_ = 0;  ///< sweeps
 };

@@ -14,20 +14,6 @@ namespace {
 
 constexpr int first_rings = 2;  ///< fetched at once; more where circumcircles reach farther
 
-/// The nodes of triangles that have a flagged node.
-std::vector<GlobalNodeId> nodes_around(const Mesh& mesh, const NodeFlags& flags) {
-  QUADLOOP_REQUIRE(flags.size() == mesh.points.size(), "a flag for each point");
-  std::vector<GlobalNodeId> nodes;
-  NodeFlags named(flags.size(), 0);
-  for (const auto& t : mesh.triangles) {
-    if (std::none_of(t.begin(), t.end(), [&](NodeId node) { return flags[node] != 0; })) continue;
-    for (const NodeId node : t) {
-      if (std::exchange(named[node], 1) == 0) nodes.push_back(mesh.global(node));
-    }
-  }
-  return nodes;
-}
-
 using Known = StarHalo::Known;
 
 /// The triangles around core nodes: no edge from one of these is at the border of the region, but for edges
@@ -48,6 +34,23 @@ class Region {
     exchange_.update(core_, [&](std::int32_t node) { return core_[NodeId{node}] != 0; });
   }
 
+  /// The nodes of this rank's triangles that have an edge which may be wrong after moves: both ends are nodes
+  /// of triangles with a moved node, and the angle opposite is not acute. *Collective.*
+  std::vector<GlobalNodeId> nodes_at_doubtful_edges() const {
+    const NodeFlags near = near_moved();
+    std::vector<GlobalNodeId> nodes;
+    for (const auto& t : mesh_.triangles) {
+      const auto is_doubtful = [&](std::size_t k) {
+        const NodeId apex = t[k], from = t[(k + 1) % 3], to = t[(k + 2) % 3];
+        return near[from] != 0 && near[to] != 0 &&
+               !surely_acute(mesh_.point(from), mesh_.point(apex), mesh_.point(to));
+      };
+      if (!is_doubtful(0) && !is_doubtful(1) && !is_doubtful(2)) continue;
+      for (const NodeId node : t) nodes.push_back(mesh_.global(node));
+    }
+    return nodes;
+  }
+
   /// *Collective.*
   RegionTriangulation triangulate(const std::function<TieRank(Point)>& rank_of) const {
     StarHalo halo(comm_, owners_, mesh_, core_, known_);
@@ -62,6 +65,23 @@ class Region {
   }
 
  private:
+  /// Flags the nodes of triangles that have a moved node, whichever ranks have these. *Collective.*
+  NodeFlags near_moved() const {
+    QUADLOOP_REQUIRE(known_.moved.size() == mesh_.points.size(), "a flag for each point");
+    NodeFlags near(mesh_.points.size(), 0);
+    for (const auto& t : mesh_.triangles) {
+      if (std::none_of(t.begin(), t.end(), [&](NodeId node) { return known_.moved[node] != 0; })) continue;
+      for (const NodeId node : t) near[node] = 1;
+    }
+    std::vector<GlobalNodeId> of_others;
+    for (const NodeId copy : ids_between(NodeId{mesh_.owned_nodes}, NodeId{size32(near)})) {
+      if (near[copy] != 0) of_others.push_back(mesh_.global(copy));
+    }
+    flag_at_owners(comm_, owners_, of_others, near);
+    exchange_.update(near);
+    return near;
+  }
+
   const Communicator& comm_;
   const Mesh& mesh_;
   Known known_;
@@ -151,20 +171,19 @@ void require_restorable(const Mesh& mesh, const std::vector<std::int32_t>& trian
                    "a block for each triangle, or none");
 }
 
-/// What changes; nothing where no node is named. *Collective.*
+/// What changes after moves; nothing where no edge may be wrong. *Collective.*
 std::optional<RegionTriangulation> changed_region(const Communicator& comm, const Mesh& mesh,
-                                                  std::vector<GlobalNodeId> nodes,
                                                   const std::function<TieRank(Point)>& rank_of,
                                                   const Known& known) {
   require_restorable(mesh, known.triangle_to_block);
   std::optional<RegionTriangulation> triangulation;
-  if (!comm.any(!nodes.empty())) return triangulation;
   Region region(comm, mesh, known);
-  do {
+  std::vector<GlobalNodeId> nodes = region.nodes_at_doubtful_edges();
+  while (comm.any(!nodes.empty())) {
     region.add(nodes);
     triangulation.emplace(region.triangulate(rank_of));
     nodes = triangulation->outgrown();
-  } while (comm.any(!nodes.empty()));
+  }
   return triangulation;
 }
 
@@ -197,15 +216,14 @@ void restore_delaunay(const Communicator& comm, Mesh& mesh, const NodeFlags& mov
                       const std::function<TieRank(Point)>& rank_of,
                       const std::vector<std::int32_t>& triangle_to_block) {
   const std::optional<RegionTriangulation> changed =
-      changed_region(comm, mesh, nodes_around(mesh, moved), rank_of, {triangle_to_block, moved});
+      changed_region(comm, mesh, rank_of, {triangle_to_block, moved});
   if (changed) put_in_slots(comm, *changed, triangle_to_block, mesh);
 }
 
 std::vector<std::int32_t> restore_delaunay_nearby(const Communicator& comm, Mesh& mesh,
                                                   const NodeFlags& moved,
                                                   const std::function<TieRank(Point)>& rank_of) {
-  const std::optional<RegionTriangulation> changed =
-      changed_region(comm, mesh, nodes_around(mesh, moved), rank_of, {{}, moved});
+  const std::optional<RegionTriangulation> changed = changed_region(comm, mesh, rank_of, {{}, moved});
   if (!changed) return std::vector<std::int32_t>(mesh.triangles.size(), 1);
   return insert_triangles(comm, changed->freed(), changed->made(), mesh);
 }
