@@ -35,14 +35,12 @@ BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
       outline_{outline},
       freedom_(mesh.owned_nodes(), NodeFreedom::interior),
       slot_(mesh.points().size(), -1) {
-  for (const HaloEdge& edge : mesh.boundary_edges()) {
-    for (const NodeId node : {edge.from, edge.to}) {
-      if (slot_[node] >= 0) continue;
-      slot_[node] = size32(located_);
-      located_.emplace_back();
-    }
+  for (const HaloEdge& edge : mesh.boundary_edges()) slot_[edge.from] = slot_[edge.to] = 0;
+  std::int32_t slots = 0;
+  for (std::int32_t& slot : slot_) {
+    if (slot >= 0) slot = slots++;
   }
-  rails_.resize(located_.size());
+  nodes_.resize(slots);
   for (const BoundaryEdges& boundary : boundaries)
     outlined_.push_back(outline != nullptr && outline->has(boundary.name) ? 1 : 0);
   if (outline != nullptr) find_tight_segments(comm);
@@ -63,7 +61,7 @@ void BoundarySlide::find_tight_segments(const Communicator& comm) {
     if (!is_outlined(edge.boundary)) continue;
     const auto near = outline_->segments_near(box_of(point(edge.from), point(edge.to)));
     for (const NodeId node : {edge.from, edge.to}) {
-      if (located_[slot_[node]].boundary < 0) remember(node, point(node), edge.boundary, near);
+      if (nodes_[slot_[node]].located.boundary < 0) remember(node, point(node), edge.boundary, near);
     }
     const auto chord = chord_of(edge);
     if (!chord) continue;
@@ -135,7 +133,7 @@ void BoundarySlide::find_rails(const NodeFlags& pinned) {
     const Rail rail{in.node, in.other, out.other, in.boundary};
     const bool slides = freedom == NodeFreedom::interior && through && may_slide(rail);
     freedom = slides ? NodeFreedom::sliding : NodeFreedom::fixed;
-    if (slides) rails_[slot_[in.node]] = rail;
+    if (slides) nodes_[slot_[in.node]].rail = rail;
   });
 }
 
@@ -154,7 +152,7 @@ BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
 
 OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary) const {
   const Point p = point(node);
-  const Located& last = located_[slot_[node]];
+  const Located& last = nodes_[slot_[node]].located;
   if (last.boundary != boundary || last.point != p)
     remember(node, p, boundary, outline_->segments_near({p, p}));
   return last.place;
@@ -163,7 +161,7 @@ OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary) const {
 /// The place of a point where the node is, or is to be; `near`: the segments near it.
 void BoundarySlide::remember(NodeId node, Point p, std::int32_t boundary,
                              const OutlinePath::Segments& near) const {
-  located_[slot_[node]] = {p, outline_->locate(p, boundaries_[boundary].name, near), boundary};
+  nodes_[slot_[node]].located = {p, outline_->locate(p, boundaries_[boundary].name, near), boundary};
 }
 
 bool BoundarySlide::may_slide(const Rail& rail) const {
@@ -178,9 +176,10 @@ bool BoundarySlide::may_slide(const Rail& rail) const {
          !is_tight(places);
 }
 
-bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const {
+bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, const OutlinePlace& moved,
+                                  Point p) const {
   const Point a = point(rail.before), b = point(rail.after), now = point(rail.node);
-  const auto deviation = [&](OutlinePlace at, Point middle) {
+  const auto deviation = [&](const OutlinePlace& at, Point middle) {
     return std::max(outline_->deviation(places.before, a, at, middle),
                     outline_->deviation(at, middle, places.after, b));
   };
@@ -207,12 +206,16 @@ BoundarySlide::Steps BoundarySlide::steps_along(const Rail& rail, const Places& 
   const double ahead = outlined ? outline_->way(places.at, places.after) : length(after - p);
   const Point direction = (1 / length(after - before)) * (after - before);
   Steps steps;
-  for (std::size_t k = 0; k < steps.at.size(); ++k) {
-    const double step = k < shares.size() ? shares[k] * ahead : -shares[k - shares.size()] * back;
-    if (outlined) steps.at[k] = outline_->moved(places.at, step);
-    const Point to = outlined ? outline_->point_at(steps.at[k]) : before + (back + step) * direction;
-    steps.x[k] = to.x;
-    steps.y[k] = to.y;
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    steps.by[k] = shares[k] * ahead;
+    steps.by[shares.size() + k] = -shares[k] * back;
+  }
+  std::array<Point, Star::batch> to;
+  if (outlined) outline_->points_at(places.at, steps.by, to);
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    if (!outlined) to[k] = before + (back + steps.by[k]) * direction;
+    steps.x[k] = to[k].x;
+    steps.y[k] = to[k].y;
   }
   return steps;
 }
@@ -236,9 +239,33 @@ std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objec
   for (const int k : ranked_places(star, point(node), objective, steps.x, steps.y)) {
     const Point to = steps.point(k);
     if (!keeps_even(rail, to) && star.worst_cost(point(node)) <= even_up_to) continue;
-    if (!outlined || keeps_outline(rail, places, steps.at[k], to)) return to;
+    if (!outlined || keeps_outline(rail, places, outline_->moved(places.at, steps.by[k]), to)) return to;
   }
   return std::nullopt;
+}
+
+/// In steps, as what is fetched in one says where the next one is to look.
+void BoundarySlide::fetch_ahead(std::span<const NodeId> nodes, std::span<const std::int32_t> order,
+                                std::size_t k) const {
+  constexpr std::size_t farthest = 24, far = 18, near = 12, nearest = 6;
+  const auto sliding_at = [&](std::size_t at) -> const BoundaryNode* {
+    if (at >= order.size() || freedom_[nodes[order[at]]] != NodeFreedom::sliding) return nullptr;
+    return &nodes_[slot_[nodes[order[at]]]];
+  };
+  if (k + farthest < order.size()) {
+    __builtin_prefetch(&freedom_[nodes[order[k + farthest]]]);
+    __builtin_prefetch(&slot_[nodes[order[k + farthest]]]);
+  }
+  if (const BoundaryNode* node = sliding_at(k + far)) __builtin_prefetch(node);
+  if (const BoundaryNode* node = sliding_at(k + near)) {
+    __builtin_prefetch(&slot_[node->rail.before]);
+    __builtin_prefetch(&slot_[node->rail.after]);
+    if (node->located.place.valid()) outline_->fetch(node->located.place);
+  }
+  if (const BoundaryNode* node = sliding_at(k + nearest)) {
+    __builtin_prefetch(&nodes_[slot_[node->rail.before]]);
+    __builtin_prefetch(&nodes_[slot_[node->rail.after]]);
+  }
 }
 
 bool BoundarySlide::lies_on(NodeId node, std::span<const double> heights) const {

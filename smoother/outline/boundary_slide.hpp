@@ -34,6 +34,9 @@ class BoundarySlide {
   /// becomes at most 1.5 times as long as the shorter one, or no more times than it was.
   std::optional<Point> improve(NodeId node, const Star& star, Objective objective, double even_up_to) const;
 
+  /// Asks the processor for what improve() will need of the nodes a little after `nodes[order[k]]`.
+  void fetch_ahead(std::span<const NodeId> nodes, std::span<const std::int32_t> order, std::size_t k) const;
+
   /// Whether a sliding node and the ways to both its neighbours lie on segments of the outline that have a
   /// height.
   bool lies_on(NodeId node, std::span<const double> heights) const;
@@ -65,9 +68,9 @@ class BoundarySlide {
     OutlinePlace before, at, after;
     bool valid() const { return before.valid() && at.valid() && after.valid(); }
   };
-  /// Where a node may slide to; `at` where its boundary is the outline's.
+  /// Where a node may slide to, and how far that is along its boundary.
   struct Steps {
-    std::array<OutlinePlace, Star::batch> at;
+    std::array<double, Star::batch> by;
     Star::Batch x, y;
     Point point(int k) const { return {x[k], y[k]}; }
   };
@@ -83,11 +86,11 @@ class BoundarySlide {
   OutlinePlace place_of(NodeId node, std::int32_t boundary) const;
   void remember(NodeId node, Point p, std::int32_t boundary, const OutlinePath::Segments& near) const;
   const Point& point(NodeId node) const { return mesh_.point(node); }
-  const Rail& rail_of(NodeId node) const { return rails_[slot_[node]]; }
+  const Rail& rail_of(NodeId node) const { return nodes_[slot_[node]].rail; }
   Steps steps_along(const Rail& rail, const Places& places) const;
   double unevenness(const Rail& rail, Point p) const;
   bool keeps_even(const Rail& rail, Point to) const;
-  bool keeps_outline(const Rail& rail, const Places& places, OutlinePlace moved, Point p) const;
+  bool keeps_outline(const Rail& rail, const Places& places, const OutlinePlace& moved, Point p) const;
 
   const HaloMesh& mesh_;
   const std::vector<BoundaryEdges>& boundaries_;
@@ -100,9 +103,12 @@ class BoundarySlide {
     OutlinePlace place;
     std::int32_t boundary = -1;
   };
-  IdVector<NodeId, std::int32_t> slot_;  ///< of each node at a boundary edge, in the following two; else -1
-  std::vector<Rail> rails_;              ///< those of sliding nodes are set
-  mutable std::vector<Located> located_;
+  struct alignas(64) BoundaryNode {  // one line of a cache, as visits wait for little else
+    Rail rail;                       ///< set where the node slides
+    Located located;
+  };
+  IdVector<NodeId, std::int32_t> slot_;      ///< of each node at a boundary edge, in the following; else -1
+  mutable std::vector<BoundaryNode> nodes_;  ///< ascending, as they are visited
   /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for:
   /// nodes there stay, as chords that keep clear of the other parts of the outline could still meet one
   /// another. Ascending.

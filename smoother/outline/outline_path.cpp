@@ -12,6 +12,7 @@ namespace quadloop {
 namespace {
 
 constexpr std::size_t most_vertices = 1000;  ///< that one chord may stand for
+constexpr std::size_t usually_near = 16;     ///< no more segments than this
 constexpr int short_walk = 8;                ///< in segments: what lies farther off is searched
 
 Box widened(const Box& box, double by) { return {box.low - Point{by, by}, box.high + Point{by, by}}; }
@@ -33,40 +34,39 @@ OutlinePath::OutlinePath(const Geometry& geometry)
   }
 }
 
-double OutlinePath::within(std::int32_t loop, double arc) const {
-  const double whole = loop_length(loop);
-  if (arc < 0) arc += whole;
-  return arc >= whole ? arc - whole : arc;
-}
-
 std::int32_t OutlinePath::segment_at(std::int32_t loop, double arc) const {
   const auto first = arc_.begin() + geometry_.loop_start(loop),
              last = arc_.begin() + geometry_.loop_start(loop + 1);
   return static_cast<std::int32_t>(std::upper_bound(first + 1, last, arc) - arc_.begin()) - 1;
 }
 
-bool OutlinePath::holds(std::int32_t segment, double arc) const {
-  const bool ends_loop = geometry_.next(segment) <= segment;
-  return arc_[segment] <= arc && (ends_loop || arc < arc_[segment + 1]);
-}
-
 OutlinePlace OutlinePath::place_at(std::int32_t loop, double arc) const {
   const double inside = within(loop, arc);
-  return {loop, inside, segment_at(loop, inside)};
+  return {inside, loop, segment_at(loop, inside)};
 }
 
-OutlinePlace OutlinePath::moved(OutlinePlace from, double step) const {
+OutlinePlace OutlinePath::moved(const OutlinePlace& from, double step) const {
   const double arc = within(from.loop, from.arc + step);
   std::int32_t s = from.segment;
   for (int walked = 0; walked < short_walk; ++walked) {
-    if (holds(s, arc)) return {from.loop, arc, s};
+    if (line_of(s).holds(arc)) return {arc, from.loop, s};
     s = step < 0 ? geometry_.previous(s) : geometry_.next(s);
   }
   return place_at(from.loop, arc);
 }
 
+void OutlinePath::points_at(const OutlinePlace& from, std::span<const double> steps,
+                            std::span<Point> points) const {
+  const Line line = line_of(from.segment);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const double arc = within(from.loop, from.arc + steps[k]);
+    points[k] = line.holds(arc) ? line.point_at(arc) : point_at(moved(from, steps[k]));
+  }
+}
+
 OutlinePath::Segments OutlinePath::segments_near(Box box) const {
   Segments segments;
+  segments.reserve(usually_near);
   segments_.for_each_meeting(widened(box, tolerance_), [&](std::int32_t s) { segments.push_back(s); });
   return segments;
 }
@@ -103,24 +103,14 @@ OutlinePlace OutlinePath::locate(Point p, const std::string& boundary,
   if (segment < 0) return {};
   const Point a = geometry_.point(segment), b = geometry_.point(geometry_.next(segment));
   const std::int32_t loop = geometry_.loop_of(segment);
-  const OutlinePlace start{loop, arc_[segment], segment};
+  const OutlinePlace start{arc_[segment], loop, segment};
   OutlinePlace place = moved(start, place_on_segment(p, a, b).parameter * length(b - a));
   for (const std::int32_t v : {segment, geometry_.next(segment)})
     place.kept = place.kept || (geometry_.kept(v) && length(p - geometry_.point(v)) <= tolerance_);
   return place;
 }
 
-Point OutlinePath::point_at(OutlinePlace place) const {
-  const Point a = geometry_.point(place.segment), b = geometry_.point(geometry_.next(place.segment));
-  const double whole = length(b - a), along = place.arc - arc_[place.segment];
-  return along >= whole ? b : a + (along / whole) * (b - a);
-}
-
-double OutlinePath::way(OutlinePlace from, OutlinePlace to) const {
-  return within(from.loop, to.arc - from.arc);
-}
-
-double OutlinePath::deviation(OutlinePlace from, Point a, OutlinePlace to, Point b) const {
+double OutlinePath::deviation(const OutlinePlace& from, Point a, const OutlinePlace& to, Point b) const {
   const double end = way(from, to);
   double deviation = 0;
   std::int32_t v = geometry_.next(from.segment);
@@ -175,7 +165,7 @@ bool OutlinePath::sweeps_over(const Chord& chord, Point apex, std::span<const st
   });
 }
 
-OutlinePath::Segments OutlinePath::segments_between(OutlinePlace from, OutlinePlace to) const {
+OutlinePath::Segments OutlinePath::segments_between(const OutlinePlace& from, const OutlinePlace& to) const {
   Segments segments;
   // On the way over the loop's first vertex, perhaps back to the segment where it begins.
   const bool goes_round = to.arc < from.arc;

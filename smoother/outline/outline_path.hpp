@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,11 +12,11 @@
 
 namespace quadloop {
 
-/// A place on the outline: a loop, the length walked along it from its first vertex, and the segment that
-/// holds it. OutlinePath makes them.
+/// A place on the outline: the length walked along a loop from its first vertex, the loop, and the segment
+/// that holds it. OutlinePath makes them.
 struct OutlinePlace {
-  std::int32_t loop = -1;
   double arc = 0;
+  std::int32_t loop = -1;
   std::int32_t segment = -1;
   bool kept = false;  ///< it was found at a vertex that a mesh must keep
   bool valid() const { return loop >= 0; }
@@ -54,15 +55,24 @@ class OutlinePath {
   /// The place at an arc, which may lie beyond the loop's ends by less than its length.
   OutlinePlace place_at(std::int32_t loop, double arc) const;
   /// The place so far ahead of another, or behind it; quick for short steps.
-  OutlinePlace moved(OutlinePlace from, double step) const;
-  Point point_at(OutlinePlace place) const;
+  OutlinePlace moved(const OutlinePlace& from, double step) const;
+  Point point_at(const OutlinePlace& place) const { return line_of(place.segment).point_at(place.arc); }
+  /// Asks the processor for what a place's segment holds.
+  void fetch(const OutlinePlace& place) const {
+    __builtin_prefetch(&arc_[place.segment]);
+    __builtin_prefetch(&geometry_.points()[place.segment]);
+  }
+  /// point_at(moved(from, step)) of each step, quick for those that stay on the segment.
+  void points_at(const OutlinePlace& from, std::span<const double> steps, std::span<Point> points) const;
 
   /// The way from one place to another of the same loop, walked with the domain to the left.
-  double way(OutlinePlace from, OutlinePlace to) const;
+  double way(const OutlinePlace& from, const OutlinePlace& to) const {
+    return within(from.loop, to.arc - from.arc);
+  }
 
   /// How far the outline strays from the chord a-b between two places, at most; infinitely where more than a
   /// few vertices lie between.
-  double deviation(OutlinePlace from, Point a, OutlinePlace to, Point b) const;
+  double deviation(const OutlinePlace& from, Point a, const OutlinePlace& to, Point b) const;
 
   /// A chord of the outline that a mesh's boundary edge is, with the way it stands for.
   struct Chord {
@@ -88,7 +98,7 @@ class OutlinePath {
   }
 
   /// The segments from one place to another of the same loop, in order; none where there are more than a few.
-  Segments segments_between(OutlinePlace from, OutlinePlace to) const;
+  Segments segments_between(const OutlinePlace& from, const OutlinePlace& to) const;
 
  private:
   struct Nearest {
@@ -101,8 +111,26 @@ class OutlinePath {
     return box_of(geometry_.point(s), geometry_.point(geometry_.next(s)));
   }
   std::int32_t segment_at(std::int32_t loop, double arc) const;
-  bool holds(std::int32_t segment, double arc) const;
-  double within(std::int32_t loop, double arc) const;
+  /// A segment, and the arcs that it holds: from `begin` on, short of `end`.
+  struct Line {
+    Point a, b;
+    double begin, end;
+    bool holds(double arc) const { return begin <= arc && arc < end; }
+    Point point_at(double arc) const {
+      const double whole = length(b - a), along = arc - begin;
+      return along >= whole ? b : a + (along / whole) * (b - a);
+    }
+  };
+  Line line_of(std::int32_t segment) const {
+    const std::int32_t next = geometry_.next(segment);
+    const double end = next <= segment ? std::numeric_limits<double>::infinity() : arc_[next];
+    return {geometry_.point(segment), geometry_.point(next), arc_[segment], end};
+  }
+  double within(std::int32_t loop, double arc) const {
+    const double whole = loop_length(loop);
+    if (arc < 0) arc += whole;
+    return arc >= whole ? arc - whole : arc;
+  }
   /// The part of the outline that a chord stands for.
   struct Part {
     std::int32_t before = -1, after = -1;  ///< segments that touch its ends, if any

@@ -2,12 +2,18 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "smoother/sweeps/node_stars.hpp"
 
 namespace quadloop {
+
+/// For visits that need little beside the star.
+struct NothingToFetch {
+  void operator()(std::span<const std::int32_t> /*order*/, std::size_t /*k*/) const {}
+};
 
 /// Sweeps over the nodes that may move, colour by colour; a node is visited where something in its star has
 /// moved since it was visited last.
@@ -24,9 +30,10 @@ class ColouredSweeps {
   bool take_changed(std::size_t i) { return std::exchange(changed_[stars_.nodes()[i]], 0) != 0; }
 
   /// Asks `place(i)` for a new place, or none, of each stale node for which `is_active(i)`. Returns the
-  /// number of nodes moved on this rank. *Collective.*
-  template <class IsActive, class Place>
-  std::int64_t sweep(const IsActive& is_active, const Place& place) {
+  /// number of nodes moved on this rank. `fetch_ahead(order, k)` comes before `place(order[k])`, as
+  /// NodeStars::fetch_ahead. *Collective.*
+  template <class IsActive, class Place, class FetchAhead = NothingToFetch>
+  std::int64_t sweep(const IsActive& is_active, const Place& place, const FetchAhead& fetch_ahead = {}) {
     std::int64_t moves = 0;
     for (auto& visits : by_colour_) visits.clear();
     for (std::int32_t i = 0; i < std::ssize(stars_); ++i) {
@@ -36,6 +43,7 @@ class ColouredSweeps {
       std::erase_if(visits, [&](std::int32_t i) { return !is_stale(i); });
       for (std::size_t k = 0; k < visits.size(); ++k) {
         stars_.fetch_ahead(visits, k);
+        fetch_ahead(visits, k);
         const std::int32_t i = visits[k];
         stale_[stars_.nodes()[i]] = 0;
         const std::optional<Point> to = place(i);

@@ -135,7 +135,10 @@ bool NodeStars::costs_more(std::size_t i, double limit) const {
 
 void NodeStars::fetch_ahead(std::span<const std::int32_t> order, std::size_t k) const {
   constexpr std::size_t far = 16, near = 8, line = 64 / sizeof(Corner);
-  if (k + 2 * far < order.size()) __builtin_prefetch(&starts_[order[k + 2 * far]]);
+  if (k + 2 * far < order.size()) {
+    __builtin_prefetch(&starts_[order[k + 2 * far]]);
+    __builtin_prefetch(&nodes_[order[k + 2 * far]]);
+  }
   if (k + far < order.size()) {
     const auto corners = corners_of(order[k + far]);
     for (std::size_t c = 0; c < corners.size(); c += line) __builtin_prefetch(&corners[c]);

@@ -1,5 +1,7 @@
 #include "smoother/sweeps/sweeper.hpp"
 
+#include <span>
+
 #include "smoother/node/untangle.hpp"
 
 namespace quadloop {
@@ -25,7 +27,10 @@ std::int64_t Sweeper::sweep() {
   update_bad();
   ++done_;
   return comm_.sum(sweeps_.sweep([&](std::size_t i) { return bad_near_[node(i)] > 0; },
-                                 [&](std::size_t i) { return better_place(i); }));
+                                 [&](std::size_t i) { return better_place(i); },
+                                 [&](std::span<const std::int32_t> order, std::size_t k) {
+                                   slide_.fetch_ahead(stars_.nodes(), order, k);
+                                 }));
 }
 
 /// Flags the nodes of cells above the threshold, of other ranks too. One that was visited and round which all

@@ -113,6 +113,17 @@ TEST_F(OnABoxWithAHole, MovesToTheSegmentThatHoldsTheArc) {
   }
 }
 
+TEST_F(OnABoxWithAHole, SeveralStepsFromAPlaceEndWhereEachAloneDoes) {
+  const std::vector<double> steps{0, 1e-3, 0.3, 1.1, 2.5, 7, -1e-3, -0.3, -1.1, -2.5, -7};
+  for (int k = 0; k < 40; ++k) {
+    const OutlinePlace from = path.place_at(0, box_length * k / 40);
+    std::vector<Point> points(steps.size());
+    path.points_at(from, steps, points);
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      EXPECT_EQ(points[i], path.point_at(path.moved(from, steps[i]))) << from.arc << " " << steps[i];
+  }
+}
+
 TEST_F(OnABoxWithAHole, WalksWithTheDomainToTheLeft) {
   EXPECT_NEAR(path.way(box(before), box(after)), slope_length, rounding);
   EXPECT_NEAR(path.way(box(after), box(before)), box_length - slope_length, rounding);
