@@ -7,13 +7,29 @@ namespace quadloop::euler {
 
 namespace {
 
+/// psi . what crosses the edges, at another free stream's Mach number: slow flow feels it.
+void add_edges(const FlowRun& run, const std::vector<Flux>& adjoint, const Gas& gas,
+               std::vector<double>& terms) {
+  for (const DualEdge& edge : run.mesh.edges()) {
+    const EdgeStates ends = states_at_middle(edge, run.states, run.residual.gradients());
+    const Flux flux =
+        roe_flux(gas, ends.left, ends.right, edge.normal, run.residual.shock_share(edge.low, edge.high));
+    for (const auto& [node, sign] : {std::pair{edge.low, -1.0}, {edge.high, 1.0}}) {
+      if (!run.mesh.is_owned(node)) continue;
+      for (std::size_t k = 0; k < 4; ++k) terms.push_back(sign * adjoint[node][k] * edge.size * flux[k]);
+    }
+  }
+}
+
 /// What a goal is, and psi . residual, of the same flow in another free stream: of the residual what
-/// boundaries carry, as the rest does not know it.
+/// boundaries and edges carry, as the rest does not know it.
 double held(const FlowRun& run, const std::vector<std::string>& boundaries, const Goal& goal,
             const std::vector<Flux>& adjoint, double mach, double alpha) {
   FlowModel model = run.model;
   model.free_stream = model.gas.free_stream(mach, alpha);
+  model.gas.least_mach = std::min(mach, 1.0);
   std::vector<double> terms;
+  add_edges(run, adjoint, model.gas, terms);
   for (const BoundaryFace& face : run.mesh.faces()) {
     const BoundaryModel& boundary = model.boundaries[face.boundary];
     if (feels_force(boundary.condition) || boundary.condition == Condition::symmetry) continue;

@@ -138,6 +138,7 @@ bool feels_force(Condition condition) {
 FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOptions& options) {
   FlowModel model;
   model.gas.gamma = options.gamma;
+  if (options.mach > 0) model.gas.least_mach = std::min(options.mach, 1.0);
   model.viscosity = options.viscosity;
   model.prandtl = options.prandtl;
   model.free_stream = model.gas.free_stream(options.mach, options.alpha);

@@ -30,6 +30,9 @@ using Conserved = ConservedOf<double>;
 /// A perfect gas.
 struct Gas {
   double gamma = 1.4;  ///< ratio of specific heats
+  /// The Mach number below which roe_flux() takes no flow to be: that of a free stream slower than sound. 1:
+  /// all flows are taken as fast.
+  double least_mach = 1;
 
   template <class Real = double>
   Real sound_speed(const StateOf<Real>& state) const {

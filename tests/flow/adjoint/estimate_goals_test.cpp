@@ -91,6 +91,7 @@ struct HeldFlow {
   }
   double lift_at(double mach, double alpha) {
     made.model.free_stream = made.model.gas.free_stream(mach, alpha);
+    made.model.gas.least_mach = std::min(mach, 1.0);
     march_to_steady(made.run);
     return functional().value(made.states);
   }
