@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "flow/euler/scheme/viscous.hpp"
@@ -83,15 +84,15 @@ bool RungeKutta::take(double step, const std::vector<Flux>& fluxes, int halvings
   const std::vector<State> before = run_.states;
   for (std::size_t node = 0; node < start_.size(); ++node)
     start_[node] = run_.model.gas.conserved(before[node]);
-  std::vector<State> failed;
+  std::optional<std::vector<State>> failed;  // of a rank without nodes too
   for (std::size_t k = 0; k < stages.size(); ++k) {
     advance_stage(run_, stages[k], step, start_, k == 0 ? fluxes : run_.residual.evaluate(run_.states));
-    if (halvings == 0 && failed.empty() && !is_everywhere(is_gas)) failed = run_.states;
+    if (halvings == 0 && !failed && !is_everywhere(is_gas)) failed = run_.states;
   }
   if (is_everywhere(is_gas)) return true;
   if (halvings == 0) {
     if (is_everywhere(is_finite)) return true;  // what little is missing may come back
-    run_.states = failed;
+    run_.states = *failed;
     return false;
   }
   run_.states = before;
