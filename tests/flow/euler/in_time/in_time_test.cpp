@@ -135,8 +135,8 @@ TEST(RungeKutta, TakesAStepInHalvesRatherThanLeaveNoGas) {
   }
 }
 
-/// A step that no halves make bearable ends with the flow in which it first failed, also beside a rank without
-/// nodes.
+/// A step that no halves make bearable ends with the flow in which it first failed, also beside a rank
+/// without nodes.
 void expect_states_of_first_failure(std::int32_t cells) {
   VortexRun run(cells);
   for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
