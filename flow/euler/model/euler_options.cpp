@@ -11,8 +11,9 @@ namespace quadloop {
 namespace {
 
 void require_option(bool good, const char* name, double value, const char* wanted) {
-  if (!good || !std::isfinite(value))
-    throw InputError(fmt::format("the flow solver's {} is {}, but must be {}", name, value, wanted));
+  if (good && std::isfinite(value)) return;
+  throw InputError(fmt::format("the flow solver's {} is {}, but must be {}{}", name, value,
+                               std::isfinite(value) ? "" : "finite, ", wanted));
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ TEST(BowShock, StandsBeforeABluntBody) {
   EXPECT_NEAR(result.cl, 0, 2e-3);
 }
 
-TEST(Refusals, NameTheValue) {
+TEST(Refusals, OptionsAreLookedAtFirst) {
   const Mesh mesh = shared(test::irregular_grid(4, {1, 1}, 0));
   EulerOptions options;
   options.gamma = 1;
