@@ -33,7 +33,7 @@ class TimeMarch {
       const std::vector<Flux>& fluxes = run_.residual.evaluate(run_.states);
       measure(fluxes);
       const bool ends = result_.converged || steps() >= plan_.most_steps;
-      report(run_, result_, run_.options.cfl, ends, {true, scheme_->is_implicit() ? 1 : explicit_history});
+      report(run_, result_, run_.options.cfl, ends, {true, keeps_every_step() ? 1 : explicit_history});
       if (ends) return finish(before);
       const double left = plan_.end - result_.time, full = scheme_->longest_step();
       const bool last = full >= left * (1 - 1e-9);
@@ -49,6 +49,13 @@ class TimeMarch {
 
  private:
   int steps() const { return result_.iterations - first_step_; }
+
+  bool counts_for_means() const { return plan_.average_from && result_.time >= *plan_.average_from; }
+
+  /// Also that from which the means are.
+  bool keeps_every_step() const {
+    return scheme_->is_implicit() || (counts_for_means() && average_.empty());
+  }
 
   void measure(const std::vector<Flux>& fluxes) {
     const double norm = mass_residual(run_, fluxes);
@@ -76,7 +83,7 @@ class TimeMarch {
 
   /// The flow counts for half the step to it and half the one from it, by trapezia. Returns the latter.
   double count(double before, double step) {
-    if (!plan_.average_from || result_.time < *plan_.average_from) return 0;
+    if (!counts_for_means()) return 0;
     average_.add(run_.states, run_.residual.friction(), run_.mesh.owned_nodes(), 0.5 * (before + step));
     return step;
   }
