@@ -277,7 +277,9 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   return plan;
 }
 
-void require_min_in_tree(const MeshInput& input, const AdaptOptions& options) { finest_level(input, options); }
+void require_min_in_tree(const MeshInput& input, const AdaptOptions& options) {
+  finest_level(input, options);
+}
 
 void require_room_for_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                              const MeshResult& first) {

@@ -53,9 +53,7 @@ class TimeMarch {
   bool counts_for_means() const { return plan_.average_from && result_.time >= *plan_.average_from; }
 
   /// Also that from which the means are.
-  bool keeps_every_step() const {
-    return scheme_->is_implicit() || (counts_for_means() && average_.empty());
-  }
+  bool keeps_every_step() const { return scheme_->is_implicit() || (counts_for_means() && average_.empty()); }
 
   void measure(const std::vector<Flux>& fluxes) {
     const double norm = mass_residual(run_, fluxes);
@@ -92,6 +90,7 @@ class TimeMarch {
     result_.kept_iteration = result_.iterations;
     result_.last_residual = result_.residual;
     if (is_steady_) average_ = {};
+    result_.unsolved = is_steady_ ? 0 : scheme_->unsolved();
     if (is_steady_ || !plan_.average_from) return;
     if (before > 0)
       average_.add(run_.states, run_.residual.friction(), run_.mesh.owned_nodes(), 0.5 * before);
@@ -101,7 +100,7 @@ class TimeMarch {
     flow.steps = steps();
     flow.longest_step = longest_;
     flow.implicit = scheme_->is_implicit();
-    flow.unsolved = scheme_->unsolved();
+    flow.unsolved = result_.unsolved;
     const double speed = std::hypot(run_.model.free_stream[1], run_.model.free_stream[2]);
     if (flow.period && speed > 0) flow.strouhal = run_.options.reference_length / (*flow.period * speed);
     result_.unsteady = flow;
