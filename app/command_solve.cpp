@@ -200,10 +200,7 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   const std::int64_t nodes = comm.sum(part.owned_nodes);
   if (!comm.is_root()) return;
   context.warn(problem.warnings);
-  if (!result.converged) context.warn({shortfall(result, problem.settings.solver.euler)});
-  for (const GoalValue& goal : result.goals) {
-    if (!goal.converged) context.warn({shortfall(goal)});
-  }
+  context.warn(shortfalls(result, problem.settings.solver.euler));
   const Figures figures = result_figures(nodes, result, problem.settings.solver.euler);
   context.record.figures = figures.record();
   context.record.figures.add("converged", result.converged);

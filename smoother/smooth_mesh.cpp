@@ -262,12 +262,13 @@ Swept move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& opti
   std::optional<OutlinePath> outline;
   if (options.geometry != nullptr) outline.emplace(*options.geometry);
   HaloMesh halo(comm, mesh);
+  const bool any_targets = comm.any(!options.targets.empty());  // a rank without cells has none
   const std::vector<CellTarget> targets =
-      comm.any(!options.targets.empty()) ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
+      any_targets ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
   const BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
   Survey surveyed = survey(comm, halo, targets, options.threshold);
   const WorstCell before = surveyed.worst;
-  const bool may_move_lines = options.level_lines && options.sweeps > 0 && targets.empty() &&
+  const bool may_move_lines = options.level_lines && options.sweeps > 0 && !any_targets &&
                               comm.any(!mesh.quads.empty());  // the lines are theirs
   if (may_move_lines && move_level_lines(comm, halo, options.pinned, options.bad))
     surveyed = survey(comm, halo, targets, options.threshold);

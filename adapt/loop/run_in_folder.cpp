@@ -114,6 +114,7 @@ std::string begun_with(const DesignStart& start) {
 
 LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
                       bool resume, const RunReport& report, const std::optional<DesignStart>& start) {
+  require_min_in_tree(adaptive.mesh, adaptive.adapt);  // flows would be solved in vain
   CycleFolders folders(comm, folder);
   const int first = folders.open(resume, start ? begun_with(*start) : std::string());
   if (resume && first == 0)

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <string_view>
 
 #include "adapt/remesh/demands/mark_family.hpp"
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
@@ -216,13 +218,21 @@ TargetDemand target_demand(const MeshInput& input, const AdaptOptions& options, 
   return demand;
 }
 
-/// Of an error that the solver wrote all other variables tell the shapes of cells.
+/// Whether a variable is what another one was at the end of a mean over time.
+bool is_at_end(const std::string& name, const std::vector<std::string>& names) {
+  constexpr std::string_view ending = "_at_end";
+  return name.ends_with(ending) &&
+         std::ranges::find(names, name.substr(0, name.size() - ending.size())) != names.end();
+}
+
+/// Of an error that the solver wrote all other variables tell the shapes of cells, of flows that are means
+/// over time these.
 MetricDemand metric_demand(const AdaptOptions& options, const Field& solution) {
-  MetricDemand demand{options.variables, {}, *options.norm};
-  if (options.source != AdaptOptions::Source::error) return demand;
-  demand.error = options.variables.front();
-  demand.variables = solution.names;
-  std::erase(demand.variables, demand.error);
+  if (options.source != AdaptOptions::Source::error) return {options.variables, {}, *options.norm};
+  MetricDemand demand{{}, options.variables.front(), *options.norm};
+  std::ranges::copy_if(solution.names, std::back_inserter(demand.variables), [&](const std::string& name) {
+    return name != demand.error && !is_at_end(name, solution.names);
+  });
   return demand;
 }
 
@@ -265,6 +275,10 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   if (!plan.changes_mesh())
     plan.warnings.push_back("no leaf is marked, the mesh stays: " + plan.reason_for_standing);
   return plan;
+}
+
+void require_min_in_tree(const MeshInput& input, const AdaptOptions& options) {
+  finest_level(input, options);
 }
 
 void require_room_for_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,

@@ -48,6 +48,9 @@ struct AdaptationPlan {
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved);
 
+/// Throws InputError where adapt.min is smaller than leaves of the case's tree can be.
+void require_min_in_tree(const MeshInput& input, const AdaptOptions& options);
+
 /// Refuses a number of nodes in which a mesh that follows a metric finds no place for the case's own sizes,
 /// by the mesh of the case's tree: every cycle would come to more; of meshes without layers. Throws
 /// InputError with the least that would do. *Collective.*

@@ -66,9 +66,9 @@ TimePlan plan_of(const FlowRun& run) {
 }
 
 /// Its steps may have become ever shorter.
-std::string early_end(const EulerResult& result, const TimePlan& plan) {
-  return fmt::format("{} steps in time came to time {:.6g} of {:.6g} alone; give a time_step",
-                     result.iterations, result.time, plan.end);
+std::string early_end(int steps, double time, const TimePlan& plan) {
+  return fmt::format("{} steps in time came to time {:.6g} of {:.6g} alone; give a time_step", steps, time,
+                     plan.end);
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ void carry_on(const FlowRun& run, EulerResult& result, TimeAverage& average) {
     const TimePlan plan = plan_of(run);
     const progress::Stage stage("carrying on in time", plan.end, "units of time");
     march_in_time(run, plan, result, average);
-    if (!result.converged) failure = early_end(result, plan);
+    if (!result.converged) failure = early_end(result.iterations - steady.iterations, result.time, plan);
   } catch (const SolverError& error) {  // the same on all ranks
     failure = error.what();
   }

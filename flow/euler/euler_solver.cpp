@@ -40,8 +40,8 @@ FlowSolver euler_solver(EulerOptions options, AtEnd at_end) {
                                        p.residual, p.cl, p.cd));
     };
     const EulerResult result = solve_euler(comm, mesh, told, start, at_end);
-    if (!result.converged)
-      flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, shortfall(result, options)));
+    for (const std::string& line : shortfalls(result, options))
+      flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, line));
     flow.unsteady = result.unsteady;
     if (result.unsteady)
       flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, line_of(*result.unsteady)));
@@ -53,9 +53,6 @@ FlowSolver euler_solver(EulerOptions options, AtEnd at_end) {
     flow.forces = result.forces;
     flow.history = result.history;
     flow.goals = result.goals;
-    for (const GoalValue& goal : result.goals) {
-      if (!goal.converged) flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, shortfall(goal)));
-    }
     return flow;
   };
 }

@@ -33,7 +33,7 @@ class TimeMarch {
       const std::vector<Flux>& fluxes = run_.residual.evaluate(run_.states);
       measure(fluxes);
       const bool ends = result_.converged || steps() >= plan_.most_steps;
-      report(run_, result_, run_.options.cfl, ends, {true, scheme_->is_implicit() ? 1 : explicit_history});
+      report(run_, result_, run_.options.cfl, ends, {true, keeps_every_step() ? 1 : explicit_history});
       if (ends) return finish(before);
       const double left = plan_.end - result_.time, full = scheme_->longest_step();
       const bool last = full >= left * (1 - 1e-9);
@@ -49,6 +49,11 @@ class TimeMarch {
 
  private:
   int steps() const { return result_.iterations - first_step_; }
+
+  bool counts_for_means() const { return plan_.average_from && result_.time >= *plan_.average_from; }
+
+  /// Also that from which the means are.
+  bool keeps_every_step() const { return scheme_->is_implicit() || (counts_for_means() && average_.empty()); }
 
   void measure(const std::vector<Flux>& fluxes) {
     const double norm = mass_residual(run_, fluxes);
@@ -76,7 +81,7 @@ class TimeMarch {
 
   /// The flow counts for half the step to it and half the one from it, by trapezia. Returns the latter.
   double count(double before, double step) {
-    if (!plan_.average_from || result_.time < *plan_.average_from) return 0;
+    if (!counts_for_means()) return 0;
     average_.add(run_.states, run_.residual.friction(), run_.mesh.owned_nodes(), 0.5 * (before + step));
     return step;
   }
@@ -85,6 +90,7 @@ class TimeMarch {
     result_.kept_iteration = result_.iterations;
     result_.last_residual = result_.residual;
     if (is_steady_) average_ = {};
+    result_.unsolved = is_steady_ ? 0 : scheme_->unsolved();
     if (is_steady_ || !plan_.average_from) return;
     if (before > 0)
       average_.add(run_.states, run_.residual.friction(), run_.mesh.owned_nodes(), 0.5 * before);
@@ -94,7 +100,7 @@ class TimeMarch {
     flow.steps = steps();
     flow.longest_step = longest_;
     flow.implicit = scheme_->is_implicit();
-    flow.unsolved = scheme_->unsolved();
+    flow.unsolved = result_.unsolved;
     const double speed = std::hypot(run_.model.free_stream[1], run_.model.free_stream[2]);
     if (flow.period && speed > 0) flow.strouhal = run_.options.reference_length / (*flow.period * speed);
     result_.unsteady = flow;

@@ -44,4 +44,18 @@ std::string shortfall(const GoalValue& goal) {
       goal.name, goal.residual, goal.iterations);
 }
 
+std::vector<std::string> shortfalls(const EulerResult& result, const EulerOptions& options) {
+  std::vector<std::string> lines;
+  if (!result.converged) lines.push_back(shortfall(result, options));
+  if (result.unsolved > 0 && !result.unsteady)
+    lines.push_back(
+        fmt::format("{} of {} implicit steps in time were not solved to the tolerance: try a "
+                    "smaller solver.time_step",
+                    result.unsolved, result.iterations));
+  for (const GoalValue& goal : result.goals) {
+    if (!goal.converged) lines.push_back(shortfall(goal));
+  }
+  return lines;
+}
+
 }  // namespace quadloop

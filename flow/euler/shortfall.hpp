@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "flow/euler/solve_euler.hpp"
 
@@ -10,5 +11,7 @@ namespace quadloop {
 std::string shortfall(const EulerResult& result, const EulerOptions& options);
 /// The same of a goal's adjoint.
 std::string shortfall(const GoalValue& goal);
+/// All that a run did not come to, its goals too; of a mean over time but what line_of() tells of it.
+std::vector<std::string> shortfalls(const EulerResult& result, const EulerOptions& options);
 
 }  // namespace quadloop

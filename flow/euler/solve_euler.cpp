@@ -139,6 +139,7 @@ EulerResult march(const FlowRun& run, const Field& start, TimeAverage& average) 
   if (!result.converged) carry_on(run, result, average);
   if (!goes_on || result.failed_in_time.empty()) return result;
   take_start(run.mesh, start, flow_names(), run.states);  // there is no steady flow yet
+  run.residual.no_slip().hold(run.states);
   EulerResult steady = march_as_steady(run);
   if (!steady.converged) steady.failed_in_time = result.failed_in_time;
   return steady;

@@ -35,6 +35,7 @@ struct EulerResult {
   double last_residual = 0;  ///< after the last step
   bool stalled = false;      ///< the residual did not halve in the second half of the steps
   bool converged = false;    ///< steady: the tolerance is met; in time: the end is reached
+  int unsolved = 0;          ///< implicit steps in time that did not meet their tolerance
   double time = 0;           ///< of an accurate run, or of the part that was carried on
   /// What ended a steady run whose best flow is kept, for people. Empty: it did not fail.
   std::string failed_as_steady;

@@ -116,6 +116,8 @@ CASES = [
     Refusal("bad second value of one --set", ["--set spacing.min=-1:", "spacing.min"],
             arguments=["mesh", "--set", "spacing.max=2", "spacing.min=-1", "case.toml", "-o", "out"]),
     Refusal("unknown --set key", ["--set spacing.foo=1:", "unknown key"], arguments=with_set("spacing.foo=1")),
+    Refusal("adapt.min deeper than trees go", ["adapt.min = 1e-12 is too small", "make it larger"],
+            case=CASE + "[boundary.box]\nbc = \"wall\"\n[adapt]\nmin = 1e-12\n[solver]\n", arguments=["adapt", "case.toml", "-o", "out"]),
     Refusal("--set without =", ["--set spacing.min:"], arguments=with_set("spacing.min")),
     Refusal("case file without an end", ["/dev/zero: is a device"], arguments=["mesh", "/dev/zero", "-o", "out"]),
     Refusal("name of the case file too long", ["File name too long"], arguments=["mesh", "x" * 300, "-o", "out"]),

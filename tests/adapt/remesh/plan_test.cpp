@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "adapt/remesh/demands/mark_family.hpp"
 #include "adapt/remesh/own_mesh.hpp"
@@ -246,6 +249,25 @@ TEST(Plan, RefusesToFollowAMetricInFewerNodesThanTheCaseTakes) {
   const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
   const CarriedMesh next = carry_over(world(), input, plan, solved);
   EXPECT_LE(next.generated.result.tree.attributes.nodes, least);
+}
+
+TEST(Plan, TellsShapesByMeansRatherThanByTheFlowAtTheirEnd) {
+  MeshInput input = square_input();
+  input.mesh.type = MeshType::metric;
+  AdaptOptions options = adapt_options();
+  options.source = AdaptOptions::Source::error;
+  options.variables = {"error"};
+  options.norm = 2;
+  options.max_nodes = 400;
+  SolvedMesh solved = solved_front(world(), input);
+  const std::vector<double> front = std::exchange(solved.solution.values, {});
+  solved.solution.names = {"q", "lone_at_end", "error", "q_at_end"};
+  for (const double value : front)
+    solved.solution.values.insert(solved.solution.values.end(), {value, value, value * value, -value});
+  const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
+  ASSERT_TRUE(plan.metric);
+  EXPECT_EQ(plan.metric->error, "error");
+  EXPECT_EQ(plan.metric->variables, (std::vector<std::string>{"q", "lone_at_end"}));
 }
 
 }  // namespace
