@@ -53,21 +53,20 @@ Exchange to_shares(const Communicator& comm, const CurveShares& shares, std::spa
 NodeShare gather_nodes(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
   std::vector<Point> points;
   std::vector<double> values;
-  for (const NodeId node : ids_below(NodeId{old.mesh.owned_nodes})) {
-    const Point p = old.mesh.point(node);
-    if (!cells.meet({p, p})) continue;
-    points.push_back(p);
-    const auto row = old.field.row(node);
+  const std::span<const Point> owned = owned_points(old.mesh);
+  const auto box_of_node = [&](std::size_t node) { return Box{owned[node], owned[node]}; };
+  cells.for_each_met(owned.size(), box_of_node, [&](std::size_t node) {
+    points.push_back(owned[node]);
+    const auto row = old.field.row(NodeId{static_cast<std::int32_t>(node)});
     values.insert(values.end(), row.begin(), row.end());
-  }
+  });
   const Exchange exchange = to_shares(comm, old.shares, points);
   return {exchange.deliver(points), {old.field.names, exchange.deliver(values, old.field.width()), {}}};
 }
 
 /// Only triangles of cells that may hold one of the points leave their rank.
 TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
-  const auto may_hold = [&](const Box& box) { return cells.meet(box); };
-  const std::vector<CellTriangle> near = cell_triangles(comm, old.mesh, old.centre, may_hold);
+  const std::vector<CellTriangle> near = cell_triangles(comm, old.mesh, old.centre, cells);
   return gather_piece(comm, old.shares, old.mesh, old.field, near);
 }
 
@@ -147,10 +146,12 @@ NewRows rows_at(const Communicator& comm, const OldMesh& old, std::span<const Po
   NewRows rows{std::vector<double>(places.size() * width), {}};
   std::vector<std::int32_t> others;
   for (std::int32_t node = 0; node < std::ssize(places); ++node) {
-    if (standing[node] >= 0)
-      std::ranges::copy(old.field.row(NodeId{standing[node]}), rows.values.begin() + node * width);
-    else
+    if (standing[node] < 0) {
       others.push_back(node);
+      continue;
+    }
+    const std::span<const double> row = old.field.row(NodeId{standing[node]});
+    for (std::size_t k = 0; k < width; ++k) rows.values[node * width + k] = row[k];  // of few numbers each
   }
   std::vector<Point> asked;
   for (const std::int32_t node : others) asked.push_back(places[node]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
@@ -24,11 +25,15 @@ class Search {
   Search(const TrianglePiece& piece, std::span<const Point> points)
       : piece_{piece}, points_{points}, found_(points.size(), -1) {
     boxes_.reserve(piece.triangles.size());
-    for (const CellTriangle& triangle : piece.triangles) {
+    for (std::int32_t i = 0; i < std::ssize(piece.triangles); ++i) {
       Box box;
-      for (const Point p : piece.corners(triangle)) box.include(p);
-      boxes_.push_back(box);
+      for (const Point p : piece.corners(piece.triangles[i])) box.include(p);
+      if (boxes_.empty() || boxes_.back().low != box.low || boxes_.back().high != box.high) {
+        boxes_.push_back(box);
+        first_.push_back(i);
+      }
     }
+    first_.push_back(size32(piece.triangles));
   }
 
   std::vector<std::int32_t> run() {
@@ -43,7 +48,7 @@ class Search {
  private:
   const Point& point(std::int32_t index) const { return points_[index]; }
 
-  /// The points against candidates_[first ...], those whose boxes met the box above this one's.
+  /// The points against candidates_[first ...], those that met the box above this one.
   void share_out(std::span<std::int32_t> order, std::size_t first, int depth) {
     if (order.empty()) return;
     Box box;
@@ -82,8 +87,11 @@ class Search {
       std::int32_t& best = found_[index];
       for (std::size_t i = begin; i < candidates_.size(); ++i) {
         const std::int32_t candidate = candidates_[i];
-        if (!boxes_[candidate].contains(p) || (best >= 0 && number_of(best) < number_of(candidate))) continue;
-        if (contains(piece_.corners(piece_.triangles[candidate]), p)) best = candidate;
+        if (!boxes_[candidate].contains(p)) continue;
+        for (std::int32_t triangle = first_[candidate]; triangle < first_[candidate + 1]; ++triangle) {
+          if (best >= 0 && number_of(best) < number_of(triangle)) continue;
+          if (contains(piece_.corners(piece_.triangles[triangle]), p)) best = triangle;
+        }
       }
     }
   }
@@ -92,8 +100,9 @@ class Search {
 
   const TrianglePiece& piece_;
   std::span<const Point> points_;
-  std::vector<Box> boxes_;                ///< of the triangles
-  std::vector<std::int32_t> candidates_;  ///< a stack: each depth's triangles after those of the depth above
+  std::vector<Box> boxes_;                ///< of the triangles, one for both halves of a rectangle
+  std::vector<std::int32_t> first_;       ///< of each box its first triangle, and the number of all
+  std::vector<std::int32_t> candidates_;  ///< a stack: each depth's boxes after those of the depth above
   std::vector<std::int32_t> found_;
 };
 

@@ -30,13 +30,13 @@ std::uint64_t scattered(GlobalNodeId node) {
 
 /// Adds for each corner of a cell the node after it and takes away the one before: round a node whose cells
 /// close a circle that cancels.
-void add_turns(const Mesh& mesh, std::span<const NodeId> cell, IdVector<NodeId, std::uint64_t>& turns) {
-  NodeId before = cell.back();
-  for (const NodeId node : cell) {
-    turns[before] += scattered(mesh.global(node));
-    turns[node] -= scattered(mesh.global(before));
-    before = node;
-  }
+template <std::size_t corners>
+void add_turns(const Mesh& mesh, const std::array<NodeId, corners>& cell,
+               IdVector<NodeId, std::uint64_t>& turns) {
+  std::array<std::uint64_t, corners> bits;
+  for (std::size_t k = 0; k < corners; ++k) bits[k] = scattered(mesh.global(cell[k]));
+  for (std::size_t k = 0; k < corners; ++k)
+    turns[cell[k]] += bits[(k + 1) % corners] - bits[(k + corners - 1) % corners];
 }
 
 /// What an owned node misses of the circle round it; 0 inside the mesh. *Collective.*
