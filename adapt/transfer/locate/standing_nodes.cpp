@@ -90,13 +90,19 @@ std::vector<std::int32_t> find_in_order(std::span<const Point> known, std::span<
   return found;
 }
 
-std::vector<std::int32_t> standing_nodes(const Communicator& comm, const Mesh& old_mesh,
+NodeFlags inner_nodes(const Communicator& comm, const Mesh& mesh) {
+  const IdVector<NodeId, std::uint64_t> turns = open_turns(comm, mesh);
+  NodeFlags is_inner(mesh.owned_nodes);
+  for (const NodeId node : is_inner.ids()) is_inner[node] = turns[node] == 0 ? 1 : 0;
+  return is_inner;
+}
+
+std::vector<std::int32_t> standing_nodes(const Mesh& old_mesh, const NodeFlags& is_inner,
                                          std::span<const Point> places) {
   std::vector<std::int32_t> found =
       find_in_order(std::span(old_mesh.points).first(old_mesh.owned_nodes), places);
-  const IdVector<NodeId, std::uint64_t> turns = open_turns(comm, old_mesh);
   for (std::int32_t& node : found) {
-    if (node >= 0 && turns[NodeId{node}] != 0) node = -1;
+    if (node >= 0 && is_inner[NodeId{node}] == 0) node = -1;
   }
   return found;
 }
