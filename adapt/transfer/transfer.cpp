@@ -110,7 +110,7 @@ class Found {
   std::span<const Point> points_;
   NodeShare nodes_;
   TrianglePiece piece_;
-  std::vector<std::int32_t> at_node_;  ///< of each point the old boundary node at its place, -1 for none
+  std::vector<std::int32_t> at_node_;      ///< of each point the old boundary node at its place, -1 for none
   std::vector<std::int32_t> in_triangle_;  ///< of each of the others its triangle in the piece
   std::size_t next_point_ = 0, next_moved_ = 0;
 };
@@ -267,8 +267,7 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field
   Transferred transferred;
   TransferReport& report = transferred.report;
   NewRows rows;
-  if (old.width() > 0)
-    rows = rows_at(comm, {old_mesh, old, centre, shares, inner_nodes(comm, old_mesh)}, at);
+  if (old.width() > 0) rows = rows_at(comm, {old_mesh, old, centre, shares, inner_nodes(comm, old_mesh)}, at);
   report.outside = comm.sum(std::ssize(rows.outside));
   if (report.outside > 0) take_from_boundary(comm, old_mesh, old, at, rows);
   transferred.field = {old.names, std::move(rows.values), old.constants};

@@ -101,7 +101,7 @@ class Search {
   std::int64_t number_of(std::int32_t triangle) const { return piece_.triangles[triangle].number; }
 
   const TrianglePiece& piece_;
-  std::vector<Asked> asked_;  ///< in the order of the boxes that they are shared out to
+  std::vector<Asked> asked_;              ///< in the order of the boxes that they are shared out to
   std::vector<Box> boxes_;                ///< of the triangles, one for both halves of a rectangle
   std::vector<std::int32_t> first_;       ///< of each box its first triangle, and the number of all
   std::vector<std::int32_t> candidates_;  ///< a stack: each depth's boxes after those of the depth above

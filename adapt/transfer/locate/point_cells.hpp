@@ -31,8 +31,8 @@ class PointCells {
       Box all;
       for (std::size_t k = 0; k < size; ++k) {
         row[k] = box_of(begin + k);
-        all.include(row[k].low);
-        all.include(row[k].high);
+        all.low = {std::min(all.low.x, row[k].low.x), std::min(all.low.y, row[k].low.y)};
+        all.high = {std::max(all.high.x, row[k].high.x), std::max(all.high.y, row[k].high.y)};
       }
       if (!meet(all)) continue;
       for (std::size_t k = 0; k < size; ++k) {

@@ -14,8 +14,8 @@ namespace quadloop {
 /// among every so many-th of all known ones. -1 where there is none or none was found so.
 std::vector<std::int32_t> find_in_order(std::span<const Point> known, std::span<const Point> points);
 
-/// Flags of this rank's owned nodes round which cells close a circle, on whatever ranks they are: those within
-/// the mesh, also where boundary edges are not listed. No two of them lie at one place. *Collective.*
+/// Flags of this rank's owned nodes round which cells close a circle, on whatever ranks they are: those
+/// within the mesh, also where boundary edges are not listed. No two of them lie at one place. *Collective.*
 NodeFlags inner_nodes(const Communicator& comm, const Mesh& mesh);
 
 /// Of the places of a new mesh's owned nodes those at which an inner node of the old mesh is known to lie, on
