@@ -17,33 +17,74 @@ struct Column {
   bool of_size = false;
 };
 
-/// The halves of a quad make one term: sums cost more than terms.
-std::vector<double> integrals(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field,
-                              std::span<const Column> columns) {
-  std::vector<std::vector<double>> terms(columns.size());
-  for (std::vector<double>& of_column : terms) of_column.reserve(mesh.triangles.size() + mesh.quads.size());
-  const auto add = [&](const TrianglesOfCell& parts) {
+/// What the cells add to the integrals of some columns. The halves of a quad make one term: sums cost more
+/// than terms.
+class CellTerms {
+ public:
+  /// Mesh, field and columns must outlive them.
+  CellTerms(const Mesh& mesh, Point centre, const Field& field, std::span<const Column> columns)
+      : mesh_{mesh}, centre_{centre}, field_{field}, columns_{columns}, terms_(columns.size()) {
+    for (std::vector<double>& of_column : terms_)
+      of_column.reserve(mesh.triangles.size() + mesh.quads.size());
+  }
+
+  void add(const std::array<NodeId, 3>& triangle) { add(parts_of(mesh_, centre_, triangle)); }
+  void add(const std::array<NodeId, 4>& quad) {
+    const std::array<Point, 4> p = corners_of(mesh_, quad);
+    if (is_rectangle(p))
+      add_rectangle(quad, cross(p[1] - p[0], p[2] - p[0]) / 6, farthest_corner(centre_, p) % 2);
+    else
+      add(parts_of(mesh_, centre_, quad));
+  }
+
+  std::span<const std::vector<double>> terms() const { return terms_; }
+
+ private:
+  double value(NodeId node, const Column& column) const {
+    const double of_node = field_.values[node.value() * field_.width() + column.variable];
+    return column.of_size ? std::abs(of_node) : of_node;
+  }
+
+  void add(const TrianglesOfCell& parts) {
     std::array<double, 2> thirds{};
     for (std::size_t part = 0; part < parts.count; ++part) {
       const auto& [a, b, c] = parts.nodes[part];
-      thirds[part] = cross(mesh.point(b) - mesh.point(a), mesh.point(c) - mesh.point(a)) / 6;
+      thirds[part] = cross(mesh_.point(b) - mesh_.point(a), mesh_.point(c) - mesh_.point(a)) / 6;
     }
-    for (std::size_t k = 0; k < columns.size() && parts.count > 0; ++k) {
-      const auto value = [&, column = columns[k]](NodeId node) {
-        const double of_node = field.row(node)[column.variable];
-        return column.of_size ? std::abs(of_node) : of_node;
-      };
+    for (std::size_t k = 0; k < columns_.size() && parts.count > 0; ++k) {
       const auto term = [&](std::size_t part) {
         const auto& [a, b, c] = parts.nodes[part];
-        return thirds[part] * (value(a) + value(b) + value(c));
+        return thirds[part] * (value(a, columns_[k]) + value(b, columns_[k]) + value(c, columns_[k]));
       };
-      terms[k].push_back(parts.count == 1 ? term(0) : term(0) + term(1));
+      terms_[k].push_back(parts.count == 1 ? term(0) : term(0) + term(1));
     }
-  };
-  for (const auto& triangle : mesh.triangles) add(parts_of(mesh, centre, triangle));
-  for (const auto& quad : mesh.quads) add(parts_of(mesh, centre, quad));
+  }
+
+  /// The same of most quads: `third` of each half's area, which are equal, and the first corner of the
+  /// diagonal, 0 or 1.
+  void add_rectangle(const std::array<NodeId, 4>& quad, double third, std::size_t first) {
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      const auto at = [&](std::size_t corner) { return value(quad[(first + corner) % 4], columns_[k]); };
+      const double one = at(0), two = at(1), opposite = at(2), last = at(3);
+      terms_[k].push_back(third * (one + two + opposite) + third * (opposite + last + one));
+    }
+  }
+
+  const Mesh& mesh_;
+  Point centre_;
+  const Field& field_;
+  std::span<const Column> columns_;
+  std::vector<std::vector<double>> terms_;  ///< of each column
+};
+
+std::vector<double> integrals(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field,
+                              std::span<const Column> columns) {
+  CellTerms cells(mesh, centre, field, columns);
+  for (const auto& triangle : mesh.triangles) cells.add(triangle);
+  for (const auto& quad : mesh.quads) cells.add(quad);
   std::vector<double> sums;
-  for (const std::vector<double>& of_column : terms) sums.push_back(reproducible_sum(comm, of_column));
+  for (const std::vector<double>& of_column : cells.terms())
+    sums.push_back(reproducible_sum(comm, of_column));
   return sums;
 }
 

@@ -30,6 +30,7 @@ struct OldMesh {
   const Field& field;
   Point centre;  ///< by which its quads are split
   const CurveShares& shares;
+  const NodeFlags is_inner;
 };
 
 /// Old nodes with their rows, those of one share of the plane.
@@ -49,13 +50,14 @@ Exchange to_shares(const Communicator& comm, const CurveShares& shares, std::spa
   return {comm, ranks};
 }
 
-/// Only nodes that may lie at one of the points leave their rank.
-NodeShare gather_nodes(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
+/// Of the boundary those that may lie at one of the points; inner nodes are corners of triangles, none of
+/// which lies at another's place.
+NodeShare gather_boundary_nodes(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
   std::vector<Point> points;
   std::vector<double> values;
-  for (const NodeId node : ids_below(NodeId{old.mesh.owned_nodes})) {
+  for (const NodeId node : old.is_inner.ids()) {
     const Point p = old.mesh.point(node);
-    if (!cells.meet({p, p})) continue;
+    if (old.is_inner[node] != 0 || !cells.meet({p, p})) continue;
     points.push_back(p);
     const auto row = old.field.row(node);
     values.insert(values.end(), row.begin(), row.end());
@@ -66,8 +68,7 @@ NodeShare gather_nodes(const Communicator& comm, const OldMesh& old, const Point
 
 /// Only triangles of cells that may hold one of the points leave their rank.
 TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
-  const auto may_hold = [&](const Box& box) { return cells.meet(box); };
-  const std::vector<CellTriangle> near = cell_triangles(comm, old.mesh, old.centre, may_hold);
+  const std::vector<CellTriangle> near = cell_triangles(comm, old.mesh, old.centre, cells);
   return gather_piece(comm, old.shares, old.mesh, old.field, near);
 }
 
@@ -77,7 +78,7 @@ class Found {
   /// *Collective.*
   Found(const Communicator& comm, const OldMesh& old, std::span<const Point> points) : points_{points} {
     const PointCells cells(comm, old.shares.grid(), points);
-    nodes_ = gather_nodes(comm, old, cells);
+    nodes_ = gather_boundary_nodes(comm, old, cells);
     at_node_ = find_equal_points(nodes_.points, points);
     std::vector<Point> moved;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -109,7 +110,7 @@ class Found {
   std::span<const Point> points_;
   NodeShare nodes_;
   TrianglePiece piece_;
-  std::vector<std::int32_t> at_node_;      ///< of each point the old node at its place, -1 for none
+  std::vector<std::int32_t> at_node_;      ///< of each point the old boundary node at its place, -1 for none
   std::vector<std::int32_t> in_triangle_;  ///< of each of the others its triangle in the piece
   std::size_t next_point_ = 0, next_moved_ = 0;
 };
@@ -142,15 +143,17 @@ Answers ask(const Communicator& comm, const OldMesh& old, std::span<const Point>
 
 /// What the old mesh has at the places of the owned nodes of a new one. *Collective.*
 NewRows rows_at(const Communicator& comm, const OldMesh& old, std::span<const Point> places) {
-  const std::vector<std::int32_t> standing = standing_nodes(comm, old.mesh, places);
+  const std::vector<std::int32_t> standing = standing_nodes(old.mesh, old.is_inner, places);
   const std::size_t width = old.field.width();
   NewRows rows{std::vector<double>(places.size() * width), {}};
   std::vector<std::int32_t> others;
   for (std::int32_t node = 0; node < std::ssize(places); ++node) {
-    if (standing[node] >= 0)
-      std::ranges::copy(old.field.row(NodeId{standing[node]}), rows.values.begin() + node * width);
-    else
+    if (standing[node] < 0) {
       others.push_back(node);
+      continue;
+    }
+    const std::span<const double> row = old.field.row(NodeId{standing[node]});
+    for (std::size_t k = 0; k < width; ++k) rows.values[node * width + k] = row[k];  // of few numbers each
   }
   std::vector<Point> asked;
   for (const std::int32_t node : others) asked.push_back(places[node]);
@@ -264,7 +267,7 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field
   Transferred transferred;
   TransferReport& report = transferred.report;
   NewRows rows;
-  if (old.width() > 0) rows = rows_at(comm, {old_mesh, old, centre, shares}, at);
+  if (old.width() > 0) rows = rows_at(comm, {old_mesh, old, centre, shares, inner_nodes(comm, old_mesh)}, at);
   report.outside = comm.sum(std::ssize(rows.outside));
   if (report.outside > 0) take_from_boundary(comm, old_mesh, old, at, rows);
   transferred.field = {old.names, std::move(rows.values), old.constants};

@@ -23,10 +23,8 @@ const char* fault_of(double value, FieldSign sign) {
 }
 
 /// `place` is "node" or "cell"; `number` counts from 1.
-void check_value(const std::string& name, const char* place, std::int64_t number, Point p, double value,
-                 FieldSign sign) {
-  const char* fault = fault_of(value, sign);
-  if (fault == nullptr) return;
+[[noreturn]] void refuse(const std::string& name, const char* place, std::int64_t number, Point p,
+                         double value, const char* fault) {
   std::ostringstream message;
   message.precision(12);
   message << "variable '" << name << "': " << place << " " << number << " at (" << p.x << ", " << p.y
@@ -36,8 +34,10 @@ void check_value(const std::string& name, const char* place, std::int64_t number
 
 void check_variable(const Mesh& mesh, const Field& field, std::size_t variable, FieldSign sign) {
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
-    check_value(field.names[variable], "node", mesh.first_node + node + 1, mesh.point(NodeId{node}),
-                field.row(NodeId{node})[variable], sign);
+    const double value = field.row(NodeId{node})[variable];
+    if (const char* fault = fault_of(value, sign))
+      refuse(field.names[variable], "node", mesh.first_node + node + 1, mesh.point(NodeId{node}), value,
+             fault);
   }
 }
 
@@ -46,8 +46,10 @@ template <class Cells>
 void check_cells(const Mesh& mesh, const Cells& cells, const CellValues& values, std::size_t first_row,
                  std::int64_t first_number, std::size_t variable, FieldSign sign) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    check_value(values.names[variable], "cell", first_number + static_cast<std::int64_t>(i) + 1,
-                mesh.point(cells[i][0]), values.values[(first_row + i) * values.width() + variable], sign);
+    const double value = values.values[(first_row + i) * values.width() + variable];
+    if (const char* fault = fault_of(value, sign))
+      refuse(values.names[variable], "cell", first_number + static_cast<std::int64_t>(i) + 1,
+             mesh.point(cells[i][0]), value, fault);
   }
 }
 

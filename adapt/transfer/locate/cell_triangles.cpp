@@ -24,12 +24,6 @@ bool are_counter_clockwise(const Mesh& mesh, const std::array<std::array<NodeId,
   return turn_of(mesh, triangles[0]) > 0 && turn_of(mesh, triangles[1]) > 0;
 }
 
-/// Its sides lie along the axes: most quads are whole leaves.
-bool is_rectangle(const std::array<Point, 4>& p) {
-  return p[0].y == p[1].y && p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x && p[0].x < p[1].x &&
-         p[1].y < p[2].y;
-}
-
 /// That of the highest tie_rank().
 std::size_t highest_corner(Point centre, const std::array<Point, 4>& corners) {
   struct Rank {
@@ -62,11 +56,11 @@ struct Split {
 
 /// What split_quad() says, and whether the halves are as they should be.
 Split split_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
-  std::array<Point, 4> corners;
-  for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.point(quad[k]);
+  const std::array<Point, 4> corners = corners_of(mesh, quad);
+  if (is_rectangle(corners)) return {halves(quad, farthest_corner(centre, corners))};
   const std::size_t highest = highest_corner(centre, corners);
   const auto first = halves(quad, highest);
-  if (is_rectangle(corners) || are_counter_clockwise(mesh, first)) return {first};
+  if (are_counter_clockwise(mesh, first)) return {first};
   const auto second = halves(quad, highest + 1);
   if (are_counter_clockwise(mesh, second)) return {second};
   return {first, false};
@@ -80,29 +74,28 @@ void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int8_t half, Tri
   parts.nodes[parts.count++] = nodes;
 }
 
-/// Those of one kind of cells; `number` is the first one's over all ranks.
-template <class Cells, class Wanted>
-void append(const Mesh& mesh, Point centre, const Cells& cells, std::int64_t number, const Wanted& wanted,
-            std::vector<CellTriangle>& triangles) {
-  for (const auto& nodes : cells) {
-    if (wanted(nodes)) {
-      const TrianglesOfCell parts = parts_of(mesh, centre, nodes);
-      for (std::size_t k = 0; k < parts.count; ++k)
-        triangles.push_back({parts.nodes[k], 2 * number + parts.half[k]});
-    }
-    ++number;
-  }
+template <class Cells>
+Box box_of_cell(const Mesh& mesh, const Cells& cells, std::size_t cell) {
+  Box box;
+  for (const NodeId node : cells[cell]) box.include(mesh.point(node));
+  return box;
 }
 
-/// Of the cells that are wanted. *Collective.*
-template <class Wanted>
-void append_all(const Communicator& comm, const Mesh& mesh, Point centre, const Wanted& wanted,
-                std::vector<CellTriangle>& triangles) {
+/// Of each kind of cells those that `for_each_wanted(cells, visit)` visits. *Collective.*
+template <class ForEachWanted>
+void append_all(const Communicator& comm, const Mesh& mesh, Point centre,
+                const ForEachWanted& for_each_wanted, std::vector<CellTriangle>& triangles) {
+  const auto append_of = [&](const auto& cells, std::int64_t first) {
+    for_each_wanted(cells, [&](std::size_t cell) {
+      const TrianglesOfCell parts = parts_of(mesh, centre, cells[cell]);
+      const std::int64_t number = first + static_cast<std::int64_t>(cell);
+      for (std::size_t k = 0; k < parts.count; ++k)
+        triangles.push_back({parts.nodes[k], 2 * number + parts.half[k]});
+    });
+  };
   const auto own_triangles = std::ssize(mesh.triangles), own_quads = std::ssize(mesh.quads);
-  const std::int64_t first = comm.exclusive_sum(own_triangles);
-  const std::int64_t first_quad = comm.sum(own_triangles) + comm.exclusive_sum(own_quads);
-  append(mesh, centre, mesh.triangles, first, wanted, triangles);
-  append(mesh, centre, mesh.quads, first_quad, wanted, triangles);
+  append_of(mesh.triangles, comm.exclusive_sum(own_triangles));
+  append_of(mesh.quads, comm.sum(own_triangles) + comm.exclusive_sum(own_quads));
 }
 
 }  // namespace
@@ -134,20 +127,21 @@ TrianglesOfCell parts_of(const Mesh& mesh, Point centre, const std::array<NodeId
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre) {
   std::vector<CellTriangle> triangles;
   triangles.reserve(mesh.triangles.size() + 2 * mesh.quads.size());
-  append_all(
-      comm, mesh, centre, [](const auto&) { return true; }, triangles);
+  const auto every = [](const auto& cells, const auto& visit) {
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) visit(cell);
+  };
+  append_all(comm, mesh, centre, every, triangles);
   return triangles;
 }
 
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre,
-                                         const std::function<bool(const Box&)>& wanted) {
+                                         const PointCells& points) {
   std::vector<CellTriangle> triangles;
-  const auto has_wanted_box = [&](const auto& nodes) {
-    Box box;
-    for (const NodeId node : nodes) box.include(mesh.point(node));
-    return wanted(box);
+  const auto near = [&](const auto& cells, const auto& visit) {
+    points.for_each_met(
+        cells.size(), [&](std::size_t cell) { return box_of_cell(mesh, cells, cell); }, visit);
   };
-  append_all(comm, mesh, centre, has_wanted_box, triangles);
+  append_all(comm, mesh, centre, near, triangles);
   return triangles;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
+#include "adapt/transfer/locate/point_cells.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
@@ -19,6 +21,25 @@ struct CellTriangle {
 
 /// The centre of the box of all ranks' nodes. *Collective.*
 Point centre_of_nodes(const Communicator& comm, const Mesh& mesh);
+
+inline std::array<Point, 4> corners_of(const Mesh& mesh, const std::array<NodeId, 4>& quad) {
+  return {mesh.point(quad[0]), mesh.point(quad[1]), mesh.point(quad[2]), mesh.point(quad[3])};
+}
+
+/// Whether its sides lie along the axes, from the lower left corner on: most quads are whole leaves.
+inline bool is_rectangle(const std::array<Point, 4>& p) {
+  return p[0].y == p[1].y && p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x && p[0].x < p[1].x &&
+         p[1].y < p[2].y;
+}
+
+/// The corner of such a rectangle that is farthest from the centre along both axes, the right or upper one of
+/// two as far: no other has as high a tie_rank().
+inline std::size_t farthest_corner(Point centre, const std::array<Point, 4>& p) {
+  const bool is_right = std::abs(p[2].x - centre.x) >= std::abs(p[0].x - centre.x);
+  const bool is_upper = std::abs(p[2].y - centre.y) >= std::abs(p[0].y - centre.y);
+  if (is_upper) return is_right ? 2 : 3;
+  return is_right ? 1 : 0;
+}
 
 /// The two triangles of a quad: split along the diagonal through its corner of the highest tie rank, the one
 /// farthest from `centre` along an axis, so that mirror images of a mesh are split alike. Where a half would
@@ -36,9 +57,9 @@ struct TrianglesOfCell {
 TrianglesOfCell parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 3>& triangle);
 TrianglesOfCell parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad);
 
-/// All of this rank's cells as triangles, or those with a box that is wanted. *Collective.*
+/// All of this rank's cells as triangles, or those whose boxes meet some points' squares. *Collective.*
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre);
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre,
-                                         const std::function<bool(const Box&)>& wanted);
+                                         const PointCells& points);
 
 }  // namespace quadloop

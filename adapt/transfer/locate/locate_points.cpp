@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
@@ -22,32 +23,39 @@ bool contains(const std::array<Point, 3>& corners, Point p) {
 class Search {
  public:
   Search(const TrianglePiece& piece, std::span<const Point> points)
-      : piece_{piece}, points_{points}, found_(points.size(), -1) {
+      : piece_{piece}, found_(points.size(), -1) {
+    asked_.reserve(points.size());
+    for (const Point p : points) asked_.push_back({p, size32(asked_)});
     boxes_.reserve(piece.triangles.size());
-    for (const CellTriangle& triangle : piece.triangles) {
+    for (std::int32_t i = 0; i < std::ssize(piece.triangles); ++i) {
       Box box;
-      for (const Point p : piece.corners(triangle)) box.include(p);
-      boxes_.push_back(box);
+      for (const Point p : piece.corners(piece.triangles[i])) box.include(p);
+      if (boxes_.empty() || boxes_.back().low != box.low || boxes_.back().high != box.high) {
+        boxes_.push_back(box);
+        first_.push_back(i);
+      }
     }
+    first_.push_back(size32(piece.triangles));
   }
 
   std::vector<std::int32_t> run() {
-    std::vector<std::int32_t> order(points_.size());
-    std::iota(order.begin(), order.end(), 0);
     candidates_.resize(boxes_.size());
     std::iota(candidates_.begin(), candidates_.end(), 0);
-    share_out(order, 0, 0);
+    share_out(asked_, 0, 0);
     return std::move(found_);
   }
 
  private:
-  const Point& point(std::int32_t index) const { return points_[index]; }
+  struct Asked {
+    Point point;
+    std::int32_t index = 0;
+  };
 
-  /// The points against candidates_[first ...], those whose boxes met the box above this one's.
-  void share_out(std::span<std::int32_t> order, std::size_t first, int depth) {
-    if (order.empty()) return;
+  /// The points against candidates_[first ...], those that met the box above this one.
+  void share_out(std::span<Asked> asked, std::size_t first, int depth) {
+    if (asked.empty()) return;
     Box box;
-    for (const std::int32_t index : order) box.include(point(index));
+    for (const Asked& each : asked) box.include(each.point);
     const std::size_t begin = candidates_.size();
     candidates_.resize(begin + (begin - first));
     std::size_t end = begin;
@@ -57,33 +65,35 @@ class Search {
       end += boxes_[candidate].meets(box) ? 1 : 0;
     }
     candidates_.resize(end);
-    if (std::min(order.size(), candidates_.size() - begin) <= few || depth == deepest) {
-      try_all(order, begin);
+    if (std::min(asked.size(), candidates_.size() - begin) <= few || depth == deepest) {
+      try_all(asked, begin);
     } else {
-      halve(order, begin, box, depth);
+      halve(asked, begin, box, depth);
     }
     candidates_.resize(begin);
   }
 
-  void halve(std::span<std::int32_t> order, std::size_t begin, const Box& box, int depth) {
+  void halve(std::span<Asked> asked, std::size_t begin, const Box& box, int depth) {
     const Point centre = box.centre();
     const bool wide = box.width() > box.height();
-    const auto middle = std::partition(order.begin(), order.end(), [&](std::int32_t index) {
-      return wide ? point(index).x < centre.x : point(index).y < centre.y;
+    const auto middle = std::partition(asked.begin(), asked.end(), [&](const Asked& each) {
+      return wide ? each.point.x < centre.x : each.point.y < centre.y;
     });
-    const std::size_t low = middle - order.begin();
-    share_out(order.first(low), begin, depth + 1);
-    share_out(order.subspan(low), begin, depth + 1);
+    const std::size_t low = middle - asked.begin();
+    share_out(asked.first(low), begin, depth + 1);
+    share_out(asked.subspan(low), begin, depth + 1);
   }
 
-  void try_all(std::span<const std::int32_t> order, std::size_t begin) {
-    for (const std::int32_t index : order) {
-      const Point p = point(index);
+  void try_all(std::span<const Asked> asked, std::size_t begin) {
+    for (const auto& [p, index] : asked) {
       std::int32_t& best = found_[index];
       for (std::size_t i = begin; i < candidates_.size(); ++i) {
         const std::int32_t candidate = candidates_[i];
-        if (!boxes_[candidate].contains(p) || (best >= 0 && number_of(best) < number_of(candidate))) continue;
-        if (contains(piece_.corners(piece_.triangles[candidate]), p)) best = candidate;
+        if (!boxes_[candidate].contains(p)) continue;
+        for (std::int32_t triangle = first_[candidate]; triangle < first_[candidate + 1]; ++triangle) {
+          if (best >= 0 && number_of(best) < number_of(triangle)) continue;
+          if (contains(piece_.corners(piece_.triangles[triangle]), p)) best = triangle;
+        }
       }
     }
   }
@@ -91,9 +101,10 @@ class Search {
   std::int64_t number_of(std::int32_t triangle) const { return piece_.triangles[triangle].number; }
 
   const TrianglePiece& piece_;
-  std::span<const Point> points_;
-  std::vector<Box> boxes_;                ///< of the triangles
-  std::vector<std::int32_t> candidates_;  ///< a stack: each depth's triangles after those of the depth above
+  std::vector<Asked> asked_;              ///< in the order of the boxes that they are shared out to
+  std::vector<Box> boxes_;                ///< of the triangles, one for both halves of a rectangle
+  std::vector<std::int32_t> first_;       ///< of each box its first triangle, and the number of all
+  std::vector<std::int32_t> candidates_;  ///< a stack: each depth's boxes after those of the depth above
   std::vector<std::int32_t> found_;
 };
 

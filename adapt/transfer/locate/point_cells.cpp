@@ -10,6 +10,7 @@ constexpr std::int64_t most_cells = 1 << 16, few_points = 8;
 constexpr CurveGrid::Square whole_grid{{}, 32};
 constexpr int coarse_bits = 11, above_coarse = 32 - coarse_bits;  // 2048 by 2048 coarse squares
 constexpr int word_bits = 64;
+constexpr std::uint32_t most_coarse = 32;  ///< in a row, of those that are looked at one by one
 
 /// The first, third, fifth ... bit of a key, side by side: the inverse of spread_bits().
 std::uint64_t every_other_bit(std::uint64_t key) {
@@ -53,15 +54,11 @@ void PointCells::mark_occupied() {
   }
 }
 
-/// False only where no coarse square that these steps meet is occupied; of boxes that are wide nothing is
-/// said.
-bool PointCells::may_be_occupied(const CurveGrid::Steps& steps) const {
-  constexpr std::uint64_t few = 4;
-  const std::uint64_t left = steps.low.x >> above_coarse, right = steps.high.x >> above_coarse,
-                      low = steps.low.y >> above_coarse, high = steps.high.y >> above_coarse;
-  if (right - left > few || high - low > few) return true;
+/// Whether any coarse square that these steps meet is occupied.
+bool PointCells::is_occupied(const CurveGrid::Steps& coarse) const {
+  const std::uint64_t left = coarse.low.x, right = coarse.high.x;
   const std::uint64_t bits = (std::uint64_t{2} << (right - left)) - 1;
-  for (std::uint64_t row = low; row <= high; ++row) {
+  for (std::uint64_t row = coarse.low.y; row <= coarse.high.y; ++row) {
     const std::uint64_t at = row << coarse_bits | left, word = at / word_bits, shift = at % word_bits;
     std::uint64_t found = occupied_[word] >> shift;
     if (right / word_bits != left / word_bits) found |= occupied_[word + 1] << (word_bits - shift);
@@ -96,7 +93,13 @@ const PointCells::Stretch* PointCells::next(std::uint64_t key) const {
 
 bool PointCells::meet(const Box& box) const {
   const CurveGrid::Steps steps = grid_->steps_of(box);
-  if (!may_be_occupied(steps)) return false;
+  const CurveGrid::Steps coarse{{steps.low.x >> above_coarse, steps.low.y >> above_coarse},
+                                {steps.high.x >> above_coarse, steps.high.y >> above_coarse}};
+  const std::uint32_t across = std::max(coarse.high.x - coarse.low.x, coarse.high.y - coarse.low.y);
+  if (across < most_coarse) {  // several squares of about the box's size tell enough of it
+    const bool is_met = is_occupied(coarse);
+    if (!is_met || across > 0) return is_met;
+  }
   const std::uint64_t low = CurveGrid::key_at(steps.low), high = CurveGrid::key_at(steps.high);
   const Stretch* stretch = next(low);
   if (stretch == nullptr || stretch->first > high) return false;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,6 +21,26 @@ class PointCells {
   /// False only where the box, its rim included, holds none of the points.
   bool meet(const Box& box) const;
 
+  /// Calls `visit(i)` for each `i` below `count` of which `box_of(i)` meets them. What lies beside each other
+  /// should follow each other: a row of boxes is asked for as one before it is looked through.
+  template <class BoxOf, class Visit>
+  void for_each_met(std::size_t count, const BoxOf& box_of, const Visit& visit) const {
+    std::array<Box, 32> row;
+    for (std::size_t begin = 0; begin < count; begin += row.size()) {
+      const std::size_t size = std::min(row.size(), count - begin);
+      Box all;
+      for (std::size_t k = 0; k < size; ++k) {
+        row[k] = box_of(begin + k);
+        all.low = {std::min(all.low.x, row[k].low.x), std::min(all.low.y, row[k].low.y)};
+        all.high = {std::max(all.high.x, row[k].high.x), std::max(all.high.y, row[k].high.y)};
+      }
+      if (!meet(all)) continue;
+      for (std::size_t k = 0; k < size; ++k) {
+        if (meet(row[k])) visit(begin + k);
+      }
+    }
+  }
+
  private:
   /// A stretch of the curve, its last step included.
   struct Stretch {
@@ -29,7 +52,7 @@ class PointCells {
   bool descend(const CurveGrid::Steps& steps, const CurveGrid::Square& square) const;
 
   void mark_occupied();
-  bool may_be_occupied(const CurveGrid::Steps& steps) const;
+  bool is_occupied(const CurveGrid::Steps& coarse) const;
 
   const CurveGrid* grid_;
   std::vector<Stretch> stretches_;  ///< one after another, without overlaps

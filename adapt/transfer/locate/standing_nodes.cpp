@@ -30,13 +30,13 @@ std::uint64_t scattered(GlobalNodeId node) {
 
 /// Adds for each corner of a cell the node after it and takes away the one before: round a node whose cells
 /// close a circle that cancels.
-void add_turns(const Mesh& mesh, std::span<const NodeId> cell, IdVector<NodeId, std::uint64_t>& turns) {
-  NodeId before = cell.back();
-  for (const NodeId node : cell) {
-    turns[before] += scattered(mesh.global(node));
-    turns[node] -= scattered(mesh.global(before));
-    before = node;
-  }
+template <std::size_t corners>
+void add_turns(const Mesh& mesh, const std::array<NodeId, corners>& cell,
+               IdVector<NodeId, std::uint64_t>& turns) {
+  std::array<std::uint64_t, corners> bits;
+  for (std::size_t k = 0; k < corners; ++k) bits[k] = scattered(mesh.global(cell[k]));
+  for (std::size_t k = 0; k < corners; ++k)
+    turns[cell[k]] += bits[(k + 1) % corners] - bits[(k + corners - 1) % corners];
 }
 
 /// What an owned node misses of the circle round it; 0 inside the mesh. *Collective.*
@@ -90,13 +90,19 @@ std::vector<std::int32_t> find_in_order(std::span<const Point> known, std::span<
   return found;
 }
 
-std::vector<std::int32_t> standing_nodes(const Communicator& comm, const Mesh& old_mesh,
+NodeFlags inner_nodes(const Communicator& comm, const Mesh& mesh) {
+  const IdVector<NodeId, std::uint64_t> turns = open_turns(comm, mesh);
+  NodeFlags is_inner(mesh.owned_nodes);
+  for (const NodeId node : is_inner.ids()) is_inner[node] = turns[node] == 0 ? 1 : 0;
+  return is_inner;
+}
+
+std::vector<std::int32_t> standing_nodes(const Mesh& old_mesh, const NodeFlags& is_inner,
                                          std::span<const Point> places) {
   std::vector<std::int32_t> found =
       find_in_order(std::span(old_mesh.points).first(old_mesh.owned_nodes), places);
-  const IdVector<NodeId, std::uint64_t> turns = open_turns(comm, old_mesh);
   for (std::int32_t& node : found) {
-    if (node >= 0 && turns[NodeId{node}] != 0) node = -1;
+    if (node >= 0 && is_inner[NodeId{node}] == 0) node = -1;
   }
   return found;
 }

@@ -158,6 +158,21 @@ TEST(Integrals, OfSizesCountNegativeValuesAsPositive) {
   EXPECT_EQ(sizes[1], -values[1]);
 }
 
+TEST(Integrals, OfRectanglesHaveTheSameBitsFromWhicheverCornerTheyAreListed) {
+  const Communicator alone(MPI_COMM_SELF);
+  Mesh mesh = test::Grid{11, {2, 1}, true}.mesh();  // the middle cell's corners are as far from the centre
+  Field field{{"one"}, {}, {}};
+  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) field.values.push_back(scattered(71, node, 0));
+  for (const Point centre : {Point{1, 0.5}, Point{-3, 0.2}, Point{0.3, 7}}) {
+    const NodalIntegrals whole_leaves = integrate_with_sizes(alone, mesh, centre, field);
+    Mesh turned = mesh;
+    for (auto& quad : turned.quads) std::ranges::rotate(quad, quad.begin() + 1);
+    const NodalIntegrals quads = integrate_with_sizes(alone, turned, centre, field);
+    EXPECT_EQ(whole_leaves.values, quads.values);
+    EXPECT_EQ(whole_leaves.sizes, quads.sizes);
+  }
+}
+
 TEST(TrianglePiece, HasEveryTriangleThatMeetsOnesPieceOfThePlane) {
   const Mesh whole = grid_mesh(), mesh = scatter_mesh(world(), whole, test::shuffled_order(whole, 4));
   const CurveShares shares(world(), std::span(mesh.points).first(mesh.owned_nodes), {});

@@ -56,7 +56,7 @@ TEST(FindInOrder, OfNothingNothingIsFound) {
 std::vector<bool> stands(const Mesh& part) {
   const auto places = std::span(part.points).first(part.owned_nodes);
   std::vector<bool> found;
-  for (const std::int32_t node : standing_nodes(world(), part, places)) {
+  for (const std::int32_t node : standing_nodes(part, inner_nodes(world(), part), places)) {
     EXPECT_TRUE(node == -1 || node == static_cast<std::int32_t>(found.size()));
     found.push_back(node >= 0);
   }
@@ -87,7 +87,7 @@ TEST(StandingNodes, OfTwoAtOnePlaceNoneIsTaken) {
   };
   mesh.quads = {quad(0), quad(4)};
   const Communicator alone(MPI_COMM_SELF);
-  const std::vector<std::int32_t> found = standing_nodes(alone, mesh, mesh.points);
+  const std::vector<std::int32_t> found = standing_nodes(mesh, inner_nodes(alone, mesh), mesh.points);
   EXPECT_EQ(found, std::vector<std::int32_t>(8, -1));
 }
 

@@ -13,6 +13,7 @@
 #include "adapt/transfer/locate/locate_points.hpp"
 #include "adapt/transfer/locate/point_cells.hpp"
 #include "mesher/base/ids.hpp"
+#include "mesher/delaunay/tie_order.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -48,6 +49,19 @@ TEST(SplitQuad, GoesThroughTheCornerFarthestFromTheCentre) {
   const Mesh mesh = with_points({{1, 1}, {2, 1}, {2, 2}, {1, 2}});
   EXPECT_EQ(diagonal_of(mesh, {0, 0}), (std::array{0, 2}));
   EXPECT_EQ(diagonal_of(mesh, {3, 0}), (std::array{1, 3}));
+}
+
+TEST(SplitQuad, OfARectangleTheFarthestCornerRanksHighest) {
+  const std::array<Point, 4> corners{{{1, 1}, {4, 1}, {4, 2}, {1, 2}}};
+  ASSERT_TRUE(is_rectangle(corners));
+  EXPECT_FALSE(is_rectangle({corners[1], corners[2], corners[3], corners[0]}));
+  for (const double x : {-9.0, 1.0, 2.0, 2.5, 3.0, 7.0}) {  // in the middle two are as far, and all four
+    for (const double y : {-8.0, 1.0, 1.25, 1.5, 1.75, 30.0}) {
+      const auto rank_of = [&](Point p) { return tie_rank({x, y}, p); };
+      const auto highest = std::ranges::max_element(corners, {}, rank_of) - corners.begin();
+      EXPECT_EQ(farthest_corner({x, y}, corners), highest) << x << " " << y;
+    }
+  }
 }
 
 TEST(SplitQuad, MirrorImagesAreSplitAlike) {
@@ -156,6 +170,26 @@ TEST(PointCells, MeetEveryBoxThatHoldsAPoint) {
       EXPECT_TRUE(cells.meet({p - Point{side, side}, p}));
     }
   }
+}
+
+TEST(PointCells, OfARowEachBoxIsVisitedThatMeetsThem) {
+  const std::vector<Point> everywhere = graded_points(3000, 50);
+  const CurveGrid grid(world(), everywhere);
+  const PointCells cells(world(), grid, std::span(everywhere).first(40));
+  std::vector<Box> boxes;  // rows of boxes far from each other and beside each other, the last one not full
+  for (int i = 0; i < 1000; ++i) {
+    const Point low{scattered(33, i / 50, 0) + 0.002 * i, scattered(33, i / 50, 1)};
+    boxes.push_back({low, low + Point{0.002, 0.01 * (i % 3)}});
+  }
+  std::vector<std::size_t> met, visited;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (cells.meet(boxes[i])) met.push_back(i);
+  }
+  cells.for_each_met(
+      boxes.size(), [&](std::size_t i) { return boxes[i]; }, [&](std::size_t i) { visited.push_back(i); });
+  EXPECT_EQ(visited, met);
+  EXPECT_GT(met.size(), 10U);
+  EXPECT_LT(met.size(), 900U);
 }
 
 TEST(PointCells, OfNoPointsMeetNothing) {
