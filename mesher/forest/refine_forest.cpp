@@ -11,11 +11,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::int64_t leaves_to_share = 64;    ///< for each rank, before the first partition
-constexpr std::int64_t leaves_to_judge = 4096;  ///< for each rank: enough to estimate the leaves to come well
-constexpr double quadrants_of_leaf = 4.0 / 3;   ///< leaves and what was split into them
-constexpr int last_levels = 3;  ///< refined after the second partition, where such an estimate cannot be had
-constexpr int weight_unfinished = 16;  ///< of a leaf that is yet to be split, down those levels
+constexpr double quadrants_of_leaf = 4.0 / 3;  ///< leaves and what was split into them
+constexpr double parts_to_share = 64;  ///< for each rank, about: quadrants among which the work is shared out
 
 /// Finds the leaves that have finer neighbours on opposite sides, and those that get them when these are
 /// split.
@@ -69,64 +66,61 @@ class SqueezedLeaves {
   bool any_ = false;
 };
 
-/// The level of a uniform tree with at least so many leaves.
-int level_with(std::int64_t leaves) {
-  int level = 1;
-  while (level < Quadrant::unit_level && (std::int64_t{1} << (2 * level)) < leaves) ++level;
-  return level;
+/// The work that is yet to be done below a quadrant, in quadrants' shares of what all ranks have to do.
+class WorkAhead {
+ public:
+  WorkAhead(const LeafSample& sample, int ranks)
+      : sample_{sample}, share_{units_of(sample.all()) / (parts_to_share * ranks)} {}
+
+  bool is_to_share(const Quadrant& q) const { return units_in(q) > share_; }
+  /// Not 0, so that quadrants in which no leaf was looked at are shared out, too.
+  int weight(const Quadrant& q) const {
+    return 1 +
+           static_cast<int>(share_ > 0 ? units_of_share * std::min(units_in(q) / share_, most_shares) : 0);
+  }
+
+ private:
+  static constexpr double units_of_share = 1000, most_shares = 1e6;
+  static double units_of(const LeafSample::Counts& leaves) {
+    return weight_uncut * leaves.uncut + weight_cut * leaves.cut;
+  }
+  double units_in(const Quadrant& q) const { return units_of(sample_.in(q)); }
+
+  const LeafSample& sample_;
+  double share_;
+};
+
+/// Before the leaves are there: down to quadrants of about as much work each, which are then shared out, so
+/// that nothing is looked up in the size tree by two ranks. *Collective.*
+void share_out_work(const Communicator& comm, const SizeTree& sizes, const LeafSample& sample,
+                    Gradation& gradation, Forest& forest) {
+  const WorkAhead ahead(sample, comm.size());
+  const auto is_to_split = [&](const Quadrant& q) { return ahead.is_to_share(q) && gradation.must_split(q); };
+  forest.refine(is_to_split, sizes.finest_level());
+  forest.partition([&](const Quadrant& q) { return ahead.weight(q); });
 }
 
-/// The levels down to which the forest is refined before the leaves are shared out anew. Passes over finished
-/// leaves cost, so there are few.
-std::vector<int> stops_of(const Communicator& comm, const SizeTree& sizes) {
-  const int finest = sizes.finest_level();
-  if (comm.size() == 1) return {finest};
-  const int first = std::min(finest, level_with(leaves_to_share * comm.size())),
-            judged = level_with(leaves_to_judge * comm.size());
-  std::vector<int> stops{first};
-  const int last = judged < sizes.coarsest_level() ? judged : finest - last_levels;
-  if (last > first) stops.push_back(last);
-  if (finest > first) stops.push_back(finest);
-  return stops;
-}
-
-/// An estimate of the leaves that a quadrant will hold, in the end, for each that it holds where there is no
-/// outline: those as large as any may be, and about `leaves_across` of each finer size beside the outline.
-int leaves_to_come(const Quadrant& q, const SizeTree& sizes, SizeCursor& cursor) {
-  constexpr int leaves_across = 4, deepest = 12;
-  if (cursor.segments_in(q).empty()) return 1;
-  return 1 + (leaves_across << std::min(sizes.finest_level() - q.level, deepest)) /
-                 (1 << 2 * std::clamp(sizes.coarsest_level() - q.level, 0, deepest));
-}
-
-/// The weight of a leaf when the leaves are shared out at a stop: at the last one by the work of cutting,
-/// before by the leaves still to come.
-int weight_at(const Quadrant& q, const SizeTree& sizes, SizeCursor& cursor, Gradation& gradation, int stop) {
-  if (stop == sizes.finest_level()) return cursor.segments_in(q).empty() ? weight_uncut : weight_cut;
-  if (stop < sizes.coarsest_level()) return leaves_to_come(q, sizes, cursor);
-  return q.level == stop && gradation.must_split(q) ? weight_unfinished : 1;
+/// By the work of cutting. *Collective.*
+void share_out_leaves(const SizeTree& sizes, Forest& forest) {
+  SizeCursor cursor(sizes);
+  forest.partition(
+      [&](const Quadrant& q) { return cursor.segments_in(q).empty() ? weight_uncut : weight_cut; });
 }
 
 }  // namespace
 
-LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, double expected_leaves) {
-  SizeCursor cursor(sizes);
+LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const LeafEstimate& expected) {
   Gradation gradation(sizes);
   Forest forest(comm, sizes.lattice());
-  progress::Stage stage("refinement", expected_leaves * quadrants_of_leaf / comm.size(), "quadrants");
+  progress::Stage stage("refinement", expected.all() * quadrants_of_leaf / comm.size(), "quadrants");
+  if (comm.size() > 1) share_out_work(comm, sizes, expected.sample, gradation, forest);
   double looked_at = 0;
-  int refined = 1;
-  for (const int stop : stops_of(comm, sizes)) {
-    const auto must_split = [&](const Quadrant& q) {
-      if (q.level < refined) return false;
-      stage.advance(++looked_at);
-      return gradation.must_split(q);
-    };
-    forest.refine(must_split, stop);
-    const auto weight = [&](const Quadrant& q) { return weight_at(q, sizes, cursor, gradation, stop); };
-    if (comm.size() > 1) forest.partition(weight);
-    refined = stop;
-  }
+  const auto must_split = [&](const Quadrant& q) {
+    stage.advance(++looked_at);
+    return gradation.must_split(q);
+  };
+  forest.refine(must_split, sizes.finest_level());
+  if (comm.size() > 1) share_out_leaves(sizes, forest);
   while (true) {
     LeafGraph graph(comm, sizes.lattice(), forest);
     const SqueezedLeaves squeezed(graph);
